@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string_view>
+
+#include "builders/input.h"
+#include "builders/tree.h"
+#include "device/arena.h"
+#include "device/program.h"
+#include "device/queue.h"
+
+namespace bvhbench {
+
+/// Who a builder is, for listings, result files and plot legends.
+struct BuilderCard {
+    std::string_view name;    ///< unique, stable, used on the command line and in result files
+    std::string_view method;  ///< the publication or library, as cited in docs/references.md
+    enum class Runs { on_host, on_device } runs;
+};
+
+/// How to build. One struct for all builders: what a builder has no use for it ignores.
+struct BuildOptions {
+    std::string_view order = "morton30";  ///< a name of order_catalog(): how leaves are lined up
+    /// Work-items in a group, a power of two; 0 leaves the choice to the builder, by kind of device.
+    unsigned group_size = 0;
+    /// Copy the leaf boxes into leaf order (one gather, coherent traversals) instead of leaving them in mesh
+    /// order behind their sorted ids, as the paper does (Alg. 1, "mesh-order real-leaf array").
+    bool sorted_leaves = false;
+};
+
+/// Where a build starts. Later starts reuse what the previous build on the same input left in place.
+enum class Start {
+    from_triangles,      ///< stages bounds, codes, sort and then hierarchy
+    from_sorted_leaves,  ///< leaf boxes and sorted ids are given: the setting of the paper's Table 1
+};
+
+/// Builds a hierarchy over triangles. One instance serves one size until `reserve` is called again.
+///
+/// Stages are words from a fixed list: bounds, codes, sort, gather, hierarchy, refit.
+class Builder {
+public:
+    virtual ~Builder() = default;
+
+    virtual BuilderCard card() const = 0;
+
+    /// Bytes for `primitives` triangles, known before there is one. Exactly what `reserve` will allocate.
+    virtual Footprint footprint(std::size_t primitives) const = 0;
+
+    /// Allocate everything for `primitives` triangles, 1 to 2^31. Never timed. Throws Unavailable.
+    virtual void reserve(std::size_t primitives) = 0;
+
+    /// Enqueue or run one whole build, stage by stage. Allocates nothing and does not wait.
+    /// The tree belongs to the builder and holds until the next `build` or `reserve`; reading it waits.
+    virtual const Tree& build(const Input& input, Queue& queue,
+                              Start start = Start::from_triangles) = 0;
+};
+
+/// Makes a builder on the device that `programs` compiles for. Throws BadUsage for options it cannot keep.
+using MakeBuilder = std::unique_ptr<Builder> (*)(Programs& programs, const BuildOptions& options);
+
+}  // namespace bvhbench

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "geometry/aabb.h"
+
+namespace bvhbench {
+
+/// A way to line up leaves: a code a box, sorted ascending, ties in the triangles' own order.
+struct OrderEntry {
+    std::string_view name;     ///< "morton30": the key on the command line and in result files
+    std::string_view summary;  ///< one line for `list orders`
+    unsigned code_bits;        ///< only these bits are sorted; over 32, codes take 64
+    const char* kernel;        ///< its entry point in builders/stages/codes.cl
+    /// The same code on the host: of a leaf's box, given the bounds of all box centres.
+    ulong (*code)(Aabb box, Aabb centre_bounds);
+};
+
+/// Every order, in the order tables list them. To add one, add its line in orders.cpp.
+std::span<const OrderEntry> order_catalog();
+
+/// By name. Throws BadUsage with the known names when there is none.
+const OrderEntry& find_order(std::string_view name);
+
+}  // namespace bvhbench

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#include "builders/spell_out.h"
+
+#include <cstring>
+#include <vector>
+
+#include "geometry/hash.h"
+
+namespace bvhbench {
+namespace {
+
+bool same_bits(const Aabb& a, const Aabb& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+std::string node_text(std::size_t index) { return "node " + std::to_string(index); }
+
+bool is_node(const HostTree& tree, int index)
+{
+    return index >= 0 && static_cast<std::size_t>(index) < tree.nodes.size();
+}
+
+/// Visit every node once from the root, children in order. False when a child is no node or is met again.
+template <class Visit>
+bool depth_first(const HostTree& tree, const Visit& visit)
+{
+    std::vector<bool> met(tree.nodes.size(), false);
+    std::vector<int> stack;
+    if (!tree.nodes.empty())
+        stack.push_back(0);
+    while (!stack.empty()) {
+        const int index = stack.back();
+        stack.pop_back();
+        if (!is_node(tree, index) || met[static_cast<std::size_t>(index)])
+            return false;
+        met[static_cast<std::size_t>(index)] = true;
+        const HostTree::Node& node = tree.nodes[static_cast<std::size_t>(index)];
+        visit(node, static_cast<std::size_t>(index));
+        for (std::size_t side = 2; side-- > 0;)
+            if (node.child[side] != HostTree::none)
+                stack.push_back(node.child[side]);
+    }
+    return true;
+}
+
+/// What is wrong with one leaf, empty if nothing. Marks its triangle in `seen`.
+std::string broken_leaf(const HostTree::Node& node, std::size_t index,
+                        std::span<const Point> points, std::span<const Face> faces,
+                        std::vector<bool>& seen)
+{
+    const auto triangle = static_cast<std::size_t>(node.primitive);
+    if (triangle >= faces.size())
+        return node_text(index) + " holds triangle " + std::to_string(node.primitive) + " of " +
+               std::to_string(faces.size());
+    if (seen[triangle])
+        return "triangle " + std::to_string(triangle) + " is in two leaves";
+    seen[triangle] = true;
+    if (!same_bits(node.box, face_box(points, faces[triangle])))
+        return "the box of leaf " + node_text(index) + " is not that of its triangle " +
+               std::to_string(triangle);
+    return {};
+}
+
+std::string broken_inner(const HostTree& tree, const HostTree::Node& node, std::size_t index)
+{
+    Aabb box = empty_box();
+    for (const int child : node.child)
+        if (child != HostTree::none) {
+            if (!is_node(tree, child))
+                return node_text(index) + " has a child that is no node";
+            box = merged(box, tree.nodes[static_cast<std::size_t>(child)].box);
+        }
+    if (node.child[0] == HostTree::none)
+        return "inner " + node_text(index) + " has no left child";
+    if (!same_bits(node.box, box))
+        return "the box of " + node_text(index) + " is not the union of its children's";
+    return {};
+}
+
+}  // namespace
+
+std::uint64_t tree_hash(const HostTree& tree)
+{
+    // Positions in memory differ between layouts, so a node hashes how many children it has, not where.
+    Hash hash;
+    depth_first(tree, [&](const HostTree::Node& node, std::size_t) {
+        hash.value(node.box);
+        hash.value(node.primitive);
+        hash.value((node.child[0] != HostTree::none ? 1 : 0) +
+                   (node.child[1] != HostTree::none ? 2 : 0));
+    });
+    return hash.get();
+}
+
+std::string broken_promise(const HostTree& tree, std::span<const Point> points,
+                           std::span<const Face> faces)
+{
+    std::string wrong;
+    std::size_t reached = 0;
+    std::vector<bool> seen(faces.size(), false);
+    const bool is_tree = depth_first(tree, [&](const HostTree::Node& node, std::size_t index) {
+        ++reached;
+        if (!wrong.empty())
+            return;
+        wrong = node.primitive != HostTree::none ? broken_leaf(node, index, points, faces, seen)
+                                                 : broken_inner(tree, node, index);
+    });
+    if (!wrong.empty())
+        return wrong;
+    if (!is_tree)
+        return "a node is reached twice or is not there";
+    if (reached != tree.nodes.size())
+        return std::to_string(tree.nodes.size() - reached) + " nodes are not reached from the root";
+    for (std::size_t triangle = 0; triangle < seen.size(); ++triangle)
+        if (!seen[triangle])
+            return "triangle " + std::to_string(triangle) + " is in no leaf";
+    return {};
+}
+
+}  // namespace bvhbench

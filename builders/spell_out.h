@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "builders/tree.h"
+#include "geometry/mesh.h"
+
+namespace bvhbench {
+
+/// Hash of a spelled-out tree: every box, child and primitive in depth-first order, bit for bit. Two trees
+/// with the same hash are the same tree, wherever they keep their nodes.
+std::uint64_t tree_hash(const HostTree& tree);
+
+/// The first promise of every builder that `tree` breaks over these triangles, as a sentence; empty if none.
+///
+/// Each triangle is in exactly one leaf, each leaf's box is its triangle's box, each inner node's box is the
+/// union of its children's, bit for bit, every node is reached once from the root.
+std::string broken_promise(const HostTree& tree, std::span<const Point> points,
+                           std::span<const Face> faces);
+
+}  // namespace bvhbench

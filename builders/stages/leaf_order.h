@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+//
+// From triangles to a line of leaves: what every builder that starts from sorted codes shares.
+//
+//     triangles --bounds--> boxes (mesh order), bounds of centres --codes--> codes --sort--> ids in leaf order
+#pragma once
+
+#include <vector>
+
+#include "builders/input.h"
+#include "builders/orders.h"
+#include "device/arena.h"
+#include "device/program.h"
+
+namespace bvhbench {
+
+/// The stages bounds, codes and sort on a device.
+class LeafOrder {
+public:
+    /// Throws BadUsage if no order is called `order`.
+    LeafOrder(Programs& programs, std::string_view order);
+    ~LeafOrder();
+
+    /// Take every buffer the three stages need for `primitives` triangles. The sorted ids are tree memory;
+    /// the leaf boxes are what `boxes` says; everything else is scratch.
+    void plan(Arena& arena, std::size_t primitives, Use boxes);
+
+    /// Enqueue the three stages. Allocates nothing and does not wait.
+    void enqueue(const Input& input, Queue& queue);
+
+    const Buffer<Aabb>& boxes() const;  ///< one a triangle, in mesh order
+    const Buffer<uint>& ids() const;    ///< triangle ids in leaf order
+
+private:
+    struct Stages;
+    std::unique_ptr<Stages> stages_;
+};
+
+/// The same on the host, slowly and obviously: the oracle for the kernels, equal bit for bit.
+struct HostLeafOrder {
+    std::vector<Aabb> boxes;   ///< one a triangle, in mesh order
+    std::vector<ulong> codes;  ///< ascending
+    std::vector<uint> ids;     ///< triangle ids in leaf order
+};
+HostLeafOrder host_leaf_order(std::span<const Point> points, std::span<const Face> faces,
+                              std::string_view order);
+
+}  // namespace bvhbench

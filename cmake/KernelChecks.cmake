@@ -1,0 +1,29 @@
+# add_kernel_checks(): one test per kernel entry point (.cl) and dialect, compiled by clang without a device.
+#
+# A kernel's compile-time numbers come from the host (-D). For the check they are read from the kernel
+# itself: a line `// check: -DGROUP_SIZE=64u ...` near its top names one set of values; several lines,
+# several sets.
+function(add_kernel_checks)
+    find_program(KERNEL_CLANG NAMES clang-14 clang REQUIRED)
+    get_property(kernels GLOBAL PROPERTY BVHBENCH_KERNELS)
+    list(FILTER kernels INCLUDE REGEX "\\.cl$")
+    foreach(kernel IN LISTS kernels)
+        file(STRINGS "${PROJECT_SOURCE_DIR}/${kernel}" lines REGEX "^// check:")
+        if(NOT lines)
+            set(lines "// check:")
+        endif()
+        string(REGEX REPLACE "[/.]" "_" name "${kernel}")
+        set(variant 0)
+        foreach(line IN LISTS lines)
+            string(REPLACE "// check:" "" defines "${line}")
+            separate_arguments(defines UNIX_COMMAND "${defines}")
+            foreach(dialect CL1.2 CL3.0)
+                add_test(NAME kernel.${name}.${variant}.${dialect}
+                    COMMAND ${KERNEL_CLANG} -x cl -cl-std=${dialect} -Xclang -finclude-default-header
+                            -fsyntax-only -Wall -Wextra -Werror ${defines}
+                            "-I${PROJECT_SOURCE_DIR}" "${PROJECT_SOURCE_DIR}/${kernel}")
+            endforeach()
+            math(EXPR variant "${variant} + 1")
+        endforeach()
+    endforeach()
+endfunction()

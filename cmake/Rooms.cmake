@@ -1,0 +1,45 @@
+# add_room(<name> [NEEDS <room>...] [OWNS <prefix>...] [LIBRARIES <target>...]
+#          [SOURCES <file>...] [HEADERS <file>...] [KERNELS <file>...])
+#
+# A room is a folder, a library and a rule. Its files may include, by path from the source root, only
+# their own headers and those of the rooms they NEED. A library's headers (<CL/...>, <assimp/...>) may be
+# included only by the room that OWNS their prefix. tests/rooms_test.py reads the rules back from
+# rooms.json, so this call is the only place where they are written.
+#
+# KERNELS lists every file that kernels are made of: .cl entry points and the headers they include.
+# Entry points (.cl) are also syntax-checked, each alone, by cmake/KernelChecks.cmake.
+function(add_room name)
+    cmake_parse_arguments(PARSE_ARGV 1 room "" "" "NEEDS;OWNS;LIBRARIES;SOURCES;HEADERS;KERNELS")
+    if(room_SOURCES)
+        add_library(${name} STATIC ${room_SOURCES})
+        set(visibility PUBLIC)
+        target_link_libraries(${name} PRIVATE project_flags)
+    else()
+        add_library(${name} INTERFACE)
+        set(visibility INTERFACE)
+    endif()
+    target_sources(${name} ${visibility}
+        FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}" FILES ${room_HEADERS})
+    target_link_libraries(${name} ${visibility} ${room_NEEDS} ${room_LIBRARIES})
+    list(TRANSFORM room_KERNELS PREPEND "${name}/")
+    set_property(GLOBAL APPEND PROPERTY BVHBENCH_KERNELS ${room_KERNELS})
+
+    foreach(list NEEDS OWNS)
+        list(TRANSFORM room_${list} REPLACE "(.+)" "\"\\1\"")
+        list(JOIN room_${list} ", " room_${list})
+    endforeach()
+    set_property(GLOBAL APPEND PROPERTY BVHBENCH_ROOMS
+        "\"${name}\": {\"needs\": [${room_NEEDS}], \"owns\": [${room_OWNS}]}")
+endfunction()
+
+# Write the rules down and gather the kernels of all rooms into one object library, `kernels`, which
+# every program links: no static-library linker can drop it. Call once, after the last room.
+function(close_rooms)
+    get_property(rooms GLOBAL PROPERTY BVHBENCH_ROOMS)
+    list(JOIN rooms ",\n  " rooms)
+    file(WRITE "${PROJECT_BINARY_DIR}/rooms.json" "{\n  ${rooms}\n}\n")
+    get_property(kernels GLOBAL PROPERTY BVHBENCH_KERNELS)
+    add_library(kernels OBJECT)
+    embed_text(kernels TABLE embedded_kernel HEADER device/sources.h FILES ${kernels})
+    target_link_libraries(kernels PRIVATE device project_flags)
+endfunction()

@@ -1,0 +1,8 @@
+# One interface target carries what every file of the project is compiled with.
+add_library(project_flags INTERFACE)
+target_compile_options(project_flags INTERFACE
+    -Wall -Wextra -Wpedantic -Wconversion -Wshadow
+    -march=${BVHBENCH_ARCH}
+    # Boxes and codes are compared bit for bit with the device's; a fused multiply-add would change them.
+    -ffp-contract=off
+    $<$<BOOL:${BVHBENCH_WERROR}>:-Werror>)

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include "device/arena.h"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "geometry/error.h"
+
+namespace bvhbench {
+
+Arena::Arena(const Device& device, std::size_t capacity)
+    : alignment_(device.cl.getInfo<CL_DEVICE_MEM_BASE_ADDR_ALIGN>() / 8), capacity_(capacity)
+{}
+
+Arena Arena::measuring(const Device& device)
+{
+    return {device, std::numeric_limits<std::size_t>::max()};
+}
+
+Arena Arena::reserved(const Device& device, const Footprint& footprint)
+{
+    Arena arena(device, footprint.total());
+    device.require_memory(footprint.total());
+    arena.memory_ =
+        cl::Buffer(device.context, CL_MEM_READ_WRITE, std::max<std::size_t>(1, footprint.total()));
+    return arena;
+}
+
+cl::Buffer Arena::carve(std::size_t bytes, Use use)
+{
+    const std::size_t end = used_.total();
+    const std::size_t start = (end + alignment_ - 1) / alignment_ * alignment_;
+    if (bytes > capacity_ - std::min(start, capacity_))
+        throw std::logic_error("arena: " + std::to_string(bytes) + " bytes were taken at " +
+                               std::to_string(start) + " of " + std::to_string(capacity_) +
+                               " predicted");
+    used_.scratch_bytes += start - end;
+    (use == Use::tree ? used_.tree_bytes : used_.scratch_bytes) += bytes;
+    if (!memory_() || bytes == 0)
+        return {};
+    const cl_buffer_region region{start, bytes};
+    return memory_.createSubBuffer(CL_MEM_READ_WRITE, CL_BUFFER_CREATE_TYPE_REGION, &region);
+}
+
+}  // namespace bvhbench

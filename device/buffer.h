@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cassert>
+#include <cstddef>
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "device/cl.h"
+
+namespace bvhbench {
+
+/// Device memory holding `size()` values of T. Owned or carved out of an Arena; the type is the same.
+template <class T>
+class Buffer {
+    static_assert(std::is_trivially_copyable_v<T>, "device memory holds plain bytes");
+
+public:
+    Buffer() = default;
+    Buffer(cl::Buffer memory, std::size_t size) : memory_(std::move(memory)), size_(size) {}
+
+    std::size_t size() const { return size_; }
+    std::size_t bytes() const { return size_ * sizeof(T); }
+    const cl::Buffer& cl() const { return memory_; }
+
+    /// Write `values` to the front and wait.
+    void upload(const cl::CommandQueue& queue, std::span<const T> values)
+    {
+        assert(values.size() <= size_);
+        if (!values.empty())
+            queue.enqueueWriteBuffer(memory_, CL_TRUE, 0, values.size_bytes(), values.data());
+    }
+
+    /// A copy of everything, after all work enqueued before has run.
+    std::vector<T> download(const cl::CommandQueue& queue) const
+    {
+        std::vector<T> values(size_);
+        if (size_ > 0)
+            queue.enqueueReadBuffer(memory_, CL_TRUE, 0, bytes(), values.data());
+        return values;
+    }
+
+private:
+    cl::Buffer memory_;
+    std::size_t size_ = 0;
+};
+
+/// What OpenCL is handed for an argument: a buffer's memory, anything else as it is.
+template <class T>
+const cl::Buffer& memory_of(const Buffer<T>& buffer)
+{
+    return buffer.cl();
+}
+template <class T>
+const T& memory_of(const T& value)
+{
+    return value;
+}
+
+/// Set a kernel's arguments, all of them, in order.
+template <class... Arguments>
+cl::Kernel& set_arguments(cl::Kernel& kernel, const Arguments&... arguments)
+{
+    cl_uint index = 0;
+    (kernel.setArg(index++, memory_of(arguments)), ...);
+    return kernel;
+}
+
+}  // namespace bvhbench

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include "device/device.h"
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <optional>
+#include <sstream>
+
+#include "geometry/error.h"
+
+namespace bvhbench {
+namespace {
+
+struct Found {
+    cl::Device device;
+    std::string name;
+};
+
+std::vector<Found> all_devices()
+{
+    std::vector<cl::Platform> platforms;
+    try {
+        cl::Platform::get(&platforms);
+    } catch (const cl::Error&) {  // the loader says "no platform" with an error
+    }
+    std::vector<Found> found;
+    for (const cl::Platform& platform : platforms) {
+        std::vector<cl::Device> devices;
+        try {
+            platform.getDevices(CL_DEVICE_TYPE_ALL, &devices);
+        } catch (const cl::Error&) {  // so does a platform without devices
+        }
+        for (const cl::Device& device : devices)
+            found.push_back({device, platform.getInfo<CL_PLATFORM_NAME>() + '/' +
+                                         device.getInfo<CL_DEVICE_NAME>()});
+    }
+    return found;
+}
+
+std::string lower(std::string_view text)
+{
+    std::string out(text);
+    std::transform(out.begin(), out.end(), out.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return out;
+}
+
+bool has_all_words(const std::string& name, const std::string& words)
+{
+    std::istringstream stream(words);
+    for (std::string word; stream >> word;)
+        if (name.find(word) == std::string::npos)
+            return false;
+    return true;
+}
+
+const Found* choose(const std::vector<Found>& devices, std::string_view words)
+{
+    const auto is_digit = [](unsigned char c) { return std::isdigit(c) != 0; };
+    if (!words.empty() && words.size() < 4 && std::all_of(words.begin(), words.end(), is_digit)) {
+        const std::size_t index = std::stoul(std::string(words));
+        return index < devices.size() ? &devices[index] : nullptr;
+    }
+    if (words.empty()) {
+        for (const Found& found : devices)
+            if ((found.device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU) != 0)
+                return &found;
+        return devices.empty() ? nullptr : &devices.front();
+    }
+    for (const Found& found : devices)
+        if (has_all_words(lower(found.name), lower(words)))
+            return &found;
+    return nullptr;
+}
+
+/// Bytes the host can still give, or nothing where the system does not say.
+std::optional<std::size_t> available_host_memory()
+{
+    std::ifstream file("/proc/meminfo");
+    for (std::string key; file >> key;) {
+        std::size_t kib = 0;
+        if (key == "MemAvailable:" && file >> kib)
+            return kib * 1024;
+        file.ignore(256, '\n');
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::string Device::platform() const
+{
+    return cl::Platform(cl.getInfo<CL_DEVICE_PLATFORM>()).getInfo<CL_PLATFORM_NAME>();
+}
+
+void Device::require_memory(std::size_t bytes) const
+{
+    std::size_t limit = std::min<std::size_t>(cl.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>(),
+                                              cl.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>());
+    if (is_cpu())
+        if (const auto available = available_host_memory())
+            limit = std::min(limit, *available / 10 * 9);
+    if (bytes > limit)
+        throw Unavailable("out of device memory: " + std::to_string(bytes) +
+                          " bytes are needed at once, " + name() + " gives " +
+                          std::to_string(limit));
+}
+
+std::vector<std::string> device_names()
+{
+    std::vector<std::string> names;
+    for (Found& found : all_devices())
+        names.push_back(std::move(found.name));
+    return names;
+}
+
+Device open_device(std::string_view words, Sources sources)
+{
+    const std::vector<Found> devices = all_devices();
+    if (const Found* found = choose(devices, words))
+        return {found->device, cl::Context(found->device), std::move(sources)};
+
+    std::string known;
+    for (std::size_t i = 0; i < devices.size(); ++i)
+        known += (i == 0 ? "" : ", ") + std::to_string(i) + " = " + devices[i].name;
+    throw Unavailable("no OpenCL device matches '" + std::string(words) + "'; there " +
+                      (devices.empty()       ? "is none"
+                       : devices.size() == 1 ? "is "
+                                             : "are ") +
+                      known);
+}
+
+}  // namespace bvhbench

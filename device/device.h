@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "device/cl.h"
+#include "device/sources.h"
+
+namespace bvhbench {
+
+/// One OpenCL device with its context and its source of kernel text, owned by main and passed down.
+///
+/// The bindings' own defaults (cl::Device::getDefault and friends) are statics that outlive the driver;
+/// nothing here uses them.
+struct Device {
+    cl::Device cl;
+    cl::Context context;
+    Sources sources;
+
+    std::string name() const { return cl.getInfo<CL_DEVICE_NAME>(); }
+    std::string platform() const;
+
+    /// Kernels are written for two kinds of device: many slow lanes in groups, or a few fast cores.
+    bool is_cpu() const { return (cl.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU) != 0; }
+
+    /// Throws Unavailable when one allocation of `bytes` will not fit. Asked before every allocation: PoCL
+    /// never reports that memory ran out, the process is killed instead.
+    void require_memory(std::size_t bytes) const;
+};
+
+/// "Platform/device" of every device there is, in the order an index chooses them.
+std::vector<std::string> device_names();
+
+/// The device chosen by `words`: an index into device_names(), or words that its name all contains, in any
+/// case; the first CPU device, else the first device, if `words` is empty.
+/// Throws Unavailable with the list of devices when none matches or there is none.
+Device open_device(std::string_view words, Sources sources = Sources::preferred());
+
+}  // namespace bvhbench

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <initializer_list>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "device/buffer.h"
+#include "device/device.h"
+
+namespace bvhbench {
+
+/// A kernel that would not build, with the log the driver gave.
+class BuildFailure : public std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// A number the kernel needs at compile time. The host passes its own constant, so there is one.
+struct Define {
+    std::string_view name;
+    unsigned value;
+};
+
+/// The programs of one device, each compiled once however many builders ask for it.
+///
+/// Cached by text, options and device (one object serves one device). Not for several threads at once.
+class Programs {
+public:
+    /// `dialect` is what -cl-std= names; every kernel must compile as CL1.2 and as CL3.0.
+    explicit Programs(const Device& device, std::string dialect = "CL1.2");
+
+    const Device& device() const { return device_; }
+
+    /// The kernel `name` of the file `path`, built with `defines`. A new kernel object at every call, so that
+    /// arguments set by one owner never reach another. Throws BuildFailure.
+    cl::Kernel kernel(std::string_view path, const char* name,
+                      std::initializer_list<Define> defines = {});
+
+    /// Host time spent compiling so far, in nanoseconds: reported once a run, never part of a sample.
+    std::int64_t compile_ns() const { return compile_ns_; }
+
+private:
+    cl::Program build(std::string_view path, const std::string& text, const std::string& options);
+
+    const Device& device_;
+    std::string dialect_;
+    std::map<std::string, cl::Program> programs_;  ///< by options and text
+    std::int64_t compile_ns_ = 0;
+};
+
+}  // namespace bvhbench

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "device/device.h"
+
+namespace bvhbench {
+
+/// What one stage of a build or a query cost. A duration's name says how it was read.
+struct StageTime {
+    std::string stage;
+    std::int64_t busy_ns = 0;  ///< device clock, sum of the kernels' run times
+    std::int64_t span_ns =
+        0;  ///< device clock, first start to last end: gaps between launches count
+    std::int64_t wall_ns = 0;  ///< host clock; set by host stages only
+    int launches = 0;
+    std::int64_t moved_bytes = 0;  ///< the least its launches must read and write, as they declared
+
+    /// The one duration to quote: the span on the device, else the host clock.
+    std::int64_t elapsed_ns() const { return launches > 0 ? span_ns : wall_ns; }
+};
+
+/// An in-order queue that remembers what it ran and on whose behalf.
+///
+/// Builders name their stages and launch kernels; they never see an event or a clock.
+class Queue {
+public:
+    explicit Queue(const Device& device);
+
+    /// Launches from here on belong to `stage`.
+    void begin(std::string_view stage);
+
+    /// Enqueue one kernel. `moved_bytes` is what it must read and write at least, each input and output once.
+    void launch(const cl::Kernel& kernel, std::size_t global, std::size_t local,
+                std::int64_t moved_bytes);
+
+    /// Enqueue `bytes` of zeros at the front of `memory`. Timed like a launch.
+    void clear(const cl::Buffer& memory, std::size_t bytes);
+
+    /// Run host work as a stage of its own, after everything enqueued before has finished.
+    void on_host(std::string_view stage, const std::function<void()>& work);
+
+    /// Wait for everything, then return and forget the stages since the last call.
+    std::vector<StageTime> finish();
+
+    const cl::CommandQueue& cl() const { return queue_; }
+
+private:
+    struct Launch {
+        std::size_t stage;
+        cl::Event event;
+    };
+    cl::Event& record(std::int64_t moved_bytes);
+
+    cl::CommandQueue queue_;
+    std::vector<StageTime> stages_;
+    std::vector<Launch> launches_;
+};
+
+}  // namespace bvhbench

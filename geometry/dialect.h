@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+//
+// The words C++20 and OpenCL C 1.2 share.
+//
+// A header that includes this one is compiled twice: by the host compiler as constexpr C++, and by the
+// device compiler as OpenCL C. It may use 32-bit unsigned integers, floats, plain structs passed by value,
+// and the names below. It may not use pointers, references, overloads or templates.
+#ifndef BVHBENCH_GEOMETRY_DIALECT_H
+#define BVHBENCH_GEOMETRY_DIALECT_H
+
+#ifdef __OPENCL_C_VERSION__
+
+#define SHARED_BEGIN
+#define SHARED_END
+#define SHARED_FN static inline __attribute__((unused))
+
+// A fused multiply-add rounds once where the host rounds twice. Boxes and codes are compared bit for bit.
+#pragma OPENCL FP_CONTRACT OFF
+
+#else
+
+#include <bit>
+#include <cstdint>
+
+#define SHARED_BEGIN namespace bvhbench {
+#define SHARED_END }
+#define SHARED_FN constexpr
+
+SHARED_BEGIN
+using uint = std::uint32_t;
+using ulong = std::uint64_t;
+constexpr uint popcount(uint x) { return static_cast<uint>(std::popcount(x)); }
+constexpr uint clz(uint x) { return static_cast<uint>(std::countl_zero(x)); }
+
+/// OpenCL's fmin and fmax: of a number and a NaN, the number. Which zero wins between -0 and +0 is open on
+/// every device, so boxes are made from coordinates without -0 (see triangle_box).
+constexpr float fmin(float a, float b) { return b < a || a != a ? b : a; }
+constexpr float fmax(float a, float b) { return a < b || a != a ? b : a; }
+SHARED_END
+
+#endif
+#endif

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace bvhbench {
+
+/// FNV-1a, 64 bits: hashes that mean "the same content", in result files and tests. Not for security.
+class Hash {
+public:
+    void bytes(const void* data, std::size_t size);
+
+    template <class T>
+    void values(std::span<const T> values)
+    {
+        bytes(values.data(), values.size_bytes());
+    }
+    template <class T>
+    void value(const T& value)
+    {
+        bytes(&value, sizeof value);
+    }
+
+    std::uint64_t get() const { return state_; }
+
+private:
+    std::uint64_t state_ = 1469598103934665603u;
+};
+
+/// 16 hexadecimal digits: JSON numbers are doubles, so 64 bits travel as text.
+std::string hex(std::uint64_t value);
+
+}  // namespace bvhbench

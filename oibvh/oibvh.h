@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+
+#include "builders/builder.h"
+
+namespace bvhbench {
+
+/// Algorithm 1 with work-groups that meet only between launches; Appendix B plans the launches.
+std::unique_ptr<Builder> make_oibvh_multi(Programs& programs, const BuildOptions& options);
+
+/// Algorithm 1 in one launch: above a group's subtree, groups meet through global atomics.
+std::unique_ptr<Builder> make_oibvh_single(Programs& programs, const BuildOptions& options);
+
+/// The paper, slowly, on one core: the oracle for the kernels.
+std::unique_ptr<Builder> make_oibvh_reference(Programs& programs, const BuildOptions& options);
+
+}  // namespace bvhbench

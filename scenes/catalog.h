@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scenes/scene.h"
+
+namespace bvhbench {
+
+/// Where scenes come from and what reading one may cost.
+struct SceneLibrary {
+    std::filesystem::path data;            ///< --data, else BVHBENCH_DATA, else empty
+    std::size_t memory_limit_bytes = 0;    ///< for the process that reads a file; 0: a default
+    double time_limit_s = 0;               ///< likewise
+};
+
+/// The scene `text` asks for: a generator with its size ("torus:2880000"), a data set by name ("bunny"), a
+/// path to a mesh file, or "refine:SCENE:N".
+///
+/// Throws BadUsage when no scene is called so (lists the known), Unavailable when a file is not there, is
+/// not what it should be, or holds something that is no scene (says what, in one sentence).
+Scene load_scene(std::string_view text, const SceneLibrary& library);
+
+/// A line of `list scenes`.
+struct SceneListing {
+    std::string name;     ///< as typed, with N where a size goes
+    std::string summary;  ///< what it is, how many triangles, whether its file was found
+};
+std::vector<SceneListing> list_scenes(const SceneLibrary& library);
+
+/// What a data set's file must hold, from the manifest; nullptr if no data set is called so.
+struct DataSet {
+    std::string name;
+    std::size_t triangles = 0;
+    std::string stand_in;  ///< the scene to build over when the file is not there, same triangle count
+};
+const DataSet* find_data_set(std::string_view name);
+
+/// The data set's own file if it is there, else its stand-in with `stand_in_for` set.
+Scene load_or_stand_in(const DataSet& set, const SceneLibrary& library);
+
+}  // namespace bvhbench

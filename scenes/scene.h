@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "geometry/mesh.h"
+
+namespace bvhbench {
+
+/// A range of a scene's triangles that moves as one thing.
+struct SceneObject {
+    std::string name;
+    uint first_face = 0;
+    uint face_count = 0;
+};
+
+/// What is built over: triangles of one or more objects, with one or more frames of vertex positions.
+///
+/// The connectivity holds for all frames. Objects are contiguous, in order, and cover every face.
+/// Positions are finite and free of negative zeros, indices are in range: a Scene that exists is valid.
+struct Scene {
+    std::string name;                        ///< what the user typed, unique in a result file
+    std::vector<Face> faces;                 ///< of all objects, at least one
+    std::vector<SceneObject> objects;        ///< at least one
+    std::vector<std::vector<Point>> frames;  ///< positions of all vertices, one vector a frame
+    std::string source;                      ///< "generated", or the path of the file that was read
+    std::string
+        stand_in_for;  ///< the data set this one replaces because it is not there; else empty
+    std::uint64_t content_hash = 0;  ///< of faces, objects and all frames; not of names
+
+    uint triangle_count() const { return static_cast<uint>(faces.size()); }
+};
+
+}  // namespace bvhbench
