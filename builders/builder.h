@@ -51,6 +51,9 @@ public:
     /// Allocate everything for `primitives` triangles, 1 to 2^31. Never timed. Throws Unavailable.
     virtual void reserve(std::size_t primitives) = 0;
 
+    /// What `reserve` took, counted as it was handed out; zeros before.
+    virtual Footprint reserved() const = 0;
+
     /// Enqueue or run one whole build, stage by stage. Allocates nothing and does not wait.
     /// The tree belongs to the builder and holds until the next `build` or `reserve`; reading it waits.
     virtual const Tree& build(const Input& input, Queue& queue,

@@ -1,8 +1,20 @@
 // SPDX-License-Identifier: MIT
 
 /// `to` holds `count` vectors of `from` afterwards. Neighbours in a group touch neighbouring vectors.
-kernel void copy(global const uint4* restrict from, global uint4* restrict to, const uint count)
+kernel void copy_strided(global const uint4* restrict from, global uint4* restrict to,
+                         const uint count)
 {
     for (uint i = get_global_id(0); i < count; i += get_global_size(0))
+        to[i] = from[i];
+}
+
+/// The same with a contiguous run a work-item, which is what a core's caches want.
+kernel void copy_runs(global const uint4* restrict from, global uint4* restrict to,
+                      const uint count)
+{
+    const uint run = (count + get_global_size(0) - 1u) / get_global_size(0);
+    const uint begin = min(run * (uint)get_global_id(0), count);
+    const uint end = min(begin + run, count);
+    for (uint i = begin; i < end; ++i)
         to[i] = from[i];
 }

@@ -12,19 +12,18 @@ CopyRate measure_copy_rate(Programs& programs, Queue& queue)
 {
     const Device& device = programs.device();
     constexpr int samples = 11;
-    constexpr std::size_t local = 256;
     // Well past any last-level cache, and short enough for a slow host: 128 MiB there, 1 GiB on a GPU.
     const std::size_t bytes = std::size_t{device.is_cpu() ? 128u : 1024u} << 20;
     const auto count = static_cast<cl_uint>(bytes / sizeof(cl_uint4));
-    // A CPU core wants a long run of its own; a GPU wants one vector a work-item.
-    const std::size_t global = device.is_cpu()
-                                   ? device.cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>() * local
-                                   : std::size_t{count};
+    const std::size_t cores = device.cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
+    const std::size_t global = device.is_cpu() ? 4 * cores : std::size_t{count};
+    const std::size_t local = device.is_cpu() ? 1 : 256;
 
     Arena arena = Arena::reserved(device, {.tree_bytes = 0, .scratch_bytes = 2 * bytes});
     const Buffer<cl_uint4> from = arena.take<cl_uint4>(count, Use::scratch);
     const Buffer<cl_uint4> to = arena.take<cl_uint4>(count, Use::scratch);
-    cl::Kernel copy = programs.kernel("device/copy_rate.cl", "copy");
+    cl::Kernel copy =
+        programs.kernel("device/copy_rate.cl", device.is_cpu() ? "copy_runs" : "copy_strided");
     set_arguments(copy, from, to, count);
 
     std::vector<double> rates;

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cassert>
+#include <optional>
+#include <string>
+
+#include "builders/implicit/layout.h"
+#include "builders/implicit/schedule.h"
+#include "builders/implicit/tree.h"
+#include "builders/stages/gather.h"
+#include "builders/stages/leaf_order.h"
+#include "geometry/error.h"
+
+namespace bvhbench {
+namespace {
+
+/// How a launch is cut up.
+struct Cut {
+    KernelForm form = KernelForm::groups;
+    uint group_size = 1;
+    uint items = 1;  ///< groups only: entry-level nodes that a work-item merges in registers
+};
+
+Cut choose_cut(const Device& device, const BuildOptions& options)
+{
+    // The paper's groups are asked for by naming their size, on a CPU too.
+    if (options.group_size == 0)
+        return device.is_cpu() ? Cut{KernelForm::chunks, 1, 1} : Cut{KernelForm::groups, 256, 1};
+    const auto most = device.cl.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>();
+    if (std::popcount(options.group_size) != 1 || options.group_size > most)
+        throw BadUsage("a group size is a power of two up to " + std::to_string(most) + " on " +
+                       device.name() + ", not " + std::to_string(options.group_size));
+    return {KernelForm::groups, options.group_size, 1};
+}
+
+class ImplicitBuilder final : public Builder {
+public:
+    ImplicitBuilder(Programs& programs, const BuilderCard& card, const ImplicitLayout& layout,
+                    Meeting meeting, const BuildOptions& options)
+        : programs_(programs)
+        , card_(card)
+        , meeting_(meeting)
+        , options_(options)
+        , cut_(choose_cut(programs.device(), options))
+        , leaf_order_(programs, options.order)
+        , gather_(programs)
+        , from_ids_(kernel(layout, handoff() ? "single_from_ids" : "multi_from_ids"))
+        , from_nodes_(kernel(layout, handoff() ? "single_from_nodes" : "multi_from_nodes"))
+    {
+        options_.order = find_order(options.order).name;  // outlives the caller's text
+        tree_.layout = layout;
+        tree_.sorted_leaves = options.sorted_leaves;
+    }
+
+    BuilderCard card() const override { return card_; }
+    Footprint reserved() const override { return arena_ ? arena_->used() : Footprint{}; }
+
+    Footprint footprint(std::size_t primitives) const override
+    {
+        // A twin plans, so that a builder that has memory keeps it.
+        ImplicitBuilder twin(programs_, card_, tree_.layout, meeting_, options_);
+        Arena arena = Arena::measuring(programs_.device());
+        twin.plan(arena, static_cast<uint>(primitives));
+        return arena.used();
+    }
+
+    void reserve(std::size_t primitives) override
+    {
+        const Footprint wanted = footprint(primitives);
+        arena_.reset();  // the old memory goes before the new comes
+        arena_ = Arena::reserved(programs_.device(), wanted);
+        plan(*arena_, static_cast<uint>(primitives));
+        fill_what_builds_leave_alone();
+    }
+
+    const Tree& build(const Input& input, Queue& queue, Start start) override
+    {
+        assert(input.triangle_count() == tree_.leaves);
+        tree_.queue = &queue;
+        if (start == Start::from_triangles) {
+            leaf_order_.enqueue(input, queue);
+            if (tree_.sorted_leaves) {
+                queue.begin("gather");
+                gather_.enqueue(leaf_order_.boxes(), leaf_order_.ids(), tree_.nodes, leaf_slot(),
+                                queue);
+            }
+        }
+        queue.begin("hierarchy");
+        for (uint i = 0; i < schedule_.count; ++i)
+            launch(schedule_.launches[i], queue);
+        return tree_;
+    }
+
+private:
+    bool handoff() const { return meeting_ == Meeting::by_handoff; }
+    bool by_groups() const { return cut_.form == KernelForm::groups; }
+    uint leaf_level() const { return implicit_leaf_level(tree_.leaves); }
+    uint stored_on(uint level) const { return tree_.layout.stored_on(tree_.leaves, level); }
+    uint leaf_slot() const { return tree_.layout.first_slot(tree_.leaves, leaf_level()); }
+
+    cl::Kernel kernel(const ImplicitLayout& layout, const char* name)
+    {
+        if (!by_groups())
+            return programs_.kernel(layout.build_items, name);
+        return programs_.kernel(layout.build_groups, name,
+                                {{"GROUP_SIZE", cut_.group_size},
+                                 {"ITEMS", cut_.items},
+                                 {"LEVELS", levels_of_a_group()}});
+    }
+
+    uint levels_of_a_group() const { return floor_log2(2 * cut_.group_size * cut_.items); }
+
+    /// Groups: fixed by their size. Items: several subtrees a core, each small enough for its cache.
+    uint levels_a_launch() const
+    {
+        if (by_groups())
+            return levels_of_a_group();
+        const uint cores = programs_.device().cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
+        const uint split = ceil_log2(8 * cores);
+        return std::clamp(leaf_level() > split ? leaf_level() - split : 0u, 10u, 16u);
+    }
+
+    void plan(Arena& arena, uint primitives);
+    void fill_what_builds_leave_alone();
+    void launch(const SubtreeLaunch& launch, Queue& queue);
+    std::int64_t moved_bytes(const SubtreeLaunch& launch) const;
+
+    Programs& programs_;
+    BuilderCard card_;
+    Meeting meeting_;
+    BuildOptions options_;
+    Cut cut_;
+    LeafOrder leaf_order_;
+    GatherStage gather_;
+    cl::Kernel from_ids_, from_nodes_;
+
+    std::optional<Arena> arena_;
+    ImplicitTree tree_;
+    SubtreeSchedule schedule_;
+    Buffer<uint> arrivals_;  ///< hand-off only: one a node above the first launch's subtrees
+};
+
+void ImplicitBuilder::plan(Arena& arena, uint primitives)
+{
+    tree_.leaves = primitives;
+    schedule_ = subtree_schedule(leaf_level(), levels_a_launch(),
+                                 [&](uint level) { return stored_on(level); });
+    if (handoff())
+        schedule_.count = std::min(schedule_.count, 1u);
+
+    const uint inner = leaf_slot();
+    const uint stored_leaves = stored_on(leaf_level());
+    tree_.nodes = arena.take<Aabb>(tree_.sorted_leaves ? inner + stored_leaves : inner, Use::tree);
+    if (!tree_.sorted_leaves)  // what a padded layout stores past the leaves
+        arena.take<Aabb>(stored_leaves - primitives, Use::tree);
+    arena.take<uint>(stored_leaves - primitives, Use::tree);
+
+    leaf_order_.plan(arena, primitives, tree_.sorted_leaves ? Use::scratch : Use::tree);
+    tree_.leaf_boxes = tree_.sorted_leaves ? Buffer<Aabb>{} : leaf_order_.boxes();
+    tree_.ids = leaf_order_.ids();
+
+    const SubtreeLaunch& first = schedule_.launches[0];
+    const uint above =
+        handoff() && schedule_.count > 0
+            ? tree_.layout.first_slot(primitives, first.entry_level + 1 - first.levels)
+            : 0;
+    arrivals_ = arena.take<uint>(above, Use::scratch);
+}
+
+void ImplicitBuilder::fill_what_builds_leave_alone()
+{
+    const Device& device = programs_.device();
+    const cl::CommandQueue queue(device.context, device.cl);
+    arrivals_.upload(queue, std::vector<uint>(arrivals_.size(), 0u));
+    if (tree_.sorted_leaves)  // padding that a traversal may read
+        tree_.nodes.upload(queue, std::vector<Aabb>(tree_.nodes.size(), empty_box()));
+}
+
+void ImplicitBuilder::launch(const SubtreeLaunch& launch, Queue& queue)
+{
+    const bool from_ids = launch.entry_level + 1 == leaf_level() && !tree_.sorted_leaves;
+    cl::Kernel& kernel = from_ids ? from_ids_ : from_nodes_;
+    cl_uint index = 0;
+    const auto argument = [&](const auto& value) { kernel.setArg(index++, memory_of(value)); };
+    if (from_ids) {
+        argument(tree_.leaf_boxes);
+        argument(tree_.ids);
+    }
+    argument(tree_.nodes);
+    if (handoff())
+        argument(arrivals_);
+    argument(tree_.leaves);
+    argument(launch.entry_level);
+    if (!from_ids)
+        argument(leaf_level());
+    if (!by_groups())
+        argument(launch.levels);
+    queue.launch(kernel, std::size_t{launch.subtrees} * cut_.group_size, cut_.group_size,
+                 moved_bytes(launch));
+}
+
+/// Children read once, nodes written once. A hand-off build does all levels in its first launch.
+std::int64_t ImplicitBuilder::moved_bytes(const SubtreeLaunch& launch) const
+{
+    const bool from_leaves = launch.entry_level + 1 == leaf_level();
+    const std::int64_t read_boxes = from_leaves ? tree_.leaves : stored_on(launch.entry_level + 1);
+    const std::int64_t read_ids = from_leaves && !tree_.sorted_leaves ? tree_.leaves : 0;
+    const uint last_level = handoff() ? 0 : launch.entry_level + 1 - launch.levels;
+    std::int64_t written_boxes = 0;
+    for (uint level = last_level; level <= launch.entry_level; ++level)
+        written_boxes += stored_on(level);
+    return (read_boxes + written_boxes) * std::int64_t{sizeof(Aabb)} +
+           read_ids * std::int64_t{sizeof(uint)};
+}
+
+}  // namespace
+
+std::unique_ptr<Builder> make_implicit_builder(Programs& programs, const BuilderCard& card,
+                                               const ImplicitLayout& layout, Meeting meeting,
+                                               const BuildOptions& options)
+{
+    return std::make_unique<ImplicitBuilder>(programs, card, layout, meeting, options);
+}
+
+}  // namespace bvhbench

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#include "oibvh/oibvh.h"
+
+#include "builders/implicit/layout.h"
+#include "oibvh/layout.h"
+
+namespace bvhbench {
+namespace {
+
+constexpr ImplicitLayout oi_layout = {
+    .stored_on = [](uint leaves, uint level) { return oi_real_on(oi_shape(leaves), level); },
+    .first_slot = [](uint leaves, uint level) { return oi_first_slot(oi_shape(leaves), level); },
+    .build_groups = "oibvh/build_groups.cl",
+    .build_items = "oibvh/build_items.cl",
+};
+
+}  // namespace
+
+std::unique_ptr<Builder> make_oibvh_multi(Programs& programs, const BuildOptions& options)
+{
+    return make_implicit_builder(
+        programs,
+        {"oibvh-multi", "Oi-BVH, multi-kernel [Chitalu2020]", BuilderCard::Runs::on_device},
+        oi_layout, Meeting::between_launches, options);
+}
+
+std::unique_ptr<Builder> make_oibvh_single(Programs& programs, const BuildOptions& options)
+{
+    return make_implicit_builder(
+        programs,
+        {"oibvh-single", "Oi-BVH, single-kernel [Chitalu2020]", BuilderCard::Runs::on_device},
+        oi_layout, Meeting::by_handoff, options);
+}
+
+}  // namespace bvhbench
