@@ -3,7 +3,7 @@
 // The words C++20 and OpenCL C 1.2 share.
 //
 // A header that includes this one is compiled twice: by the host compiler as constexpr C++, and by the
-// device compiler as OpenCL C. It may use 32-bit unsigned integers, floats, plain structs passed by value,
+// device compiler as OpenCL C. It may use uint and ulong, floats, plain structs passed by value,
 // and the names below. It may not use pointers, references, overloads or templates.
 #ifndef BVHBENCH_GEOMETRY_DIALECT_H
 #define BVHBENCH_GEOMETRY_DIALECT_H

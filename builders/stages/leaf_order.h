@@ -5,12 +5,17 @@
 //     triangles --bounds--> boxes (mesh order), bounds of centres --codes--> codes --sort--> ids in leaf order
 #pragma once
 
+#include <memory>
+#include <span>
+#include <string_view>
 #include <vector>
 
 #include "builders/input.h"
 #include "builders/orders.h"
+#include "builders/stages/kernel_form.h"
 #include "device/arena.h"
 #include "device/program.h"
+#include "geometry/bounds.h"
 
 namespace bvhbench {
 
@@ -18,7 +23,7 @@ namespace bvhbench {
 class LeafOrder {
 public:
     /// Throws BadUsage if no order is called `order`.
-    LeafOrder(Programs& programs, std::string_view order);
+    LeafOrder(Programs& programs, std::string_view order, KernelForm form = KernelForm::of_device);
     ~LeafOrder();
 
     /// Take every buffer the three stages need for `primitives` triangles. The sorted ids are tree memory;
@@ -28,8 +33,12 @@ public:
     /// Enqueue the three stages. Allocates nothing and does not wait.
     void enqueue(const Input& input, Queue& queue);
 
-    const Buffer<Aabb>& boxes() const;  ///< one a triangle, in mesh order
+    const Buffer<Aabb>& boxes() const;     ///< one a triangle, in mesh order
+    const Buffer<Bounds>& bounds() const;  ///< one: of all boxes and of their centres
+    const Buffer<uint>& codes() const;  ///< ascending; over 32 bits, two words each, low word first
     const Buffer<uint>& ids() const;    ///< triangle ids in leaf order
+
+    unsigned code_bits() const;  ///< of the order
 
 private:
     struct Stages;

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// check: -DGROUP_SIZE=64u
+//
+// Triangles to boxes, and in the same pass the bounds of them all. Two launches: every group or chunk leaves
+// the bounds of what it saw in `partials`, then one group or work-item joins those. No float atomics.
+#include "builders/stages/chunk.clh"
+#include "geometry/bounds.h"
+
+static inline Aabb box_of_face(global const Point* restrict points, const Face face)
+{
+    return triangle_box(points[face.a], points[face.b], points[face.c]);
+}
+
+/// `bounds[0]` of a group is afterwards the bounds of its work-items' `bounds`, one each.
+static inline void join_in_group(local Bounds* bounds)
+{
+    const uint item = (uint)get_local_id(0);
+    for (uint half_size = GROUP_SIZE / 2u; half_size > 0u; half_size /= 2u) {
+        barrier(CLK_LOCAL_MEM_FENCE);
+        if (item < half_size)
+            bounds[item] = joined(bounds[item], bounds[item + half_size]);
+    }
+}
+
+/// boxes[k] is the box of faces[k], for all `count`; partials[g] the bounds of what group g saw.
+/// The groups together take `rounds` rounds of a group's size each.
+///
+/// A box is 24 bytes: written by its own work-item, each store would touch three times the memory it fills.
+/// So boxes go through local memory and leave as pairs of floats, neighbours by neighbours.
+__attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void bounds_groups(
+    global const Point* restrict points, global const Face* restrict faces,
+    global float2* restrict boxes, global Bounds* restrict partials, const uint count,
+    const uint rounds)
+{
+    local Bounds shared_bounds[GROUP_SIZE];
+    local Aabb* const staged = (local Aabb*)shared_bounds;  // half of it, before the bounds need it
+    const uint item = (uint)get_local_id(0);
+    Bounds bounds = empty_bounds();
+
+    for (uint round = 0u; round < rounds; ++round) {
+        const uint start = (round * (uint)get_num_groups(0) + (uint)get_group_id(0)) * GROUP_SIZE;
+        const uint here = min(GROUP_SIZE, count - min(count, start));
+        if (item < here) {
+            const Aabb box = box_of_face(points, faces[start + item]);
+            staged[item] = box;
+            bounds = grown(bounds, box);
+        }
+        barrier(CLK_LOCAL_MEM_FENCE);
+        local const float2* const words = (local const float2*)staged;
+        for (uint word = item; word < 3u * here; word += GROUP_SIZE)
+            boxes[3ul * start + word] = words[word];
+        barrier(CLK_LOCAL_MEM_FENCE);
+    }
+    shared_bounds[item] = bounds;
+    join_in_group(shared_bounds);
+    if (item == 0u)
+        partials[get_group_id(0)] = shared_bounds[0];
+}
+
+/// *result is the bounds of all `partial_count` partials. One group; `rounds` of its size cover them.
+__attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void join_groups(
+    global const Bounds* restrict partials, global Bounds* restrict result,
+    const uint partial_count)
+{
+    local Bounds shared_bounds[GROUP_SIZE];
+    const uint item = (uint)get_local_id(0);
+    Bounds bounds = empty_bounds();
+    for (uint partial = item; partial < partial_count; partial += GROUP_SIZE)
+        bounds = joined(bounds, partials[partial]);
+    shared_bounds[item] = bounds;
+    join_in_group(shared_bounds);
+    if (item == 0u)
+        *result = shared_bounds[0];
+}
+
+/// As bounds_groups, each work-item by itself.
+kernel void bounds_chunks(global const Point* restrict points, global const Face* restrict faces,
+                          global Aabb* restrict boxes, global Bounds* restrict partials,
+                          const uint count)
+{
+    const Chunk chunk = own_chunk(count);
+    Bounds bounds = empty_bounds();
+    for (uint k = chunk.first; k < chunk.end; ++k) {
+        const Aabb box = box_of_face(points, faces[k]);
+        boxes[k] = box;
+        bounds = grown(bounds, box);
+    }
+    partials[get_global_id(0)] = bounds;
+}
+
+/// As join_groups, in one work-item.
+kernel void join_chunks(global const Bounds* restrict partials, global Bounds* restrict result,
+                        const uint partial_count)
+{
+    Bounds bounds = empty_bounds();
+    for (uint partial = 0u; partial < partial_count; ++partial)
+        bounds = joined(bounds, partials[partial]);
+    *result = bounds;
+}

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "builders/input.h"
+#include "builders/stages/kernel_form.h"
+#include "device/arena.h"
+#include "device/program.h"
+#include "geometry/bounds.h"
+
+namespace bvhbench {
+
+/// The stage `bounds`: triangles to leaf boxes in mesh order, and the bounds of them all, in one pass.
+class BoundsStage {
+public:
+    explicit BoundsStage(Programs& programs, KernelForm form = KernelForm::of_device,
+                         uint group_size = 256);
+
+    /// Take the buffers for `primitives` triangles. The boxes are what `boxes` says, the rest is scratch.
+    void plan(Arena& arena, std::size_t primitives, Use boxes);
+
+    /// Enqueue for an input of as many triangles as planned, at least one. Does not wait.
+    void enqueue(const Input& input, Queue& queue);
+
+    const Buffer<Aabb>& boxes() const { return boxes_; }      ///< one a triangle, in mesh order
+    const Buffer<Bounds>& bounds() const { return bounds_; }  ///< one
+
+private:
+    std::size_t partial_count(std::size_t primitives) const;
+
+    KernelForm form_;
+    uint group_size_;
+    std::size_t most_partials_;
+    cl::Kernel boxes_kernel_;
+    cl::Kernel join_kernel_;
+    Buffer<Aabb> boxes_;
+    Buffer<Bounds> partials_;
+    Buffer<Bounds> bounds_;
+};
+
+/// The same on the host: the bounds of `boxes`.
+Bounds host_bounds(std::span<const Aabb> boxes);
+
+}  // namespace bvhbench

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "builders/orders.h"
+#include "device/arena.h"
+#include "device/program.h"
+#include "device/queue.h"
+#include "geometry/bounds.h"
+
+namespace bvhbench {
+
+/// 32-bit words a code takes in device memory: one, or two with the low word first.
+constexpr uint code_words(unsigned code_bits) { return code_bits > 32 ? 2 : 1; }
+
+/// The stage `codes`: one code a leaf box, by an order of the catalog. Owns no memory.
+class CodesStage {
+public:
+    CodesStage(Programs& programs, const OrderEntry& order);
+
+    /// Enqueue: `codes` gets the codes of all `boxes`, code_words() words each. Does not wait.
+    void enqueue(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bounds, const Buffer<uint>& codes,
+                 Queue& queue);
+
+private:
+    cl::Kernel kernel_;
+};
+
+}  // namespace bvhbench

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// check: -DGROUP_SIZE=64u
+//
+// sorted[first + k] becomes boxes[ids[k]], for all k below `count`. Boxes are seen as three pairs of floats.
+#include "builders/stages/chunk.clh"
+#include "geometry/aabb.h"
+
+/// A group fills GROUP_SIZE boxes, and neighbours in it neighbouring pairs of floats: the memory sees whole
+/// lines written, which a work-item writing its own 24 bytes would not give it.
+__attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void gather_groups(
+    global const float2* restrict boxes, global const uint* restrict ids,
+    global float2* restrict sorted, const uint first, const uint count)
+{
+    const uint start = (uint)get_group_id(0) * GROUP_SIZE;
+    const uint words = 3u * min(GROUP_SIZE, count - start);
+#pragma unroll
+    for (uint round = 0u; round < 3u; ++round) {
+        const uint word = round * GROUP_SIZE + (uint)get_local_id(0);
+        if (word < words)
+            sorted[3ul * ((ulong)first + start) + word] =
+                boxes[3ul * ids[start + word / 3u] + word % 3u];
+    }
+}
+
+/// The same, each work-item by itself.
+kernel void gather_chunks(global const Aabb* restrict boxes, global const uint* restrict ids,
+                          global Aabb* restrict sorted, const uint first, const uint count)
+{
+    const Chunk chunk = own_chunk(count);
+    for (uint k = chunk.first; k < chunk.end; ++k)
+        sorted[(ulong)first + k] = boxes[ids[k]];
+}

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "builders/stages/kernel_form.h"
+#include "device/buffer.h"
+#include "device/program.h"
+#include "device/queue.h"
+#include "geometry/aabb.h"
+
+namespace bvhbench {
+
+/// The stage `gather`: boxes in the order of ids, at any place of an array. Owns no memory.
+class GatherStage {
+public:
+    explicit GatherStage(Programs& programs, KernelForm form = KernelForm::of_device,
+                         uint group_size = 256);
+
+    /// Enqueue sorted[first + k] = boxes[ids[k]] for every id. Other elements of `sorted` stay. Does not wait.
+    void enqueue(const Buffer<Aabb>& boxes, const Buffer<uint>& ids, const Buffer<Aabb>& sorted,
+                 uint first, Queue& queue);
+
+private:
+    KernelForm form_;
+    uint group_size_;
+    std::size_t chunks_;
+    cl::Kernel kernel_;
+};
+
+}  // namespace bvhbench

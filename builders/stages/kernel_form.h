@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "device/device.h"
+
+namespace bvhbench {
+
+/// Kernels come in two forms with equal results. Which one is fast depends on the device.
+enum class KernelForm {
+    of_device,  ///< chunks on a CPU, groups elsewhere
+    groups,     ///< work-groups of many lanes that share local memory and take neighbouring items
+    chunks,     ///< a few work-items, each with a long run of neighbouring items to itself
+};
+
+/// `form`, or the device's own if that was left open.
+inline KernelForm chosen_form(const Device& device, KernelForm form)
+{
+    if (form != KernelForm::of_device)
+        return form;
+    return device.is_cpu() ? KernelForm::chunks : KernelForm::groups;
+}
+
+/// Work-items for the form `chunks`: some a core, so that a core that was interrupted is not waited for.
+inline std::size_t chunk_count(const Device& device)
+{
+    return 4 * std::size_t{device.cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()};
+}
+
+}  // namespace bvhbench

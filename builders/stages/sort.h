@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+
+#include "builders/stages/codes.h"
+#include "builders/stages/kernel_form.h"
+
+namespace bvhbench {
+
+/// How the sort is cut up. The defaults are what was fastest; other values are for tests and tuning.
+struct SortShape {
+    KernelForm form = KernelForm::of_device;
+    /// Groups only: work-items in a group, a power of two from 16 to 256.
+    uint group_size = 256;
+    /// Groups only: pairs a work-item ranks, odd and at most 15. A tile is group_size times as many.
+    uint keys_per_item = 15;
+    /// Chunks only: bits a pass sorts by at most.
+    uint chunk_digit_bits = 8;
+};
+
+/// The stage `sort`: a stable radix sort of (code, id) pairs, least significant digit first, by only the bits
+/// that codes have. Ids start as 0, 1, 2, …, so equal codes keep the order they came in.
+class RadixSort {
+public:
+    RadixSort(Programs& programs, unsigned code_bits, SortShape shape = {});
+
+    /// Take the buffers for `size` pairs, 0 to 2^31. The sorted ids are tree memory, the rest is scratch.
+    void plan(Arena& arena, std::size_t size);
+
+    /// To be filled before enqueue, which overwrites it: code_words(code_bits) words a code.
+    const Buffer<uint>& unsorted_codes() const { return codes_[0]; }
+
+    /// Enqueue the sort. Allocates nothing and does not wait.
+    void enqueue(Queue& queue);
+
+    const Buffer<uint>& codes() const { return codes_[passes_ % 2]; }  ///< ascending
+    const Buffer<uint>& ids() const { return ids_[passes_ % 2]; }      ///< of the sorted codes
+
+private:
+    uint run_count() const;
+    void enqueue_pass(Queue& queue, uint pass);
+
+    SortShape shape_;
+    uint code_bits_;
+    uint digit_bits_;  ///< of every pass but perhaps the last
+    uint passes_;
+    std::size_t chunks_;
+    cl::Kernel count_, scan_, scatter_;
+    std::size_t size_ = 0;
+    std::array<Buffer<uint>, 2> codes_;  ///< pass p goes from [p % 2] to the other
+    std::array<Buffer<uint>, 2> ids_;    ///< likewise
+    Buffer<uint> counts_;                ///< a row a digit, a column a tile or chunk
+    Buffer<uint> totals_;                ///< groups only: one a digit
+};
+
+}  // namespace bvhbench
