@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include "builders/stages/leaf_order.h"
+
+#include <gtest/gtest.h>
+
+#include "geometry/error.h"
+#include "tests/builders/stage_testing.h"
+
+namespace bvhbench {
+namespace {
+
+struct Case {
+    KernelForm form;
+    std::string order;
+};
+
+class LeafOrderContract : public testing::TestWithParam<Case> {
+protected:
+    void expect_equal_to_host(const Mesh& mesh)
+    {
+        LeafOrder& device_order = *order_;
+        reserve([&](Arena& arena) { device_order.plan(arena, mesh.faces.size(), Use::tree); });
+        const Input input = upload(bench().device, bench().queue, mesh.points, mesh.faces);
+        device_order.enqueue(input, bench().queue);
+        stages_ = bench().queue.finish();
+
+        const HostLeafOrder host = host_leaf_order(mesh.points, mesh.faces, GetParam().order);
+        const cl::CommandQueue& queue = bench().queue.cl();
+        EXPECT_TRUE(same_bits(device_order.boxes().download(queue), host.boxes));
+        EXPECT_EQ(device_order.ids().download(queue), host.ids);
+        const std::vector<uint> words = device_order.codes().download(queue);
+        const bool is_wide = device_order.code_bits() > 32;
+        for (std::size_t k = 0; k < host.codes.size(); ++k) {
+            const ulong code =
+                is_wide ? words[2 * k] | ulong{words[2 * k + 1]} << 32 : ulong{words[k]};
+            ASSERT_EQ(code, host.codes[k]) << "leaf " << k;
+        }
+    }
+
+    void SetUp() override
+    {
+        order_ = std::make_unique<LeafOrder>(bench().programs, GetParam().order, GetParam().form);
+    }
+
+    std::unique_ptr<LeafOrder> order_;
+    std::vector<StageTime> stages_;
+};
+
+TEST_P(LeafOrderContract, EqualsTheHostsOnHardMeshes)
+{
+    for (const auto& [name, mesh] : hard_meshes(1000)) {
+        SCOPED_TRACE(name);
+        expect_equal_to_host(mesh);
+    }
+}
+
+TEST_P(LeafOrderContract, EqualsTheHostsOfEverySize)
+{
+    for (const std::size_t size : {1, 2, 3, 4, 5, 255, 256, 257, 511, 512, 513, 3841, 50'000}) {
+        SCOPED_TRACE(size);
+        expect_equal_to_host(random_mesh(size, [](Point p) { return p; }));
+    }
+}
+
+TEST_P(LeafOrderContract, NamesItsStagesAndWhatTheyMove)
+{
+    expect_equal_to_host(random_mesh(100, [](Point p) { return p; }));
+    ASSERT_EQ(stages_.size(), 3u);
+    EXPECT_EQ(stages_[0].stage, "bounds");
+    EXPECT_EQ(stages_[1].stage, "codes");
+    EXPECT_EQ(stages_[2].stage, "sort");
+    for (const StageTime& stage : stages_)
+        EXPECT_GT(stage.moved_bytes, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    AllOrders, LeafOrderContract, testing::ValuesIn([] {
+        std::vector<Case> cases;
+        for (const OrderEntry& order : order_catalog())
+            for (const KernelForm form : {KernelForm::groups, KernelForm::chunks})
+                cases.push_back({form, std::string(order.name)});
+        return cases;
+    }()),
+    [](const auto& instance) {
+        return instance.param.order + "_" + form_name(instance.param.form);
+    });
+
+TEST(LeafOrder, NamesTheOrdersThereAreWhenAskedForAnother)
+{
+    EXPECT_THROW(LeafOrder(bench().programs, "spiral"), BadUsage);
+}
+
+}  // namespace
+}  // namespace bvhbench

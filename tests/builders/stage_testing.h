@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+//
+// What the tests of stages share: a device, meshes that are hard on boxes and codes, comparing bit for bit.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "builders/input.h"
+#include "builders/stages/kernel_form.h"
+#include "device/arena.h"
+#include "device/program.h"
+#include "device/queue.h"
+#include "geometry/mesh.h"
+
+namespace bvhbench {
+
+/// A device with its queue and programs, compiled once for all tests of a program.
+struct Bench {
+    Device device = open_device("");
+    Programs programs{device};
+    Queue queue{device};
+};
+
+inline Bench& bench()
+{
+    static Bench bench;
+    return bench;
+}
+
+/// What `take` takes of an arena, reserved exactly: as builders do it, measured first.
+template <class Take>
+void reserve(const Take& take)
+{
+    Arena measuring = Arena::measuring(bench().device);
+    take(measuring);
+    Arena arena = Arena::reserved(bench().device, measuring.used());
+    take(arena);
+}
+
+template <class T>
+bool same_bits(const std::vector<T>& a, const std::vector<T>& b)
+{
+    return a.size() == b.size() &&
+           (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
+/// The two forms of kernels, for tests that run over both whatever the device.
+inline std::string form_name(KernelForm form)
+{
+    return form == KernelForm::groups ? "groups" : "chunks";
+}
+
+struct NamedMesh {
+    std::string name;
+    Mesh mesh;
+};
+
+/// `count` small triangles with corners drawn from [-1, 1), each coordinate passed through `map`.
+template <class Map>
+Mesh random_mesh(std::size_t count, const Map& map)
+{
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> anywhere(-1.0f, 1.0f);
+    std::uniform_real_distribution<float> near(-0.01f, 0.01f);
+    Mesh mesh;
+    for (uint k = 0; k < count; ++k) {
+        const Point at = {anywhere(random), anywhere(random), anywhere(random)};
+        for (int corner = 0; corner < 3; ++corner)
+            mesh.points.push_back(
+                map(Point{at.x + near(random), at.y + near(random), at.z + near(random)}));
+        mesh.faces.push_back({3 * k, 3 * k + 1, 3 * k + 2});
+    }
+    return mesh;
+}
+
+/// Meshes of `count` triangles on which careless arithmetic overflows, divides by zero or loses all bits.
+inline std::vector<NamedMesh> hard_meshes(std::size_t count)
+{
+    const auto scaled = [](float by) {
+        return [by](Point p) { return Point{p.x * by, p.y * by, p.z * by}; };
+    };
+    std::vector<NamedMesh> meshes;
+    meshes.push_back({"plain", random_mesh(count, scaled(1.0f))});
+    meshes.push_back({"one point", random_mesh(count, scaled(0.0f))});
+    meshes.push_back({"one place", random_mesh(count, [](Point) {
+                          return Point{0.3f, -0.7f, 1e-3f};
+                      })});
+    meshes.push_back({"flat", random_mesh(count, [](Point p) { return Point{p.x, 5.0f, p.z}; })});
+    meshes.push_back({"line", random_mesh(count, [](Point p) { return Point{0.0f, 0.0f, p.z}; })});
+    meshes.push_back({"denormal", random_mesh(count, scaled(1e-41f))});
+    meshes.push_back({"few denormals", random_mesh(count, scaled(6e-45f))});
+    meshes.push_back({"half the floats", random_mesh(count, scaled(1.65e38f))});
+    meshes.push_back({"all the floats", random_mesh(count, scaled(3.3e38f))});
+    meshes.push_back({"far away", random_mesh(count, [](Point p) {
+                          return Point{p.x + 1e6f, p.y - 1e6f, p.z + 1e6f};
+                      })});
+    meshes.push_back({"negative zeros", random_mesh(count, [](Point p) {
+                          return Point{p.x < 0 ? -0.0f : 0.0f, p.y < 0.5f ? -0.0f : p.y, p.z};
+                      })});
+    meshes.push_back({"outlier", random_mesh(count, scaled(1.0f))});
+    meshes.back().mesh.points.front() = {1e30f, -1e20f, 3e10f};
+    return meshes;
+}
+
+}  // namespace bvhbench
