@@ -2,7 +2,7 @@
 //
 // One entry point an order: codes[k] is afterwards the code of boxes[k], given the bounds of all centres.
 // The code itself is a function shared with the host.
-#include "builders/stages/box_load.clh"
+#include "geometry/box_words.clh"
 #include "geometry/morton.h"
 
 kernel void morton30(global const float2* restrict boxes, global const Bounds* restrict bounds,
@@ -10,7 +10,7 @@ kernel void morton30(global const float2* restrict boxes, global const Bounds* r
 {
     const uint k = (uint)get_global_id(0);
     if (k < count)
-        codes[k] = morton_30(box_at(boxes, k), bounds->centres);
+        codes[k] = morton_30(load_box(boxes, k), bounds->centres);
 }
 
 kernel void morton63(global const float2* restrict boxes, global const Bounds* restrict bounds,
@@ -18,5 +18,5 @@ kernel void morton63(global const float2* restrict boxes, global const Bounds* r
 {
     const uint k = (uint)get_global_id(0);
     if (k < count)
-        codes[k] = morton_63(box_at(boxes, k), bounds->centres);
+        codes[k] = morton_63(load_box(boxes, k), bounds->centres);
 }

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+//
+// The kernels equal the reference bit for bit, whatever the size, the form of the kernels and the place of
+// the leaves.
+#include <gtest/gtest.h>
+
+#include "baselines/baselines.h"
+#include "builders/spell_out.h"
+#include "geometry/error.h"
+#include "oibvh/oibvh.h"
+#include "tests/builders/stage_testing.h"
+
+namespace bvhbench {
+namespace {
+
+Mesh soup(uint triangles)
+{
+    std::mt19937 random(triangles);
+    const auto next = [&] { return static_cast<float>(random() >> 8) / 16777216.0f; };
+    Mesh mesh;
+    for (uint k = 0; k < triangles; ++k) {
+        const Point at = {next(), next(), next()};
+        for (int corner = 0; corner < 3; ++corner)
+            mesh.points.push_back({at.x + next() / 16, at.y + next() / 16, at.z + next() / 16});
+        mesh.faces.push_back({3 * k, 3 * k + 1, 3 * k + 2});
+    }
+    return mesh;
+}
+
+struct Way {
+    const char* name;
+    MakeBuilder make;
+    BuildOptions options;
+};
+
+std::vector<Way> ways()
+{
+    std::vector<Way> all;
+    for (const bool sorted : {false, true})
+        for (const unsigned group_size : {0u, 2u, 64u, 256u}) {
+            const BuildOptions options{.group_size = group_size, .sorted_leaves = sorted};
+            all.push_back({"multi", make_oibvh_multi, options});
+            all.push_back({"single", make_oibvh_single, options});
+            all.push_back({"perfect", make_perfect, options});
+        }
+    return all;
+}
+
+std::vector<uint> around_powers_of_two(uint first, uint last)
+{
+    std::vector<uint> sizes;
+    for (uint power = first; power <= last; ++power)
+        for (const uint size : {(1u << power) - 1, 1u << power, (1u << power) + 1})
+            sizes.push_back(size);
+    return sizes;
+}
+
+/// Every way builds the tree of the reference over `triangles`, from triangles and from sorted leaves.
+void expect_all_equal(std::vector<std::unique_ptr<Builder>>& builders, uint triangles)
+{
+    const Mesh mesh = soup(triangles);
+    const Input input = upload(bench().device, bench().queue, mesh.points, mesh.faces);
+    const auto reference = make_oibvh_reference(bench().programs, {});
+    reference->reserve(triangles);
+    const HostTree expected = reference->build(input, bench().queue).spelled_out();
+    ASSERT_EQ(broken_promise(expected, mesh.points, mesh.faces), "");
+
+    for (std::size_t i = 0; i < builders.size(); ++i) {
+        SCOPED_TRACE(std::to_string(triangles) + " triangles, way " + std::to_string(i));
+        builders[i]->reserve(triangles);
+        ASSERT_EQ(builders[i]->footprint(triangles), builders[i]->reserved());
+        const Tree& tree = builders[i]->build(input, bench().queue);
+        ASSERT_EQ(tree_hash(tree.spelled_out()), tree_hash(expected));
+        builders[i]->build(input, bench().queue, Start::from_sorted_leaves);
+        ASSERT_EQ(tree_hash(tree.spelled_out()), tree_hash(expected)) << "the second time";
+        bench().queue.finish();
+    }
+}
+
+std::vector<std::unique_ptr<Builder>> builders_of(const std::vector<Way>& ways)
+{
+    std::vector<std::unique_ptr<Builder>> builders;
+    for (const Way& way : ways)
+        builders.push_back(way.make(bench().programs, way.options));
+    return builders;
+}
+
+TEST(ImplicitBuilders, EqualTheReferenceInEveryWay)
+{
+    auto builders = builders_of(ways());
+    for (const uint triangles : {1u,  2u,   3u,   4u,   5u,   7u,   8u,   9u,    63u,   64u,
+                                 65u, 127u, 128u, 129u, 511u, 512u, 513u, 1000u, 4097u, 33000u})
+        ASSERT_NO_FATAL_FAILURE(expect_all_equal(builders, triangles));
+}
+
+TEST(OiBuilders, EqualTheReferenceForEveryCountTo600)
+{
+    auto builders =
+        builders_of({{"multi", make_oibvh_multi, {}}, {"single", make_oibvh_single, {}}});
+    for (uint triangles = 1; triangles <= 600; ++triangles)
+        ASSERT_NO_FATAL_FAILURE(expect_all_equal(builders, triangles));
+}
+
+TEST(OiBuilders, EqualTheReferenceAroundEveryPowerOfTwoTo2To20)
+{
+    auto builders =
+        builders_of({{"multi", make_oibvh_multi, {}}, {"single", make_oibvh_single, {}}});
+    for (const uint triangles : around_powers_of_two(10, 20))
+        ASSERT_NO_FATAL_FAILURE(expect_all_equal(builders, triangles));
+}
+
+TEST(OiBuilders, GiveTheSameTreeAHundredTimes)
+{
+    const Mesh mesh = soup(20000);
+    const Input input = upload(bench().device, bench().queue, mesh.points, mesh.faces);
+    for (const MakeBuilder make : {make_oibvh_multi, make_oibvh_single}) {
+        const auto builder = make(bench().programs, {});
+        builder->reserve(20000);
+        const Tree& tree = builder->build(input, bench().queue);
+        const std::uint64_t first = tree_hash(tree.spelled_out());
+        for (int repeat = 0; repeat < 100; ++repeat) {
+            builder->build(input, bench().queue, Start::from_sorted_leaves);
+            ASSERT_EQ(tree_hash(tree.spelled_out()), first);
+        }
+        bench().queue.finish();
+    }
+}
+
+TEST(OiBuilders, RefuseAGroupSizeThatIsNoPowerOfTwo)
+{
+    EXPECT_THROW(make_oibvh_multi(bench().programs, {.group_size = 48}), BadUsage);
+    EXPECT_THROW(make_oibvh_multi(bench().programs, {.group_size = 1u << 20}), BadUsage);
+}
+
+}  // namespace
+}  // namespace bvhbench
