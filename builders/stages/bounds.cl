@@ -32,8 +32,10 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void bounds_group
     global float2* restrict boxes, global Bounds* restrict partials, const uint count,
     const uint rounds)
 {
-    local Bounds shared_bounds[GROUP_SIZE];
-    local Aabb* const staged = (local Aabb*)shared_bounds;  // half of it, before the bounds need it
+    // Declared by its widest access: a struct of floats may start at an address that no pair of floats may.
+    local float2 words[6u * GROUP_SIZE];
+    local Aabb* const staged = (local Aabb*)words;  // half of it, before the bounds need all of it
+    local Bounds* const shared_bounds = (local Bounds*)words;
     const uint item = (uint)get_local_id(0);
     Bounds bounds = empty_bounds();
 
@@ -46,7 +48,6 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void bounds_group
             bounds = grown(bounds, box);
         }
         barrier(CLK_LOCAL_MEM_FENCE);
-        local const float2* const words = (local const float2*)staged;
         for (uint word = item; word < 3u * here; word += GROUP_SIZE)
             boxes[3ul * start + word] = words[word];
         barrier(CLK_LOCAL_MEM_FENCE);
