@@ -25,6 +25,8 @@ struct BuildOptions {
     std::string_view order = "morton30";  ///< a name of order_catalog(): how leaves are lined up
     /// Work-items in a group, a power of two; 0 leaves the choice to the builder, by kind of device.
     unsigned group_size = 0;
+    /// Nodes that a work-item merges in registers before its group shares them, a power of two; 0 as above.
+    unsigned items = 0;
     /// Copy the leaf boxes into leaf order (one gather, coherent traversals) instead of leaving them in mesh
     /// order behind their sorted ids, as the paper does (Alg. 1, "mesh-order real-leaf array").
     bool sorted_leaves = false;

@@ -2,36 +2,16 @@
 #include <algorithm>
 #include <cassert>
 #include <optional>
-#include <string>
 
+#include "builders/implicit/cut.h"
 #include "builders/implicit/layout.h"
 #include "builders/implicit/schedule.h"
 #include "builders/implicit/tree.h"
 #include "builders/stages/gather.h"
 #include "builders/stages/leaf_order.h"
-#include "geometry/error.h"
 
 namespace bvhbench {
 namespace {
-
-/// How a launch is cut up.
-struct Cut {
-    KernelForm form = KernelForm::groups;
-    uint group_size = 1;
-    uint items = 1;  ///< groups only: entry-level nodes that a work-item merges in registers
-};
-
-Cut choose_cut(const Device& device, const BuildOptions& options)
-{
-    // The paper's groups are asked for by naming their size, on a CPU too.
-    if (options.group_size == 0)
-        return device.is_cpu() ? Cut{KernelForm::chunks, 1, 1} : Cut{KernelForm::groups, 256, 1};
-    const auto most = device.cl.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>();
-    if (std::popcount(options.group_size) != 1 || options.group_size > most)
-        throw BadUsage("a group size is a power of two up to " + std::to_string(most) + " on " +
-                       device.name() + ", not " + std::to_string(options.group_size));
-    return {KernelForm::groups, options.group_size, 1};
-}
 
 class ImplicitBuilder final : public Builder {
 public:
@@ -41,13 +21,11 @@ public:
         , card_(card)
         , meeting_(meeting)
         , options_(options)
-        , cut_(choose_cut(programs.device(), options))
         , leaf_order_(programs, options.order)
         , gather_(programs)
-        , from_ids_(kernel(layout, handoff() ? "single_from_ids" : "multi_from_ids"))
-        , from_nodes_(kernel(layout, handoff() ? "single_from_nodes" : "multi_from_nodes"))
     {
-        options_.order = find_order(options.order).name;  // outlives the caller's text
+        choose_cut(programs.device(), options, meeting, 1);  // refuses bad options now
+        options_.order = find_order(options.order).name;     // outlives the caller's text
         tree_.layout = layout;
         tree_.sorted_leaves = options.sorted_leaves;
     }
@@ -70,6 +48,8 @@ public:
         arena_.reset();  // the old memory goes before the new comes
         arena_ = Arena::reserved(programs_.device(), wanted);
         plan(*arena_, static_cast<uint>(primitives));
+        from_ids_ = kernel(handoff() ? "single_from_ids" : "multi_from_ids");
+        from_nodes_ = kernel(handoff() ? "single_from_nodes" : "multi_from_nodes");
         fill_what_builds_leave_alone();
     }
 
@@ -98,26 +78,13 @@ private:
     uint stored_on(uint level) const { return tree_.layout.stored_on(tree_.leaves, level); }
     uint leaf_slot() const { return tree_.layout.first_slot(tree_.leaves, leaf_level()); }
 
-    cl::Kernel kernel(const ImplicitLayout& layout, const char* name)
+    cl::Kernel kernel(const char* name) const
     {
         if (!by_groups())
-            return programs_.kernel(layout.build_items, name);
-        return programs_.kernel(layout.build_groups, name,
-                                {{"GROUP_SIZE", cut_.group_size},
-                                 {"ITEMS", cut_.items},
-                                 {"LEVELS", levels_of_a_group()}});
-    }
-
-    uint levels_of_a_group() const { return floor_log2(2 * cut_.group_size * cut_.items); }
-
-    /// Groups: fixed by their size. Items: several subtrees a core, each small enough for its cache.
-    uint levels_a_launch() const
-    {
-        if (by_groups())
-            return levels_of_a_group();
-        const uint cores = programs_.device().cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
-        const uint split = ceil_log2(8 * cores);
-        return std::clamp(leaf_level() > split ? leaf_level() - split : 0u, 10u, 16u);
+            return programs_.kernel(tree_.layout.build_items, name);
+        return programs_.kernel(
+            tree_.layout.build_groups, name,
+            {{"GROUP_SIZE", cut_.group_size}, {"ITEMS", cut_.items}, {"LEVELS", cut_.levels}});
     }
 
     void plan(Arena& arena, uint primitives);
@@ -143,8 +110,9 @@ private:
 void ImplicitBuilder::plan(Arena& arena, uint primitives)
 {
     tree_.leaves = primitives;
-    schedule_ = subtree_schedule(leaf_level(), levels_a_launch(),
-                                 [&](uint level) { return stored_on(level); });
+    cut_ = choose_cut(programs_.device(), options_, meeting_, primitives);
+    schedule_ =
+        subtree_schedule(leaf_level(), cut_.levels, [&](uint level) { return stored_on(level); });
     if (handoff())
         schedule_.count = std::min(schedule_.count, 1u);
 

@@ -43,6 +43,11 @@ std::vector<Way> ways()
             all.push_back({"single", make_oibvh_single, options});
             all.push_back({"perfect", make_perfect, options});
         }
+    for (const unsigned items : {2u, 4u, 8u}) {
+        const BuildOptions options{.group_size = 64, .items = items};
+        all.push_back({"multi", make_oibvh_multi, options});
+        all.push_back({"single", make_oibvh_single, options});
+    }
     return all;
 }
 
@@ -130,6 +135,7 @@ TEST(OiBuilders, RefuseAGroupSizeThatIsNoPowerOfTwo)
 {
     EXPECT_THROW(make_oibvh_multi(bench().programs, {.group_size = 48}), BadUsage);
     EXPECT_THROW(make_oibvh_multi(bench().programs, {.group_size = 1u << 20}), BadUsage);
+    EXPECT_THROW(make_oibvh_multi(bench().programs, {.items = 3}), BadUsage);
 }
 
 }  // namespace

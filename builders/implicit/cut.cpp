@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "builders/implicit/cut.h"
+
+#include <algorithm>
+#include <bit>
+#include <string>
+
+#include "geometry/error.h"
+
+namespace bvhbench {
+namespace {
+
+/// A group keeps two boxes a work-item in local memory, or its entry level if that is more.
+uint most_group_size(const Device& device, uint items)
+{
+    const std::size_t room =
+        device.cl.getInfo<CL_DEVICE_LOCAL_MEM_SIZE>() / (std::max(2u, items) * sizeof(Aabb));
+    return static_cast<uint>(std::bit_floor(std::min<std::size_t>(
+        {room, device.cl.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>(), std::size_t{1024}})));
+}
+
+/// A group of g work-items, i nodes each, has g * i nodes on its entry level and one on its last.
+Cut groups_of(uint group_size, uint items)
+{
+    return {KernelForm::groups, group_size, items, floor_log2(2 * group_size * items)};
+}
+
+/// The smallest group that gets by with the fewest launches. On an H200 (µs, hierarchy from ids): 871,306
+/// triangles take 28 in groups of 256 (3 launches), 23 of 512 and 25 of 1024 (2 launches); 2,880,000 take
+/// 58 of 256 and 60 of 512 (3 launches), 58 of 1024 (2 launches).
+Cut smallest_group_with_fewest_launches(uint leaf_level, uint items, uint most)
+{
+    Cut best = groups_of(std::min(256u, most), items);
+    for (uint size = best.group_size; size <= most; size *= 2)
+        if (const Cut cut = groups_of(size, items);
+            divided_up(leaf_level, cut.levels) < divided_up(leaf_level, best.levels))
+            best = cut;
+    return best;
+}
+
+/// Several subtrees a core, so that none waits long for another, each small enough for a core's cache.
+Cut subtrees_of_items(const Device& device, uint leaf_level)
+{
+    const uint cores = device.cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
+    const uint split = ceil_log2(8 * cores);
+    return {KernelForm::chunks, 1, 1,
+            std::clamp(leaf_level > split ? leaf_level - split : 0u, 10u, 16u)};
+}
+
+void require_power_of_two(const char* what, uint value, uint most, const Device& device)
+{
+    if (!std::has_single_bit(value) || value > most)
+        throw BadUsage(std::string(what) + " is a power of two up to " + std::to_string(most) +
+                       " on " + device.name() + ", not " + std::to_string(value));
+}
+
+}  // namespace
+
+Cut choose_cut(const Device& device, const BuildOptions& options, Meeting meeting, uint leaves)
+{
+    const uint items = options.items == 0 ? 1 : options.items;
+    require_power_of_two("the number of items a work-item", items, 8, device);
+    const uint most = most_group_size(device, items);
+    if (options.group_size != 0) {  // the paper's groups are asked for by their size, on a CPU too
+        require_power_of_two("a group size", options.group_size, most, device);
+        return groups_of(options.group_size, items);
+    }
+    if (device.is_cpu())
+        return subtrees_of_items(device, implicit_leaf_level(leaves));
+    if (meeting ==
+        Meeting::by_handoff)  // fewer climbers: 14.5 µs of 512 against 15.9 of 256 at 144,046
+        return groups_of(std::min(512u, most), items);
+    return smallest_group_with_fewest_launches(implicit_leaf_level(leaves), items, most);
+}
+
+}  // namespace bvhbench

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "builders/builder.h"
+#include "builders/implicit/layout.h"
+#include "builders/stages/kernel_form.h"
+
+namespace bvhbench {
+
+/// How the launches of Algorithm 1 are cut up on a device.
+struct Cut {
+    KernelForm form =
+        KernelForm::groups;  ///< groups: a group a subtree; chunks: a work-item a subtree
+    uint group_size = 1;
+    uint items = 1;   ///< groups: entry-level nodes that a work-item merges in registers
+    uint levels = 1;  ///< levels a launch builds at most
+};
+
+/// The cut for a tree of `leaves` on `device`: what `options` asks for, else what was measured to be fastest
+/// on that kind of device. Throws BadUsage for a group the device does not have.
+Cut choose_cut(const Device& device, const BuildOptions& options, Meeting meeting, uint leaves);
+
+}  // namespace bvhbench

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "device/device.h"
+
+#include <gtest/gtest.h>
+
+#include "device/copy_rate.h"
+#include "geometry/error.h"
+
+namespace bvhbench {
+namespace {
+
+std::string message_of(const auto& action)
+{
+    try {
+        action();
+    } catch (const Unavailable& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+TEST(OpenDevice, TakesAnIndexOrWordsInAnyCaseAndOrder)
+{
+    const std::vector<std::string> names = device_names();
+    ASSERT_FALSE(names.empty());
+    const Device first = open_device("0");
+    EXPECT_EQ(first.platform() + '/' + first.name(), names[0]);
+
+    std::string shouted = names[0];
+    for (char& c : shouted)
+        c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    EXPECT_EQ(open_device(shouted).name(), first.name());
+}
+
+TEST(OpenDevice, SaysWhatWasAskedAndWhatThereIs)
+{
+    for (const char* words : {"no such device", "77"}) {
+        const std::string message = message_of([&] { open_device(words); });
+        EXPECT_NE(message.find("'" + std::string(words) + "'"), std::string::npos) << message;
+        EXPECT_NE(message.find(device_names()[0]), std::string::npos) << message;
+        EXPECT_EQ(message.find('\n'), std::string::npos) << "one sentence";
+    }
+}
+
+TEST(Device, RefusesMoreMemoryThanItHas)
+{
+    const Device device = open_device("");
+    EXPECT_NO_THROW(device.require_memory(1024));
+    const std::string message = message_of([&] { device.require_memory(std::size_t{1} << 60); });
+    EXPECT_NE(message.find("1152921504606846976 bytes"), std::string::npos) << message;
+}
+
+TEST(Queue, KeepsStagesApartAndCountsWhatTheyMove)
+{
+    const Device device = open_device("");
+    Queue queue(device);
+    const cl::Buffer memory(device.context, CL_MEM_READ_WRITE, 4096);
+    queue.begin("one");
+    queue.clear(memory, 4096);
+    queue.clear(memory, 1024);
+    queue.on_host("two", [] {});
+    const std::vector<StageTime> stages = queue.finish();
+    ASSERT_EQ(stages.size(), 2u);
+    EXPECT_EQ(stages[0].stage, "one");
+    EXPECT_EQ(stages[0].launches, 2);
+    EXPECT_EQ(stages[0].moved_bytes, 5120);
+    EXPECT_GE(stages[0].span_ns, stages[0].busy_ns) << "gaps between launches count";
+    EXPECT_GT(stages[0].busy_ns, 0);
+    EXPECT_EQ(stages[0].wall_ns, 0);
+    EXPECT_EQ(stages[1].launches, 0);
+    EXPECT_GE(stages[1].wall_ns, 0);
+    EXPECT_EQ(stages[1].elapsed_ns(), stages[1].wall_ns);
+    EXPECT_TRUE(queue.finish().empty()) << "finish forgets";
+}
+
+TEST(CopyRate, IsPositiveAndFromTheSamplesItNames)
+{
+    const Device device = open_device("");
+    Programs programs(device);
+    Queue queue(device);
+    const CopyRate rate = measure_copy_rate(programs, queue);
+    EXPECT_GT(rate.bytes_per_s, 1e8);
+    EXPECT_GE(rate.buffer_bytes, std::size_t{128} << 20);
+    EXPECT_GE(rate.samples, 9);
+}
+
+}  // namespace
+}  // namespace bvhbench

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <stdexcept>
+
+#include "device/arena.h"
+#include "device/queue.h"
+
+namespace bvhbench {
+namespace {
+
+/// A plan as builders write one.
+struct Pieces {
+    Buffer<cl_uint> a, b;
+    Buffer<cl_uchar> c;
+};
+Pieces take(Arena& arena)
+{
+    return {arena.take<cl_uint>(1000, Use::tree), arena.take<cl_uint>(3, Use::scratch),
+            arena.take<cl_uchar>(5, Use::tree)};
+}
+
+TEST(Arena, PredictsWhatItHandsOut)
+{
+    const Device device = open_device("");
+    Arena measuring = Arena::measuring(device);
+    EXPECT_EQ(take(measuring).a.cl()(), nullptr) << "measuring allocates nothing";
+    EXPECT_EQ(measuring.used().tree_bytes, 4005u);
+    EXPECT_GE(measuring.used().scratch_bytes, 12u);
+
+    Arena arena = Arena::reserved(device, measuring.used());
+    take(arena);
+    EXPECT_EQ(arena.used(), measuring.used());
+    EXPECT_THROW(arena.take<cl_uchar>(1, Use::scratch), std::logic_error);
+}
+
+TEST(Arena, HandsOutPiecesThatDoNotOverlap)
+{
+    const Device device = open_device("");
+    const Queue queue(device);
+    Arena measuring = Arena::measuring(device);
+    take(measuring);
+    Arena arena = Arena::reserved(device, measuring.used());
+    Pieces pieces = take(arena);
+
+    std::vector<cl_uint> values(1000);
+    std::iota(values.begin(), values.end(), 7u);
+    pieces.a.upload(queue.cl(), values);
+    pieces.b.upload(queue.cl(), std::vector<cl_uint>{1, 2, 3});
+    pieces.c.upload(queue.cl(), std::vector<cl_uchar>(5, cl_uchar{9}));
+    EXPECT_EQ(pieces.a.download(queue.cl()), values);
+    EXPECT_EQ(pieces.b.download(queue.cl()), (std::vector<cl_uint>{1, 2, 3}));
+    EXPECT_EQ(pieces.c.download(queue.cl()), std::vector<cl_uchar>(5, cl_uchar{9}));
+}
+
+TEST(Arena, GivesEmptyPiecesWithoutMemory)
+{
+    const Device device = open_device("");
+    const Queue queue(device);
+    Arena arena = Arena::reserved(device, {});
+    const Buffer<cl_uint> none = arena.take<cl_uint>(0, Use::tree);
+    EXPECT_EQ(none.size(), 0u);
+    EXPECT_TRUE(none.download(queue.cl()).empty());
+}
+
+}  // namespace
+}  // namespace bvhbench

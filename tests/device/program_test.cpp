@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include "device/program.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "geometry/error.h"
+
+namespace bvhbench {
+namespace {
+
+/// A folder of kernel files, removed at the end.
+class KernelFolder {
+public:
+    KernelFolder()
+        : path_(std::filesystem::path(testing::TempDir()) /
+                testing::UnitTest::GetInstance()->current_test_info()->name())
+    {
+        std::filesystem::create_directories(path_);
+    }
+    ~KernelFolder() { std::filesystem::remove_all(path_); }
+
+    void write(const char* name, const char* text) { std::ofstream(path_ / name) << text; }
+    Sources sources() const { return Sources::tree(path_); }
+
+private:
+    std::filesystem::path path_;
+};
+
+TEST(Sources, IncludeEachFileOnceAndKeepItsLines)
+{
+    KernelFolder folder;
+    folder.write("a.h", "int a;\n");
+    folder.write("b.h", "#include \"a.h\"\nint b;\n");
+    folder.write("k.cl", "#include \"a.h\"\n#include \"b.h\"\nint k;\n");
+    EXPECT_EQ(folder.sources().flatten("k.cl"),
+              "#line 1 \"k.cl\"\n#line 1 \"a.h\"\nint a;\n#line 2 \"k.cl\"\n#line 1 \"b.h\"\n"
+              "#line 2 \"b.h\"\nint b;\n#line 3 \"k.cl\"\nint k;\n");
+}
+
+TEST(Sources, NameTheFileThatIsNotThere)
+{
+    KernelFolder folder;
+    folder.write("k.cl", "#include \"gone.h\"\n");
+    EXPECT_THROW(
+        {
+            try {
+                folder.sources().flatten("k.cl");
+            } catch (const Unavailable& error) {
+                EXPECT_STREQ(error.what(), "kernel source 'gone.h' is not there");
+                throw;
+            }
+        },
+        Unavailable);
+}
+
+TEST(Sources, AreEmbeddedInTheProgram)
+{
+    EXPECT_EQ(Sources::embedded().origin(), "embedded");
+    EXPECT_NE(Sources::embedded().flatten("device/copy_rate.cl").find("kernel void"),
+              std::string::npos);
+}
+
+TEST(Programs, CompileOnceForTheSameTextAndDefines)
+{
+    KernelFolder folder;
+    folder.write("k.cl", "kernel void k(global uint* out) { out[0] = VALUE; }\n");
+    const Device device = open_device("", folder.sources());
+    Programs programs(device);
+    programs.kernel("k.cl", "k", {{"VALUE", 1}});
+    const std::int64_t once = programs.compile_ns();
+    EXPECT_GT(once, 0);
+    programs.kernel("k.cl", "k", {{"VALUE", 1}});
+    EXPECT_EQ(programs.compile_ns(), once);
+    programs.kernel("k.cl", "k", {{"VALUE", 2}});
+    EXPECT_GT(programs.compile_ns(), once);
+}
+
+TEST(Programs, FailWithTheFileTheLineAndTheOptions)
+{
+    KernelFolder folder;
+    folder.write("k.cl", "kernel void k()\n{\n    nonsense();\n}\n");
+    const Device device = open_device("", folder.sources());
+    Programs programs(device);
+    try {
+        programs.kernel("k.cl", "k", {{"GROUP_SIZE", 64}});
+        FAIL() << "it built";
+    } catch (const BuildFailure& failure) {
+        const std::string message = failure.what();
+        EXPECT_NE(message.find("k.cl did not build with -cl-std=CL1.2"), std::string::npos)
+            << message;
+        EXPECT_NE(message.find("GROUP_SIZE=64u"), std::string::npos) << message;
+        EXPECT_NE(message.find("k.cl:3"), std::string::npos) << message;
+    }
+}
+
+}  // namespace
+}  // namespace bvhbench
