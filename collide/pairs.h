@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "geometry/dialect.h"
+
+namespace bvhbench {
+
+/// Two triangles by their frame-wide ids: position in Scene::faces, through all objects. 8 bytes.
+struct Pair {
+    uint a = 0;
+    uint b = 0;
+    auto operator<=>(const Pair&) const = default;
+};
+
+/// A set of pairs in canonical form: the smaller id first, each pair once, ascending.
+///
+/// Colliders find pairs in any order. Two colliders agree when their lists are equal, and lists are equal
+/// when their hashes are, short of a collision in 64 bits.
+class PairList {
+public:
+    PairList() = default;
+
+    /// From pairs in any order, either id first.
+    explicit PairList(std::vector<Pair> found);
+
+    std::span<const Pair> pairs() const { return pairs_; }
+    std::size_t size() const { return pairs_.size(); }
+
+    /// How many of the pairs found are not in the list: found before, or a triangle with itself. A collider
+    /// that keeps its promise has none.
+    std::size_t surplus() const { return surplus_; }
+
+    /// FNV-1a over the little-endian 32-bit ids, pair after pair: a format others can reproduce.
+    std::uint64_t hash() const;
+
+    bool operator==(const PairList& other) const { return pairs_ == other.pairs_; }
+
+private:
+    std::vector<Pair> pairs_;
+    std::size_t surplus_ = 0;
+};
+
+}  // namespace bvhbench

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#include "collide/relation.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace bvhbench {
+namespace {
+
+bool share_a_vertex(const Face& face, const Face& other)
+{
+    const auto in_other = [&](uint v) { return v == other.a || v == other.b || v == other.c; };
+    return in_other(face.a) || in_other(face.b) || in_other(face.c);
+}
+
+}  // namespace
+
+Relation relation_of(Pair pair, const Family& family)
+{
+    if (!family.objects.empty() && family.objects[pair.a] != family.objects[pair.b])
+        return Relation::between_objects;
+    return share_a_vertex(family.faces[pair.a], family.faces[pair.b]) ? Relation::adjacent
+                                                                      : Relation::apart;
+}
+
+PairList selected(const PairList& pairs, const Family& family, Relation relation)
+{
+    std::vector<Pair> chosen;
+    std::copy_if(pairs.pairs().begin(), pairs.pairs().end(), std::back_inserter(chosen),
+                 [&](Pair pair) { return relation_of(pair, family) == relation; });
+    return PairList(std::move(chosen));
+}
+
+}  // namespace bvhbench

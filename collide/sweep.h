@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+
+#include "collide/pairs.h"
+#include "geometry/aabb.h"
+
+namespace bvhbench {
+
+/// Every pair of boxes that share a point; touching counts. Box k is triangle k.
+///
+/// Sweep and prune on one core, without any tree: the oracle that trees are held to. Takes O(n log n) and
+/// one test for each pair of boxes that overlap along the axis swept, the longest.
+PairList overlapping_pairs(std::span<const Aabb> boxes);
+
+}  // namespace bvhbench
