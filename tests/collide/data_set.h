@@ -3,7 +3,6 @@
 // Reads the data sets of BVHBENCH_DATA in the one binary PLY form they are kept in. Not a PLY reader.
 #pragma once
 
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
