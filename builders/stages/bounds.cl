@@ -5,8 +5,9 @@
 // the bounds of what it saw in `partials`, then one group or work-item joins those. No float atomics.
 #include "builders/stages/chunk.clh"
 #include "geometry/bounds.h"
+#include "geometry/box_words.clh"
 
-static inline Aabb box_of_face(global const Point* restrict points, const Face face)
+static inline Aabb box_of_face(global const Point* points, const Face face)
 {
     return triangle_box(points[face.a], points[face.b], points[face.c]);
 }
@@ -32,10 +33,8 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void bounds_group
     global float2* restrict boxes, global Bounds* restrict partials, const uint count,
     const uint rounds)
 {
-    // Declared by its widest access: a struct of floats may start at an address that no pair of floats may.
-    local float2 words[6u * GROUP_SIZE];
-    local Aabb* const staged = (local Aabb*)words;  // half of it, before the bounds need all of it
-    local Bounds* const shared_bounds = (local Bounds*)words;
+    local float2 staged[3u * GROUP_SIZE];
+    local Bounds shared_bounds[GROUP_SIZE];
     const uint item = (uint)get_local_id(0);
     Bounds bounds = empty_bounds();
 
@@ -44,12 +43,12 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void bounds_group
         const uint here = min(GROUP_SIZE, count - min(count, start));
         if (item < here) {
             const Aabb box = box_of_face(points, faces[start + item]);
-            staged[item] = box;
+            store_local_box(staged, item, box);
             bounds = grown(bounds, box);
         }
         barrier(CLK_LOCAL_MEM_FENCE);
         for (uint word = item; word < 3u * here; word += GROUP_SIZE)
-            boxes[3ul * start + word] = words[word];
+            boxes[3ul * start + word] = staged[word];
         barrier(CLK_LOCAL_MEM_FENCE);
     }
     shared_bounds[item] = bounds;

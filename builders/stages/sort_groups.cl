@@ -62,9 +62,8 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void scan_digits(
 }
 
 /// places[d] is afterwards where the first pair with digit d of this group's tile goes.
-static inline void find_places(global const uint* restrict counts,
-                               global const uint* restrict totals, const uint mask,
-                               local uint* const places, local uint* const scratch)
+static inline void find_places(global const uint* counts, global const uint* totals,
+                               const uint mask, local uint* const places, local uint* const scratch)
 {
     const uint first = (uint)get_local_id(0) * DIGITS_PER_ITEM;
     uint sum = 0u;
@@ -103,9 +102,9 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void scatter_tile
     for (uint k = item; k < TILE; k += GROUP_SIZE)
         tile[k] = k << 8u | (k < here ? digit_of(codes_in[first + k], shift, mask) : DIGITS - 1u);
     find_places(counts, totals, mask, places, scratch);
-    sort_tile(tile, counters, scratch, 0u);
-    if (mask > 15u)
-        sort_tile(tile, counters, scratch, 4u);
+    // A loop, not two calls: inlining the second crashes PoCL 3.1.
+    for (uint half_digit = 0u; half_digit < 8u; half_digit += 4u)
+        sort_tile(tile, counters, scratch, half_digit);
 
     // The run of digit d starts at some k of the sorted tile: afterwards places[d] + k is right for all of it.
     for (uint k = item; k < here; k += GROUP_SIZE) {

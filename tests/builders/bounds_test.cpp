@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include "builders/stages/bounds.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/builders/stage_testing.h"
+
+namespace bvhbench {
+namespace {
+
+class BoundsContract : public testing::TestWithParam<KernelForm> {
+protected:
+    void expect_equal_to_host(const Mesh& mesh, uint group_size)
+    {
+        BoundsStage stage(bench().programs, GetParam(), group_size);
+        reserve([&](Arena& arena) { stage.plan(arena, mesh.faces.size(), Use::tree); });
+        const Input input = upload(bench().device, bench().queue, mesh.points, mesh.faces);
+        stage.enqueue(input, bench().queue);
+        bench().queue.finish();
+
+        std::vector<Aabb> boxes;
+        for (const Face face : mesh.faces)
+            boxes.push_back(face_box(mesh.points, face));
+        EXPECT_TRUE(same_bits(stage.boxes().download(bench().queue.cl()), boxes));
+        EXPECT_TRUE(same_bits(stage.bounds().download(bench().queue.cl()), {host_bounds(boxes)}));
+    }
+};
+
+TEST_P(BoundsContract, EqualTheHostsOnHardMeshes)
+{
+    for (const auto& [name, mesh] : hard_meshes(3000)) {
+        SCOPED_TRACE(name);
+        expect_equal_to_host(mesh, 64);
+    }
+}
+
+// 16 groups of 16 at most on two cores: sizes past 256 take several rounds.
+TEST_P(BoundsContract, EqualTheHostsOfEverySize)
+{
+    const Mesh all = random_mesh(600, [](Point p) { return p; });
+    for (std::size_t size = 1; size <= all.faces.size(); ++size) {
+        SCOPED_TRACE(size);
+        Mesh mesh = all;
+        mesh.faces.resize(size);
+        expect_equal_to_host(mesh, 16);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Forms, BoundsContract,
+                         testing::Values(KernelForm::groups, KernelForm::chunks),
+                         [](const auto& instance) { return form_name(instance.param); });
+
+TEST(BoxCentre, NeitherOverflowsNorHasANegativeZero)
+{
+    constexpr float big = 3.4e38f;
+    constexpr float tiny = std::numeric_limits<float>::denorm_min();
+    const Point far = box_centre({big, -big, -big, big, big, -big});
+    EXPECT_EQ(far.x, big);
+    EXPECT_EQ(far.y, 0.0f);
+    EXPECT_EQ(far.z, -big);
+    const Point near = box_centre({-tiny, -tiny, tiny, -tiny, 0.0f, 3 * tiny});
+    EXPECT_FALSE(std::signbit(near.x));
+    EXPECT_FALSE(std::signbit(near.y));
+    EXPECT_GT(near.z, 0.0f);
+}
+
+}  // namespace
+}  // namespace bvhbench

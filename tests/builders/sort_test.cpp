@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+#include "builders/stages/sort.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "tests/builders/stage_testing.h"
+
+namespace bvhbench {
+namespace {
+
+/// The slow and obvious sort: ids of `codes` in ascending order, ties as they came.
+std::vector<uint> host_sorted_ids(const std::vector<ulong>& codes)
+{
+    std::vector<uint> ids(codes.size());
+    std::iota(ids.begin(), ids.end(), 0u);
+    std::stable_sort(ids.begin(), ids.end(), [&](uint a, uint b) { return codes[a] < codes[b]; });
+    return ids;
+}
+
+std::vector<uint> words_of(const std::vector<ulong>& codes, unsigned bits)
+{
+    std::vector<uint> words;
+    for (const ulong code : codes) {
+        words.push_back(static_cast<uint>(code));
+        if (code_words(bits) == 2)
+            words.push_back(static_cast<uint>(code >> 32));
+    }
+    return words;
+}
+
+struct NamedCodes {
+    std::string name;
+    std::vector<ulong> codes;
+};
+
+std::vector<NamedCodes> hard_codes(std::size_t size, unsigned bits)
+{
+    const ulong largest = (ulong{1} << bits) - 1;
+    std::mt19937_64 random(size);
+    std::vector<ulong> any(size), few(size), few_high(size), patches(size);
+    for (std::size_t k = 0; k < size; ++k) {
+        any[k] = random() & largest;
+        few[k] = random() % 5;
+        few_high[k] = largest - (random() % 3 << (bits - 7));
+        patches[k] = (k / 37 * 0x9e3779b97f4a7c15u) & largest;
+    }
+    std::vector<ulong> ascending = any;
+    std::sort(ascending.begin(), ascending.end());
+    return {{"any", any},
+            {"few", few},
+            {"few high", few_high},
+            {"patches", patches},
+            {"all zero", std::vector<ulong>(size, 0)},
+            {"all ones", std::vector<ulong>(size, largest)},
+            {"ascending", ascending},
+            {"descending", {ascending.rbegin(), ascending.rend()}}};
+}
+
+struct Case {
+    std::string name;
+    unsigned bits;
+    SortShape shape;
+};
+
+class RadixSortContract : public testing::TestWithParam<Case> {
+protected:
+    void SetUp() override
+    {
+        sort_ = std::make_unique<RadixSort>(bench().programs, GetParam().bits, GetParam().shape);
+    }
+
+    void plan(std::size_t size)
+    {
+        reserve([&](Arena& arena) { sort_->plan(arena, size); });
+    }
+
+    void expect_equal_to_host(const std::vector<ulong>& codes)
+    {
+        const std::vector<uint> words = words_of(codes, GetParam().bits);
+        Buffer<uint> unsorted = sort_->unsorted_codes();
+        unsorted.upload(bench().queue.cl(), words);
+        sort_->enqueue(bench().queue);
+        bench().queue.finish();
+
+        const std::vector<uint> expected = host_sorted_ids(codes);
+        std::vector<ulong> sorted;
+        for (const uint id : expected)
+            sorted.push_back(codes[id]);
+        // Not EXPECT_EQ: it would print millions of numbers.
+        EXPECT_TRUE(same_bits(sort_->ids().download(bench().queue.cl()), expected));
+        EXPECT_TRUE(same_bits(sort_->codes().download(bench().queue.cl()),
+                              words_of(sorted, GetParam().bits)));
+    }
+
+    std::unique_ptr<RadixSort> sort_;
+};
+
+using RadixSortOfEverySize = RadixSortContract;
+using RadixSortAsShipped = RadixSortContract;
+
+std::string case_name(const testing::TestParamInfo<Case>& instance)
+{
+    return instance.param.name + "_" + std::to_string(instance.param.bits);
+}
+
+TEST_P(RadixSortOfEverySize, EqualsAStableSortUpToPastTwoTiles)
+{
+    const SortShape& shape = GetParam().shape;
+    const std::size_t last = 2 * std::size_t{shape.group_size} * shape.keys_per_item + 1;
+    for (std::size_t size = 0; size <= last; ++size) {
+        plan(size);
+        for (const auto& [name, codes] : hard_codes(size, GetParam().bits)) {
+            SCOPED_TRACE(name + ", " + std::to_string(size) + " codes");
+            expect_equal_to_host(codes);
+        }
+    }
+}
+
+// Tiles of 48 pairs, so that every size is tried and a few thousand pairs need many rounds of the scan.
+INSTANTIATE_TEST_SUITE_P(Small, RadixSortOfEverySize, testing::ValuesIn([] {
+                             std::vector<Case> cases;
+                             for (const unsigned bits : {8, 30, 32, 63}) {
+                                 cases.push_back({"groups", bits, {KernelForm::groups, 16, 3}});
+                                 cases.push_back({"chunks", bits, {KernelForm::chunks, 16, 3}});
+                             }
+                             return cases;
+                         }()),
+                         case_name);
+
+TEST_P(RadixSortAsShipped, EqualsAStableSortAroundEveryBoundary)
+{
+    constexpr std::size_t tile = 256 * 15;
+    for (const std::size_t size : {std::size_t{1}, tile - 1, tile, tile + 1, 2 * tile - 1, 2 * tile,
+                                   2 * tile + 1, 255 * tile, 256 * tile, 257 * tile + 1}) {
+        plan(size);
+        for (const auto& [name, codes] : hard_codes(size, GetParam().bits)) {
+            if (size > 3 * tile && name != "any")
+                continue;
+            SCOPED_TRACE(name + ", " + std::to_string(size) + " codes");
+            expect_equal_to_host(codes);
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Default, RadixSortAsShipped,
+                         testing::Values(Case{"groups", 30, {KernelForm::groups}},
+                                         Case{"groups", 63, {KernelForm::groups}},
+                                         Case{"chunks", 30, {KernelForm::chunks}},
+                                         Case{"chunks", 63, {KernelForm::chunks}}),
+                         case_name);
+
+TEST(RadixSort, EqualsAStableSortPastTheIntegersOfAFloat)
+{
+    const std::size_t size = (std::size_t{1} << 24) + 3;
+    std::mt19937 random(3);
+    std::vector<uint> codes(size);
+    for (uint& code : codes)
+        code = static_cast<uint>(random() >> 2);
+    RadixSort sort(bench().programs, 30);
+    reserve([&](Arena& arena) { sort.plan(arena, size); });
+    Buffer<uint> unsorted = sort.unsorted_codes();
+    unsorted.upload(bench().queue.cl(), codes);
+    sort.enqueue(bench().queue);
+
+    // Ascending codes, ascending ids among equal codes, and every code where its id says: then it is right.
+    const std::vector<uint> ids = sort.ids().download(bench().queue.cl());
+    const std::vector<uint> sorted = sort.codes().download(bench().queue.cl());
+    bench().queue.finish();
+    for (std::size_t k = 0; k < size; ++k) {
+        ASSERT_EQ(sorted[k], codes[ids[k]]) << k;
+        const bool ascends = k == 0 || sorted[k - 1] < sorted[k] ||
+                             (sorted[k - 1] == sorted[k] && ids[k - 1] < ids[k]);
+        ASSERT_TRUE(ascends) << k;
+    }
+}
+
+TEST(RadixSort, KeepsOnlyTheSortedIdsAsPartOfTheTree)
+{
+    for (const unsigned bits : {8, 16, 30, 63}) {
+        Arena arena = Arena::measuring(bench().device);
+        RadixSort sort(bench().programs, bits);
+        sort.plan(arena, 1000);
+        EXPECT_EQ(arena.used().tree_bytes, 1000 * sizeof(uint));
+    }
+}
+
+}  // namespace
+}  // namespace bvhbench
