@@ -100,6 +100,7 @@ protected:
 
 using RadixSortOfEverySize = RadixSortContract;
 using RadixSortAsShipped = RadixSortContract;
+using RadixSortOfFewSizes = RadixSortContract;
 
 std::string case_name(const testing::TestParamInfo<Case>& instance)
 {
@@ -176,6 +177,22 @@ TEST(RadixSort, EqualsAStableSortPastTheIntegersOfAFloat)
         ASSERT_TRUE(ascends) << k;
     }
 }
+
+TEST_P(RadixSortOfFewSizes, EqualsAStableSort)
+{
+    for (const std::size_t size : {1, 50, 1000}) {
+        SCOPED_TRACE(size);
+        plan(size);
+        expect_equal_to_host(hard_codes(size, GetParam().bits).front().codes);
+    }
+}
+
+// Small enough for an interpreter that checks every access.
+INSTANTIATE_TEST_SUITE_P(Few, RadixSortOfFewSizes,
+                         testing::Values(Case{"groups", 30, {KernelForm::groups, 16, 3}},
+                                         Case{"groups", 63, {KernelForm::groups, 32, 15}},
+                                         Case{"chunks", 30, {KernelForm::chunks}}),
+                         case_name);
 
 TEST(RadixSort, KeepsOnlyTheSortedIdsAsPartOfTheTree)
 {
