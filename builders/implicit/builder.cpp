@@ -59,11 +59,9 @@ public:
         tree_.queue = &queue;
         if (start == Start::from_triangles) {
             leaf_order_.enqueue(input, queue);
-            if (tree_.sorted_leaves) {
-                queue.begin("gather");
+            if (tree_.sorted_leaves)
                 gather_.enqueue(leaf_order_.boxes(), leaf_order_.ids(), tree_.nodes, leaf_slot(),
                                 queue);
-            }
         }
         queue.begin("hierarchy");
         for (uint i = 0; i < schedule_.count; ++i)
