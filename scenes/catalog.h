@@ -12,9 +12,9 @@ namespace bvhbench {
 
 /// Where scenes come from and what reading one may cost.
 struct SceneLibrary {
-    std::filesystem::path data;            ///< --data, else BVHBENCH_DATA, else empty
-    std::size_t memory_limit_bytes = 0;    ///< for the process that reads a file; 0: a default
-    double time_limit_s = 0;               ///< likewise
+    std::filesystem::path data;          ///< --data, else BVHBENCH_DATA, else empty
+    std::size_t memory_limit_bytes = 0;  ///< for the process that reads a file; 0: a default
+    double time_limit_s = 0;             ///< likewise
 };
 
 /// The scene `text` asks for: a generator with its size ("torus:2880000"), a data set by name ("bunny"), a
@@ -35,7 +35,8 @@ std::vector<SceneListing> list_scenes(const SceneLibrary& library);
 struct DataSet {
     std::string name;
     std::size_t triangles = 0;
-    std::string stand_in;  ///< the scene to build over when the file is not there, same triangle count
+    std::string
+        stand_in;  ///< the scene to build over when the file is not there, same triangle count
 };
 const DataSet* find_data_set(std::string_view name);
 

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+#include "scenes/catalog.h"
+
+#include <unistd.h>
+
+#include <new>
+
+#include "geometry/error.h"
+#include "scenes/finish.h"
+#include "scenes/formats/text.h"
+#include "scenes/generate/catalog.h"
+#include "scenes/generate/refine.h"
+#include "scenes/manifest.h"
+#include "scenes/sequence.h"
+
+namespace bvhbench {
+namespace {
+
+Scene load_any(std::string_view text, const SceneLibrary& library);
+
+WorkerLimits limits_of(const SceneLibrary& library)
+{
+    WorkerLimits limits;
+    if (library.memory_limit_bytes != 0)
+        limits.memory_bytes = library.memory_limit_bytes;
+    if (library.time_limit_s > 0)
+        limits.time_s = library.time_limit_s;
+    return limits;
+}
+
+/// The N of "torus:N".
+uint triangle_count(std::string_view scene, std::string_view number, uint most)
+{
+    const bool digits = !number.empty() && number.find_first_not_of("0123456789") == number.npos;
+    const auto value = digits ? parse_integer(number) : std::nullopt;
+    if (!value || *value < 1 || *value > std::int64_t{most})
+        throw BadUsage("scene " + in_quotes(scene) + " ends in " + in_quotes(number) +
+                       " where a triangle count from 1 to " + std::to_string(most) + " goes");
+    return static_cast<uint>(*value);
+}
+
+/// Linux promises more memory than there is and ends the process that uses it, so it is counted first.
+void check_memory(std::string_view scene, std::uint64_t bytes)
+{
+    const auto there = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
+                       static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+    if (bytes > there)
+        throw Unavailable("scene " + in_quotes(scene) + " takes about " +
+                          std::to_string(bytes >> 20) + " MiB of memory, and this machine has " +
+                          std::to_string(there >> 20));
+}
+
+Scene generated(std::string_view text, const Generator& generator, std::string_view number)
+{
+    const uint count = triangle_count(text, number, generator.most);
+    check_memory(text, std::uint64_t{count} * generator.bytes_a_triangle);
+    Mesh mesh = generator.make(count);
+    Scene scene;
+    scene.faces = std::move(mesh.faces);
+    scene.frames.push_back(std::move(mesh.points));
+    scene.source = "generated";
+    return scene;
+}
+
+/// "SCENE:N", what follows "refine:".
+Scene refinement(std::string_view text, std::string_view rest, const SceneLibrary& library)
+{
+    const std::size_t colon = rest.rfind(':');
+    if (colon == rest.npos || colon == 0)
+        throw BadUsage("scene " + in_quotes(text) + " is not of the form refine:SCENE:N");
+    constexpr uint most = 0xffffffffu / 3;  // three half-edges a triangle
+    const uint count = triangle_count(text, rest.substr(colon + 1), most);
+    check_memory(text, std::uint64_t{count} * 90);
+    return refined(load_any(rest.substr(0, colon), library), count);
+}
+
+Scene from_path(const std::filesystem::path& path, const SceneLibrary& library)
+{
+    Scene scene;
+    if (std::filesystem::is_directory(path)) {
+        scene = read_sequence(path, limits_of(library));
+    } else {
+        FileMesh file = read_mesh_file(path, limits_of(library));
+        scene.faces = std::move(file.mesh.faces);
+        scene.objects = std::move(file.objects);
+        scene.frames.push_back(std::move(file.mesh.points));
+    }
+    scene.source = path.string();
+    return scene;
+}
+
+void expect(const ManifestEntry& entry, const Scene& scene, const char* what, std::size_t expected,
+            std::size_t found)
+{
+    if (expected != 0 && found != expected)
+        throw OtherCounts("data set '" + entry.set.name + "' has " + std::to_string(expected) +
+                          " " + what + ", and " + scene.source + " has " + std::to_string(found));
+}
+
+Scene from_data_set(const ManifestEntry& entry, const SceneLibrary& library)
+{
+    const std::filesystem::path path = located(entry, library.data);
+    if (path.empty())
+        throw Unavailable("data set '" + entry.set.name + "' is not in the data folder " +
+                          in_quotes(library.data.string()) + ": " + entry.source);
+    Scene scene = from_path(path, library);
+    expect(entry, scene, "triangles", entry.set.triangles, scene.faces.size());
+    expect(entry, scene, "vertices", entry.vertices, scene.frames.front().size());
+    expect(entry, scene, "frames", entry.frames, scene.frames.size());
+    if (!scene.objects.empty())
+        expect(entry, scene, "objects", entry.objects, scene.objects.size());
+    return scene;
+}
+
+[[noreturn]] void unknown(std::string_view text)
+{
+    std::string known;
+    for (const Generator& generator : generators())
+        known += std::string(generator.name) + ":N, ";
+    known += "refine:SCENE:N, ";
+    for (const ManifestEntry& entry : manifest())
+        known += entry.set.name + ", ";
+    throw BadUsage("no scene is called " + in_quotes(text) + "; there are: " + known +
+                   "or a path to a mesh file");
+}
+
+bool looks_like_path(std::string_view text)
+{
+    std::error_code error;
+    return text.find('/') != text.npos || std::filesystem::exists(text, error) ||
+           is_mesh_file(text);
+}
+
+const Generator* generator_called(std::string_view name)
+{
+    for (const Generator& generator : generators())
+        if (generator.name == name)
+            return &generator;
+    return nullptr;
+}
+
+Scene unfinished(std::string_view text, const SceneLibrary& library)
+{
+    const std::size_t colon = std::min(text.find(':'), text.size());
+    const std::string_view head = text.substr(0, colon);
+    const std::string_view rest = text.substr(std::min(colon + 1, text.size()));
+    if (head == "refine")
+        return refinement(text, rest, library);
+    if (const ManifestEntry* const entry = manifest_entry(text))
+        return from_data_set(*entry, library);
+    if (const Generator* const generator = generator_called(head))
+        return generated(text, *generator, rest);
+    if (looks_like_path(text))
+        return from_path(text, library);
+    unknown(text);
+}
+
+Scene load_any(std::string_view text, const SceneLibrary& library)
+{
+    Scene scene = unfinished(text, library);
+    scene.name = text;
+    return finished(std::move(scene));
+}
+
+}  // namespace
+
+Scene load_scene(std::string_view text, const SceneLibrary& library)
+{
+    try {
+        return load_any(text, library);
+    } catch (const std::bad_alloc&) {
+        throw Unavailable("there is not enough memory for scene " + in_quotes(text));
+    }
+}
+
+}  // namespace bvhbench

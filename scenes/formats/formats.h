@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+//
+// The four plain formats, read here and not by assimp: assimp gives every corner of an OBJ face a vertex
+// of its own, so that neighbours no longer share any, reads some files that are cut short or name vertices
+// that are not there as if they were sound, and ignores the object ids of a PLY file.
+//
+// All four keep the order of vertices and faces, merge nothing, and cut a polygon into a fan round its
+// first corner. They throw Unavailable, in one sentence that begins with `name`, at anything they do not
+// understand in full; they drop no face.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scenes/scene.h"
+
+namespace bvhbench {
+
+/// What a mesh file holds. Without objects, all faces are one.
+struct FileMesh {
+    Mesh mesh;
+    std::vector<SceneObject> objects;
+};
+
+/// Wavefront OBJ: v and f lines, relative indices, continued lines; "o" begins an object.
+FileMesh read_obj(std::string_view bytes, const std::string& name);
+
+/// PLY, ascii and binary of either byte order. Faces with an integer property `object_id` are objects.
+FileMesh read_ply(std::string_view bytes, const std::string& name);
+
+/// OFF and its variants with colours or normals after the three coordinates; not binary.
+FileMesh read_off(std::string_view bytes, const std::string& name);
+
+/// STL, binary or ascii. Three vertices a triangle, as stored; each solid is an object.
+FileMesh read_stl(std::string_view bytes, const std::string& name);
+
+}  // namespace bvhbench

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "geometry/triangle.h"
+
+namespace bvhbench {
+
+/// SplitMix64 (Steele, Lea, Flood: "Fast Splittable Pseudorandom Number Generators"). The same numbers on
+/// every machine, unlike the distributions of the standard library.
+class Random {
+public:
+    explicit Random(std::uint64_t seed) : state_(seed) {}
+
+    std::uint64_t bits()
+    {
+        state_ += 0x9e3779b97f4a7c15u;
+        std::uint64_t mixed = state_;
+        mixed = (mixed ^ (mixed >> 30)) * 0xbf58476d1ce4e5b9u;
+        mixed = (mixed ^ (mixed >> 27)) * 0x94d049bb133111ebu;
+        return mixed ^ (mixed >> 31);
+    }
+
+    /// In [0, 1), a multiple of 2^-24: exact in float.
+    float unit() { return static_cast<float>(bits() >> 40) * 0x1p-24f; }
+
+    /// In [-1, 1).
+    float symmetric() { return 2.0f * unit() - 1.0f; }
+
+    /// In the unit ball and not at its centre, by rejection.
+    Point in_ball()
+    {
+        while (true) {
+            const float x = symmetric(), y = symmetric(), z = symmetric();
+            const float square = x * x + y * y + z * z;
+            if (square < 1.0f && square > 1e-6f)
+                return {x, y, z};
+        }
+    }
+
+private:
+    std::uint64_t state_;
+};
+
+}  // namespace bvhbench

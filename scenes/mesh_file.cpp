@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "scenes/mesh_file.h"
+
+#include <algorithm>
+#include <fstream>
+
+#include "geometry/error.h"
+#include "scenes/worker/assimp_reader.h"
+
+namespace bvhbench {
+namespace {
+
+struct PlainFormat {
+    const char* extension;
+    FileMesh (*read)(std::string_view bytes, const std::string& name);
+};
+
+constexpr PlainFormat plain_formats[] = {
+    {".obj", read_obj},
+    {".off", read_off},
+    {".ply", read_ply},
+    {".stl", read_stl},
+};
+
+std::string lower_extension(const std::filesystem::path& path)
+{
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+    return extension;
+}
+
+const PlainFormat* plain_format(const std::string& extension)
+{
+    for (const PlainFormat& format : plain_formats)
+        if (extension == format.extension)
+            return &format;
+    return nullptr;
+}
+
+void check_is_file(const std::filesystem::path& path)
+{
+    std::error_code error;
+    const auto status = std::filesystem::status(path, error);
+    if (!std::filesystem::exists(status))
+        throw Unavailable("there is no file " + path.string());
+    if (!std::filesystem::is_regular_file(status))
+        throw Unavailable(path.string() + " is not a file");
+}
+
+}  // namespace
+
+std::string file_bytes(const std::filesystem::path& path)
+{
+    check_is_file(path);
+    std::ifstream file(path, std::ios::binary | std::ios::ate);
+    if (!file)
+        throw Unavailable(path.string() + " cannot be read");
+    std::string bytes(static_cast<std::size_t>(file.tellg()), '\0');
+    file.seekg(0);
+    file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    if (!file)
+        throw Unavailable(path.string() + " cannot be read");
+    return bytes;
+}
+
+bool is_mesh_file(const std::filesystem::path& path)
+{
+    const std::string extension = lower_extension(path);
+    return plain_format(extension) != nullptr || assimp_knows(extension);
+}
+
+FileMesh read_mesh_file(const std::filesystem::path& path, const WorkerLimits& limits)
+{
+    check_is_file(path);
+    const std::string extension = lower_extension(path);
+    FileMesh file;
+    if (const PlainFormat* const plain = plain_format(extension))
+        file = plain->read(file_bytes(path), path.string());
+    else if (assimp_knows(extension))
+        file = read_in_worker(path, limits);
+    else
+        throw Unavailable(path.string() + " is of a format that is not read, '" + extension + "'");
+    if (file.mesh.faces.empty())
+        throw Unavailable(path.string() + " has no triangles");
+    return file;
+}
+
+}  // namespace bvhbench

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scenes/mesh_worker.h"
+
+namespace bvhbench {
+
+/// All bytes of a regular file. Throws Unavailable if it is not there, is no file, or cannot be read.
+std::string file_bytes(const std::filesystem::path& path);
+
+/// Whether `read_mesh_file` knows the format, by the extension.
+bool is_mesh_file(const std::filesystem::path& path);
+
+/// What a mesh file holds, by its extension: .obj, .ply, .off and .stl by the readers of formats/, what
+/// else assimp knows by assimp in a worker. Throws Unavailable.
+FileMesh read_mesh_file(const std::filesystem::path& path, const WorkerLimits& limits);
+
+}  // namespace bvhbench

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+//
+// assimp 5.2.5 crashes or hangs on many malformed files, so it runs in a process of its own: this program,
+// started again with a hidden first argument. A process that has used PoCL cannot be forked, so it is
+// spawned. Every main that may read a mesh file begins with
+//
+//     if (is_mesh_worker(argc, argv))
+//         return mesh_worker_main(argc, argv);
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+
+#include "scenes/formats/formats.h"
+
+namespace bvhbench {
+
+/// What the worker may use.
+struct WorkerLimits {
+    std::size_t memory_bytes = std::size_t{8} << 30;  ///< address space; not under a sanitizer
+    double time_s = 120;
+};
+
+/// Whether this process was started by `read_in_worker`.
+bool is_mesh_worker(int argc, char** argv);
+
+/// Reads the file named by the arguments with assimp and writes it to standard output, in the format of
+/// worker/message.h. Returns the exit code. Silences everything else that is written to standard output.
+int mesh_worker_main(int argc, char** argv);
+
+/// What assimp reads from `path`, each instance of a mesh an object, transformed by the nodes above it.
+/// Throws Unavailable when assimp refuses, crashes, or passes a limit.
+FileMesh read_in_worker(const std::filesystem::path& path, const WorkerLimits& limits);
+
+}  // namespace bvhbench

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "scenes/sequence.h"
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+
+#include "geometry/error.h"
+#include "scenes/formats/text.h"
+#include "scenes/parts.h"
+
+namespace bvhbench {
+namespace {
+
+std::vector<std::vector<Point>> read_frames(const std::filesystem::path& path, std::size_t vertices)
+{
+    const std::string bytes = file_bytes(path);
+    const std::size_t frame_size = vertices * sizeof(Point);
+    if (bytes.empty() || bytes.size() % frame_size != 0)
+        throw Unavailable(path.string() + " has " + std::to_string(bytes.size()) +
+                          " bytes, no whole number of frames of " + std::to_string(vertices) +
+                          " vertices");
+    std::vector<std::vector<Point>> frames(bytes.size() / frame_size);
+    for (std::size_t k = 0; k < frames.size(); ++k) {
+        frames[k].resize(vertices);
+        std::memcpy(frames[k].data(), bytes.data() + k * frame_size, frame_size);
+    }
+    return frames;
+}
+
+/// The last number in a file's name, by which frames are ordered.
+std::optional<std::int64_t> frame_number(const std::filesystem::path& path)
+{
+    const std::string stem = path.stem().string();
+    const std::size_t end = stem.find_last_of("0123456789");
+    if (end == stem.npos)
+        return std::nullopt;
+    const std::size_t before = stem.find_last_not_of("0123456789", end);
+    const std::size_t begin = before == stem.npos ? 0 : before + 1;
+    return parse_integer(std::string_view(stem).substr(begin, end + 1 - begin));
+}
+
+std::vector<std::filesystem::path> numbered_files(const std::filesystem::path& folder)
+{
+    std::map<std::int64_t, std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        const auto number = frame_number(entry.path());
+        if (!entry.is_regular_file() || !is_mesh_file(entry.path()) || !number)
+            continue;
+        if (!files.emplace(*number, entry.path()).second)
+            throw Unavailable(folder.string() + " has two files for frame " +
+                              std::to_string(*number));
+    }
+    std::vector<std::filesystem::path> result;
+    for (const auto& [number, path] : files)
+        result.push_back(path);
+    return result;
+}
+
+bool same(const std::vector<Face>& a, const std::vector<Face>& b)
+{
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Face)) == 0;
+}
+
+Scene read_numbered(const std::filesystem::path& folder, const WorkerLimits& limits)
+{
+    const std::vector<std::filesystem::path> files = numbered_files(folder);
+    if (files.empty())
+        throw Unavailable(folder.string() +
+                          " has neither mesh.ply and frames.f32 nor numbered mesh files");
+    Scene scene;
+    for (const auto& path : files) {
+        FileMesh file = read_mesh_file(path, limits);
+        if (scene.frames.empty()) {
+            scene.faces = std::move(file.mesh.faces);
+            scene.objects = std::move(file.objects);
+        } else if (!same(scene.faces, file.mesh.faces)) {
+            throw Unavailable(path.string() + " has other triangles than " + files[0].string() +
+                              ", and frames share theirs");
+        }
+        scene.frames.push_back(std::move(file.mesh.points));
+    }
+    if (scene.objects.empty())
+        scene.objects = connected_parts(scene.faces, scene.frames[0].size());
+    return scene;
+}
+
+}  // namespace
+
+Scene read_sequence(const std::filesystem::path& folder, const WorkerLimits& limits)
+{
+    if (!std::filesystem::exists(folder / "mesh.ply"))
+        return read_numbered(folder, limits);
+    FileMesh file = read_mesh_file(folder / "mesh.ply", limits);
+    Scene scene;
+    scene.frames = read_frames(folder / "frames.f32", file.mesh.points.size());
+    scene.faces = std::move(file.mesh.faces);
+    scene.objects = std::move(file.objects);
+    return scene;
+}
+
+}  // namespace bvhbench

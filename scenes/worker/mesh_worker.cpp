@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "scenes/mesh_worker.h"
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <new>
+#include <string_view>
+
+#include "geometry/error.h"
+#include "scenes/worker/assimp_reader.h"
+#include "scenes/worker/message.h"
+#include "scenes/worker/process.h"
+
+namespace bvhbench {
+namespace {
+
+constexpr const char* argument = "--read-mesh";
+// A program whose main forgets to ask is_mesh_worker would start itself again and again.
+constexpr const char* marker = "BVHBENCH_MESH_WORKER";
+
+void limit_memory(std::size_t bytes)
+{
+#if !defined(__SANITIZE_ADDRESS__)  // its shadow memory takes terabytes of address space
+    const rlimit limit{bytes, bytes};
+    setrlimit(RLIMIT_AS, &limit);
+#endif
+    const rlimit no_core{0, 0};
+    setrlimit(RLIMIT_CORE, &no_core);
+}
+
+/// Keeps standard output for the answer alone: assimp's readers may print.
+int take_standard_output()
+{
+    const int answer = dup(STDOUT_FILENO);
+    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    dup2(nowhere, STDOUT_FILENO);
+    dup2(nowhere, STDERR_FILENO);
+    return answer;
+}
+
+std::string answer_for(const std::string& path)
+{
+    try {
+        return mesh_message(read_with_assimp(path));
+    } catch (const std::bad_alloc&) {
+        return refusal_message("it takes more memory than the reader may use");
+    } catch (const std::exception& error) {
+        const std::string_view why = error.what();
+        return refusal_message(why.substr(0, why.find('\n')));  // one sentence
+    }
+}
+
+bool write_all(int file, std::string_view bytes)
+{
+    while (!bytes.empty()) {
+        const ssize_t count = write(file, bytes.data(), bytes.size());
+        if (count < 0 && errno == EINTR)
+            continue;
+        if (count <= 0)
+            return false;
+        bytes.remove_prefix(static_cast<std::size_t>(count));
+    }
+    return true;
+}
+
+}  // namespace
+
+bool is_mesh_worker(int argc, char** argv)
+{
+    return argc == 4 && std::string_view(argv[1]) == argument;
+}
+
+int mesh_worker_main(int, char** argv)
+{
+    limit_memory(std::strtoull(argv[3], nullptr, 10));
+    const int answer = take_standard_output();
+    return write_all(answer, answer_for(argv[2])) ? 0 : 1;
+}
+
+FileMesh read_in_worker(const std::filesystem::path& path, const WorkerLimits& limits)
+{
+    if (std::getenv(marker) != nullptr)
+        throw std::logic_error("main does not begin with is_mesh_worker, see scenes/mesh_worker.h");
+    const ProcessEnd end = run_process(
+        {"/proc/self/exe", argument, path.string(), std::to_string(limits.memory_bytes)},
+        limits.time_s, std::string(marker) + "=1");
+    auto answer = decoded(end.output);
+    if (end.how != ProcessEnd::How::exited || !answer)
+        throw Unavailable("the reader " + spelled(end, limits.time_s) + " on " + path.string());
+    if (const auto* const why = std::get_if<std::string>(&*answer))
+        throw Unavailable(path.string() + " is not read: " + *why);
+    return std::get<FileMesh>(std::move(*answer));
+}
+
+}  // namespace bvhbench
