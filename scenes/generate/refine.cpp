@@ -82,8 +82,9 @@ private:
         std::vector<Side> sides;
         sides.reserve(corners_.size());
         for (uint half = 0; half < corners_.size(); ++half) {
-            const auto [low, high] = std::minmax(start_of(half), end_of(half));
-            sides.push_back({std::uint64_t{low} << 32 | high, half});
+            const std::uint64_t low = std::min(start_of(half), end_of(half));
+            const uint high = std::max(start_of(half), end_of(half));
+            sides.push_back({low << 32 | high, half});
         }
         std::sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
             return x.ends != y.ends ? x.ends < y.ends : x.half < y.half;

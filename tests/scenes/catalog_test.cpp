@@ -1,1 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include <set>
+
 #include "helpers.h"
+#include "scenes/generate/catalog.h"
+#include "scenes/manifest.h"
+
+namespace bvhbench {
+namespace {
+
+TEST(Catalog, NamesWhatIsKnownWhenAskedForSomethingElse)
+{
+    const std::string message = refusal("cube:12");
+    EXPECT_TRUE(contains(message, "BadUsage: no scene is called 'cube:12'; there are: torus:N"));
+    for (const char* known :
+         {"hairball:N", "refine:SCENE:N", "bunny", "nbody_sim", "a path to a mesh file"})
+        EXPECT_TRUE(contains(message, known));
+    EXPECT_TRUE(contains(refusal("bunni"), "BadUsage: no scene is called 'bunni'"));
+    EXPECT_TRUE(contains(refusal(""), "BadUsage: no scene is called ''"));
+}
+
+TEST(Catalog, TakesOnlyAPlainTriangleCount)
+{
+    for (const std::string bad :
+         {"torus", "torus:", "torus:0", "torus:-5", "torus:1e6", "torus: 7", "torus:7x",
+          "torus:2147483649", "torus:99999999999999999999", "soup:1431655766"})
+        EXPECT_TRUE(contains(refusal(bad), "BadUsage: scene '" + bad + "' ends in '")) << bad;
+    EXPECT_TRUE(contains(refusal("torus:0"), "a triangle count from 1 to 2147483648"));
+}
+
+TEST(Catalog, ListsEveryGeneratorAndDataSetByTheNameTyped)
+{
+    std::set<std::string> names;
+    for (const SceneListing& line : list_scenes({}))
+        EXPECT_TRUE(names.insert(line.name).second) << line.name;
+    for (const Generator& generator : generators())
+        EXPECT_TRUE(names.count(std::string(generator.name) + ":N"));
+    for (const ManifestEntry& entry : manifest())
+        EXPECT_TRUE(names.count(entry.set.name));
+    EXPECT_TRUE(names.count("refine:SCENE:N"));
+}
+
+TEST(Catalog, ListsWhetherAFileIsThere)
+{
+    const Folder folder;
+    const auto summary = [&] {
+        for (const SceneListing& line : list_scenes({folder.path(), 0, 0}))
+            if (line.name == "bunny")
+                return line.summary;
+        return std::string();
+    };
+    EXPECT_TRUE(contains(summary(), "not found: download by hand from "));
+    const std::string path = folder.file("bunny/bunny.obj", "");
+    EXPECT_TRUE(contains(summary(), "found: " + path));
+}
+
+TEST(DataSets, OfTableOneHaveStandInsOfTheSameCount)
+{
+    for (const char* name : {"bunny", "erato", "dragon", "buddha", "hairball"}) {
+        const DataSet* const set = find_data_set(name);
+        ASSERT_NE(set, nullptr);
+        const Scene scene = load_or_stand_in(*set, {});
+        EXPECT_EQ(scene.triangle_count(), set->triangles);
+        EXPECT_EQ(scene.stand_in_for, name);
+        EXPECT_EQ(scene.name, set->stand_in);
+    }
+    EXPECT_EQ(find_data_set("nothing"), nullptr);
+}
+
+TEST(DataSets, OfAnotherCountAreStoodInForAndRefusedByName)
+{
+    const Folder folder;
+    folder.file("bunny/bunny.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    const SceneLibrary library{folder.path(), 0, 0};
+    EXPECT_EQ(load_or_stand_in(*find_data_set("bunny"), library).stand_in_for, "bunny");
+    EXPECT_TRUE(contains(refusal("bunny", library),
+                         "Unavailable: data set 'bunny' has 144046 triangles, and "));
+    folder.file("bunny.obj", "v 0 0 0\n");  // the folder of its own comes first
+    EXPECT_TRUE(contains(refusal("bunny", library), "bunny/bunny.obj has 1"));
+    folder.file("bunny/bunny.obj", "v 0\n");  // damaged is not absent
+    EXPECT_THROW(load_or_stand_in(*find_data_set("bunny"), library), Unavailable);
+}
+
+TEST(DataSets, ThatAreNotThereSayWhereToGetThem)
+{
+    EXPECT_TRUE(
+        contains(refusal("erato"), "Unavailable: data set 'erato' is not in the data folder ''"));
+    EXPECT_TRUE(contains(refusal("erato"), "https://casual-effects.com/data/"));
+    EXPECT_THROW(load_or_stand_in(*find_data_set("unc_nbody"), {}), Unavailable);
+}
+
+TEST(Manifest, HasStandInsOnlyOfTheCountTheyStandFor)
+{
+    std::set<std::string> names;
+    for (const ManifestEntry& entry : manifest()) {
+        EXPECT_TRUE(names.insert(entry.set.name).second) << entry.set.name;
+        EXPECT_FALSE(entry.files.empty());
+        for (const std::string& stand_in : entry.stand_ins)
+            EXPECT_EQ(stand_in.substr(stand_in.rfind(':') + 1),
+                      std::to_string(entry.set.triangles));
+    }
+    EXPECT_THROW(parse_manifest("name\tother\n"), std::logic_error);
+}
+
+}  // namespace
+}  // namespace bvhbench

@@ -1,1 +1,219 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
 #include "helpers.h"
+
+namespace bvhbench {
+namespace {
+
+constexpr const char* ply_header =
+    "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+    "element face 2\nproperty list uchar int vertex_indices\n";
+constexpr const char* ply_values = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n";
+
+std::string ascii_ply(const std::string& values = ply_values)
+{
+    return std::string("ply\nformat ascii 1.0\n") + ply_header + "end_header\n" + values;
+}
+
+template <class T>
+void append(std::string& bytes, T value, bool swapped = false)
+{
+    char raw[sizeof value];
+    std::memcpy(raw, &value, sizeof value);
+    if (swapped)
+        std::reverse(std::begin(raw), std::end(raw));
+    bytes.append(raw, sizeof raw);
+}
+
+std::string binary_ply(bool big)
+{
+    std::string bytes = std::string("ply\nformat binary_") + (big ? "big" : "little") +
+                        "_endian 1.0\n" + ply_header + "end_header\n";
+    for (const float coordinate : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 1.f, 1.f, 0.f, 0.f, 1.f, 0.f})
+        append(bytes, coordinate, big);
+    for (const std::int32_t second : {1, 2}) {
+        append(bytes, std::uint8_t{3});
+        for (const std::int32_t corner : {0, second, second + 1})
+            append(bytes, corner, big);
+    }
+    return bytes;
+}
+
+std::string binary_stl()
+{
+    std::string bytes = "binary";
+    bytes.resize(80);
+    append(bytes, std::uint32_t{2});
+    for (const float third : {1.0f, 2.0f}) {
+        for (const float value : {0.f, 0.f, 1.f, 0.f, 0.f, 0.f, third, 0.f, 0.f, 0.f, 1.f, 0.f})
+            append(bytes, value);
+        append(bytes, std::uint16_t{0});
+    }
+    return bytes;
+}
+
+void expect_square(const Scene& scene)
+{
+    ASSERT_EQ(scene.triangle_count(), 2u);
+    ASSERT_EQ(scene.frames.size(), 1u);
+    ASSERT_EQ(scene.frames[0].size(), 4u);
+    EXPECT_EQ(scene.faces[0].c, 2u);
+    EXPECT_EQ(scene.faces[1].b, 2u);
+    EXPECT_EQ(scene.faces[1].c, 3u);
+    EXPECT_EQ(scene.frames[0][2].x, 1.0f);
+    EXPECT_EQ(scene.frames[0][3].x, 0.0f);
+}
+
+TEST(Files, OfEveryPlainFormatGiveTheSameSquare)
+{
+    const Folder folder;
+    expect_square(
+        load_scene(folder.file("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4"), {}));
+    expect_square(load_scene(folder.file("a.ply", ascii_ply()), {}));
+    expect_square(load_scene(folder.file("b.ply", binary_ply(false)), {}));
+    expect_square(load_scene(folder.file("c.PLY", binary_ply(true)), {}));
+    expect_square(load_scene(
+        folder.file("a.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0 # c\n\n0 1 0\n4 0 1 2 3 255 0 0\n"),
+        {}));
+}
+
+TEST(Files, OfStlHaveThreeVerticesATriangle)
+{
+    const Folder folder;
+    const Scene binary = load_scene(folder.file("a.stl", binary_stl()), {});
+    EXPECT_EQ(binary.triangle_count(), 2u);
+    EXPECT_EQ(binary.frames[0].size(), 6u);
+    EXPECT_EQ(binary.frames[0][4].x, 2.0f);
+    std::string titled = binary_stl();  // some programs write "solid" here too
+    titled.replace(0, 6, "solid ");
+    EXPECT_EQ(load_scene(folder.file("titled.stl", titled), {}).triangle_count(), 2u);
+    const std::string facet =
+        "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
+        "0\nendloop\nendfacet\n";
+    const Scene ascii =
+        load_scene(folder.file("b.stl", "solid one\n" + facet + "endsolid\nsolid two\n" + facet +
+                                            facet + "endsolid\n"),
+                   {});
+    EXPECT_EQ(ascii.triangle_count(), 3u);
+    ASSERT_EQ(ascii.objects.size(), 2u);
+    EXPECT_EQ(ascii.objects[1].name, "two");
+    EXPECT_EQ(ascii.objects[1].face_count, 2u);
+}
+
+TEST(Files, OfPlyHaveObjectsByObjectId)
+{
+    const Folder folder;
+    const std::string header = std::string("ply\nformat ascii 1.0\n") + ply_header +
+                               "property ushort object_id\nend_header\n";
+    const std::string points = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+    const Scene two =
+        load_scene(folder.file("two.ply", header + points + "3 0 1 2 4\n4 0 1 2 3 7\n"), {});
+    ASSERT_EQ(two.objects.size(), 2u);
+    EXPECT_EQ(two.objects[0].face_count, 1u);
+    EXPECT_EQ(two.objects[1].first_face, 1u);
+    EXPECT_EQ(two.objects[1].face_count, 2u);
+    EXPECT_TRUE(
+        contains(refusal(folder.file("back.ply", header + points + "3 0 1 2 4\n3 0 2 3 3\n")),
+                 "back.ply, face 1 of 2: object_id goes back from 4 to 3"));
+}
+
+TEST(Files, LoseNegativeZerosAndKeepEverythingElse)
+{
+    const Folder folder;
+    const Scene scene = load_scene(
+        folder.file("a.obj", "v -0 -0.0 1e-45\nv 1 0 0\nv 1 0 0\nf 1 2 3\nf 1 1 1\nf 1 2 3\n"), {});
+    EXPECT_FALSE(std::signbit(scene.frames[0][0].x));
+    EXPECT_EQ(scene.frames[0][0].z, 1e-45f);
+    EXPECT_EQ(scene.frames[0].size(), 3u);  // equal vertices stay apart
+    EXPECT_EQ(scene.triangle_count(), 3u);  // so do triangles without area and repeated ones
+}
+
+TEST(Files, PassOverLinesAndPoints)
+{
+    const Folder folder;
+    EXPECT_EQ(load_scene(folder.file("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nl 1 2\np 1\nf 1 2 3"), {})
+                  .triangle_count(),
+              1u);
+    EXPECT_TRUE(
+        contains(refusal(folder.file("b.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n")), "has no triangles"));
+}
+
+struct Bad {
+    const char* file;
+    std::string bytes;
+    const char* message;
+};
+
+class BadFile : public testing::TestWithParam<Bad> {};
+
+TEST_P(BadFile, IsRefusedInOneSentenceThatSaysWhat)
+{
+    const Folder folder;
+    const std::string message = refusal(folder.file(GetParam().file, GetParam().bytes));
+    EXPECT_TRUE(contains(message, "Unavailable: "));
+    EXPECT_TRUE(contains(message, GetParam().file));
+    EXPECT_TRUE(contains(message, GetParam().message));
+    EXPECT_EQ(message.find('\n'), message.npos);
+}
+
+const Bad bad_files[] = {
+    {"empty.obj", "", "has no triangles"},
+    {"zero.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 0 1 2\n", "line 4: a face names vertex 0"},
+    {"range.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 4\n", "0, with vertex 3 of 3"},
+    {"back.obj", "v 0 0 0\nf -1 -2 -3\n", "line 2: a face names vertex -2, and there are 1"},
+    {"two.obj", "v 0 0 0\nv 1 0 0\nf 1 2\n", "line 3: a face takes three corners, and there are 2"},
+    {"comma.obj", "v 0,5 0 0\n", "line 1: a vertex takes three numbers, and there is '0,5 0 0'"},
+    {"nan.obj", "v 0 0 0\nv 1 nan 0\nv 1 1 0\nf 1 2 3\n", "a vertex, 1, that is not finite"},
+    {"huge.obj", "v 1e39 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n", "a vertex, 0, that is not finite"},
+    {"wide.obj", std::string("\xff\xfev\0 \0", 6), "is UTF-16 text"},
+    {"none.ply", "", "does not end with end_header"},
+    {"text.ply", "a shopping list\nmilk\n", "begins with ply, and there is 'a shoppi'"},
+    {"faces.ply", ascii_ply("0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n"),
+     "face 1 of 2: the file ends too soon"},
+    {"index.ply", ascii_ply("0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 4\n"),
+     "face 1 of 2: it names vertex 4 of 4"},
+    {"minus.ply", ascii_ply("0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 -1\n"),
+     "face 1 of 2: it names vertex -1 of 4"},
+    {"more.ply", ascii_ply(std::string(ply_values) + "3 0 1 2\n"),
+     "bytes more than its header says"},
+    {"cut.ply", binary_ply(false).substr(0, 200), "ends too soon"},
+    {"many.ply",
+     "ply\nformat ascii 1.0\nelement vertex 9000000000000000000\nproperty float x\nproperty float "
+     "y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n",
+     "ends too soon: its header says 9000000000000000000"},
+    {"flat.ply",
+     "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nelement face "
+     "1\nproperty list uchar int vertex_indices\nend_header\n",
+     "has vertices without one z"},
+    {"type.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty half x\nend_header\n",
+     "line 4: not a type of PLY: 'half'"},
+    {"count.off", "OFF\n4 1000000 0\n",
+     "line 2: the header says 1000000 faces, and the file has 16 bytes"},
+    {"index.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n",
+     "line 6: a face names vertex 3 of 3"},
+    {"cut.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n", "line 4: the file ends at vertex 2 of 3"},
+    {"head.off", "3 1 0\n0 0 0\n", "begins with OFF, and there is '3'"},
+    {"cut.stl", binary_stl().substr(0, 150), "says 2 facets, which take 184 bytes, and has 150"},
+    {"open.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n", "ends inside a solid"},
+    {"short.stl", "solid a\nfacet\nvertex 0 0 0\nendfacet\nendsolid\n",
+     "line 4: a facet takes three vertices, and there are 1"},
+    {"notes.txt", "hello", "of a format that is not read, '.txt'"},
+};
+
+INSTANTIATE_TEST_SUITE_P(Each, BadFile, testing::ValuesIn(bad_files), [](const auto& bad) {
+    std::string name = bad.param.file;
+    std::replace(name.begin(), name.end(), '.', '_');
+    return name;
+});
+
+TEST(Files, ThatAreNotThereAreNamed)
+{
+    EXPECT_EQ(refusal("/nowhere/a.obj"), "Unavailable: there is no file /nowhere/a.obj");
+    EXPECT_EQ(refusal("/dev/null"), "Unavailable: /dev/null is not a file");
+}
+
+}  // namespace
+}  // namespace bvhbench

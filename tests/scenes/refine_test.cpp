@@ -1,1 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <map>
+
 #include "helpers.h"
+
+namespace bvhbench {
+namespace {
+
+double area(const Scene& scene, const SceneObject& object, std::size_t frame = 0)
+{
+    double sum = 0;
+    for (uint k = object.first_face; k < object.first_face + object.face_count; ++k) {
+        const auto& points = scene.frames[frame];
+        const Point a = points[scene.faces[k].a], b = points[scene.faces[k].b],
+                    c = points[scene.faces[k].c];
+        const double ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
+        const double vx = c.x - a.x, vy = c.y - a.y, vz = c.z - a.z;
+        sum += 0.5 * std::hypot(uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx);
+    }
+    return sum;
+}
+
+double longest_edge(const Scene& scene)
+{
+    double longest = 0;
+    for (const Face& face : scene.faces)
+        for (const auto& [a, b] :
+             {std::pair{face.a, face.b}, std::pair{face.b, face.c}, std::pair{face.c, face.a}}) {
+            const Point p = scene.frames[0][a], q = scene.frames[0][b];
+            longest = std::max<double>(longest, std::hypot(p.x - q.x, p.y - q.y, p.z - q.z));
+        }
+    return longest;
+}
+
+/// Sides of triangles without another triangle on the other side.
+std::size_t open_sides(const Scene& scene)
+{
+    std::map<std::pair<uint, uint>, int> count;
+    for (const Face& face : scene.faces)
+        for (const auto& [a, b] :
+             {std::pair{face.a, face.b}, std::pair{face.b, face.c}, std::pair{face.c, face.a}})
+            ++count[std::minmax(a, b)];
+    std::size_t open = 0;
+    for (const auto& [side, uses] : count)
+        open += uses == 1;
+    return open;
+}
+
+TEST(Refine, GivesExactlyTheTrianglesAskedFor)
+{
+    for (const std::string base : {"sphere:20", "torus:7", "soup:3", "grid:1"}) {
+        const uint least = load_scene(base, {}).triangle_count();
+        for (uint count = least; count < least + 100; ++count)
+            EXPECT_EQ(
+                load_scene("refine:" + base + ":" + std::to_string(count), {}).triangle_count(),
+                count);
+    }
+}
+
+TEST(Refine, KeepsTheSurface)
+{
+    const Scene base = load_scene("torus:500", {});
+    for (const uint count : {501u, 1000u, 7777u}) {
+        const Scene fine = load_scene("refine:torus:500:" + std::to_string(count), {});
+        EXPECT_NEAR(area(fine, fine.objects[0]), area(base, base.objects[0]), 1e-4);
+    }
+}
+
+TEST(Refine, CutsLongestEdgesFirst)
+{
+    const double before = longest_edge(load_scene("soup:100", {}));
+    EXPECT_LT(longest_edge(load_scene("refine:soup:100:3000", {})), before / 3);
+}
+
+TEST(Refine, LeavesAClosedSurfaceClosedOrOneVertexOnASide)
+{
+    for (const uint count : {102u, 1000u, 5000u})
+        EXPECT_EQ(open_sides(load_scene("refine:sphere:100:" + std::to_string(count), {})), 0u);
+    EXPECT_EQ(open_sides(load_scene("refine:sphere:100:1001", {})), 3u);  // a long side, two halves
+}
+
+TEST(Refine, CutsTrianglesOfTheSameCornersAlike)
+{
+    // Two tetrahedra, one on top of the other, over the same vertices: every edge has four triangles.
+    const Folder folder;
+    const std::string twice =
+        folder.file("twice.obj",
+                    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n"
+                    "f 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n");
+    const Scene fine = load_scene("refine:" + twice + ":1000", {});
+    EXPECT_EQ(open_sides(fine), 0u);
+}
+
+TEST(Refine, EndsOnTrianglesWithoutLength)
+{
+    const Folder folder;
+    const std::string point =
+        folder.file("point.obj", "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\nf 1 1 1\nf 1 2 1\n");
+    EXPECT_EQ(load_scene("refine:" + point + ":64", {}).triangle_count(), 64u);
+    const std::string needle = folder.file("needle.obj", "v 0 0 0\nv 3e38 0 0\nf 1 2 1\nf 1 2 2\n");
+    EXPECT_EQ(load_scene("refine:" + needle + ":64", {}).triangle_count(), 64u);
+}
+
+TEST(Refine, KeepsObjectsTogether)
+{
+    const Folder folder;
+    const std::string two = folder.file("two.obj",
+                                        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 0 0\nv 9 0 0\nv 5 4 0\n"
+                                        "o small\nf 1 2 3\no large\nf 4 5 6\n");
+    const Scene fine = load_scene("refine:" + two + ":100", {});
+    ASSERT_EQ(fine.objects.size(), 2u);
+    EXPECT_EQ(fine.objects[0].name, "small");
+    EXPECT_NEAR(area(fine, fine.objects[0]), 0.5, 1e-6);
+    EXPECT_NEAR(area(fine, fine.objects[1]), 8.0, 1e-6);
+    EXPECT_GT(fine.objects[1].face_count, fine.objects[0].face_count);
+}
+
+TEST(Refine, CutsAllFramesAlike)
+{
+    const Folder folder;
+    folder.file("fall/f1.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    folder.file("fall/f2.obj", "v 0 0 5\nv 2 0 5\nv 0 1 5\nf 1 2 3\n");
+    const Scene fine = load_scene("refine:" + (folder.path() / "fall").string() + ":50", {});
+    ASSERT_EQ(fine.frames.size(), 2u);
+    EXPECT_NEAR(area(fine, fine.objects[0], 0), 0.5, 1e-6);
+    EXPECT_NEAR(area(fine, fine.objects[0], 1), 1.0, 1e-6);
+}
+
+TEST(Refine, TakesNoTrianglesAway)
+{
+    EXPECT_TRUE(contains(refusal("refine:torus:100:99"),
+                         "BadUsage: 'torus:100' has 100 triangles already"));
+    EXPECT_TRUE(contains(refusal("refine:100"), "BadUsage: scene 'refine:100' is not of the form"));
+    EXPECT_TRUE(contains(refusal("refine:torus:0:99"), "BadUsage: scene 'torus:0' ends in '0'"));
+}
+
+}  // namespace
+}  // namespace bvhbench
