@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#include "harness/catalog.h"
+
+#include "baselines/baselines.h"
+#include "geometry/error.h"
+#include "oibvh/oibvh.h"
+
+namespace bvhbench {
+namespace {
+
+// To add a builder, add its line here. Nothing registers itself.
+constexpr BuilderEntry catalog[] = {
+    {"perfect", "perfect implicit tree, padded to a power of two leaves", make_perfect},
+    {"oibvh-single", "Oi-BVH in one launch, groups meet through global atomics", make_oibvh_single},
+    {"oibvh-multi", "Oi-BVH in several launches, groups meet between them", make_oibvh_multi},
+    {"oibvh-reference", "Oi-BVH on one core of the host, slowly: the oracle", make_oibvh_reference},
+};
+
+}  // namespace
+
+std::span<const BuilderEntry> builder_catalog() { return catalog; }
+
+const BuilderEntry& find_builder(std::string_view name)
+{
+    std::string known;
+    for (const BuilderEntry& entry : catalog) {
+        if (entry.name == name)
+            return entry;
+        known += (known.empty() ? "" : ", ") + std::string(entry.name);
+    }
+    throw BadUsage("no builder is called '" + std::string(name) + "'; there are: " + known);
+}
+
+std::unique_ptr<Builder> make_builder(const BuilderChoice& choice, Programs& programs)
+{
+    const BuilderEntry& entry = find_builder(choice.name);
+    if (entry.make == nullptr)
+        throw Unavailable(std::string(entry.absent));
+    return entry.make(programs, choice.options());
+}
+
+}  // namespace bvhbench

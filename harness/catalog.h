@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "builders/builder.h"
+
+namespace bvhbench {
+
+/// A line of `list builders`.
+struct BuilderEntry {
+    std::string_view name;         ///< the key on the command line, in result files and legends
+    std::string_view summary;      ///< one line
+    MakeBuilder make;              ///< nullptr when this binary was built without it
+    std::string_view absent = {};  ///< then: why, as in "built without Embree"
+};
+
+/// Every builder, in the order tables list them.
+std::span<const BuilderEntry> builder_catalog();
+
+/// By name. Throws BadUsage with the known names when there is none.
+const BuilderEntry& find_builder(std::string_view name);
+
+/// Which builder, set up how: what the command line and experiment files choose. Owns its words.
+struct BuilderChoice {
+    std::string name;
+    std::string order = "morton30";
+    unsigned group_size = 0;
+    bool sorted_leaves = false;
+
+    bool operator==(const BuilderChoice&) const = default;
+    BuildOptions options() const { return {order, group_size, sorted_leaves}; }
+};
+
+/// Throws BadUsage when no builder is called so, Unavailable when this binary was built without it.
+std::unique_ptr<Builder> make_builder(const BuilderChoice& choice, Programs& programs);
+
+}  // namespace bvhbench

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#include "harness/record.h"
+
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "geometry/hash.h"
+
+namespace bvhbench {
+namespace {
+
+using Json = nlohmann::ordered_json;  // keys in the order written, so files read well
+
+void put_if(Json& json, const char* key, const std::string& value)
+{
+    if (!value.empty())
+        json[key] = value;
+}
+
+Json json_of(const StageTime& time)
+{
+    if (time.launches == 0)
+        return {{"stage", time.stage}, {"wall_ns", time.wall_ns}};
+    return {{"stage", time.stage},
+            {"launches", time.launches},
+            {"busy_ns", time.busy_ns},
+            {"span_ns", time.span_ns},
+            {"moved_bytes", time.moved_bytes}};
+}
+
+Json json_of(const Sample& sample)
+{
+    Json stages = Json::array();
+    for (const StageTime& time : sample.stages)
+        stages.push_back(json_of(time));
+    return {{"order", sample.order}, {"stages", std::move(stages)}};
+}
+
+Json json_of(const SceneFacts& scene)
+{
+    Json json = {{"name", scene.name}};
+    if (scene.triangles > 0) {
+        json["triangles"] = scene.triangles;
+        json["vertices"] = scene.vertices;
+        json["objects"] = scene.objects;
+        json["frame"] = scene.frame;
+        put_if(json, "source", scene.source);
+        put_if(json, "stand_in_for", scene.stand_in_for);
+        json["content_hash"] = hex(scene.content_hash);
+    }
+    return json;
+}
+
+Json json_of(const BuilderChoice& builder)
+{
+    return {{"name", builder.name},
+            {"options",
+             {{"order", builder.order},
+              {"group_size", builder.group_size},
+              {"leaves", builder.sorted_leaves ? "sorted" : "mesh"}}}};
+}
+
+Json json_of(const Check& check)
+{
+    constexpr std::array verdicts = {"agrees", "differs", "not_checked"};
+    Json json = {{"verdict", verdicts[static_cast<std::size_t>(check.verdict)]}};
+    put_if(json, "against", check.against);
+    put_if(json, "detail", check.detail);
+    if (check.tree_hash)
+        json["tree_hash"] = hex(*check.tree_hash);
+    return json;
+}
+
+Json json_of(const DeviceFacts& device)
+{
+    return {{"name", device.name},
+            {"platform", device.platform},
+            {"driver", device.driver},
+            {"opencl", device.opencl},
+            {"opencl_c", device.opencl_c},
+            {"kind", device.kind},
+            {"compute_units", device.compute_units},
+            {"global_memory_bytes", device.global_memory_bytes},
+            {"max_allocation_bytes", device.max_allocation_bytes},
+            {"local_memory_bytes", device.local_memory_bytes},
+            {"max_group_size", device.max_group_size},
+            {"timer_resolution_ns", device.timer_resolution_ns},
+            {"correctly_rounded_division", device.correctly_rounded_division},
+            {"device_scope_acq_rel_atomics", device.device_scope_acq_rel_atomics}};
+}
+
+/// File names and logs may hold any bytes; a result file holds UTF-8 only.
+std::string dumped(const Json& json)
+{
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace
+
+std::string run_text(const RunFacts& run)
+{
+    Json json = {{"id", run.id}, {"started_at", run.started_at}};
+    put_if(json, "finished_at", run.finished_at);
+    json["command"] = run.command;
+    json["program"] = {{"version", run.version},   {"commit", run.commit},
+                       {"dirty", run.dirty},       {"build_type", run.build_type},
+                       {"compiler", run.compiler}, {"arch", run.arch},
+                       {"kernels", run.kernels}};
+    json["host"] = {{"name", run.host_name},
+                    {"cpu", run.host_cpu},
+                    {"threads", run.host_threads},
+                    {"os", run.host_os}};
+    json["device"] = json_of(run.device);
+    json["libraries"] = run.libraries;
+    if (std::isfinite(run.copy_rate_bytes_per_s) && run.copy_rate_bytes_per_s > 0) {
+        json["copy_rate_bytes_per_s"] = run.copy_rate_bytes_per_s;
+        json["copy_rate_buffer_bytes"] = run.copy_rate_buffer_bytes;
+    }
+    json["compile_ns"] = run.compile_ns;
+    return dumped(json);
+}
+
+std::string cell_text(const Cell& cell)
+{
+    constexpr std::array states = {"measured", "skipped", "failed"};
+    Json json = {{"experiment", cell.experiment},
+                 {"scene", json_of(cell.scene)},
+                 {"builder", json_of(cell.builder)},
+                 {"status", states[static_cast<std::size_t>(cell.status)]}};
+    if (cell.status != Cell::Status::measured) {
+        json["reason"] = cell.reason;
+        return dumped(json);
+    }
+    json["warm_up"] = cell.warm_up;
+    json["samples"] = Json::array();
+    for (const Sample& sample : cell.samples)
+        json["samples"].push_back(json_of(sample));
+    json["counters"] = Json::object();
+    for (const auto& [key, value] : cell.counters) {
+        if (std::isfinite(value) && value == std::floor(value) && std::fabs(value) < 0x1p53)
+            json["counters"][key] = static_cast<std::int64_t>(value);
+        else if (std::isfinite(value))
+            json["counters"][key] = value;
+    }
+    json["check"] = json_of(cell.check);
+    return dumped(json);
+}
+
+std::string document_text(const std::string& run, const std::vector<std::string>& cells)
+{
+    std::string text = "{\"format\": \"1.0\",\n\"run\": " + run + ",\n\"cells\": [";
+    for (std::size_t i = 0; i < cells.size(); ++i)
+        text += (i == 0 ? "\n" : ",\n") + cells[i];
+    return text + "\n]}\n";
+}
+
+}  // namespace bvhbench

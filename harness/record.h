@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+//
+// What a result file says, format 1. The schema is results/schema/result-1.schema.json; a test holds the
+// two together. record.cpp is the only writer, record_read.cpp the only reader in the program.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "device/queue.h"
+#include "harness/catalog.h"
+
+namespace bvhbench {
+
+/// One timed build.
+struct Sample {
+    int order = 0;  ///< position in the whole run, so that drift can be seen
+    std::vector<StageTime> stages;
+};
+
+/// Whether what was measured was also right. A cell that was not checked says so.
+struct Check {
+    enum class Verdict { agrees, differs, not_checked } verdict = Verdict::not_checked;
+    std::string against;
+    std::string detail;  ///< what differs, or why nothing was checked
+    std::optional<std::uint64_t> tree_hash;
+};
+
+/// Which triangles were built over.
+struct SceneFacts {
+    std::string name;
+    std::int64_t triangles = 0;  ///< the rest is known only if this is not 0
+    std::int64_t vertices = 0;
+    std::int64_t objects = 0;
+    std::int64_t frame = 0;
+    std::string source;
+    std::string stand_in_for;
+    std::uint64_t content_hash = 0;
+};
+
+/// Everything known about one builder on one scene.
+struct Cell {
+    enum class Status { measured, skipped, failed };
+
+    std::string experiment;
+    SceneFacts scene;
+    BuilderChoice builder;
+    Status status = Status::measured;
+    std::string reason;  ///< why it was skipped or failed
+    int warm_up = 0;     ///< samples taken first and thrown away
+    std::vector<Sample> samples;
+    std::map<std::string, double> counters;  ///< the unit ends the key: nodes_count, tree_bytes
+    Check check;
+};
+
+struct DeviceFacts {
+    std::string name, platform, driver, opencl, opencl_c;
+    std::string kind;  ///< cpu, gpu or other
+    std::int64_t compute_units = 0;
+    std::int64_t global_memory_bytes = 0;
+    std::int64_t max_allocation_bytes = 0;
+    std::int64_t local_memory_bytes = 0;
+    std::int64_t max_group_size = 0;
+    std::int64_t timer_resolution_ns = 0;
+    bool correctly_rounded_division = false;
+    bool device_scope_acq_rel_atomics = false;
+};
+
+/// The circumstances of a run.
+struct RunFacts {
+    std::string id, started_at, finished_at;
+    std::vector<std::string> command;
+    std::string version, commit, build_type, compiler, arch, kernels;
+    bool dirty = false;
+    std::string host_name, host_cpu, host_os;
+    int host_threads = 0;
+    DeviceFacts device;
+    std::map<std::string, std::string> libraries;  ///< name to version
+    double copy_rate_bytes_per_s = 0;              ///< 0: not measured
+    std::int64_t copy_rate_buffer_bytes = 0;
+    std::int64_t compile_ns = 0;
+};
+
+/// A whole result file.
+struct Document {
+    RunFacts run;
+    std::vector<Cell> cells;
+};
+
+/// JSON of a run and of a cell, each on one line. A number that is not finite is left out.
+std::string run_text(const RunFacts& run);
+std::string cell_text(const Cell& cell);
+
+/// The text of a file from its parts' texts: a cell a line, so that files can be compared.
+std::string document_text(const std::string& run, const std::vector<std::string>& cells);
+
+/// Read the text of a result file. Throws Unavailable, naming `origin`, when it is none of format 1.
+Document read_document(const std::string& text, const std::string& origin);
+
+}  // namespace bvhbench

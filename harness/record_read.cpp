@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+//
+// Reading result files back. Keys it does not know are left alone: a newer minor format may add some.
+#include <nlohmann/json.hpp>
+
+#include "geometry/error.h"
+#include "harness/record.h"
+
+namespace bvhbench {
+namespace {
+
+using Json = nlohmann::json;
+
+template <class T>
+T get(const Json& json, const char* key)
+{
+    return json.value(key, T{});
+}
+
+std::uint64_t hash_of(const std::string& text)
+{
+    return text.empty() ? 0 : std::stoull(text, nullptr, 16);
+}
+
+std::size_t index_of(const std::string& word, std::initializer_list<const char*> words)
+{
+    std::size_t index = 0;
+    for (const char* known : words) {
+        if (word == known)
+            return index;
+        ++index;
+    }
+    throw std::invalid_argument("'" + word + "' is not a word it may hold");
+}
+
+StageTime stage_of(const Json& json)
+{
+    return {.stage = json.at("stage").get<std::string>(),
+            .busy_ns = get<std::int64_t>(json, "busy_ns"),
+            .span_ns = get<std::int64_t>(json, "span_ns"),
+            .wall_ns = get<std::int64_t>(json, "wall_ns"),
+            .launches = get<int>(json, "launches"),
+            .moved_bytes = get<std::int64_t>(json, "moved_bytes")};
+}
+
+Sample sample_of(const Json& json)
+{
+    Sample sample{json.at("order").get<int>(), {}};
+    for (const Json& stage : json.at("stages"))
+        sample.stages.push_back(stage_of(stage));
+    return sample;
+}
+
+SceneFacts scene_of(const Json& json)
+{
+    return {.name = json.at("name").get<std::string>(),
+            .triangles = get<std::int64_t>(json, "triangles"),
+            .vertices = get<std::int64_t>(json, "vertices"),
+            .objects = get<std::int64_t>(json, "objects"),
+            .frame = get<std::int64_t>(json, "frame"),
+            .source = get<std::string>(json, "source"),
+            .stand_in_for = get<std::string>(json, "stand_in_for"),
+            .content_hash = hash_of(get<std::string>(json, "content_hash"))};
+}
+
+BuilderChoice builder_of(const Json& json)
+{
+    const Json options = json.value("options", Json::object());
+    return {.name = json.at("name").get<std::string>(),
+            .order = options.value("order", "morton30"),
+            .group_size = get<unsigned>(options, "group_size"),
+            .sorted_leaves = options.value("leaves", "mesh") == "sorted"};
+}
+
+Check check_of(const Json& json)
+{
+    Check check;
+    check.verdict = static_cast<Check::Verdict>(
+        index_of(json.at("verdict").get<std::string>(), {"agrees", "differs", "not_checked"}));
+    check.against = get<std::string>(json, "against");
+    check.detail = get<std::string>(json, "detail");
+    if (json.contains("tree_hash"))
+        check.tree_hash = hash_of(json["tree_hash"].get<std::string>());
+    return check;
+}
+
+Cell cell_of(const Json& json)
+{
+    Cell cell;
+    cell.experiment = json.at("experiment").get<std::string>();
+    cell.scene = scene_of(json.at("scene"));
+    cell.builder = builder_of(json.at("builder"));
+    cell.status = static_cast<Cell::Status>(
+        index_of(json.at("status").get<std::string>(), {"measured", "skipped", "failed"}));
+    cell.reason = get<std::string>(json, "reason");
+    cell.warm_up = get<int>(json, "warm_up");
+    for (const Json& sample : json.value("samples", Json::array()))
+        cell.samples.push_back(sample_of(sample));
+    cell.counters = json.value("counters", std::map<std::string, double>{});
+    if (json.contains("check"))
+        cell.check = check_of(json["check"]);
+    return cell;
+}
+
+DeviceFacts device_of(const Json& json)
+{
+    return {.name = json.at("name").get<std::string>(),
+            .platform = get<std::string>(json, "platform"),
+            .driver = get<std::string>(json, "driver"),
+            .opencl = get<std::string>(json, "opencl"),
+            .opencl_c = get<std::string>(json, "opencl_c"),
+            .kind = get<std::string>(json, "kind"),
+            .compute_units = get<std::int64_t>(json, "compute_units"),
+            .global_memory_bytes = get<std::int64_t>(json, "global_memory_bytes"),
+            .max_allocation_bytes = get<std::int64_t>(json, "max_allocation_bytes"),
+            .local_memory_bytes = get<std::int64_t>(json, "local_memory_bytes"),
+            .max_group_size = get<std::int64_t>(json, "max_group_size"),
+            .timer_resolution_ns = get<std::int64_t>(json, "timer_resolution_ns"),
+            .correctly_rounded_division = get<bool>(json, "correctly_rounded_division"),
+            .device_scope_acq_rel_atomics = get<bool>(json, "device_scope_acq_rel_atomics")};
+}
+
+RunFacts run_of(const Json& json)
+{
+    RunFacts run;
+    run.id = json.at("id").get<std::string>();
+    run.started_at = json.at("started_at").get<std::string>();
+    run.finished_at = get<std::string>(json, "finished_at");
+    run.command = get<std::vector<std::string>>(json, "command");
+    const Json& program = json.at("program");
+    run.version = get<std::string>(program, "version");
+    run.commit = get<std::string>(program, "commit");
+    run.dirty = get<bool>(program, "dirty");
+    run.build_type = get<std::string>(program, "build_type");
+    run.compiler = get<std::string>(program, "compiler");
+    run.arch = get<std::string>(program, "arch");
+    run.kernels = get<std::string>(program, "kernels");
+    const Json& host = json.at("host");
+    run.host_name = get<std::string>(host, "name");
+    run.host_cpu = get<std::string>(host, "cpu");
+    run.host_os = get<std::string>(host, "os");
+    run.host_threads = get<int>(host, "threads");
+    run.device = device_of(json.at("device"));
+    run.libraries = get<std::map<std::string, std::string>>(json, "libraries");
+    run.copy_rate_bytes_per_s = get<double>(json, "copy_rate_bytes_per_s");
+    run.copy_rate_buffer_bytes = get<std::int64_t>(json, "copy_rate_buffer_bytes");
+    run.compile_ns = get<std::int64_t>(json, "compile_ns");
+    return run;
+}
+
+}  // namespace
+
+Document read_document(const std::string& text, const std::string& origin)
+{
+    try {
+        const Json json = Json::parse(text);
+        const std::string format = json.at("format").get<std::string>();
+        if (!format.starts_with("1."))
+            throw Unavailable(origin + " has format " + format + "; this program reads 1.x");
+        Document document{run_of(json.at("run")), {}};
+        for (const Json& cell : json.at("cells"))
+            document.cells.push_back(cell_of(cell));
+        return document;
+    } catch (const Json::exception& error) {
+        throw Unavailable(origin + " is no result file: " + error.what());
+    } catch (const std::logic_error& error) {  // a number or word that is none
+        throw Unavailable(origin + " is no result file: " + error.what());
+    }
+}
+
+}  // namespace bvhbench
