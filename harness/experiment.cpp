@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: MIT
+#include "harness/experiment.h"
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "geometry/error.h"
+#include "harness/scene_range.h"
+
+namespace bvhbench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Words = std::initializer_list<std::string_view>;
+
+// To add an experiment, add its file and its line here, and the file in CMakeLists.txt.
+constexpr std::string_view names[] = {"table1", "fig8", "equality", "smoke"};
+
+constexpr std::int64_t most_sizes = 1 << 24;
+
+std::string joined(std::span<const std::string_view> words)
+{
+    std::string text;
+    for (const std::string_view word : words)
+        text += (text.empty() ? "" : ", ") + std::string(word);
+    return text;
+}
+
+void refuse_unknown_keys(const Json& json, Words known, const std::string& where)
+{
+    if (!json.is_object())
+        throw BadUsage(where + " must be an object");
+    for (const auto& [key, value] : json.items())
+        if (std::find(known.begin(), known.end(), key) == known.end())
+            throw BadUsage("'" + key + "' is no key of " + where +
+                           "; there are: " + joined({known.begin(), known.size()}));
+}
+
+std::string text_at(const Json& json, const char* key)
+{
+    const Json& value = json.at(key);
+    if (!value.is_string())
+        throw BadUsage("'" + std::string(key) + "' must be text");
+    return value.get<std::string>();
+}
+
+std::int64_t whole_number(const Json& value, const std::string& what, std::int64_t least,
+                          std::int64_t most)
+{
+    if (!value.is_number_integer() || value.get<std::int64_t>() < least ||
+        value.get<std::int64_t>() > most)
+        throw BadUsage(what + " must be a whole number from " + std::to_string(least) + " to " +
+                       std::to_string(most) + ", not " + value.dump());
+    return value.get<std::int64_t>();
+}
+
+BuilderChoice builder_of(const Json& json)
+{
+    BuilderChoice choice;
+    if (json.is_string()) {
+        choice.name = json.get<std::string>();
+    } else {
+        refuse_unknown_keys(json, {"name", "order", "group_size", "leaves"}, "a builder");
+        choice.name = text_at(json, "name");
+        if (json.contains("order"))
+            choice.order = text_at(json, "order");
+        if (json.contains("group_size"))
+            choice.group_size =
+                static_cast<unsigned>(whole_number(json["group_size"], "group_size", 0, 1 << 16));
+        if (json.contains("leaves")) {
+            const std::string leaves = text_at(json, "leaves");
+            if (leaves != "mesh" && leaves != "sorted")
+                throw BadUsage("'leaves' is mesh or sorted, not '" + leaves + "'");
+            choice.sorted_leaves = leaves == "sorted";
+        }
+    }
+    find_builder(choice.name);
+    return choice;
+}
+
+SizeRange range_of(const Json& json, const std::string& key)
+{
+    SizeRange range;
+    if (json.is_array()) {
+        for (const Json& size : json)
+            range.listed.push_back(whole_number(size, key, 1, std::int64_t{1} << 31));
+        return range;
+    }
+    refuse_unknown_keys(
+        json, {"from", "to", "powers_of_two_from", "powers_of_two_to", "around_powers_of_two_to"},
+        "the sizes '" + key + "'");
+    const auto read = [&](const char* name, std::int64_t& value, std::int64_t most) {
+        if (json.contains(name))
+            value = whole_number(json[name], name, 1, most);
+    };
+    read("from", range.from, most_sizes);
+    read("to", range.to, most_sizes);
+    read("powers_of_two_from", range.powers_of_two_from, std::int64_t{1} << 31);
+    read("powers_of_two_to", range.powers_of_two_to, std::int64_t{1} << 31);
+    read("around_powers_of_two_to", range.around_powers_of_two_to, std::int64_t{1} << 30);
+    return range;
+}
+
+std::vector<std::string> scenes_of(const Json& json)
+{
+    if (json.is_string())
+        return {json.get<std::string>()};
+    if (!json.is_object() || json.size() != 2 || !json.contains("scene"))
+        throw BadUsage("a scene is text, or an object of 'scene' and the sizes that it names");
+    for (const auto& [key, sizes] : json.items())
+        if (key != "scene")
+            return scenes_in(text_at(json, "scene"), key, range_of(sizes, key));
+    return {};
+}
+
+void read_list(const Json& json, const char* key, const auto& add)
+{
+    if (!json.at(key).is_array() || json.at(key).empty())
+        throw BadUsage("'" + std::string(key) + "' must be a list of at least one");
+    for (const Json& item : json.at(key))
+        add(item);
+}
+
+/// The keys that `quick` may replace.
+void read_size(const Json& json, Experiment& experiment)
+{
+    if (json.contains("scenes")) {
+        experiment.scenes.clear();
+        read_list(json, "scenes", [&](const Json& item) {
+            for (std::string& scene : scenes_of(item))
+                experiment.scenes.push_back(std::move(scene));
+        });
+    }
+    if (json.contains("builders")) {
+        experiment.builders.clear();
+        read_list(json, "builders",
+                  [&](const Json& item) { experiment.builders.push_back(builder_of(item)); });
+    }
+    if (json.contains("samples"))
+        experiment.samples = static_cast<int>(whole_number(json["samples"], "samples", 1, 1000000));
+    if (json.contains("warm_up"))
+        experiment.warm_up = static_cast<int>(whole_number(json["warm_up"], "warm_up", 0, 1000000));
+}
+
+Start start_of(const Json& stages)
+{
+    constexpr std::string_view known[] = {"bounds", "codes", "sort", "gather", "hierarchy"};
+    if (!stages.is_array() || stages.empty())
+        throw BadUsage("'stages' must be a list of at least one");
+    for (const Json& stage : stages)
+        if (!stage.is_string() || std::find(std::begin(known), std::end(known),
+                                            stage.get<std::string>()) == std::end(known))
+            throw BadUsage(stage.dump() + " is no stage; there are: " + joined(known));
+    const bool only_hierarchy = stages.size() == 1 && stages[0] == "hierarchy";
+    return only_hierarchy ? Start::from_sorted_leaves : Start::from_triangles;
+}
+
+/// The name becomes a file's name.
+void check_name(const std::string& name)
+{
+    const auto is_plain = [](unsigned char c) {
+        return std::isalnum(c) != 0 || c == '-' || c == '_';
+    };
+    if (name.empty() || !std::all_of(name.begin(), name.end(), is_plain))
+        throw BadUsage("'experiment' must be letters, digits, - and _, not '" + name + "'");
+}
+
+Experiment experiment_of(const Json& json, bool quick)
+{
+    refuse_unknown_keys(json,
+                        {"experiment", "question", "paper", "scenes", "builders", "stages",
+                         "samples", "warm_up", "quick"},
+                        "an experiment");
+    for (const char* key : {"experiment", "scenes", "builders"})
+        if (!json.contains(key))
+            throw BadUsage("an experiment must have the key '" + std::string(key) + "'");
+    Experiment experiment;
+    experiment.name = text_at(json, "experiment");
+    check_name(experiment.name);
+    experiment.question = json.contains("question") ? text_at(json, "question") : "";
+    experiment.paper = json.contains("paper") ? text_at(json, "paper") : "";
+    read_size(json, experiment);
+    if (json.contains("stages"))
+        experiment.start = start_of(json["stages"]);
+    if (json.contains("quick")) {
+        refuse_unknown_keys(json["quick"], {"scenes", "builders", "samples", "warm_up"}, "'quick'");
+        Experiment quicker = experiment;
+        read_size(json["quick"], quicker);
+        if (quick)
+            return quicker;
+    }
+    return experiment;
+}
+
+}  // namespace
+
+std::span<const std::string_view> experiment_names() { return names; }
+
+Experiment parse_experiment(std::string_view text, const std::string& origin, bool quick)
+{
+    try {
+        return experiment_of(Json::parse(text), quick);
+    } catch (const Json::exception& error) {
+        throw BadUsage(origin + ": " + error.what());
+    } catch (const BadUsage& error) {
+        throw BadUsage(origin + ": " + error.what());
+    }
+}
+
+Experiment find_experiment(const std::string& name_or_path, bool quick)
+{
+    if (const auto text = embedded_experiment("harness/experiments/" + name_or_path + ".json"))
+        return parse_experiment(*text, name_or_path, quick);
+    if (!name_or_path.ends_with(".json"))
+        throw BadUsage("no experiment is called '" + name_or_path +
+                       "'; there are: " + joined(names) + ", or the path of a .json file");
+    std::ifstream file(name_or_path, std::ios::binary);
+    const std::string text(std::istreambuf_iterator<char>(file), {});
+    if (!file.is_open() || file.bad())
+        throw Unavailable("the experiment file '" + name_or_path + "' cannot be read");
+    return parse_experiment(text, name_or_path, quick);
+}
+
+}  // namespace bvhbench
