@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+#include "harness/options.h"
+
+#include <CLI/CLI.hpp>
+#include <sstream>
+
+#include "geometry/error.h"
+#include "harness/build_info.h"
+
+namespace bvhbench {
+namespace {
+
+constexpr int most_samples = 1000000;
+
+/// Accepts only `known` words; the answer to another one lists them.
+CLI::Validator one_of(std::vector<std::string> known)
+{
+    const auto check = [known = std::move(known)](const std::string& word) {
+        std::string there;
+        for (const std::string& each : known) {
+            if (each == word)
+                return std::string();
+            there += (there.empty() ? "" : ", ") + each;
+        }
+        return "there is no '" + word + "'; there are: " + there;
+    };
+    return {check, "", "one of"};
+}
+
+void add_list(CLI::App& app, ListCommand& list)
+{
+    CLI::App* command = app.add_subcommand("list", "What there is, a line each");
+    command->add_option("WHAT", list.what, "builders, orders, scenes, devices or experiments")
+        ->required()
+        ->check(one_of({"builders", "orders", "scenes", "devices", "experiments"}));
+}
+
+void add_build(CLI::App& app, BuildCommand& build, std::string& leaves)
+{
+    CLI::App* command = app.add_subcommand("build", "Build one tree, check it and time its stages");
+    command->add_option("--builder", build.builder.name, "a name of `list builders`")->required();
+    command->add_option("--scene", build.scene, "a scene, data set or mesh file")->required();
+    command->add_option("--order", build.builder.order, "a name of `list orders`")
+        ->capture_default_str();
+    command->add_option("--group-size", build.builder.group_size,
+                        "work-items in a group, a power of two; 0: the builder's choice");
+    command->add_option("--leaves", leaves, "mesh or sorted: where leaf boxes are kept")
+        ->check(one_of({"mesh", "sorted"}));
+    command->add_option("--samples", build.samples, "timed builds")
+        ->capture_default_str()
+        ->check(CLI::Range(1, most_samples));
+    command->add_option("--json", build.json, "write the result file");
+    command->add_option("--dump", build.dump, "write the tree, spelled out, as JSON");
+}
+
+void add_run(CLI::App& app, RunCommand& run)
+{
+    CLI::App* command = app.add_subcommand("run", "Run an experiment and write its result file");
+    command
+        ->add_option("EXPERIMENT", run.experiment, "a name of `list experiments`, or a .json file")
+        ->required();
+    command->add_option("--out", run.out, "the result file; default: <experiment>.json");
+    command->add_option("--filter", run.filter, "only cells whose scene/builder this matches");
+    command->add_option("--samples", run.samples, "timed builds a cell")
+        ->check(CLI::Range(1, most_samples));
+    command->add_flag("--quick", run.quick, "fewer scenes and samples");
+}
+
+void add_reproduce(CLI::App& app, ReproduceCommand& reproduce)
+{
+    CLI::App* command =
+        app.add_subcommand("reproduce", "Measure, print and draw what the paper shows");
+    command->add_option("WHAT", reproduce.what, "table1 or fig8")
+        ->required()
+        ->check(one_of({"table1", "fig8"}));
+    command->add_option("--out", reproduce.out, "folder for the result file and figures")
+        ->capture_default_str();
+    command->add_flag("--quick", reproduce.quick, "fewer scenes and samples");
+}
+
+void add_check(CLI::App& app, CheckCommand& check)
+{
+    CLI::App* command =
+        app.add_subcommand("check", "Hold builders to every promise, without timing");
+    command->add_option("--builder", check.builder, "only this one");
+    command->add_option("--scene", check.scene, "over this instead of the hard inputs");
+}
+
+void add_show(CLI::App& app, ShowCommand& show)
+{
+    CLI::App* command = app.add_subcommand("show", "Print a result file as tables");
+    command->add_option("FILE", show.file, "a result file")->required();
+}
+
+void add_common(CLI::App& app, CommonOptions& common)
+{
+    app.add_option("--device", common.device, "words of its name, or its index in `list devices`");
+    app.add_option("--kernels", common.kernels, "a source tree to read kernels from");
+    app.add_option("--data", common.data, "the folder of data sets; default: BVHBENCH_DATA");
+    app.add_flag("--verbose", common.verbose, "say on stderr what is being used");
+    app.set_version_flag("--version", std::string("bvhbench ") + build_info.version);
+    app.require_subcommand(0, 1);
+    app.fallthrough();  // common options may stand behind the command's own
+}
+
+void check_group_size(unsigned size)
+{
+    if ((size & (size - 1)) != 0)
+        throw BadUsage("--group-size must be a power of two, not " + std::to_string(size));
+}
+
+}  // namespace
+
+Options parse_options(int argc, const char* const* argv)
+{
+    CLI::App app("Compare builders of bounding volume hierarchies for collision detection.",
+                 "bvhbench");
+    Options options{{}, {}, {argv, argv + argc}};
+    ListCommand list;
+    BuildCommand build;
+    RunCommand run;
+    ReproduceCommand reproduce;
+    CheckCommand check;
+    ShowCommand show;
+    std::string leaves = "mesh";
+    add_common(app, options.common);
+    add_list(app, list);
+    add_build(app, build, leaves);
+    add_run(app, run);
+    add_reproduce(app, reproduce);
+    add_check(app, check);
+    add_show(app, show);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        std::ostringstream out;
+        if (app.exit(error, out, out) != 0)
+            throw BadUsage(std::string(error.what()) + "; `bvhbench --help` lists what there is");
+        options.command = PrintCommand{out.str()};
+        return options;
+    }
+    if (app.get_subcommands().empty())
+        throw BadUsage(
+            "name a command: list, build, run, reproduce, check or show; `bvhbench --help` "
+            "says what they do");
+    check_group_size(build.builder.group_size);
+    build.builder.sorted_leaves = leaves == "sorted";
+    const std::string chosen = app.get_subcommands().front()->get_name();
+    if (chosen == "list")
+        options.command = list;
+    else if (chosen == "build")
+        options.command = build;
+    else if (chosen == "run")
+        options.command = run;
+    else if (chosen == "reproduce")
+        options.command = reproduce;
+    else if (chosen == "check")
+        options.command = check;
+    else
+        options.command = show;
+    return options;
+}
+
+}  // namespace bvhbench

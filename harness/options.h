@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+//
+// The command line, understood: what main hands on.
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "harness/catalog.h"
+
+namespace bvhbench {
+
+struct CommonOptions {
+    std::string device;   ///< words or an index; empty: the first CPU, else the first device
+    std::string kernels;  ///< a source tree to read kernels from; empty: those in the program
+    std::string data;     ///< the folder of data sets; empty: BVHBENCH_DATA
+    bool verbose = false;
+};
+
+/// --help and --version: nothing to do but print.
+struct PrintCommand {
+    std::string text;
+};
+struct ListCommand {
+    std::string what;  ///< builders, orders, scenes, devices or experiments
+};
+struct BuildCommand {
+    BuilderChoice builder;
+    std::string scene;
+    int samples = 20;
+    std::string json;  ///< result file to write; may be empty
+    std::string dump;  ///< file for the spelled-out tree; may be empty
+};
+struct RunCommand {
+    std::string experiment;  ///< a name or a path
+    std::string out;         ///< result file; empty: <experiment>.json
+    std::string filter;      ///< regular expression on "scene/builder"
+    int samples = 0;         ///< 0: as the experiment says
+    bool quick = false;
+};
+struct ReproduceCommand {
+    std::string what;  ///< table1 or fig8
+    std::string out = "out";
+    bool quick = false;
+};
+struct CheckCommand {
+    std::string builder;  ///< empty: all
+    std::string scene;    ///< empty: the hard inputs
+};
+struct ShowCommand {
+    std::string file;
+};
+
+using Command = std::variant<PrintCommand, ListCommand, BuildCommand, RunCommand, ReproduceCommand,
+                             CheckCommand, ShowCommand>;
+
+struct Options {
+    CommonOptions common;
+    Command command;
+    std::vector<std::string> words;  ///< argv, for the result file
+};
+
+/// Throws BadUsage, in one sentence, for anything that is not understood.
+Options parse_options(int argc, const char* const* argv);
+
+}  // namespace bvhbench

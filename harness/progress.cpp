@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#include "harness/progress.h"
+
+#include <unistd.h>
+
+#include <iostream>
+
+namespace bvhbench {
+namespace {
+
+constexpr const char* clear_line = "\r\033[K";
+
+}  // namespace
+
+Progress::Progress(std::size_t total) : total_(total), is_shown_(isatty(STDERR_FILENO) == 1) {}
+
+Progress::~Progress()
+{
+    if (is_shown_)
+        std::cerr << clear_line << std::flush;
+}
+
+void Progress::step(const std::string& what)
+{
+    ++done_;
+    note(what);
+}
+
+void Progress::note(const std::string& what) const
+{
+    if (is_shown_)
+        std::cerr << clear_line << '[' << done_ << '/' << total_ << "] " << what << std::flush;
+}
+
+}  // namespace bvhbench

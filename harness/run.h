@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <regex>
+
+#include "harness/experiment.h"
+#include "harness/progress.h"
+#include "harness/result_file.h"
+#include "harness/session.h"
+
+namespace bvhbench {
+
+class Oracle;
+
+/// Which cells to run: those whose "scene/builder" it matches; all without one.
+using CellFilter = std::optional<std::regex>;
+
+/// Runs experiments: scene by scene, all builders of a scene prepared, checked, then sampled interleaved.
+///
+/// A builder or scene that fails is a cell that says so, and the run goes on.
+class Run {
+public:
+    /// Measures the device's copy rate, the yardstick of the run. Without `out` no file is written.
+    Run(Session& session, std::filesystem::path out, std::vector<std::string> command);
+
+    /// Throws BadUsage for a scene that cannot be, Interrupted; finished cells are then in the file.
+    void experiment(const Experiment& experiment, const CellFilter& filter = {});
+
+    /// End the run and write its file.
+    void finish() { results_.finish(session_.programs().compile_ns()); }
+
+    const Document& document() const { return results_.document(); }
+
+    /// Whether a cell gave a wrong tree.
+    bool has_differing_cell() const;
+
+private:
+    struct Prepared;
+
+    void scene(const Experiment& experiment, const std::string& name,
+               std::span<const BuilderChoice> builders, Progress& progress);
+    Prepared prepare(const Experiment& experiment, const Input& input, Cell cell, Oracle& oracle);
+    void sample(const Experiment& experiment, const Input& input, std::span<Prepared> cells);
+
+    Session& session_;
+    ResultFile results_;
+    int order_ = 0;
+};
+
+}  // namespace bvhbench

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <list>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "builders/builder.h"
+#include "harness/catalog.h"
+#include "harness/options.h"
+#include "scenes/catalog.h"
+
+namespace bvhbench {
+
+/// What a command works with: one device, its compiled programs, its queue, and builders made once.
+class Session {
+public:
+    /// Opens the device. Throws Unavailable if there is none.
+    explicit Session(const CommonOptions& common);
+
+    const Device& device() const { return device_; }
+    Programs& programs() { return programs_; }
+    Queue& queue() { return *queue_; }
+    const SceneLibrary& library() const { return library_; }
+
+    /// Forget what a failed build left in the queue.
+    void renew_queue();
+
+    /// The builder chosen so: made when first asked for, then reused through reserve(), so that a thousand
+    /// scenes cost one compilation. Throws as make_builder does.
+    Builder& builder(const BuilderChoice& choice);
+
+    /// One whole build, waited for. Throws what the builder throws.
+    std::vector<StageTime> build_once(Builder& builder, const Input& input, Start start,
+                                      const Tree** tree = nullptr);
+
+private:
+    Device device_;
+    Programs programs_;
+    std::unique_ptr<Queue> queue_;
+    SceneLibrary library_;
+    /// A list, so that choices stay where they are: builders may keep looking at their words.
+    std::list<std::pair<BuilderChoice, std::unique_ptr<Builder>>> builders_;
+};
+
+/// Where scenes are read from: --data, else BVHBENCH_DATA.
+SceneLibrary scene_library(const CommonOptions& common);
+
+/// The device --device asks for, with kernels from --kernels. Throws Unavailable.
+Device open_device_of(const CommonOptions& common);
+
+}  // namespace bvhbench
