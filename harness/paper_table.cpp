@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#include "harness/paper_table.h"
+
+#include <nlohmann/json.hpp>
+
+namespace bvhbench {
+
+const PaperRow* PaperTable::find(std::string_view scene, std::string_view builder) const
+{
+    for (const PaperRow& row : rows)
+        if (row.scene == scene && row.builder == builder)
+            return &row;
+    return nullptr;
+}
+
+PaperTable paper_table1()
+{
+    const auto json = nlohmann::json::parse(embedded_paper("results/paper/table1.json").value());
+    PaperTable table{json.at("device").get<std::string>(), {}};
+    for (const auto& row : json.at("rows"))
+        table.rows.push_back(
+            {row.at("scene").get<std::string>(), row.at("builder").get<std::string>(),
+             row.at("padding_percent").get<std::string>(), row.at("hierarchy_ms").get<double>()});
+    return table;
+}
+
+}  // namespace bvhbench

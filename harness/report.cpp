@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+#include "harness/report.h"
+
+#include "geometry/hash.h"
+#include "harness/table.h"
+
+namespace bvhbench {
+namespace {
+
+using enum Table::Align;
+
+bool has_times(const Cell& cell)
+{
+    return cell.status == Cell::Status::measured && cell.check.verdict != Check::Verdict::differs &&
+           !cell.samples.empty();
+}
+
+std::string rate_text(double bytes, double ns)
+{
+    return bytes > 0 && ns > 0 ? fixed(bytes / ns, 1) : "";  // bytes a nanosecond are GB/s
+}
+
+std::string counters_text(const Cell& cell)
+{
+    std::string text;
+    for (const auto& [key, value] : cell.counters)
+        text += (text.empty() ? "" : ", ") + key + ' ' + grouped(static_cast<std::int64_t>(value));
+    return text;
+}
+
+std::string stages_table(const Cell& cell, double copy_rate)
+{
+    Table table({{"stage", left},
+                 {"median"},
+                 {"p10"},
+                 {"p90"},
+                 {"launches"},
+                 {"bytes"},
+                 {"GB/s"},
+                 {"% of copy"}});
+    const auto row = [&](const std::string& name, const std::vector<double>& times, int launches,
+                         double bytes) {
+        const Spread spread = spread_of(times);
+        table.row({name, duration_text(spread.median), duration_text(spread.p10),
+                   duration_text(spread.p90), launches > 0 ? std::to_string(launches) : "host",
+                   bytes > 0 ? bytes_text(bytes) : "", rate_text(bytes, spread.median),
+                   copy_share_text(bytes, spread.median, copy_rate)});
+    };
+    for (const StageTime& stage : cell.samples.front().stages)
+        row(stage.stage, stage_times_ns(cell, stage.stage), stage.launches,
+            static_cast<double>(stage.moved_bytes));
+    if (cell.samples.front().stages.size() > 1) {
+        int launches = 0;
+        for (const StageTime& stage : cell.samples.front().stages)
+            launches += stage.launches;
+        row("all", whole_times_ns(cell), launches, moved_bytes(cell));
+    }
+    return table.text();
+}
+
+std::string verdict_line(const Cell& cell)
+{
+    std::string text = verdict_text(cell);
+    if (!cell.check.against.empty())
+        text += cell.check.verdict == Check::Verdict::agrees ? " with " + cell.check.against : "";
+    if (cell.check.tree_hash)
+        text += ", tree " + hex(*cell.check.tree_hash);
+    if (!cell.check.detail.empty())
+        text += ": " + cell.check.detail;
+    if (!cell.reason.empty())
+        text += ": " + cell.reason;
+    return text;
+}
+
+std::vector<std::string> line_of(const Cell& cell, double copy_rate)
+{
+    std::vector<std::string> line = {
+        cell.scene.name + (cell.scene.stand_in_for.empty() ? "" : " *"),
+        cell.scene.triangles > 0 ? grouped(cell.scene.triangles) : "", cell.builder.name};
+    if (!has_times(cell)) {
+        line.insert(line.end(), {verdict_text(cell), "", "", "", "", ""});
+        line.push_back(!cell.reason.empty() ? cell.reason : cell.check.detail);
+        return line;
+    }
+    const Spread spread = spread_of(whole_times_ns(cell));
+    const double rate =
+        spread.median > 0 ? static_cast<double>(cell.scene.triangles) * 1e3 / spread.median : 0;
+    line.insert(line.end(),
+                {duration_text(spread.median), duration_text(spread.p10), duration_text(spread.p90),
+                 rate > 0 ? fixed(rate, 1) : "", rate_text(moved_bytes(cell), spread.median),
+                 copy_share_text(moved_bytes(cell), spread.median, copy_rate), verdict_text(cell)});
+    return line;
+}
+
+}  // namespace
+
+std::vector<double> stage_times_ns(const Cell& cell, std::string_view stage)
+{
+    std::vector<double> times;
+    for (const Sample& sample : cell.samples)
+        for (const StageTime& time : sample.stages)
+            if (time.stage == stage)
+                times.push_back(static_cast<double>(time.elapsed_ns()));
+    return times;
+}
+
+std::vector<double> whole_times_ns(const Cell& cell)
+{
+    std::vector<double> times;
+    for (const Sample& sample : cell.samples) {
+        times.push_back(0);
+        for (const StageTime& time : sample.stages)
+            times.back() += static_cast<double>(time.elapsed_ns());
+    }
+    return times;
+}
+
+double moved_bytes(const Cell& cell)
+{
+    double bytes = 0;
+    if (!cell.samples.empty())
+        for (const StageTime& time : cell.samples.front().stages)
+            bytes += static_cast<double>(time.moved_bytes);
+    return bytes;
+}
+
+std::string copy_share_text(double bytes, double ns, double copy_rate_bytes_per_s)
+{
+    if (!(bytes > 0 && ns > 0 && copy_rate_bytes_per_s > 0))
+        return "";
+    return fixed(100 * (bytes / (ns * 1e-9)) / copy_rate_bytes_per_s, 1) + " %";
+}
+
+std::string verdict_text(const Cell& cell)
+{
+    if (cell.status != Cell::Status::measured)
+        return cell.status == Cell::Status::skipped ? "skipped" : "failed";
+    switch (cell.check.verdict) {
+        case Check::Verdict::agrees:
+            return "agrees";
+        case Check::Verdict::differs:
+            return "differs";
+        default:
+            return "not checked";
+    }
+}
+
+std::string cell_report(const Cell& cell, const RunFacts& run)
+{
+    std::string text = cell.builder.name + " on " + cell.scene.name;
+    if (cell.scene.triangles > 0)
+        text += ", " + grouped(cell.scene.triangles) + " triangles";
+    if (!cell.scene.stand_in_for.empty())
+        text += ", standing in for " + cell.scene.stand_in_for;
+    text += '\n';
+    if (has_times(cell))
+        text += stages_table(cell, run.copy_rate_bytes_per_s);
+    if (!cell.counters.empty())
+        text += "counters: " + counters_text(cell) + '\n';
+    return text + "verdict: " + verdict_line(cell) + '\n';
+}
+
+std::string cells_report(const Document& document, bool only_notable)
+{
+    Table table({{"scene", left},
+                 {"triangles"},
+                 {"builder", left},
+                 {"median"},
+                 {"p10"},
+                 {"p90"},
+                 {"Mtris/s"},
+                 {"GB/s"},
+                 {"% of copy"},
+                 {"verdict", left}});
+    std::size_t agreeing = 0;
+    std::size_t shown = 0;
+    bool has_stand_in = false;
+    for (const Cell& cell : document.cells) {
+        const bool agrees = verdict_text(cell) == "agrees";
+        agreeing += agrees ? 1 : 0;
+        if (only_notable && agrees)
+            continue;
+        ++shown;
+        has_stand_in = has_stand_in || !cell.scene.stand_in_for.empty();
+        table.row(line_of(cell, document.run.copy_rate_bytes_per_s));
+    }
+    return (shown > 0 ? table.text() : "") +
+           (has_stand_in ? "* a generated stand-in of the same size: the mesh itself is not there\n"
+                         : "") +
+           grouped(static_cast<std::int64_t>(document.cells.size())) + " cells, " +
+           grouped(static_cast<std::int64_t>(agreeing)) + " agree\n";
+}
+
+std::string run_report(const RunFacts& run)
+{
+    std::string text = "device: " + run.device.platform + '/' + run.device.name + ", driver " +
+                       run.device.driver + '\n';
+    text += "program: " + run.version + ", commit " + run.commit +
+            (run.dirty ? " with changes" : "") + ", " + run.build_type + '\n';
+    if (run.copy_rate_bytes_per_s > 0)
+        text += "copy rate: " + fixed(run.copy_rate_bytes_per_s * 1e-9, 1) +
+                " GB/s, read plus written\n";
+    return text;
+}
+
+}  // namespace bvhbench

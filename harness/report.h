@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+//
+// Results for the console. A time is printed only for a cell whose tree was right.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "harness/record.h"
+#include "harness/statistics.h"
+
+namespace bvhbench {
+
+/// "hierarchy" or all stages together of each sample, in nanoseconds.
+std::vector<double> stage_times_ns(const Cell& cell, std::string_view stage);
+std::vector<double> whole_times_ns(const Cell& cell);
+
+/// Bytes that a build's kernels must move at least; 0 for host stages.
+double moved_bytes(const Cell& cell);
+
+/// "8.1 %" of the copy rate that `bytes` in `ns` are; blank if one of them is not known.
+std::string copy_share_text(double bytes, double ns, double copy_rate_bytes_per_s);
+
+/// "agrees", "differs", "not checked", "skipped" or "failed".
+std::string verdict_text(const Cell& cell);
+
+/// One cell in full: its stages as a table, its counters and its verdict.
+std::string cell_report(const Cell& cell, const RunFacts& run);
+
+/// Every cell of a run in a line; with `only_notable`, those that agree are only counted.
+std::string cells_report(const Document& document, bool only_notable = false);
+
+/// Where and with what a run was made, in a few lines.
+std::string run_report(const RunFacts& run);
+
+}  // namespace bvhbench
