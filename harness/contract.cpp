@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "harness/contract.h"
+
+#include "builders/spell_out.h"
+#include "geometry/hash.h"
+
+namespace bvhbench {
+namespace {
+
+std::string text_of(const Footprint& footprint)
+{
+    return std::to_string(footprint.tree_bytes) + " + " + std::to_string(footprint.scratch_bytes) +
+           " bytes";
+}
+
+std::string broken_footprint(const Builder& builder, std::size_t triangles)
+{
+    const Footprint predicted = builder.footprint(triangles);
+    const Footprint reserved = builder.reserved();
+    if (predicted == reserved)
+        return {};
+    return "predicted " + text_of(predicted) + ", reserved " + text_of(reserved);
+}
+
+std::string other_tree(const Tree& tree, std::uint64_t expected, const char* which)
+{
+    const std::uint64_t hash = tree_hash(tree.spelled_out());
+    if (hash == expected)
+        return {};
+    return std::string(which) + " left the tree " + hex(hash) + ", the first " + hex(expected);
+}
+
+}  // namespace
+
+std::string broken_contract(Session& session, const BuilderChoice& choice, const Input& input,
+                            Oracle& oracle)
+{
+    Builder& builder = session.builder(choice);
+    builder.reserve(input.triangle_count());
+    const Tree* tree = nullptr;
+    session.build_once(builder, input, Start::from_triangles, &tree);
+    const Check check = check_tree(*tree, input, choice, oracle);
+    if (check.verdict != Check::Verdict::agrees)
+        return check.detail;
+    std::string wrong = broken_footprint(builder, input.triangle_count());
+    if (wrong.empty()) {
+        session.build_once(builder, input, Start::from_triangles, &tree);
+        wrong = other_tree(*tree, *check.tree_hash, "the second build");
+    }
+    if (wrong.empty()) {
+        session.build_once(builder, input, Start::from_sorted_leaves, &tree);
+        wrong = other_tree(*tree, *check.tree_hash, "the build from sorted leaves");
+    }
+    return wrong;
+}
+
+}  // namespace bvhbench

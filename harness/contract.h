@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "harness/check.h"
+#include "harness/session.h"
+
+namespace bvhbench {
+
+/// The first promise that a builder breaks over `input`, as a sentence; empty if it keeps all of them:
+///
+/// what it reserves is what it predicted; its tree is one (broken_promise) and is the reference's; a second
+/// build leaves the same tree; so does a build from sorted leaves.
+std::string broken_contract(Session& session, const BuilderChoice& choice, const Input& input,
+                            Oracle& oracle);
+
+}  // namespace bvhbench
