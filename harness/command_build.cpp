@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include <iostream>
+
+#include "builders/orders.h"
+#include "geometry/error.h"
+#include "harness/commands.h"
+#include "harness/dump.h"
+#include "harness/report.h"
+#include "harness/run.h"
+
+namespace bvhbench {
+namespace {
+
+/// Build once more and write the tree: measuring has its own copy of the scene, which is gone by now.
+void dump(Session& session, const BuildCommand& command)
+{
+    const Scene scene = load_scene(command.scene, session.library());
+    const Input input =
+        upload(session.device(), session.queue(), scene.frames.front(), scene.faces);
+    Builder& builder = session.builder(command.builder);
+    builder.reserve(input.triangle_count());
+    const Tree* tree = nullptr;
+    session.build_once(builder, input, Start::from_triangles, &tree);
+    write_atomically(command.dump, dump_text(tree->spelled_out()));
+}
+
+}  // namespace
+
+int build(const BuildCommand& command, const Options& options)
+{
+    // Wrong words are found before anything is opened.
+    find_builder(command.builder.name);
+    find_order(command.builder.order);
+
+    Experiment experiment;
+    experiment.name = "build";
+    experiment.scenes = {command.scene};
+    experiment.builders = {command.builder};
+    experiment.samples = command.samples;
+    experiment.may_stand_in = false;  // who names a mesh means that mesh
+
+    Session session(options.common);
+    Run run(session, command.json, options.words);
+    run.experiment(experiment);
+    run.finish();
+    const Cell& cell = run.document().cells.front();
+    if (cell.status != Cell::Status::measured)
+        throw Unavailable(cell.reason);
+    std::cout << run_report(run.document().run) << cell_report(cell, run.document().run);
+    if (!command.dump.empty())
+        dump(session, command);
+    return run.has_differing_cell() ? 1 : 0;
+}
+
+}  // namespace bvhbench

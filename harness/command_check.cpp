@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include <iostream>
+
+#include "geometry/error.h"
+#include "harness/commands.h"
+#include "harness/contract.h"
+#include "harness/failure.h"
+#include "harness/hard_inputs.h"
+#include "harness/interrupt.h"
+#include "harness/progress.h"
+#include "harness/run.h"
+#include "harness/table.h"
+
+namespace bvhbench {
+namespace {
+
+using enum Table::Align;
+
+std::vector<BuilderChoice> chosen_builders(const std::string& name)
+{
+    if (!name.empty())
+        find_builder(name);
+    std::vector<BuilderChoice> builders;
+    for (const BuilderEntry& entry : builder_catalog())
+        if ((name.empty() || name == entry.name) && entry.make != nullptr) {
+            builders.emplace_back();
+            builders.back().name = entry.name;
+        }
+    if (builders.empty())
+        throw Unavailable(std::string(find_builder(name).absent));
+    return builders;
+}
+
+/// What came of one builder over one kind of input.
+struct Tally {
+    std::size_t checked = 0;
+    std::size_t broken = 0;
+    std::string first;  ///< the first promise broken
+};
+
+class Checker {
+public:
+    Checker(Session& session, std::vector<BuilderChoice> builders)
+        : session_(session), builders_(std::move(builders))
+    {}
+
+    /// Hold every builder to its promises over one mesh; the tallies are in the builders' order.
+    void over(std::span<const Point> points, std::span<const Face> faces,
+              std::vector<Tally>& tallies)
+    {
+        const Input input = upload(session_.device(), session_.queue(), points, faces);
+        Oracle oracle(session_, input);
+        for (std::size_t i = 0; i < builders_.size(); ++i) {
+            throw_if_interrupted();
+            std::string wrong;
+            const std::string failure = reason_of_failure(
+                [&] { wrong = broken_contract(session_, builders_[i], input, oracle); });
+            if (!failure.empty())
+                session_.renew_queue();
+            count(tallies[i], failure.empty() ? wrong : failure, faces.size());
+        }
+    }
+
+    void report(const std::string& input, const std::vector<Tally>& tallies)
+    {
+        for (std::size_t i = 0; i < builders_.size(); ++i) {
+            const Tally& tally = tallies[i];
+            table_.row({builders_[i].name, input, std::to_string(tally.checked),
+                        tally.broken == 0 ? "keeps" : std::to_string(tally.broken) + " broken",
+                        tally.first});
+            broken_ += tally.broken;
+            checked_ += tally.checked;
+        }
+    }
+
+    std::vector<Tally> none() const { return std::vector<Tally>(builders_.size()); }
+
+    int verdict() const
+    {
+        std::cout << table_.text() << checked_ << " checks, "
+                  << (broken_ == 0 ? "every promise is kept\n"
+                                   : std::to_string(broken_) + " with a broken promise\n");
+        return broken_ == 0 ? 0 : 1;
+    }
+
+private:
+    static void count(Tally& tally, const std::string& wrong, std::size_t triangles)
+    {
+        ++tally.checked;
+        if (wrong.empty())
+            return;
+        ++tally.broken;
+        if (tally.first.empty())
+            tally.first = std::to_string(triangles) + " triangles: " + wrong;
+    }
+
+    Session& session_;
+    std::vector<BuilderChoice> builders_;
+    Table table_{{{"builder", left}, {"input", left}, {"checks"}, {"promises", left}, {"", left}}};
+    std::size_t checked_ = 0;
+    std::size_t broken_ = 0;
+};
+
+void check_hard_inputs(Checker& checker)
+{
+    Progress progress(hard_inputs().size() * telling_sizes().size());
+    for (const HardInput& input : hard_inputs()) {
+        std::vector<Tally> tallies = checker.none();
+        for (const std::size_t size : telling_sizes()) {
+            progress.step(std::string(input.name) + ", " + std::to_string(size) + " triangles");
+            const Mesh mesh = input.make(size);
+            checker.over(mesh.points, mesh.faces, tallies);
+        }
+        checker.report(std::string(input.name), tallies);
+    }
+}
+
+}  // namespace
+
+int check(const CheckCommand& command, const Options& options)
+{
+    std::vector<BuilderChoice> builders = chosen_builders(command.builder);
+    Session session(options.common);
+    Checker checker(session, std::move(builders));
+    if (command.scene.empty()) {
+        check_hard_inputs(checker);
+    } else {
+        const Scene scene = load_scene(command.scene, session.library());
+        std::vector<Tally> tallies = checker.none();
+        for (const std::vector<Point>& points : scene.frames)
+            checker.over(points, scene.faces, tallies);
+        checker.report(scene.name, tallies);
+    }
+    return checker.verdict();
+}
+
+}  // namespace bvhbench

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include <iostream>
+
+#include "builders/orders.h"
+#include "geometry/error.h"
+#include "harness/commands.h"
+#include "harness/experiment.h"
+#include "harness/pocl_cache.h"
+#include "harness/provenance.h"
+#include "harness/session.h"
+#include "harness/table.h"
+
+namespace bvhbench {
+namespace {
+
+using enum Table::Align;
+
+std::string builders()
+{
+    Table table({{"builder", left}, {"what it is", left}});
+    for (const BuilderEntry& entry : builder_catalog())
+        table.row({std::string(entry.name),
+                   std::string(entry.make != nullptr ? entry.summary : entry.absent)});
+    return table.text();
+}
+
+std::string orders()
+{
+    Table table({{"order", left}, {"bits"}, {"what it is", left}});
+    for (const OrderEntry& entry : order_catalog())
+        table.row(
+            {std::string(entry.name), std::to_string(entry.code_bits), std::string(entry.summary)});
+    return table.text();
+}
+
+std::string scenes(const CommonOptions& common)
+{
+    Table table({{"scene", left}, {"what it is", left}});
+    for (const SceneListing& listing : list_scenes(scene_library(common)))
+        table.row({listing.name, listing.summary});
+    return table.text();
+}
+
+std::string experiments()
+{
+    Table table({{"experiment", left}, {"paper", left}, {"question", left}});
+    for (const std::string_view name : experiment_names()) {
+        const Experiment experiment = find_experiment(std::string(name), false);
+        table.row({experiment.name, experiment.paper, experiment.question});
+    }
+    return table.text();
+}
+
+/// What the program branches on or reports, of every device.
+std::string devices()
+{
+    prepare_pocl_cache();
+    const std::size_t count = device_names().size();
+    if (count == 0)
+        throw Unavailable("there is no OpenCL device");
+    Table table({{"#"},
+                 {"device", left},
+                 {"kind", left},
+                 {"driver", left},
+                 {"OpenCL C", left},
+                 {"units"},
+                 {"memory"},
+                 {"local"},
+                 {"group"},
+                 {"timer"},
+                 {"division", left},
+                 {"acq_rel", left}});
+    for (std::size_t i = 0; i < count; ++i) {
+        const DeviceFacts facts = device_facts(open_device(std::to_string(i)));
+        const auto bytes = [](std::int64_t value) {
+            return bytes_text(static_cast<double>(value));
+        };
+        table.row({std::to_string(i), facts.platform + '/' + facts.name, facts.kind, facts.driver,
+                   facts.opencl_c, std::to_string(facts.compute_units),
+                   bytes(facts.global_memory_bytes), bytes(facts.local_memory_bytes),
+                   std::to_string(facts.max_group_size),
+                   duration_text(static_cast<double>(facts.timer_resolution_ns)),
+                   facts.correctly_rounded_division ? "rounded" : "2.5 ulp",
+                   facts.device_scope_acq_rel_atomics ? "yes" : "no"});
+    }
+    return table.text();
+}
+
+}  // namespace
+
+int list(const ListCommand& command, const Options& options)
+{
+    std::cout << (command.what == "builders"  ? builders()
+                  : command.what == "orders"  ? orders()
+                  : command.what == "scenes"  ? scenes(options.common)
+                  : command.what == "devices" ? devices()
+                                              : experiments());
+    return 0;
+}
+
+}  // namespace bvhbench

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+
+#include "geometry/error.h"
+#include "harness/commands.h"
+#include "harness/plot.h"
+#include "harness/report.h"
+#include "harness/report_paper.h"
+#include "harness/run.h"
+
+namespace bvhbench {
+namespace {
+
+/// With more cells than this, only those that need a look are printed; the file has them all.
+constexpr std::size_t most_lines = 100;
+
+CellFilter filter_of(const std::string& text)
+{
+    if (text.empty())
+        return std::nullopt;
+    try {
+        return std::regex(text);
+    } catch (const std::regex_error& error) {
+        throw BadUsage("--filter: '" + text + "' is no regular expression: " + error.what());
+    }
+}
+
+}  // namespace
+
+int run(const RunCommand& command, const Options& options)
+{
+    Experiment experiment = find_experiment(command.experiment, command.quick);
+    if (command.samples > 0)
+        experiment.samples = command.samples;
+    const CellFilter filter = filter_of(command.filter);
+    const std::string out = command.out.empty() ? experiment.name + ".json" : command.out;
+
+    Session session(options.common);
+    Run run(session, out, options.words);
+    run.experiment(experiment, filter);
+    run.finish();
+    if (run.document().cells.empty())
+        throw BadUsage("--filter: no cell of " + experiment.name + " matches '" + command.filter +
+                       "'");
+    std::cout << run_report(run.document().run)
+              << cells_report(run.document(), run.document().cells.size() > most_lines)
+              << "written: " << out << '\n';
+    return run.has_differing_cell() ? 1 : 0;
+}
+
+int reproduce(const ReproduceCommand& command, const Options& options)
+{
+    const Experiment experiment = find_experiment(command.what, command.quick);
+    const std::filesystem::path folder = command.out;
+    const std::filesystem::path file = folder / (command.what + ".json");
+
+    Session session(options.common);
+    Run run(session, file, options.words);
+    run.experiment(experiment);
+    run.finish();
+    std::cout << run_report(run.document().run)
+              << (command.what == "table1" ? table1_report(run.document())
+                                           : fig8_report(run.document()))
+              << "written: " << file.string() << '\n';
+    std::cout << draw(command.what + ".py", file, folder) << '\n';
+    return run.has_differing_cell() ? 1 : 0;
+}
+
+int show(const ShowCommand& command, const Options&)
+{
+    std::ifstream file(command.file, std::ios::binary);
+    const std::string text(std::istreambuf_iterator<char>(file), {});
+    if (!file.is_open() || file.bad())
+        throw Unavailable("the result file '" + command.file + "' cannot be read");
+    const Document document = read_document(text, command.file);
+    std::cout << run_report(document.run);
+    if (document.cells.size() == 1)
+        std::cout << cell_report(document.cells.front(), document.run);
+    else
+        std::cout << cells_report(document);
+    return 0;
+}
+
+}  // namespace bvhbench

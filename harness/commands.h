@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+//
+// What bvhbench does, a function a command. Each prints to stdout and returns the exit code: 0 done, 1 a check
+// differs. Errors are thrown to main.
+#pragma once
+
+#include "harness/options.h"
+
+namespace bvhbench {
+
+int list(const ListCommand& command, const Options& options);
+int build(const BuildCommand& command, const Options& options);
+int run(const RunCommand& command, const Options& options);
+int reproduce(const ReproduceCommand& command, const Options& options);
+int check(const CheckCommand& command, const Options& options);
+int show(const ShowCommand& command, const Options& options);
+
+/// The command that `options` hold.
+int execute(const Options& options);
+
+}  // namespace bvhbench
