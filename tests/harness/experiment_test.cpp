@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "harness/experiment.h"
+
+#include <gtest/gtest.h>
+
+#include "geometry/error.h"
+#include "harness/scene_range.h"
+
+namespace bvhbench {
+namespace {
+
+/// The sentence that the text is refused with; empty if it is not.
+std::string refusal(std::string_view text)
+{
+    try {
+        parse_experiment(text, "x.json", false);
+        return {};
+    } catch (const BadUsage& error) {
+        return error.what();
+    }
+}
+
+TEST(Experiment, OfEveryNameInThisProgramIsValid)
+{
+    for (const std::string_view name : experiment_names())
+        for (const bool quick : {false, true}) {
+            const Experiment experiment = find_experiment(std::string(name), quick);
+            EXPECT_EQ(experiment.name, name);
+            EXPECT_FALSE(experiment.question.empty());
+            EXPECT_FALSE(experiment.scenes.empty());
+            EXPECT_FALSE(experiment.builders.empty());
+        }
+}
+
+TEST(Experiment, ReadsEveryKey)
+{
+    const std::string_view text = R"({
+        "experiment": "mine", "question": "q", "paper": "Fig. 8",
+        "scenes": ["bunny", {"scene": "soup:{t}:x", "t": [9, 5]}],
+        "builders": ["perfect", {"name": "oibvh-multi", "order": "morton63", "group_size": 128,
+                                 "leaves": "sorted"}],
+        "stages": ["hierarchy"], "samples": 7, "warm_up": 0,
+        "quick": {"samples": 2, "scenes": ["soup:1"]}})";
+    const Experiment experiment = parse_experiment(text, "x.json", false);
+    EXPECT_EQ(experiment.scenes, (std::vector<std::string>{"bunny", "soup:5:x", "soup:9:x"}));
+    EXPECT_EQ(experiment.builders[1], (BuilderChoice{"oibvh-multi", "morton63", 128, true}));
+    EXPECT_EQ(experiment.start, Start::from_sorted_leaves);
+    EXPECT_EQ(experiment.samples, 7);
+    EXPECT_EQ(experiment.warm_up, 0);
+
+    const Experiment quick = parse_experiment(text, "x.json", true);
+    EXPECT_EQ(quick.samples, 2);
+    EXPECT_EQ(quick.scenes, std::vector<std::string>{"soup:1"});
+    EXPECT_EQ(quick.builders.size(), 2u);
+}
+
+TEST(Experiment, NamesTheKeyThatItDoesNotKnowAndThoseItDoes)
+{
+    EXPECT_EQ(refusal(R"({"experiment": "a", "scene": ["soup:1"], "builders": ["perfect"]})"),
+              "x.json: 'scene' is no key of an experiment; there are: experiment, question, paper, "
+              "scenes, builders, stages, samples, warm_up, quick");
+    EXPECT_EQ(refusal(R"({"experiment": "a", "scenes": ["soup:1"],
+                          "builders": [{"name": "perfect", "size": 3}]})"),
+              "x.json: 'size' is no key of a builder; there are: name, order, group_size, leaves");
+    EXPECT_EQ(refusal(R"({"experiment": "a", "scenes": [{"scene": "soup:{t}", "t": {"til": 3}}],
+                          "builders": ["perfect"]})"),
+              "x.json: 'til' is no key of the sizes 't'; there are: from, to, powers_of_two_from, "
+              "powers_of_two_to, around_powers_of_two_to");
+    EXPECT_EQ(refusal(R"({"experiment": "a", "scenes": ["soup:1"], "builders": ["perfect"],
+                          "quick": {"stages": []}})"),
+              "x.json: 'stages' is no key of 'quick'; there are: scenes, builders, samples, "
+              "warm_up");
+}
+
+TEST(Experiment, RefusesWhatMakesNoSense)
+{
+    for (
+        const char* text : {
+            "",
+            "{",
+            "[]",
+            "null",
+            "\"table1\"",
+            "{}",
+            R"({"experiment": "a", "scenes": [], "builders": ["perfect"]})",
+            R"({"experiment": "a", "scenes": "bunny", "builders": ["perfect"]})",
+            R"({"experiment": "a", "scenes": ["b"], "builders": []})",
+            R"({"experiment": "a", "scenes": ["b"], "builders": ["no-such"]})",
+            R"({"experiment": "a", "scenes": ["b"], "builders": [7]})",
+            R"({"experiment": "../a", "scenes": ["b"], "builders": ["perfect"]})",
+            R"({"experiment": "", "scenes": ["b"], "builders": ["perfect"]})",
+            R"({"experiment": 1, "scenes": ["b"], "builders": ["perfect"]})",
+            R"({"experiment": "a", "scenes": ["b"], "builders": ["perfect"], "samples": 0})",
+            R"({"experiment": "a", "scenes": ["b"], "builders": ["perfect"], "samples": "9"})",
+            R"({"experiment": "a", "scenes": ["b"], "builders": ["perfect"], "samples": 1.5})",
+            R"({"experiment": "a", "scenes": ["b"], "builders": ["perfect"], "warm_up": -1})",
+            R"({"experiment": "a", "scenes": ["b"], "builders": ["perfect"], "stages": []})",
+            R"({"experiment": "a", "scenes": ["b"], "builders": ["perfect"], "stages": ["x"]})",
+            R"({"experiment": "a", "scenes": [{"scene": "s:{t}"}], "builders": ["perfect"]})",
+            R"({"experiment": "a", "scenes": [{"scene": "s", "t": [1]}], "builders": ["perfect"]})",
+            R"({"experiment": "a", "scenes": [{"scene": "s:{t}", "t": [0]}],
+                 "builders": ["perfect"]})",
+            R"({"experiment": "a", "scenes": ["b"],
+                 "builders": [{"name": "perfect", "leaves": "both"}]})",
+        })
+        EXPECT_TRUE(refusal(text).starts_with("x.json: ")) << text;
+}
+
+TEST(Experiment, OfAnUnknownNameIsAnsweredWithThoseThereAre)
+{
+    EXPECT_THROW(find_experiment("tabel1", false), BadUsage);
+    EXPECT_THROW(find_experiment("/nowhere/mine.json", false), Unavailable);
+}
+
+TEST(SizeRange, IsTheUnionOfItsPartsInOrder)
+{
+    SizeRange range;
+    range.from = 1;
+    range.to = 5;
+    range.around_powers_of_two_to = 16;
+    EXPECT_EQ(sizes_in(range), (std::vector<std::int64_t>{1, 2, 3, 4, 5, 7, 8, 9, 15, 16, 17}));
+
+    SizeRange powers;
+    powers.powers_of_two_from = 1000;
+    powers.powers_of_two_to = 4096;
+    EXPECT_EQ(sizes_in(powers), (std::vector<std::int64_t>{1024, 2048, 4096}));
+}
+
+TEST(SizeRange, GivesEqualityEverySizeWhereALayoutCanGoWrong)
+{
+    const Experiment experiment = find_experiment("equality", false);
+    EXPECT_EQ(experiment.scenes.front(), "soup:1");
+    EXPECT_EQ(experiment.scenes[599], "soup:600");
+    EXPECT_EQ(experiment.scenes[600], "soup:1023");
+    EXPECT_EQ(experiment.scenes.back(), "soup:1048577");
+    EXPECT_EQ(experiment.scenes.size(), 600u + 3 * 11);
+}
+
+}  // namespace
+}  // namespace bvhbench

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+//
+// Made-up results with numbers that are easy to recognise.
+#pragma once
+
+#include "harness/record.h"
+
+namespace bvhbench {
+
+inline RunFacts fake_run()
+{
+    RunFacts run;
+    run.id = "20251130T081542Z-host-00ff";
+    run.started_at = "2025-11-30T08:15:42Z";
+    run.finished_at = "2025-11-30T08:16:00Z";
+    run.command = {"bvhbench", "run", "table1"};
+    run.version = "0.1.0";
+    run.commit = "unknown";
+    run.build_type = "Release";
+    run.compiler = "GNU 12.2.0";
+    run.arch = "x86-64-v3";
+    run.kernels = "embedded";
+    run.host_name = "host";
+    run.host_cpu = "a processor";
+    run.host_os = "Linux 6.1";
+    run.host_threads = 8;
+    run.device = {"a device", "a platform", "1.0", "OpenCL 3.0", "OpenCL C 1.2", "gpu", 100,
+                  1000000,    250000,       48000, 1024,         1000,           true,  true};
+    run.libraries = {{"benchmark", "1.7.1"}};
+    run.copy_rate_bytes_per_s = 1e12;
+    run.copy_rate_buffer_bytes = 1 << 30;
+    run.compile_ns = 5000;
+    return run;
+}
+
+inline StageTime fake_stage(std::string stage, std::int64_t span_ns, std::int64_t moved_bytes)
+{
+    return {std::move(stage), span_ns - 10, span_ns, 0, 2, moved_bytes};
+}
+
+/// A cell of a builder on a scene of 144046 triangles, hierarchy times 90, 100 and 110 microseconds.
+inline Cell fake_cell(std::string builder = "oibvh-multi", std::int64_t hierarchy_ns = 100000)
+{
+    Cell cell;
+    cell.experiment = "table1";
+    cell.scene = {"bunny", 144046, 72027, 1, 0, "bunny.ply", "", 0xab54a98ceb1f0au};
+    cell.builder.name = std::move(builder);
+    cell.warm_up = 1;
+    int order = 7;
+    for (const std::int64_t offset : {10000, 0, -10000})
+        cell.samples.push_back(
+            {order++, {fake_stage("hierarchy", hierarchy_ns + offset, 50000000)}});
+    cell.counters = {{"nodes_count", 288100}, {"tree_bytes", 6914400}, {"scratch_bytes", 0}};
+    cell.check = {Check::Verdict::agrees, "oibvh-reference", "", 0xffu};
+    return cell;
+}
+
+}  // namespace bvhbench

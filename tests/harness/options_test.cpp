@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#include "harness/options.h"
+
+#include <gtest/gtest.h>
+
+#include "geometry/error.h"
+#include "harness/catalog.h"
+
+namespace bvhbench {
+namespace {
+
+Options parsed(std::vector<const char*> words)
+{
+    words.insert(words.begin(), "bvhbench");
+    return parse_options(static_cast<int>(words.size()), words.data());
+}
+
+std::string refusal(const std::vector<const char*>& words)
+{
+    try {
+        parsed(words);
+        return {};
+    } catch (const BadUsage& error) {
+        return error.what();
+    }
+}
+
+TEST(Options, OfBuildAreAllUnderstood)
+{
+    const Options options =
+        parsed({"build", "--builder", "perfect", "--scene", "soup:5", "--order", "morton63",
+                "--group-size", "64", "--leaves", "sorted", "--samples", "3", "--json", "a.json",
+                "--dump", "b.json", "--device", "some words"});
+    const auto& build = std::get<BuildCommand>(options.command);
+    EXPECT_EQ(build.builder, (BuilderChoice{"perfect", "morton63", 64, true}));
+    EXPECT_EQ(build.scene, "soup:5");
+    EXPECT_EQ(build.samples, 3);
+    EXPECT_EQ(build.json, "a.json");
+    EXPECT_EQ(build.dump, "b.json");
+    EXPECT_EQ(options.common.device, "some words");
+    EXPECT_EQ(options.words.size(), 20u);
+}
+
+TEST(Options, InCommonMayStandBeforeOrBehindTheCommand)
+{
+    EXPECT_EQ(parsed({"--data", "d", "show", "f"}).common.data, "d");
+    EXPECT_EQ(parsed({"show", "f", "--data", "d"}).common.data, "d");
+}
+
+TEST(Options, ThatAskForHelpOnlyPrint)
+{
+    for (const char* command : {"list", "build", "run", "reproduce", "check", "show"}) {
+        const auto text = std::get<PrintCommand>(parsed({command, "--help"}).command).text;
+        EXPECT_NE(text.find("Usage: bvhbench " + std::string(command)), std::string::npos) << text;
+    }
+    EXPECT_TRUE(std::get<PrintCommand>(parsed({"--version"}).command).text.starts_with("bvhbench"));
+}
+
+TEST(Options, ThatAreNotUnderstoodAreAnsweredInOneSentence)
+{
+    for (const std::vector<const char*>& words : std::vector<std::vector<const char*>>{
+             {},
+             {"paint"},
+             {"list"},
+             {"list", "colours"},
+             {"build"},
+             {"build", "--builder", "perfect"},
+             {"build", "--builder", "perfect", "--scene", "s", "--samples", "0"},
+             {"build", "--builder", "perfect", "--scene", "s", "--samples", "many"},
+             {"build", "--builder", "perfect", "--scene", "s", "--leaves", "green"},
+             {"build", "--builder", "perfect", "--scene", "s", "--group-size", "48"},
+             {"build", "--builder", "perfect", "--scene", "s", "--group-size", "-1"},
+             {"run"},
+             {"run", "table1", "--fast"},
+             {"reproduce", "table9"},
+             {"show"},
+             {"show", "a", "b"},
+         }) {
+        const std::string sentence = refusal(words);
+        EXPECT_FALSE(sentence.empty()) << (words.empty() ? "" : words[0]);
+        EXPECT_EQ(sentence.find('\n'), std::string::npos) << sentence;
+    }
+    EXPECT_NE(refusal({"list", "colours"})
+                  .find("there is no 'colours'; there are: builders, orders, scenes, devices"),
+              std::string::npos);
+}
+
+TEST(Catalog, ListsEachBuilderOnceUnderTheNameOnItsCard)
+{
+    std::string names;
+    for (const BuilderEntry& entry : builder_catalog()) {
+        names += std::string(entry.name) + ' ';
+        EXPECT_EQ(&find_builder(entry.name), &entry);
+        EXPECT_FALSE(entry.summary.empty());
+        EXPECT_EQ(entry.make == nullptr, !entry.absent.empty());
+    }
+    EXPECT_EQ(names, "perfect oibvh-single oibvh-multi oibvh-reference ");
+}
+
+TEST(Catalog, AnswersAnUnknownNameWithThoseThereAre)
+{
+    try {
+        find_builder("oibvh");
+        FAIL();
+    } catch (const BadUsage& error) {
+        EXPECT_STREQ(error.what(),
+                     "no builder is called 'oibvh'; there are: perfect, oibvh-single, "
+                     "oibvh-multi, oibvh-reference");
+    }
+}
+
+}  // namespace
+}  // namespace bvhbench

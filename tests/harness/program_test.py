@@ -1,0 +1,166 @@
+#!/usr/bin/env python3
+"""Run the program and hold it to its exit codes, its output and the result schema.
+
+Usage: program_test.py <bvhbench> <result schema>
+"""
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+try:
+    import jsonschema
+except ImportError:
+    jsonschema = None
+
+PROGRAM, SCHEMA = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
+
+
+def run(*words: str, **environment: str) -> subprocess.CompletedProcess:
+    return subprocess.run([PROGRAM, *words], capture_output=True, text=True, timeout=300,
+                          env={**os.environ, **environment})
+
+
+def expect(code: int, *words: str, says: str = "", **environment: str) -> str:
+    """The program's standard output; an error is one line on stderr that contains `says`."""
+    done = run(*words, **environment)
+    assert done.returncode == code, (words, done)
+    assert says in (done.stderr if code else done.stdout), (words, done)
+    if code in (2, 3):
+        assert done.stderr.startswith("bvhbench: ") and done.stderr.count("\n") == 1, done.stderr
+    return done.stdout
+
+
+def valid(path: str) -> dict:
+    text = pathlib.Path(path).read_text()
+    assert "NaN" not in text
+    result = json.loads(text)
+    if jsonschema:
+        jsonschema.validate(result, json.loads(SCHEMA.read_text()))
+    return result
+
+
+def test_exit_codes():
+    expect(2, says="name a command: list, build")
+    expect(2, "paint", says="paint")
+    expect(2, "list", "colours", says="there are: builders, orders, scenes, devices, experiments")
+    expect(2, "build", "--builder", "x", "--scene", "soup:5", says="there are: perfect, ")
+    expect(2, "build", "--builder", "perfect", "--scene", "no-such", says="no-such")
+    expect(2, "build", "--builder", "perfect", "--scene", "soup:5", "--order", "x",
+           says="there are: morton30")
+    expect(2, "run", "tabel1", says="there are: table1, fig8, equality, smoke")
+    expect(2, "run", "smoke", "--filter", "[", says="no regular expression")
+    expect(2, "check", "--builder", "x", says="there are: perfect")
+    expect(3, "run", "mine.json", says="mine.json")
+    expect(3, "show", "nothing.json", says="nothing.json")
+    expect(3, "build", "--builder", "perfect", "--scene", "soup:5", "--device", "no such device",
+           says="no OpenCL device matches 'no such device'")
+    expect(3, "build", "--builder", "perfect", "--scene", "soup:5", "--kernels", "nowhere",
+           says="nowhere")
+    expect(3, "build", "--builder", "perfect", "--scene", "soup:5", "--json", "/proc/x/r.json",
+           says="cannot be written")
+    expect(0, "--help", says="reproduce")
+    expect(0, "build", "--help", says="--group-size")
+    expect(0, "--version", says="bvhbench ")
+
+
+def test_lists_put_the_name_first():
+    first = [line.split()[0] for line in expect(0, "list", "builders").splitlines()]
+    assert first == ["builder", "perfect", "oibvh-single", "oibvh-multi", "oibvh-reference"], first
+    expect(0, "list", "orders", says="\nmorton30 ")
+    expect(0, "list", "scenes", says="\nsoup:")
+    expect(0, "list", "experiments", says="\ntable1 ")
+    expect(0, "list", "devices", says="\n0 ")
+
+
+def test_build_writes_a_valid_result_and_the_tree():
+    out = expect(0, "build", "--builder", "oibvh-multi", "--scene", "soup:300", "--samples", "4",
+                 "--json", "b.json", "--dump", "d.json", says="verdict: agrees")
+    for stage in ("bounds", "codes", "sort", "hierarchy", "all"):
+        assert f"\n{stage} " in out, out
+    cell, = valid("b.json")["cells"]
+    assert len(cell["samples"]) == 4 and cell["check"]["verdict"] == "agrees"
+    assert set(cell["counters"]) == {"nodes_count", "tree_bytes", "scratch_bytes"}
+    nodes = json.loads(pathlib.Path("d.json").read_text())["nodes"]
+    assert len(nodes) == cell["counters"]["nodes_count"]
+    assert sorted(n["primitive"] for n in nodes if n["primitive"] >= 0) == list(range(300))
+    expect(0, "show", "b.json", says="verdict: agrees")
+
+
+def test_run_and_show_agree():
+    out = expect(0, "run", "smoke", "--samples", "2", "--out", "folder/s.json", says="12 agree")
+    result = valid("folder/s.json")
+    assert len(result["cells"]) == 12 and "finished_at" in result["run"]
+    assert result["run"]["copy_rate_bytes_per_s"] > 0 and result["run"]["compile_ns"] > 0
+    orders = [s["order"] for cell in result["cells"] for s in cell["samples"]]
+    assert len(set(orders)) == len(orders)
+    assert expect(0, "show", "folder/s.json") in out
+    expect(0, "run", "smoke", "--filter", "soup:1/perfect", "--out", "f.json", says="1 cells, 1 agree")
+    assert os.listdir("folder") == ["s.json"]
+
+
+def test_an_experiment_of_ones_own():
+    pathlib.Path("mine.json").write_text(json.dumps({
+        "experiment": "mine", "scenes": [{"scene": "soup:{t}", "t": {"from": 1, "to": 3}}],
+        "builders": ["perfect"], "stages": ["hierarchy"], "samples": 2, "warm_up": 0}))
+    expect(0, "run", "mine.json", "--out", "m.json")
+    cells = valid("m.json")["cells"]
+    assert [cell["scene"]["triangles"] for cell in cells] == [1, 2, 3]
+    assert {s["stage"] for c in cells for m in c["samples"] for s in m["stages"]} == {"hierarchy"}
+    pathlib.Path("wrong.json").write_text('{"experiment": "a", "scense": []}')
+    expect(2, "run", "wrong.json", says="'scense' is no key of an experiment")
+
+
+def test_a_stopped_run_keeps_its_finished_cells():
+    pathlib.Path("long.json").write_text(json.dumps({
+        "experiment": "long", "scenes": [{"scene": "soup:{t}", "t": {"from": 1, "to": 100000}}],
+        "builders": ["perfect"], "samples": 1, "warm_up": 0}))
+    for sent, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGKILL, -9)):
+        path = pathlib.Path(f"stopped{code}.json")
+        with subprocess.Popen([PROGRAM, "run", "long.json", "--out", str(path)],
+                              stderr=subprocess.PIPE, text=True) as process:
+            for _ in range(600):
+                time.sleep(0.1)
+                if path.exists():
+                    break
+            time.sleep(0.3)
+            process.send_signal(sent)
+            assert process.wait(60) == code, (process.returncode, process.stderr.read())
+        result = valid(str(path))
+        assert result["cells"] and "finished_at" not in result["run"]
+
+
+def test_check_finds_every_promise_kept():
+    expect(0, "check", "--builder", "oibvh-single", "--scene", "soup:1000",
+           says="every promise is kept")
+
+
+def test_pocl_keeps_its_cache_with_us():
+    expect(0, "list", "devices", XDG_CACHE_HOME=os.getcwd() + "/cache", POCL_CACHE_DIR="")
+    assert pathlib.Path("cache/bvhbench/pocl").is_dir()
+    left = pathlib.Path("cache/bvhbench/pocl/tempfile_old")
+    left.touch()
+    os.utime(left, (0, 0))
+    expect(0, "list", "devices", XDG_CACHE_HOME=os.getcwd() + "/cache", POCL_CACHE_DIR="")
+    assert not left.exists()
+
+
+def main() -> int:
+    tests = [value for name, value in globals().items() if name.startswith("test_")]
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        for test in tests:
+            test()
+            print("passed:", test.__name__.removeprefix("test_").replace("_", " "))
+        os.chdir("/")
+    if not jsonschema:
+        print("not held to the schema: there is no jsonschema for this Python")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "harness/record.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "geometry/error.h"
+#include "tests/harness/fakes.h"
+
+namespace bvhbench {
+namespace {
+
+std::string text_of(const RunFacts& run, const std::vector<Cell>& cells)
+{
+    std::vector<std::string> texts;
+    for (const Cell& cell : cells)
+        texts.push_back(cell_text(cell));
+    return document_text(run_text(run), texts);
+}
+
+TEST(Record, WritesACellOnOneLineWithKeysThatEndInTheirUnit)
+{
+    Cell cell = fake_cell();
+    cell.samples.resize(1);
+    EXPECT_EQ(
+        cell_text(cell),
+        R"({"experiment":"table1","scene":{"name":"bunny","triangles":144046,"vertices":72027,)"
+        R"("objects":1,"frame":0,"source":"bunny.ply","content_hash":"00ab54a98ceb1f0a"},)"
+        R"("builder":{"name":"oibvh-multi","options":{"order":"morton30","group_size":0,)"
+        R"("leaves":"mesh"}},"status":"measured","warm_up":1,"samples":[{"order":7,"stages":)"
+        R"([{"stage":"hierarchy","launches":2,"busy_ns":109990,"span_ns":110000,)"
+        R"("moved_bytes":50000000}]}],"counters":{"nodes_count":288100,"scratch_bytes":0,)"
+        R"("tree_bytes":6914400},"check":{"verdict":"agrees","against":"oibvh-reference",)"
+        R"("tree_hash":"00000000000000ff"}})");
+}
+
+TEST(Record, SaysOnlyWhyForACellWithoutNumbers)
+{
+    Cell cell = fake_cell();
+    cell.status = Cell::Status::failed;
+    cell.reason = "out of device memory";
+    const std::string text = cell_text(cell);
+    EXPECT_NE(text.find(R"("status":"failed","reason":"out of device memory"})"),
+              std::string::npos);
+    EXPECT_EQ(text.find("samples"), std::string::npos);
+}
+
+TEST(Record, LeavesOutWhatIsNoNumber)
+{
+    Cell cell = fake_cell();
+    cell.counters["broken_ratio"] = std::numeric_limits<double>::quiet_NaN();
+    cell.counters["endless_ratio"] = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(cell_text(cell).find("_ratio"), std::string::npos);
+    EXPECT_EQ(cell_text(cell).find("null"), std::string::npos);
+
+    RunFacts run = fake_run();
+    run.copy_rate_bytes_per_s = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(run_text(run).find("copy_rate"), std::string::npos);
+}
+
+TEST(Record, KeepsBytesThatAreNoUtf8OutOfTheFile)
+{
+    Cell cell = fake_cell();
+    cell.scene.source = "a\xff.ply";
+    EXPECT_NO_THROW(read_document(text_of(fake_run(), {cell}), "x"));
+}
+
+TEST(Record, ReadsBackWhatItWrote)
+{
+    Cell failed = fake_cell("perfect");
+    failed.status = Cell::Status::skipped;
+    failed.reason = "built without it";
+    Cell host = fake_cell("oibvh-reference");
+    host.builder.sorted_leaves = true;
+    host.builder.order = "morton63";
+    host.samples = {{3, {{"hierarchy", 0, 0, 1234, 0, 0}}}};
+    host.check = {Check::Verdict::differs, "oibvh-reference", "something", 0x12u};
+    const std::string text = text_of(fake_run(), {fake_cell(), failed, host});
+
+    const Document document = read_document(text, "x");
+    EXPECT_EQ(text_of(document.run, document.cells), text);
+    EXPECT_EQ(document.cells[2].samples[0].stages[0].elapsed_ns(), 1234);
+}
+
+TEST(Record, RefusesWhatIsNoResultFileOfThisFormat)
+{
+    EXPECT_THROW(read_document("{", "x"), Unavailable);
+    EXPECT_THROW(read_document("[]", "x"), Unavailable);
+    EXPECT_THROW(read_document(R"({"format": "2.0", "run": {}, "cells": []})", "x"), Unavailable);
+    EXPECT_THROW(read_document(R"({"format": "1.0", "run": {}, "cells": []})", "x"), Unavailable);
+    std::string text = text_of(fake_run(), {fake_cell()});
+    text.replace(text.find("measured"), 8, "guessed!");
+    EXPECT_THROW(read_document(text, "x"), Unavailable);
+}
+
+}  // namespace
+}  // namespace bvhbench

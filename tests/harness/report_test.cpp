@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include "harness/report.h"
+
+#include <gtest/gtest.h>
+
+#include "harness/report_paper.h"
+#include "harness/table.h"
+#include "tests/harness/fakes.h"
+
+namespace bvhbench {
+namespace {
+
+TEST(Table, LinesUpWordsLeftAndNumbersRightByCharacters)
+{
+    Table table({{"name", Table::Align::left}, {"ms"}});
+    table.row({"a–b", "1"});
+    table.row({"longer", "10"});
+    table.row({"c"});
+    EXPECT_EQ(table.text(),
+              "name    ms\n"
+              "a–b      1\n"
+              "longer  10\n"
+              "c\n");
+}
+
+TEST(Numbers, HaveThreeDigitsAndAUnit)
+{
+    EXPECT_EQ(duration_text(0), "0 ns");
+    EXPECT_EQ(duration_text(950), "950 ns");
+    EXPECT_EQ(duration_text(999.7), "1.00 us");
+    EXPECT_EQ(duration_text(71230), "71.2 us");
+    EXPECT_EQ(duration_text(1300000), "1.30 ms");
+    EXPECT_EQ(bytes_text(6914400), "6.91 MB");
+    EXPECT_EQ(grouped(0), "0");
+    EXPECT_EQ(grouped(1234567), "1,234,567");
+    EXPECT_EQ(grouped(-123456), "-123,456");
+}
+
+TEST(Statistics, LieBetweenNeighboursInProportion)
+{
+    EXPECT_EQ(quantile({}, 0.5), 0);
+    EXPECT_EQ(quantile({3}, 0.9), 3);
+    EXPECT_EQ(quantile({4, 1, 3, 2}, 0.5), 2.5);
+    const Spread spread = spread_of({0, 10, 20, 30, 40, 50, 60, 70, 80, 90, 100});
+    EXPECT_EQ(spread.median, 50);
+    EXPECT_EQ(spread.p10, 10);
+    EXPECT_EQ(spread.p90, 90);
+}
+
+TEST(Padding, IsCountedAndPrintedAsInTable1)
+{
+    Cell cell = fake_cell("oibvh-single");
+    EXPECT_EQ(padding_text(padding_percent(cell)), "3.1e-3");
+    cell.builder.name = "perfect";
+    cell.counters["nodes_count"] = 524287;
+    EXPECT_EQ(padding_text(padding_percent(cell)), "45.05");
+    EXPECT_EQ(padding_text(0), "0");
+}
+
+TEST(CellReport, PrintsStagesCountersAndVerdict)
+{
+    EXPECT_EQ(cell_report(fake_cell(), fake_run()),
+              "oibvh-multi on bunny, 144,046 triangles\n"
+              "stage      median      p10     p90  launches    bytes   GB/s  % of copy\n"
+              "hierarchy  100 us  92.0 us  108 us         2  50.0 MB  500.0     50.0 %\n"
+              "counters: nodes_count 288,100, scratch_bytes 0, tree_bytes 6,914,400\n"
+              "verdict: agrees with oibvh-reference, tree 00000000000000ff\n");
+}
+
+TEST(CellsReport, NeverPrintsATimeOfAWrongTree)
+{
+    Cell wrong = fake_cell("oibvh-single");
+    wrong.check.verdict = Check::Verdict::differs;
+    wrong.check.detail = "node 3 is lost";
+    Cell failed = fake_cell("perfect");
+    failed.status = Cell::Status::failed;
+    failed.reason = "out of memory";
+    const Document document{fake_run(), {fake_cell(), wrong, failed}};
+    EXPECT_EQ(cells_report(document),
+              "scene  triangles  builder        median      p10     p90  Mtris/s   GB/s  % of copy"
+              "  verdict\n"
+              "bunny    144,046  oibvh-multi    100 us  92.0 us  108 us   1440.5  500.0     50.0 %"
+              "  agrees\n"
+              "bunny    144,046  oibvh-single  differs                                            "
+              "  node 3 is lost\n"
+              "bunny    144,046  perfect        failed                                            "
+              "  out of memory\n"
+              "3 cells, 1 agree\n");
+    EXPECT_EQ(cell_report(wrong, fake_run()).find("us"), std::string::npos);
+    EXPECT_EQ(cells_report({fake_run(), {fake_cell()}}, true), "1 cells, 1 agree\n");
+}
+
+TEST(Table1Report, StandsBesideThePaperAndMarksStandIns)
+{
+    Cell stand_in = fake_cell("oibvh-single");
+    stand_in.scene.stand_in_for = "bunny";
+    stand_in.scene.name = "torus:144046";
+    const std::string text = table1_report({fake_run(), {fake_cell(), stand_in}});
+    EXPECT_EQ(text,
+              "mesh     triangles  builder         nodes  padding %   paper      ms        p10–p90"
+              "  Mtris/s    moved  % of copy  paper ms\n"
+              "bunny      144,046  oibvh-multi   288,100     3.1e-3  3.1e-3  0.1000  0.0920–0.1080"
+              "     1440  50.0 MB     50.0 %     0.077\n"
+              "bunny *    144,046  oibvh-single  288,100     3.1e-3  3.1e-3  0.1000  0.0920–0.1080"
+              "     1440  50.0 MB     50.0 %     0.074\n"
+              "ms: the stage hierarchy from sorted leaves, median; paper ms: NVIDIA GeForce GTX "
+              "1080\n"
+              "* a generated stand-in with the mesh's triangle count: the mesh itself is not "
+              "there\n");
+}
+
+Cell at_size(const char* builder, std::int64_t triangles, std::int64_t ns)
+{
+    Cell cell = fake_cell(builder, ns);
+    cell.scene.triangles = triangles;
+    return cell;
+}
+
+TEST(Fig8Report, FindsTheSizeFromWhichMultiStaysAhead)
+{
+    Document document{fake_run(), {}};
+    const std::int64_t single[] = {20000, 30000, 50000, 80000};
+    const std::int64_t multi[] = {25000, 29000, 51000, 70000};
+    for (std::int64_t i = 0; i < 4; ++i) {
+        document.cells.push_back(at_size("oibvh-single", 1024 << i, single[i]));
+        document.cells.push_back(at_size("oibvh-multi", 1024 << i, multi[i]));
+    }
+    EXPECT_EQ(crossing_triangles(document), 8192);
+    document.cells.resize(2);
+    EXPECT_EQ(crossing_triangles(document), std::nullopt);
+}
+
+}  // namespace
+}  // namespace bvhbench
