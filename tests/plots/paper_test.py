@@ -1,0 +1,103 @@
+#!/usr/bin/env python3
+"""Hold results/paper/*.json to the paper's own arithmetic, so that a typing error in them is found.
+
+Usage: paper_test.py <source root>
+"""
+import json
+import pathlib
+import sys
+import unittest
+
+PAPER = pathlib.Path()
+
+
+def load(name: str) -> dict:
+    return json.loads((PAPER / f"{name}.json").read_text(encoding="utf-8"))
+
+
+def oi_nodes(triangles: int) -> int:
+    """Eq. (7): 2t - 1 + popcount(L_v)."""
+    virtual = (1 << (triangles - 1).bit_length()) - triangles
+    return 2 * triangles - 1 + virtual.bit_count()
+
+
+def last_digit(printed: str) -> float:
+    """What one unit of the last printed digit is worth: the paper cuts digits off as often as it rounds."""
+    mantissa, _, exponent = printed.partition("e")
+    decimals = len(mantissa.partition(".")[2])
+    return 10.0 ** (int(exponent or 0) - decimals)
+
+
+def column(table: dict, key: str, value: str) -> dict[tuple[str, str], float]:
+    """(scene, what the row is about) to a number."""
+    return {(row["scene"], row[key]): row[value] for row in table["rows"]}
+
+
+class PrintedNumbers(unittest.TestCase):
+    def assert_printed(self, computed: float, printed: str, what: str) -> None:
+        difference = abs(computed - float(printed))
+        self.assertLessEqual(difference, last_digit(printed), f"{what}: {computed} is printed as {printed}")
+
+    def test_table1_node_counts_follow_from_the_triangles(self) -> None:
+        for row in load("table1")["rows"]:
+            triangles = row["triangles"]
+            expected = {
+                "perfect": 2 * (1 << (triangles - 1).bit_length()) - 1,
+                "apetrei": 2 * triangles - 1,
+                "oibvh-single": oi_nodes(triangles),
+                "oibvh-multi": oi_nodes(triangles),
+            }[row["builder"]]
+            self.assertEqual(row["nodes_count"], expected, row)
+
+    def test_table1_padding_is_the_share_of_surplus_nodes(self) -> None:
+        for row in load("table1")["rows"]:
+            surplus = row["nodes_count"] - (2 * row["triangles"] - 1)
+            self.assert_printed(100 * surplus / row["nodes_count"], row["padding_percent"], str(row))
+
+    def test_table1_speedups_follow_from_the_times(self) -> None:
+        table = load("table1")
+        time = column(table, "builder", "hierarchy_ms")
+        self.assertEqual(len(table["rows"]), 5 * 4)
+        for ratio in table["ratios"]:
+            scene = ratio["scene"]
+            fastest = min(time[scene, "oibvh-single"], time[scene, "oibvh-multi"])
+            self.assert_printed(time[scene, "apetrei"] / fastest, ratio["apetrei_over_fastest_oibvh"], scene)
+
+    def test_table2_ratios_follow(self) -> None:
+        table = load("table2")
+        time, memory = column(table, "method", "frame_ms"), column(table, "method", "memory_megabytes")
+        self.assertEqual(len(table["rows"]), 4 * 2)
+        for ratio in table["ratios"]:
+            scene = ratio["scene"]
+            wang, ours = (scene, "wang-2018"), (scene, "oibvh")
+            self.assert_printed(time[wang] / time[ours], ratio["wang_over_oibvh_time"], scene)
+            share = 100 * memory[ours] / memory[wang]
+            self.assert_printed(share, ratio["oibvh_of_wang_memory_percent"], scene)
+
+    def test_table3_ratios_follow(self) -> None:
+        table = load("table3")
+        time, memory = column(table, "method", "frame_ms"), column(table, "method", "memory_megabytes")
+        self.assertEqual(len(table["rows"]), 3 * 2)
+        for ratio in table["ratios"]:
+            scene = ratio["scene"]
+            peer, ours = (scene, "i-cloth"), (scene, "oibvh")
+            self.assert_printed(time[peer] / time[ours], ratio["icloth_over_oibvh_time"], scene)
+            saved = 100 * (1 - memory[ours] / memory[peer])
+            self.assert_printed(saved, ratio["memory_reduction_percent"], scene)
+
+    def test_table4_ratios_follow(self) -> None:
+        table = load("table4")
+        cost = column(table, "builder", "sah_cost")
+        self.assertEqual(len(table["rows"]), 3 * 2)
+        for ratio in table["ratios"]:
+            scene = ratio["scene"]
+            increase = cost[scene, "oibvh-multi"] / cost[scene, "apetrei"]
+            self.assert_printed(increase, ratio["oibvh_over_apetrei_sah"], scene)
+
+    def test_figure8_crossing_is_the_power_of_two_of_the_text(self) -> None:
+        self.assertEqual(load("fig8")["crossing_triangles"], 2**17)
+
+
+if __name__ == "__main__":
+    PAPER = pathlib.Path(sys.argv.pop(1)) / "results" / "paper"
+    unittest.main()
