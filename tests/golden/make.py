@@ -1,0 +1,87 @@
+#!/usr/bin/env python3
+"""Write the golden result files beside this script: every builder, five scenes, and a size sweep.
+
+The numbers are invented, by a formula that has the right order of magnitude; they are no measurements.
+
+Usage: tests/golden/make.py
+"""
+import json
+import pathlib
+import random
+
+SCENES = {"bunny": 144046, "erato": 412669, "dragon": 871306, "buddha": 1087474, "hairball": 2880000}
+# Name to (microseconds before anything is built, nanoseconds a triangle).
+BUILDERS = {
+    "perfect": (14, 0.031), "apetrei": (16, 0.24), "apetrei-fused": (11, 0.11), "karras": (22, 0.18),
+    "oibvh-single": (9, 0.033), "oibvh-multi": (13.5, 0.0235), "oibvh-reference": (20, 9.0),
+    "embree-morton": (300, 14.0), "embree-sah": (400, 90.0),
+}
+ON_HOST = ("oibvh-reference", "embree-morton", "embree-sah")
+RUN = {
+    "id": "20200101T000000Z-golden-0000", "started_at": "2020-01-01T00:00:00Z",
+    "finished_at": "2020-01-01T00:01:00Z", "command": ["bvhbench", "reproduce", "table1"],
+    "program": {"version": "0.1.0", "commit": "0" * 40, "dirty": False, "build_type": "Release",
+                "compiler": "GNU 12.2.0", "arch": "x86-64-v3", "kernels": "embedded"},
+    "host": {"name": "golden", "cpu": "Invented CPU", "threads": 16, "os": "Debian GNU/Linux 12"},
+    "device": {"name": "Invented GPU", "platform": "Invented OpenCL", "driver": "1.0",
+               "opencl": "OpenCL 3.0", "opencl_c": "OpenCL C 1.2", "kind": "gpu", "compute_units": 64,
+               "global_memory_bytes": 8 << 30, "max_allocation_bytes": 2 << 30, "local_memory_bytes": 49152,
+               "max_group_size": 1024, "timer_resolution_ns": 1000},
+    "libraries": {"assimp": "5.2.5"}, "copy_rate_bytes_per_s": 2.4e12,
+    "copy_rate_buffer_bytes": 1 << 28, "compile_ns": 250000000,
+}
+
+
+def nodes(builder: str, triangles: int) -> int:
+    complete = 1 << (triangles - 1).bit_length()
+    if builder == "perfect":
+        return 2 * complete - 1
+    virtual = complete - triangles if builder.startswith("oibvh") else 0
+    return 2 * triangles - 1 + virtual.bit_count()
+
+
+def sample(order: int, builder: str, triangles: int, noise: random.Random) -> dict:
+    start_us, slope_ns = BUILDERS[builder]
+    time = int((start_us * 1000 + slope_ns * triangles) * (1 + 0.4 * noise.random() ** 2))
+    if builder in ON_HOST:
+        return {"order": order, "stages": [{"stage": "hierarchy", "wall_ns": time}]}
+    return {"order": order, "stages": [{
+        "stage": "hierarchy", "launches": 3 if builder == "oibvh-multi" else 1, "busy_ns": int(0.9 * time),
+        "span_ns": time, "moved_bytes": 24 * triangles + 24 * (nodes(builder, triangles) - triangles)}]}
+
+
+def cell(experiment: str, scene: dict, builder: str, noise: random.Random) -> dict:
+    triangles = scene["triangles"]
+    known = {"experiment": experiment, "scene": scene, "builder": {"name": builder, "options": {}}}
+    if builder == "oibvh-reference" and triangles > 2_000_000:
+        return {**known, "status": "skipped", "reason": "slower than the time allowed a cell"}
+    count = nodes(builder, triangles)
+    return {**known, "status": "measured", "warm_up": 2,
+            "samples": [sample(order, builder, triangles, noise) for order in range(5)],
+            "counters": {"nodes_count": count, "tree_bytes": 24 * count},
+            "check": {"verdict": "agrees", "against": "contract"}}
+
+
+def write(name: str, cells: list[dict]) -> None:
+    lines = ",\n".join(json.dumps(entry) for entry in cells)
+    text = f'{{"format": "1.0",\n"run": {json.dumps(RUN)},\n"cells": [\n{lines}\n]}}\n'
+    (pathlib.Path(__file__).parent / name).write_text(text, encoding="utf-8")
+
+
+def main() -> None:
+    noise = random.Random(1)
+    scenes = []
+    for name, triangles in SCENES.items():
+        scene = {"name": name, "triangles": triangles, "objects": 1, "frame": 0}
+        if name in ("erato", "hairball"):
+            scene |= {"name": f"torus:{triangles}", "stand_in_for": name}
+        scenes.append(scene)
+    write("table1.json", [cell("table1", scene, builder, noise) for scene in scenes for builder in BUILDERS])
+    sizes = [1 << power for power in range(10, 24, 2)] + [1 << 23]
+    sweep = [{"name": f"torus:{size}", "triangles": size, "objects": 1, "frame": 0} for size in sizes]
+    write("fig8.json", [cell("fig8", scene, builder, noise) for scene in sweep
+                        for builder in BUILDERS if not builder.startswith("embree")])
+
+
+if __name__ == "__main__":
+    main()
