@@ -1,0 +1,61 @@
+#!/usr/bin/env python3
+"""Every figure that result files can make.
+
+    plots/all.py FILE_OR_FOLDER... --out DIR
+
+A folder stands for all result files below it; their pictures go into folders of the same names below DIR.
+Other JSON files are passed over.
+"""
+from __future__ import annotations
+
+import argparse
+import pathlib
+import sys
+from collections.abc import Iterator
+
+import fig8
+import figure
+import results
+import style
+import table1
+
+# An experiment and the figure of it. To add a figure, add its line here.
+FIGURES: dict[str, figure.Draw] = {
+    "table1": table1.draw,
+    "fig8": fig8.draw,
+}
+
+
+def files_of(given: pathlib.Path, out: pathlib.Path) -> Iterator[tuple[pathlib.Path, pathlib.Path]]:
+    """A result file and the folder for its pictures."""
+    if not given.is_dir():
+        yield given, out
+        return
+    for path in sorted(given.rglob("*.json")):
+        if results.is_result(path):
+            yield path, out / path.parent.relative_to(given)
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("given", nargs="+", type=pathlib.Path, metavar="FILE_OR_FOLDER")
+    parser.add_argument("--out", type=pathlib.Path, required=True, metavar="DIR")
+    arguments = parser.parse_args()
+    style.set_up()
+    refused = 0
+    for given in arguments.given:
+        for path, folder in files_of(given, arguments.out):
+            try:
+                run = results.load(path)
+                for name, draw in FIGURES.items():
+                    if run.of(name):
+                        for picture in style.save(draw(run), folder, style.stem(path, name)):
+                            print(picture)
+            except results.Refused as refusal:
+                print(refusal, file=sys.stderr)
+                refused = 1
+    return refused
+
+
+if __name__ == "__main__":
+    sys.exit(main())

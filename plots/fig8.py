@@ -1,0 +1,112 @@
+#!/usr/bin/env python3
+"""Figure 8: how construction scales with the number of triangles, one curve per builder.
+
+    plots/fig8.py FILE... --out DIR
+
+Medians, with a band from the 10th to the 90th percentile. Marked is the size from which on the multi-kernel
+construction stays ahead of the single-kernel one, beside the size the paper gives for its machine.
+"""
+from __future__ import annotations
+
+import math
+import sys
+
+import matplotlib.pyplot as plt
+import numpy
+from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
+
+import figure
+import results
+import style
+
+STAGE = "hierarchy"
+Curve = list[tuple[int, results.Quantiles, float]]  # triangles, seconds, nodes; by size
+
+
+def curve(cells: list[results.Cell]) -> Curve:
+    points = [(cell.triangles, results.quantiles(cell.times_s(STAGE)), cell.counters["nodes_count"])
+              for cell in cells]
+    return sorted(points, key=lambda point: point[0])
+
+
+def crossing(single: Curve, multi: Curve) -> float | None:
+    """Triangles from which on `multi` is the faster at every measured size, between sizes by interpolation.
+
+    None if it never is at the largest size, or is at every size: then nothing crosses.
+    """
+    other = {triangles: seconds.median for triangles, seconds, _ in multi}
+    ahead = [(math.log2(triangles), math.log(seconds.median / other[triangles]))
+             for triangles, seconds, _ in single if triangles in other]
+    for (x0, lead0), (x1, lead1) in reversed(list(zip(ahead, ahead[1:]))):
+        if lead1 <= 0:
+            return None
+        if lead0 <= 0:
+            return 2 ** (x0 + (x1 - x0) * -lead0 / (lead1 - lead0))
+    return None
+
+
+def draw_curve(axes: plt.Axes, points: Curve, counted: list[float], series: style.Series,
+               among: list[style.Series]) -> None:
+    """Billions of `counted` a second: the slow end of the times is the low end of the band."""
+    look = style.look(series[0])
+    sizes = [triangles for triangles, _, _ in points]
+    low, middle, high = (numpy.array(counted) / numpy.array([getattr(seconds, name) for _, seconds, _ in points])
+                         / 1e9 for name in ("p90", "median", "p10"))
+    axes.fill_between(sizes, low, high, color=look.colour, alpha=0.25, linewidth=0)
+    axes.plot(sizes, middle, color=look.colour, marker=look.marker, label=style.label(series, among),
+              linestyle=style.VARIANT_LINES[style.variant(series, among)])
+
+
+def mark_crossing(axes: plt.Axes, triangles: float, text: str, line: str, side: str) -> None:
+    axes.axvline(triangles, color="#444444", linestyle=line, linewidth=0.9, zorder=0)
+    offset, align = (3, "left") if side == "right" else (-3, "right")
+    axes.annotate(text, (triangles, 1), (offset, -2), xycoords=("data", "axes fraction"),
+                  textcoords="offset points", ha=align, va="top", fontsize=style.SMALL, color="#444444")
+
+
+def crossings(curves: dict[style.Series, Curve], panels: list[plt.Axes]) -> None:
+    """Ours for the first variant of each of the two, and the paper's."""
+    paper = results.printed("fig8")
+    device = paper["device"].replace("NVIDIA GeForce ", "")
+    first = {name: points for (name, _), points in reversed(curves.items())}
+    ours = None
+    if {"oibvh-single", "oibvh-multi"} <= first.keys():
+        ours = crossing(first["oibvh-single"], first["oibvh-multi"])
+    for number, axes in enumerate(panels):
+        words = number == 0
+        left = ours is not None and paper["crossing_triangles"] < ours
+        power = math.log2(paper["crossing_triangles"])
+        mark_crossing(axes, paper["crossing_triangles"],
+                      f"paper: multi ahead\nfrom $2^{{{power:.0f}}}$ ({device})" if words else "", ":",
+                      "left" if left else "right")
+        if ours is not None:
+            mark_crossing(axes, ours, f"here: multi ahead\nfrom $2^{{{math.log2(ours):.1f}}}$" if words else "",
+                          "--", "right" if left else "left")
+
+
+def draw(run: results.Run) -> plt.Figure:
+    cells = run.timed("fig8", STAGE)
+    among = style.in_order(cells)
+    curves = {series: curve([cell for cell in cells if style.series_of(cell) == series]) for series in among}
+    drawing, (nodes, triangles) = plt.subplots(1, 2, figsize=(style.PAGE_WIDTH, 3.6), sharex=True,
+                                               layout="constrained")
+    for series, points in curves.items():
+        draw_curve(nodes, points, [count for _, _, count in points], series, among)
+        draw_curve(triangles, points, [count for count, _, _ in points], series, among)
+    for axes, what in ((nodes, "nodes"), (triangles, "triangles")):
+        axes.set_xscale("log", base=2)
+        axes.set(yscale="log", xlabel="triangles", ylabel=f"billion {what} per second")
+        axes.xaxis.set_major_locator(LogLocator(base=4, numticks=20))
+        axes.xaxis.set_minor_locator(NullLocator())
+        axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"$2^{{{round(math.log2(value))}}}$"))
+        axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,g}"))
+        low, high = axes.get_ylim()
+        axes.set_ylim(low, high * (high / low) ** 0.1)  # room for the words at the top
+    crossings(curves, [nodes, triangles])
+    legend_height = figure.legend_above(drawing, nodes.get_legend_handles_labels()[0])
+    figure.footer(drawing, run, "fig8", ("Bands: 10th to 90th percentile.",), legend_height)
+    return drawing
+
+
+if __name__ == "__main__":
+    sys.exit(figure.command_line("fig8", __doc__, draw))

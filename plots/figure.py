@@ -1,0 +1,73 @@
+"""What the command lines of all figures share: files in, pictures out, a sentence for what cannot be drawn."""
+from __future__ import annotations
+
+import argparse
+import math
+import pathlib
+import sys
+import textwrap
+from collections.abc import Callable
+
+import matplotlib.pyplot as plt
+
+import results
+import style
+
+MISSING_SHOWN = 4
+Draw = Callable[[results.Run], plt.Figure]
+
+
+def notes(run: results.Run, experiment: str) -> list[str]:
+    """What a reader must know of how cells were timed, were not checked, or are missing."""
+    cells, lines = run.of(experiment), []
+    on_host = sorted({cell.builder for cell in cells if cell.on_host})
+    if on_host:
+        lines.append(f"On the host and its clock: {', '.join(on_host)} ({run.facts['host']['cpu']}).")
+    unchecked = sorted({cell.builder for cell in cells if not cell.checked})
+    if unchecked:
+        lines.append(f"Answers not checked: {', '.join(unchecked)}.")
+    missing = [f"{builder} {status} on {', '.join(scenes)}: {reason}"
+               for (builder, status, reason), scenes in run.left_out(experiment).items()]
+    if len(missing) > MISSING_SHOWN:
+        missing[MISSING_SHOWN:] = [f"and {len(missing) - MISSING_SHOWN} more reasons for missing cells"]
+    return lines + missing
+
+
+def legend_above(figure: plt.Figure, handles: list, columns: int = 7) -> float:
+    """A legend over all panels; answers the inches it takes."""
+    figure.legend(handles=handles, loc="upper center", ncols=columns, columnspacing=1.2)
+    return 0.1 + 0.16 * math.ceil(len(handles) / columns)
+
+
+def footer(figure: plt.Figure, run: results.Run, experiment: str, extra: tuple[str, ...] = (),
+           top_inches: float = 0) -> None:
+    """The circumstances, remarks and missing cells in small type; the panels get the room that is left."""
+    sentences = (run.circumstances(), *extra, *notes(run, experiment))
+    lines = [piece for sentence in sentences for piece in textwrap.wrap(sentence, 130)]
+    height = figure.get_figheight()
+    bottom = (0.06 + 0.128 * len(lines)) / height
+    figure.get_layout_engine().set(rect=(0, bottom, 1, 1 - bottom - top_inches / height))
+    figure.text(0.01, 0.03 / height, "\n".join(lines), fontsize=style.SMALL, color="#444444", va="bottom",
+                linespacing=1.25)
+
+
+def write(path: pathlib.Path, folder: pathlib.Path, name: str, draw: Draw) -> list[pathlib.Path]:
+    style.set_up()
+    return style.save(draw(results.load(path)), folder, style.stem(path, name))
+
+
+def command_line(name: str, description: str | None, draw: Draw) -> int:
+    """One picture per file, called after it. Exits 1 with a sentence if one cannot be made."""
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("files", nargs="+", type=pathlib.Path, metavar="FILE", help="result files")
+    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("."), metavar="DIR",
+                        help="where the pictures go (default: here)")
+    arguments = parser.parse_args()
+    try:
+        for path in arguments.files:
+            for picture in write(path, arguments.out, name, draw):
+                print(picture)
+    except results.Refused as refusal:
+        print(refusal, file=sys.stderr)
+        return 1
+    return 0

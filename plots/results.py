@@ -1,0 +1,145 @@
+"""The only reader of result files (results/schema): refuses what must not be plotted, and does the statistics.
+
+Files hold raw samples; medians and quantiles are taken here and nowhere else.
+"""
+from __future__ import annotations
+
+import json
+import pathlib
+from dataclasses import dataclass
+from typing import Any
+
+import numpy
+
+MAJOR = "1"
+PAPER = pathlib.Path(__file__).resolve().parent.parent / "results" / "paper"
+
+
+class Refused(Exception):
+    """A file or cell that no figure may be made of; the text says which and why."""
+
+
+@dataclass(frozen=True)
+class Quantiles:
+    """Of one quantity over a cell's samples."""
+
+    p10: float
+    median: float
+    p90: float
+
+
+@dataclass(frozen=True)
+class Cell:
+    """One builder measured on one scene."""
+
+    experiment: str
+    scene: str
+    triangles: int
+    stand_in_for: str | None
+    builder: str
+    options: tuple[tuple[str, str], ...]
+    checked: bool
+    counters: dict[str, float]
+    samples: list[dict[str, dict[str, Any]]]  # per sample: stage name to its numbers
+
+    def times_s(self, stage: str) -> numpy.ndarray:
+        """Seconds per sample: first start to last end on the device's clock, else the host's clock."""
+        stages = (sample[stage] for sample in self.samples if stage in sample)
+        times = [entry["span_ns"] if "span_ns" in entry else entry["wall_ns"] for entry in stages]
+        return numpy.array(times, dtype=float) * 1e-9
+
+    @property
+    def on_host(self) -> bool:
+        return any("wall_ns" in entry for sample in self.samples for entry in sample.values())
+
+    def moved_bytes(self, stage: str) -> float | None:
+        """The least the stage must read and write; host stages do not say."""
+        return self.samples[0].get(stage, {}).get("moved_bytes") if self.samples else None
+
+
+@dataclass(frozen=True)
+class Run:
+    """A result file: its circumstances and its cells, with those that have no numbers apart."""
+
+    path: pathlib.Path
+    facts: dict[str, Any]
+    cells: list[Cell]
+    without_numbers: list[dict[str, Any]]
+
+    @property
+    def device(self) -> str:
+        return self.facts["device"]["name"]
+
+    @property
+    def copy_rate(self) -> float | None:
+        return self.facts.get("copy_rate_bytes_per_s")
+
+    def of(self, experiment: str) -> list[Cell]:
+        return [cell for cell in self.cells if cell.experiment == experiment]
+
+    def timed(self, experiment: str, stage: str) -> list[Cell]:
+        """Those that a figure of this stage can show. Raises Refused if there are none."""
+        cells = [cell for cell in self.of(experiment) if len(cell.times_s(stage))]
+        if not cells:
+            raise Refused(f"{self.path}: no measured cell of {experiment} has a stage '{stage}'")
+        return cells
+
+    def left_out(self, experiment: str) -> dict[tuple[str, str, str], list[str]]:
+        """Scenes that a builder has no numbers for, by builder, status (skipped or failed) and reason."""
+        grouped: dict[tuple[str, str, str], list[str]] = {}
+        for cell in self.without_numbers:
+            if cell["experiment"] == experiment:
+                why = (cell["builder"]["name"], cell["status"], cell["reason"])
+                grouped.setdefault(why, []).append(cell["scene"]["name"])
+        return grouped
+
+    def circumstances(self) -> str:
+        """One line for under a figure: what it ran on and which program it was."""
+        program, device = self.facts["program"], self.facts["device"]
+        state = " with local changes" if program["dirty"] else ""
+        build = "" if program["build_type"] == "Release" else f", {program['build_type']} build"
+        counts = sorted({len(cell.samples) for cell in self.cells})
+        samples = "–".join(str(count) for count in dict.fromkeys((counts[0], counts[-1]))) if counts else "0"
+        return (f"{self.device}, driver {device['driver']}, {device['opencl_c']}; "
+                f"commit {program['commit'][:10]}{state}{build}; {samples} samples a cell")
+
+
+def quantiles(values: numpy.ndarray) -> Quantiles:
+    return Quantiles(*(float(value) for value in numpy.quantile(values, (0.1, 0.5, 0.9))))
+
+
+def is_result(path: pathlib.Path) -> bool:
+    """Whether a JSON file means to be a result file, of any format."""
+    document = json.loads(path.read_text(encoding="utf-8"))
+    return isinstance(document, dict) and {"format", "run", "cells"} <= document.keys()
+
+
+def load(path: pathlib.Path) -> Run:
+    """Read a result file. Raises Refused for another format and for a cell whose answer was wrong."""
+    try:
+        document = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise Refused(f"{path}: {error}") from error
+    if not isinstance(document, dict) or "format" not in document:
+        raise Refused(f"{path}: not a result file")
+    if document["format"].split(".")[0] != MAJOR:
+        raise Refused(f"{path}: format {document['format']}, while this reader knows {MAJOR}.x")
+    measured = [cell for cell in document["cells"] if cell["status"] == "measured"]
+    without = [cell for cell in document["cells"] if cell["status"] != "measured"]
+    return Run(path, document["run"], [cell_of(path, cell) for cell in measured], without)
+
+
+def cell_of(path: pathlib.Path, cell: dict[str, Any]) -> Cell:
+    scene, builder = cell["scene"], cell["builder"]
+    if cell["check"]["verdict"] == "differs":
+        detail = cell["check"].get("detail", "no detail given")
+        raise Refused(f"{path}: {builder['name']} gave a wrong answer on {scene['name']}: {detail}")
+    options = tuple(sorted((key, str(value)) for key, value in builder.get("options", {}).items()))
+    samples = [{entry["stage"]: entry for entry in sample["stages"]} for sample in cell["samples"]]
+    return Cell(cell["experiment"], scene["name"], scene.get("triangles", 0), scene.get("stand_in_for"),
+                builder["name"], options, cell["check"]["verdict"] == "agrees", cell["counters"], samples)
+
+
+def printed(name: str) -> dict[str, Any]:
+    """Numbers printed in the paper: 'table1' to 'table4', 'fig8'."""
+    return json.loads((PAPER / f"{name}.json").read_text(encoding="utf-8"))

@@ -1,0 +1,109 @@
+"""How every figure looks: one colour, marker and hatch per builder, type sizes, and how pictures are written."""
+from __future__ import annotations
+
+import pathlib
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402  (the backend is chosen first)
+from matplotlib.colors import to_rgb  # noqa: E402
+
+from results import Cell, Refused  # noqa: E402
+
+PAGE_WIDTH = 7.0  # inches: the text width of a two-column page
+SMALL = 6.5  # points: the smallest type in any figure
+
+
+@dataclass(frozen=True)
+class Look:
+    colour: str
+    marker: str
+    hatch: str = ""
+
+
+# In the order of legends. Colours are Okabe and Ito's, told apart with every kind of colour vision, and
+# grey; builders that share one differ in marker and hatch. To add a builder, add its line here.
+LOOKS = {
+    "perfect": Look("#999999", "s"),
+    "apetrei": Look("#E69F00", "^"),
+    "apetrei-fused": Look("#D55E00", "v"),
+    "karras": Look("#CC79A7", "D"),
+    "oibvh-single": Look("#56B4E9", "o"),
+    "oibvh-multi": Look("#0072B2", "o"),
+    "oibvh-reference": Look("#000000", "x"),
+    "embree-morton": Look("#009E73", "<"),
+    "embree-sah": Look("#009E73", ">", "////"),
+    "embree-spatial": Look("#009E73", "P", "...."),
+    "fcl-dynamic": Look("#F0E442", "h"),
+    "fcl-dynamic-array": Look("#F0E442", "H", "////"),
+}
+
+# A builder measured with several options keeps its colour; these tell its variants apart, in order.
+VARIANT_LINES = ("-", "--", ":", "-.")
+VARIANT_HATCHES = ("", "\\\\\\\\", "xxxx", "oooo")
+
+Series = tuple[str, tuple[tuple[str, str], ...]]  # a builder's name and its options
+
+
+def look(builder: str) -> Look:
+    if builder not in LOOKS:
+        raise Refused(f"plots/style.py has no look for the builder '{builder}': add a line to LOOKS")
+    return LOOKS[builder]
+
+
+def ink_on(colour: str) -> str:
+    """Black or white, whichever is read more easily on a colour."""
+    red, green, blue = (value**2.2 for value in to_rgb(colour))
+    return "black" if 0.2126 * red + 0.7152 * green + 0.0722 * blue > 0.2 else "white"
+
+
+def series_of(cell: Cell) -> Series:
+    return (cell.builder, cell.options)
+
+
+def in_order(cells: Iterable[Cell]) -> list[Series]:
+    """What the cells compare, each once, in the order of LOOKS."""
+    names = list(LOOKS)
+    return sorted({series_of(cell) for cell in cells}, key=lambda s: (names.index(look(s[0]) and s[0]), s[1]))
+
+
+def variant(series: Series, among: list[Series]) -> int:
+    """Which of its builder's variants a series is, from 0."""
+    return [other for other in among if other[0] == series[0]].index(series) % len(VARIANT_LINES)
+
+
+def label(series: Series, among: list[Series]) -> str:
+    """The builder's name, with the options in which it differs from its other variants."""
+    others = [set(options) for name, options in among if name == series[0]]
+    differing = [f"{key} {value}" for key, value in series[1]
+                 if any((key, value) not in options for options in others)]
+    return series[0] + (f" ({', '.join(differing)})" if differing else "")
+
+
+def set_up() -> None:
+    plt.rcParams.update({
+        "font.family": "DejaVu Sans", "font.size": 8, "axes.titlesize": 8, "axes.labelsize": 8,
+        "xtick.labelsize": 7, "ytick.labelsize": 7, "legend.fontsize": 7, "legend.frameon": False,
+        "axes.spines.top": False, "axes.spines.right": False, "axes.linewidth": 0.6,
+        "axes.axisbelow": True, "axes.grid.axis": "y", "axes.grid": True, "grid.linewidth": 0.4,
+        "grid.color": "#dddddd", "hatch.linewidth": 0.5, "lines.linewidth": 1.2, "lines.markersize": 4,
+        "svg.hashsalt": "bvhbench", "svg.fonttype": "none", "figure.dpi": 100,
+    })
+
+
+def stem(path: pathlib.Path, figure: str) -> str:
+    """A picture is called like its result file, with the figure's name unless it is in there already."""
+    return path.stem if figure in path.stem else f"{path.stem}-{figure}"
+
+
+def save(figure: plt.Figure, folder: pathlib.Path, name: str) -> list[pathlib.Path]:
+    """Write PNG and SVG. The same numbers give the same bytes: no dates, no random names."""
+    folder.mkdir(parents=True, exist_ok=True)
+    written = [folder / f"{name}.png", folder / f"{name}.svg"]
+    figure.savefig(written[0], dpi=200, metadata={"Software": None})
+    figure.savefig(written[1], metadata={"Date": None, "Creator": None})
+    plt.close(figure)
+    return written

@@ -1,0 +1,158 @@
+#!/usr/bin/env python3
+"""Every figure can be drawn from the golden results, and the reader refuses what must not be plotted.
+
+Usage: plots_test.py <source root>
+"""
+import copy
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
+GOLDEN = ROOT / "tests" / "golden"
+sys.path.insert(0, str(ROOT / "plots"))
+
+import fig8  # noqa: E402
+import results  # noqa: E402
+import style  # noqa: E402
+
+
+class TemporaryFolder(unittest.TestCase):
+    def setUp(self) -> None:
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.folder = pathlib.Path(holder.name)
+        self.document = json.loads((GOLDEN / "table1.json").read_text(encoding="utf-8"))
+
+    def written(self, document: dict, name: str = "table1.json") -> pathlib.Path:
+        path = self.folder / name
+        path.write_text(json.dumps(document), encoding="utf-8")
+        return path
+
+    def run_script(self, name: str, *arguments: object) -> subprocess.CompletedProcess:
+        command = [sys.executable, str(ROOT / "plots" / name), *map(str, arguments)]
+        return subprocess.run(command, capture_output=True, text=True, check=False)
+
+
+class Scripts(TemporaryFolder):
+    def assert_pictures(self, name: str) -> None:
+        png, svg = (self.folder / "out" / f"{name}{end}" for end in (".png", ".svg"))
+        self.assertTrue(png.read_bytes().startswith(b"\x89PNG"), png)
+        self.assertGreater(png.stat().st_size, 20_000, png)
+        self.assertIn("</svg>", svg.read_text(encoding="utf-8"), svg)
+
+    def test_each_draws_its_golden_file(self) -> None:
+        for name in ("table1", "fig8"):
+            done = self.run_script(f"{name}.py", GOLDEN / f"{name}.json", "--out", self.folder / "out")
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            self.assert_pictures(name)
+
+    def test_all_draws_a_folder_and_the_same_bytes_each_time(self) -> None:
+        for out in ("out", "again"):
+            done = self.run_script("all.py", GOLDEN, "--out", self.folder / out)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+        names = sorted(path.name for path in (self.folder / "out").iterdir())
+        self.assertEqual(names, ["fig8.png", "fig8.svg", "table1.png", "table1.svg"])
+        for name in names:
+            one, two = ((self.folder / out / name).read_bytes() for out in ("out", "again"))
+            self.assertEqual(one, two, name)
+
+    def test_svg_says_what_a_reader_must_know(self) -> None:
+        self.run_script("table1.py", GOLDEN / "table1.json", "--out", self.folder / "out")
+        text = (self.folder / "out" / "table1.svg").read_text(encoding="utf-8")
+        for words in ("hairball*", "GTX 1080, another machine", "Invented GPU", "slower than the time allowed",
+                      "On the host and its clock", "million triangles per second"):
+            self.assertIn(words, text)
+
+    def test_a_wrong_answer_makes_no_picture(self) -> None:
+        self.document["cells"][4]["check"] = {"verdict": "differs", "detail": "box 7"}
+        path = self.written(self.document)
+        for script in ("table1.py", "all.py"):
+            done = self.run_script(script, path, "--out", self.folder / "out")
+            self.assertEqual(done.returncode, 1)
+            self.assertIn("gave a wrong answer on bunny: box 7", done.stderr)
+            self.assertFalse((self.folder / "out").exists())
+
+    def test_variants_of_one_builder_are_told_apart(self) -> None:
+        first = next(c for c in self.document["cells"] if c["builder"]["name"] == "oibvh-multi")
+        second = copy.deepcopy(first)
+        first["builder"]["options"] = {"order": "morton30", "leaves": "mesh"}
+        second["builder"]["options"] = {"order": "morton30", "leaves": "sorted"}
+        self.document["cells"] = [first, second]
+        done = self.run_script("table1.py", self.written(self.document), "--out", self.folder / "out")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        text = (self.folder / "out" / "table1.svg").read_text(encoding="utf-8")
+        self.assertIn("oibvh-multi (leaves mesh)", text)
+        self.assertIn("oibvh-multi (leaves sorted)", text)
+
+
+class Reader(TemporaryFolder):
+    def assert_refused(self, document: dict, words: str) -> None:
+        with self.assertRaisesRegex(results.Refused, words):
+            results.load(self.written(document))
+
+    def test_refuses_another_major_format_and_takes_any_minor(self) -> None:
+        self.assert_refused(self.document | {"format": "2.0"}, "format 2.0")
+        self.assertEqual(len(results.load(self.written(self.document | {"format": "1.9"})).cells), 44)
+
+    def test_refuses_what_is_no_result_file(self) -> None:
+        self.assert_refused({"source": "a paper"}, "not a result file")
+        (self.folder / "half.json").write_text('{"format": "1.0", ', encoding="utf-8")
+        with self.assertRaises(results.Refused):
+            results.load(self.folder / "half.json")
+
+    def test_refuses_a_wrong_answer(self) -> None:
+        self.document["cells"][0]["check"]["verdict"] = "differs"
+        self.assert_refused(self.document, "perfect gave a wrong answer on bunny")
+
+    def test_keeps_the_reason_of_cells_without_numbers(self) -> None:
+        run = results.load(GOLDEN / "table1.json")
+        why = ("oibvh-reference", "skipped", "slower than the time allowed a cell")
+        self.assertEqual(run.left_out("table1"), {why: ["torus:2880000"]})
+
+    def test_takes_the_span_of_device_stages_and_the_wall_time_of_host_stages(self) -> None:
+        stages = [{"stage": "hierarchy", "launches": 2, "busy_ns": 1000, "span_ns": 3000, "moved_bytes": 5},
+                  {"stage": "hierarchy", "wall_ns": 7000}]
+        for stage, seconds in zip(stages, (3e-6, 7e-6)):
+            self.document["cells"] = [copy.deepcopy(self.document["cells"][0])]
+            self.document["cells"][0]["samples"] = [{"order": 0, "stages": [stage]}]
+            cell = results.load(self.written(self.document)).cells[0]
+            self.assertAlmostEqual(results.quantiles(cell.times_s("hierarchy")).median, seconds)
+
+    def test_quantiles_are_those_of_the_raw_samples(self) -> None:
+        found = results.quantiles(results.numpy.arange(101.0))
+        self.assertEqual(found, results.Quantiles(10.0, 50.0, 90.0))
+
+
+class Crossing(unittest.TestCase):
+    @staticmethod
+    def curve(times: list[float]) -> fig8.Curve:
+        return [(2 ** (10 + i), results.Quantiles(t, t, t), 1.0) for i, t in enumerate(times)]
+
+    def test_lies_where_the_multi_kernel_construction_stays_ahead(self) -> None:
+        found = fig8.crossing(self.curve([1, 3, 1, 2, 4]), self.curve([2, 2, 2, 1, 1]))
+        self.assertAlmostEqual(found, 2**12.5)  # not at the first lead, which is lost again
+
+    def test_is_none_when_nothing_crosses(self) -> None:
+        slow, fast = self.curve([2, 2, 2]), self.curve([1, 1, 1])
+        self.assertIsNone(fig8.crossing(slow, fast))
+        self.assertIsNone(fig8.crossing(fast, slow))
+
+
+class Looks(unittest.TestCase):
+    def test_no_two_builders_look_alike(self) -> None:
+        self.assertEqual(len(set(style.LOOKS.values())), len(style.LOOKS))
+        markers = {(look.colour, look.marker) for look in style.LOOKS.values()}
+        bars = {(look.colour, look.hatch) for look in style.LOOKS.values()}
+        self.assertEqual((len(markers), len(bars)), (len(style.LOOKS),) * 2)
+
+    def test_a_builder_without_one_is_named(self) -> None:
+        with self.assertRaisesRegex(results.Refused, "no look for the builder 'newcomer'"):
+            style.look("newcomer")
+
+
+if __name__ == "__main__":
+    unittest.main()
