@@ -109,8 +109,11 @@ def quantiles(values: numpy.ndarray) -> Quantiles:
 
 
 def is_result(path: pathlib.Path) -> bool:
-    """Whether a JSON file means to be a result file, of any format."""
-    document = json.loads(path.read_text(encoding="utf-8"))
+    """Whether a JSON file means to be a result file, of any format. One that cannot be read may be one."""
+    try:
+        document = json.loads(path.read_text(encoding="utf-8"))
+    except ValueError:
+        return True
     return isinstance(document, dict) and {"format", "run", "cells"} <= document.keys()
 
 
