@@ -65,23 +65,24 @@ def mark_crossing(axes: plt.Axes, triangles: float, text: str, line: str, side: 
 
 
 def crossings(curves: dict[style.Series, Curve], panels: list[plt.Axes]) -> None:
-    """Ours for the first variant of each of the two, and the paper's."""
-    paper = results.printed("fig8")
-    device = paper["device"].replace("NVIDIA GeForce ", "")
+    """Ours, for the first variant of each of the two, and the paper's if the sizes reach that far."""
+    printed = results.printed("fig8")
+    device = printed["device"].replace("NVIDIA GeForce ", "")
+    paper = printed["crossing_triangles"]
     first = {name: points for (name, _), points in reversed(curves.items())}
     ours = None
     if {"oibvh-single", "oibvh-multi"} <= first.keys():
         ours = crossing(first["oibvh-single"], first["oibvh-multi"])
-    for number, axes in enumerate(panels):
-        words = number == 0
-        left = ours is not None and paper["crossing_triangles"] < ours
-        power = math.log2(paper["crossing_triangles"])
-        mark_crossing(axes, paper["crossing_triangles"],
-                      f"paper: multi ahead\nfrom $2^{{{power:.0f}}}$ ({device})" if words else "", ":",
-                      "left" if left else "right")
-        if ours is not None:
-            mark_crossing(axes, ours, f"here: multi ahead\nfrom $2^{{{math.log2(ours):.1f}}}$" if words else "",
-                          "--", "right" if left else "left")
+    sizes = [triangles for points in curves.values() for triangles, _, _ in points]
+    middle = math.sqrt(min(sizes) * max(sizes))
+    texts = [f"paper: multi ahead\nfrom $2^{{{math.log2(paper):.0f}}}$ ({device})",
+             f"here: multi ahead\nfrom $2^{{{math.log2(ours):.1f}}}$" if ours else ""]
+    for axes, (paper_text, our_text) in zip(panels, (texts, ("", ""))):
+        if min(sizes) <= paper <= max(sizes):
+            left = paper < ours if ours else paper > middle  # away from the other's words, or inwards
+            mark_crossing(axes, paper, paper_text, ":", "left" if left else "right")
+        if ours:
+            mark_crossing(axes, ours, our_text, "--", "right" if paper < ours else "left")
 
 
 def draw(run: results.Run) -> plt.Figure:
@@ -99,9 +100,9 @@ def draw(run: results.Run) -> plt.Figure:
         axes.xaxis.set_major_locator(LogLocator(base=4, numticks=20))
         axes.xaxis.set_minor_locator(NullLocator())
         axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"$2^{{{round(math.log2(value))}}}$"))
-        axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,g}"))
         low, high = axes.get_ylim()
         axes.set_ylim(low, high * (high / low) ** 0.1)  # room for the words at the top
+        figure.log_ticks(axes.yaxis, low, high)
     crossings(curves, [nodes, triangles])
     legend_height = figure.legend_above(drawing, nodes.get_legend_handles_labels()[0])
     figure.footer(drawing, run, "fig8", ("Bands: 10th to 90th percentile.",), legend_height)

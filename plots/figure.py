@@ -9,6 +9,8 @@ import textwrap
 from collections.abc import Callable
 
 import matplotlib.pyplot as plt
+from matplotlib.axis import Axis
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 import results
 import style
@@ -26,11 +28,18 @@ def notes(run: results.Run, experiment: str) -> list[str]:
     unchecked = sorted({cell.builder for cell in cells if not cell.checked})
     if unchecked:
         lines.append(f"Answers not checked: {', '.join(unchecked)}.")
-    missing = [f"{builder} {status} on {', '.join(scenes)}: {reason}"
-               for (builder, status, reason), scenes in run.left_out(experiment).items()]
+    missing = run.left_out(experiment)
     if len(missing) > MISSING_SHOWN:
         missing[MISSING_SHOWN:] = [f"and {len(missing) - MISSING_SHOWN} more reasons for missing cells"]
     return lines + missing
+
+
+def log_ticks(axis: Axis, low: float, high: float) -> None:
+    """Plain numbers, at powers of ten; between them too where there are few."""
+    steps = (1,) if high / low > 300 else (1, 2, 5)
+    axis.set_major_locator(LogLocator(subs=steps, numticks=20))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,g}"))
+    axis.set_minor_formatter(NullFormatter())
 
 
 def legend_above(figure: plt.Figure, handles: list, columns: int = 7) -> float:

@@ -84,14 +84,18 @@ class Run:
             raise Refused(f"{self.path}: no measured cell of {experiment} has a stage '{stage}'")
         return cells
 
-    def left_out(self, experiment: str) -> dict[tuple[str, str, str], list[str]]:
-        """Scenes that a builder has no numbers for, by builder, status (skipped or failed) and reason."""
-        grouped: dict[tuple[str, str, str], list[str]] = {}
+    def left_out(self, experiment: str) -> list[str]:
+        """Who has no numbers where and why, a sentence for each group of builders and scenes."""
+        scenes: dict[tuple[str, str, str], list[str]] = {}
         for cell in self.without_numbers:
             if cell["experiment"] == experiment:
                 why = (cell["builder"]["name"], cell["status"], cell["reason"])
-                grouped.setdefault(why, []).append(cell["scene"]["name"])
-        return grouped
+                scenes.setdefault(why, []).append(cell["scene"]["name"])
+        builders: dict[tuple[str, str, str], list[str]] = {}
+        for (builder, status, reason), where in scenes.items():
+            builders.setdefault((status, ", ".join(where), reason), []).append(builder)
+        return [f"{', '.join(who)} {status} on {where}: {reason}"
+                for (status, where, reason), who in builders.items()]
 
     def circumstances(self) -> str:
         """One line for under a figure: what it ran on and which program it was."""
@@ -101,7 +105,7 @@ class Run:
         counts = sorted({len(cell.samples) for cell in self.cells})
         samples = "–".join(str(count) for count in dict.fromkeys((counts[0], counts[-1]))) if counts else "0"
         return (f"{self.device}, driver {device['driver']}, {device['opencl_c']}; "
-                f"commit {program['commit'][:10]}{state}{build}; {samples} samples a cell")
+                f"commit {program['commit'][:10]}{state}{build}; {samples} sample{'' if samples == '1' else 's'} a cell")
 
 
 def quantiles(values: numpy.ndarray) -> Quantiles:

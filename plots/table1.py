@@ -21,7 +21,9 @@ import results
 import style
 
 STAGE = "hierarchy"
-GROUP_WIDTH = 0.88  # of the distance between two meshes
+GROUP_WIDTH = 0.88  # of the distance between two meshes, at most
+BAR_WIDTH = 0.16  # likewise, so that few builders do not make walls
+FOOT = 0.15  # of the panel's height, below the lowest value: where the numbers stand
 PAPER_MARK = {"marker": "d", "markersize": 4.5, "markerfacecolor": "white", "markeredgecolor": "black",
               "markeredgewidth": 0.8, "linestyle": "none"}
 
@@ -52,11 +54,9 @@ class Bars:
     def __init__(self, run: results.Run, cells: list[results.Cell]):
         self.series = style.in_order(cells)
         self.scenes = list(dict.fromkeys(cell.scene for cell in cells))
-        self.width = GROUP_WIDTH / len(self.series)
+        self.width = min(GROUP_WIDTH / len(self.series), BAR_WIDTH)
         self.copy_rate = run.copy_rate
         self.rows = results.printed("table1")["rows"]
-        fastest = min(numpy.median(cell.times_s(STAGE)) for cell in cells)
-        self.floor_ms = 1e3 * fastest / 8  # where bars begin: leaves room for a number inside the shortest
         self.figure, (self.time, self.rate) = plt.subplots(
             2, 1, figsize=(style.PAGE_WIDTH, 5.4), sharex=True, layout="constrained",
             gridspec_kw={"height_ratios": (3, 1)})
@@ -74,8 +74,8 @@ class Bars:
         self.time.bar(x, 1e3 * seconds.median, **dress)
         self.time.errorbar(x, 1e3 * seconds.median, yerr=spread, color="#222222", elinewidth=0.7, capsize=1.2,
                            capthick=0.7)
-        self.time.text(x, self.floor_ms * 1.25, million_per_s(cell.triangles / seconds.median), rotation=90,
-                       ha="center", va="bottom", fontsize=style.SMALL, color=style.ink_on(look.colour),
+        self.time.text(x, 0.012, million_per_s(cell.triangles / seconds.median), rotation=90,
+                       transform=self.time.get_xaxis_transform(), ha="center", va="bottom", fontsize=style.SMALL, color=style.ink_on(look.colour),
                        bbox={"facecolor": look.colour, "linewidth": 0, "pad": 0} if hatch else None)
         printed = paper_time_ms(cell, self.rows)
         if printed is not None:
@@ -84,6 +84,14 @@ class Bars:
         if moved and self.copy_rate:
             self.rate.bar(x, 100 * moved / seconds.median / self.copy_rate, **dress)
 
+    def scale(self, cells: list[results.Cell]) -> None:
+        """A logarithmic axis that holds every value, ours and printed, above the foot."""
+        values = [1e3 * value for cell in cells for value in numpy.quantile(cell.times_s(STAGE), (0.1, 0.9))]
+        values += [printed for cell in cells if (printed := paper_time_ms(cell, self.rows)) is not None]
+        low, high = min(values) / 1.2, max(values) * 1.3
+        self.time.set_ylim(low / (high / low) ** (FOOT / (1 - FOOT)), high)
+        figure.log_ticks(self.time.yaxis, low, high)
+
     def finish(self, run: results.Run, cells: list[results.Cell]) -> None:
         titles = {cell.scene: scene_title(cell) for cell in cells}
         self.rate.set_xlim(-0.5, len(self.scenes) - 0.5)
@@ -91,8 +99,7 @@ class Bars:
         self.rate.tick_params(axis="x", length=0)
         self.time.tick_params(axis="x", length=0)
         self.time.set(yscale="log", ylabel="hierarchy, ms")
-        self.time.set_ylim(bottom=self.floor_ms)
-        self.time.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
+        self.scale(cells)
         self.rate.set(ylabel="% of copy rate")
         self.rate.set_ylim(0, max(100, self.rate.get_ylim()[1]))
         handles = [Patch(facecolor=style.look(series[0]).colour, edgecolor="white", linewidth=0,
