@@ -22,7 +22,7 @@ constexpr const char* argument = "--read-mesh";
 // A program whose main forgets to ask is_mesh_worker would start itself again and again.
 constexpr const char* marker = "BVHBENCH_MESH_WORKER";
 
-void limit_memory(std::size_t bytes)
+void limit_memory([[maybe_unused]] std::size_t bytes)
 {
 #if !defined(__SANITIZE_ADDRESS__)  // its shadow memory takes terabytes of address space
     const rlimit limit{bytes, bytes};
