@@ -93,17 +93,20 @@ TEST(Sphere, IsClosedWhenEvenAndAtLeastSix)
 
 TEST(Soup, StaysInTheUnitCube)
 {
-    for (const std::size_t count : {1u, 1000u})
-        for (const Point& point : generated("soup", count).frames[0])
+    for (const std::size_t count : {1u, 1000u}) {
+        const Scene scene = generated("soup", count);
+        for (const Point& point : scene.frames[0])
             for (const float coordinate : {point.x, point.y, point.z}) {
                 EXPECT_GE(coordinate, 0.0f);
                 EXPECT_LE(coordinate, 1.0f);
             }
+    }
 }
 
 TEST(Hairball, StaysNearTheUnitBall)
 {
-    for (const Point& point : generated("hairball", 100000).frames[0])
+    const Scene scene = generated("hairball", 100000);
+    for (const Point& point : scene.frames[0])
         EXPECT_LT(point.x * point.x + point.y * point.y + point.z * point.z, 1.2f);
 }
 
