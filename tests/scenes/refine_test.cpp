@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "helpers.h"
 
@@ -90,6 +91,11 @@ TEST(Refine, CutsTrianglesOfTheSameCornersAlike)
                     "f 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n");
     const Scene fine = load_scene("refine:" + twice + ":1000", {});
     EXPECT_EQ(open_sides(fine), 0u);
+    std::map<std::set<uint>, int> uses;
+    for (const Face& face : fine.faces)
+        ++uses[{face.a, face.b, face.c}];
+    for (const auto& [corners, count] : uses)
+        ASSERT_EQ(count, 2);
 }
 
 TEST(Refine, EndsOnTrianglesWithoutLength)
