@@ -51,7 +51,7 @@ void prepare_pocl_cache()
     if (folder.empty() || (fs::create_directories(folder, error), error))
         return;
     fs::permissions(folder, fs::perms::owner_all, error);
-    setenv("POCL_CACHE_DIR", folder.c_str(), 0);
+    setenv("POCL_CACHE_DIR", folder.c_str(), 1);  // empty counts as unset, PoCL aborts on it
     remove_leftovers(folder);
 }
 
