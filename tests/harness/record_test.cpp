@@ -35,6 +35,14 @@ TEST(Record, WritesACellOnOneLineWithKeysThatEndInTheirUnit)
         R"("tree_hash":"00000000000000ff"}})");
 }
 
+TEST(Record, KeepsAStageWithNothingToLaunchOnTheDevicesClock)
+{
+    Cell cell = fake_cell();
+    cell.samples = {{0, {{"hierarchy", 0, 0, 0, 0, 0}}}};
+    EXPECT_NE(cell_text(cell).find(R"({"stage":"hierarchy","launches":0,"busy_ns":0,)"),
+              std::string::npos);
+}
+
 TEST(Record, SaysOnlyWhyForACellWithoutNumbers)
 {
     Cell cell = fake_cell();
