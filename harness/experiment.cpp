@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 using Words = std::initializer_list<std::string_view>;
 
 // To add an experiment, add its file and its line here, and the file in CMakeLists.txt.
-constexpr std::string_view names[] = {"table1", "fig8", "equality", "smoke"};
+constexpr std::string_view names[] = {"table1", "fig8", "peers", "equality", "smoke"};
 
 constexpr std::int64_t most_sizes = 1 << 24;
 

@@ -81,11 +81,10 @@ std::string padding_text(double percent)
         return "0";
     if (percent >= 0.1)
         return fixed(percent, 2);
-    std::string text = printed("%.*e", percent, 1);  // "3.1e-03"
-    const std::size_t exponent = text.find('e') + 2;
-    while (exponent + 1 < text.size() && text[exponent] == '0')
-        text.erase(exponent, 1);
-    return text;
+    // Two digits, the rest cut off, as in the paper's table: 8.48e-4 is printed there as 8.4e-4.
+    const double exponent = std::floor(std::log10(percent));
+    const double digits = std::floor(percent / std::pow(10, exponent - 1) + 1e-9);
+    return fixed(digits / 10, 1) + "e" + fixed(exponent, 0);
 }
 
 }  // namespace bvhbench

@@ -55,6 +55,10 @@ TEST(Padding, IsCountedAndPrintedAsInTable1)
     cell.counters["nodes_count"] = 524287;
     EXPECT_EQ(padding_text(padding_percent(cell)), "45.05");
     EXPECT_EQ(padding_text(0), "0");
+    EXPECT_EQ(padding_text(100.0 * 7 / 825337), "8.4e-4") << "cut as in the paper, not rounded";
+    EXPECT_EQ(padding_text(100.0 * 10 / 2174947), "4.5e-4");
+    EXPECT_EQ(padding_text(100.0 * 5 / 5759999), "8.6e-5");
+    EXPECT_EQ(padding_text(0.01), "1.0e-2");
 }
 
 TEST(CellReport, PrintsStagesCountersAndVerdict)
