@@ -29,10 +29,17 @@ struct BuilderChoice {
     std::string name;
     std::string order = "morton30";
     unsigned group_size = 0;
+    unsigned items = 0;
     bool sorted_leaves = false;
 
     bool operator==(const BuilderChoice&) const = default;
-    BuildOptions options() const { return {order, group_size, sorted_leaves}; }
+    BuildOptions options() const
+    {
+        return {.order = order,
+                .group_size = group_size,
+                .items = items,
+                .sorted_leaves = sorted_leaves};
+    }
 };
 
 /// Throws BadUsage when no builder is called so, Unavailable when this binary was built without it.

@@ -15,9 +15,12 @@ namespace {
 
 using enum Table::Align;
 
+/// A line an entry, the name first and no title, so that scripts can read it.
+Table lines(std::size_t columns) { return Table(std::vector<Table::Column>(columns, {"", left})); }
+
 std::string builders()
 {
-    Table table({{"builder", left}, {"what it is", left}});
+    Table table = lines(2);
     for (const BuilderEntry& entry : builder_catalog())
         table.row({std::string(entry.name),
                    std::string(entry.make != nullptr ? entry.summary : entry.absent)});
@@ -26,16 +29,16 @@ std::string builders()
 
 std::string orders()
 {
-    Table table({{"order", left}, {"bits"}, {"what it is", left}});
+    Table table = lines(3);
     for (const OrderEntry& entry : order_catalog())
-        table.row(
-            {std::string(entry.name), std::to_string(entry.code_bits), std::string(entry.summary)});
+        table.row({std::string(entry.name), std::to_string(entry.code_bits) + " bits",
+                   std::string(entry.summary)});
     return table.text();
 }
 
 std::string scenes(const CommonOptions& common)
 {
-    Table table({{"scene", left}, {"what it is", left}});
+    Table table = lines(2);
     for (const SceneListing& listing : list_scenes(scene_library(common)))
         table.row({listing.name, listing.summary});
     return table.text();
@@ -43,7 +46,7 @@ std::string scenes(const CommonOptions& common)
 
 std::string experiments()
 {
-    Table table({{"experiment", left}, {"paper", left}, {"question", left}});
+    Table table = lines(3);
     for (const std::string_view name : experiment_names()) {
         const Experiment experiment = find_experiment(std::string(name), false);
         table.row({experiment.name, experiment.paper, experiment.question});
@@ -58,30 +61,19 @@ std::string devices()
     const std::size_t count = device_names().size();
     if (count == 0)
         throw Unavailable("there is no OpenCL device");
-    Table table({{"#"},
-                 {"device", left},
-                 {"kind", left},
-                 {"driver", left},
-                 {"OpenCL C", left},
-                 {"units"},
-                 {"memory"},
-                 {"local"},
-                 {"group"},
-                 {"timer"},
-                 {"division", left},
-                 {"acq_rel", left}});
+    Table table = lines(11);
+    const auto bytes = [](std::int64_t value) { return bytes_text(static_cast<double>(value)); };
     for (std::size_t i = 0; i < count; ++i) {
         const DeviceFacts facts = device_facts(open_device(std::to_string(i)));
-        const auto bytes = [](std::int64_t value) {
-            return bytes_text(static_cast<double>(value));
-        };
-        table.row({std::to_string(i), facts.platform + '/' + facts.name, facts.kind, facts.driver,
-                   facts.opencl_c, std::to_string(facts.compute_units),
-                   bytes(facts.global_memory_bytes), bytes(facts.local_memory_bytes),
-                   std::to_string(facts.max_group_size),
-                   duration_text(static_cast<double>(facts.timer_resolution_ns)),
-                   facts.correctly_rounded_division ? "rounded" : "2.5 ulp",
-                   facts.device_scope_acq_rel_atomics ? "yes" : "no"});
+        table.row({facts.platform + '/' + facts.name, "index " + std::to_string(i), facts.kind,
+                   "driver " + facts.driver, facts.opencl_c,
+                   std::to_string(facts.compute_units) + " units", bytes(facts.global_memory_bytes),
+                   bytes(facts.local_memory_bytes) + " local",
+                   "groups to " + std::to_string(facts.max_group_size),
+                   duration_text(static_cast<double>(facts.timer_resolution_ns)) + " timer",
+                   std::string(facts.correctly_rounded_division ? "exact division"
+                                                                : "division to 2.5 ulp") +
+                       (facts.device_scope_acq_rel_atomics ? ", acq_rel atomics" : "")});
     }
     return table.text();
 }

@@ -16,7 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Words = std::initializer_list<std::string_view>;
 
-// To add an experiment, add its file and its line here, and the file in CMakeLists.txt.
+// To add an experiment, add its file to experiments/ and its name here.
 constexpr std::string_view names[] = {"table1", "fig8", "peers", "equality", "smoke"};
 
 constexpr std::int64_t most_sizes = 1 << 24;
@@ -63,13 +63,15 @@ BuilderChoice builder_of(const Json& json)
     if (json.is_string()) {
         choice.name = json.get<std::string>();
     } else {
-        refuse_unknown_keys(json, {"name", "order", "group_size", "leaves"}, "a builder");
+        refuse_unknown_keys(json, {"name", "order", "group_size", "items", "leaves"}, "a builder");
         choice.name = text_at(json, "name");
         if (json.contains("order"))
             choice.order = text_at(json, "order");
         if (json.contains("group_size"))
             choice.group_size =
                 static_cast<unsigned>(whole_number(json["group_size"], "group_size", 0, 1 << 16));
+        if (json.contains("items"))
+            choice.items = static_cast<unsigned>(whole_number(json["items"], "items", 0, 8));
         if (json.contains("leaves")) {
             const std::string leaves = text_at(json, "leaves");
             if (leaves != "mesh" && leaves != "sorted")

@@ -44,6 +44,8 @@ void add_build(CLI::App& app, BuildCommand& build, std::string& leaves)
         ->capture_default_str();
     command->add_option("--group-size", build.builder.group_size,
                         "work-items in a group, a power of two; 0: the builder's choice");
+    command->add_option("--items", build.builder.items,
+                        "nodes a work-item merges in registers, a power of two; 0: likewise");
     command->add_option("--leaves", leaves, "mesh or sorted: where leaf boxes are kept")
         ->check(one_of({"mesh", "sorted"}));
     command->add_option("--samples", build.samples, "timed builds")
@@ -103,10 +105,11 @@ void add_common(CLI::App& app, CommonOptions& common)
     app.fallthrough();  // common options may stand behind the command's own
 }
 
-void check_group_size(unsigned size)
+void check_power_of_two(const char* option, unsigned value)
 {
-    if ((size & (size - 1)) != 0)
-        throw BadUsage("--group-size must be a power of two, not " + std::to_string(size));
+    if ((value & (value - 1)) != 0)
+        throw BadUsage(std::string(option) + " must be a power of two, not " +
+                       std::to_string(value));
 }
 
 }  // namespace
@@ -143,7 +146,8 @@ Options parse_options(int argc, const char* const* argv)
         throw BadUsage(
             "name a command: list, build, run, reproduce, check or show; `bvhbench --help` "
             "says what they do");
-    check_group_size(build.builder.group_size);
+    check_power_of_two("--group-size", build.builder.group_size);
+    check_power_of_two("--items", build.builder.items);
     build.builder.sorted_leaves = leaves == "sorted";
     const std::string chosen = app.get_subcommands().front()->get_name();
     if (chosen == "list")

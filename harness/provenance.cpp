@@ -6,6 +6,7 @@
 
 #include <array>
 #include <ctime>
+#include <filesystem>
 #include <fstream>
 #include <random>
 #include <thread>
@@ -122,6 +123,8 @@ RunFacts run_facts(const Device& device, std::vector<std::string> command)
     run.id = run_id(run.host_name);
     run.started_at = utc_now();
     run.command = std::move(command);
+    if (!run.command.empty())  // where the program lay says nothing to who reads the file elsewhere
+        run.command.front() = std::filesystem::path(run.command.front()).filename().string();
     run.version = build_info.version;
     run.commit = build_info.commit;
     run.dirty = build_info.dirty;

@@ -58,6 +58,7 @@ Json json_of(const BuilderChoice& builder)
             {"options",
              {{"order", builder.order},
               {"group_size", builder.group_size},
+              {"items", builder.items},
               {"leaves", builder.sorted_leaves ? "sorted" : "mesh"}}}};
 }
 

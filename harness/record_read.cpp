@@ -69,6 +69,7 @@ BuilderChoice builder_of(const Json& json)
     return {.name = json.at("name").get<std::string>(),
             .order = options.value("order", "morton30"),
             .group_size = get<unsigned>(options, "group_size"),
+            .items = get<unsigned>(options, "items"),
             .sorted_leaves = options.value("leaves", "mesh") == "sorted"};
 }
 

@@ -54,7 +54,9 @@ std::string Table::text() const
         }
         out += text.substr(0, text.find_last_not_of(' ') + 1) + '\n';
     };
-    line([&](std::size_t i) { return columns_[i].title; });
+    if (std::any_of(columns_.begin(), columns_.end(),
+                    [](const Column& c) { return !c.title.empty(); }))
+        line([&](std::size_t i) { return columns_[i].title; });
     for (const auto& row : rows_)
         line([&](std::size_t i) { return i < row.size() ? row[i] : std::string(); });
     return out;

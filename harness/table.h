@@ -21,7 +21,7 @@ public:
     /// One entry a column; missing ones at the end are blank.
     void row(std::vector<std::string> entries) { rows_.push_back(std::move(entries)); }
 
-    /// Title line, then the rows, each ended by a newline, no blanks at their ends.
+    /// Title line if any column has a title, then the rows, each ended by a newline, no blanks at their ends.
     std::string text() const;
 
 private:

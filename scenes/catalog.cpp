@@ -74,6 +74,14 @@ Scene refinement(std::string_view text, std::string_view rest, const SceneLibrar
     return refined(load_any(rest.substr(0, colon), library), count);
 }
 
+/// Within the data folder, the path from there: where the folder lies says nothing to who reads it elsewhere.
+std::string path_in_library(const std::filesystem::path& path, const SceneLibrary& library)
+{
+    const std::filesystem::path inside = path.lexically_relative(library.data);
+    return library.data.empty() || inside.empty() || *inside.begin() == ".." ? path.string()
+                                                                             : inside.string();
+}
+
 Scene from_path(const std::filesystem::path& path, const SceneLibrary& library)
 {
     Scene scene;
@@ -85,7 +93,7 @@ Scene from_path(const std::filesystem::path& path, const SceneLibrary& library)
         scene.objects = std::move(file.objects);
         scene.frames.push_back(std::move(file.mesh.points));
     }
-    scene.source = path.string();
+    scene.source = path_in_library(path, library);
     return scene;
 }
 

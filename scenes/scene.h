@@ -25,7 +25,8 @@ struct Scene {
     std::vector<Face> faces;                 ///< of all objects, at least one
     std::vector<SceneObject> objects;        ///< at least one
     std::vector<std::vector<Point>> frames;  ///< positions of all vertices, one vector a frame
-    std::string source;                      ///< "generated", or the path of the file that was read
+    std::string
+        source;  ///< "generated", or the file that was read: its path in the data folder if it is there
     std::string
         stand_in_for;  ///< the data set this one replaces because it is not there; else empty
     std::uint64_t content_hash = 0;  ///< of faces, objects and all frames; not of names

@@ -37,13 +37,17 @@ TEST(Experiment, ReadsEveryKey)
     const std::string_view text = R"({
         "experiment": "mine", "question": "q", "paper": "Fig. 8",
         "scenes": ["bunny", {"scene": "soup:{t}:x", "t": [9, 5]}],
-        "builders": ["perfect", {"name": "oibvh-multi", "order": "morton63", "group_size": 128,
+        "builders": ["perfect", {"name": "oibvh-multi", "order": "morton63", "group_size": 128, "items": 2,
                                  "leaves": "sorted"}],
         "stages": ["hierarchy"], "samples": 7, "warm_up": 0,
         "quick": {"samples": 2, "scenes": ["soup:1"]}})";
     const Experiment experiment = parse_experiment(text, "x.json", false);
     EXPECT_EQ(experiment.scenes, (std::vector<std::string>{"bunny", "soup:5:x", "soup:9:x"}));
-    EXPECT_EQ(experiment.builders[1], (BuilderChoice{"oibvh-multi", "morton63", 128, true}));
+    EXPECT_EQ(experiment.builders[1], (BuilderChoice{.name = "oibvh-multi",
+                                                     .order = "morton63",
+                                                     .group_size = 128,
+                                                     .items = 2,
+                                                     .sorted_leaves = true}));
     EXPECT_EQ(experiment.start, Start::from_sorted_leaves);
     EXPECT_EQ(experiment.samples, 7);
     EXPECT_EQ(experiment.warm_up, 0);
@@ -59,9 +63,10 @@ TEST(Experiment, NamesTheKeyThatItDoesNotKnowAndThoseItDoes)
     EXPECT_EQ(refusal(R"({"experiment": "a", "scene": ["soup:1"], "builders": ["perfect"]})"),
               "x.json: 'scene' is no key of an experiment; there are: experiment, question, paper, "
               "scenes, builders, stages, samples, warm_up, quick");
-    EXPECT_EQ(refusal(R"({"experiment": "a", "scenes": ["soup:1"],
+    EXPECT_EQ(
+        refusal(R"({"experiment": "a", "scenes": ["soup:1"],
                           "builders": [{"name": "perfect", "size": 3}]})"),
-              "x.json: 'size' is no key of a builder; there are: name, order, group_size, leaves");
+        "x.json: 'size' is no key of a builder; there are: name, order, group_size, items, leaves");
     EXPECT_EQ(refusal(R"({"experiment": "a", "scenes": [{"scene": "soup:{t}", "t": {"til": 3}}],
                           "builders": ["perfect"]})"),
               "x.json: 'til' is no key of the sizes 't'; there are: from, to, powers_of_two_from, "

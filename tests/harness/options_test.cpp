@@ -32,7 +32,10 @@ TEST(Options, OfBuildAreAllUnderstood)
                 "--group-size", "64", "--leaves", "sorted", "--samples", "3", "--json", "a.json",
                 "--dump", "b.json", "--device", "some words"});
     const auto& build = std::get<BuildCommand>(options.command);
-    EXPECT_EQ(build.builder, (BuilderChoice{"perfect", "morton63", 64, true}));
+    EXPECT_EQ(
+        build.builder,
+        (BuilderChoice{
+            .name = "perfect", .order = "morton63", .group_size = 64, .sorted_leaves = true}));
     EXPECT_EQ(build.scene, "soup:5");
     EXPECT_EQ(build.samples, 3);
     EXPECT_EQ(build.json, "a.json");

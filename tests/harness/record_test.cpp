@@ -27,7 +27,7 @@ TEST(Record, WritesACellOnOneLineWithKeysThatEndInTheirUnit)
         cell_text(cell),
         R"({"experiment":"table1","scene":{"name":"bunny","triangles":144046,"vertices":72027,)"
         R"("objects":1,"frame":0,"source":"bunny.ply","content_hash":"00ab54a98ceb1f0a"},)"
-        R"("builder":{"name":"oibvh-multi","options":{"order":"morton30","group_size":0,)"
+        R"("builder":{"name":"oibvh-multi","options":{"order":"morton30","group_size":0,"items":0,)"
         R"("leaves":"mesh"}},"status":"measured","warm_up":1,"samples":[{"order":7,"stages":)"
         R"([{"stage":"hierarchy","launches":2,"busy_ns":109990,"span_ns":110000,)"
         R"("moved_bytes":50000000}]}],"counters":{"nodes_count":288100,"scratch_bytes":0,)"
