@@ -44,6 +44,13 @@ std::string loader_version()
     return std::string(name.data()) + ' ' + version.data();
 }
 
+/// Without the blanks that some drivers put at the end.
+std::string trimmed(std::string text)
+{
+    text.erase(text.find_last_not_of(' ') + 1);
+    return text;
+}
+
 /// Whether OpenCL C 3.0 programs may hand data from one group to another with acquire and release.
 bool has_device_scope_acq_rel(const cl::Device& device)
 {
@@ -96,8 +103,8 @@ DeviceFacts device_facts(const Device& device)
         .name = device.name(),
         .platform = device.platform(),
         .driver = cl.getInfo<CL_DRIVER_VERSION>(),
-        .opencl = cl.getInfo<CL_DEVICE_VERSION>(),
-        .opencl_c = cl.getInfo<CL_DEVICE_OPENCL_C_VERSION>(),
+        .opencl = trimmed(cl.getInfo<CL_DEVICE_VERSION>()),
+        .opencl_c = trimmed(cl.getInfo<CL_DEVICE_OPENCL_C_VERSION>()),
         .kind = kind_of(cl),
         .compute_units = whole(cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()),
         .global_memory_bytes = whole(cl.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>()),
