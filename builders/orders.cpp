@@ -4,18 +4,43 @@
 #include <string>
 
 #include "geometry/error.h"
-#include "geometry/morton.h"
+#include "geometry/hilbert.h"
 
 namespace bvhbench {
 namespace {
 
-ulong morton_30_code(Aabb box, Aabb centres) { return morton_30(box, centres); }
-ulong morton_63_code(Aabb box, Aabb centres) { return morton_63(box, centres); }
+using CellOf = Cell (*)(Aabb box, Bounds bounds, float cells);
 
-// To add an order, add its line here and its kernel to stages/codes.cl.
+template <CellOf cell, uint (*code)(Cell)>
+ulong code_30(Aabb box, Bounds bounds)
+{
+    return code(cell(box, bounds, CELLS_30));
+}
+
+template <CellOf cell, ulong (*code)(Cell)>
+ulong code_63(Aabb box, Bounds bounds)
+{
+    return code(cell(box, bounds, CELLS_63));
+}
+
+// To add an order, add its line here and its line to stages/codes.cl.
 constexpr OrderEntry catalog[] = {
-    {"morton30", "Morton code of the box centre, 10 bits an axis", 30, "morton30", morton_30_code},
-    {"morton63", "Morton code of the box centre, 21 bits an axis", 63, "morton63", morton_63_code},
+    {"morton30", "Morton code of the box centre, 10 bits an axis", 30, "morton30",
+     code_30<cubic_cell, morton_30>},
+    {"morton63", "Morton code of the box centre, 21 bits an axis", 63, "morton63",
+     code_63<cubic_cell, morton_63>},
+    {"hilbert30", "Hilbert code of the box centre, 10 bits an axis", 30, "hilbert30",
+     code_30<cubic_cell, hilbert_30>},
+    {"hilbert63", "Hilbert code of the box centre, 21 bits an axis", 63, "hilbert63",
+     code_63<cubic_cell, hilbert_63>},
+    {"morton30-axis", "as morton30, cells stretched to the scene's box", 30, "morton30_axis",
+     code_30<stretched_cell, morton_30>},
+    {"morton63-axis", "as morton63, cells stretched to the scene's box", 63, "morton63_axis",
+     code_63<stretched_cell, morton_63>},
+    {"hilbert30-axis", "as hilbert30, cells stretched to the scene's box", 30, "hilbert30_axis",
+     code_30<stretched_cell, hilbert_30>},
+    {"hilbert63-axis", "as hilbert63, cells stretched to the scene's box", 63, "hilbert63_axis",
+     code_63<stretched_cell, hilbert_63>},
 };
 
 }  // namespace

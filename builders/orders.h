@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-#include "geometry/aabb.h"
+#include "geometry/bounds.h"
 
 namespace bvhbench {
 
@@ -14,8 +14,8 @@ struct OrderEntry {
     std::string_view summary;  ///< one line for `list orders`
     unsigned code_bits;        ///< only these bits are sorted; over 32, codes take 64
     const char* kernel;        ///< its entry point in builders/stages/codes.cl
-    /// The same code on the host: of a leaf's box, given the bounds of all box centres.
-    ulong (*code)(Aabb box, Aabb centre_bounds);
+    /// The same code on the host: of a leaf's box, given the bounds of all boxes and of their centres.
+    ulong (*code)(Aabb box, Bounds bounds);
 };
 
 /// Every order, in the order tables list them. To add one, add its line in orders.cpp.

@@ -1,77 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
-// Morton codes of box centres: the cell of a cubic grid over all centres, its bits interleaved.
+// Morton codes: the bits of a cell's three numbers, interleaved.
 //
 //     code = ... x1 y1 z1 x0 y0 z0        10 bits an axis in a uint, 21 in a ulong
-//
-// The grid has one cell size for all axes, that of the longest. Cells stretched to the scene's sides would
-// make a step along a short axis count as much as one along a long axis, which costs a flat scene several
-// times the tree quality.
 #ifndef BVHBENCH_GEOMETRY_MORTON_H
 #define BVHBENCH_GEOMETRY_MORTON_H
 
-#include "geometry/bounds.h"
+#include "geometry/grid.h"
 
 SHARED_BEGIN
 
-/// A cell of the grid, one number an axis.
-typedef struct {
-    uint x, y, z;
-} Cell;
-
-/// A cubic grid: its low corner and side, both times `scale`.
-typedef struct {
-    Point low;
-    float side;
-    float scale;
-} Grid;
-
-/// The longest side of a box, times `scale`. Infinite if it overflows.
-SHARED_FN float longest_side(Aabb box, float scale)
-{
-    const float x = box.max_x * scale - box.min_x * scale;
-    const float y = box.max_y * scale - box.min_y * scale;
-    const float z = box.max_z * scale - box.min_z * scale;
-    return fmax(fmax(x, y), z);
-}
-
-/// The cubic grid over the bounds of all centres.
-///
-/// From one end of the floats to the other is further than a float can tell; then everything is halved,
-/// which is exact for all that matters at that size. Otherwise nothing is, so that denormals keep every bit.
-SHARED_FN Grid cubic_grid(Aabb centres)
-{
-    const float largest = 3.402823466e+38f;
-    Grid grid;
-    grid.scale = longest_side(centres, 1.0f) <= largest ? 1.0f : 0.5f;
-    grid.side = longest_side(centres, grid.scale);
-    grid.low.x = centres.min_x * grid.scale;
-    grid.low.y = centres.min_y * grid.scale;
-    grid.low.z = centres.min_z * grid.scale;
-    return grid;
-}
-
-/// Which of `cells` equal parts of [0, side] holds `offset`; the upper end belongs to the last part.
-///
-/// Divided, not multiplied by a reciprocal: that of a denormal side is infinite. Clamped as a float, since
-/// converting what does not fit differs between devices. 0 / 0, where all centres coincide, is NaN and
-/// comes out of fmax as 0.
-SHARED_FN uint part_of(float offset, float side, float cells)
-{
-    return (uint)fmin(fmax(offset / side * cells, 0.0f), cells - 1.0f);
-}
-
-/// The cell of a box's centre in the cubic grid of `cells` cells a side over the bounds of all centres.
-SHARED_FN Cell centre_cell(Aabb box, Aabb centres, float cells)
-{
-    const Grid grid = cubic_grid(centres);
-    const Point centre = box_centre(box);
-    Cell cell;
-    cell.x = part_of(centre.x * grid.scale - grid.low.x, grid.side, cells);
-    cell.y = part_of(centre.y * grid.scale - grid.low.y, grid.side, cells);
-    cell.z = part_of(centre.z * grid.scale - grid.low.z, grid.side, cells);
-    return cell;
-}
+#define CELLS_30 1024.0f     // 10 bits an axis: all that a uint holds with as many an axis
+#define CELLS_63 2097152.0f  // 21 bits an axis: likewise a ulong
 
 /// The low 10 bits of x, two zeros before each.
 SHARED_FN uint spread_10(uint x)
@@ -94,17 +34,15 @@ SHARED_FN ulong spread_21(ulong x)
     return (x | x << 2u) & 0x1249249249249249ul;
 }
 
-/// 30 bits: all that a uint holds with as many an axis.
-SHARED_FN uint morton_30(Aabb box, Aabb centres)
+/// The code of a cell of 10 bits an axis.
+SHARED_FN uint morton_30(Cell cell)
 {
-    const Cell cell = centre_cell(box, centres, 1024.0f);
     return spread_10(cell.x) << 2u | spread_10(cell.y) << 1u | spread_10(cell.z);
 }
 
-/// 63 bits: all that a ulong holds with as many an axis.
-SHARED_FN ulong morton_63(Aabb box, Aabb centres)
+/// The code of a cell of 21 bits an axis.
+SHARED_FN ulong morton_63(Cell cell)
 {
-    const Cell cell = centre_cell(box, centres, 2097152.0f);
     return spread_21(cell.x) << 2u | spread_21(cell.y) << 1u | spread_21(cell.z);
 }
 

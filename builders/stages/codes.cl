@@ -1,22 +1,26 @@
 // SPDX-License-Identifier: MIT
 //
-// One entry point an order: codes[k] is afterwards the code of boxes[k], given the bounds of all centres.
-// The code itself is a function shared with the host.
+// One entry point an order: codes[k] is afterwards the code of boxes[k], given the bounds of all boxes and of
+// their centres. The code itself is a function shared with the host, and all that differs between orders.
 #include "geometry/box_words.clh"
-#include "geometry/morton.h"
+#include "geometry/hilbert.h"
 
-kernel void morton30(global const float2* restrict boxes, global const Bounds* restrict bounds,
-                     global uint* restrict codes, const uint count)
-{
-    const uint k = (uint)get_global_id(0);
-    if (k < count)
-        codes[k] = morton_30(load_box(boxes, k), bounds->centres);
-}
+#define ORDER(name, Code, code_of_box)                                                          \
+    kernel void name(global const float2* restrict boxes, global const Bounds* restrict bounds, \
+                     global Code* restrict codes, const uint count)                             \
+    {                                                                                           \
+        const uint k = (uint)get_global_id(0);                                                  \
+        if (k < count) {                                                                        \
+            const Aabb box = load_box(boxes, k);                                                \
+            codes[k] = code_of_box;                                                             \
+        }                                                                                       \
+    }
 
-kernel void morton63(global const float2* restrict boxes, global const Bounds* restrict bounds,
-                     global ulong* restrict codes, const uint count)
-{
-    const uint k = (uint)get_global_id(0);
-    if (k < count)
-        codes[k] = morton_63(load_box(boxes, k), bounds->centres);
-}
+ORDER(morton30, uint, morton_30(cubic_cell(box, *bounds, CELLS_30)))
+ORDER(morton63, ulong, morton_63(cubic_cell(box, *bounds, CELLS_63)))
+ORDER(hilbert30, uint, hilbert_30(cubic_cell(box, *bounds, CELLS_30)))
+ORDER(hilbert63, ulong, hilbert_63(cubic_cell(box, *bounds, CELLS_63)))
+ORDER(morton30_axis, uint, morton_30(stretched_cell(box, *bounds, CELLS_30)))
+ORDER(morton63_axis, ulong, morton_63(stretched_cell(box, *bounds, CELLS_63)))
+ORDER(hilbert30_axis, uint, hilbert_30(stretched_cell(box, *bounds, CELLS_30)))
+ORDER(hilbert63_axis, ulong, hilbert_63(stretched_cell(box, *bounds, CELLS_63)))

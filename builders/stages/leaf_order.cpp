@@ -56,11 +56,11 @@ HostLeafOrder host_leaf_order(std::span<const Point> points, std::span<const Fac
     HostLeafOrder result;
     for (const Face& face : faces)
         result.boxes.push_back(face_box(points, face));
-    const Aabb centres = host_bounds(result.boxes).centres;
+    const Bounds bounds = host_bounds(result.boxes);
 
     std::vector<ulong> codes;
     for (const Aabb& box : result.boxes)
-        codes.push_back(entry.code(box, centres));
+        codes.push_back(entry.code(box, bounds));
     result.ids.resize(faces.size());
     std::iota(result.ids.begin(), result.ids.end(), 0u);
     std::stable_sort(result.ids.begin(), result.ids.end(),

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "geometry/error.h"
 #include "tests/builders/stage_testing.h"
 
@@ -82,7 +84,11 @@ INSTANTIATE_TEST_SUITE_P(
         return cases;
     }()),
     [](const auto& instance) {
-        return instance.param.order + "_" + form_name(instance.param.form);
+        // GoogleTest takes letters, digits and _ only.
+        std::string name = instance.param.order + "_" + form_name(instance.param.form);
+        std::ranges::replace_if(
+            name, [](char c) { return c == '-' || c == '+'; }, '_');
+        return name;
     });
 
 TEST(LeafOrder, NamesTheOrdersThereAreWhenAskedForAnother)

@@ -12,37 +12,50 @@ namespace {
 
 Aabb point_box(float x, float y, float z) { return {x, y, z, x, y, z}; }
 
+/// Bounds of boxes that are points: the scene is where the centres are.
+Bounds bounds_of(Aabb box) { return {box, box}; }
+
 TEST(Morton, CutsTheLongestSideIntoCellsAndGivesTheOthersTheSame)
 {
     const auto code = find_order("morton30").code;
-    const Aabb centres = {0, 0, 0, 1024, 512, 0};
-    EXPECT_EQ(code(point_box(0, 0, 0), centres), 0u);
-    EXPECT_EQ(code(point_box(1, 0, 0), centres), 4u);
-    EXPECT_EQ(code(point_box(0, 1, 0), centres), 2u);
-    EXPECT_EQ(code(point_box(3, 1.5f, 0), centres), 0b100110u);
-    EXPECT_EQ(code(point_box(1024, 512, 0), centres), code(point_box(1023, 512, 0), centres));
-    EXPECT_EQ(code(point_box(512, 0, 0), centres), ulong{1} << 29);
-    EXPECT_EQ(find_order("morton63").code(point_box(512, 0, 0), centres), ulong{1} << 62);
+    const Bounds bounds = bounds_of({0, 0, 0, 1024, 512, 0});
+    EXPECT_EQ(code(point_box(0, 0, 0), bounds), 0u);
+    EXPECT_EQ(code(point_box(1, 0, 0), bounds), 4u);
+    EXPECT_EQ(code(point_box(0, 1, 0), bounds), 2u);
+    EXPECT_EQ(code(point_box(3, 1.5f, 0), bounds), 0b100110u);
+    EXPECT_EQ(code(point_box(1024, 512, 0), bounds), code(point_box(1023, 512, 0), bounds));
+    EXPECT_EQ(code(point_box(512, 0, 0), bounds), ulong{1} << 29);
+    EXPECT_EQ(find_order("morton63").code(point_box(512, 0, 0), bounds), ulong{1} << 62);
 }
 
-TEST(Morton, TellsApartAtBothEndsOfTheFloats)
+TEST(Orders, TellApartAtBothEndsOfTheFloats)
 {
     for (const OrderEntry& order : order_catalog())
         for (const float side : {6e-45f, 1e-41f, 1e-30f, 1.0f, 1.7e38f, 3.4e38f}) {
             SCOPED_TRACE(std::string(order.name) + " " + std::to_string(side));
-            const Aabb centres = {-side, 0, 0, side, 0, 0};
-            EXPECT_EQ(order.code(point_box(-side, 0, 0), centres), 0u);
-            EXPECT_LT(order.code(point_box(-side, 0, 0), centres),
-                      order.code(point_box(0, 0, 0), centres));
-            EXPECT_LT(order.code(point_box(0, 0, 0), centres),
-                      order.code(point_box(side, 0, 0), centres));
+            const Bounds bounds = bounds_of({-side, 0, 0, side, 0, 0});
+            EXPECT_EQ(order.code(point_box(-side, 0, 0), bounds), 0u);
+            EXPECT_LT(order.code(point_box(-side, 0, 0), bounds),
+                      order.code(point_box(0, 0, 0), bounds));
+            EXPECT_LT(order.code(point_box(0, 0, 0), bounds),
+                      order.code(point_box(side, 0, 0), bounds));
         }
 }
 
-TEST(Morton, IsZeroWhereAllCentresCoincide)
+TEST(Orders, AreZeroWhereAllCentresCoincide)
 {
     for (const OrderEntry& order : order_catalog())
-        EXPECT_EQ(order.code(point_box(3, 4, 5), point_box(3, 4, 5)), 0u);
+        EXPECT_EQ(order.code(point_box(3, 4, 5), bounds_of(point_box(3, 4, 5))), 0u);
+}
+
+TEST(Orders, OnTheStretchedGridCutEveryAxisOfTheSceneAlike)
+{
+    const auto code = find_order("morton30-axis").code;
+    const Bounds bounds = {{0, 0, 0, 1024, 512, 0}, {500, 250, 0, 501, 251, 0}};
+    EXPECT_EQ(code(point_box(1, 0, 0), bounds), 4u);
+    EXPECT_EQ(code(point_box(0, 0.5f, 0), bounds), 2u);
+    EXPECT_EQ(code(point_box(512, 256, 0), bounds), 3u << 28);
+    EXPECT_EQ(code(point_box(1024, 512, 0), bounds), code(point_box(1023, 511.5f, 0), bounds));
 }
 
 TEST(Orders, NamesThoseThereAreWhenAskedForAnother)
@@ -51,7 +64,10 @@ TEST(Orders, NamesThoseThereAreWhenAskedForAnother)
         find_order("spiral");
         FAIL();
     } catch (const BadUsage& error) {
-        EXPECT_STREQ(error.what(), "no order is called 'spiral'; there are: morton30, morton63");
+        std::string expected = "no order is called 'spiral'; there are:";
+        for (const OrderEntry& order : order_catalog())
+            expected += (&order == &order_catalog().front() ? " " : ", ") + std::string(order.name);
+        EXPECT_EQ(error.what(), expected);
     }
 }
 
