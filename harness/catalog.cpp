@@ -8,12 +8,22 @@
 namespace bvhbench {
 namespace {
 
+/// A builder whose tree no other makes: its promises decide alone.
+constexpr BuilderEntry promised(std::string_view name, std::string_view summary, MakeBuilder make)
+{
+    return {name, summary, make, {}, {}};
+}
+
 // To add a builder, add its line here. Nothing registers itself.
 constexpr BuilderEntry catalog[] = {
     {"perfect", "perfect implicit tree, padded to a power of two leaves", make_perfect},
     {"oibvh-single", "Oi-BVH in one launch, groups meet through global atomics", make_oibvh_single},
     {"oibvh-multi", "Oi-BVH in several launches, groups meet between them", make_oibvh_multi},
     {"oibvh-reference", "Oi-BVH on one core of the host, slowly: the oracle", make_oibvh_reference},
+    promised("heap-median", "left-balanced heap, split at medians, on a host core",
+             make_heap_median),
+    promised("median-split", "halves along the longest axis, on a host core", make_median_split),
+    promised("sah-binned", "binned surface area heuristic, on a host core", make_sah_binned),
 };
 
 }  // namespace

@@ -10,12 +10,20 @@
 
 namespace bvhbench {
 
+/// The builder that most trees must equal, bit for bit.
+inline constexpr std::string_view reference_builder = "oibvh-reference";
+
 /// A line of `list builders`.
 struct BuilderEntry {
     std::string_view name;         ///< the key on the command line, in result files and legends
     std::string_view summary;      ///< one line
     MakeBuilder make;              ///< nullptr when this binary was built without it
     std::string_view absent = {};  ///< then: why, as in "built without Embree"
+    /// `reference_builder`, whose tree this one's must equal, or nothing: then the promises decide alone.
+    std::string_view oracle = reference_builder;
+    /// Set if the builder may throw Unavailable for some meshes, for the reason given here. It then does so
+    /// instead of leaving a wrong tree, and never for an ordinary mesh.
+    std::string_view may_refuse = {};
 };
 
 /// Every builder, in the order tables list them.

@@ -24,7 +24,8 @@ private:
     std::map<std::string, std::uint64_t> hashes_;
 };
 
-/// The verdict on a tree over the oracle's input: every promise of a builder, then the reference's bits.
+/// The verdict on a tree over the oracle's input: every promise of a builder, then, if the builder's entry
+/// names an oracle, the reference's bits.
 Check check_tree(const Tree& tree, const Input& input, const BuilderChoice& builder,
                  Oracle& oracle);
 

@@ -35,7 +35,15 @@ std::vector<BuilderChoice> chosen_builders(const std::string& name)
 struct Tally {
     std::size_t checked = 0;
     std::size_t broken = 0;
+    std::size_t refused = 0;
     std::string first;  ///< the first promise broken
+
+    std::string verdict() const
+    {
+        return broken > 0    ? std::to_string(broken) + " broken"
+               : refused > 0 ? "refuses " + std::to_string(refused)
+                             : "keeps";
+    }
 };
 
 class Checker {
@@ -53,10 +61,12 @@ public:
         for (std::size_t i = 0; i < builders_.size(); ++i) {
             throw_if_interrupted();
             std::string wrong;
+            bool refused = false;
             const std::string failure = reason_of_failure(
-                [&] { wrong = broken_contract(session_, builders_[i], input, oracle); });
+                [&] { wrong = broken_contract(session_, builders_[i], input, oracle, &refused); });
             if (!failure.empty())
                 session_.renew_queue();
+            tallies[i].refused += refused ? 1 : 0;
             count(tallies[i], failure.empty() ? wrong : failure, faces.size());
         }
     }
@@ -65,9 +75,10 @@ public:
     {
         for (std::size_t i = 0; i < builders_.size(); ++i) {
             const Tally& tally = tallies[i];
-            table_.row({builders_[i].name, input, std::to_string(tally.checked),
-                        tally.broken == 0 ? "keeps" : std::to_string(tally.broken) + " broken",
-                        tally.first});
+            table_.row({builders_[i].name, input, std::to_string(tally.checked), tally.verdict(),
+                        tally.broken == 0 && tally.refused > 0
+                            ? std::string(find_builder(builders_[i].name).may_refuse)
+                            : tally.first});
             broken_ += tally.broken;
             checked_ += tally.checked;
         }

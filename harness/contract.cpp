@@ -2,6 +2,7 @@
 #include "harness/contract.h"
 
 #include "builders/spell_out.h"
+#include "geometry/error.h"
 #include "geometry/hash.h"
 
 namespace bvhbench {
@@ -30,10 +31,8 @@ std::string other_tree(const Tree& tree, std::uint64_t expected, const char* whi
     return std::string(which) + " left the tree " + hex(hash) + ", the first " + hex(expected);
 }
 
-}  // namespace
-
-std::string broken_contract(Session& session, const BuilderChoice& choice, const Input& input,
-                            Oracle& oracle)
+std::string broken_promise_of_build(Session& session, const BuilderChoice& choice,
+                                    const Input& input, Oracle& oracle)
 {
     Builder& builder = session.builder(choice);
     builder.reserve(input.triangle_count());
@@ -52,6 +51,25 @@ std::string broken_contract(Session& session, const BuilderChoice& choice, const
         wrong = other_tree(*tree, *check.tree_hash, "the build from sorted leaves");
     }
     return wrong;
+}
+
+}  // namespace
+
+std::string broken_contract(Session& session, const BuilderChoice& choice, const Input& input,
+                            Oracle& oracle, bool* refused)
+{
+    if (refused != nullptr)
+        *refused = false;
+    try {
+        return broken_promise_of_build(session, choice, input, oracle);
+    } catch (const Unavailable&) {
+        if (find_builder(choice.name).may_refuse.empty())
+            throw;
+        session.renew_queue();
+        if (refused != nullptr)
+            *refused = true;
+        return {};
+    }
 }
 
 }  // namespace bvhbench

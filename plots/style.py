@@ -25,7 +25,7 @@ class Look:
 
 
 # In the order of legends. Colours are Okabe and Ito's, told apart with every kind of colour vision, and
-# grey; builders that share one differ in marker and hatch. To add a builder, add its line here.
+# grey and brown; builders that share one differ in marker and hatch. To add a builder, add its line here.
 LOOKS = {
     "perfect": Look("#999999", "s"),
     "apetrei": Look("#E69F00", "^"),
@@ -34,6 +34,9 @@ LOOKS = {
     "oibvh-single": Look("#56B4E9", "o"),
     "oibvh-multi": Look("#0072B2", "o"),
     "oibvh-reference": Look("#000000", "x"),
+    "heap-median": Look("#8C510A", "s", "xxxx"),
+    "median-split": Look("#8C510A", "^"),
+    "sah-binned": Look("#8C510A", "v", "////"),
     "embree-morton": Look("#009E73", "<"),
     "embree-sah": Look("#009E73", ">", "////"),
     "embree-spatial": Look("#009E73", "P", "...."),

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "baselines/baselines.h"
+#include "builders/spell_out.h"
+#include "scenes/catalog.h"
+
+namespace bvhbench {
+
+/// What a builder is made with and works on, opened once.
+struct Bench {
+    Device device = open_device("");
+    Programs programs{device};
+    Queue queue{device};
+};
+
+inline Bench& bench()
+{
+    static Bench bench;
+    return bench;
+}
+
+inline Mesh mesh_of(const std::string& scene)
+{
+    Scene loaded = load_scene(scene, {});
+    return {std::move(loaded.frames.front()), std::move(loaded.faces)};
+}
+
+/// The tree that a builder leaves over a mesh, checked to be one.
+inline HostTree tree_over(MakeBuilder make, const Mesh& mesh)
+{
+    const auto builder = make(bench().programs, {});
+    const Input input = upload(bench().device, bench().queue, mesh.points, mesh.faces);
+    builder->reserve(mesh.faces.size());
+    const HostTree tree = builder->build(input, bench().queue).spelled_out();
+    bench().queue.finish();
+    EXPECT_EQ(broken_promise(tree, mesh.points, mesh.faces), "") << builder->card().name;
+    return tree;
+}
+
+/// Nodes on the longest way from the root to a leaf, the root left out.
+inline int depth_of(const HostTree& tree)
+{
+    std::vector<int> depth(tree.nodes.size(), 0);
+    for (std::size_t i = 0; i < tree.nodes.size(); ++i)  // children come after their parent
+        for (const int child : tree.nodes[i].child)
+            if (child != HostTree::none)
+                depth[static_cast<std::size_t>(child)] = depth[i] + 1;
+    return *std::max_element(depth.begin(), depth.end());
+}
+
+/// The surfaces of all inner nodes together, the root's being 1: what differs between the costs [Aila2013]
+/// of trees over the same leaves.
+inline double inner_surface(const HostTree& tree)
+{
+    const auto surface = [](const Aabb& box) {
+        const double x = static_cast<double>(box.max_x) - box.min_x;
+        const double y = static_cast<double>(box.max_y) - box.min_y;
+        const double z = static_cast<double>(box.max_z) - box.min_z;
+        return x * y + y * z + z * x;
+    };
+    double sum = 0;
+    for (const HostTree::Node& node : tree.nodes)
+        if (node.primitive == HostTree::none)
+            sum += surface(node.box);
+    return sum / surface(tree.nodes.front().box);
+}
+
+}  // namespace bvhbench
