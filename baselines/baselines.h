@@ -17,4 +17,26 @@ std::unique_ptr<Builder> make_heap_median(Programs& programs, const BuildOptions
 std::unique_ptr<Builder> make_median_split(Programs& programs, const BuildOptions& options);
 std::unique_ptr<Builder> make_sah_binned(Programs& programs, const BuildOptions& options);
 
+/// rtcBuildBVH, on all threads of the host, with binary nodes and one triangle a leaf. High quality is denied its
+/// splits, since they put a triangle in several leaves, and then builds as medium does.
+/// They throw Unavailable for coordinates beyond 1.8e18. nullptr in a binary built without Embree.
+#if BVHBENCH_HAS_EMBREE
+std::unique_ptr<Builder> make_embree_low(Programs& programs, const BuildOptions& options);
+std::unique_ptr<Builder> make_embree_medium(Programs& programs, const BuildOptions& options);
+std::unique_ptr<Builder> make_embree_high(Programs& programs, const BuildOptions& options);
+#else
+inline constexpr MakeBuilder make_embree_low = nullptr;
+inline constexpr MakeBuilder make_embree_medium = nullptr;
+inline constexpr MakeBuilder make_embree_high = nullptr;
+#endif
+
+/// FCL's BVHModel in double, on one core of the host; nullptr in a binary built without it.
+#if BVHBENCH_HAS_FCL
+std::unique_ptr<Builder> make_fcl_aabb(Programs& programs, const BuildOptions& options);
+std::unique_ptr<Builder> make_fcl_obbrss(Programs& programs, const BuildOptions& options);
+#else
+inline constexpr MakeBuilder make_fcl_aabb = nullptr;
+inline constexpr MakeBuilder make_fcl_obbrss = nullptr;
+#endif
+
 }  // namespace bvhbench

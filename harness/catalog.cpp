@@ -14,6 +14,18 @@ constexpr BuilderEntry promised(std::string_view name, std::string_view summary,
     return {name, summary, make, {}, {}};
 }
 
+constexpr BuilderEntry of_embree(std::string_view name, std::string_view summary, MakeBuilder make)
+{
+    return {name, summary,
+            make, make != nullptr ? "" : "built without Embree",
+            {},   "Embree takes no coordinates beyond 1.8e18"};
+}
+
+constexpr BuilderEntry of_fcl(std::string_view name, std::string_view summary, MakeBuilder make)
+{
+    return {name, summary, make, make != nullptr ? "" : "built without FCL", {}};
+}
+
 // To add a builder, add its line here. Nothing registers itself.
 constexpr BuilderEntry catalog[] = {
     {"perfect", "perfect implicit tree, padded to a power of two leaves", make_perfect},
@@ -24,6 +36,14 @@ constexpr BuilderEntry catalog[] = {
              make_heap_median),
     promised("median-split", "halves along the longest axis, on a host core", make_median_split),
     promised("sah-binned", "binned surface area heuristic, on a host core", make_sah_binned),
+    of_embree("embree-low", "Embree's Morton builder, on all host threads", make_embree_low),
+    of_embree("embree-medium", "Embree's binned SAH, on all host threads", make_embree_medium),
+    of_embree("embree-high", "Embree's best without splitting triangles: as embree-medium",
+              make_embree_high),
+    of_fcl("fcl-aabb", "FCL's tree of axis-aligned boxes, on a host core", make_fcl_aabb),
+    of_fcl("fcl-obbrss",
+           "FCL's tree of oriented boxes, on a host core, shown with axis-aligned ones",
+           make_fcl_obbrss),
 };
 
 }  // namespace

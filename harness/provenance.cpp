@@ -145,6 +145,13 @@ RunFacts run_facts(const Device& device, std::vector<std::string> command)
                      {"nlohmann_json", BVHBENCH_JSON_VERSION},
                      {"CLI11", BVHBENCH_CLI11_VERSION},
                      {"OpenCL loader", loader_version()}};
+    // Only those that are compiled in: of the others there are no results.
+#if BVHBENCH_HAS_EMBREE
+    run.libraries["Embree"] = BVHBENCH_EMBREE_VERSION;
+#endif
+#if BVHBENCH_HAS_FCL
+    run.libraries["FCL"] = BVHBENCH_FCL_VERSION;
+#endif
     return run;
 }
 

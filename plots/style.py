@@ -37,11 +37,11 @@ LOOKS = {
     "heap-median": Look("#8C510A", "s", "xxxx"),
     "median-split": Look("#8C510A", "^"),
     "sah-binned": Look("#8C510A", "v", "////"),
-    "embree-morton": Look("#009E73", "<"),
-    "embree-sah": Look("#009E73", ">", "////"),
-    "embree-spatial": Look("#009E73", "P", "...."),
-    "fcl-dynamic": Look("#F0E442", "h"),
-    "fcl-dynamic-array": Look("#F0E442", "H", "////"),
+    "embree-low": Look("#009E73", "<"),
+    "embree-medium": Look("#009E73", ">", "////"),
+    "embree-high": Look("#009E73", "P", "...."),
+    "fcl-aabb": Look("#F0E442", "h"),
+    "fcl-obbrss": Look("#F0E442", "H", "////"),
 }
 
 # A builder measured with several options keeps its colour; these tell its variants apart, in order.

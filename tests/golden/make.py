@@ -14,9 +14,9 @@ SCENES = {"bunny": 144046, "erato": 412669, "dragon": 871306, "buddha": 1087474,
 BUILDERS = {
     "perfect": (14, 0.031), "apetrei": (16, 0.24), "apetrei-fused": (11, 0.11), "karras": (22, 0.18),
     "oibvh-single": (9, 0.033), "oibvh-multi": (13.5, 0.0235), "oibvh-reference": (20, 9.0),
-    "embree-morton": (300, 14.0), "embree-sah": (400, 90.0),
+    "embree-low": (300, 14.0), "embree-medium": (400, 90.0),
 }
-ON_HOST = ("oibvh-reference", "embree-morton", "embree-sah")
+ON_HOST = ("oibvh-reference", "embree-low", "embree-medium")
 RUN = {
     "id": "20200101T000000Z-golden-0000", "started_at": "2020-01-01T00:00:00Z",
     "finished_at": "2020-01-01T00:01:00Z", "command": ["bvhbench", "reproduce", "table1"],

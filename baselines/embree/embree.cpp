@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: MIT
+//
+// Embree's own builders, asked for a binary tree with one triangle a leaf: rtcBuildBVH calls back for every node
+// and leaf, from all its threads, and we link them. What collides in such a tree is ours, so that the tree is
+// compared and not Embree's traversal of its wider ones.
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "baselines/baselines.h"
+#include "baselines/host/host_builder.h"
+#include "geometry/error.h"
+
+namespace bvhbench {
+namespace {
+
+/// Larger coordinates make Embree drop a triangle from its own geometries, without a word.
+constexpr float largest_coordinate = 1.844e18f;
+
+/// No tree of ours reaches it. At Embree's default of 32 it would cut sets in halves instead of where it says.
+constexpr unsigned max_depth = 1024;
+
+// Made in Embree's memory, by whichever thread gets there.
+//
+//     Inner  boxes and addresses of both children        Leaf  its box and triangle
+struct Node {
+    bool is_leaf;
+};
+
+struct Leaf : Node {
+    uint primitive;
+    Aabb box;
+};
+
+struct Inner : Node {
+    Aabb boxes[2];
+    const Node* children[2];
+};
+
+Aabb box_of(const RTCBounds& bounds)
+{
+    return {bounds.lower_x, bounds.lower_y, bounds.lower_z,
+            bounds.upper_x, bounds.upper_y, bounds.upper_z};
+}
+
+void* create_node(RTCThreadLocalAllocator allocator, unsigned, void*)
+{
+    return new (rtcThreadLocalAlloc(allocator, sizeof(Inner), 16)) Inner{{false}, {}, {}};
+}
+
+void set_children(void* node, void** children, unsigned count, void*)
+{
+    for (unsigned i = 0; i < count; ++i)
+        static_cast<Inner*>(node)->children[i] = static_cast<const Node*>(children[i]);
+}
+
+void set_boxes(void* node, const RTCBounds** bounds, unsigned count, void*)
+{
+    for (unsigned i = 0; i < count; ++i)
+        static_cast<Inner*>(node)->boxes[i] = box_of(*bounds[i]);
+}
+
+void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives,
+                  std::size_t, void*)
+{
+    const RTCBuildPrimitive& only = *primitives;
+    const Aabb box = {only.lower_x, only.lower_y, only.lower_z,
+                      only.upper_x, only.upper_y, only.upper_z};
+    Node* leaf =
+        new (rtcThreadLocalAlloc(allocator, sizeof(Leaf), 16)) Leaf{{true}, only.primID, box};
+    return leaf;
+}
+
+/// The tree where Embree left it. Inner boxes are Embree's.
+class EmbreeTree final : public Tree {
+public:
+    const Node* root = nullptr;
+    std::size_t triangles = 0;
+
+    std::size_t node_count() const override { return 2 * triangles - 1; }
+
+    HostTree spelled_out() const override
+    {
+        HostTree tree;
+        std::vector<const Node*> found{root};
+        tree.nodes.resize(1);
+        std::size_t leaves = 0;
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            if (found[i]->is_leaf) {
+                const auto& leaf = static_cast<const Leaf&>(*found[i]);
+                tree.nodes[i].box = leaf.box;
+                tree.nodes[i].primitive = static_cast<int>(leaf.primitive);
+                ++leaves;
+                continue;
+            }
+            const auto& inner = static_cast<const Inner&>(*found[i]);
+            if (i == 0)
+                tree.nodes[0].box = merged(inner.boxes[0], inner.boxes[1]);
+            for (std::size_t side = 0; side < 2; ++side) {
+                tree.nodes[i].child[side] = static_cast<int>(found.size());
+                tree.nodes.emplace_back().box = inner.boxes[side];
+                found.push_back(inner.children[side]);
+            }
+        }
+        if (leaves != triangles)
+            throw Unavailable("Embree built a tree of " + std::to_string(leaves) + " of " +
+                              std::to_string(triangles) + " triangles");
+        return tree;
+    }
+};
+
+class Embree final : public HostMethod {
+public:
+    Embree(const BuilderCard& card, RTCBuildQuality quality) : card_(card)
+    {
+        // As many as every result file says the host has: host_threads.
+        const std::string threads =
+            "threads=" + std::to_string(std::thread::hardware_concurrency());
+        device_.reset(rtcNewDevice(threads.c_str()));
+        if (device_ == nullptr)
+            throw Unavailable("Embree could not be started");
+        bvh_.reset(rtcNewBVH(device_.get()));
+        arguments_ = rtcDefaultBuildArguments();
+        arguments_.buildQuality = quality;
+        arguments_.maxBranchingFactor = 2;
+        arguments_.maxDepth = max_depth;
+        arguments_.maxLeafSize = 1;
+        arguments_.bvh = bvh_.get();
+        arguments_.createNode = create_node;
+        arguments_.setNodeChildren = set_children;
+        arguments_.setNodeBounds = set_boxes;
+        arguments_.createLeaf = create_leaf;
+    }
+
+    BuilderCard card() const override { return card_; }
+
+    /// The nodes and what we hand over. What else Embree takes, and keeps between builds, it does not tell.
+    Footprint footprint(std::size_t primitives) const override
+    {
+        return {(primitives - 1) * sizeof(Inner) + primitives * sizeof(Leaf),
+                primitives * sizeof(RTCBuildPrimitive)};
+    }
+
+    void reserve(std::size_t primitives) override
+    {
+        tree_.root = nullptr;
+        tree_.triangles = primitives;
+        primitives_.resize(primitives);
+    }
+
+    /// Each time anew: rtcBuildBVH rearranges what it is given.
+    void accept(std::span<const Aabb> boxes) override
+    {
+        for (std::size_t k = 0; k < boxes.size(); ++k) {
+            const Aabb& box = boxes[k];
+            for (const float x : {box.min_x, box.min_y, box.min_z, box.max_x, box.max_y, box.max_z})
+                if (!(std::abs(x) < largest_coordinate))
+                    throw Unavailable("Embree takes no coordinates beyond 1.8e18, and triangle " +
+                                      std::to_string(k) + " has some");
+            primitives_[k] = {box.min_x, box.min_y, box.min_z, 0,
+                              box.max_x, box.max_y, box.max_z, static_cast<uint>(k)};
+        }
+    }
+
+    void build() override
+    {
+        arguments_.primitives = primitives_.data();
+        arguments_.primitiveCount = primitives_.size();
+        arguments_.primitiveArrayCapacity = primitives_.size();
+        tree_.root = static_cast<const Node*>(rtcBuildBVH(&arguments_));
+        if (const RTCError error = rtcGetDeviceError(device_.get());
+            tree_.root == nullptr || error != RTC_ERROR_NONE)
+            throw Unavailable("Embree built no tree: its error " + std::to_string(error));
+    }
+
+    const Tree& tree() const override { return tree_; }
+
+private:
+    struct Release {
+        void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+        void operator()(RTCBVH bvh) const { rtcReleaseBVH(bvh); }
+    };
+
+    BuilderCard card_;
+    std::unique_ptr<RTCDeviceTy, Release> device_;
+    std::unique_ptr<RTCBVHTy, Release> bvh_;
+    RTCBuildArguments arguments_{};
+    std::vector<RTCBuildPrimitive> primitives_;
+    EmbreeTree tree_;
+};
+
+std::unique_ptr<Builder> make(std::string_view name, std::string_view method,
+                              RTCBuildQuality quality)
+{
+    const BuilderCard card = {name, method, BuilderCard::Runs::on_host};
+    return make_host_builder(std::make_unique<Embree>(card, quality));
+}
+
+}  // namespace
+
+std::unique_ptr<Builder> make_embree_low(Programs&, const BuildOptions&)
+{
+    return make("embree-low", "Embree, low quality: Morton codes, on all host threads [Wald2014]",
+                RTC_BUILD_QUALITY_LOW);
+}
+
+std::unique_ptr<Builder> make_embree_medium(Programs&, const BuildOptions&)
+{
+    return make("embree-medium",
+                "Embree, medium quality: binned SAH, on all host threads [Wald2014]",
+                RTC_BUILD_QUALITY_MEDIUM);
+}
+
+// High quality splits triangles, and would put one in several leaves; each is in exactly one here. Without
+// splits Embree builds as for medium quality.
+std::unique_ptr<Builder> make_embree_high(Programs&, const BuildOptions&)
+{
+    return make("embree-high",
+                "Embree, high quality without splits: binned SAH, on all host threads [Wald2014]",
+                RTC_BUILD_QUALITY_HIGH);
+}
+
+}  // namespace bvhbench

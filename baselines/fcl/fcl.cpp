@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+//
+// The trees of FCL, the collision library of many robot planners: split at the mean of the triangles' centroids,
+// one triangle a leaf, on one core. In double: FCL in float misses pairs.
+#include <fcl/geometry/bvh/BVH_model.h>
+
+#include <memory>
+#include <type_traits>
+#include <vector>
+
+#include "baselines/baselines.h"
+#include "geometry/error.h"
+
+namespace bvhbench {
+namespace {
+
+Point point_of(const fcl::Vector3d& p)
+{
+    return {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])};
+}
+
+/// The model where FCL left it. `Volume` is what FCL keeps a node.
+template <class Volume>
+class FclTree final : public Tree {
+public:
+    std::unique_ptr<fcl::BVHModel<Volume>> model;
+
+    std::size_t node_count() const override { return static_cast<std::size_t>(model->getNumBVs()); }
+
+    /// Axis-aligned boxes are FCL's own: doubles that are floats. Of other volumes the tree keeps its nodes
+    /// and gets the boxes of its triangles, so that trees are compared and not shapes.
+    HostTree spelled_out() const override
+    {
+        HostTree tree;
+        tree.nodes.resize(node_count());
+        for (std::size_t i = tree.nodes.size(); i-- > 0;) {  // children come after their parent
+            const fcl::BVNode<Volume>& from = model->getBV(static_cast<int>(i));
+            HostTree::Node& node = tree.nodes[i];
+            if (from.isLeaf())
+                node.primitive = from.primitiveId();
+            else
+                node.child = {from.leftChild(), from.rightChild()};
+            if constexpr (std::is_same_v<Volume, fcl::AABBd>)
+                node.box = box_between(from.bv.min_, from.bv.max_);
+            else
+                node.box = from.isLeaf()
+                               ? triangle(node.primitive)
+                               : merged(box_of(tree, node.child[0]), box_of(tree, node.child[1]));
+        }
+        return tree;
+    }
+
+private:
+    static Aabb box_between(const fcl::Vector3d& low, const fcl::Vector3d& high)
+    {
+        // Through triangle_box, which leaves no negative zeros.
+        return triangle_box(point_of(low), point_of(high), point_of(low));
+    }
+
+    static Aabb box_of(const HostTree& tree, int node)
+    {
+        return tree.nodes[static_cast<std::size_t>(node)].box;
+    }
+
+    Aabb triangle(int primitive) const
+    {
+        const fcl::Triangle& corners = model->tri_indices[primitive];
+        return triangle_box(point_of(model->vertices[corners[0]]),
+                            point_of(model->vertices[corners[1]]),
+                            point_of(model->vertices[corners[2]]));
+    }
+};
+
+template <class Volume>
+class Fcl final : public Builder {
+public:
+    explicit Fcl(const BuilderCard& card) : card_(card) {}
+
+    BuilderCard card() const override { return card_; }
+
+    /// The nodes and FCL's array of triangle numbers, which is as long. Its copy of the mesh is not counted.
+    Footprint footprint(std::size_t primitives) const override
+    {
+        const std::size_t nodes = 2 * primitives - 1;
+        return {nodes * sizeof(fcl::BVNode<Volume>), nodes * sizeof(unsigned)};
+    }
+
+    void reserve(std::size_t primitives) override { reserved_ = footprint(primitives); }
+
+    Footprint reserved() const override { return reserved_; }
+
+    /// FCL has no stage of its own for leaf boxes: it fits each node to all triangles under it.
+    const Tree& build(const Input& input, Queue& queue, Start) override
+    {
+        hand_over(input);
+        int error = fcl::BVH_OK;
+        queue.on_host("hierarchy", [&] { error = tree_.model->endModel(); });
+        if (error != fcl::BVH_OK)
+            throw Unavailable("FCL built no tree: its error " + std::to_string(error));
+        return tree_;
+    }
+
+private:
+    /// Each time a new model: FCL warns on the terminal when one is filled again. Copying is not timed, as for
+    /// every builder.
+    void hand_over(const Input& input)
+    {
+        std::vector<fcl::Vector3d> points;
+        for (const Point& p : input.points)
+            points.emplace_back(p.x, p.y, p.z);
+        std::vector<fcl::Triangle> triangles;
+        for (const Face& face : input.faces)
+            triangles.emplace_back(face.a, face.b, face.c);
+        tree_.model = std::make_unique<fcl::BVHModel<Volume>>();
+        tree_.model->beginModel(static_cast<int>(triangles.size()),
+                                static_cast<int>(points.size()));
+        tree_.model->addSubModel(points, triangles);
+    }
+
+    BuilderCard card_;
+    FclTree<Volume> tree_;
+    Footprint reserved_;
+};
+
+}  // namespace
+
+std::unique_ptr<Builder> make_fcl_aabb(Programs&, const BuildOptions&)
+{
+    return std::make_unique<Fcl<fcl::AABBd>>(BuilderCard{
+        "fcl-aabb", "FCL, axis-aligned boxes in double, on one core of the host [Pan2012]",
+        BuilderCard::Runs::on_host});
+}
+
+std::unique_ptr<Builder> make_fcl_obbrss(Programs&, const BuildOptions&)
+{
+    return std::make_unique<Fcl<fcl::OBBRSSd>>(BuilderCard{
+        "fcl-obbrss",
+        "FCL, oriented boxes and swept spheres in double, on one core of the host [Pan2012]",
+        BuilderCard::Runs::on_host});
+}
+
+}  // namespace bvhbench

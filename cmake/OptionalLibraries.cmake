@@ -1,0 +1,17 @@
+# optional_library(<NAME> <package> <version>): a library that some builders wrap, and nothing else needs.
+#
+# BVHBENCH_WITH_<NAME> is AUTO (use it if it is there), ON (fail without it) or OFF. Sets BVHBENCH_HAS_<NAME>
+# to 1 or 0. Without it the builders are still listed, with the reason that they cannot be made.
+macro(optional_library name package version)
+    set(BVHBENCH_WITH_${name} AUTO CACHE STRING "Builders that wrap ${package} ${version}: AUTO, ON or OFF")
+    set_property(CACHE BVHBENCH_WITH_${name} PROPERTY STRINGS AUTO ON OFF)
+    set(BVHBENCH_HAS_${name} 0)
+    if(BVHBENCH_WITH_${name} STREQUAL "AUTO")
+        find_package(${package} ${version} QUIET)
+    elseif(BVHBENCH_WITH_${name})
+        find_package(${package} ${version} REQUIRED)
+    endif()
+    if(BVHBENCH_WITH_${name} AND ${package}_FOUND)
+        set(BVHBENCH_HAS_${name} 1)
+    endif()
+endmacro()
