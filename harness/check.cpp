@@ -28,16 +28,16 @@ std::uint64_t Oracle::tree_hash(const std::string& order)
     return hashes_[order] = bvhbench::tree_hash(tree->spelled_out());
 }
 
-Check check_tree(const Tree& tree, const Input& input, const BuilderChoice& builder, Oracle& oracle)
+Check check_tree(const HostTree& tree, const Input& input, const BuilderChoice& builder,
+                 Oracle& oracle)
 {
     using enum Check::Verdict;
-    const HostTree spelled_out = tree.spelled_out();
     const bool has_oracle = !find_builder(builder.name).oracle.empty();
     Check check{agrees,
                 has_oracle ? std::string(reference_builder) : promises_name,
                 {},
-                bvhbench::tree_hash(spelled_out)};
-    check.detail = broken_promise(spelled_out, input.points, input.faces);
+                bvhbench::tree_hash(tree)};
+    check.detail = broken_promise(tree, input.points, input.faces);
     if (!check.detail.empty()) {
         check.verdict = differs;
         return check;

@@ -26,7 +26,7 @@ private:
 
 /// The verdict on a tree over the oracle's input: every promise of a builder, then, if the builder's entry
 /// names an oracle, the reference's bits.
-Check check_tree(const Tree& tree, const Input& input, const BuilderChoice& builder,
+Check check_tree(const HostTree& tree, const Input& input, const BuilderChoice& builder,
                  Oracle& oracle);
 
 /// The verdict `before`, unless `tree`, the last of those sampled, is another one: then that differs.

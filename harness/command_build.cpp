@@ -37,6 +37,7 @@ int build(const BuildCommand& command, const Options& options)
     experiment.scenes = {command.scene};
     experiment.builders = {command.builder};
     experiment.samples = command.samples;
+    experiment.quality = command.quality;
     experiment.may_stand_in = false;  // who names a mesh means that mesh
 
     Session session(options.common);

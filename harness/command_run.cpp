@@ -35,6 +35,7 @@ int run(const RunCommand& command, const Options& options)
     Experiment experiment = find_experiment(command.experiment, command.quick);
     if (command.samples > 0)
         experiment.samples = command.samples;
+    experiment.quality = experiment.quality || command.quality;
     const CellFilter filter = filter_of(command.filter);
     const std::string out = command.out.empty() ? experiment.name + ".json" : command.out;
 

@@ -38,7 +38,7 @@ std::string broken_promise_of_build(Session& session, const BuilderChoice& choic
     builder.reserve(input.triangle_count());
     const Tree* tree = nullptr;
     session.build_once(builder, input, Start::from_triangles, &tree);
-    const Check check = check_tree(*tree, input, choice, oracle);
+    const Check check = check_tree(tree->spelled_out(), input, choice, oracle);
     if (check.verdict != Check::Verdict::agrees)
         return check.detail;
     std::string wrong = broken_footprint(builder, input.triangle_count());

@@ -174,7 +174,7 @@ Experiment experiment_of(const Json& json, bool quick)
 {
     refuse_unknown_keys(json,
                         {"experiment", "question", "paper", "scenes", "builders", "stages",
-                         "samples", "warm_up", "quick"},
+                         "samples", "warm_up", "quality", "quick"},
                         "an experiment");
     for (const char* key : {"experiment", "scenes", "builders"})
         if (!json.contains(key))
@@ -187,6 +187,11 @@ Experiment experiment_of(const Json& json, bool quick)
     read_size(json, experiment);
     if (json.contains("stages"))
         experiment.start = start_of(json["stages"]);
+    if (json.contains("quality")) {
+        if (!json["quality"].is_boolean())
+            throw BadUsage("'quality' is true or false, not " + json["quality"].dump());
+        experiment.quality = json["quality"];
+    }
     if (json.contains("quick")) {
         refuse_unknown_keys(json["quick"], {"scenes", "builders", "samples", "warm_up"}, "'quick'");
         Experiment quicker = experiment;

@@ -17,7 +17,7 @@ namespace bvhbench {
 ///     {"experiment": "table1", "question": "...", "paper": "Table 1",
 ///      "scenes": ["bunny", {"scene": "soup:{t}", "t": {"from": 1, "to": 600}}],
 ///      "builders": ["perfect", {"name": "oibvh-multi", "group_size": 256}],
-///      "stages": ["hierarchy"], "samples": 30, "warm_up": 3, "quick": {"samples": 5}}
+///      "stages": ["hierarchy"], "samples": 30, "warm_up": 3, "quality": true, "quick": {"samples": 5}}
 ///
 /// `quick` replaces `scenes`, `builders`, `samples` or `warm_up` for --quick. In a scene with sizes, the key
 /// in braces takes a list of numbers or an object of: `from` and `to` (every number), `powers_of_two_from`
@@ -32,6 +32,8 @@ struct Experiment {
     Start start = Start::from_triangles;
     /// Whether a data set that is not there is replaced by its stand-in; without, its cells are skipped.
     bool may_stand_in = true;
+    /// Whether the counters that take long, `epo` and `sibling_overlap`, are wanted too.
+    bool quality = false;
     int samples = 30;
     int warm_up = 3;
 };

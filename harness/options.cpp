@@ -51,6 +51,8 @@ void add_build(CLI::App& app, BuildCommand& build, std::string& leaves)
     command->add_option("--samples", build.samples, "timed builds")
         ->capture_default_str()
         ->check(CLI::Range(1, most_samples));
+    command->add_flag("--quality", build.quality,
+                      "count epo and sibling_overlap, which takes long");
     command->add_option("--json", build.json, "write the result file");
     command->add_option("--dump", build.dump, "write the tree, spelled out, as JSON");
 }
@@ -66,6 +68,7 @@ void add_run(CLI::App& app, RunCommand& run)
     command->add_option("--samples", run.samples, "timed builds a cell")
         ->check(CLI::Range(1, most_samples));
     command->add_flag("--quick", run.quick, "fewer scenes and samples");
+    command->add_flag("--quality", run.quality, "count epo and sibling_overlap, which takes long");
 }
 
 void add_reproduce(CLI::App& app, ReproduceCommand& reproduce)

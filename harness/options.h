@@ -31,6 +31,7 @@ struct BuildCommand {
     int samples = 20;
     std::string json;  ///< result file to write; may be empty
     std::string dump;  ///< file for the spelled-out tree; may be empty
+    bool quality = false;
 };
 struct RunCommand {
     std::string experiment;  ///< a name or a path
@@ -38,6 +39,7 @@ struct RunCommand {
     std::string filter;      ///< regular expression on "scene/builder"
     int samples = 0;         ///< 0: as the experiment says
     bool quick = false;
+    bool quality = false;
 };
 struct ReproduceCommand {
     std::string what;  ///< table1 or fig8

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "harness/report.h"
 
+#include <cmath>
+
 #include "geometry/hash.h"
 #include "harness/table.h"
 
@@ -23,8 +25,11 @@ std::string rate_text(double bytes, double ns)
 std::string counters_text(const Cell& cell)
 {
     std::string text;
-    for (const auto& [key, value] : cell.counters)
-        text += (text.empty() ? "" : ", ") + key + ' ' + grouped(static_cast<std::int64_t>(value));
+    for (const auto& [key, value] : cell.counters) {
+        const bool is_whole = value == std::floor(value);
+        text += (text.empty() ? "" : ", ") + key + ' ' +
+                (is_whole ? grouped(static_cast<std::int64_t>(value)) : fixed(value, 3));
+    }
     return text;
 }
 

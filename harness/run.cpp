@@ -7,6 +7,7 @@
 #include "harness/check.h"
 #include "harness/failure.h"
 #include "harness/interrupt.h"
+#include "harness/metrics.h"
 #include "harness/provenance.h"
 #include "harness/sampler.h"
 
@@ -61,6 +62,23 @@ std::vector<BuilderChoice> chosen(const Experiment& experiment, const std::strin
         if (!filter || std::regex_search(scene + '/' + builder.name, *filter))
             builders.push_back(builder);
     return builders;
+}
+
+}  // namespace
+
+namespace {
+
+/// Verdict and quality of the tree just built, which is spelled out once for both. A tree that is wrong has no
+/// quality.
+void judge(Cell& cell, const Tree& built, const Input& input, Oracle& oracle, bool with_overlap)
+{
+    const HostTree tree = built.spelled_out();
+    cell.check = check_tree(tree, input, cell.builder, oracle);
+    if (cell.check.verdict == Check::Verdict::differs)
+        return;
+    cell.counters.merge(tree_counters(tree));
+    if (with_overlap)
+        cell.counters.merge(overlap_counters(tree, input.points, input.faces));
 }
 
 }  // namespace
@@ -140,15 +158,15 @@ Run::Prepared Run::prepare(const Experiment& experiment, const Input& input, Cel
         Builder& builder = session_.builder(cell.builder);
         builder.reserve(input.triangle_count());
         session_.build_once(builder, input, Start::from_triangles, &prepared.tree);
-        cell.check = check_tree(*prepared.tree, input, cell.builder, oracle);
+        judge(cell, *prepared.tree, input, oracle, experiment.quality);
         if (experiment.start == Start::from_sorted_leaves) {
             session_.build_once(builder, input, experiment.start, &prepared.tree);
             cell.check = check_again(*prepared.tree, std::move(cell.check));
         }
         const Footprint footprint = builder.reserved();
-        cell.counters = {{"nodes_count", static_cast<double>(prepared.tree->node_count())},
-                         {"tree_bytes", static_cast<double>(footprint.tree_bytes)},
-                         {"scratch_bytes", static_cast<double>(footprint.scratch_bytes)}};
+        cell.counters["nodes_count"] = static_cast<double>(prepared.tree->node_count());
+        cell.counters["tree_bytes"] = static_cast<double>(footprint.tree_bytes);
+        cell.counters["scratch_bytes"] = static_cast<double>(footprint.scratch_bytes);
         prepared.builder = &builder;
     });
     if (!failure.empty()) {

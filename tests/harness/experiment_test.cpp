@@ -39,7 +39,7 @@ TEST(Experiment, ReadsEveryKey)
         "scenes": ["bunny", {"scene": "soup:{t}:x", "t": [9, 5]}],
         "builders": ["perfect", {"name": "oibvh-multi", "order": "morton63", "group_size": 128, "items": 2,
                                  "leaves": "sorted"}],
-        "stages": ["hierarchy"], "samples": 7, "warm_up": 0,
+        "stages": ["hierarchy"], "samples": 7, "warm_up": 0, "quality": true,
         "quick": {"samples": 2, "scenes": ["soup:1"]}})";
     const Experiment experiment = parse_experiment(text, "x.json", false);
     EXPECT_EQ(experiment.scenes, (std::vector<std::string>{"bunny", "soup:5:x", "soup:9:x"}));
@@ -51,6 +51,7 @@ TEST(Experiment, ReadsEveryKey)
     EXPECT_EQ(experiment.start, Start::from_sorted_leaves);
     EXPECT_EQ(experiment.samples, 7);
     EXPECT_EQ(experiment.warm_up, 0);
+    EXPECT_TRUE(experiment.quality);
 
     const Experiment quick = parse_experiment(text, "x.json", true);
     EXPECT_EQ(quick.samples, 2);
@@ -62,7 +63,7 @@ TEST(Experiment, NamesTheKeyThatItDoesNotKnowAndThoseItDoes)
 {
     EXPECT_EQ(refusal(R"({"experiment": "a", "scene": ["soup:1"], "builders": ["perfect"]})"),
               "x.json: 'scene' is no key of an experiment; there are: experiment, question, paper, "
-              "scenes, builders, stages, samples, warm_up, quick");
+              "scenes, builders, stages, samples, warm_up, quality, quick");
     EXPECT_EQ(
         refusal(R"({"experiment": "a", "scenes": ["soup:1"],
                           "builders": [{"name": "perfect", "size": 3}]})"),

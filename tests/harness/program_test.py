@@ -84,11 +84,25 @@ def test_build_writes_a_valid_result_and_the_tree():
         assert f"\n{stage} " in out, out
     cell, = valid("b.json")["cells"]
     assert len(cell["samples"]) == 4 and cell["check"]["verdict"] == "agrees"
-    assert set(cell["counters"]) == {"nodes_count", "tree_bytes", "scratch_bytes"}
+    assert set(cell["counters"]) == {"nodes_count", "tree_bytes", "scratch_bytes", "sah_cost", "sah_inner",
+                                     "sah_leaf", "depth_max", "depth_mean"}
     nodes = json.loads(pathlib.Path("d.json").read_text())["nodes"]
     assert len(nodes) == cell["counters"]["nodes_count"]
     assert sorted(n["primitive"] for n in nodes if n["primitive"] >= 0) == list(range(300))
     expect(0, "show", "b.json", says="verdict: agrees")
+
+
+def test_quality_has_no_number_where_it_has_no_value():
+    expect(0, "build", "--builder", "oibvh-multi", "--scene", "grid:300", "--samples", "1", "--quality",
+           "--json", "q.json", says="epo")
+    cell, = valid("q.json")["cells"]
+    assert {"epo", "sibling_overlap", "sah_cost"} <= set(cell["counters"])
+    pathlib.Path("line.obj").write_text("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\nf 3 2 1\n")
+    expect(0, "build", "--builder", "oibvh-multi", "--scene", "line.obj", "--samples", "1", "--quality",
+           "--json", "q.json")
+    cell, = valid("q.json")["cells"]
+    assert not {"epo", "sibling_overlap", "sah_cost", "sah_inner", "sah_leaf"} & set(cell["counters"])
+    assert cell["counters"]["depth_max"] == 1
 
 
 def test_options_reach_the_builder():

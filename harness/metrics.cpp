@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include "harness/metrics.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "harness/compensated_sum.h"
+#include "harness/end_point_overlap.h"
+
+namespace bvhbench {
+namespace {
+
+const HostTree::Node& node_at(const HostTree& tree, int index)
+{
+    return tree.nodes[static_cast<std::size_t>(index)];
+}
+
+bool is_leaf(const HostTree::Node& node) { return node.primitive != HostTree::none; }
+
+double root_area(const HostTree& tree)
+{
+    return tree.nodes.empty() ? 0 : surface_area(tree.nodes.front().box);
+}
+
+/// What both boxes cover; without extent where they are apart.
+Aabb common(const Aabb& a, const Aabb& b)
+{
+    return {std::max(a.min_x, b.min_x), std::max(a.min_y, b.min_y), std::max(a.min_z, b.min_z),
+            std::min(a.max_x, b.max_x), std::min(a.max_y, b.max_y), std::min(a.max_z, b.max_z)};
+}
+
+}  // namespace
+
+double surface_area(const Aabb& box)
+{
+    const double x = static_cast<double>(box.max_x) - box.min_x;
+    const double y = static_cast<double>(box.max_y) - box.min_y;
+    const double z = static_cast<double>(box.max_z) - box.min_z;
+    return 2 * (x * y + y * z + z * x);
+}
+
+std::optional<AreaSums> area_sums(const HostTree& tree)
+{
+    const double whole = root_area(tree);
+    if (!(whole > 0))
+        return std::nullopt;
+    CompensatedSum inner, leaf;
+    for (const HostTree::Node& node : tree.nodes)
+        (is_leaf(node) ? leaf : inner).add(surface_area(node.box));
+    return AreaSums{inner.value() / whole, leaf.value() / whole};
+}
+
+std::optional<double> sibling_overlap(const HostTree& tree)
+{
+    const double whole = root_area(tree);
+    if (!(whole > 0))
+        return std::nullopt;
+    CompensatedSum sum;
+    for (const HostTree::Node& node : tree.nodes) {
+        if (node.child[0] == HostTree::none || node.child[1] == HostTree::none)
+            continue;
+        const Aabb& left = node_at(tree, node.child[0]).box;
+        const Aabb& right = node_at(tree, node.child[1]).box;
+        if (overlap(left, right))
+            sum.add(surface_area(common(left, right)));
+    }
+    return sum.value() / whole;
+}
+
+std::vector<std::int64_t> leaves_by_depth(const HostTree& tree)
+{
+    std::vector<std::int64_t> counts;
+    std::vector<std::pair<int, std::size_t>> stack;  // a node and its depth
+    if (!tree.nodes.empty())
+        stack.emplace_back(0, 0);
+    while (!stack.empty()) {
+        const auto [index, depth] = stack.back();
+        stack.pop_back();
+        const HostTree::Node& node = node_at(tree, index);
+        if (is_leaf(node)) {
+            counts.resize(std::max(counts.size(), depth + 1));
+            ++counts[depth];
+        }
+        for (const int child : node.child)
+            if (child != HostTree::none)
+                stack.emplace_back(child, depth + 1);
+    }
+    return counts;
+}
+
+std::map<std::string, double> tree_counters(const HostTree& tree)
+{
+    std::map<std::string, double> counters;
+    if (const auto sums = area_sums(tree)) {
+        counters["sah_inner"] = sums->inner;
+        counters["sah_leaf"] = sums->leaf;
+        counters["sah_cost"] = sums->cost();
+    }
+    const std::vector<std::int64_t> depths = leaves_by_depth(tree);
+    double leaves = 0;
+    double sum = 0;  // whole numbers, exact up to 2^53
+    for (std::size_t depth = 0; depth < depths.size(); ++depth) {
+        leaves += static_cast<double>(depths[depth]);
+        sum += static_cast<double>(depths[depth]) * static_cast<double>(depth);
+    }
+    if (leaves > 0) {
+        counters["depth_max"] = static_cast<double>(depths.size() - 1);
+        counters["depth_mean"] = sum / leaves;
+    }
+    return counters;
+}
+
+std::map<std::string, double> overlap_counters(const HostTree& tree, std::span<const Point> points,
+                                               std::span<const Face> faces)
+{
+    std::map<std::string, double> counters;
+    if (const auto overlap = sibling_overlap(tree))
+        counters["sibling_overlap"] = *overlap;
+    if (const auto epo = end_point_overlap(tree, points, faces))
+        counters["epo"] = *epo;
+    return counters;
+}
+
+}  // namespace bvhbench

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+//
+// Host trees to hold the metrics to: over the same leaf order, with boxes of triangles.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include "builders/tree.h"
+#include "geometry/bounds.h"
+#include "geometry/mesh.h"
+#include "geometry/morton.h"
+
+namespace bvhbench {
+
+/// 30-bit Morton codes on the grid that the scene's box is cut into, 1024 parts a side whatever its length.
+inline std::vector<std::uint32_t> per_axis_codes(const Mesh& mesh)
+{
+    Bounds bounds = empty_bounds();
+    for (const Face& face : mesh.faces)
+        bounds = grown(bounds, face_box(mesh.points, face));
+    const Aabb& scene = bounds.scene;
+    std::vector<std::uint32_t> codes;
+    for (const Face& face : mesh.faces) {
+        const Point centre = box_centre(face_box(mesh.points, face));
+        const uint x = part_of(centre.x - scene.min_x, scene.max_x - scene.min_x, 1024.0f);
+        const uint y = part_of(centre.y - scene.min_y, scene.max_y - scene.min_y, 1024.0f);
+        const uint z = part_of(centre.z - scene.min_z, scene.max_z - scene.min_z, 1024.0f);
+        codes.push_back(spread_10(x) << 2u | spread_10(y) << 1u | spread_10(z));
+    }
+    return codes;
+}
+
+/// Triangles in the order of their codes, equal ones in their own.
+inline std::vector<int> sorted_ids(std::span<const std::uint32_t> codes)
+{
+    std::vector<int> ids(codes.size());
+    std::iota(ids.begin(), ids.end(), 0);
+    std::stable_sort(ids.begin(), ids.end(), [&](int a, int b) {
+        return codes[static_cast<std::size_t>(a)] < codes[static_cast<std::size_t>(b)];
+    });
+    return ids;
+}
+
+/// A tree over `ids` whose ranges [first, last) are cut where `split(first, last, depth)` says, top down: at
+/// `first` for a leaf, at `last` for a node with an only child.
+template <class Split>
+HostTree tree_by(const Mesh& mesh, std::span<const int> ids, const Split& split)
+{
+    struct Range {
+        std::size_t first, last, node, depth;
+    };
+    HostTree tree;
+    tree.nodes.emplace_back();
+    std::vector<Range> stack = {{0, ids.size(), 0, 0}};
+    while (!stack.empty()) {
+        const Range range = stack.back();
+        stack.pop_back();
+        const std::size_t middle = split(range.first, range.last, range.depth);
+        if (middle == range.first) {
+            tree.nodes[range.node].primitive = ids[range.first];
+            continue;
+        }
+        const std::size_t cuts[] = {range.first, middle, range.last};
+        for (std::size_t side = 0; side < 2 && cuts[side] < cuts[side + 1]; ++side) {
+            tree.nodes[range.node].child[side] = static_cast<int>(tree.nodes.size());
+            stack.push_back({cuts[side], cuts[side + 1], tree.nodes.size(), range.depth + 1});
+            tree.nodes.emplace_back();
+        }
+    }
+    for (std::size_t i = tree.nodes.size(); i-- > 0;) {
+        HostTree::Node& node = tree.nodes[i];
+        node.box = empty_box();
+        if (node.primitive != HostTree::none)
+            node.box = face_box(mesh.points, mesh.faces[static_cast<std::size_t>(node.primitive)]);
+        else
+            for (const int child : node.child)
+                node.box = merged(node.box, tree.nodes[static_cast<std::size_t>(child)].box);
+    }
+    return tree;
+}
+
+/// The linear BVH: ranges are cut at the highest bit in which codes differ; of equal codes, positions.
+inline HostTree host_lbvh(const Mesh& mesh)
+{
+    const std::vector<std::uint32_t> codes = per_axis_codes(mesh);
+    const std::vector<int> ids = sorted_ids(codes);
+    const auto key = [&](std::size_t i) {
+        return std::uint64_t{codes[static_cast<std::size_t>(ids[i])]} << 32 | i;
+    };
+    return tree_by(mesh, ids, [&](std::size_t first, std::size_t last, std::size_t) {
+        if (last - first == 1)
+            return first;
+        const int bit = 63 - std::countl_zero(key(first) ^ key(last - 1));
+        std::size_t low = first, high = last;  // the first with the bit set lies in (low, high)
+        while (high - low > 1) {
+            const std::size_t middle = (low + high) / 2;
+            (key(middle) >> bit & 1 ? high : low) = middle;
+        }
+        return high;
+    });
+}
+
+/// The tree of the paper: all leaves on one level, each node's left child full before it has a right one.
+inline HostTree host_oi_tree(const Mesh& mesh)
+{
+    const std::vector<int> ids = sorted_ids(per_axis_codes(mesh));
+    const auto leaf_level = static_cast<std::size_t>(std::bit_width(ids.size() - 1));
+    return tree_by(mesh, ids, [&](std::size_t first, std::size_t last, std::size_t depth) {
+        if (depth == leaf_level)
+            return first;
+        return std::min(last, first + (std::size_t{1} << (leaf_level - depth - 1)));
+    });
+}
+
+}  // namespace bvhbench
