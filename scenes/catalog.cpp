@@ -3,12 +3,14 @@
 
 #include <unistd.h>
 
+#include <cmath>
 #include <new>
 
 #include "geometry/error.h"
 #include "scenes/finish.h"
 #include "scenes/formats/text.h"
 #include "scenes/generate/catalog.h"
+#include "scenes/generate/outlier.h"
 #include "scenes/generate/refine.h"
 #include "scenes/manifest.h"
 #include "scenes/sequence.h"
@@ -74,6 +76,24 @@ Scene refinement(std::string_view text, std::string_view rest, const SceneLibrar
     return refined(load_any(rest.substr(0, colon), library), count);
 }
 
+/// "SCENE:K:D", what follows "outlier:".
+Scene outlier(std::string_view text, std::string_view rest, const SceneLibrary& library)
+{
+    const std::size_t last = std::min(rest.rfind(':'), rest.size());
+    const std::size_t colon = std::min(rest.substr(0, last).rfind(':'), last);
+    const std::string_view number =
+        rest.substr(std::min(colon + 1, last), last - std::min(colon + 1, last));
+    const std::int64_t triangle = parse_integer(number).value_or(-1);
+    const float diameters =
+        parse_float(rest.substr(std::min(last + 1, rest.size()))).value_or(INFINITY);
+    if (colon == 0 || triangle < 0 || triangle > 0xffffffffll || !(std::fabs(diameters) <= 1e6f))
+        throw BadUsage("scene " + in_quotes(text) +
+                       " is not of the form outlier:SCENE:K:D, K a triangle and D a distance in "
+                       "diagonals of the scene's box");
+    return with_outlier(load_any(rest.substr(0, colon), library), static_cast<uint>(triangle),
+                        diameters);
+}
+
 /// Within the data folder, the path from there: where the folder lies says nothing to who reads it elsewhere.
 std::string path_in_library(const std::filesystem::path& path, const SceneLibrary& library)
 {
@@ -125,7 +145,7 @@ Scene from_data_set(const ManifestEntry& entry, const SceneLibrary& library)
     std::string known;
     for (const Generator& generator : generators())
         known += std::string(generator.name) + ":N, ";
-    known += "refine:SCENE:N, ";
+    known += "refine:SCENE:N, outlier:SCENE:K:D, ";
     for (const ManifestEntry& entry : manifest())
         known += entry.set.name + ", ";
     throw BadUsage("no scene is called " + in_quotes(text) + "; there are: " + known +
@@ -154,6 +174,8 @@ Scene unfinished(std::string_view text, const SceneLibrary& library)
     const std::string_view rest = text.substr(std::min(colon + 1, text.size()));
     if (head == "refine")
         return refinement(text, rest, library);
+    if (head == "outlier")
+        return outlier(text, rest, library);
     if (const ManifestEntry* const entry = manifest_entry(text))
         return from_data_set(*entry, library);
     if (const Generator* const generator = generator_called(head))

@@ -37,6 +37,8 @@ std::vector<SceneListing> list_scenes(const SceneLibrary& library)
         lines.push_back({std::string(generator.name) + ":N", std::string(generator.summary)});
     lines.push_back(
         {"refine:SCENE:N", "any scene with its longest edges cut until it has N triangles"});
+    lines.push_back(
+        {"outlier:SCENE:K:D", "any scene with triangle K moved away by D diagonals of its box"});
     for (const ManifestEntry& entry : manifest())
         lines.push_back({entry.set.name, summary(entry, library)});
     return lines;

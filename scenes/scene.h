@@ -16,6 +16,13 @@ struct SceneObject {
     uint face_count = 0;
 };
 
+/// How a scene differs from another one: by a triangle that was moved away (scenes/generate/outlier.h).
+struct Outlier {
+    std::string of;  ///< that scene; empty: none was moved
+    uint triangle = 0;
+    double diameters = 0;  ///< how far, in diagonals of that scene's box
+};
+
 /// What is built over: triangles of one or more objects, with one or more frames of vertex positions.
 ///
 /// The connectivity holds for all frames. Objects are contiguous, in order, and cover every face.
@@ -29,6 +36,7 @@ struct Scene {
         source;  ///< "generated", or the file that was read: its path in the data folder if it is there
     std::string
         stand_in_for;  ///< the data set this one replaces because it is not there; else empty
+    Outlier outlier;
     std::uint64_t content_hash = 0;  ///< of faces, objects and all frames; not of names
 
     uint triangle_count() const { return static_cast<uint>(faces.size()); }
