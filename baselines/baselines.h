@@ -39,4 +39,10 @@ inline constexpr MakeBuilder make_fcl_aabb = nullptr;
 inline constexpr MakeBuilder make_fcl_obbrss = nullptr;
 #endif
 
+/// The binary radix tree, topology and boxes in one launch: the strongest form of [Apetrei2014] we know.
+std::unique_ptr<Builder> make_apetrei_fused(Programs& programs, const BuildOptions& options);
+
+/// The same tree top-down on one core of the host, slowly: the oracle for every builder of it.
+std::unique_ptr<Builder> make_radix_reference(Programs& programs, const BuildOptions& options);
+
 }  // namespace bvhbench

@@ -8,34 +8,43 @@
 namespace bvhbench {
 namespace {
 
-/// A builder whose tree no other makes: its promises decide alone.
-constexpr BuilderEntry promised(std::string_view name, std::string_view summary, MakeBuilder make)
-{
-    return {name, summary, make, {}, {}};
-}
+// Whose tree an entry must leave. Padding and pointers aside, all implicit trees are one, all radix trees another.
+constexpr std::string_view oi_tree = "oibvh-reference";
+constexpr std::string_view radix_tree = "radix-reference";
+constexpr std::string_view own_tree = {};  // no other builder makes it: its promises decide alone
 
 constexpr BuilderEntry of_embree(std::string_view name, std::string_view summary, MakeBuilder make)
 {
-    return {name, summary,
-            make, make != nullptr ? "" : "built without Embree",
-            {},   "Embree takes no coordinates beyond 1.8e18"};
+    return {name,
+            summary,
+            own_tree,
+            make,
+            make != nullptr ? "" : "built without Embree",
+            "Embree takes no coordinates beyond 1.8e18"};
 }
 
 constexpr BuilderEntry of_fcl(std::string_view name, std::string_view summary, MakeBuilder make)
 {
-    return {name, summary, make, make != nullptr ? "" : "built without FCL", {}};
+    return {name, summary, own_tree, make, make != nullptr ? "" : "built without FCL"};
 }
 
 // To add a builder, add its line here. Nothing registers itself.
 constexpr BuilderEntry catalog[] = {
-    {"perfect", "perfect implicit tree, padded to a power of two leaves", make_perfect},
-    {"oibvh-single", "Oi-BVH in one launch, groups meet through global atomics", make_oibvh_single},
-    {"oibvh-multi", "Oi-BVH in several launches, groups meet between them", make_oibvh_multi},
-    {"oibvh-reference", "Oi-BVH on one core of the host, slowly: the oracle", make_oibvh_reference},
-    promised("heap-median", "left-balanced heap, split at medians, on a host core",
-             make_heap_median),
-    promised("median-split", "halves along the longest axis, on a host core", make_median_split),
-    promised("sah-binned", "binned surface area heuristic, on a host core", make_sah_binned),
+    {"perfect", "perfect implicit tree, padded to a power of two leaves", oi_tree, make_perfect},
+    {"apetrei-fused", "radix tree, topology and boxes in one launch, one exchange a node",
+     radix_tree, make_apetrei_fused},
+    {"oibvh-single", "Oi-BVH in one launch, groups meet through global atomics", oi_tree,
+     make_oibvh_single},
+    {"oibvh-multi", "Oi-BVH in several launches, groups meet between them", oi_tree,
+     make_oibvh_multi},
+    {"oibvh-reference", "Oi-BVH on one core of the host, slowly: the oracle", oi_tree,
+     make_oibvh_reference},
+    {"radix-reference", "radix tree on one core of the host, slowly: the oracle", radix_tree,
+     make_radix_reference},
+    {"heap-median", "left-balanced heap, split at medians, on a host core", own_tree,
+     make_heap_median},
+    {"median-split", "halves along the longest axis, on a host core", own_tree, make_median_split},
+    {"sah-binned", "binned surface area heuristic, on a host core", own_tree, make_sah_binned},
     of_embree("embree-low", "Embree's Morton builder, on all host threads", make_embree_low),
     of_embree("embree-medium", "Embree's binned SAH, on all host threads", make_embree_medium),
     of_embree("embree-high", "Embree's best without splitting triangles: as embree-medium",

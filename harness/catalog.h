@@ -10,17 +10,14 @@
 
 namespace bvhbench {
 
-/// The builder that most trees must equal, bit for bit.
-inline constexpr std::string_view reference_builder = "oibvh-reference";
-
 /// A line of `list builders`.
 struct BuilderEntry {
-    std::string_view name;         ///< the key on the command line, in result files and legends
-    std::string_view summary;      ///< one line
+    std::string_view name;     ///< the key on the command line, in result files and legends
+    std::string_view summary;  ///< one line
+    /// The builder whose tree it must leave, bit for bit; empty if it is held to the promises only.
+    std::string_view oracle;
     MakeBuilder make;              ///< nullptr when this binary was built without it
     std::string_view absent = {};  ///< then: why, as in "built without Embree"
-    /// `reference_builder`, whose tree this one's must equal, or nothing: then the promises decide alone.
-    std::string_view oracle = reference_builder;
     /// Set if the builder may throw Unavailable for some meshes, for the reason given here. It then does so
     /// instead of leaving a wrong tree, and never for an ordinary mesh.
     std::string_view may_refuse = {};

@@ -9,32 +9,33 @@ namespace bvhbench {
 namespace {
 
 /// What a tree without an oracle is held against.
-constexpr const char* promises_name = "contract";
+constexpr std::string_view promises_name = "contract";
 
 }  // namespace
 
-std::uint64_t Oracle::tree_hash(const std::string& order)
+std::uint64_t Oracle::tree_hash(std::string_view reference_name, const std::string& order)
 {
-    if (const auto known = hashes_.find(order); known != hashes_.end())
+    const std::pair key{std::string(reference_name), order};
+    if (const auto known = hashes_.find(key); known != hashes_.end())
         return known->second;
     BuilderChoice choice;
-    choice.name = reference_builder;
+    choice.name = reference_name;
     choice.order = order;
     // A builder of its own: the cell under test may be the reference itself.
     const auto reference = make_builder(choice, session_.programs());
     reference->reserve(input_.triangle_count());
     const Tree* tree = nullptr;
     session_.build_once(*reference, input_, Start::from_triangles, &tree);
-    return hashes_[order] = bvhbench::tree_hash(tree->spelled_out());
+    return hashes_[key] = bvhbench::tree_hash(tree->spelled_out());
 }
 
 Check check_tree(const HostTree& tree, const Input& input, const BuilderChoice& builder,
                  Oracle& oracle)
 {
     using enum Check::Verdict;
-    const bool has_oracle = !find_builder(builder.name).oracle.empty();
+    const std::string_view reference = find_builder(builder.name).oracle;
     Check check{agrees,
-                has_oracle ? std::string(reference_builder) : promises_name,
+                std::string(reference.empty() ? promises_name : reference),
                 {},
                 bvhbench::tree_hash(tree)};
     check.detail = broken_promise(tree, input.points, input.faces);
@@ -42,11 +43,11 @@ Check check_tree(const HostTree& tree, const Input& input, const BuilderChoice& 
         check.verdict = differs;
         return check;
     }
-    if (!has_oracle)
+    if (reference.empty())
         return check;
     std::uint64_t expected = 0;
     const std::string failure =
-        reason_of_failure([&] { expected = oracle.tree_hash(builder.order); });
+        reason_of_failure([&] { expected = oracle.tree_hash(reference, builder.order); });
     if (!failure.empty()) {
         check.verdict = not_checked;
         check.detail = "the reference failed: " + failure;

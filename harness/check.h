@@ -4,24 +4,26 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "harness/record.h"
 #include "harness/session.h"
 
 namespace bvhbench {
 
-/// Knows the right tree of one input in each order: the reference's, built once an order.
+/// Knows the right trees of one input: those of the reference builders, each built once an order.
 class Oracle {
 public:
     Oracle(Session& session, const Input& input) : session_(session), input_(input) {}
 
-    /// Throws what the reference throws.
-    std::uint64_t tree_hash(const std::string& order);
+    /// Of the tree that the builder `reference` leaves. Throws what it throws.
+    std::uint64_t tree_hash(std::string_view reference, const std::string& order);
 
 private:
     Session& session_;
     const Input& input_;
-    std::map<std::string, std::uint64_t> hashes_;
+    std::map<std::pair<std::string, std::string>, std::uint64_t> hashes_;  ///< by builder, order
 };
 
 /// The verdict on a tree over the oracle's input: every promise of a builder, then, if the builder's entry

@@ -34,6 +34,7 @@ LOOKS = {
     "oibvh-single": Look("#56B4E9", "o"),
     "oibvh-multi": Look("#0072B2", "o"),
     "oibvh-reference": Look("#000000", "x"),
+    "radix-reference": Look("#000000", "+", "////"),
     "heap-median": Look("#8C510A", "s", "xxxx"),
     "median-split": Look("#8C510A", "^"),
     "sah-binned": Look("#8C510A", "v", "////"),

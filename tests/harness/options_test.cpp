@@ -97,7 +97,9 @@ TEST(Catalog, ListsEachBuilderOnceUnderTheNameOnItsCard)
         EXPECT_FALSE(entry.summary.empty());
         EXPECT_EQ(entry.make == nullptr, !entry.absent.empty());
     }
-    EXPECT_TRUE(names.starts_with("perfect oibvh-single oibvh-multi oibvh-reference ")) << names;
+    EXPECT_TRUE(names.starts_with(
+        "perfect apetrei-fused oibvh-single oibvh-multi oibvh-reference radix-reference "))
+        << names;
 }
 
 TEST(Catalog, AnswersAnUnknownNameWithThoseThereAre)
@@ -108,7 +110,7 @@ TEST(Catalog, AnswersAnUnknownNameWithThoseThereAre)
     } catch (const BadUsage& error) {
         EXPECT_TRUE(std::string(error.what())
                         .starts_with("no builder is called 'oibvh'; there are: perfect, "
-                                     "oibvh-single, oibvh-multi, oibvh-reference"))
+                                     "apetrei-fused, oibvh-single, oibvh-multi, oibvh-reference"))
             << error.what();
     }
 }

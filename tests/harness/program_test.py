@@ -70,7 +70,8 @@ def test_exit_codes():
 
 def test_lists_put_the_name_first():
     first = [line.split()[0] for line in expect(0, "list", "builders").splitlines()]
-    assert first[:4] == ["perfect", "oibvh-single", "oibvh-multi", "oibvh-reference"], first
+    assert first[:6] == ["perfect", "apetrei-fused", "oibvh-single", "oibvh-multi",
+                         "oibvh-reference", "radix-reference"], first
     assert expect(0, "list", "orders").startswith("morton30 ")
     expect(0, "list", "scenes", says="\nsoup:")
     assert expect(0, "list", "experiments").startswith("table1 ")

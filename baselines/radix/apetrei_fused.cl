@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// check: -DCODE_WORDS=1 -DSORTED_LEAVES=0
+// check: -DCODE_WORDS=2 -DSORTED_LEAVES=1
+//
+// [Apetrei2014] in the strongest form we know: topology and boxes in one launch, one exchange a meeting.
+//
+// As printed, a node's range lies in memory beside a counter, and boxes are read back. Here the first of two
+// siblings leaves the far end of its range in the slot of the gap between them, and that word is also the
+// sign that it has been there; the second takes it and knows the parent's range. It has its own box in
+// registers and reads only its sibling's. Nodes go where Karras would put them, so a range's ends say where
+// a sibling is, no range is ever stored and the root is node 0.
+//
+//     leaves    first ... split | split+1 ... last      ends[split]: first + 1 from the left child, or
+//               left child      | right child                        last + 1 from the right; 0 from neither
+//
+// Leaf boxes are read where they are, as the implicit builders read theirs: a copy as nodes would write 32
+// bytes a leaf that nobody needs. A leaf's box is input, so only inner nodes' boxes are handed over.
+#include "baselines/radix/nodes.clh"
+#include "device/handoff.clh"
+
+/// From `leaf` upwards, until the sibling has yet to come or the root is built.
+static inline void climb_from(global const Code* codes, global const float2* leaf_boxes,
+                              global const uint* ids, global uint4* nodes,
+                              volatile global Arrivals* ends, const uint leaves, const uint leaf)
+{
+    uint first = leaf, last = leaf;
+    uint before = common_of(codes, leaves, first, first - 1u);
+    uint after = common_of(codes, leaves, last, last + 1u);
+    Aabb box = leaf_box(leaf_boxes, ids, leaf);
+    while (before != after) {                 // equal only at the root, where both are 0
+        const bool is_left = after > before;  // the parent joins it to the nearer neighbour
+        const uint split = is_left ? last : first - 1u;
+        const uint end = exchanged(&ends[split], (is_left ? first : last) + 1u);
+        if (end == 0u)
+            return;
+        forget_arrivals(&ends[split]);
+
+        uint sibling;
+        if (is_left) {
+            last = end - 1u;
+            sibling = radix_child(split + 1u, last == split + 1u);
+            after = common_of(codes, leaves, last, last + 1u);
+        } else {
+            first = end - 1u;
+            sibling = radix_child(split, first == split);
+            before = common_of(codes, leaves, first, first - 1u);
+        }
+        box = merged(box, child_box(leaf_boxes, ids, nodes, sibling));
+        const uint place = before == after ? 0u : after > before ? last : first;
+        store_node(nodes, place, box, radix_child(split, first == split),
+                   radix_child(split + 1u, last == split + 1u));
+    }
+}
+
+/// `nodes` becomes the radix tree over `codes`, ascending. `ends` is zero, one a gap between leaves, and is zero
+/// again afterwards.
+kernel void build(global const Code* restrict codes, global const float2* restrict leaf_boxes,
+                  global const uint* restrict ids, global uint4* nodes,
+                  volatile global Arrivals* ends, const uint leaves)
+{
+    const Chunk chunk = own_chunk(leaves);
+    for (uint leaf = chunk.first; leaf < chunk.end; ++leaf)
+        climb_from(codes, leaf_boxes, ids, nodes, ends, leaves, leaf);
+}

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+//
+// What the builders of radix trees share, and what each of them adds.
+#pragma once
+
+#include <memory>
+
+#include "baselines/radix/node.h"
+#include "builders/builder.h"
+
+namespace bvhbench {
+
+/// The line of leaves that a radix tree is built over, in device memory.
+struct RadixLeaves {
+    uint count = 0;
+    bool sorted = false;
+    Buffer<Aabb> boxes;  ///< in leaf order if sorted, else in mesh order
+    Buffer<uint> ids;    ///< the triangle of each leaf
+    Buffer<uint> codes;  ///< ascending
+
+    /// The least that reading all codes, or all boxes, moves.
+    std::int64_t code_bytes() const { return static_cast<std::int64_t>(codes.bytes()); }
+    std::int64_t box_bytes() const
+    {
+        return static_cast<std::int64_t>(boxes.bytes() + (sorted ? 0 : ids.bytes()));
+    }
+};
+
+/// How kernels over leaves are launched: a work-item a leaf in groups, or a run of leaves a work-item where few
+/// cores do the work. The kernels are the same: own_chunk gives a work-item its one leaf or its run.
+struct RadixLaunch {
+    std::size_t group_size = 1;
+    std::size_t most_items = 0;
+
+    /// What `options` ask for, else what suits the device. Throws BadUsage for a group it does not have.
+    RadixLaunch(const Device& device, const BuildOptions& options);
+
+    void operator()(Queue& queue, const cl::Kernel& kernel, uint count,
+                    std::int64_t moved_bytes) const;
+};
+
+/// What kernels are compiled and launched with.
+struct RadixSetup {
+    Programs& programs;
+    RadixLaunch launch;
+    unsigned code_words;
+    bool sorted_leaves;
+
+    cl::Kernel kernel(std::string_view path, const char* name) const
+    {
+        return programs.kernel(
+            path, name, {{"CODE_WORDS", code_words}, {"SORTED_LEAVES", sorted_leaves ? 1u : 0u}});
+    }
+};
+
+/// The stage after the leaves are in order, one way of it.
+class RadixHierarchy {
+public:
+    virtual ~RadixHierarchy() = default;
+
+    /// Take all memory besides the leaves'. `leaves` holds until the next plan.
+    virtual void plan(Arena& arena, const RadixLeaves& leaves) = 0;
+
+    /// Fill what builds expect and leave as it was. Waits.
+    virtual void prepare(const cl::CommandQueue& queue) = 0;
+
+    /// Enqueue topology and boxes, for two leaves at least. Does not wait.
+    virtual void build(Queue& queue) = 0;
+
+    /// The inner nodes, the children's indices as stored; `root` is set to the root's.
+    virtual std::vector<RadixNode> download(const cl::CommandQueue& queue, uint& root) const = 0;
+};
+
+using MakeRadixHierarchy = std::unique_ptr<RadixHierarchy> (*)(const RadixSetup& setup);
+
+/// A builder around one way of the hierarchy: leaf order before it, a tree after it.
+std::unique_ptr<Builder> make_radix_builder(Programs& programs, const BuilderCard& card,
+                                            MakeRadixHierarchy make, const BuildOptions& options);
+
+}  // namespace bvhbench

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// check: -DCODE_WORDS=1 -DSORTED_LEAVES=0
+// check: -DCODE_WORDS=2 -DSORTED_LEAVES=1
+//
+// [Karras2012, Sec. 4]: all inner nodes at once, each from the codes alone. Names in the paper: common_of is
+// delta, `farthest_other` is delta_min, `reach` is l, `to_split` is s, `split` is gamma.
+#include "baselines/radix/nodes.clh"
+
+/// The largest reach below `bound`, a power of two, for which leaf i and the leaf that far away in `step` have
+/// more than `least` in common.
+static inline uint farthest_with(global const Code* codes, const uint leaves, const uint i,
+                                 const uint step, const uint bound, const uint least)
+{
+    uint reach = 0u;
+    for (uint part = bound >> 1u; part > 0u; part >>= 1u)
+        if (common_of(codes, leaves, i, i + (reach + part) * step) > least)
+            reach += part;
+    return reach;
+}
+
+/// Inner node i covers leaf i and those on the side it has more in common with, as far as that lasts.
+static inline void make_node(global const Code* codes, global uint4* nodes, global uint* parents,
+                             const uint leaves, const uint i)
+{
+    const uint before = common_of(codes, leaves, i, i - 1u);
+    const uint after = common_of(codes, leaves, i, i + 1u);
+    const uint step = after > before ? 1u : ~0u;  // ~0 is a step to the left
+    const uint farthest_other = min(before, after);
+
+    uint bound = 2u;
+    while (common_of(codes, leaves, i, i + bound * step) > farthest_other)
+        bound *= 2u;
+    const uint reach = farthest_with(codes, leaves, i, step, bound, farthest_other);
+    const uint j = i + reach * step;
+
+    // The child at i's end: all leaves that have more in common with i than i has with the other end.
+    const uint own = common_of(codes, leaves, i, j);
+    const uint to_split = farthest_with(codes, leaves, i, step, bound, own);
+    const uint first = min(i, j), last = max(i, j);
+    const uint split = step == 1u ? i + to_split : i - to_split - 1u;
+
+    const uint left = radix_child(split, first == split);
+    const uint right = radix_child(split + 1u, last == split + 1u);
+    store_node(nodes, i, empty_box(), left, right);
+    parents[radix_is_leaf(left) ? leaves - 1u + split : split] = i;
+    parents[radix_is_leaf(right) ? leaves + split : split + 1u] = i;
+}
+
+/// The children of every inner node, boxes left empty, and the parent of every node: inner nodes first, then
+/// leaves. The root, node 0, has none.
+kernel void topology(global const Code* restrict codes, global uint4* restrict nodes,
+                     global uint* restrict parents, const uint leaves)
+{
+    const Chunk chunk = own_chunk(leaves - 1u);
+    for (uint i = chunk.first; i < chunk.end; ++i)
+        make_node(codes, nodes, parents, leaves, i);
+}

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+//
+// A radix tree over n leaves: n - 1 inner nodes, indexed as in [Karras2012, Sec. 3]. The root is node 0; a node
+// whose leaves are first to last is node `last` if it is a left child and node `first` if a right one. So the
+// children of a node that splits after leaf s are s and s + 1, either of them a leaf if it covers just one.
+//
+//     leaves       0   1   2   3   4         root 0 = leaves 0 to 4, split after 1
+//                  +---1   2-------+         its children: inner 1 (leaves 0, 1), inner 2 (leaves 2 to 4)
+//                          2   3---+         children of inner 2: leaf 2, inner 3
+#ifndef BVHBENCH_BASELINES_RADIX_NODE_H
+#define BVHBENCH_BASELINES_RADIX_NODE_H
+
+#include "geometry/aabb.h"
+
+SHARED_BEGIN
+
+/// An inner node: 32 bytes, two aligned loads of 16, one sector of a GPU's memory.
+typedef struct {
+    float min_x, min_y, min_z;
+    uint left;  ///< a child, as radix_child says
+    float max_x, max_y, max_z;
+    uint right;
+} RadixNode;
+
+#define RADIX_LEAF 0x80000000u
+
+/// Refer to a child: leaf or inner node `index`.
+SHARED_FN uint radix_child(uint index, bool is_leaf)
+{
+    return is_leaf ? index | RADIX_LEAF : index;
+}
+
+SHARED_FN bool radix_is_leaf(uint child) { return (child & RADIX_LEAF) != 0u; }
+
+SHARED_FN uint radix_index(uint child) { return child & ~RADIX_LEAF; }
+
+SHARED_END
+
+#ifndef __OPENCL_C_VERSION__
+static_assert(sizeof(bvhbench::RadixNode) == 32);
+#endif
+#endif

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+//
+// The radix tree by its definition, top-down on one core: what the kernels' trees must be, bit for bit. Shares
+// nothing with them but the order of the leaves: no delta, no indices, no climbing.
+#include <string>
+#include <vector>
+
+#include "baselines/baselines.h"
+#include "builders/stages/leaf_order.h"
+
+namespace bvhbench {
+namespace {
+
+class RadixHostTree final : public Tree {
+public:
+    HostTree tree;
+    std::size_t node_count() const override { return tree.nodes.size(); }
+    HostTree spelled_out() const override { return tree; }
+};
+
+/// Bit `bit` of a leaf's key, its code followed by its 32-bit place in leaf order.
+bool key_bit(const HostLeafOrder& leaves, uint leaf, int bit)
+{
+    return bit >= 32 ? (leaves.codes[leaf] >> (bit - 32) & 1) != 0 : (leaf >> bit & 1) != 0;
+}
+
+/// The first leaf of the right child: where the highest bit that first and last differ in becomes 1.
+uint split_of(const HostLeafOrder& leaves, uint first, uint last)
+{
+    int bit = 95;
+    while (key_bit(leaves, first, bit) == key_bit(leaves, last, bit))
+        --bit;
+    uint split = first,
+         beyond = last;  // 0 at split, 1 at beyond: keys ascend, so halving finds the step
+    while (beyond - split > 1) {
+        const uint middle = split + (beyond - split) / 2;
+        (key_bit(leaves, middle, bit) ? beyond : split) = middle;
+    }
+    return beyond;
+}
+
+HostTree radix_tree(const HostLeafOrder& leaves)
+{
+    struct Range {
+        uint first, last;
+    };
+    HostTree tree;
+    std::vector<Range> ranges{{0, static_cast<uint>(leaves.ids.size()) - 1}};  // node k's leaves
+    for (std::size_t k = 0; k < ranges.size(); ++k) {
+        const auto [first, last] = ranges[k];
+        HostTree::Node& node = tree.nodes.emplace_back();
+        if (first == last) {
+            node.primitive = static_cast<int>(leaves.ids[first]);
+            node.box = leaves.boxes[leaves.ids[first]];
+            continue;
+        }
+        const uint split = split_of(leaves, first, last);
+        node.child = {static_cast<int>(ranges.size()), static_cast<int>(ranges.size() + 1)};
+        ranges.push_back({first, split - 1});
+        ranges.push_back({split, last});
+    }
+    for (std::size_t k = tree.nodes.size(); k-- > 0;)  // children come after their parent
+        if (HostTree::Node& node = tree.nodes[k]; node.primitive == HostTree::none)
+            node.box = merged(tree.nodes[static_cast<std::size_t>(node.child[0])].box,
+                              tree.nodes[static_cast<std::size_t>(node.child[1])].box);
+    return tree;
+}
+
+class RadixReference final : public Builder {
+public:
+    explicit RadixReference(const BuildOptions& options) : order_(options.order)
+    {
+        find_order(order_);
+    }
+
+    BuilderCard card() const override
+    {
+        return {"radix-reference", "Binary radix tree, slowly on the host [Karras2012]",
+                BuilderCard::Runs::on_host};
+    }
+
+    Footprint footprint(std::size_t primitives) const override
+    {
+        return {(2 * primitives - 1) * sizeof(HostTree::Node), 0};
+    }
+
+    void reserve(std::size_t primitives) override
+    {
+        tree_.tree.nodes.clear();
+        tree_.tree.nodes.reserve(2 * primitives - 1);
+        reserved_ = footprint(primitives);
+    }
+
+    Footprint reserved() const override { return reserved_; }
+
+    const Tree& build(const Input& input, Queue& queue, Start start) override
+    {
+        if (start == Start::from_triangles)
+            queue.on_host("sort",
+                          [&] { leaves_ = host_leaf_order(input.points, input.faces, order_); });
+        queue.on_host("hierarchy", [&] { tree_.tree = radix_tree(leaves_); });
+        return tree_;
+    }
+
+private:
+    std::string order_;
+    HostLeafOrder leaves_;
+    RadixHostTree tree_;
+    Footprint reserved_;
+};
+
+}  // namespace
+
+std::unique_ptr<Builder> make_radix_reference(Programs&, const BuildOptions& options)
+{
+    return std::make_unique<RadixReference>(options);
+}
+
+}  // namespace bvhbench

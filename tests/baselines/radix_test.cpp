@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+//
+// Every builder of radix trees leaves the tree of the definition, bit for bit, whatever the size, the launch,
+// the place of the leaves, the bits of a code and how many codes are equal.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "baselines/baselines.h"
+#include "baselines/radix/delta.h"
+#include "builders/spell_out.h"
+#include "geometry/error.h"
+#include "tests/builders/stage_testing.h"
+
+namespace bvhbench {
+namespace {
+
+constexpr MakeBuilder makers[] = {make_apetrei_fused};
+
+/// Small triangles at random places; `places` of them only, so that codes repeat.
+Mesh soup(uint triangles, uint places)
+{
+    std::mt19937 random(triangles);
+    const auto next = [&] { return static_cast<float>(random() >> 8) / 16777216.0f; };
+    Mesh mesh;
+    std::vector<Point> at;
+    for (uint k = 0; k < std::min(triangles, places); ++k)
+        at.push_back({next(), next(), next()});
+    for (uint k = 0; k < triangles; ++k) {
+        const Point centre = at[random() % at.size()];
+        for (int corner = 0; corner < 3; ++corner)
+            mesh.points.push_back({centre.x + (places < triangles ? 0 : next() / 16),
+                                   centre.y + static_cast<float>(corner) / 32, centre.z});
+        mesh.faces.push_back({3 * k, 3 * k + 1, 3 * k + 2});
+    }
+    return mesh;
+}
+
+std::vector<BuildOptions> ways()
+{
+    std::vector<BuildOptions> all;
+    for (const bool sorted : {false, true})
+        for (const unsigned group_size : {0u, 2u, 64u, 256u})
+            all.push_back({.group_size = group_size, .sorted_leaves = sorted});
+    all.push_back({.order = "morton63"});
+    all.push_back({.order = "morton63", .group_size = 64, .sorted_leaves = true});
+    return all;
+}
+
+void expect_the_references_tree(const Mesh& mesh, const std::vector<BuildOptions>& ways)
+{
+    const auto triangles = mesh.faces.size();
+    const Input input = upload(bench().device, bench().queue, mesh.points, mesh.faces);
+    for (const BuildOptions& options : ways) {
+        const auto reference = make_radix_reference(bench().programs, options);
+        reference->reserve(triangles);
+        const HostTree expected = reference->build(input, bench().queue).spelled_out();
+        ASSERT_EQ(broken_promise(expected, mesh.points, mesh.faces), "");
+        for (const MakeBuilder make : makers) {
+            const auto builder = make(bench().programs, options);
+            SCOPED_TRACE(std::string(builder->card().name) + ", " + std::to_string(triangles) +
+                         " triangles, " + std::string(options.order) + ", groups of " +
+                         std::to_string(options.group_size));
+            builder->reserve(triangles);
+            ASSERT_EQ(builder->footprint(triangles), builder->reserved());
+            const Tree& tree = builder->build(input, bench().queue);
+            ASSERT_EQ(tree.node_count(), 2 * triangles - 1);
+            ASSERT_EQ(tree_hash(tree.spelled_out()), tree_hash(expected));
+            builder->build(input, bench().queue, Start::from_sorted_leaves);
+            ASSERT_EQ(tree_hash(tree.spelled_out()), tree_hash(expected)) << "the second time";
+            bench().queue.finish();
+        }
+    }
+}
+
+std::size_t depth_of(const HostTree& tree)
+{
+    std::vector<std::size_t> depths(tree.nodes.size(), 0);
+    for (std::size_t k = 0; k < tree.nodes.size(); ++k)
+        for (const int child : tree.nodes[k].child)
+            if (child != HostTree::none)
+                depths[static_cast<std::size_t>(child)] = depths[k] + 1;
+    return *std::max_element(depths.begin(), depths.end());
+}
+
+TEST(RadixCommon, CountsSharedBitsOfCodeAndPlace)
+{
+    EXPECT_EQ(radix_common(1ull << 63, 0, 0, 1), 1u);
+    EXPECT_EQ(radix_common(1ull << 32, 0, 0, 1), 32u);
+    EXPECT_EQ(radix_common(1ull << 31, 0, 0, 1), 33u);
+    EXPECT_EQ(radix_common(6, 0, 7, 1), 64u);
+    EXPECT_EQ(radix_common(7, 0, 7, 1u << 31), 65u);
+    EXPECT_EQ(radix_common(7, 4, 7, 5), 96u);
+}
+
+TEST(RadixBuilders, EqualTheReferenceInEveryWayOnSmallTrees)
+{
+    for (const uint triangles : {1u, 2u, 3u, 4u, 5u, 7u, 8u, 9u, 63u, 64u, 65u, 129u})
+        ASSERT_NO_FATAL_FAILURE(expect_the_references_tree(soup(triangles, triangles), ways()));
+}
+
+TEST(RadixBuilders, EqualTheReferenceOnSmallTreesOfEqualCodes)
+{
+    for (const uint places : {1u, 3u})
+        for (const uint triangles : {2u, 3u, 5u, 64u, 100u})
+            ASSERT_NO_FATAL_FAILURE(expect_the_references_tree(soup(triangles, places), ways()));
+}
+
+TEST(RadixBuilders, EqualTheReferenceInEveryWayOnLargerTrees)
+{
+    for (const uint triangles : {511u, 512u, 513u, 1000u, 4097u, 33000u})
+        for (const uint places : {triangles, triangles / 8})
+            ASSERT_NO_FATAL_FAILURE(expect_the_references_tree(soup(triangles, places), ways()));
+}
+
+TEST(RadixBuilders, EqualTheReferenceForEveryCountTo300)
+{
+    for (uint triangles = 1; triangles <= 300; ++triangles)
+        ASSERT_NO_FATAL_FAILURE(expect_the_references_tree(soup(triangles, triangles), {{}}));
+}
+
+TEST(RadixBuilders, EqualTheReferenceOnAMillionTriangles)
+{
+    ASSERT_NO_FATAL_FAILURE(expect_the_references_tree(soup(1000003, 1000003), {{}}));
+}
+
+TEST(RadixBuilders, MakeABalancedTreeOfEqualCodes)
+{
+    const Mesh mesh = soup(4096, 1);
+    const Input input = upload(bench().device, bench().queue, mesh.points, mesh.faces);
+    for (const MakeBuilder make : makers) {
+        const auto builder = make(bench().programs, {});
+        builder->reserve(4096);
+        EXPECT_EQ(depth_of(builder->build(input, bench().queue).spelled_out()), 12u);
+        bench().queue.finish();
+    }
+}
+
+TEST(RadixBuilders, GiveTheSameTreeAHundredTimes)
+{
+    const Mesh mesh = soup(20000, 15000);
+    const Input input = upload(bench().device, bench().queue, mesh.points, mesh.faces);
+    for (const MakeBuilder make : makers)
+        for (const unsigned group_size : {0u, 64u}) {
+            const auto builder = make(bench().programs, {.group_size = group_size});
+            builder->reserve(20000);
+            const Tree& tree = builder->build(input, bench().queue);
+            const std::uint64_t first = tree_hash(tree.spelled_out());
+            for (int repeat = 0; repeat < 100; ++repeat) {
+                builder->build(input, bench().queue, Start::from_sorted_leaves);
+                ASSERT_EQ(tree_hash(tree.spelled_out()), first);
+            }
+            bench().queue.finish();
+        }
+}
+
+TEST(RadixBuilders, RefuseAGroupSizeThatIsNoPowerOfTwo)
+{
+    for (const MakeBuilder make : makers) {
+        EXPECT_THROW(make(bench().programs, {.group_size = 48}), BadUsage);
+        EXPECT_THROW(make(bench().programs, {.group_size = 1u << 20}), BadUsage);
+    }
+}
+
+}  // namespace
+}  // namespace bvhbench
