@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <string>
 #include <string_view>
 
 #include "builders/input.h"
@@ -10,6 +11,7 @@
 #include "device/arena.h"
 #include "device/program.h"
 #include "device/queue.h"
+#include "geometry/error.h"
 
 namespace bvhbench {
 
@@ -60,6 +62,16 @@ public:
     /// The tree belongs to the builder and holds until the next `build` or `reserve`; reading it waits.
     virtual const Tree& build(const Input& input, Queue& queue,
                               Start start = Start::from_triangles) = 0;
+
+    /// Whether `refit` may be called.
+    virtual bool can_refit() const { return false; }
+
+    /// Enqueue new boxes for the tree that stands, over the same faces with moved points: stages bounds, gather
+    /// if leaves are sorted, and refit. Topology and ids stay. Allocates nothing and does not wait.
+    virtual const Tree& refit(const Input&, Queue&)
+    {
+        throw Unavailable(std::string(card().name) + " cannot refit");
+    }
 };
 
 /// Makes a builder on the device that `programs` compiles for. Throws BadUsage for options it cannot keep.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "harness/contract.h"
 
+#include <vector>
+
 #include "builders/spell_out.h"
 #include "geometry/error.h"
 #include "geometry/hash.h"
@@ -31,6 +33,31 @@ std::string other_tree(const Tree& tree, std::uint64_t expected, const char* whi
     return std::string(which) + " left the tree " + hex(hash) + ", the first " + hex(expected);
 }
 
+/// The hash of a tree without its boxes.
+std::uint64_t topology_hash(HostTree tree)
+{
+    for (HostTree::Node& node : tree.nodes)
+        node.box = {};
+    return tree_hash(tree);
+}
+
+/// What is wrong with a refit of the tree that `builder` has just left, all points moved elsewhere.
+std::string broken_refit(Session& session, Builder& builder, const Input& input, const Tree& built)
+{
+    const std::uint64_t before = topology_hash(built.spelled_out());
+    std::vector<Point> moved;  // as far as can be without leaving the numbers that the scene holds
+    for (std::size_t k = input.points.size(); k-- > 0;)
+        moved.push_back({input.points[k].y, input.points[k].z, input.points[k].x});
+    const Input moved_input = upload(session.device(), session.queue(), moved, input.faces);
+    const Tree& tree = builder.refit(moved_input, session.queue());
+    session.queue().finish();
+    const HostTree refitted = tree.spelled_out();
+    const std::string wrong = broken_promise(refitted, moved, input.faces);
+    if (!wrong.empty())
+        return "after a refit, " + wrong;
+    return topology_hash(refitted) == before ? "" : "a refit changed the topology";
+}
+
 std::string broken_promise_of_build(Session& session, const BuilderChoice& choice,
                                     const Input& input, Oracle& oracle)
 {
@@ -49,6 +76,12 @@ std::string broken_promise_of_build(Session& session, const BuilderChoice& choic
     if (wrong.empty()) {
         session.build_once(builder, input, Start::from_sorted_leaves, &tree);
         wrong = other_tree(*tree, *check.tree_hash, "the build from sorted leaves");
+    }
+    if (wrong.empty() && builder.can_refit()) {
+        wrong = broken_refit(session, builder, input, *tree);
+        session.build_once(builder, input, Start::from_triangles, &tree);
+        if (wrong.empty())
+            wrong = other_tree(*tree, *check.tree_hash, "the build after a refit");
     }
     return wrong;
 }

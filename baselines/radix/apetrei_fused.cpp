@@ -32,6 +32,9 @@ public:
                     static_cast<std::int64_t>(nodes_.bytes()));
     }
 
+    /// The codes are still there, and from them comes the same tree. No parents are stored that would tell sooner.
+    void refit(Queue& queue) override { build(queue); }
+
     std::vector<RadixNode> download(const cl::CommandQueue& queue, uint& root) const override
     {
         root = 0;

@@ -102,6 +102,20 @@ public:
         return tree_;
     }
 
+    bool can_refit() const override { return true; }
+
+    const Tree& refit(const Input& input, Queue& queue) override
+    {
+        assert(input.triangle_count() == tree_.leaves.count);
+        tree_.queue = &queue;
+        leaf_order_.enqueue_boxes(input, queue);
+        gather_if_sorted(queue);
+        queue.begin("refit");
+        if (tree_.leaves.count > 1)
+            tree_.hierarchy->refit(queue);
+        return tree_;
+    }
+
 private:
     void gather_if_sorted(Queue& queue)
     {

@@ -67,6 +67,9 @@ public:
     /// Enqueue topology and boxes, for two leaves at least. Does not wait.
     virtual void build(Queue& queue) = 0;
 
+    /// Enqueue boxes only, over the topology that the last build left. As `build`.
+    virtual void refit(Queue& queue) = 0;
+
     /// The inner nodes, the children's indices as stored; `root` is set to the root's.
     virtual std::vector<RadixNode> download(const cl::CommandQueue& queue, uint& root) const = 0;
 };

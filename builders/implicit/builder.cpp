@@ -59,17 +59,40 @@ public:
         tree_.queue = &queue;
         if (start == Start::from_triangles) {
             leaf_order_.enqueue(input, queue);
-            if (tree_.sorted_leaves)
-                gather_.enqueue(leaf_order_.boxes(), leaf_order_.ids(), tree_.nodes, leaf_slot(),
-                                queue);
+            gather_if_sorted(queue);
         }
-        queue.begin("hierarchy");
-        for (uint i = 0; i < schedule_.count; ++i)
-            launch(schedule_.launches[i], queue);
+        launch_all("hierarchy", queue);
+        return tree_;
+    }
+
+    bool can_refit() const override { return true; }
+
+    /// The topology of an implicit tree is the order of its leaves, so this is the hierarchy over the old one.
+    const Tree& refit(const Input& input, Queue& queue) override
+    {
+        assert(input.triangle_count() == tree_.leaves);
+        tree_.queue = &queue;
+        leaf_order_.enqueue_boxes(input, queue);
+        gather_if_sorted(queue);
+        launch_all("refit", queue);
         return tree_;
     }
 
 private:
+    void gather_if_sorted(Queue& queue)
+    {
+        if (tree_.sorted_leaves)
+            gather_.enqueue(leaf_order_.boxes(), leaf_order_.ids(), tree_.nodes, leaf_slot(),
+                            queue);
+    }
+
+    void launch_all(std::string_view stage, Queue& queue)
+    {
+        queue.begin(stage);
+        for (uint i = 0; i < schedule_.count; ++i)
+            launch(schedule_.launches[i], queue);
+    }
+
     bool handoff() const { return meeting_ == Meeting::by_handoff; }
     bool by_groups() const { return cut_.form == KernelForm::groups; }
     uint leaf_level() const { return implicit_leaf_level(tree_.leaves); }

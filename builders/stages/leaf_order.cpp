@@ -38,9 +38,14 @@ void LeafOrder::plan(Arena& arena, std::size_t primitives, Use boxes)
 
 void LeafOrder::enqueue(const Input& input, Queue& queue)
 {
-    stages_->bounds.enqueue(input, queue);
+    enqueue_boxes(input, queue);
     stages_->codes.enqueue(boxes(), bounds(), stages_->sort.unsorted_codes(), queue);
     stages_->sort.enqueue(queue);
+}
+
+void LeafOrder::enqueue_boxes(const Input& input, Queue& queue)
+{
+    stages_->bounds.enqueue(input, queue);
 }
 
 const Buffer<Aabb>& LeafOrder::boxes() const { return stages_->bounds.boxes(); }

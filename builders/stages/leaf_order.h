@@ -33,6 +33,9 @@ public:
     /// Enqueue the three stages. Allocates nothing and does not wait.
     void enqueue(const Input& input, Queue& queue);
 
+    /// Enqueue the first stage only: new boxes, and the order that was. Does not wait.
+    void enqueue_boxes(const Input& input, Queue& queue);
+
     const Buffer<Aabb>& boxes() const;     ///< one a triangle, in mesh order
     const Buffer<Bounds>& bounds() const;  ///< one: of all boxes and of their centres
     const Buffer<uint>& codes() const;  ///< ascending; over 32 bits, two words each, low word first
