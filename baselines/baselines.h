@@ -39,7 +39,13 @@ inline constexpr MakeBuilder make_fcl_aabb = nullptr;
 inline constexpr MakeBuilder make_fcl_obbrss = nullptr;
 #endif
 
-/// The binary radix tree, topology and boxes in one launch: the strongest form of [Apetrei2014] we know.
+/// The binary radix tree of [Karras2012]: topology top-down from all nodes at once, then boxes bottom-up.
+std::unique_ptr<Builder> make_karras(Programs& programs, const BuildOptions& options);
+
+/// The same tree bottom-up, as [Apetrei2014] prints it: Table 1's second row.
+std::unique_ptr<Builder> make_apetrei(Programs& programs, const BuildOptions& options);
+
+/// The same, topology and boxes in one launch: the strongest form of [Apetrei2014] we know.
 std::unique_ptr<Builder> make_apetrei_fused(Programs& programs, const BuildOptions& options);
 
 /// The same tree top-down on one core of the host, slowly: the oracle for every builder of it.

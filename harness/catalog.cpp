@@ -31,6 +31,9 @@ constexpr BuilderEntry of_fcl(std::string_view name, std::string_view summary, M
 // To add a builder, add its line here. Nothing registers itself.
 constexpr BuilderEntry catalog[] = {
     {"perfect", "perfect implicit tree, padded to a power of two leaves", oi_tree, make_perfect},
+    {"karras", "radix tree, topology from all nodes at once, then boxes", radix_tree, make_karras},
+    {"apetrei", "radix tree bottom-up as printed: ranges and counters in memory", radix_tree,
+     make_apetrei},
     {"apetrei-fused", "radix tree, topology and boxes in one launch, one exchange a node",
      radix_tree, make_apetrei_fused},
     {"oibvh-single", "Oi-BVH in one launch, groups meet through global atomics", oi_tree,

@@ -15,7 +15,7 @@
 namespace bvhbench {
 namespace {
 
-constexpr MakeBuilder makers[] = {make_apetrei_fused};
+constexpr MakeBuilder makers[] = {make_karras, make_apetrei, make_apetrei_fused};
 
 /// Small triangles at random places; `places` of them only, so that codes repeat.
 Mesh soup(uint triangles, uint places)

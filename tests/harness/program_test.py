@@ -70,8 +70,8 @@ def test_exit_codes():
 
 def test_lists_put_the_name_first():
     first = [line.split()[0] for line in expect(0, "list", "builders").splitlines()]
-    assert first[:6] == ["perfect", "apetrei-fused", "oibvh-single", "oibvh-multi",
-                         "oibvh-reference", "radix-reference"], first
+    assert first[:8] == ["perfect", "karras", "apetrei", "apetrei-fused", "oibvh-single",
+                         "oibvh-multi", "oibvh-reference", "radix-reference"], first
     assert expect(0, "list", "orders").startswith("morton30 ")
     expect(0, "list", "scenes", says="\nsoup:")
     assert expect(0, "list", "experiments").startswith("table1 ")
@@ -117,9 +117,9 @@ def test_options_reach_the_builder():
 
 
 def test_run_and_show_agree():
-    out = expect(0, "run", "smoke", "--samples", "2", "--out", "folder/s.json", says="12 agree")
+    out = expect(0, "run", "smoke", "--samples", "2", "--out", "folder/s.json", says="24 agree")
     result = valid("folder/s.json")
-    assert len(result["cells"]) == 12 and "finished_at" in result["run"]
+    assert len(result["cells"]) == 24 and "finished_at" in result["run"]
     assert result["run"]["copy_rate_bytes_per_s"] > 0 and result["run"]["compile_ns"] > 0
     orders = [s["order"] for cell in result["cells"] for s in cell["samples"]]
     assert len(set(orders)) == len(orders)

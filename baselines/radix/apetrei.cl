@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// check: -DCODE_WORDS=1 -DSORTED_LEAVES=0
+// check: -DCODE_WORDS=2 -DSORTED_LEAVES=1
+//
+// [Apetrei2014] as printed: a node is called after its split, its children and the two ends of its range lie in
+// arrays, each child writes its own half, and a counter lets the second of them go on.
+//
+//     leaves    first ... split | split+1 ... last      node `split`: children[split], ranges[split]
+#include "baselines/radix/leaves.clh"
+#include "baselines/radix/node.h"
+#include "device/handoff.clh"
+
+/// What a build works on, as the kernel is handed it.
+typedef struct {
+    global const uint* common;
+    global const float2* leaf_boxes;
+    global const uint* ids;
+    global uint* children;  ///< left and right of node k at 2k and 2k + 1
+    global uint* ranges;    ///< first and last leaf, alike
+    global float2* boxes;
+} Tree;
+
+static inline Aabb box_of_child(const Tree tree, const uint child)
+{
+    return radix_is_leaf(child) ? leaf_box(tree.leaf_boxes, tree.ids, radix_index(child))
+                                : load_box(tree.boxes, child);
+}
+
+/// Algorithm 1 of the paper: the parent is the split at the nearer neighbour, and learns of this child.
+static inline uint choose_parent(const Tree tree, const uint leaves, const uint child,
+                                 const uint first, const uint last)
+{
+    const bool is_left =
+        first == 0u || (last != leaves - 1u && tree.common[last] > tree.common[first - 1u]);
+    const uint parent = is_left ? last : first - 1u;
+    const ulong place = 2ul * parent + (is_left ? 0ul : 1ul);
+    tree.children[place] = child;
+    tree.ranges[place] = is_left ? first : last;
+    return parent;
+}
+
+static inline void climb_from(const Tree tree, volatile global Arrivals* arrivals,
+                              global uint* root, const uint leaves, const uint leaf)
+{
+    uint first = leaf, last = leaf, child = radix_child(leaf, true);
+    while (first != 0u || last != leaves - 1u) {
+        const uint node = choose_parent(tree, leaves, child, first, last);
+        if (!arrived_second(&arrivals[node]))
+            return;
+        forget_arrivals(&arrivals[node]);
+        first = tree.ranges[2ul * node];
+        last = tree.ranges[2ul * node + 1ul];
+        const Aabb left = box_of_child(tree, tree.children[2ul * node]);
+        const Aabb right = box_of_child(tree, tree.children[2ul * node + 1ul]);
+        store_box(tree.boxes, node, merged(left, right));
+        child = node;
+    }
+    *root = child;
+}
+
+/// `children`, `ranges` and `boxes` become the radix tree whose neighbours have `common`; `root` its root.
+/// `arrivals` is zero, one an inner node, and is zero again afterwards.
+kernel void build(global const uint* restrict common, global const float2* restrict leaf_boxes,
+                  global const uint* restrict ids, global uint* children, global uint* ranges,
+                  global float2* boxes, volatile global Arrivals* arrivals, global uint* root,
+                  const uint leaves)
+{
+    const Tree tree = {common, leaf_boxes, ids, children, ranges, boxes};
+    const Chunk chunk = own_chunk(leaves);
+    for (uint leaf = chunk.first; leaf < chunk.end; ++leaf)
+        climb_from(tree, arrivals, root, leaves, leaf);
+}

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "baselines/baselines.h"
+#include "baselines/radix/hierarchy.h"
+
+namespace bvhbench {
+namespace {
+
+class Apetrei final : public RadixHierarchy {
+public:
+    explicit Apetrei(const RadixSetup& setup)
+        : launch_(setup.launch)
+        , deltas_(setup.kernel("baselines/radix/apetrei_deltas.cl", "deltas"))
+        , build_(setup.kernel("baselines/radix/apetrei.cl", "build"))
+    {}
+
+    void plan(Arena& arena, const RadixLeaves& leaves) override
+    {
+        leaves_ = &leaves;
+        const std::size_t inner = leaves.count - 1;
+        boxes_ = arena.take<Aabb>(inner, Use::tree);
+        children_ = arena.take<uint>(2 * inner, Use::tree);
+        root_ = arena.take<uint>(1, Use::tree);
+        ranges_ = arena.take<uint>(2 * inner, Use::scratch);
+        common_ = arena.take<uint>(inner, Use::scratch);
+        arrivals_ = arena.take<uint>(inner, Use::scratch);
+    }
+
+    void prepare(const cl::CommandQueue& queue) override
+    {
+        arrivals_.upload(queue, std::vector<uint>(arrivals_.size(), 0u));
+        root_.upload(queue, std::vector<uint>{0});
+    }
+
+    void build(Queue& queue) override
+    {
+        set_arguments(deltas_, leaves_->codes, common_, leaves_->count);
+        launch_(queue, deltas_, leaves_->count - 1, leaves_->code_bytes() + bytes_of(common_));
+        climb(queue);
+    }
+
+    /// The kernel finds the same tree again while it climbs; what leaves have in common has not changed.
+    void refit(Queue& queue) override { climb(queue); }
+
+    std::vector<RadixNode> download(const cl::CommandQueue& queue, uint& root) const override
+    {
+        root = root_.download(queue).at(0);
+        const std::vector<Aabb> boxes = boxes_.download(queue);
+        const std::vector<uint> children = children_.download(queue);
+        std::vector<RadixNode> nodes;
+        for (std::size_t k = 0; k < boxes.size(); ++k) {
+            const Aabb& box = boxes[k];
+            nodes.push_back({box.min_x, box.min_y, box.min_z, children[2 * k], box.max_x, box.max_y,
+                             box.max_z, children[2 * k + 1]});
+        }
+        return nodes;
+    }
+
+private:
+    template <class T>
+    static std::int64_t bytes_of(const Buffer<T>& buffer)
+    {
+        return static_cast<std::int64_t>(buffer.bytes());
+    }
+
+    void climb(Queue& queue)
+    {
+        set_arguments(build_, common_, leaves_->boxes, leaves_->ids, children_, ranges_, boxes_,
+                      arrivals_, root_, leaves_->count);
+        launch_(queue, build_, leaves_->count,
+                bytes_of(common_) + leaves_->box_bytes() + bytes_of(children_) + bytes_of(ranges_) +
+                    bytes_of(boxes_));
+    }
+
+    RadixLaunch launch_;
+    cl::Kernel deltas_, build_;
+    const RadixLeaves* leaves_ = nullptr;
+    Buffer<Aabb> boxes_;     ///< by split, as are all but the root
+    Buffer<uint> children_;  ///< left, right
+    Buffer<uint> ranges_;    ///< first, last
+    Buffer<uint> common_;    ///< one a gap between leaves
+    Buffer<uint> arrivals_;
+    Buffer<uint> root_;  ///< one: where the root is
+};
+
+}  // namespace
+
+std::unique_ptr<Builder> make_apetrei(Programs& programs, const BuildOptions& options)
+{
+    return make_radix_builder(
+        programs,
+        {"apetrei", "Binary radix tree, as printed [Apetrei2014]", BuilderCard::Runs::on_device},
+        [](const RadixSetup& setup) -> std::unique_ptr<RadixHierarchy> {
+            return std::make_unique<Apetrei>(setup);
+        },
+        options);
+}
+
+}  // namespace bvhbench
