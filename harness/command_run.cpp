@@ -9,6 +9,7 @@
 #include "harness/plot.h"
 #include "harness/report.h"
 #include "harness/report_paper.h"
+#include "harness/report_quality.h"
 #include "harness/run.h"
 
 namespace bvhbench {
@@ -26,6 +27,14 @@ CellFilter filter_of(const std::string& text)
     } catch (const std::regex_error& error) {
         throw BadUsage("--filter: '" + text + "' is no regular expression: " + error.what());
     }
+}
+
+std::string paper_report(const std::string& what, const Document& document)
+{
+    return what == "table1"   ? table1_report(document)
+           : what == "table4" ? table4_report(document)
+           : what == "fig13"  ? fig13_report(document)
+                              : fig8_report(document);
 }
 
 }  // namespace
@@ -62,9 +71,7 @@ int reproduce(const ReproduceCommand& command, const Options& options)
     Run run(session, file, options.words);
     run.experiment(experiment);
     run.finish();
-    std::cout << run_report(run.document().run)
-              << (command.what == "table1" ? table1_report(run.document())
-                                           : fig8_report(run.document()))
+    std::cout << run_report(run.document().run) << paper_report(command.what, run.document())
               << "written: " << file.string() << '\n';
     std::cout << draw(command.what + ".py", file, folder) << '\n';
     return run.has_differing_cell() ? 1 : 0;

@@ -17,7 +17,8 @@ using Json = nlohmann::ordered_json;
 using Words = std::initializer_list<std::string_view>;
 
 // To add an experiment, add its file to experiments/ and its name here.
-constexpr std::string_view names[] = {"table1", "fig8", "peers", "equality", "smoke"};
+constexpr std::string_view names[] = {"table1",  "table4",  "fig8",     "fig13", "peers",
+                                      "quality", "scaling", "equality", "smoke"};
 
 constexpr std::int64_t most_sizes = 1 << 24;
 
@@ -47,6 +48,13 @@ std::string text_at(const Json& json, const char* key)
     return value.get<std::string>();
 }
 
+bool truth_at(const Json& json, const char* key)
+{
+    if (!json.at(key).is_boolean())
+        throw BadUsage("'" + std::string(key) + "' is true or false, not " + json[key].dump());
+    return json[key].get<bool>();
+}
+
 std::int64_t whole_number(const Json& value, const std::string& what, std::int64_t least,
                           std::int64_t most)
 {
@@ -63,7 +71,8 @@ BuilderChoice builder_of(const Json& json)
     if (json.is_string()) {
         choice.name = json.get<std::string>();
     } else {
-        refuse_unknown_keys(json, {"name", "order", "group_size", "items", "leaves"}, "a builder");
+        refuse_unknown_keys(json, {"name", "order", "group_size", "items", "leaves", "if_there"},
+                            "a builder");
         choice.name = text_at(json, "name");
         if (json.contains("order"))
             choice.order = text_at(json, "order");
@@ -78,8 +87,11 @@ BuilderChoice builder_of(const Json& json)
                 throw BadUsage("'leaves' is mesh or sorted, not '" + leaves + "'");
             choice.sorted_leaves = leaves == "sorted";
         }
+        if (json.contains("if_there"))
+            choice.if_there = truth_at(json, "if_there");
     }
-    find_builder(choice.name);
+    if (!choice.if_there)
+        find_builder(choice.name);
     return choice;
 }
 
@@ -187,11 +199,8 @@ Experiment experiment_of(const Json& json, bool quick)
     read_size(json, experiment);
     if (json.contains("stages"))
         experiment.start = start_of(json["stages"]);
-    if (json.contains("quality")) {
-        if (!json["quality"].is_boolean())
-            throw BadUsage("'quality' is true or false, not " + json["quality"].dump());
-        experiment.quality = json["quality"];
-    }
+    if (json.contains("quality"))
+        experiment.quality = truth_at(json, "quality");
     if (json.contains("quick")) {
         refuse_unknown_keys(json["quick"], {"scenes", "builders", "samples", "warm_up"}, "'quick'");
         Experiment quicker = experiment;

@@ -19,6 +19,7 @@ namespace bvhbench {
 ///      "builders": ["perfect", {"name": "oibvh-multi", "group_size": 256}],
 ///      "stages": ["hierarchy"], "samples": 30, "warm_up": 3, "quality": true, "quick": {"samples": 5}}
 ///
+/// A builder with `"if_there": true` is a skipped cell in a program that does not know it or its order.
 /// `quick` replaces `scenes`, `builders`, `samples` or `warm_up` for --quick. In a scene with sizes, the key
 /// in braces takes a list of numbers or an object of: `from` and `to` (every number), `powers_of_two_from`
 /// and `powers_of_two_to`, `around_powers_of_two_to` (one below, at and above each power of two up to it).

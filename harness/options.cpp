@@ -75,9 +75,9 @@ void add_reproduce(CLI::App& app, ReproduceCommand& reproduce)
 {
     CLI::App* command =
         app.add_subcommand("reproduce", "Measure, print and draw what the paper shows");
-    command->add_option("WHAT", reproduce.what, "table1 or fig8")
+    command->add_option("WHAT", reproduce.what, "table1, table4, fig8 or fig13")
         ->required()
-        ->check(one_of({"table1", "fig8"}));
+        ->check(one_of({"table1", "table4", "fig8", "fig13"}));
     command->add_option("--out", reproduce.out, "folder for the result file and figures")
         ->capture_default_str();
     command->add_flag("--quick", reproduce.quick, "fewer scenes and samples");

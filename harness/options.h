@@ -42,7 +42,7 @@ struct RunCommand {
     bool quality = false;
 };
 struct ReproduceCommand {
-    std::string what;  ///< table1 or fig8
+    std::string what;  ///< table1, table4, fig8 or fig13
     std::string out = "out";
     bool quick = false;
 };

@@ -13,6 +13,29 @@ const PaperRow* PaperTable::find(std::string_view scene, std::string_view builde
     return nullptr;
 }
 
+double PaperCosts::cost(const std::string& scene, const std::string& builder) const
+{
+    const auto found = costs.find({scene, builder});
+    return found == costs.end() ? 0 : found->second;
+}
+
+std::string PaperCosts::model_of(const std::string& scene) const
+{
+    const auto found = other_editions.find(scene);
+    return found == other_editions.end() ? scene : found->second;
+}
+
+PaperCosts paper_table4()
+{
+    const auto json = nlohmann::json::parse(embedded_paper("results/paper/table4.json").value());
+    PaperCosts table;
+    table.other_editions = json.at("other_editions");
+    for (const auto& row : json.at("rows"))
+        table.costs[{row.at("scene").get<std::string>(), row.at("builder").get<std::string>()}] =
+            row.at("sah_cost").get<double>();
+    return table;
+}
+
 PaperTable paper_table1()
 {
     const auto json = nlohmann::json::parse(embedded_paper("results/paper/table1.json").value());

@@ -47,6 +47,10 @@ Json json_of(const SceneFacts& scene)
         json["frame"] = scene.frame;
         put_if(json, "source", scene.source);
         put_if(json, "stand_in_for", scene.stand_in_for);
+        if (!scene.outlier.of.empty())
+            json["outlier"] = {{"of", scene.outlier.of},
+                               {"triangle", scene.outlier.triangle},
+                               {"diameters", scene.outlier.diameters}};
         json["content_hash"] = hex(scene.content_hash);
     }
     return json;

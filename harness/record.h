@@ -12,6 +12,7 @@
 
 #include "device/queue.h"
 #include "harness/catalog.h"
+#include "scenes/scene.h"
 
 namespace bvhbench {
 
@@ -38,6 +39,7 @@ struct SceneFacts {
     std::int64_t frame = 0;
     std::string source;
     std::string stand_in_for;
+    Outlier outlier;  ///< of an empty name: no triangle was moved
     std::uint64_t content_hash = 0;
 };
 

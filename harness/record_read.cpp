@@ -51,6 +51,13 @@ Sample sample_of(const Json& json)
     return sample;
 }
 
+Outlier outlier_of(const Json& json)
+{
+    return {.of = get<std::string>(json, "of"),
+            .triangle = get<uint>(json, "triangle"),
+            .diameters = get<double>(json, "diameters")};
+}
+
 SceneFacts scene_of(const Json& json)
 {
     return {.name = json.at("name").get<std::string>(),
@@ -60,6 +67,7 @@ SceneFacts scene_of(const Json& json)
             .frame = get<std::int64_t>(json, "frame"),
             .source = get<std::string>(json, "source"),
             .stand_in_for = get<std::string>(json, "stand_in_for"),
+            .outlier = outlier_of(json.value("outlier", Json::object())),
             .content_hash = hash_of(get<std::string>(json, "content_hash"))};
 }
 

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 
+#include "builders/orders.h"
 #include "device/copy_rate.h"
+#include "geometry/error.h"
 #include "harness/check.h"
 #include "harness/failure.h"
 #include "harness/interrupt.h"
@@ -43,6 +45,7 @@ SceneFacts facts_of(const Scene& scene, const std::string& name)
             .frame = 0,
             .source = scene.source,
             .stand_in_for = scene.stand_in_for,
+            .outlier = scene.outlier,
             .content_hash = scene.content_hash};
 }
 
@@ -67,6 +70,21 @@ std::vector<BuilderChoice> chosen(const Experiment& experiment, const std::strin
 }  // namespace
 
 namespace {
+
+/// Why this program cannot make the builder; empty if it can. Throws BadUsage for one that must be there.
+std::string absence(const BuilderChoice& choice)
+{
+    try {
+        const BuilderEntry& entry = find_builder(choice.name);
+        find_order(choice.order);
+        return entry.make == nullptr ? std::string(entry.absent) : std::string();
+    } catch (const BadUsage& error) {
+        if (!choice.if_there)
+            throw;
+        const std::string sentence = error.what();
+        return sentence.substr(0, sentence.find(';'));  // without what there is instead
+    }
+}
 
 /// Verdict and quality of the tree just built, which is spelled out once for both. A tree that is wrong has no
 /// quality.
@@ -149,9 +167,8 @@ void Run::scene(const Experiment& experiment, const std::string& name,
 Run::Prepared Run::prepare(const Experiment& experiment, const Input& input, Cell cell,
                            Oracle& oracle)
 {
-    const BuilderEntry& entry = find_builder(cell.builder.name);
-    if (entry.make == nullptr)
-        return {unmeasured(std::move(cell), Cell::Status::skipped, std::string(entry.absent))};
+    if (std::string why = absence(cell.builder); !why.empty())
+        return {unmeasured(std::move(cell), Cell::Status::skipped, std::move(why))};
 
     Prepared prepared;
     const std::string failure = reason_of_failure([&] {

@@ -13,16 +13,22 @@ import pathlib
 import sys
 from collections.abc import Iterator
 
+import fig13
 import fig8
 import figure
+import pareto_orders
 import results
 import style
 import table1
+import table4
 
 # An experiment and the figure of it. To add a figure, add its line here.
 FIGURES: dict[str, figure.Draw] = {
     "table1": table1.draw,
+    "table4": table4.draw,
     "fig8": fig8.draw,
+    "fig13": fig13.draw,
+    "quality": pareto_orders.draw,
 }
 
 

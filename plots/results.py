@@ -36,6 +36,7 @@ class Cell:
     scene: str
     triangles: int
     stand_in_for: str | None
+    outlier: dict[str, Any] | None  # which triangle of which scene was moved, and how far
     builder: str
     options: tuple[tuple[str, str], ...]
     checked: bool
@@ -143,7 +144,7 @@ def cell_of(path: pathlib.Path, cell: dict[str, Any]) -> Cell:
         raise Refused(f"{path}: {builder['name']} gave a wrong answer on {scene['name']}: {detail}")
     options = tuple(sorted((key, str(value)) for key, value in builder.get("options", {}).items()))
     samples = [{entry["stage"]: entry for entry in sample["stages"]} for sample in cell["samples"]]
-    return Cell(cell["experiment"], scene["name"], scene.get("triangles", 0), scene.get("stand_in_for"),
+    return Cell(cell["experiment"], scene["name"], scene.get("triangles", 0), scene.get("stand_in_for"), scene.get("outlier"),
                 builder["name"], options, cell["check"]["verdict"] == "agrees", cell["counters"], samples)
 
 

@@ -81,6 +81,39 @@ def main() -> None:
     sweep = [{"name": f"torus:{size}", "triangles": size, "objects": 1, "frame": 0} for size in sizes]
     write("fig8.json", [cell("fig8", scene, builder, noise) for scene in sweep
                         for builder in BUILDERS if not builder.startswith("embree")])
+    write_quality()
+
+
+def valued(experiment: str, scene: dict, builder: str, order: str, cost: float, noise: random.Random) -> dict:
+    entry = cell(experiment, scene, builder, noise)
+    entry["builder"]["options"] = {"order": order}
+    entry["counters"] |= {"sah_cost": cost}
+    return entry
+
+
+def write_quality() -> None:
+    """Costs as if each mesh had 20 times the logarithm of its triangles, and paired neighbours 2.5 times that."""
+    noise = random.Random(2)
+    scenes = [{"name": "happy_buddha_1087716", "triangles": 1087716},
+              {"name": "hairball:2880000", "triangles": 2880000, "stand_in_for": "hairball"},
+              {"name": "dragon_202520", "triangles": 202520}, {"name": "bunny_69451", "triangles": 69451}]
+    times = {"apetrei-fused": 1.0, "oibvh-multi": 2.5}
+    base = {scene["name"]: round(4 * scene["triangles"].bit_length(), 2) for scene in scenes}
+    write("table4.json", [valued("table4", scene, builder, "morton30-axis", base[scene["name"]] * factor, noise)
+                          for scene in scenes for builder, factor in times.items()])
+    moved = [{"name": f"outlier:{model}:0:{far}", "triangles": triangles,
+              "outlier": {"of": model, "triangle": 0, "diameters": far}}
+             for model, triangles in (("dragon_202520", 202520), ("torus:150000", 150000))
+             for far in (0, 1, 2, 4, 8, 10)]
+    write("fig13.json", [valued("fig13", scene, builder, "morton30-axis",
+                                scene["triangles"] / 3000 * factor / (1 + scene["outlier"]["diameters"] / 4)
+                                * (1 + (factor - 1) * scene["outlier"]["diameters"] / (scene["triangles"] / 20000)),
+                                noise)
+                         for scene in moved for builder, factor in times.items()])
+    orders = {"morton30": 1.0, "morton63": 0.99, "hilbert30": 0.7, "hilbert63": 0.71}
+    write("quality.json", [valued("quality", scene, builder, order, base[scene["name"]] * factor * share, noise)
+                           for scene in scenes for builder, factor in times.items()
+                           for order, share in orders.items()])
 
 
 if __name__ == "__main__":

@@ -64,10 +64,10 @@ TEST(Experiment, NamesTheKeyThatItDoesNotKnowAndThoseItDoes)
     EXPECT_EQ(refusal(R"({"experiment": "a", "scene": ["soup:1"], "builders": ["perfect"]})"),
               "x.json: 'scene' is no key of an experiment; there are: experiment, question, paper, "
               "scenes, builders, stages, samples, warm_up, quality, quick");
-    EXPECT_EQ(
-        refusal(R"({"experiment": "a", "scenes": ["soup:1"],
+    EXPECT_EQ(refusal(R"({"experiment": "a", "scenes": ["soup:1"],
                           "builders": [{"name": "perfect", "size": 3}]})"),
-        "x.json: 'size' is no key of a builder; there are: name, order, group_size, items, leaves");
+              "x.json: 'size' is no key of a builder; there are: name, order, group_size, items, "
+              "leaves, if_there");
     EXPECT_EQ(refusal(R"({"experiment": "a", "scenes": [{"scene": "soup:{t}", "t": {"til": 3}}],
                           "builders": ["perfect"]})"),
               "x.json: 'til' is no key of the sizes 't'; there are: from, to, powers_of_two_from, "
@@ -110,6 +110,14 @@ TEST(Experiment, RefusesWhatMakesNoSense)
                  "builders": [{"name": "perfect", "leaves": "both"}]})",
         })
         EXPECT_TRUE(refusal(text).starts_with("x.json: ")) << text;
+}
+
+TEST(Experiment, MayNameABuilderThatIsNotThereIfItSaysSo)
+{
+    const Experiment experiment = parse_experiment(
+        R"({"experiment": "a", "scenes": ["b"], "builders": [{"name": "no-such", "if_there": true}]})",
+        "x.json", false);
+    EXPECT_TRUE(experiment.builders.front().if_there);
 }
 
 TEST(Experiment, OfAnUnknownNameIsAnsweredWithThoseThereAre)

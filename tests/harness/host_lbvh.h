@@ -79,7 +79,8 @@ HostTree tree_by(const Mesh& mesh, std::span<const int> ids, const Split& split)
             node.box = face_box(mesh.points, mesh.faces[static_cast<std::size_t>(node.primitive)]);
         else
             for (const int child : node.child)
-                node.box = merged(node.box, tree.nodes[static_cast<std::size_t>(child)].box);
+                if (child != HostTree::none)
+                    node.box = merged(node.box, tree.nodes[static_cast<std::size_t>(child)].box);
     }
     return tree;
 }

@@ -10,6 +10,7 @@
 #include "harness/clip.h"
 #include "harness/compensated_sum.h"
 #include "harness/end_point_overlap.h"
+#include "scenes/catalog.h"
 #include "scenes/generate/generators.h"
 #include "tests/collide/data_set.h"
 #include "tests/harness/host_lbvh.h"
@@ -228,6 +229,27 @@ TEST(Metrics, OfScannedModelsAreThoseOfASeparateProgram)
         std::cout << known.file << ": LBVH " << lbvh << ", Oi-BVH " << oi << '\n';
         EXPECT_NEAR(lbvh / known.lbvh, 1, 0.0005) << known.file;
         EXPECT_NEAR(oi / known.oi, 1, 0.0005) << known.file;
+    }
+}
+
+// Likewise for Fig. 13: how many times the radix tree's cost the Oi-BVH's is, by diameters.
+TEST(Metrics, OfAModelWithOneTriangleMovedAwayAreThoseOfASeparateProgram)
+{
+    const char* folder = std::getenv("BVHBENCH_DATA");
+    if (folder == nullptr || *folder == '\0') {
+        std::cout << "BVHBENCH_DATA is not set: not compared\n";
+        return;
+    }
+    SceneLibrary library;
+    library.data = folder;
+    for (const auto& [diameters, ratio] : {std::pair{"0", 2.41}, {"2", 2.57}, {"10", 7.90}}) {
+        const Scene scene =
+            load_scene(std::string("outlier:dragon_202520:0:") + diameters, library);
+        const Mesh mesh{scene.frames.front(), scene.faces};
+        const double found =
+            area_sums(host_oi_tree(mesh))->cost() / area_sums(host_lbvh(mesh))->cost();
+        std::cout << diameters << " diameters: " << found << " times\n";
+        EXPECT_NEAR(found / ratio, 1, 0.005) << diameters;
     }
 }
 

@@ -52,7 +52,7 @@ def test_exit_codes():
     expect(2, "build", "--builder", "perfect", "--scene", "no-such", says="no-such")
     expect(2, "build", "--builder", "perfect", "--scene", "soup:5", "--order", "x",
            says="there are: morton30")
-    expect(2, "run", "tabel1", says="there are: table1, fig8, peers, equality, smoke")
+    expect(2, "run", "tabel1", says="there are: table1, table4, fig8, fig13, peers, quality")
     expect(2, "run", "smoke", "--filter", "[", says="no regular expression")
     expect(2, "check", "--builder", "x", says="there are: perfect")
     expect(3, "run", "mine.json", says="mine.json")

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "harness/report_paper.h"
+#include "harness/report_quality.h"
 #include "harness/table.h"
 #include "tests/harness/fakes.h"
 
@@ -132,6 +133,52 @@ TEST(Fig8Report, FindsTheSizeFromWhichMultiStaysAhead)
     EXPECT_EQ(crossing_triangles(document), 8192);
     document.cells.resize(2);
     EXPECT_EQ(crossing_triangles(document), std::nullopt);
+}
+
+Cell with_cost(const char* builder, double cost, const char* scene = "happy_buddha_1087716")
+{
+    Cell cell = fake_cell(builder);
+    cell.scene.name = scene;
+    cell.counters["sah_cost"] = cost;
+    return cell;
+}
+
+TEST(Table4Report, StandsBesideThePaperAndSaysWhatIsMissing)
+{
+    Cell absent = with_cost("apetrei-fused", 0, "bunny");
+    absent.status = Cell::Status::skipped;
+    absent.reason = "no such builder";
+    const Document document{
+        fake_run(),
+        {with_cost("apetrei-fused", 86.02), with_cost("oibvh-multi", 228.01),
+         with_cost("oibvh-single", 228.01), absent, with_cost("oibvh-multi", 100, "bunny")}};
+    EXPECT_EQ(table4_report(document),
+              "mesh                    triangles  order     radix  paper  Oi-BVH   paper  times  "
+              "paper\n"
+              "happy_buddha_1087716 +    144,046  morton30  86.02  86.00  228.01  229.16   2.65   "
+              "2.66\n"
+              "bunny                     144,046  morton30                100.00                "
+              "        skipped: no such builder\n"
+              "surface area cost, an inner node 1.2 and a triangle 1.0\n"
+              "+ another edition of the paper's model, with another triangle count\n");
+}
+
+TEST(Fig13Report, SaysWhichTreeSuffersMore)
+{
+    Document document{fake_run(), {}};
+    for (const double diameters : {0.0, 10.0})
+        for (const char* builder : {"karras", "oibvh-single"}) {
+            document.cells.push_back(with_cost(builder, *builder == 'k' ? 10 : 20 + 5 * diameters));
+            document.cells.back().scene.name = "outlier:bunny:0:" + std::to_string(diameters);
+            document.cells.back().scene.outlier = {"bunny", 0, diameters};
+        }
+    const std::string text = fig13_report(document);
+    EXPECT_NE(text.find("bunny  morton30         0       10.0  10.00   70.00   7.00\n"),
+              std::string::npos)
+        << text;
+    EXPECT_NE(text.find("grows faster than the radix tree's, from 2.00 to 7.00 times"),
+              std::string::npos)
+        << text;
 }
 
 }  // namespace

@@ -45,15 +45,20 @@ class Scripts(TemporaryFolder):
         self.assertIn("</svg>", svg.read_text(encoding="utf-8"), svg)
 
     def test_all_draws_what_each_draws_byte_for_byte(self) -> None:
-        for name in ("table1", "fig8"):
+        for name in ("table1", "table4", "fig8", "fig13"):
             done = self.run_script(f"{name}.py", GOLDEN / f"{name}.json", "--out", self.folder / "out")
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             self.assert_pictures(name)
         done = self.run_script("all.py", GOLDEN, "--out", self.folder / "all")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         names = sorted(path.name for path in (self.folder / "all").iterdir())
-        self.assertEqual(names, ["fig8.png", "fig8.svg", "table1.png", "table1.svg"])
+        self.assertEqual(names, [
+            f"{name}.{end}" for name in ("fig13", "fig8", "quality", "table1", "table4") for end in ("png", "svg")])
+        done = self.run_script("pareto_orders.py", GOLDEN / "quality.json", "--out", self.folder / "out")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
         for name in names:
+            if name.startswith("quality"):
+                continue
             one, two = ((self.folder / out / name).read_bytes() for out in ("out", "all"))
             self.assertEqual(one, two, name)
         self.assert_says_what_a_reader_must_know(self.folder / "all" / "table1.svg")

@@ -1,0 +1,109 @@
+#!/usr/bin/env python3
+"""Table 4 as bars: the surface area cost of the radix tree and of the Oi-BVH over the same leaves, per mesh.
+
+    plots/table4.py FILE... --out DIR
+
+Over each pair stands how many times the one is the other. The paper's printed costs are marked; a cost has no
+machine, so they can be compared with ours wherever the mesh is the same.
+"""
+from __future__ import annotations
+
+import sys
+
+import matplotlib.pyplot as plt
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+import figure
+import results
+import style
+
+RADIX = ("apetrei", "apetrei-fused", "karras", "radix-reference")  # one tree, whichever builds it
+OIBVH = ("oibvh-multi", "oibvh-single", "oibvh-reference")
+KINDS = (("apetrei", RADIX), ("oibvh-multi", OIBVH))  # the paper's word for a kind of tree, and ours
+WIDTH = 0.36
+PAPER_MARK = {"marker": "d", "markersize": 4.5, "markerfacecolor": "white", "markeredgecolor": "black",
+              "markeredgewidth": 0.8, "linestyle": "none"}
+
+
+def cost_of(cells: list[results.Cell], builders: tuple[str, ...]) -> tuple[str, float] | None:
+    """The first of these builders that has a cost, and the cost."""
+    for builder in builders:
+        for cell in cells:
+            if cell.builder == builder and "sah_cost" in cell.counters:
+                return builder, cell.counters["sah_cost"]
+    return None
+
+
+def title(cell: results.Cell, printed: dict) -> str:
+    if cell.stand_in_for:
+        return f"{cell.stand_in_for}*\n{cell.triangles:,}"
+    return f"{cell.scene}{'+' if cell.scene in printed['other_editions'] else ''}\n{cell.triangles:,}"
+
+
+def draw_mesh(axes: plt.Axes, x: int, cells: list[results.Cell], printed: dict) -> set[str]:
+    """The bars of one mesh; answers the builders shown."""
+    scene = cells[0].stand_in_for or cells[0].scene
+    model = printed["other_editions"].get(scene, scene)
+    paper = {row["builder"]: row["sah_cost"] for row in printed["rows"] if row["scene"] == model}
+    shown, costs = set(), []
+    for side, (name, builders) in enumerate(KINDS):
+        place = x + (side - 0.5) * WIDTH
+        if name in paper:
+            axes.plot(place, paper[name], zorder=4, **PAPER_MARK)
+        if found := cost_of(cells, builders):
+            builder, cost = found
+            axes.bar(place, cost, 0.9 * WIDTH, color=style.look(builder).colour, linewidth=0)
+            axes.text(place, 0.02, f"{cost:,.2f}", transform=axes.get_xaxis_transform(), ha="center", va="bottom",
+                      fontsize=7, color=style.ink_on(style.look(builder).colour))
+            shown.add(builder)
+            costs.append(cost)
+    if len(costs) == 2:
+        top = max(*costs, *paper.values()) if paper else max(costs)
+        ours = f"{costs[1] / costs[0]:.2f}×"
+        theirs = f"\n(paper {paper['oibvh-multi'] / paper['apetrei']:.2f}×)" if paper else ""
+        axes.annotate(ours + theirs, (x, top), (0, 6), textcoords="offset points", ha="center", va="bottom",
+                      fontsize=7)
+    return shown
+
+
+def scale(axes: plt.Axes, cells: list[results.Cell], printed: dict) -> None:
+    """A logarithmic axis with room for the numbers at the foot and those over the bars."""
+    values = [cell.counters["sah_cost"] for cell in cells] + [row["sah_cost"] for row in printed["rows"]]
+    low, high = min(values), max(values)
+    axes.set_yscale("log")
+    axes.set_ylim(low / (high / low) ** 0.25, high * (high / low) ** 0.25)
+    figure.log_ticks(axes.yaxis, low, high)
+
+
+def draw(run: results.Run) -> plt.Figure:
+    cells = [cell for cell in run.of("table4") if "sah_cost" in cell.counters]
+    if not cells:
+        raise results.Refused(f"{run.path}: no cell of table4 has a surface area cost")
+    printed = results.printed("table4")
+    scenes = list(dict.fromkeys(cell.scene for cell in cells))
+    drawing, axes = plt.subplots(figsize=(style.PAGE_WIDTH, 3.4), layout="constrained")
+    shown: set[str] = set()
+    for x, scene in enumerate(scenes):
+        shown |= draw_mesh(axes, x, [cell for cell in cells if cell.scene == scene], printed)
+    first = [next(cell for cell in cells if cell.scene == scene) for scene in scenes]
+    axes.set_xticks(range(len(scenes)), [title(cell, printed) for cell in first])
+    axes.set_xlim(-0.6, len(scenes) - 0.4)
+    scale(axes, cells, printed)
+    axes.tick_params(axis="x", length=0)
+    axes.set(ylabel="surface area cost")
+    handles = [Patch(facecolor=style.look(builder).colour, label=builder) for builder in style.LOOKS
+               if builder in shown]
+    handles.append(Line2D([], [], **PAPER_MARK, label="printed in the paper"))
+    height = figure.legend_above(drawing, handles)
+    remarks = ["An inner node costs 1.2, a triangle 1.0, in shares of the root's area. Under the names: triangles."]
+    if any(cell.scene in printed["other_editions"] for cell in cells):
+        remarks.append("+ another edition of the paper's model, with another triangle count.")
+    if any(cell.stand_in_for for cell in cells):
+        remarks.append("* generated stand-in with the mesh's triangle count.")
+    figure.footer(drawing, run, "table4", tuple(remarks), height)
+    return drawing
+
+
+if __name__ == "__main__":
+    sys.exit(figure.command_line("table4", __doc__, draw))
