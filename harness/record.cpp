@@ -154,7 +154,7 @@ std::string cell_text(const Cell& cell)
 
 std::string document_text(const std::string& run, const std::vector<std::string>& cells)
 {
-    std::string text = "{\"format\": \"1.0\",\n\"run\": " + run + ",\n\"cells\": [";
+    std::string text = "{\"format\": \"1.1\",\n\"run\": " + run + ",\n\"cells\": [";
     for (std::size_t i = 0; i < cells.size(); ++i)
         text += (i == 0 ? "\n" : ",\n") + cells[i];
     return text + "\n]}\n";

@@ -84,10 +84,12 @@ TEST(Record, ReadsBackWhatItWrote)
     host.builder.order = "morton63";
     host.samples = {{3, {{"hierarchy", 0, 0, 1234, 0, 0}}}};
     host.check = {Check::Verdict::differs, "oibvh-reference", "something", 0x12u};
+    host.scene.outlier = {"bunny", 3, 2.5};
     const std::string text = text_of(fake_run(), {fake_cell(), failed, host});
 
     const Document document = read_document(text, "x");
     EXPECT_EQ(text_of(document.run, document.cells), text);
+    EXPECT_EQ(document.cells[2].scene.outlier.diameters, 2.5);
     EXPECT_EQ(document.cells[2].samples[0].stages[0].elapsed_ns(), 1234);
 }
 
