@@ -58,8 +58,8 @@ def draw_scene(axes: plt.Axes, scene: str, points: list[Point], markers: dict[st
         axes.plot(time, cost, marker=markers[order_of(cell)], linestyle="none", markeredgecolor=colour,
                   markerfacecolor=colour if is_best else "white")
     axes.set_title(f"{scene}\n{points[0][2].triangles:,} triangles", loc="left", fontsize=7)
-    axes.margins(x=0.12, y=0.12)
-    axes.set_ylim(bottom=0)
+    axes.margins(x=0.12)
+    axes.set_ylim(0, 1.12 * max(cost for _, cost, _ in points))
     axes.grid(axis="x")
 
 
@@ -71,7 +71,7 @@ def draw(run: results.Run) -> plt.Figure:
         raise results.Refused(f"{run.path}: no scene has times and surface area costs of two builders or orders")
     columns = min(COLUMNS, len(by_scene))
     rows = math.ceil(len(by_scene) / columns)
-    drawing, grid = plt.subplots(rows, columns, figsize=(style.PAGE_WIDTH, 1.0 + PANEL_HEIGHT * rows),
+    drawing, grid = plt.subplots(rows, columns, figsize=(style.PAGE_WIDTH, 1.4 + PANEL_HEIGHT * rows),
                                  squeeze=False, layout="constrained")
     panels = [axes for line in grid for axes in line]
     orders = dict.fromkeys(order_of(cell) for points in by_scene.values() for _, _, cell in points)

@@ -94,7 +94,7 @@ class Run:
                 scenes.setdefault(why, []).append(cell["scene"]["name"])
         builders: dict[tuple[str, str, str], list[str]] = {}
         for (builder, status, reason), where in scenes.items():
-            builders.setdefault((status, ", ".join(where), reason), []).append(builder)
+            builders.setdefault((status, ", ".join(dict.fromkeys(where)), reason), []).append(builder)
         return [f"{', '.join(who)} {status} on {where}: {reason}"
                 for (status, where, reason), who in builders.items()]
 
