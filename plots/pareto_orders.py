@@ -20,6 +20,7 @@ import results
 import style
 
 COLUMNS = 3
+ALONG_A_CURVE = ("oibvh", "perfect", "apetrei", "karras", "radix")
 MARKERS = "osD^vP*X<>hd"  # an order each, by first appearance: here a colour is a builder
 PANEL_HEIGHT = 1.9  # inches
 Point = tuple[float, float, results.Cell]  # milliseconds, cost
@@ -46,6 +47,9 @@ def front(points: list[Point]) -> list[Point]:
 
 
 def order_of(cell: results.Cell) -> str:
+    """Builders that sort along no curve ignore the option."""
+    if not cell.builder.startswith(ALONG_A_CURVE):
+        return "own order"
     return dict(cell.options).get("order", "morton30")
 
 
