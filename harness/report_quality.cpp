@@ -136,10 +136,9 @@ std::string fig13_report(const Document& document)
     }
     std::string text = table.text();
     if (first > 0 && last > 0)
-        text += std::string("the Oi-BVH's cost grows ") +
-                (last > first ? "faster than" : "no faster than") + " the radix tree's, from " +
-                fixed(first, 2) + " to " + fixed(last, 2) +
-                " times; in the paper, \"much faster\"\n";
+        text += std::string("the Oi-BVH's cost relative to the radix tree's ") +
+                (last > first ? "grows" : "does not grow") + ", from " + fixed(first, 2) + " to " +
+                fixed(last, 2) + " times; the paper has it grow \"much faster\"\n";
     return text;
 }
 
