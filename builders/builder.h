@@ -36,13 +36,13 @@ struct BuildOptions {
 
 /// Where a build starts. Later starts reuse what the previous build on the same input left in place.
 enum class Start {
-    from_triangles,      ///< stages bounds, codes, sort and then hierarchy
+    from_triangles,      ///< stages bounds, codes, sort, order and then hierarchy
     from_sorted_leaves,  ///< leaf boxes and sorted ids are given: the setting of the paper's Table 1
 };
 
 /// Builds a hierarchy over triangles. One instance serves one size until `reserve` is called again.
 ///
-/// Stages are words from a fixed list: bounds, codes, sort, gather, hierarchy, refit.
+/// Stages are words from a fixed list: bounds, codes, sort, order, gather, hierarchy, refit.
 class Builder {
 public:
     virtual ~Builder() = default;

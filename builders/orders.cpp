@@ -41,6 +41,8 @@ constexpr OrderEntry catalog[] = {
      code_30<stretched_cell, hilbert_30>},
     {"hilbert63-axis", "as hilbert63, cells stretched to the scene's box", 63, "hilbert63_axis",
      code_63<stretched_cell, hilbert_63>},
+    {"hilbert30+kd1024", "as hilbert30, then exact medians within blocks of 1,024 leaves", 30,
+     "hilbert30", code_30<cubic_cell, hilbert_30>, Medians::in_blocks},
 };
 
 }  // namespace

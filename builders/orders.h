@@ -8,14 +8,22 @@
 
 namespace bvhbench {
 
-/// A way to line up leaves: a code a box, sorted ascending, ties in the triangles' own order.
+/// What is put into the order of exact median splits (builders/stages/medians.h).
+enum class Medians {
+    nowhere,
+    in_blocks,   ///< every aligned block of 2^median_block_height leaves, after the sort
+    everywhere,  ///< all leaves: nothing to sort, no codes
+};
+
+/// A way to line up leaves: a code a box, sorted ascending, ties in the triangles' own order; then medians.
 struct OrderEntry {
     std::string_view name;     ///< "morton30": the key on the command line and in result files
     std::string_view summary;  ///< one line for `list orders`
-    unsigned code_bits;        ///< only these bits are sorted; over 32, codes take 64
+    unsigned code_bits;        ///< only these bits are sorted; over 32, codes take 64; 0: no codes
     const char* kernel;        ///< its entry point in builders/stages/codes.cl
     /// The same code on the host: of a leaf's box, given the bounds of all boxes and of their centres.
     ulong (*code)(Aabb box, Bounds bounds);
+    Medians medians = Medians::nowhere;
 };
 
 /// Every order, in the order tables list them. To add one, add its line in orders.cpp.

@@ -161,7 +161,7 @@ void read_size(const Json& json, Experiment& experiment)
 
 Start start_of(const Json& stages)
 {
-    constexpr std::string_view known[] = {"bounds", "codes", "sort", "gather", "hierarchy"};
+    constexpr std::string_view known[] = {"bounds", "codes", "sort", "order", "gather", "hierarchy"};
     if (!stages.is_array() || stages.empty())
         throw BadUsage("'stages' must be a list of at least one");
     for (const Json& stage : stages)

@@ -2,7 +2,9 @@
 //
 // From triangles to a line of leaves: what every builder that starts from sorted codes shares.
 //
-//     triangles --bounds--> boxes (mesh order), bounds of centres --codes--> codes --sort--> ids in leaf order
+//     triangles --bounds--> boxes (mesh order), bounds --codes--> codes --sort--> ids --order--> ids
+//
+// The last stage belongs to orders with medians only.
 #pragma once
 
 #include <memory>
@@ -19,18 +21,18 @@
 
 namespace bvhbench {
 
-/// The stages bounds, codes and sort on a device.
+/// The stages bounds, codes, sort and order on a device, those of them that the order has.
 class LeafOrder {
 public:
     /// Throws BadUsage if no order is called `order`.
     LeafOrder(Programs& programs, std::string_view order, KernelForm form = KernelForm::of_device);
     ~LeafOrder();
 
-    /// Take every buffer the three stages need for `primitives` triangles. The sorted ids are tree memory;
+    /// Take every buffer the stages need for `primitives` triangles. The sorted ids are tree memory;
     /// the leaf boxes are what `boxes` says; everything else is scratch.
     void plan(Arena& arena, std::size_t primitives, Use boxes);
 
-    /// Enqueue the three stages. Allocates nothing and does not wait.
+    /// Enqueue the stages. Allocates nothing and does not wait.
     void enqueue(const Input& input, Queue& queue);
 
     /// Enqueue the first stage only: new boxes, and the order that was. Does not wait.
@@ -38,10 +40,13 @@ public:
 
     const Buffer<Aabb>& boxes() const;     ///< one a triangle, in mesh order
     const Buffer<Bounds>& bounds() const;  ///< one: of all boxes and of their centres
-    const Buffer<uint>& codes() const;  ///< ascending; over 32 bits, two words each, low word first
-    const Buffer<uint>& ids() const;    ///< triangle ids in leaf order
+    /// Ascending, of the leaves in their order; over 32 bits, two words each, low word first. Medians leave
+    /// codes that do not ascend, so with them the codes are the leaves' positions: their radix tree is the
+    /// tree whose splits the medians are.
+    const Buffer<uint>& codes() const;
+    const Buffer<uint>& ids() const;  ///< triangle ids in leaf order
 
-    unsigned code_bits() const;  ///< of the order
+    unsigned code_bits() const;  ///< of `codes`
 
 private:
     struct Stages;
@@ -51,7 +56,7 @@ private:
 /// The same on the host, slowly and obviously: the oracle for the kernels, equal bit for bit.
 struct HostLeafOrder {
     std::vector<Aabb> boxes;   ///< one a triangle, in mesh order
-    std::vector<ulong> codes;  ///< ascending
+    std::vector<ulong> codes;  ///< ascending; with medians, positions
     std::vector<uint> ids;     ///< triangle ids in leaf order
 };
 HostLeafOrder host_leaf_order(std::span<const Point> points, std::span<const Face> faces,
