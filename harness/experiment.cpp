@@ -17,8 +17,8 @@ using Json = nlohmann::ordered_json;
 using Words = std::initializer_list<std::string_view>;
 
 // To add an experiment, add its file to experiments/ and its name here.
-constexpr std::string_view names[] = {"table1",  "table4",  "fig8",     "fig13", "peers",
-                                      "quality", "scaling", "equality", "smoke"};
+constexpr std::string_view names[] = {"table1",  "table4", "fig8",    "fig13",    "peers",
+                                      "quality", "orders", "scaling", "equality", "smoke"};
 
 constexpr std::int64_t most_sizes = 1 << 24;
 
@@ -161,7 +161,8 @@ void read_size(const Json& json, Experiment& experiment)
 
 Start start_of(const Json& stages)
 {
-    constexpr std::string_view known[] = {"bounds", "codes", "sort", "order", "gather", "hierarchy"};
+    constexpr std::string_view known[] = {"bounds", "codes",  "sort",
+                                          "order",  "gather", "hierarchy"};
     if (!stages.is_array() || stages.empty())
         throw BadUsage("'stages' must be a list of at least one");
     for (const Json& stage : stages)
@@ -186,7 +187,7 @@ Experiment experiment_of(const Json& json, bool quick)
 {
     refuse_unknown_keys(json,
                         {"experiment", "question", "paper", "scenes", "builders", "stages",
-                         "samples", "warm_up", "quality", "quick"},
+                         "samples", "warm_up", "quality", "orders", "quick"},
                         "an experiment");
     for (const char* key : {"experiment", "scenes", "builders"})
         if (!json.contains(key))

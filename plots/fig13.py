@@ -50,13 +50,14 @@ def draw(run: results.Run) -> plt.Figure:
                         marker=".", linestyle=line, label=model)
         last = max(costs)
         ratio = costs[last][1][1] / costs[last][0][1]
-        ratio_axes.annotate(f"{ratio:.2f}×", (last, ratio), (-4, 3), textcoords="offset points", ha="right",
-                            fontsize=style.SMALL)
+        ratio_axes.annotate(f"{ratio:.2f}×", (last, ratio), (5, 0), textcoords="offset points", ha="left",
+                            va="center", fontsize=style.SMALL)
     triangles = sorted({str(cell.outlier["triangle"]) for cell in cells})
     cost_axes.set(xlabel="distance of the triangle, diameters of the mesh", ylabel="surface area cost")
     ratio_axes.set(xlabel="distance of the triangle, diameters of the mesh", ylabel="Oi-BVH over radix tree")
     for axes in (cost_axes, ratio_axes):
         axes.set_ylim(0, 1.08 * axes.get_ylim()[1])
+    ratio_axes.margins(x=0.13)  # room for the last values
     ratio_axes.legend(loc="upper left")
     height = figure.legend_above(drawing, cost_axes.get_legend_handles_labels()[0], 2)
     figure.footer(drawing, run, "fig13", (f"Moved: triangle {', '.join(triangles)}. {SAYS}",), height)

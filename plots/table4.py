@@ -54,7 +54,7 @@ def draw_mesh(axes: plt.Axes, x: int, cells: list[results.Cell], printed: dict) 
         if found := cost_of(cells, builders):
             builder, cost = found
             axes.bar(place, cost, 0.9 * WIDTH, color=style.look(builder).colour, linewidth=0)
-            axes.text(place, 0.02, f"{cost:,.2f}", transform=axes.get_xaxis_transform(), ha="center", va="bottom",
+            axes.text(place, 0.02, f"{cost:,.2f}" if cost < 1000 else f"{cost:,.0f}", transform=axes.get_xaxis_transform(), ha="center", va="bottom",
                       fontsize=7, color=style.ink_on(style.look(builder).colour))
             shown.add(builder)
             costs.append(cost)
