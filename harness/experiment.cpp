@@ -187,7 +187,7 @@ Experiment experiment_of(const Json& json, bool quick)
 {
     refuse_unknown_keys(json,
                         {"experiment", "question", "paper", "scenes", "builders", "stages",
-                         "samples", "warm_up", "quality", "orders", "quick"},
+                         "samples", "warm_up", "quality", "quick"},
                         "an experiment");
     for (const char* key : {"experiment", "scenes", "builders"})
         if (!json.contains(key))

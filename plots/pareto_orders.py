@@ -95,7 +95,7 @@ def draw(run: results.Run) -> plt.Figure:
     handles = [Patch(facecolor=style.look(name).colour, label=name) for name in names]
     handles += [Line2D([], [], color="#222222", marker=marker, linestyle="none", label=order)
                 for order, marker in markers.items()]
-    height = figure.legend_above(drawing, handles)
+    height = figure.legend_above(drawing, handles, columns=6)
     remark = "Down and left is better. Filled, joined: beaten by none in both time and cost. Times: medians."
     figure.footer(drawing, run, cells[0].experiment, (remark,), height)
     return drawing
