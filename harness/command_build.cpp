@@ -14,7 +14,7 @@ namespace {
 /// Build once more and write the tree: measuring has its own copy of the scene, which is gone by now.
 void dump(Session& session, const BuildCommand& command)
 {
-    const Scene scene = load_scene(command.scene, session.library());
+    const Scene scene = load_scene(command.scene, session.scenes());
     const Input input =
         upload(session.device(), session.queue(), scene.frames.front(), scene.faces);
     Builder& builder = session.builder(command.builder);

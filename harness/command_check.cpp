@@ -136,7 +136,7 @@ int check(const CheckCommand& command, const Options& options)
     if (command.scene.empty()) {
         check_hard_inputs(checker);
     } else {
-        const Scene scene = load_scene(command.scene, session.library());
+        const Scene scene = load_scene(command.scene, session.scenes());
         std::vector<Tally> tallies = checker.none();
         for (const std::vector<Point>& points : scene.frames)
             checker.over(points, scene.faces, tallies);

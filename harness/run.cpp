@@ -143,7 +143,7 @@ void Run::scene(const Experiment& experiment, const std::string& name,
     empty.scene.name = name;
     empty.warm_up = experiment.warm_up;
     const std::string no_scene = reason_of_failure([&] {
-        scene = scene_of(experiment, name, session_.library());
+        scene = scene_of(experiment, name, session_.scenes());
         empty.scene = facts_of(scene, name);
         input = upload(session_.device(), session_.queue(), scene.frames.front(), scene.faces);
     });

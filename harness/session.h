@@ -23,7 +23,7 @@ public:
     const Device& device() const { return device_; }
     Programs& programs() { return programs_; }
     Queue& queue() { return *queue_; }
-    const SceneLibrary& library() const { return library_; }
+    const SceneLibrary& scenes() const { return library_; }
 
     /// Forget what a failed build left in the queue.
     void renew_queue();
