@@ -43,6 +43,7 @@ constexpr OrderEntry catalog[] = {
      code_63<stretched_cell, hilbert_63>},
     {"hilbert30+kd1024", "as hilbert30, then exact medians within blocks of 1,024 leaves", 30,
      "hilbert30", code_30<cubic_cell, hilbert_30>, Medians::in_blocks},
+    {"kd", "exact medians at every level of the tree", 0, nullptr, nullptr, Medians::everywhere},
 };
 
 }  // namespace

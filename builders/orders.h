@@ -20,8 +20,9 @@ struct OrderEntry {
     std::string_view name;     ///< "morton30": the key on the command line and in result files
     std::string_view summary;  ///< one line for `list orders`
     unsigned code_bits;        ///< only these bits are sorted; over 32, codes take 64; 0: no codes
-    const char* kernel;        ///< its entry point in builders/stages/codes.cl
-    /// The same code on the host: of a leaf's box, given the bounds of all boxes and of their centres.
+    const char* kernel;        ///< its entry point in builders/stages/codes.cl; null without codes
+    /// The same code on the host: of a leaf's box, given the bounds of all boxes and of their centres; null
+    /// without codes.
     ulong (*code)(Aabb box, Bounds bounds);
     Medians medians = Medians::nowhere;
 };

@@ -20,9 +20,11 @@ Programs::Programs(const Device& device, std::string dialect)
 {}
 
 cl::Kernel Programs::kernel(std::string_view path, const char* name,
-                            std::initializer_list<Define> defines)
+                            std::initializer_list<Define> defines, Optimise optimise)
 {
     std::string options = "-cl-std=" + dialect_;
+    if (optimise == Optimise::on_gpus && device_.is_cpu())
+        options += " -cl-opt-disable";
     if (can_round_division(device_.cl))
         options += " -cl-fp32-correctly-rounded-divide-sqrt";
     for (const Define& define : defines)

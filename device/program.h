@@ -23,6 +23,12 @@ struct Define {
     unsigned value;
 };
 
+/// How far the compiler may go.
+enum class Optimise {
+    freely,
+    on_gpus,  ///< not on a CPU: PoCL 3.1 compiles some kernels of many helpers wrongly, and not so without
+};
+
 /// The programs of one device, each compiled once however many builders ask for it.
 ///
 /// Cached by text, options and device (one object serves one device). Not for several threads at once.
@@ -36,7 +42,8 @@ public:
     /// The kernel `name` of the file `path`, built with `defines`. A new kernel object at every call, so that
     /// arguments set by one owner never reach another. Throws BuildFailure.
     cl::Kernel kernel(std::string_view path, const char* name,
-                      std::initializer_list<Define> defines = {});
+                      std::initializer_list<Define> defines = {},
+                      Optimise optimise = Optimise::freely);
 
     /// Host time spent compiling so far, in nanoseconds: reported once a run, never part of a sample.
     std::int64_t compile_ns() const { return compile_ns_; }

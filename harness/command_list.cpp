@@ -31,7 +31,8 @@ std::string orders()
 {
     Table table = lines(3);
     for (const OrderEntry& entry : order_catalog())
-        table.row({std::string(entry.name), std::to_string(entry.code_bits) + " bits",
+        table.row({std::string(entry.name),
+                   entry.code_bits > 0 ? std::to_string(entry.code_bits) + " bits" : "no codes",
                    std::string(entry.summary)});
     return table.text();
 }

@@ -127,7 +127,7 @@ private:
     {
         RadixLeaves& leaves = tree_.leaves;
         leaves.count = primitives;
-        leaf_order_.plan(arena, primitives, leaves.sorted ? Use::scratch : Use::tree);
+        leaf_order_.plan(arena, primitives, leaves.sorted ? Use::scratch : Use::tree, true);
         leaves.boxes =
             leaves.sorted ? arena.take<Aabb>(primitives, Use::tree) : leaf_order_.boxes();
         leaves.ids = leaf_order_.ids();

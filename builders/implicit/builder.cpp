@@ -144,7 +144,7 @@ void ImplicitBuilder::plan(Arena& arena, uint primitives)
         arena.take<Aabb>(stored_leaves - primitives, Use::tree);
     arena.take<uint>(stored_leaves - primitives, Use::tree);
 
-    leaf_order_.plan(arena, primitives, tree_.sorted_leaves ? Use::scratch : Use::tree);
+    leaf_order_.plan(arena, primitives, tree_.sorted_leaves ? Use::scratch : Use::tree, false);
     tree_.leaf_boxes = tree_.sorted_leaves ? Buffer<Aabb>{} : leaf_order_.boxes();
     tree_.ids = leaf_order_.ids();
 

@@ -20,6 +20,15 @@ inline KernelForm chosen_form(const Device& device, KernelForm form)
     return device.is_cpu() ? KernelForm::chunks : KernelForm::groups;
 }
 
+/// The same for kernels whose groups want as much memory and as many work-items as GPUs have for long had.
+inline KernelForm chosen_form(const Device& device, KernelForm form, std::size_t local_bytes,
+                              std::size_t group_size)
+{
+    const bool fits = device.cl.getInfo<CL_DEVICE_LOCAL_MEM_SIZE>() >= local_bytes &&
+                      device.cl.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>() >= group_size;
+    return form == KernelForm::of_device && !fits ? KernelForm::chunks : chosen_form(device, form);
+}
+
 /// Work-items for the form `chunks`: some a core, so that a core that was interrupted is not waited for.
 inline std::size_t chunk_count(const Device& device)
 {

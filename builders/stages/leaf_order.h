@@ -4,7 +4,7 @@
 //
 //     triangles --bounds--> boxes (mesh order), bounds --codes--> codes --sort--> ids --order--> ids
 //
-// The last stage belongs to orders with medians only.
+// The last stage belongs to orders with medians only; with medians everywhere it starts from the boxes.
 #pragma once
 
 #include <memory>
@@ -29,8 +29,9 @@ public:
     ~LeafOrder();
 
     /// Take every buffer the stages need for `primitives` triangles. The sorted ids are tree memory;
-    /// the leaf boxes are what `boxes` says; everything else is scratch.
-    void plan(Arena& arena, std::size_t primitives, Use boxes);
+    /// the leaf boxes are what `boxes` says; everything else is scratch. Without `reads_codes`, orders with
+    /// medians leave none.
+    void plan(Arena& arena, std::size_t primitives, Use boxes, bool reads_codes);
 
     /// Enqueue the stages. Allocates nothing and does not wait.
     void enqueue(const Input& input, Queue& queue);

@@ -18,7 +18,7 @@ constexpr uint median_block_height = 10;
 struct MedianShape {
     KernelForm form = KernelForm::of_device;
     uint block_height = median_block_height;
-    /// Groups only: work-items in a group, a power of two from 16, at most 2^block_height.
+    /// Groups only: work-items in a group, a power of two from 32, at most 2^block_height.
     uint group_size = 256;
 };
 
@@ -26,7 +26,7 @@ struct MedianShape {
 ///
 /// The blocks are subtrees of a tree without pointers, and within one each split is the tree's own: of a node
 /// at a height above the leaves, 2^(height - 1) leaves go left, or all there are. They are the first along the
-/// widest axis of the centres, equals by id (geometry/split.h). What is in which block stays.
+/// axis with the cheapest halves, equals by id (geometry/split.h). What is in which block stays.
 class BlockMedians {
 public:
     explicit BlockMedians(Programs& programs, MedianShape shape = {});
@@ -37,18 +37,13 @@ public:
     /// Enqueue, as part of the stage begun: `ids` is reordered in place. Does not wait.
     void enqueue(const Buffer<Aabb>& boxes, const Buffer<uint>& ids, Queue& queue);
 
-    /// Chunks only: halve runs of 2^top leaves and all shorter ones down to 2^bottom, a work-item a run.
-    void halve_runs(const Buffer<Aabb>& boxes, const Buffer<uint>& ids, uint top, uint bottom,
-                    Queue& queue);
-
 private:
     MedianShape shape_;
     cl::Kernel kernel_;
     Buffer<ulong> keys_;  ///< chunks only, one a leaf
 };
 
-/// The same on the host, slowly and obviously, for aligned blocks of 2^height leaves. With a height that
-/// reaches the root, this is the kd order.
-void host_medians(std::span<const Aabb> boxes, std::span<uint> ids, uint height);
+/// The same on the host, slowly and obviously: the oracle for the kernels, equal bit for bit.
+void host_block_medians(std::span<const Aabb> boxes, std::span<uint> ids, uint block_height);
 
 }  // namespace bvhbench

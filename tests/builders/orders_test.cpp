@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 #include "geometry/error.h"
 
@@ -14,6 +15,15 @@ Aabb point_box(float x, float y, float z) { return {x, y, z, x, y, z}; }
 
 /// Bounds of boxes that are points: the scene is where the centres are.
 Bounds bounds_of(Aabb box) { return {box, box}; }
+
+std::vector<OrderEntry> orders_with_codes()
+{
+    std::vector<OrderEntry> orders;
+    for (const OrderEntry& order : order_catalog())
+        if (order.code != nullptr)
+            orders.push_back(order);
+    return orders;
+}
 
 TEST(Morton, CutsTheLongestSideIntoCellsAndGivesTheOthersTheSame)
 {
@@ -30,7 +40,7 @@ TEST(Morton, CutsTheLongestSideIntoCellsAndGivesTheOthersTheSame)
 
 TEST(Orders, TellApartAtBothEndsOfTheFloats)
 {
-    for (const OrderEntry& order : order_catalog())
+    for (const OrderEntry& order : orders_with_codes())
         for (const float side : {6e-45f, 1e-41f, 1e-30f, 1.0f, 1.7e38f, 3.4e38f}) {
             SCOPED_TRACE(std::string(order.name) + " " + std::to_string(side));
             const Bounds bounds = bounds_of({-side, 0, 0, side, 0, 0});
@@ -44,7 +54,7 @@ TEST(Orders, TellApartAtBothEndsOfTheFloats)
 
 TEST(Orders, AreZeroWhereAllCentresCoincide)
 {
-    for (const OrderEntry& order : order_catalog())
+    for (const OrderEntry& order : orders_with_codes())
         EXPECT_EQ(order.code(point_box(3, 4, 5), bounds_of(point_box(3, 4, 5))), 0u);
 }
 
