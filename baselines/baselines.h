@@ -48,6 +48,9 @@ std::unique_ptr<Builder> make_apetrei(Programs& programs, const BuildOptions& op
 /// The same, topology and boxes in one launch: the strongest form of [Apetrei2014] we know.
 std::unique_ptr<Builder> make_apetrei_fused(Programs& programs, const BuildOptions& options);
 
+/// The same, a launch a level: top-down the topology, bottom-up the boxes, in the manner of [Lauterbach2009].
+std::unique_ptr<Builder> make_lbvh_levels(Programs& programs, const BuildOptions& options);
+
 /// The same tree top-down on one core of the host, slowly: the oracle for every builder of it.
 std::unique_ptr<Builder> make_radix_reference(Programs& programs, const BuildOptions& options);
 

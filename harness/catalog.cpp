@@ -36,6 +36,8 @@ constexpr BuilderEntry catalog[] = {
      make_apetrei},
     {"apetrei-fused", "radix tree, topology and boxes in one launch, one exchange a node",
      radix_tree, make_apetrei_fused},
+    {"lbvh-levels", "radix tree, a launch a level: topology from the root down, boxes back up",
+     radix_tree, make_lbvh_levels},
     {"oibvh-single", "Oi-BVH in one launch, groups meet through global atomics", oi_tree,
      make_oibvh_single},
     {"oibvh-multi", "Oi-BVH in several launches, groups meet between them", oi_tree,

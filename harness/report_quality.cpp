@@ -17,7 +17,7 @@ using enum Table::Align;
 bool is_radix(const std::string& builder)
 {
     return builder.starts_with("apetrei") || builder.starts_with("karras") ||
-           builder.starts_with("radix");
+           builder.starts_with("lbvh") || builder.starts_with("radix");
 }
 
 std::string number(double value) { return value > 0 ? fixed(value, 2) : ""; }

@@ -20,7 +20,7 @@ import results
 import style
 
 COLUMNS = 3
-ALONG_A_CURVE = ("oibvh", "perfect", "apetrei", "karras", "radix")
+ALONG_A_CURVE = ("oibvh", "perfect", "apetrei", "karras", "lbvh", "radix")
 MARKERS = "osD^vP*X<>hd"  # an order each, by first appearance: here a colour is a builder
 PANEL_HEIGHT = 1.9  # inches
 Point = tuple[float, float, results.Cell]  # milliseconds, cost

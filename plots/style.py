@@ -31,6 +31,7 @@ LOOKS = {
     "apetrei": Look("#E69F00", "^"),
     "apetrei-fused": Look("#D55E00", "v"),
     "karras": Look("#CC79A7", "D"),
+    "lbvh-levels": Look("#CC79A7", "p", "////"),
     "oibvh-single": Look("#56B4E9", "o"),
     "oibvh-multi": Look("#0072B2", "o"),
     "oibvh-reference": Look("#000000", "x"),

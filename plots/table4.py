@@ -18,7 +18,7 @@ import figure
 import results
 import style
 
-RADIX = ("apetrei", "apetrei-fused", "karras", "radix-reference")  # one tree, whichever builds it
+RADIX = ("apetrei", "apetrei-fused", "karras", "lbvh-levels", "radix-reference")  # one tree, whichever builds it
 OIBVH = ("oibvh-multi", "oibvh-single", "oibvh-reference")
 KINDS = (("apetrei", RADIX), ("oibvh-multi", OIBVH))  # the paper's word for a kind of tree, and ours
 WIDTH = 0.36

@@ -3,7 +3,6 @@
 #include <optional>
 
 #include "baselines/radix/hierarchy.h"
-#include "builders/stages/codes.h"
 #include "builders/stages/gather.h"
 #include "builders/stages/leaf_order.h"
 
@@ -63,7 +62,7 @@ public:
         options_.order = find_order(options.order).name;  // outlives the caller's text
         tree_.leaves.sorted = options.sorted_leaves;
         tree_.hierarchy = make({programs, RadixLaunch(programs.device(), options),
-                                code_words(leaf_order_.code_bits()), options.sorted_leaves});
+                                leaf_order_.code_bits(), options.sorted_leaves});
     }
 
     BuilderCard card() const override { return card_; }

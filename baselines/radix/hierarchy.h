@@ -7,6 +7,7 @@
 
 #include "baselines/radix/node.h"
 #include "builders/builder.h"
+#include "builders/stages/codes.h"
 
 namespace bvhbench {
 
@@ -26,8 +27,9 @@ struct RadixLeaves {
     }
 };
 
-/// How kernels over leaves are launched: a work-item a leaf in groups, or a run of leaves a work-item where few
-/// cores do the work. The kernels are the same: own_chunk gives a work-item its one leaf or its run.
+/// How kernels over leaves or nodes are launched: a work-item each in groups, or a run of them a work-item where
+/// no more than `most_items` work-items are to share the work; 0 is no such bound. The kernels are the same:
+/// own_chunk gives a work-item its one or its run.
 struct RadixLaunch {
     std::size_t group_size = 1;
     std::size_t most_items = 0;
@@ -43,13 +45,14 @@ struct RadixLaunch {
 struct RadixSetup {
     Programs& programs;
     RadixLaunch launch;
-    unsigned code_words;
+    unsigned code_bits;
     bool sorted_leaves;
 
     cl::Kernel kernel(std::string_view path, const char* name) const
     {
         return programs.kernel(
-            path, name, {{"CODE_WORDS", code_words}, {"SORTED_LEAVES", sorted_leaves ? 1u : 0u}});
+            path, name,
+            {{"CODE_WORDS", code_words(code_bits)}, {"SORTED_LEAVES", sorted_leaves ? 1u : 0u}});
     }
 };
 

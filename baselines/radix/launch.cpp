@@ -4,7 +4,6 @@
 
 #include "baselines/radix/hierarchy.h"
 #include "builders/stages/kernel_form.h"
-#include "geometry/bits.h"
 #include "geometry/error.h"
 
 namespace bvhbench {
@@ -27,10 +26,9 @@ RadixLaunch::RadixLaunch(const Device& device, const BuildOptions& options)
 void RadixLaunch::operator()(Queue& queue, const cl::Kernel& kernel, uint count,
                              std::int64_t moved_bytes) const
 {
-    const std::size_t items = most_items != 0
-                                  ? std::min<std::size_t>(count, most_items)
-                                  : divided_up(count, static_cast<uint>(group_size)) * group_size;
-    queue.launch(kernel, items, group_size, moved_bytes);
+    const std::size_t items = most_items != 0 ? std::min<std::size_t>(count, most_items) : count;
+    const std::size_t groups = (items + group_size - 1) / group_size;
+    queue.launch(kernel, groups * group_size, group_size, moved_bytes);
 }
 
 }  // namespace bvhbench

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "baselines/baselines.h"
 #include "baselines/radix/delta.h"
@@ -15,7 +16,7 @@
 namespace bvhbench {
 namespace {
 
-constexpr MakeBuilder makers[] = {make_karras, make_apetrei, make_apetrei_fused};
+constexpr MakeBuilder makers[] = {make_karras, make_apetrei, make_apetrei_fused, make_lbvh_levels};
 
 /// Small triangles at random places; `places` of them only, so that codes repeat.
 Mesh soup(uint triangles, uint places)
@@ -32,6 +33,25 @@ Mesh soup(uint triangles, uint places)
             mesh.points.push_back({centre.x + (places < triangles ? 0 : next() / 16),
                                    centre.y + static_cast<float>(corner) / 32, centre.z});
         mesh.faces.push_back({3 * k, 3 * k + 1, 3 * k + 2});
+    }
+    return mesh;
+}
+
+/// Triangles that are points, in cells whose codes are 0, `copies` times, and every power of two: a ladder with
+/// a step a bit of the code, and at its end a tree of the copies' places.
+Mesh ladder(int bits_an_axis, uint copies)
+{
+    std::vector<Point> at(copies, Point{0, 0, 0});
+    for (int bit = 0; bit < bits_an_axis; ++bit) {
+        const float offset = std::ldexp(1.0f, bit - bits_an_axis);
+        at.insert(at.end(), {{offset, 0, 0}, {0, offset, 0}, {0, 0, offset}});
+    }
+    at.push_back({1, 1, 1});
+    Mesh mesh;
+    for (const Point& point : at) {
+        const auto first = static_cast<uint>(mesh.points.size());
+        mesh.points.insert(mesh.points.end(), 3, point);
+        mesh.faces.push_back({first, first + 1, first + 2});
     }
     return mesh;
 }
@@ -132,6 +152,24 @@ TEST(RadixBuilders, MakeABalancedTreeOfEqualCodes)
         const auto builder = make(bench().programs, {});
         builder->reserve(4096);
         EXPECT_EQ(depth_of(builder->build(input, bench().queue).spelled_out()), 12u);
+        bench().queue.finish();
+    }
+}
+
+/// As many levels as a key has bits: where launches are counted in advance, none may be missing.
+TEST(RadixBuilders, EqualTheReferenceOnTheDeepestTreesOfTheirCodes)
+{
+    for (const uint copies : {1u, 2u, 64u, 1000u}) {
+        ASSERT_NO_FATAL_FAILURE(expect_the_references_tree(ladder(10, copies), {{}}));
+        ASSERT_NO_FATAL_FAILURE(
+            expect_the_references_tree(ladder(21, copies), {{.order = "morton63"}}));
+    }
+    const Mesh mesh = ladder(21, 64);
+    const Input input = upload(bench().device, bench().queue, mesh.points, mesh.faces);
+    for (const MakeBuilder make : makers) {
+        const auto builder = make(bench().programs, {.order = "morton63"});
+        builder->reserve(mesh.faces.size());
+        EXPECT_EQ(depth_of(builder->build(input, bench().queue).spelled_out()), 63u + 6u);
         bench().queue.finish();
     }
 }

@@ -97,8 +97,9 @@ TEST(Catalog, ListsEachBuilderOnceUnderTheNameOnItsCard)
         EXPECT_FALSE(entry.summary.empty());
         EXPECT_EQ(entry.make == nullptr, !entry.absent.empty());
     }
-    EXPECT_TRUE(names.starts_with("perfect karras apetrei apetrei-fused oibvh-single oibvh-multi "
-                                  "oibvh-reference radix-reference "))
+    EXPECT_TRUE(
+        names.starts_with("perfect karras apetrei apetrei-fused lbvh-levels oibvh-single "
+                          "oibvh-multi oibvh-reference radix-reference "))
         << names;
 }
 
@@ -110,7 +111,8 @@ TEST(Catalog, AnswersAnUnknownNameWithThoseThereAre)
     } catch (const BadUsage& error) {
         EXPECT_TRUE(std::string(error.what())
                         .starts_with("no builder is called 'oibvh'; there are: perfect, karras, "
-                                     "apetrei, apetrei-fused, oibvh-single, oibvh-multi"))
+                                     "apetrei, apetrei-fused, lbvh-levels, oibvh-single, "
+                                     "oibvh-multi"))
             << error.what();
     }
 }

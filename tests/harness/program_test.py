@@ -70,7 +70,7 @@ def test_exit_codes():
 
 def test_lists_put_the_name_first():
     first = [line.split()[0] for line in expect(0, "list", "builders").splitlines()]
-    assert first[:8] == ["perfect", "karras", "apetrei", "apetrei-fused", "oibvh-single",
+    assert first[:9] == ["perfect", "karras", "apetrei", "apetrei-fused", "lbvh-levels", "oibvh-single",
                          "oibvh-multi", "oibvh-reference", "radix-reference"], first
     assert expect(0, "list", "orders").startswith("morton30 ")
     expect(0, "list", "scenes", says="\nsoup:")
@@ -117,9 +117,9 @@ def test_options_reach_the_builder():
 
 
 def test_run_and_show_agree():
-    out = expect(0, "run", "smoke", "--samples", "2", "--out", "folder/s.json", says="24 agree")
+    out = expect(0, "run", "smoke", "--samples", "2", "--out", "folder/s.json", says="27 agree")
     result = valid("folder/s.json")
-    assert len(result["cells"]) == 24 and "finished_at" in result["run"]
+    assert len(result["cells"]) == 27 and "finished_at" in result["run"]
     assert result["run"]["copy_rate_bytes_per_s"] > 0 and result["run"]["compile_ns"] > 0
     orders = [s["order"] for cell in result["cells"] for s in cell["samples"]]
     assert len(set(orders)) == len(orders)

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+// check: -DCODE_WORDS=1 -DSORTED_LEAVES=0
+// check: -DCODE_WORDS=2 -DSORTED_LEAVES=1
+//
+// [Lauterbach2009]: a level of the tree after the other, from the root down, then boxes from the deepest level
+// up. A launch a level, as many as there can be: how deep the tree is only the device knows, and a launch whose
+// level is empty ends at once. That is the honest price of building by levels, and what [Karras2012] does away
+// with.
+//
+// The paper lists the splits of all levels from pairs of neighbouring codes, sorts the list by level and then
+// takes out nodes with a single child. Here a node finds its split by halving and puts the children that are
+// inner nodes into the next level, as in [Garanzha2011]: no second sort, no such nodes, the same tree.
+//
+//     nodes       level 0 | level 1 | level 2 ...        level l is nodes[begins[l]] to before begins[l + 1]
+//     counts      1       | <= 2    | <= 4    ...        counts[l] grows while level l - 1 is split
+//
+// A node that has not been split holds the range of its leaves where its children will be: the tree is its own
+// queue.
+#include "baselines/radix/nodes.clh"
+
+/// Node i waits for its split, leaves `first` to `last`.
+static inline void put_range(global uint4* nodes, const uint i, const uint first, const uint last)
+{
+    nodes[2ul * i].w = first;
+    nodes[2ul * i + 1ul].w = last;
+}
+
+/// Find the split of node i and leave it where its box will be. How many of its children are inner nodes.
+static inline uint find_split(global const Code* codes, global uint4* nodes, const uint leaves,
+                              const uint i)
+{
+    const uint first = nodes[2ul * i].w, last = nodes[2ul * i + 1ul].w;
+    const uint own = common_of(codes, leaves, first, last);
+    uint split = first, beyond = last;  // more in common with `first` at split, not so at beyond
+    while (beyond - split > 1u) {
+        const uint middle = split + (beyond - split) / 2u;
+        if (common_of(codes, leaves, first, middle) > own)
+            split = middle;
+        else
+            beyond = middle;
+    }
+    nodes[2ul * i].x = split;
+    return (split != first ? 1u : 0u) + (beyond != last ? 1u : 0u);
+}
+
+/// Node i, whose split was found, gets its children; those that are inner nodes wait from `slot` on. The slot
+/// after them.
+static inline uint put_children(global uint4* nodes, const uint i, uint slot)
+{
+    const uint first = nodes[2ul * i].w, last = nodes[2ul * i + 1ul].w;
+    const uint split = nodes[2ul * i].x;
+    uint left = radix_child(split, true), right = radix_child(split + 1u, true);
+    if (split != first) {
+        put_range(nodes, slot, first, split);
+        left = radix_child(slot++, false);
+    }
+    if (split + 1u != last) {
+        put_range(nodes, slot, split + 1u, last);
+        right = radix_child(slot++, false);
+    }
+    nodes[2ul * i].w = left;
+    nodes[2ul * i + 1ul].w = right;
+    return slot;
+}
+
+/// The nodes of `level` get their children, and the next level its nodes: counts[level + 1], zero before, and
+/// begins[level + 1]. Where a group's children go is settled by one atomic, whatever its size.
+kernel void split_level(global const Code* restrict codes, global uint4* nodes, global uint* begins,
+                        volatile global uint* counts, const uint leaves, const uint level)
+{
+    local uint group_count, group_slot;
+    const uint begin = begins[level], count = counts[level];
+    const Chunk chunk = own_chunk(count);
+    if (get_global_id(0) == 0) {
+        begins[level + 1u] = begin + count;
+        if (level == 0u)
+            put_range(nodes, 0u, 0u, leaves - 1u);
+    }
+    if (get_local_id(0) == 0)
+        group_count = 0u;
+    barrier(CLK_LOCAL_MEM_FENCE);
+
+    uint inner = 0u;
+    for (uint k = chunk.first; k < chunk.end; ++k)
+        inner += find_split(codes, nodes, leaves, begin + k);
+    const uint before = inner != 0u ? atomic_add(&group_count, inner) : 0u;
+    barrier(CLK_LOCAL_MEM_FENCE);
+    if (get_local_id(0) == 0 && group_count != 0u)
+        group_slot = begin + count + atomic_add(&counts[level + 1u], group_count);
+    barrier(CLK_LOCAL_MEM_FENCE);
+
+    uint slot = inner != 0u ? group_slot + before : 0u;
+    for (uint k = chunk.first; k < chunk.end; ++k)
+        slot = put_children(nodes, begin + k, slot);
+}
+
+/// The nodes of `level` get the boxes around their children's, which the level below has. counts[level], which
+/// is done with, becomes zero for the next build, all but the root's.
+kernel void box_level(global const float2* restrict leaf_boxes, global const uint* restrict ids,
+                      global uint4* nodes, global const uint* restrict begins, global uint* counts,
+                      const uint level)
+{
+    const uint begin = begins[level];
+    const Chunk chunk = own_chunk(begins[level + 1u] - begin);
+    if (get_global_id(0) == 0 && level != 0u)
+        counts[level] = 0u;
+    for (uint k = chunk.first; k < chunk.end; ++k) {
+        const uint i = begin + k;
+        const uint left = nodes[2ul * i].w, right = nodes[2ul * i + 1ul].w;
+        const Aabb box = merged(child_box(leaf_boxes, ids, nodes, left),
+                                child_box(leaf_boxes, ids, nodes, right));
+        store_node(nodes, i, box, left, right);
+    }
+}

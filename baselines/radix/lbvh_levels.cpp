@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+
+#include "baselines/baselines.h"
+#include "baselines/radix/hierarchy.h"
+#include "geometry/bits.h"
+
+namespace bvhbench {
+namespace {
+
+/// Work-items that fill any device we know. A launch for a deep level must allow for half as many nodes as there
+/// are leaves and mostly finds few or none: work-items that only look and leave would be most of its time.
+std::size_t most_lanes(const Device& device)
+{
+    return 2048 * std::size_t{device.cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()};
+}
+
+class LbvhLevels final : public RadixHierarchy {
+public:
+    explicit LbvhLevels(const RadixSetup& setup)
+        : launch_(setup.launch)
+        , code_bits_(setup.code_bits)
+        , split_(setup.kernel("baselines/radix/lbvh_levels.cl", "split_level"))
+        , box_(setup.kernel("baselines/radix/lbvh_levels.cl", "box_level"))
+    {
+        if (launch_.most_items == 0)
+            launch_.most_items = most_lanes(setup.programs.device());
+    }
+
+    void plan(Arena& arena, const RadixLeaves& leaves) override
+    {
+        leaves_ = &leaves;
+        // On the way down from the root every node splits at a bit of the key that is below its parent's, and
+        // of a place only so many bits differ.
+        levels_ = std::min(leaves.count - 1, code_bits_ + ceil_log2(leaves.count));
+        nodes_ = arena.take<RadixNode>(leaves.count - 1, Use::tree);
+        begins_ = arena.take<uint>(levels_ + 1, Use::scratch);
+        counts_ = arena.take<uint>(levels_ + 1, Use::scratch);
+    }
+
+    void prepare(const cl::CommandQueue& queue) override
+    {
+        std::vector<uint> counts(counts_.size(), 0u);
+        counts.front() = 1;  // the root
+        counts_.upload(queue, counts);
+        begins_.upload(queue, std::vector<uint>(begins_.size(), 0u));
+    }
+
+    void build(Queue& queue) override
+    {
+        for (uint level = 0; level < levels_; ++level) {
+            set_arguments(split_, leaves_->codes, nodes_, begins_, counts_, leaves_->count, level);
+            launch_(queue, split_, most_nodes_on(level),
+                    level == 0 ? leaves_->code_bytes() + node_bytes() : 0);
+        }
+        make_boxes(queue);
+    }
+
+    void refit(Queue& queue) override { make_boxes(queue); }
+
+    std::vector<RadixNode> download(const cl::CommandQueue& queue, uint& root) const override
+    {
+        root = 0;
+        return nodes_.download(queue);
+    }
+
+private:
+    std::int64_t node_bytes() const { return static_cast<std::int64_t>(nodes_.bytes()); }
+
+    /// Every inner node has two leaves at least.
+    uint most_nodes_on(uint level) const
+    {
+        return std::min(leaves_->count / 2, 1u << std::min(level, 31u));
+    }
+
+    /// How many bytes a level moves the host does not know: the root's launch declares all levels'.
+    void make_boxes(Queue& queue)
+    {
+        const auto children = static_cast<std::int64_t>(nodes_.size() * 2 * sizeof(uint));
+        for (uint level = levels_; level-- > 0;) {
+            set_arguments(box_, leaves_->boxes, leaves_->ids, nodes_, begins_, counts_, level);
+            launch_(queue, box_, most_nodes_on(level),
+                    level == 0 ? leaves_->box_bytes() + children + node_bytes() : 0);
+        }
+    }
+
+    RadixLaunch launch_;
+    uint code_bits_;
+    cl::Kernel split_, box_;
+    const RadixLeaves* leaves_ = nullptr;
+    uint levels_ = 0;          ///< of inner nodes, at most
+    Buffer<RadixNode> nodes_;  ///< level by level
+    Buffer<uint> begins_;      ///< one a level and one more
+    Buffer<uint> counts_;      ///< likewise
+};
+
+}  // namespace
+
+std::unique_ptr<Builder> make_lbvh_levels(Programs& programs, const BuildOptions& options)
+{
+    return make_radix_builder(
+        programs,
+        {"lbvh-levels", "Binary radix tree, a launch a level [Lauterbach2009]",
+         BuilderCard::Runs::on_device},
+        [](const RadixSetup& setup) -> std::unique_ptr<RadixHierarchy> {
+            return std::make_unique<LbvhLevels>(setup);
+        },
+        options);
+}
+
+}  // namespace bvhbench
