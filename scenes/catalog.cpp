@@ -9,6 +9,7 @@
 #include "geometry/error.h"
 #include "scenes/finish.h"
 #include "scenes/formats/text.h"
+#include "scenes/generate/bend.h"
 #include "scenes/generate/catalog.h"
 #include "scenes/generate/outlier.h"
 #include "scenes/generate/refine.h"
@@ -145,7 +146,7 @@ Scene from_data_set(const ManifestEntry& entry, const SceneLibrary& library)
     std::string known;
     for (const Generator& generator : generators())
         known += std::string(generator.name) + ":N, ";
-    known += "refine:SCENE:N, outlier:SCENE:K:D, ";
+    known += "refine:SCENE:N, outlier:SCENE:K:D, bend:SCENE, ";
     for (const ManifestEntry& entry : manifest())
         known += entry.set.name + ", ";
     throw BadUsage("no scene is called " + in_quotes(text) + "; there are: " + known +
@@ -176,6 +177,8 @@ Scene unfinished(std::string_view text, const SceneLibrary& library)
         return refinement(text, rest, library);
     if (head == "outlier")
         return outlier(text, rest, library);
+    if (head == "bend")
+        return with_bend(load_any(rest, library));
     if (const ManifestEntry* const entry = manifest_entry(text))
         return from_data_set(*entry, library);
     if (const Generator* const generator = generator_called(head))

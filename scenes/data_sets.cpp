@@ -39,6 +39,8 @@ std::vector<SceneListing> list_scenes(const SceneLibrary& library)
         {"refine:SCENE:N", "any scene with its longest edges cut until it has N triangles"});
     lines.push_back(
         {"outlier:SCENE:K:D", "any scene with triangle K moved away by D diagonals of its box"});
+    lines.push_back(
+        {"bend:SCENE", "any scene of one frame with a second one, in which it is bent"});
     for (const ManifestEntry& entry : manifest())
         lines.push_back({entry.set.name, summary(entry, library)});
     return lines;

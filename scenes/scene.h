@@ -37,6 +37,7 @@ struct Scene {
     std::string
         stand_in_for;  ///< the data set this one replaces because it is not there; else empty
     Outlier outlier;
+    std::string bend_of;  ///< the scene that this one gives a second frame, bent; else empty
     std::uint64_t content_hash = 0;  ///< of faces, objects and all frames; not of names
 
     uint triangle_count() const { return static_cast<uint>(faces.size()); }

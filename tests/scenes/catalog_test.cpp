@@ -12,8 +12,8 @@ TEST(Catalog, NamesWhatIsKnownWhenAskedForSomethingElse)
 {
     const std::string message = refusal("cube:12");
     EXPECT_TRUE(contains(message, "BadUsage: no scene is called 'cube:12'; there are: torus:N"));
-    for (const char* known : {"hairball:N", "refine:SCENE:N", "outlier:SCENE:K:D", "bunny",
-                              "nbody_sim", "a path to a mesh file"})
+    for (const char* known : {"hairball:N", "refine:SCENE:N", "outlier:SCENE:K:D", "bend:SCENE",
+                              "bunny", "nbody_sim", "a path to a mesh file"})
         EXPECT_TRUE(contains(message, known));
     EXPECT_TRUE(contains(refusal("bunni"), "BadUsage: no scene is called 'bunni'"));
     EXPECT_TRUE(contains(refusal(""), "BadUsage: no scene is called ''"));
@@ -39,6 +39,7 @@ TEST(Catalog, ListsEveryGeneratorAndDataSetByTheNameTyped)
         EXPECT_TRUE(names.count(entry.set.name));
     EXPECT_TRUE(names.count("refine:SCENE:N"));
     EXPECT_TRUE(names.count("outlier:SCENE:K:D"));
+    EXPECT_TRUE(names.count("bend:SCENE"));
 }
 
 TEST(Catalog, ListsWhetherAFileIsThere)
