@@ -90,6 +90,22 @@ std::uint64_t tree_hash(const HostTree& tree)
     return hash.get();
 }
 
+HostTree refitted(HostTree tree, std::span<const Point> points, std::span<const Face> faces)
+{
+    for (std::size_t k = tree.nodes.size(); k-- > 0;) {  // children come after their parent
+        HostTree::Node& node = tree.nodes[k];
+        if (node.primitive != HostTree::none) {
+            node.box = face_box(points, faces[static_cast<std::size_t>(node.primitive)]);
+            continue;
+        }
+        node.box = empty_box();
+        for (const int child : node.child)
+            if (child != HostTree::none)
+                node.box = merged(node.box, tree.nodes[static_cast<std::size_t>(child)].box);
+    }
+    return tree;
+}
+
 std::string broken_promise(const HostTree& tree, std::span<const Point> points,
                            std::span<const Face> faces)
 {

@@ -14,6 +14,9 @@ namespace bvhbench {
 /// with the same hash are the same tree, wherever they keep their nodes.
 std::uint64_t tree_hash(const HostTree& tree);
 
+/// The same tree with boxes over moved points, from the leaves up, slowly: the oracle of every refit.
+HostTree refitted(HostTree tree, std::span<const Point> points, std::span<const Face> faces);
+
 /// The first promise of every builder that `tree` breaks over these triangles, as a sentence; empty if none.
 ///
 /// Each triangle is in exactly one leaf, each leaf's box is its triangle's box, each inner node's box is the

@@ -58,6 +58,22 @@ Check check_tree(const HostTree& tree, const Input& input, const BuilderChoice& 
     return check;
 }
 
+Check check_refit(const HostTree& tree, const HostTree& built, const Input& input, Check before)
+{
+    before.against += ", refitted";
+    if (before.verdict == Check::Verdict::differs)
+        return before;
+    const std::uint64_t expected = bvhbench::tree_hash(refitted(built, input.points, input.faces));
+    before.tree_hash = bvhbench::tree_hash(tree);
+    if (before.tree_hash == expected)
+        return before;
+    before.verdict = Check::Verdict::differs;
+    before.detail = broken_promise(tree, input.points, input.faces);
+    if (before.detail.empty())
+        before.detail = "a valid tree, but the refit on the host has the hash " + hex(expected);
+    return before;
+}
+
 Check check_again(const Tree& tree, Check before)
 {
     const std::uint64_t hash = bvhbench::tree_hash(tree.spelled_out());
@@ -65,7 +81,7 @@ Check check_again(const Tree& tree, Check before)
         return before;
     before.verdict = Check::Verdict::differs;
     before.detail =
-        "the first build left the tree " + hex(*before.tree_hash) + ", the last " + hex(hash);
+        "it was the tree " + hex(*before.tree_hash) + " at first and " + hex(hash) + " at last";
     before.tree_hash = hash;
     return before;
 }

@@ -31,6 +31,10 @@ private:
 Check check_tree(const HostTree& tree, const Input& input, const BuilderChoice& builder,
                  Oracle& oracle);
 
+/// The verdict on `tree`, a refit to `input` of the tree `built`, which has the verdict `before`: its boxes must
+/// be those that the host computes for `built` over the moved points, and nothing else may have changed.
+Check check_refit(const HostTree& tree, const HostTree& built, const Input& input, Check before);
+
 /// The verdict `before`, unless `tree`, the last of those sampled, is another one: then that differs.
 /// Hand-offs that race do so sometimes, so the trees that were timed are looked at as well.
 Check check_again(const Tree& tree, Check before);

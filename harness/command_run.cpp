@@ -10,6 +10,7 @@
 #include "harness/report.h"
 #include "harness/report_paper.h"
 #include "harness/report_quality.h"
+#include "harness/report_refit.h"
 #include "harness/run.h"
 
 namespace bvhbench {
@@ -57,7 +58,7 @@ int run(const RunCommand& command, const Options& options)
                        "'");
     std::cout << run_report(run.document().run)
               << cells_report(run.document(), run.document().cells.size() > most_lines)
-              << "written: " << out << '\n';
+              << refit_report(run.document()) << "written: " << out << '\n';
     return run.has_differing_cell() ? 1 : 0;
 }
 
@@ -88,7 +89,7 @@ int show(const ShowCommand& command, const Options&)
     if (document.cells.size() == 1)
         std::cout << cell_report(document.cells.front(), document.run);
     else
-        std::cout << cells_report(document);
+        std::cout << cells_report(document) << refit_report(document);
     return 0;
 }
 

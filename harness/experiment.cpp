@@ -17,8 +17,8 @@ using Json = nlohmann::ordered_json;
 using Words = std::initializer_list<std::string_view>;
 
 // To add an experiment, add its file to experiments/ and its name here.
-constexpr std::string_view names[] = {"table1",  "table4", "fig8",    "fig13",    "peers",
-                                      "quality", "orders", "scaling", "equality", "smoke"};
+constexpr std::string_view names[] = {"table1", "table4",  "fig8",  "fig13",    "peers", "quality",
+                                      "orders", "scaling", "refit", "equality", "smoke"};
 
 constexpr std::int64_t most_sizes = 1 << 24;
 
@@ -173,6 +173,18 @@ Start start_of(const Json& stages)
     return only_hierarchy ? Start::from_sorted_leaves : Start::from_triangles;
 }
 
+std::vector<Operation> operations_of(const Json& json)
+{
+    std::vector<Operation> wanted;
+    if (json.is_array())
+        for (const Operation operation : {Operation::build, Operation::refit})
+            if (std::count(json.begin(), json.end(), operation_name(operation)) == 1)
+                wanted.push_back(operation);
+    if (wanted.empty() || wanted.size() != json.size())
+        throw BadUsage("'operations' must be a list of build, refit or both, not " + json.dump());
+    return wanted;
+}
+
 /// The name becomes a file's name.
 void check_name(const std::string& name)
 {
@@ -186,8 +198,8 @@ void check_name(const std::string& name)
 Experiment experiment_of(const Json& json, bool quick)
 {
     refuse_unknown_keys(json,
-                        {"experiment", "question", "paper", "scenes", "builders", "stages",
-                         "samples", "warm_up", "quality", "quick"},
+                        {"experiment", "question", "paper", "scenes", "builders", "operations",
+                         "stages", "samples", "warm_up", "quality", "quick"},
                         "an experiment");
     for (const char* key : {"experiment", "scenes", "builders"})
         if (!json.contains(key))
@@ -200,6 +212,8 @@ Experiment experiment_of(const Json& json, bool quick)
     read_size(json, experiment);
     if (json.contains("stages"))
         experiment.start = start_of(json["stages"]);
+    if (json.contains("operations"))
+        experiment.operations = operations_of(json["operations"]);
     if (json.contains("quality"))
         experiment.quality = truth_at(json, "quality");
     if (json.contains("quick")) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <string>
@@ -20,6 +21,8 @@ namespace bvhbench {
 ///      "stages": ["hierarchy"], "samples": 30, "warm_up": 3, "quality": true, "quick": {"samples": 5}}
 ///
 /// A builder with `"if_there": true` is a skipped cell in a program that does not know it or its order.
+/// `"operations": ["build", "refit"]` makes two cells of each builder, both about the scene's second frame: one
+/// builds over it, one has built over the first and refits. The default is to build, over the first.
 /// `quick` replaces `scenes`, `builders`, `samples` or `warm_up` for --quick. In a scene with sizes, the key
 /// in braces takes a list of numbers or an object of: `from` and `to` (every number), `powers_of_two_from`
 /// and `powers_of_two_to`, `around_powers_of_two_to` (one below, at and above each power of two up to it).
@@ -29,6 +32,7 @@ struct Experiment {
     std::string paper;  ///< the table or figure it answers; may be empty
     std::vector<std::string> scenes;
     std::vector<BuilderChoice> builders;
+    std::vector<Operation> operations = {Operation::build};  ///< each once, builds first
     /// `stages` of only "hierarchy" means: build once from triangles, then sample with the leaves given.
     Start start = Start::from_triangles;
     /// Whether a data set that is not there is replaced by its stand-in; without, its cells are skipped.
@@ -37,6 +41,11 @@ struct Experiment {
     bool quality = false;
     int samples = 30;
     int warm_up = 3;
+
+    bool has(Operation operation) const
+    {
+        return std::find(operations.begin(), operations.end(), operation) != operations.end();
+    }
 };
 
 /// Throws BadUsage, naming `origin` and the key, for a key it does not know or a value that makes no sense.

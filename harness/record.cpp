@@ -51,6 +51,7 @@ Json json_of(const SceneFacts& scene)
             json["outlier"] = {{"of", scene.outlier.of},
                                {"triangle", scene.outlier.triangle},
                                {"diameters", scene.outlier.diameters}};
+        put_if(json, "bend_of", scene.bend_of);
         json["content_hash"] = hex(scene.content_hash);
     }
     return json;
@@ -132,6 +133,7 @@ std::string cell_text(const Cell& cell)
     Json json = {{"experiment", cell.experiment},
                  {"scene", json_of(cell.scene)},
                  {"builder", json_of(cell.builder)},
+                 {"operation", operation_name(cell.operation)},
                  {"status", states[static_cast<std::size_t>(cell.status)]}};
     if (cell.status != Cell::Status::measured) {
         json["reason"] = cell.reason;
@@ -154,7 +156,7 @@ std::string cell_text(const Cell& cell)
 
 std::string document_text(const std::string& run, const std::vector<std::string>& cells)
 {
-    std::string text = "{\"format\": \"1.1\",\n\"run\": " + run + ",\n\"cells\": [";
+    std::string text = "{\"format\": \"1.2\",\n\"run\": " + run + ",\n\"cells\": [";
     for (std::size_t i = 0; i < cells.size(); ++i)
         text += (i == 0 ? "\n" : ",\n") + cells[i];
     return text + "\n]}\n";

@@ -16,7 +16,7 @@
 
 namespace bvhbench {
 
-/// One timed build.
+/// One timed build or refit.
 struct Sample {
     int order = 0;  ///< position in the whole run, so that drift can be seen
     std::vector<StageTime> stages;
@@ -40,6 +40,7 @@ struct SceneFacts {
     std::string source;
     std::string stand_in_for;
     Outlier outlier;  ///< of an empty name: no triangle was moved
+    std::string bend_of;
     std::uint64_t content_hash = 0;
 };
 
@@ -50,6 +51,7 @@ struct Cell {
     std::string experiment;
     SceneFacts scene;
     BuilderChoice builder;
+    Operation operation = Operation::build;
     Status status = Status::measured;
     std::string reason;  ///< why it was skipped or failed
     int warm_up = 0;     ///< samples taken first and thrown away

@@ -68,6 +68,7 @@ SceneFacts scene_of(const Json& json)
             .source = get<std::string>(json, "source"),
             .stand_in_for = get<std::string>(json, "stand_in_for"),
             .outlier = outlier_of(json.value("outlier", Json::object())),
+            .bend_of = get<std::string>(json, "bend_of"),
             .content_hash = hash_of(get<std::string>(json, "content_hash"))};
 }
 
@@ -99,6 +100,8 @@ Cell cell_of(const Json& json)
     cell.experiment = json.at("experiment").get<std::string>();
     cell.scene = scene_of(json.at("scene"));
     cell.builder = builder_of(json.at("builder"));
+    cell.operation = static_cast<Operation>(index_of(
+        json.value("operation", "build"), {"build", "refit"}));  // before 1.2 all were builds
     cell.status = static_cast<Cell::Status>(
         index_of(json.at("status").get<std::string>(), {"measured", "skipped", "failed"}));
     cell.reason = get<std::string>(json, "reason");

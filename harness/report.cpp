@@ -77,27 +77,17 @@ std::string verdict_line(const Cell& cell)
     return text;
 }
 
-/// The builder's name, with the options that are not the default.
-std::string variant_text(const BuilderChoice& builder)
+/// What was measured: a builder, and what of it if that is no build.
+std::string subject_text(const Cell& cell)
 {
-    const BuilderChoice usual;
-    std::string text = builder.name;
-    if (builder.order != usual.order)
-        text += ", " + builder.order;
-    if (builder.group_size != usual.group_size)
-        text += ", groups of " + std::to_string(builder.group_size);
-    if (builder.items != usual.items)
-        text += ", " + std::to_string(builder.items) + " items";
-    if (builder.sorted_leaves)
-        text += ", sorted leaves";
-    return text;
+    return variant_text(cell.builder) + (cell.operation == Operation::refit ? ", refit" : "");
 }
 
 std::vector<std::string> line_of(const Cell& cell, double copy_rate)
 {
     std::vector<std::string> line = {
         cell.scene.name + (cell.scene.stand_in_for.empty() ? "" : " *"),
-        cell.scene.triangles > 0 ? grouped(cell.scene.triangles) : "", variant_text(cell.builder)};
+        cell.scene.triangles > 0 ? grouped(cell.scene.triangles) : "", subject_text(cell)};
     if (!has_times(cell)) {
         line.insert(line.end(), {verdict_text(cell), "", "", "", "", ""});
         line.push_back(!cell.reason.empty() ? cell.reason : cell.check.detail);
@@ -114,6 +104,21 @@ std::vector<std::string> line_of(const Cell& cell, double copy_rate)
 }
 
 }  // namespace
+
+std::string variant_text(const BuilderChoice& builder)
+{
+    const BuilderChoice usual;
+    std::string text = builder.name;
+    if (builder.order != usual.order)
+        text += ", " + builder.order;
+    if (builder.group_size != usual.group_size)
+        text += ", groups of " + std::to_string(builder.group_size);
+    if (builder.items != usual.items)
+        text += ", " + std::to_string(builder.items) + " items";
+    if (builder.sorted_leaves)
+        text += ", sorted leaves";
+    return text;
+}
 
 std::vector<double> stage_times_ns(const Cell& cell, std::string_view stage)
 {
@@ -168,7 +173,7 @@ std::string verdict_text(const Cell& cell)
 
 std::string cell_report(const Cell& cell, const RunFacts& run)
 {
-    std::string text = variant_text(cell.builder) + " on " + cell.scene.name;
+    std::string text = subject_text(cell) + " on " + cell.scene.name;
     if (cell.scene.triangles > 0)
         text += ", " + grouped(cell.scene.triangles) + " triangles";
     if (!cell.scene.stand_in_for.empty())

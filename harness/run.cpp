@@ -8,6 +8,7 @@
 #include "geometry/error.h"
 #include "harness/check.h"
 #include "harness/failure.h"
+#include "harness/frames.h"
 #include "harness/interrupt.h"
 #include "harness/metrics.h"
 #include "harness/provenance.h"
@@ -29,26 +30,6 @@ RunFacts measured_facts(Session& session, std::vector<std::string> command)
     return facts;
 }
 
-Scene scene_of(const Experiment& experiment, const std::string& name, const SceneLibrary& library)
-{
-    if (const DataSet* set = find_data_set(name); set != nullptr && experiment.may_stand_in)
-        return load_or_stand_in(*set, library);
-    return load_scene(name, library);
-}
-
-SceneFacts facts_of(const Scene& scene, const std::string& name)
-{
-    return {.name = name,
-            .triangles = scene.triangle_count(),
-            .vertices = static_cast<std::int64_t>(scene.frames.front().size()),
-            .objects = static_cast<std::int64_t>(scene.objects.size()),
-            .frame = 0,
-            .source = scene.source,
-            .stand_in_for = scene.stand_in_for,
-            .outlier = scene.outlier,
-            .content_hash = scene.content_hash};
-}
-
 Cell unmeasured(Cell cell, Cell::Status status, std::string reason)
 {
     cell.status = status;
@@ -67,10 +48,6 @@ std::vector<BuilderChoice> chosen(const Experiment& experiment, const std::strin
     return builders;
 }
 
-}  // namespace
-
-namespace {
-
 /// Why this program cannot make the builder; empty if it can. Throws BadUsage for one that must be there.
 std::string absence(const BuilderChoice& choice)
 {
@@ -86,12 +63,9 @@ std::string absence(const BuilderChoice& choice)
     }
 }
 
-/// Verdict and quality of the tree just built, which is spelled out once for both. A tree that is wrong has no
-/// quality.
-void judge(Cell& cell, const Tree& built, const Input& input, Oracle& oracle, bool with_overlap)
+/// How good a tree is. One that is wrong has no quality.
+void count_quality(Cell& cell, const HostTree& tree, const Input& input, bool with_overlap)
 {
-    const HostTree tree = built.spelled_out();
-    cell.check = check_tree(tree, input, cell.builder, oracle);
     if (cell.check.verdict == Check::Verdict::differs)
         return;
     cell.counters.merge(tree_counters(tree));
@@ -106,6 +80,11 @@ struct Run::Prepared {
     Cell cell;
     Builder* builder = nullptr;
     const Tree* tree = nullptr;
+};
+
+/// For the frame that cells are about, and for the one that refits start from.
+struct Run::Oracles {
+    Oracle now, before;
 };
 
 Run::Run(Session& session, std::filesystem::path out, std::vector<std::string> command)
@@ -136,74 +115,115 @@ void Run::experiment(const Experiment& experiment, const CellFilter& filter)
 void Run::scene(const Experiment& experiment, const std::string& name,
                 std::span<const BuilderChoice> builders, Progress& progress)
 {
-    Scene scene;
-    Input input;
+    Frames frames;
     Cell empty;
     empty.experiment = experiment.name;
     empty.scene.name = name;
     empty.warm_up = experiment.warm_up;
     const std::string no_scene = reason_of_failure([&] {
-        scene = scene_of(experiment, name, session_.scenes());
-        empty.scene = facts_of(scene, name);
-        input = upload(session_.device(), session_.queue(), scene.frames.front(), scene.faces);
+        frames.load(experiment, name, session_.scenes());
+        empty.scene = frames.facts();
+        frames.upload(session_);
     });
 
-    Oracle oracle(session_, input);
+    Oracles oracles{{session_, frames.now()}, {session_, frames.before()}};
     std::vector<Prepared> cells;
-    for (const BuilderChoice& builder : builders) {
-        throw_if_interrupted();
-        empty.builder = builder;
-        if (!no_scene.empty())
-            cells.push_back({unmeasured(empty, Cell::Status::skipped, no_scene)});
-        else
-            cells.push_back(prepare(experiment, input, empty, oracle));
-    }
+    for (const BuilderChoice& builder : builders)
+        for (const Operation operation : experiment.operations) {
+            throw_if_interrupted();
+            empty.builder = builder;
+            empty.operation = operation;
+            if (!no_scene.empty())
+                cells.push_back({unmeasured(empty, Cell::Status::skipped, no_scene)});
+            else
+                cells.push_back(prepare(experiment, frames, empty, oracles));
+        }
     progress.note(experiment.name + ": " + name + ", sampling");
-    sample(experiment, input, cells);
+    sample(experiment, frames, cells);
     for (Prepared& cell : cells)
         results_.add(std::move(cell.cell));
 }
 
-Run::Prepared Run::prepare(const Experiment& experiment, const Input& input, Cell cell,
-                           Oracle& oracle)
+Run::Prepared Run::prepare(const Experiment& experiment, const Frames& frames, Cell cell,
+                           Oracles& oracles)
 {
-    if (std::string why = absence(cell.builder); !why.empty())
-        return {unmeasured(std::move(cell), Cell::Status::skipped, std::move(why))};
+    std::string why_not = absence(cell.builder);
+    if (!why_not.empty())
+        return {unmeasured(std::move(cell), Cell::Status::skipped, std::move(why_not))};
 
-    Prepared prepared;
+    Prepared prepared{std::move(cell)};
     const std::string failure = reason_of_failure([&] {
-        Builder& builder = session_.builder(cell.builder);
-        builder.reserve(input.triangle_count());
-        session_.build_once(builder, input, Start::from_triangles, &prepared.tree);
-        judge(cell, *prepared.tree, input, oracle, experiment.quality);
-        if (experiment.start == Start::from_sorted_leaves) {
-            session_.build_once(builder, input, experiment.start, &prepared.tree);
-            cell.check = check_again(*prepared.tree, std::move(cell.check));
+        Builder& builder = session_.builder(prepared.cell.builder, prepared.cell.operation);
+        const bool refits = prepared.cell.operation == Operation::refit;
+        if (refits && !builder.can_refit()) {
+            why_not = std::string(builder.card().name) + " cannot refit";
+            return;
         }
+        builder.reserve(frames.now().triangle_count());
+        if (refits)
+            judge_refit(experiment, frames, builder, prepared, oracles.before);
+        else
+            judge_build(experiment, frames, builder, prepared, oracles.now);
         const Footprint footprint = builder.reserved();
-        cell.counters["nodes_count"] = static_cast<double>(prepared.tree->node_count());
-        cell.counters["tree_bytes"] = static_cast<double>(footprint.tree_bytes);
-        cell.counters["scratch_bytes"] = static_cast<double>(footprint.scratch_bytes);
+        auto& counters = prepared.cell.counters;
+        counters["nodes_count"] = static_cast<double>(prepared.tree->node_count());
+        counters["tree_bytes"] = static_cast<double>(footprint.tree_bytes);
+        counters["scratch_bytes"] = static_cast<double>(footprint.scratch_bytes);
         prepared.builder = &builder;
     });
+    if (!why_not.empty())
+        return {unmeasured(std::move(prepared.cell), Cell::Status::skipped, std::move(why_not))};
     if (!failure.empty()) {
         session_.renew_queue();
-        return {unmeasured(std::move(cell), Cell::Status::failed, failure)};
+        return {unmeasured(std::move(prepared.cell), Cell::Status::failed, failure)};
     }
-    prepared.cell = std::move(cell);
     return prepared;
 }
 
-void Run::sample(const Experiment& experiment, const Input& input, std::span<Prepared> cells)
+void Run::judge_build(const Experiment& experiment, const Frames& frames, Builder& builder,
+                      Prepared& prepared, Oracle& oracle)
+{
+    Cell& cell = prepared.cell;
+    session_.build_once(builder, frames.now(), Start::from_triangles, &prepared.tree);
+    const HostTree tree = prepared.tree->spelled_out();
+    cell.check = check_tree(tree, frames.now(), cell.builder, oracle);
+    count_quality(cell, tree, frames.now(), experiment.quality);
+    if (experiment.start == Start::from_sorted_leaves) {
+        session_.build_once(builder, frames.now(), experiment.start, &prepared.tree);
+        cell.check = check_again(*prepared.tree, std::move(cell.check));
+    }
+}
+
+/// The tree that stands must be right, stay what it is while nothing moves, and then follow the points.
+void Run::judge_refit(const Experiment& experiment, const Frames& frames, Builder& builder,
+                      Prepared& prepared, Oracle& oracle)
+{
+    Cell& cell = prepared.cell;
+    session_.build_once(builder, frames.before(), Start::from_triangles, &prepared.tree);
+    const HostTree built = prepared.tree->spelled_out();
+    cell.check = check_tree(built, frames.before(), cell.builder, oracle);
+    session_.refit_once(builder, frames.before(), &prepared.tree);
+    cell.check = check_again(*prepared.tree, std::move(cell.check));
+    session_.refit_once(builder, frames.now(), &prepared.tree);
+    const HostTree tree = prepared.tree->spelled_out();
+    cell.check = check_refit(tree, built, frames.now(), std::move(cell.check));
+    count_quality(cell, tree, frames.now(), experiment.quality);
+}
+
+void Run::sample(const Experiment& experiment, const Frames& frames, std::span<Prepared> cells)
 {
     std::vector<Timed> timed;
     std::vector<Prepared*> ready;
-    for (Prepared& cell : cells) {
-        if (cell.builder == nullptr)
+    for (Prepared& prepared : cells) {
+        if (prepared.builder == nullptr)
             continue;
-        ready.push_back(&cell);
-        timed.push_back({cell.cell.builder.name, [&, builder = cell.builder, tree = &cell.tree] {
-                             return session_.build_once(*builder, input, experiment.start, tree);
+        ready.push_back(&prepared);
+        timed.push_back({prepared.cell.builder.name, [&, one = &prepared] {
+                             return one->cell.operation == Operation::refit
+                                        ? session_.refit_once(*one->builder, frames.now(),
+                                                              &one->tree)
+                                        : session_.build_once(*one->builder, frames.now(),
+                                                              experiment.start, &one->tree);
                          }});
     }
     std::vector<Taken> taken = take_samples(timed, experiment.samples, experiment.warm_up, order_);

@@ -11,6 +11,7 @@
 
 namespace bvhbench {
 
+class Frames;
 class Oracle;
 
 /// Which cells to run: those whose "scene/builder" it matches; all without one.
@@ -37,11 +38,17 @@ public:
 
 private:
     struct Prepared;
+    struct Oracles;
 
     void scene(const Experiment& experiment, const std::string& name,
                std::span<const BuilderChoice> builders, Progress& progress);
-    Prepared prepare(const Experiment& experiment, const Input& input, Cell cell, Oracle& oracle);
-    void sample(const Experiment& experiment, const Input& input, std::span<Prepared> cells);
+    Prepared prepare(const Experiment& experiment, const Frames& frames, Cell cell,
+                     Oracles& oracles);
+    void judge_build(const Experiment& experiment, const Frames& frames, Builder& builder,
+                     Prepared& prepared, Oracle& oracle);
+    void judge_refit(const Experiment& experiment, const Frames& frames, Builder& builder,
+                     Prepared& prepared, Oracle& oracle);
+    void sample(const Experiment& experiment, const Frames& frames, std::span<Prepared> cells);
 
     Session& session_;
     ResultFile results_;

@@ -41,20 +41,20 @@ Session::Session(const CommonOptions& common)
 
 void Session::renew_queue() { queue_ = std::make_unique<Queue>(device_); }
 
-Builder& Session::builder(const BuilderChoice& choice)
+Builder& Session::builder(const BuilderChoice& choice, Operation operation)
 {
-    for (auto& [known, builder] : builders_)
-        if (known == choice)
-            return *builder;
+    for (const Made& made : builders_)
+        if (made.choice == choice && made.operation == operation)
+            return *made.builder;
     // The choice is stored first: the builder may keep looking at its words.
-    builders_.emplace_back(choice, nullptr);
+    builders_.push_back({choice, operation, nullptr});
     try {
-        builders_.back().second = make_builder(builders_.back().first, programs_);
+        builders_.back().builder = make_builder(builders_.back().choice, programs_);
     } catch (...) {
         builders_.pop_back();
         throw;
     }
-    return *builders_.back().second;
+    return *builders_.back().builder;
 }
 
 std::vector<StageTime> Session::build_once(Builder& builder, const Input& input, Start start,
@@ -63,6 +63,14 @@ std::vector<StageTime> Session::build_once(Builder& builder, const Input& input,
     const Tree& built = builder.build(input, queue(), start);
     if (tree != nullptr)
         *tree = &built;
+    return queue().finish();
+}
+
+std::vector<StageTime> Session::refit_once(Builder& builder, const Input& input, const Tree** tree)
+{
+    const Tree& refitted = builder.refit(input, queue());
+    if (tree != nullptr)
+        *tree = &refitted;
     return queue().finish();
 }
 

@@ -4,7 +4,6 @@
 #include <list>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "builders/builder.h"
@@ -29,20 +28,31 @@ public:
     void renew_queue();
 
     /// The builder chosen so: made when first asked for, then reused through reserve(), so that a thousand
-    /// scenes cost one compilation. Throws as make_builder does.
-    Builder& builder(const BuilderChoice& choice);
+    /// scenes cost one compilation. One for each operation: what is refitted must stand while others build.
+    /// Throws as make_builder does.
+    Builder& builder(const BuilderChoice& choice, Operation operation = Operation::build);
 
     /// One whole build, waited for. Throws what the builder throws.
     std::vector<StageTime> build_once(Builder& builder, const Input& input, Start start,
                                       const Tree** tree = nullptr);
 
+    /// One refit of the tree that stands, likewise.
+    std::vector<StageTime> refit_once(Builder& builder, const Input& input,
+                                      const Tree** tree = nullptr);
+
 private:
+    struct Made {
+        BuilderChoice choice;
+        Operation operation;
+        std::unique_ptr<Builder> builder;
+    };
+
     Device device_;
     Programs programs_;
     std::unique_ptr<Queue> queue_;
     SceneLibrary library_;
     /// A list, so that choices stay where they are: builders may keep looking at their words.
-    std::list<std::pair<BuilderChoice, std::unique_ptr<Builder>>> builders_;
+    std::list<Made> builders_;
 };
 
 /// Where scenes are read from: --data, else BVHBENCH_DATA.

@@ -70,8 +70,8 @@ def draw_scene(axes: plt.Axes, scene: str, points: list[Point], markers: dict[st
 
 
 def draw(run: results.Run) -> plt.Figure:
-    by_scene = {scene: points_of([cell for cell in run.cells if cell.scene == scene])
-                for scene in dict.fromkeys(cell.scene for cell in run.cells)}
+    by_scene = {scene: points_of([cell for cell in run.builds if cell.scene == scene])
+                for scene in dict.fromkeys(cell.scene for cell in run.builds)}
     by_scene = {scene: points for scene, points in by_scene.items() if len(points) > 1}
     if not by_scene:
         raise results.Refused(f"{run.path}: no scene has times and surface area costs of two builders or orders")

@@ -39,6 +39,7 @@ class Cell:
     outlier: dict[str, Any] | None  # which triangle of which scene was moved, and how far
     builder: str
     options: tuple[tuple[str, str], ...]
+    operation: str  # what was timed: build or refit
     checked: bool
     counters: dict[str, float]
     samples: list[dict[str, dict[str, Any]]]  # per sample: stage name to its numbers
@@ -75,8 +76,13 @@ class Run:
     def copy_rate(self) -> float | None:
         return self.facts.get("copy_rate_bytes_per_s")
 
+    @property
+    def builds(self) -> list[Cell]:
+        """What figures of builders are made of: a refit's times and trees are no build's."""
+        return [cell for cell in self.cells if cell.operation == "build"]
+
     def of(self, experiment: str) -> list[Cell]:
-        return [cell for cell in self.cells if cell.experiment == experiment]
+        return [cell for cell in self.builds if cell.experiment == experiment]
 
     def timed(self, experiment: str, stage: str) -> list[Cell]:
         """Those that a figure of this stage can show. Raises Refused if there are none."""
@@ -145,7 +151,7 @@ def cell_of(path: pathlib.Path, cell: dict[str, Any]) -> Cell:
     options = tuple(sorted((key, str(value)) for key, value in builder.get("options", {}).items()))
     samples = [{entry["stage"]: entry for entry in sample["stages"]} for sample in cell["samples"]]
     return Cell(cell["experiment"], scene["name"], scene.get("triangles", 0), scene.get("stand_in_for"), scene.get("outlier"),
-                builder["name"], options, cell["check"]["verdict"] == "agrees", cell["counters"], samples)
+                builder["name"], options, cell.get("operation", "build"), cell["check"]["verdict"] == "agrees", cell["counters"], samples)
 
 
 def printed(name: str) -> dict[str, Any]:

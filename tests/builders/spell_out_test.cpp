@@ -53,6 +53,32 @@ TEST(BrokenPromise, NamesEachKindOfFault)
     EXPECT_NE(broken_promise(tree, points, faces), "");
 }
 
+TEST(Refitted, ChangesNothingWhileNothingMoves)
+{
+    EXPECT_EQ(tree_hash(refitted(right_tree(), points, faces)), tree_hash(right_tree()));
+}
+
+TEST(Refitted, PutsBoxesAroundMovedPointsAndKeepsTheTree)
+{
+    HostTree support = right_tree();  // a node with one child on the way to leaf 2
+    support.nodes.push_back(support.nodes[2]);
+    support.nodes[2] = {{}, {3, HostTree::none}, HostTree::none};
+
+    std::vector<Point> moved = points;
+    moved[3] = {-1, 2, 9};
+    for (const HostTree& tree : {right_tree(), support}) {
+        const HostTree after = refitted(tree, moved, faces);
+        EXPECT_EQ(broken_promise(after, moved, faces), "");
+        EXPECT_EQ(after.nodes[0].box.max_z, 9);
+        EXPECT_EQ(after.nodes[0].box.min_x, -1);
+        ASSERT_EQ(after.nodes.size(), tree.nodes.size());
+        for (std::size_t k = 0; k < tree.nodes.size(); ++k) {
+            EXPECT_EQ(after.nodes[k].child, tree.nodes[k].child);
+            EXPECT_EQ(after.nodes[k].primitive, tree.nodes[k].primitive);
+        }
+    }
+}
+
 TEST(TreeHash, DependsOnTheTreeAndNotOnWhereNodesAreStored)
 {
     const HostTree tree = right_tree();

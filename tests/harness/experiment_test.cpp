@@ -39,7 +39,7 @@ TEST(Experiment, ReadsEveryKey)
         "scenes": ["bunny", {"scene": "soup:{t}:x", "t": [9, 5]}],
         "builders": ["perfect", {"name": "oibvh-multi", "order": "morton63", "group_size": 128, "items": 2,
                                  "leaves": "sorted"}],
-        "stages": ["hierarchy"], "samples": 7, "warm_up": 0, "quality": true,
+        "operations": ["refit", "build"], "stages": ["hierarchy"], "samples": 7, "warm_up": 0, "quality": true,
         "quick": {"samples": 2, "scenes": ["soup:1"]}})";
     const Experiment experiment = parse_experiment(text, "x.json", false);
     EXPECT_EQ(experiment.scenes, (std::vector<std::string>{"bunny", "soup:5:x", "soup:9:x"}));
@@ -48,6 +48,7 @@ TEST(Experiment, ReadsEveryKey)
                                                      .group_size = 128,
                                                      .items = 2,
                                                      .sorted_leaves = true}));
+    EXPECT_EQ(experiment.operations, (std::vector{Operation::build, Operation::refit}));
     EXPECT_EQ(experiment.start, Start::from_sorted_leaves);
     EXPECT_EQ(experiment.samples, 7);
     EXPECT_EQ(experiment.warm_up, 0);
@@ -63,7 +64,7 @@ TEST(Experiment, NamesTheKeyThatItDoesNotKnowAndThoseItDoes)
 {
     EXPECT_EQ(refusal(R"({"experiment": "a", "scene": ["soup:1"], "builders": ["perfect"]})"),
               "x.json: 'scene' is no key of an experiment; there are: experiment, question, paper, "
-              "scenes, builders, stages, samples, warm_up, quality, quick");
+              "scenes, builders, operations, stages, samples, warm_up, quality, quick");
     EXPECT_EQ(refusal(R"({"experiment": "a", "scenes": ["soup:1"],
                           "builders": [{"name": "perfect", "size": 3}]})"),
               "x.json: 'size' is no key of a builder; there are: name, order, group_size, items, "
@@ -102,6 +103,12 @@ TEST(Experiment, RefusesWhatMakesNoSense)
             R"({"experiment": "a", "scenes": ["b"], "builders": ["perfect"], "warm_up": -1})",
             R"({"experiment": "a", "scenes": ["b"], "builders": ["perfect"], "stages": []})",
             R"({"experiment": "a", "scenes": ["b"], "builders": ["perfect"], "stages": ["x"]})",
+            R"({"experiment": "a", "scenes": ["b"], "builders": ["perfect"], "operations": []})",
+            R"({"experiment": "a", "scenes": ["b"], "builders": ["perfect"], "operations": "refit"})",
+            R"({"experiment": "a", "scenes": ["b"], "builders": ["perfect"],
+                 "operations": ["build", "build"]})",
+            R"({"experiment": "a", "scenes": ["b"], "builders": ["perfect"],
+                 "operations": ["build", "paint"]})",
             R"({"experiment": "a", "scenes": [{"scene": "s:{t}"}], "builders": ["perfect"]})",
             R"({"experiment": "a", "scenes": [{"scene": "s", "t": [1]}], "builders": ["perfect"]})",
             R"({"experiment": "a", "scenes": [{"scene": "s:{t}", "t": [0]}],
@@ -110,6 +117,12 @@ TEST(Experiment, RefusesWhatMakesNoSense)
                  "builders": [{"name": "perfect", "leaves": "both"}]})",
         })
         EXPECT_TRUE(refusal(text).starts_with("x.json: ")) << text;
+}
+
+TEST(Experiment, OnlyBuildsUnlessItSaysOtherwise)
+{
+    for (const std::string_view name : experiment_names())
+        EXPECT_EQ(find_experiment(std::string(name), false).has(Operation::refit), name == "refit");
 }
 
 TEST(Experiment, MayNameABuilderThatIsNotThereIfItSaysSo)

@@ -43,7 +43,7 @@ inline Cell fake_cell(std::string builder = "oibvh-multi", std::int64_t hierarch
 {
     Cell cell;
     cell.experiment = "table1";
-    cell.scene = {"bunny", 144046, 72027, 1, 0, "bunny.ply", "", {}, 0xab54a98ceb1f0au};
+    cell.scene = {"bunny", 144046, 72027, 1, 0, "bunny.ply", "", {}, "", 0xab54a98ceb1f0au};
     cell.builder.name = std::move(builder);
     cell.warm_up = 1;
     int order = 7;

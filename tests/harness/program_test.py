@@ -140,6 +140,38 @@ def test_an_experiment_of_ones_own():
     expect(2, "run", "wrong.json", says="'scense' is no key of an experiment")
 
 
+def test_a_refit_is_timed_beside_the_rebuild_and_judged():
+    pathlib.Path("moved.json").write_text(json.dumps({
+        "experiment": "moved", "scenes": ["bend:soup:700", "bend:soup:1", "soup:9"],
+        "builders": ["perfect", "karras", "apetrei", "apetrei-fused", "lbvh-levels", "oibvh-single",
+                     {"name": "oibvh-multi", "leaves": "sorted"}, "median-split"],
+        "operations": ["build", "refit"], "samples": 3, "warm_up": 1}))
+    out = expect(0, "run", "moved.json", "--out", "moved-out.json", says="rebuilding takes longer than refitting in ")
+    assert expect(0, "show", "moved-out.json") in out
+    cells = valid("moved-out.json")["cells"]
+    for cell in cells:
+        scene, builder, stages = cell["scene"], cell["builder"]["name"], {
+            stage["stage"] for sample in cell.get("samples", []) for stage in sample["stages"]}
+        if scene["name"] == "soup:9":
+            assert "needs a second frame" in cell["reason"], cell
+        elif builder == "median-split" and cell["operation"] == "refit":
+            assert (cell["status"], cell["reason"]) == ("skipped", "median-split cannot refit"), cell
+        else:
+            assert (scene["frame"], scene["bend_of"]) == (1, scene["name"].removeprefix("bend:")), cell
+            assert cell["check"]["verdict"] == "agrees" and len(cell["samples"]) == 3, cell
+        if stages and cell["operation"] == "refit":
+            assert cell["check"]["against"].endswith("-reference, refitted"), cell
+            assert stages == {"bounds", "refit"} | ({"gather"} if builder == "oibvh-multi" else set()), cell
+        elif stages:
+            assert "hierarchy" in stages and "refit" not in stages, cell
+    hashes = {(c["scene"]["name"], c["builder"]["name"], c["operation"]): c["check"]["tree_hash"]
+              for c in cells if c["status"] == "measured"}
+    radix = ("karras", "apetrei", "apetrei-fused", "lbvh-levels")
+    for operation in ("build", "refit"):
+        assert len({hashes["bend:soup:700", name, operation] for name in radix}) == 1, hashes
+    assert hashes["bend:soup:700", "karras", "build"] != hashes["bend:soup:700", "karras", "refit"], hashes
+
+
 def test_a_stopped_run_keeps_its_finished_cells():
     pathlib.Path("long.json").write_text(json.dumps({
         "experiment": "long", "scenes": [{"scene": "soup:{t}", "t": {"from": 1, "to": 100000}}],

@@ -28,7 +28,7 @@ TEST(Record, WritesACellOnOneLineWithKeysThatEndInTheirUnit)
         R"({"experiment":"table1","scene":{"name":"bunny","triangles":144046,"vertices":72027,)"
         R"("objects":1,"frame":0,"source":"bunny.ply","content_hash":"00ab54a98ceb1f0a"},)"
         R"("builder":{"name":"oibvh-multi","options":{"order":"morton30","group_size":0,"items":0,)"
-        R"("leaves":"mesh"}},"status":"measured","warm_up":1,"samples":[{"order":7,"stages":)"
+        R"("leaves":"mesh"}},"operation":"build","status":"measured","warm_up":1,"samples":[{"order":7,"stages":)"
         R"([{"stage":"hierarchy","launches":2,"busy_ns":109990,"span_ns":110000,)"
         R"("moved_bytes":50000000}]}],"counters":{"nodes_count":288100,"scratch_bytes":0,)"
         R"("tree_bytes":6914400},"check":{"verdict":"agrees","against":"oibvh-reference",)"
@@ -85,12 +85,27 @@ TEST(Record, ReadsBackWhatItWrote)
     host.samples = {{3, {{"hierarchy", 0, 0, 1234, 0, 0}}}};
     host.check = {Check::Verdict::differs, "oibvh-reference", "something", 0x12u};
     host.scene.outlier = {"bunny", 3, 2.5};
+    host.scene.bend_of = "bunny";
+    host.operation = Operation::refit;
     const std::string text = text_of(fake_run(), {fake_cell(), failed, host});
 
     const Document document = read_document(text, "x");
     EXPECT_EQ(text_of(document.run, document.cells), text);
     EXPECT_EQ(document.cells[2].scene.outlier.diameters, 2.5);
+    EXPECT_EQ(document.cells[2].scene.bend_of, "bunny");
+    EXPECT_EQ(document.cells[2].operation, Operation::refit);
     EXPECT_EQ(document.cells[2].samples[0].stages[0].elapsed_ns(), 1234);
+}
+
+TEST(Record, TakesACellThatDoesNotSayForABuild)
+{
+    std::string text = text_of(fake_run(), {fake_cell()});
+    const std::string said = R"("operation":"build",)";
+    text.erase(text.find(said), said.size());
+    EXPECT_EQ(read_document(text, "x").cells[0].operation, Operation::build);
+    text = text_of(fake_run(), {fake_cell()});
+    text.replace(text.find(said), said.size(), R"("operation":"paint",)");
+    EXPECT_THROW(read_document(text, "x"), Unavailable);
 }
 
 TEST(Record, RefusesWhatIsNoResultFileOfThisFormat)

@@ -5,6 +5,7 @@
 
 #include "harness/report_paper.h"
 #include "harness/report_quality.h"
+#include "harness/report_refit.h"
 #include "harness/table.h"
 #include "tests/harness/fakes.h"
 
@@ -133,6 +134,33 @@ TEST(Fig8Report, FindsTheSizeFromWhichMultiStaysAhead)
     EXPECT_EQ(crossing_triangles(document), 8192);
     document.cells.resize(2);
     EXPECT_EQ(crossing_triangles(document), std::nullopt);
+}
+
+TEST(RefitReport, PutsARebuildBesideARefitOfTheSameBuilder)
+{
+    Cell rebuild = fake_cell("karras", 300000);
+    rebuild.counters["sah_cost"] = 50;
+    for (Sample& sample : rebuild.samples)
+        sample.stages.push_back(fake_stage("sort", 100000, 0));
+    Cell refit = fake_cell("karras", 200000);
+    refit.counters["sah_cost"] = 51.5;
+    refit.operation = Operation::refit;
+    for (Sample& sample : refit.samples)
+        sample.stages[0].stage = "refit";
+    Cell other = refit;  // has no rebuild beside it
+    other.builder.order = "morton63";
+    Cell wrong = refit;
+    wrong.check.verdict = Check::Verdict::differs;
+    EXPECT_EQ(refit_report({fake_run(), {rebuild, other, wrong, refit}}),
+              "scene  triangles  builder  rebuild   refit  times  hierarchy  refit stage  times  "
+              "SAH rebuilt  refitted\n"
+              "bunny    144,046  karras    400 us  200 us   2.00     300 us       200 us   1.50  "
+              "      50.00     51.50\n"
+              "medians; rebuild and refit: from moved triangles to a tree over them, all stages; "
+              "times: rebuild over refit\n"
+              "rebuilding takes longer than refitting in 1 of 1 cases\n");
+    EXPECT_EQ(refit_report({fake_run(), {rebuild, other, wrong}}), "");
+    EXPECT_TRUE(cell_report(refit, fake_run()).starts_with("karras, refit on bunny"));
 }
 
 Cell with_cost(const char* builder, double cost, const char* scene = "happy_buddha_1087716")

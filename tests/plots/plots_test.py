@@ -108,6 +108,14 @@ class Reader(TemporaryFolder):
         self.document["cells"][0]["check"]["verdict"] = "differs"
         self.assert_refused(self.document, "perfect gave a wrong answer on bunny")
 
+    def test_counts_no_refit_as_a_build(self) -> None:
+        refit = copy.deepcopy(self.document["cells"][0]) | {"operation": "refit"}
+        self.document["cells"].append(refit)
+        run = results.load(self.written(self.document))
+        self.assertEqual([cell.operation for cell in run.cells[-2:]], ["build", "refit"])
+        self.assertEqual(len(run.of("table1")), len(results.load(GOLDEN / "table1.json").of("table1")))
+        self.assertEqual(len(run.builds), len(run.cells) - 1)
+
     def test_keeps_the_reason_of_cells_without_numbers(self) -> None:
         run = results.load(GOLDEN / "table1.json")
         self.assertEqual(run.left_out("table1"), [
