@@ -1,20 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include <cassert>
-#include <optional>
-
 #include "baselines/radix/hierarchy.h"
-#include "builders/stages/gather.h"
-#include "builders/stages/leaf_order.h"
+#include "builders/ordered_builder.h"
 
 namespace bvhbench {
 namespace {
 
-class RadixTree final : public Tree {
+class RadixTree final : public DeviceTree {
 public:
     RadixLeaves leaves;
     std::unique_ptr<RadixHierarchy> hierarchy;
-    const Queue* queue =
-        nullptr;  ///< where the last build was enqueued; set before anything is read
 
     std::size_t node_count() const override { return 2 * std::size_t{leaves.count} - 1; }
 
@@ -48,81 +42,24 @@ public:
     }
 };
 
-class RadixBuilder final : public Builder {
+class RadixBuilder final : public OrderedBuilder {
 public:
     RadixBuilder(Programs& programs, const BuilderCard& card, MakeRadixHierarchy make,
                  const BuildOptions& options)
-        : programs_(programs)
-        , card_(card)
-        , make_(make)
-        , options_(options)
-        , leaf_order_(programs, options.order)
-        , gather_(programs)
+        : OrderedBuilder(programs, card, options), make_(make)
     {
-        options_.order = find_order(options.order).name;  // outlives the caller's text
         tree_.leaves.sorted = options.sorted_leaves;
         tree_.hierarchy = make({programs, RadixLaunch(programs.device(), options),
                                 leaf_order_.code_bits(), options.sorted_leaves});
     }
 
-    BuilderCard card() const override { return card_; }
-    Footprint reserved() const override { return arena_ ? arena_->used() : Footprint{}; }
-
-    Footprint footprint(std::size_t primitives) const override
-    {
-        // A twin plans, so that a builder that has memory keeps it.
-        RadixBuilder twin(programs_, card_, make_, options_);
-        Arena arena = Arena::measuring(programs_.device());
-        twin.plan(arena, static_cast<uint>(primitives));
-        return arena.used();
-    }
-
-    void reserve(std::size_t primitives) override
-    {
-        const Footprint wanted = footprint(primitives);
-        arena_.reset();  // the old memory goes before the new comes
-        arena_ = Arena::reserved(programs_.device(), wanted);
-        plan(*arena_, static_cast<uint>(primitives));
-        const Device& device = programs_.device();
-        tree_.hierarchy->prepare(cl::CommandQueue(device.context, device.cl));
-    }
-
-    const Tree& build(const Input& input, Queue& queue, Start start) override
-    {
-        assert(input.triangle_count() == tree_.leaves.count);
-        tree_.queue = &queue;
-        if (start == Start::from_triangles) {
-            leaf_order_.enqueue(input, queue);
-            gather_if_sorted(queue);
-        }
-        queue.begin("hierarchy");
-        if (tree_.leaves.count > 1)  // one leaf is its own root
-            tree_.hierarchy->build(queue);
-        return tree_;
-    }
-
-    bool can_refit() const override { return true; }
-
-    const Tree& refit(const Input& input, Queue& queue) override
-    {
-        assert(input.triangle_count() == tree_.leaves.count);
-        tree_.queue = &queue;
-        leaf_order_.enqueue_boxes(input, queue);
-        gather_if_sorted(queue);
-        queue.begin("refit");
-        if (tree_.leaves.count > 1)
-            tree_.hierarchy->refit(queue);
-        return tree_;
-    }
-
 private:
-    void gather_if_sorted(Queue& queue)
+    std::unique_ptr<OrderedBuilder> twin() const override
     {
-        if (tree_.leaves.sorted)
-            gather_.enqueue(leaf_order_.boxes(), leaf_order_.ids(), tree_.leaves.boxes, 0, queue);
+        return std::make_unique<RadixBuilder>(programs_, card(), make_, options_);
     }
 
-    void plan(Arena& arena, uint primitives)
+    void plan(Arena& arena, uint primitives) override
     {
         RadixLeaves& leaves = tree_.leaves;
         leaves.count = primitives;
@@ -131,16 +68,27 @@ private:
             leaves.sorted ? arena.take<Aabb>(primitives, Use::tree) : leaf_order_.boxes();
         leaves.ids = leaf_order_.ids();
         leaves.codes = leaf_order_.codes();
+        gathered_ = {leaves.boxes, 0};
         tree_.hierarchy->plan(arena, leaves);
     }
 
-    Programs& programs_;
-    BuilderCard card_;
+    void prepare(const cl::CommandQueue& queue) override { tree_.hierarchy->prepare(queue); }
+
+    void enqueue_hierarchy(Queue& queue) override
+    {
+        if (tree_.leaves.count > 1)  // one leaf is its own root
+            tree_.hierarchy->build(queue);
+    }
+
+    void enqueue_refit(Queue& queue) override
+    {
+        if (tree_.leaves.count > 1)
+            tree_.hierarchy->refit(queue);
+    }
+
+    DeviceTree& tree() override { return tree_; }
+
     MakeRadixHierarchy make_;
-    BuildOptions options_;
-    LeafOrder leaf_order_;
-    GatherStage gather_;
-    std::optional<Arena> arena_;
     RadixTree tree_;
 };
 

@@ -1,97 +1,43 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <cassert>
-#include <optional>
 
 #include "builders/implicit/cut.h"
 #include "builders/implicit/layout.h"
 #include "builders/implicit/schedule.h"
 #include "builders/implicit/tree.h"
-#include "builders/stages/gather.h"
-#include "builders/stages/leaf_order.h"
+#include "builders/ordered_builder.h"
 
 namespace bvhbench {
 namespace {
 
-class ImplicitBuilder final : public Builder {
+class ImplicitBuilder final : public OrderedBuilder {
 public:
     ImplicitBuilder(Programs& programs, const BuilderCard& card, const ImplicitLayout& layout,
                     Meeting meeting, const BuildOptions& options)
-        : programs_(programs)
-        , card_(card)
-        , meeting_(meeting)
-        , options_(options)
-        , leaf_order_(programs, options.order)
-        , gather_(programs)
+        : OrderedBuilder(programs, card, options), meeting_(meeting)
     {
         choose_cut(programs.device(), options, meeting, 1);  // refuses bad options now
-        options_.order = find_order(options.order).name;     // outlives the caller's text
         tree_.layout = layout;
         tree_.sorted_leaves = options.sorted_leaves;
     }
 
-    BuilderCard card() const override { return card_; }
-    Footprint reserved() const override { return arena_ ? arena_->used() : Footprint{}; }
-
-    Footprint footprint(std::size_t primitives) const override
-    {
-        // A twin plans, so that a builder that has memory keeps it.
-        ImplicitBuilder twin(programs_, card_, tree_.layout, meeting_, options_);
-        Arena arena = Arena::measuring(programs_.device());
-        twin.plan(arena, static_cast<uint>(primitives));
-        return arena.used();
-    }
-
-    void reserve(std::size_t primitives) override
-    {
-        const Footprint wanted = footprint(primitives);
-        arena_.reset();  // the old memory goes before the new comes
-        arena_ = Arena::reserved(programs_.device(), wanted);
-        plan(*arena_, static_cast<uint>(primitives));
-        from_ids_ = kernel(handoff() ? "single_from_ids" : "multi_from_ids");
-        from_nodes_ = kernel(handoff() ? "single_from_nodes" : "multi_from_nodes");
-        fill_what_builds_leave_alone();
-    }
-
-    const Tree& build(const Input& input, Queue& queue, Start start) override
-    {
-        assert(input.triangle_count() == tree_.leaves);
-        tree_.queue = &queue;
-        if (start == Start::from_triangles) {
-            leaf_order_.enqueue(input, queue);
-            gather_if_sorted(queue);
-        }
-        launch_all("hierarchy", queue);
-        return tree_;
-    }
-
-    bool can_refit() const override { return true; }
-
-    /// The topology of an implicit tree is the order of its leaves, so this is the hierarchy over the old one.
-    const Tree& refit(const Input& input, Queue& queue) override
-    {
-        assert(input.triangle_count() == tree_.leaves);
-        tree_.queue = &queue;
-        leaf_order_.enqueue_boxes(input, queue);
-        gather_if_sorted(queue);
-        launch_all("refit", queue);
-        return tree_;
-    }
-
 private:
-    void gather_if_sorted(Queue& queue)
+    std::unique_ptr<OrderedBuilder> twin() const override
     {
-        if (tree_.sorted_leaves)
-            gather_.enqueue(leaf_order_.boxes(), leaf_order_.ids(), tree_.nodes, leaf_slot(),
-                            queue);
+        return std::make_unique<ImplicitBuilder>(programs_, card(), tree_.layout, meeting_,
+                                                 options_);
     }
 
-    void launch_all(std::string_view stage, Queue& queue)
+    void enqueue_hierarchy(Queue& queue) override
     {
-        queue.begin(stage);
         for (uint i = 0; i < schedule_.count; ++i)
             launch(schedule_.launches[i], queue);
     }
+
+    /// The topology of an implicit tree is the order of its leaves, so this is the hierarchy over the old one.
+    void enqueue_refit(Queue& queue) override { enqueue_hierarchy(queue); }
+
+    DeviceTree& tree() override { return tree_; }
 
     bool handoff() const { return meeting_ == Meeting::by_handoff; }
     bool by_groups() const { return cut_.form == KernelForm::groups; }
@@ -108,21 +54,14 @@ private:
             {{"GROUP_SIZE", cut_.group_size}, {"ITEMS", cut_.items}, {"LEVELS", cut_.levels}});
     }
 
-    void plan(Arena& arena, uint primitives);
-    void fill_what_builds_leave_alone();
+    void plan(Arena& arena, uint primitives) override;
+    void prepare(const cl::CommandQueue& queue) override;
     void launch(const SubtreeLaunch& launch, Queue& queue);
     std::int64_t moved_bytes(const SubtreeLaunch& launch) const;
 
-    Programs& programs_;
-    BuilderCard card_;
     Meeting meeting_;
-    BuildOptions options_;
     Cut cut_;
-    LeafOrder leaf_order_;
-    GatherStage gather_;
     cl::Kernel from_ids_, from_nodes_;
-
-    std::optional<Arena> arena_;
     ImplicitTree tree_;
     SubtreeSchedule schedule_;
     Buffer<uint> arrivals_;  ///< hand-off only: one a node above the first launch's subtrees
@@ -147,6 +86,7 @@ void ImplicitBuilder::plan(Arena& arena, uint primitives)
     leaf_order_.plan(arena, primitives, tree_.sorted_leaves ? Use::scratch : Use::tree, false);
     tree_.leaf_boxes = tree_.sorted_leaves ? Buffer<Aabb>{} : leaf_order_.boxes();
     tree_.ids = leaf_order_.ids();
+    gathered_ = {tree_.nodes, leaf_slot()};
 
     const SubtreeLaunch& first = schedule_.launches[0];
     const uint above =
@@ -156,10 +96,10 @@ void ImplicitBuilder::plan(Arena& arena, uint primitives)
     arrivals_ = arena.take<uint>(above, Use::scratch);
 }
 
-void ImplicitBuilder::fill_what_builds_leave_alone()
+void ImplicitBuilder::prepare(const cl::CommandQueue& queue)
 {
-    const Device& device = programs_.device();
-    const cl::CommandQueue queue(device.context, device.cl);
+    from_ids_ = kernel(handoff() ? "single_from_ids" : "multi_from_ids");
+    from_nodes_ = kernel(handoff() ? "single_from_nodes" : "multi_from_nodes");
     arrivals_.upload(queue, std::vector<uint>(arrivals_.size(), 0u));
     if (tree_.sorted_leaves)  // padding that a traversal may read
         tree_.nodes.upload(queue, std::vector<Aabb>(tree_.nodes.size(), empty_box()));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "builders/implicit/layout.h"
+#include "builders/ordered_builder.h"
 
 namespace bvhbench {
 
@@ -9,7 +10,7 @@ namespace bvhbench {
 ///
 ///     sorted leaves:   nodes = inner nodes, then leaf boxes in leaf order
 ///     else (paper):    nodes = inner nodes;  leaf_boxes = one a triangle, in mesh order
-class ImplicitTree final : public Tree {
+class ImplicitTree final : public DeviceTree {
 public:
     ImplicitLayout layout;
     uint leaves = 0;
@@ -17,8 +18,6 @@ public:
     Buffer<Aabb> nodes;       ///< by slot
     Buffer<Aabb> leaf_boxes;  ///< unless sorted
     Buffer<uint> ids;
-    const Queue* queue =
-        nullptr;  ///< where the last build was enqueued; set before anything is read
 
     std::size_t node_count() const override;
     HostTree spelled_out() const override;

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+//
+// What device builders share that start from leaves in an order of the catalog: all but the hierarchy.
+#pragma once
+
+#include <optional>
+
+#include "builders/builder.h"
+#include "builders/stages/gather.h"
+#include "builders/stages/leaf_order.h"
+
+namespace bvhbench {
+
+/// A tree in device memory.
+class DeviceTree : public Tree {
+public:
+    const Queue* queue =
+        nullptr;  ///< where the last build was enqueued; set before anything is read
+};
+
+/// Memory, the order of the leaves and the stages around the hierarchy, which is left to who derives from it.
+class OrderedBuilder : public Builder {
+public:
+    /// Throws BadUsage if there is no such order.
+    OrderedBuilder(Programs& programs, const BuilderCard& card, const BuildOptions& options);
+
+    BuilderCard card() const final { return card_; }
+    Footprint footprint(std::size_t primitives) const final;
+    void reserve(std::size_t primitives) final;
+    Footprint reserved() const final { return arena_ ? arena_->used() : Footprint{}; }
+    const Tree& build(const Input& input, Queue& queue, Start start) final;
+    bool can_refit() const final { return true; }
+    const Tree& refit(const Input& input, Queue& queue) final;
+
+protected:
+    /// Another one like this, without memory.
+    virtual std::unique_ptr<OrderedBuilder> twin() const = 0;
+
+    /// Take every buffer, `leaf_order_`'s too. With sorted leaves, `gathered_` is set as well.
+    virtual void plan(Arena& arena, uint primitives) = 0;
+
+    /// Fill what builds expect and leave as it was. Waits.
+    virtual void prepare(const cl::CommandQueue& queue) = 0;
+
+    /// Enqueue what makes the tree of the leaves; for a refit, what makes its boxes while its topology stands.
+    virtual void enqueue_hierarchy(Queue& queue) = 0;
+    virtual void enqueue_refit(Queue& queue) = 0;
+
+    virtual DeviceTree& tree() = 0;
+
+    /// Where the boxes of sorted leaves go: from `first` on.
+    struct Gathered {
+        Buffer<Aabb> boxes;
+        uint first = 0;
+    };
+
+    Programs& programs_;
+    BuildOptions options_;
+    LeafOrder leaf_order_;
+    Gathered gathered_;
+
+private:
+    void gather_if_sorted(Queue& queue);
+
+    BuilderCard card_;
+    GatherStage gather_;
+    std::optional<Arena> arena_;
+    uint primitives_ = 0;  ///< that there is memory for
+};
+
+}  // namespace bvhbench
