@@ -41,7 +41,7 @@ int build(const BuildCommand& command, const Options& options)
     experiment.may_stand_in = false;  // who names a mesh means that mesh
 
     Session session(options.common);
-    Run run(session, command.json, options.words);
+    Run run(session, command.json, options.words, command.costs);
     run.experiment(experiment);
     run.finish();
     const Cell& cell = run.document().cells.front();

@@ -50,7 +50,7 @@ int run(const RunCommand& command, const Options& options)
     const std::string out = command.out.empty() ? experiment.name + ".json" : command.out;
 
     Session session(options.common);
-    Run run(session, out, options.words);
+    Run run(session, out, options.words, command.costs);
     run.experiment(experiment, filter);
     run.finish();
     if (run.document().cells.empty())
@@ -69,7 +69,7 @@ int reproduce(const ReproduceCommand& command, const Options& options)
     const std::filesystem::path file = folder / (command.what + ".json");
 
     Session session(options.common);
-    Run run(session, file, options.words);
+    Run run(session, file, options.words, command.costs);
     run.experiment(experiment);
     run.finish();
     std::cout << run_report(run.document().run) << paper_report(command.what, run.document())

@@ -51,8 +51,8 @@ bool contains(const Aabb& outer, const Aabb& inner)
 
 }  // namespace
 
-std::optional<double> end_point_overlap(const HostTree& tree, std::span<const Point> points,
-                                        std::span<const Face> faces, const NodeCosts& costs)
+std::optional<AreaSums> end_point_overlap(const HostTree& tree, std::span<const Point> points,
+                                          std::span<const Face> faces)
 {
     if (tree.nodes.empty())
         return std::nullopt;
@@ -87,7 +87,7 @@ std::optional<double> end_point_overlap(const HostTree& tree, std::span<const Po
     }
     if (!(surface.value() > 0))
         return std::nullopt;
-    return (costs.inner * inner.value() + costs.triangle * leaf.value()) / surface.value();
+    return AreaSums{inner.value() / surface.value(), leaf.value() / surface.value()};
 }
 
 }  // namespace bvhbench

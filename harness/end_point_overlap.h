@@ -16,10 +16,10 @@ namespace bvhbench {
 ///
 /// S all triangles, Q(n) those below n (Aila, Karras, Laine 2013, Sec. 3). Where the surface area cost counts
 /// boxes that any ray might meet, this counts those that a point of the surface is in without need.
-/// Nothing if all triangles together have no area.
+/// It is the cost of the sums given here. Nothing if all triangles together have no area.
 ///
 /// Every triangle descends from the root while some of it is in the box, and is cut to the box exactly.
-std::optional<double> end_point_overlap(const HostTree& tree, std::span<const Point> points,
-                                        std::span<const Face> faces, const NodeCosts& costs = {});
+std::optional<AreaSums> end_point_overlap(const HostTree& tree, std::span<const Point> points,
+                                          std::span<const Face> faces);
 
 }  // namespace bvhbench

@@ -88,13 +88,13 @@ std::vector<std::int64_t> leaves_by_depth(const HostTree& tree)
     return counts;
 }
 
-std::map<std::string, double> tree_counters(const HostTree& tree)
+std::map<std::string, double> tree_counters(const HostTree& tree, const NodeCosts& costs)
 {
     std::map<std::string, double> counters;
     if (const auto sums = area_sums(tree)) {
         counters["sah_inner"] = sums->inner;
         counters["sah_leaf"] = sums->leaf;
-        counters["sah_cost"] = sums->cost();
+        counters["sah_cost"] = sums->cost(costs);
     }
     const std::vector<std::int64_t> depths = leaves_by_depth(tree);
     double leaves = 0;
@@ -111,13 +111,16 @@ std::map<std::string, double> tree_counters(const HostTree& tree)
 }
 
 std::map<std::string, double> overlap_counters(const HostTree& tree, std::span<const Point> points,
-                                               std::span<const Face> faces)
+                                               std::span<const Face> faces, const NodeCosts& costs)
 {
     std::map<std::string, double> counters;
     if (const auto overlap = sibling_overlap(tree))
         counters["sibling_overlap"] = *overlap;
-    if (const auto epo = end_point_overlap(tree, points, faces))
-        counters["epo"] = *epo;
+    if (const auto sums = end_point_overlap(tree, points, faces)) {
+        counters["epo_inner"] = sums->inner;
+        counters["epo_leaf"] = sums->leaf;
+        counters["epo"] = sums->cost(costs);
+    }
     return counters;
 }
 

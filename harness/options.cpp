@@ -2,6 +2,7 @@
 #include "harness/options.h"
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <sstream>
 
 #include "geometry/error.h"
@@ -11,6 +12,7 @@ namespace bvhbench {
 namespace {
 
 constexpr int most_samples = 1000000;
+constexpr int most_cost = 1000000;
 
 /// Accepts only `known` words; the answer to another one lists them.
 CLI::Validator one_of(std::vector<std::string> known)
@@ -25,6 +27,31 @@ CLI::Validator one_of(std::vector<std::string> known)
         return "there is no '" + word + "'; there are: " + there;
     };
     return {check, "", "one of"};
+}
+
+/// CLI::Range lets NaN pass.
+CLI::Validator a_cost()
+{
+    const auto check = [](const std::string& word) {
+        double value = -1;
+        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+        const bool is_read = error == std::errc() && end == word.data() + word.size();
+        return is_read && value >= 0 && value <= most_cost
+                   ? std::string()
+                   : "must be a number from 0 to " + std::to_string(most_cost) + ", not '" + word +
+                         "'";
+    };
+    return {check, "", "a cost"};
+}
+
+void add_costs(CLI::App& command, NodeCosts& costs)
+{
+    command.add_option("--sah-inner", costs.inner, "what visiting an inner node costs")
+        ->capture_default_str()
+        ->check(a_cost());
+    command.add_option("--sah-triangle", costs.triangle, "what testing a triangle costs")
+        ->capture_default_str()
+        ->check(a_cost());
 }
 
 void add_list(CLI::App& app, ListCommand& list)
@@ -53,6 +80,7 @@ void add_build(CLI::App& app, BuildCommand& build, std::string& leaves)
         ->check(CLI::Range(1, most_samples));
     command->add_flag("--quality", build.quality,
                       "count epo and sibling_overlap, which takes long");
+    add_costs(*command, build.costs);
     command->add_option("--json", build.json, "write the result file");
     command->add_option("--dump", build.dump, "write the tree, spelled out, as JSON");
 }
@@ -69,6 +97,7 @@ void add_run(CLI::App& app, RunCommand& run)
         ->check(CLI::Range(1, most_samples));
     command->add_flag("--quick", run.quick, "fewer scenes and samples");
     command->add_flag("--quality", run.quality, "count epo and sibling_overlap, which takes long");
+    add_costs(*command, run.costs);
 }
 
 void add_reproduce(CLI::App& app, ReproduceCommand& reproduce)
@@ -81,6 +110,7 @@ void add_reproduce(CLI::App& app, ReproduceCommand& reproduce)
     command->add_option("--out", reproduce.out, "folder for the result file and figures")
         ->capture_default_str();
     command->add_flag("--quick", reproduce.quick, "fewer scenes and samples");
+    add_costs(*command, reproduce.costs);
 }
 
 void add_check(CLI::App& app, CheckCommand& check)
@@ -113,6 +143,12 @@ void check_power_of_two(const char* option, unsigned value)
     if ((value & (value - 1)) != 0)
         throw BadUsage(std::string(option) + " must be a power of two, not " +
                        std::to_string(value));
+}
+
+void check_costs(const NodeCosts& costs)
+{
+    if (costs == NodeCosts{0, 0})
+        throw BadUsage("--sah-inner and --sah-triangle must not both be 0");
 }
 
 }  // namespace
@@ -151,6 +187,8 @@ Options parse_options(int argc, const char* const* argv)
             "says what they do");
     check_power_of_two("--group-size", build.builder.group_size);
     check_power_of_two("--items", build.builder.items);
+    for (const NodeCosts& costs : {build.costs, run.costs, reproduce.costs})
+        check_costs(costs);
     build.builder.sorted_leaves = leaves == "sorted";
     const std::string chosen = app.get_subcommands().front()->get_name();
     if (chosen == "list")

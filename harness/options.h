@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "harness/catalog.h"
+#include "harness/node_costs.h"
 
 namespace bvhbench {
 
@@ -32,6 +33,7 @@ struct BuildCommand {
     std::string json;  ///< result file to write; may be empty
     std::string dump;  ///< file for the spelled-out tree; may be empty
     bool quality = false;
+    NodeCosts costs;
 };
 struct RunCommand {
     std::string experiment;  ///< a name or a path
@@ -40,11 +42,13 @@ struct RunCommand {
     int samples = 0;         ///< 0: as the experiment says
     bool quick = false;
     bool quality = false;
+    NodeCosts costs;
 };
 struct ReproduceCommand {
     std::string what;  ///< table1, table4, fig8 or fig13
     std::string out = "out";
     bool quick = false;
+    NodeCosts costs;
 };
 struct CheckCommand {
     std::string builder;  ///< empty: all

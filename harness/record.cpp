@@ -124,6 +124,7 @@ std::string run_text(const RunFacts& run)
         json["copy_rate_buffer_bytes"] = run.copy_rate_buffer_bytes;
     }
     json["compile_ns"] = run.compile_ns;
+    json["node_costs"] = {{"inner", run.costs.inner}, {"triangle", run.costs.triangle}};
     return dumped(json);
 }
 

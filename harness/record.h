@@ -12,6 +12,7 @@
 
 #include "device/queue.h"
 #include "harness/catalog.h"
+#include "harness/node_costs.h"
 #include "scenes/scene.h"
 
 namespace bvhbench {
@@ -86,6 +87,7 @@ struct RunFacts {
     double copy_rate_bytes_per_s = 0;              ///< 0: not measured
     std::int64_t copy_rate_buffer_bytes = 0;
     std::int64_t compile_ns = 0;
+    NodeCosts costs;  ///< in the counters sah_cost and epo
 };
 
 /// A whole result file.

@@ -157,6 +157,9 @@ RunFacts run_of(const Json& json)
     run.copy_rate_bytes_per_s = get<double>(json, "copy_rate_bytes_per_s");
     run.copy_rate_buffer_bytes = get<std::int64_t>(json, "copy_rate_buffer_bytes");
     run.compile_ns = get<std::int64_t>(json, "compile_ns");
+    if (json.contains("node_costs"))  // before format 1.2 there were only the usual ones
+        run.costs = {.inner = json["node_costs"].at("inner").get<double>(),
+                     .triangle = json["node_costs"].at("triangle").get<double>()};
     return run;
 }
 

@@ -2,6 +2,7 @@
 #include "harness/report.h"
 
 #include <cmath>
+#include <cstdio>
 
 #include "geometry/hash.h"
 #include "harness/table.h"
@@ -217,6 +218,14 @@ std::string cells_report(const Document& document, bool only_notable)
            grouped(static_cast<std::int64_t>(agreeing)) + " agree\n";
 }
 
+std::string costs_text(const NodeCosts& costs)
+{
+    char text[80];
+    std::snprintf(text, sizeof text, "an inner node %.10g, a triangle %.10g", costs.inner,
+                  costs.triangle);
+    return text;
+}
+
 std::string run_report(const RunFacts& run)
 {
     std::string text = "device: " + run.device.platform + '/' + run.device.name + ", driver " +
@@ -226,6 +235,8 @@ std::string run_report(const RunFacts& run)
     if (run.copy_rate_bytes_per_s > 0)
         text += "copy rate: " + fixed(run.copy_rate_bytes_per_s * 1e-9, 1) +
                 " GB/s, read plus written\n";
+    if (run.costs != NodeCosts{})
+        text += "costs in sah_cost and epo: " + costs_text(run.costs) + '\n';
     return text;
 }
 

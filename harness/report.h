@@ -34,6 +34,9 @@ std::string cell_report(const Cell& cell, const RunFacts& run);
 /// Every cell of a run in a line; with `only_notable`, those that agree are only counted.
 std::string cells_report(const Document& document, bool only_notable = false);
 
+/// "an inner node 1.2, a triangle 1"
+std::string costs_text(const NodeCosts& costs);
+
 /// Where and with what a run was made, in a few lines.
 std::string run_report(const RunFacts& run);
 

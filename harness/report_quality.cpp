@@ -71,7 +71,8 @@ double CostPair::ratio() const
 
 std::string table4_report(const Document& document)
 {
-    const PaperCosts paper = paper_table4();
+    const NodeCosts& costs = document.run.costs;
+    const PaperCosts paper = costs == NodeCosts{} ? paper_table4() : PaperCosts{};
     Table table({{"mesh", left},
                  {"triangles"},
                  {"order", left},
@@ -99,7 +100,8 @@ std::string table4_report(const Document& document)
                    number(oi), number(pair.ratio()), number(radix > 0 ? oi / radix : 0),
                    pair.ratio() > 0 ? "" : why(pair)});
     }
-    return table.text() + "surface area cost, an inner node 1.2 and a triangle 1.0\n" +
+    return table.text() + "surface area cost, " + costs_text(costs) +
+           (costs == NodeCosts{} ? "\n" : "; the paper's are for others\n") +
            (has_edition ? "+ another edition of the paper's model, with another triangle count\n"
                         : "") +
            (has_stand_in ? "* a generated stand-in with the mesh's triangle count: the mesh itself "

@@ -17,9 +17,10 @@
 namespace bvhbench {
 namespace {
 
-RunFacts measured_facts(Session& session, std::vector<std::string> command)
+RunFacts measured_facts(Session& session, std::vector<std::string> command, const NodeCosts& costs)
 {
     RunFacts facts = run_facts(session.device(), std::move(command));
+    facts.costs = costs;
     const std::string failure = reason_of_failure([&] {
         const CopyRate rate = measure_copy_rate(session.programs(), session.queue());
         facts.copy_rate_bytes_per_s = rate.bytes_per_s;
@@ -64,13 +65,14 @@ std::string absence(const BuilderChoice& choice)
 }
 
 /// How good a tree is. One that is wrong has no quality.
-void count_quality(Cell& cell, const HostTree& tree, const Input& input, bool with_overlap)
+void count_quality(Cell& cell, const HostTree& tree, const Input& input, const NodeCosts& costs,
+                   bool with_overlap)
 {
     if (cell.check.verdict == Check::Verdict::differs)
         return;
-    cell.counters.merge(tree_counters(tree));
+    cell.counters.merge(tree_counters(tree, costs));
     if (with_overlap)
-        cell.counters.merge(overlap_counters(tree, input.points, input.faces));
+        cell.counters.merge(overlap_counters(tree, input.points, input.faces, costs));
 }
 
 }  // namespace
@@ -87,8 +89,10 @@ struct Run::Oracles {
     Oracle now, before;
 };
 
-Run::Run(Session& session, std::filesystem::path out, std::vector<std::string> command)
-    : session_(session), results_(std::move(out), measured_facts(session, std::move(command)))
+Run::Run(Session& session, std::filesystem::path out, std::vector<std::string> command,
+         const NodeCosts& costs)
+    : session_(session)
+    , results_(std::move(out), measured_facts(session, std::move(command), costs))
 {}
 
 bool Run::has_differing_cell() const
@@ -187,7 +191,7 @@ void Run::judge_build(const Experiment& experiment, const Frames& frames, Builde
     session_.build_once(builder, frames.now(), Start::from_triangles, &prepared.tree);
     const HostTree tree = prepared.tree->spelled_out();
     cell.check = check_tree(tree, frames.now(), cell.builder, oracle);
-    count_quality(cell, tree, frames.now(), experiment.quality);
+    count_quality(cell, tree, frames.now(), document().run.costs, experiment.quality);
     if (experiment.start == Start::from_sorted_leaves) {
         session_.build_once(builder, frames.now(), experiment.start, &prepared.tree);
         cell.check = check_again(*prepared.tree, std::move(cell.check));
@@ -207,7 +211,7 @@ void Run::judge_refit(const Experiment& experiment, const Frames& frames, Builde
     session_.refit_once(builder, frames.now(), &prepared.tree);
     const HostTree tree = prepared.tree->spelled_out();
     cell.check = check_refit(tree, built, frames.now(), std::move(cell.check));
-    count_quality(cell, tree, frames.now(), experiment.quality);
+    count_quality(cell, tree, frames.now(), document().run.costs, experiment.quality);
 }
 
 void Run::sample(const Experiment& experiment, const Frames& frames, std::span<Prepared> cells)

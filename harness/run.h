@@ -23,7 +23,8 @@ using CellFilter = std::optional<std::regex>;
 class Run {
 public:
     /// Measures the device's copy rate, the yardstick of the run. Without `out` no file is written.
-    Run(Session& session, std::filesystem::path out, std::vector<std::string> command);
+    Run(Session& session, std::filesystem::path out, std::vector<std::string> command,
+        const NodeCosts& costs);
 
     /// Throws BadUsage for a scene that cannot be, Interrupted; finished cells are then in the file.
     void experiment(const Experiment& experiment, const CellFilter& filter = {});

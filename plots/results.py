@@ -81,6 +81,12 @@ class Run:
         """What figures of builders are made of: a refit's times and trees are no build's."""
         return [cell for cell in self.cells if cell.operation == "build"]
 
+    @property
+    def costs(self) -> tuple[float, float]:
+        """Of an inner node and of a triangle, in sah_cost and epo."""
+        costs = self.facts.get("node_costs", {})  # before format 1.2 there were only Aila's
+        return float(costs.get("inner", 1.2)), float(costs.get("triangle", 1.0))
+
     def of(self, experiment: str) -> list[Cell]:
         return [cell for cell in self.builds if cell.experiment == experiment]
 
@@ -103,6 +109,9 @@ class Run:
             builders.setdefault((status, ", ".join(dict.fromkeys(where)), reason), []).append(builder)
         return [f"{', '.join(who)} {status} on {where}: {reason}"
                 for (status, where, reason), who in builders.items()]
+
+    def costs_remark(self) -> str:
+        return "An inner node costs {}, a triangle {}, in shares of the root's area.".format(*self.costs)
 
     def circumstances(self) -> str:
         """One line for under a figure: what it ran on and which program it was."""

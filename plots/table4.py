@@ -4,7 +4,8 @@
     plots/table4.py FILE... --out DIR
 
 Over each pair stands how many times the one is the other. The paper's printed costs are marked; a cost has no
-machine, so they can be compared with ours wherever the mesh is the same.
+machine, so they can be compared with ours wherever the mesh is the same. They are left out for other costs of a
+node and a triangle than the usual ones.
 """
 from __future__ import annotations
 
@@ -22,6 +23,7 @@ RADIX = ("apetrei", "apetrei-fused", "karras", "lbvh-levels", "radix-reference")
 OIBVH = ("oibvh-multi", "oibvh-single", "oibvh-reference")
 KINDS = (("apetrei", RADIX), ("oibvh-multi", OIBVH))  # the paper's word for a kind of tree, and ours
 WIDTH = 0.36
+PAPER_COSTS = (1.2, 1.0)
 PAPER_MARK = {"marker": "d", "markersize": 4.5, "markerfacecolor": "white", "markeredgecolor": "black",
               "markeredgewidth": 0.8, "linestyle": "none"}
 
@@ -81,6 +83,8 @@ def draw(run: results.Run) -> plt.Figure:
     if not cells:
         raise results.Refused(f"{run.path}: no cell of table4 has a surface area cost")
     printed = results.printed("table4")
+    if run.costs != PAPER_COSTS:
+        printed |= {"rows": [], "other_editions": {}}
     scenes = list(dict.fromkeys(cell.scene for cell in cells))
     drawing, axes = plt.subplots(figsize=(style.PAGE_WIDTH, 3.4), layout="constrained")
     shown: set[str] = set()
@@ -94,9 +98,10 @@ def draw(run: results.Run) -> plt.Figure:
     axes.set(ylabel="surface area cost")
     handles = [Patch(facecolor=style.look(builder).colour, label=builder) for builder in style.LOOKS
                if builder in shown]
-    handles.append(Line2D([], [], **PAPER_MARK, label="printed in the paper"))
+    if printed["rows"]:
+        handles.append(Line2D([], [], **PAPER_MARK, label="printed in the paper"))
     height = figure.legend_above(drawing, handles)
-    remarks = ["An inner node costs 1.2, a triangle 1.0, in shares of the root's area. Under the names: triangles."]
+    remarks = [f"{run.costs_remark()} Under the names: triangles."]
     if any(cell.scene in printed["other_editions"] for cell in cells):
         remarks.append("+ another edition of the paper's model, with another triangle count.")
     if any(cell.stand_in_for for cell in cells):

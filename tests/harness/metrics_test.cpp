@@ -50,7 +50,9 @@ TEST(Metrics, OfATreeByHand)
     EXPECT_DOUBLE_EQ(sibling_overlap(tree).value(), 4.0 / 6);
     EXPECT_EQ(leaves_by_depth(tree), (std::vector<std::int64_t>{0, 0, 4}));
     // Each triangle lies in its brother's leaf, whole, and in nothing else that is not its own.
-    EXPECT_DOUBLE_EQ(end_point_overlap(tree, mesh.points, mesh.faces).value(), 1.0);
+    const AreaSums overlap = end_point_overlap(tree, mesh.points, mesh.faces).value();
+    EXPECT_DOUBLE_EQ(overlap.inner, 0);
+    EXPECT_DOUBLE_EQ(overlap.leaf, 1);
 }
 
 TEST(Metrics, OfAWorseTreeByHand)
@@ -62,7 +64,21 @@ TEST(Metrics, OfAWorseTreeByHand)
     EXPECT_DOUBLE_EQ(sums.inner, 3.0);
     EXPECT_DOUBLE_EQ(sums.leaf, 4 * 2.0 / 6);
     EXPECT_DOUBLE_EQ(sibling_overlap(tree).value(), 1.0);
-    EXPECT_DOUBLE_EQ(end_point_overlap(tree, mesh.points, mesh.faces).value(), 1.2 + 1.0);
+    EXPECT_DOUBLE_EQ(end_point_overlap(tree, mesh.points, mesh.faces)->cost(), 1.2 + 1.0);
+}
+
+TEST(Metrics, ArePublishedSoThatAnyCostsFollow)
+{
+    const Mesh mesh = make_soup(200);
+    const HostTree tree = host_oi_tree(mesh);
+    const NodeCosts costs{.inner = 3, .triangle = 0.5};
+    auto usual = tree_counters(tree), other = tree_counters(tree, costs);
+    usual.merge(overlap_counters(tree, mesh.points, mesh.faces));
+    other.merge(overlap_counters(tree, mesh.points, mesh.faces, costs));
+    EXPECT_EQ(usual["sah_cost"], 1.2 * usual["sah_inner"] + usual["sah_leaf"]);
+    EXPECT_EQ(other["sah_cost"], 3 * usual["sah_inner"] + 0.5 * usual["sah_leaf"]);
+    EXPECT_EQ(usual["epo"], 1.2 * usual["epo_inner"] + usual["epo_leaf"]);
+    EXPECT_EQ(other["epo"], 3 * usual["epo_inner"] + 0.5 * usual["epo_leaf"]);
 }
 
 TEST(Metrics, CountANodeWithOneChildAsInner)
@@ -150,17 +166,18 @@ TEST(EndPointOverlap, IsThatOfEveryNodeAgainstEveryTriangle)
             for (std::size_t k = 0; child != HostTree::none && k < mesh.faces.size(); ++k)
                 below[i][k] = below[i][k] || below[static_cast<std::size_t>(child)][k];
     }
-    double sum = 0, surface = 0;
+    double inner = 0, leaf = 0, surface = 0;
     for (std::size_t k = 0; k < mesh.faces.size(); ++k) {
         const Polygon polygon = polygon_of(mesh.points, mesh.faces[k]);
         surface += area(polygon);
         for (std::size_t i = 0; i < tree.nodes.size(); ++i)
             if (!below[i][k])
-                sum += (tree.nodes[i].primitive != HostTree::none ? 1.0 : 1.2) *
-                       area(clipped(polygon, tree.nodes[i].box));
+                (tree.nodes[i].primitive != HostTree::none ? leaf : inner) +=
+                    area(clipped(polygon, tree.nodes[i].box));
     }
-    EXPECT_NEAR(end_point_overlap(tree, mesh.points, mesh.faces).value() / (sum / surface), 1,
-                1e-12);
+    const AreaSums sums = end_point_overlap(tree, mesh.points, mesh.faces).value();
+    EXPECT_NEAR(sums.inner / (inner / surface), 1, 1e-12);
+    EXPECT_NEAR(sums.leaf / (leaf / surface), 1, 1e-12);
 }
 
 TEST(Clip, KeepsWhatIsInTheClosedBox)

@@ -44,6 +44,27 @@ TEST(Options, OfBuildAreAllUnderstood)
     EXPECT_EQ(options.words.size(), 20u);
 }
 
+TEST(Options, OfCostsAreThoseOfAilaUnlessGiven)
+{
+    const auto costs = [](std::vector<const char*> words) {
+        return std::get<RunCommand>(parsed(std::move(words)).command).costs;
+    };
+    EXPECT_EQ(costs({"run", "quality"}), (NodeCosts{1.2, 1.0}));
+    EXPECT_EQ(costs({"run", "quality", "--sah-inner", "2.5"}), (NodeCosts{2.5, 1.0}));
+    EXPECT_EQ(costs({"run", "quality", "--sah-inner", "0", "--sah-triangle", "1e3"}),
+              (NodeCosts{0, 1000}));
+    EXPECT_EQ(
+        std::get<ReproduceCommand>(parsed({"reproduce", "table4", "--sah-triangle", "3"}).command)
+            .costs,
+        (NodeCosts{1.2, 3}));
+    for (const char* value : {"-1", "nan", "inf", "-inf", "1e7", "many", "1.2x", "0x10", ""}) {
+        const std::string sentence =
+            refusal({"run", "quality", (std::string("--sah-inner=") + value).c_str()});
+        EXPECT_NE(sentence.find("--sah-inner: "), std::string::npos) << value << ": " << sentence;
+        EXPECT_EQ(sentence.find('\n'), std::string::npos) << sentence;
+    }
+}
+
 TEST(Options, InCommonMayStandBeforeOrBehindTheCommand)
 {
     EXPECT_EQ(parsed({"--data", "d", "show", "f"}).common.data, "d");
@@ -75,6 +96,8 @@ TEST(Options, ThatAreNotUnderstoodAreAnsweredInOneSentence)
              {"build", "--builder", "perfect", "--scene", "s", "--group-size", "-1"},
              {"run"},
              {"run", "table1", "--fast"},
+             {"run", "table4", "--sah-inner", "-1"},
+             {"run", "table4", "--sah-inner", "0", "--sah-triangle", "0"},
              {"reproduce", "table9"},
              {"show"},
              {"show", "a", "b"},

@@ -55,6 +55,9 @@ def test_exit_codes():
     expect(2, "run", "tabel1", says="there are: table1, table4, fig8, fig13, peers, quality")
     expect(2, "run", "smoke", "--filter", "[", says="no regular expression")
     expect(2, "check", "--builder", "x", says="there are: perfect")
+    for value in ("nan", "-1", "many"):
+        expect(2, "build", "--builder", "perfect", "--scene", "soup:5", "--sah-inner", value,
+               says=f"--sah-inner: must be a number from 0 to 1000000, not '{value}'")
     expect(3, "run", "mine.json", says="mine.json")
     expect(3, "show", "nothing.json", says="nothing.json")
     expect(3, "build", "--builder", "perfect", "--scene", "soup:5", "--device", "no such device",
@@ -104,6 +107,15 @@ def test_quality_has_no_number_where_it_has_no_value():
     cell, = valid("q.json")["cells"]
     assert not {"epo", "sibling_overlap", "sah_cost", "sah_inner", "sah_leaf"} & set(cell["counters"])
     assert cell["counters"]["depth_max"] == 1
+
+
+def test_costs_reach_the_file():
+    expect(0, "build", "--builder", "oibvh-multi", "--scene", "soup:300", "--samples", "1", "--sah-inner", "2",
+           "--sah-triangle", "0.5", "--json", "c.json", says="costs in sah_cost and epo: an inner node 2, a triangle 0.5")
+    result = valid("c.json")
+    assert result["run"]["node_costs"] == {"inner": 2, "triangle": 0.5}
+    counters = result["cells"][0]["counters"]
+    assert counters["sah_cost"] == 2 * counters["sah_inner"] + 0.5 * counters["sah_leaf"]
 
 
 def test_options_reach_the_builder():

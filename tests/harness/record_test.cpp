@@ -87,10 +87,13 @@ TEST(Record, ReadsBackWhatItWrote)
     host.scene.outlier = {"bunny", 3, 2.5};
     host.scene.bend_of = "bunny";
     host.operation = Operation::refit;
-    const std::string text = text_of(fake_run(), {fake_cell(), failed, host});
+    RunFacts run = fake_run();
+    run.costs = {.inner = 2, .triangle = 0.5};
+    const std::string text = text_of(run, {fake_cell(), failed, host});
 
     const Document document = read_document(text, "x");
     EXPECT_EQ(text_of(document.run, document.cells), text);
+    EXPECT_EQ(document.run.costs, (NodeCosts{2, 0.5}));
     EXPECT_EQ(document.cells[2].scene.outlier.diameters, 2.5);
     EXPECT_EQ(document.cells[2].scene.bend_of, "bunny");
     EXPECT_EQ(document.cells[2].operation, Operation::refit);

@@ -187,8 +187,22 @@ TEST(Table4Report, StandsBesideThePaperAndSaysWhatIsMissing)
               "2.66\n"
               "bunny                     144,046  morton30                100.00                "
               "        skipped: no such builder\n"
-              "surface area cost, an inner node 1.2 and a triangle 1.0\n"
+              "surface area cost, an inner node 1.2, a triangle 1\n"
               "+ another edition of the paper's model, with another triangle count\n");
+}
+
+TEST(Table4Report, DoesNotCompareCostsOfOtherConstants)
+{
+    Document document{fake_run(),
+                      {with_cost("apetrei-fused", 86.02), with_cost("oibvh-multi", 228.01)}};
+    document.run.costs.inner = 2.5;
+    const std::string text = table4_report(document);
+    EXPECT_EQ(text.find("86.00"), std::string::npos) << text;
+    EXPECT_NE(text.find("an inner node 2.5, a triangle 1; the paper's are for others\n"),
+              std::string::npos)
+        << text;
+    EXPECT_NE(run_report(document.run).find("costs in sah_cost and epo: an inner node 2.5, "),
+              std::string::npos);
 }
 
 TEST(Fig13Report, SaysWhichTreeSuffersMore)

@@ -89,6 +89,16 @@ class Scripts(TemporaryFolder):
         self.assertIn("oibvh-multi (leaves sorted)", text)
 
 
+    def test_other_costs_are_named_and_not_held_against_the_papers(self) -> None:
+        document = json.loads((GOLDEN / "table4.json").read_text(encoding="utf-8"))
+        document["run"]["node_costs"] = {"inner": 2, "triangle": 0.5}
+        done = self.run_script("table4.py", self.written(document, "table4.json"), "--out", self.folder / "out")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        text = (self.folder / "out" / "table4.svg").read_text(encoding="utf-8")
+        self.assertIn("An inner node costs 2.0, a triangle 0.5", text)
+        self.assertNotIn("paper", text)
+
+
 class Reader(TemporaryFolder):
     def assert_refused(self, document: dict, words: str) -> None:
         with self.assertRaisesRegex(results.Refused, words):
