@@ -58,13 +58,15 @@ int run(const RunCommand& command, const Options& options)
                        "'");
     std::cout << run_report(run.document().run)
               << cells_report(run.document(), run.document().cells.size() > most_lines)
-              << refit_report(run.document()) << "written: " << out << '\n';
+              << refit_report(run.document()) << quality_report(run.document())
+              << "written: " << out << '\n';
     return run.has_differing_cell() ? 1 : 0;
 }
 
 int reproduce(const ReproduceCommand& command, const Options& options)
 {
-    const Experiment experiment = find_experiment(command.what, command.quick);
+    Experiment experiment = find_experiment(command.what, command.quick);
+    experiment.quality = experiment.quality || command.quality;
     const std::filesystem::path folder = command.out;
     const std::filesystem::path file = folder / (command.what + ".json");
 
@@ -89,7 +91,7 @@ int show(const ShowCommand& command, const Options&)
     if (document.cells.size() == 1)
         std::cout << cell_report(document.cells.front(), document.run);
     else
-        std::cout << cells_report(document) << refit_report(document);
+        std::cout << cells_report(document) << refit_report(document) << quality_report(document);
     return 0;
 }
 

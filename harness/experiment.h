@@ -37,7 +37,7 @@ struct Experiment {
     Start start = Start::from_triangles;
     /// Whether a data set that is not there is replaced by its stand-in; without, its cells are skipped.
     bool may_stand_in = true;
-    /// Whether the counters that take long, `epo` and `sibling_overlap`, are wanted too.
+    /// Whether end-point overlap is wanted too, the one measure of a tree that takes long.
     bool quality = false;
     int samples = 30;
     int warm_up = 3;

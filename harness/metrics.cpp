@@ -88,15 +88,21 @@ std::vector<std::int64_t> leaves_by_depth(const HostTree& tree)
     return counts;
 }
 
-std::map<std::string, double> tree_counters(const HostTree& tree, const NodeCosts& costs)
+Quality quality_of(const HostTree& tree, const NodeCosts& costs)
 {
-    std::map<std::string, double> counters;
+    Quality quality;
+    auto& counters = quality.counters;
     if (const auto sums = area_sums(tree)) {
         counters["sah_inner"] = sums->inner;
         counters["sah_leaf"] = sums->leaf;
         counters["sah_cost"] = sums->cost(costs);
+        counters["sibling_overlap"] = sibling_overlap(tree).value();
+    } else {
+        for (const char* counter : {"sah_cost", "sibling_overlap"})
+            quality.left_out[counter] = "the root's box has no area";
     }
-    const std::vector<std::int64_t> depths = leaves_by_depth(tree);
+    quality.leaves_by_depth = leaves_by_depth(tree);
+    const std::vector<std::int64_t>& depths = quality.leaves_by_depth;
     double leaves = 0;
     double sum = 0;  // whole numbers, exact up to 2^53
     for (std::size_t depth = 0; depth < depths.size(); ++depth) {
@@ -107,21 +113,19 @@ std::map<std::string, double> tree_counters(const HostTree& tree, const NodeCost
         counters["depth_max"] = static_cast<double>(depths.size() - 1);
         counters["depth_mean"] = sum / leaves;
     }
-    return counters;
+    return quality;
 }
 
-std::map<std::string, double> overlap_counters(const HostTree& tree, std::span<const Point> points,
-                                               std::span<const Face> faces, const NodeCosts& costs)
+void add_end_point_overlap(Quality& quality, const HostTree& tree, std::span<const Point> points,
+                           std::span<const Face> faces, const NodeCosts& costs)
 {
-    std::map<std::string, double> counters;
-    if (const auto overlap = sibling_overlap(tree))
-        counters["sibling_overlap"] = *overlap;
     if (const auto sums = end_point_overlap(tree, points, faces)) {
-        counters["epo_inner"] = sums->inner;
-        counters["epo_leaf"] = sums->leaf;
-        counters["epo"] = sums->cost(costs);
+        quality.counters["epo_inner"] = sums->inner;
+        quality.counters["epo_leaf"] = sums->leaf;
+        quality.counters["epo"] = sums->cost(costs);
+    } else {
+        quality.left_out["epo"] = "no triangle has an area";
     }
-    return counters;
 }
 
 }  // namespace bvhbench

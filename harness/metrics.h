@@ -45,12 +45,18 @@ std::optional<double> sibling_overlap(const HostTree& tree);
 /// Leaves by their distance from the root: entry d counts those on level d. The last entry is not 0.
 std::vector<std::int64_t> leaves_by_depth(const HostTree& tree);
 
-/// The numbers for a cell that are cheap: sah_cost, sah_inner, sah_leaf, depth_max, depth_mean.
-std::map<std::string, double> tree_counters(const HostTree& tree, const NodeCosts& costs = {});
+/// What a cell of a result file says about its tree.
+struct Quality {
+    std::map<std::string, double> counters;
+    /// Counters without a value, and why. A weighted sum takes its parts along, unnamed.
+    std::map<std::string, std::string> left_out;
+    std::vector<std::int64_t> leaves_by_depth;
+};
 
-/// Those that are not: epo, epo_inner, epo_leaf and sibling_overlap.
-std::map<std::string, double> overlap_counters(const HostTree& tree, std::span<const Point> points,
-                                               std::span<const Face> faces,
-                                               const NodeCosts& costs = {});
+/// All but end-point overlap, which takes longer than a build.
+Quality quality_of(const HostTree& tree, const NodeCosts& costs = {});
+
+void add_end_point_overlap(Quality& quality, const HostTree& tree, std::span<const Point> points,
+                           std::span<const Face> faces, const NodeCosts& costs = {});
 
 }  // namespace bvhbench

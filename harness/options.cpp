@@ -44,8 +44,9 @@ CLI::Validator a_cost()
     return {check, "", "a cost"};
 }
 
-void add_costs(CLI::App& command, NodeCosts& costs)
+void add_quality(CLI::App& command, bool& quality, NodeCosts& costs)
 {
+    command.add_flag("--epo,--quality", quality, "compute end-point overlap, which takes long");
     command.add_option("--sah-inner", costs.inner, "what visiting an inner node costs")
         ->capture_default_str()
         ->check(a_cost());
@@ -78,9 +79,7 @@ void add_build(CLI::App& app, BuildCommand& build, std::string& leaves)
     command->add_option("--samples", build.samples, "timed builds")
         ->capture_default_str()
         ->check(CLI::Range(1, most_samples));
-    command->add_flag("--quality", build.quality,
-                      "count epo and sibling_overlap, which takes long");
-    add_costs(*command, build.costs);
+    add_quality(*command, build.quality, build.costs);
     command->add_option("--json", build.json, "write the result file");
     command->add_option("--dump", build.dump, "write the tree, spelled out, as JSON");
 }
@@ -96,8 +95,7 @@ void add_run(CLI::App& app, RunCommand& run)
     command->add_option("--samples", run.samples, "timed builds a cell")
         ->check(CLI::Range(1, most_samples));
     command->add_flag("--quick", run.quick, "fewer scenes and samples");
-    command->add_flag("--quality", run.quality, "count epo and sibling_overlap, which takes long");
-    add_costs(*command, run.costs);
+    add_quality(*command, run.quality, run.costs);
 }
 
 void add_reproduce(CLI::App& app, ReproduceCommand& reproduce)
@@ -110,7 +108,7 @@ void add_reproduce(CLI::App& app, ReproduceCommand& reproduce)
     command->add_option("--out", reproduce.out, "folder for the result file and figures")
         ->capture_default_str();
     command->add_flag("--quick", reproduce.quick, "fewer scenes and samples");
-    add_costs(*command, reproduce.costs);
+    add_quality(*command, reproduce.quality, reproduce.costs);
 }
 
 void add_check(CLI::App& app, CheckCommand& check)

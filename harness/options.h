@@ -48,6 +48,7 @@ struct ReproduceCommand {
     std::string what;  ///< table1, table4, fig8 or fig13
     std::string out = "out";
     bool quick = false;
+    bool quality = false;
     NodeCosts costs;
 };
 struct CheckCommand {

@@ -151,13 +151,17 @@ std::string cell_text(const Cell& cell)
         else if (std::isfinite(value))
             json["counters"][key] = value;
     }
+    if (!cell.left_out.empty())
+        json["left_out"] = cell.left_out;
+    if (!cell.leaves_by_depth.empty())
+        json["leaves_by_depth"] = cell.leaves_by_depth;
     json["check"] = json_of(cell.check);
     return dumped(json);
 }
 
 std::string document_text(const std::string& run, const std::vector<std::string>& cells)
 {
-    std::string text = "{\"format\": \"1.2\",\n\"run\": " + run + ",\n\"cells\": [";
+    std::string text = "{\"format\": \"1.3\",\n\"run\": " + run + ",\n\"cells\": [";
     for (std::size_t i = 0; i < cells.size(); ++i)
         text += (i == 0 ? "\n" : ",\n") + cells[i];
     return text + "\n]}\n";

@@ -58,6 +58,8 @@ struct Cell {
     int warm_up = 0;     ///< samples taken first and thrown away
     std::vector<Sample> samples;
     std::map<std::string, double> counters;  ///< the unit ends the key: nodes_count, tree_bytes
+    std::map<std::string, std::string> left_out;  ///< a counter without a value, and why
+    std::vector<std::int64_t> leaves_by_depth;    ///< from the root's level on
     Check check;
 };
 

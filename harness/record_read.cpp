@@ -109,6 +109,8 @@ Cell cell_of(const Json& json)
     for (const Json& sample : json.value("samples", Json::array()))
         cell.samples.push_back(sample_of(sample));
     cell.counters = json.value("counters", std::map<std::string, double>{});
+    cell.left_out = json.value("left_out", std::map<std::string, std::string>{});
+    cell.leaves_by_depth = json.value("leaves_by_depth", std::vector<std::int64_t>{});
     if (json.contains("check"))
         cell.check = check_of(json["check"]);
     return cell;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "harness/report.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 
 #include "geometry/hash.h"
 #include "harness/table.h"
@@ -158,6 +160,21 @@ std::string copy_share_text(double bytes, double ns, double copy_rate_bytes_per_
     return fixed(100 * (bytes / (ns * 1e-9)) / copy_rate_bytes_per_s, 1) + " %";
 }
 
+std::string variant_text(const BuilderChoice& builder)
+{
+    const BuilderChoice usual;
+    std::string text = builder.name;
+    if (builder.order != usual.order)
+        text += ", " + builder.order;
+    if (builder.group_size != usual.group_size)
+        text += ", groups of " + std::to_string(builder.group_size);
+    if (builder.items != usual.items)
+        text += ", " + std::to_string(builder.items) + " items";
+    if (builder.sorted_leaves)
+        text += ", sorted leaves";
+    return text;
+}
+
 std::string verdict_text(const Cell& cell)
 {
     if (cell.status != Cell::Status::measured)
@@ -184,6 +201,10 @@ std::string cell_report(const Cell& cell, const RunFacts& run)
         text += stages_table(cell, run.copy_rate_bytes_per_s);
     if (!cell.counters.empty())
         text += "counters: " + counters_text(cell) + '\n';
+    for (const auto& [counter, why] : cell.left_out)
+        text += "no " + counter + ": " + why + '\n';
+    if (!cell.leaves_by_depth.empty())
+        text += "levels of leaves: " + depths_text(cell.leaves_by_depth) + '\n';
     return text + "verdict: " + verdict_line(cell) + '\n';
 }
 
@@ -216,6 +237,22 @@ std::string cells_report(const Document& document, bool only_notable)
                          : "") +
            grouped(static_cast<std::int64_t>(document.cells.size())) + " cells, " +
            grouped(static_cast<std::int64_t>(agreeing)) + " agree\n";
+}
+
+std::string depths_text(const std::vector<std::int64_t>& leaves_by_depth)
+{
+    const auto begin = leaves_by_depth.begin(), end = leaves_by_depth.end();
+    const auto first = std::find_if(begin, end, [](std::int64_t leaves) { return leaves > 0; });
+    if (first == end)
+        return {};
+    if (first + 1 == end)
+        return std::to_string(first - begin);
+    const std::int64_t all = std::accumulate(begin, end, std::int64_t{0});
+    std::int64_t met = 0;
+    const auto middle =
+        std::find_if(first, end, [&](std::int64_t leaves) { return 2 * (met += leaves) >= all; });
+    return std::to_string(first - begin) + "–" + std::to_string(leaves_by_depth.size() - 1) +
+           ", half by " + std::to_string(middle - begin);
 }
 
 std::string costs_text(const NodeCosts& costs)

@@ -25,6 +25,9 @@ double moved_bytes(const Cell& cell);
 /// "8.1 %" of the copy rate that `bytes` in `ns` are; blank if one of them is not known.
 std::string copy_share_text(double bytes, double ns, double copy_rate_bytes_per_s);
 
+/// The builder's name, with the options that are not the default.
+std::string variant_text(const BuilderChoice& builder);
+
 /// "agrees", "differs", "not checked", "skipped" or "failed".
 std::string verdict_text(const Cell& cell);
 
@@ -33,6 +36,9 @@ std::string cell_report(const Cell& cell, const RunFacts& run);
 
 /// Every cell of a run in a line; with `only_notable`, those that agree are only counted.
 std::string cells_report(const Document& document, bool only_notable = false);
+
+/// Where the leaves are: "14–38, half by 19"; "17" if all are on one level.
+std::string depths_text(const std::vector<std::int64_t>& leaves_by_depth);
 
 /// "an inner node 1.2, a triangle 1"
 std::string costs_text(const NodeCosts& costs);

@@ -69,6 +69,30 @@ double CostPair::ratio() const
     return sah_cost(radix) > 0 ? sah_cost(oibvh) / sah_cost(radix) : 0;
 }
 
+std::string quality_report(const Document& document)
+{
+    Table table({{"scene", left},
+                 {"builder", left},
+                 {"SAH"},
+                 {"EPO"},
+                 {"sibling overlap"},
+                 {"levels of leaves", left}});
+    const auto value = [](const Cell& cell, const char* counter) {
+        const auto found = cell.counters.find(counter);
+        return found == cell.counters.end() ? std::string() : fixed(found->second, 2);
+    };
+    bool has_overlap = false;
+    for (const Cell& cell : document.cells) {
+        if (cell.leaves_by_depth.empty())
+            continue;
+        has_overlap = has_overlap || cell.counters.contains("epo");
+        table.row({cell.scene.name, variant_text(cell.builder), value(cell, "sah_cost"),
+                   value(cell, "epo"), value(cell, "sibling_overlap"),
+                   depths_text(cell.leaves_by_depth)});
+    }
+    return has_overlap ? table.text() : "";
+}
+
 std::string table4_report(const Document& document)
 {
     const NodeCosts& costs = document.run.costs;

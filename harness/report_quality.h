@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The paper's table and figure about tree quality, printed from a run of ours.
+// Tree quality on the console: of any run, and the paper's table and figure about it from a run of ours.
 #pragma once
 
 #include <map>
@@ -23,6 +23,9 @@ struct CostPair {
 
 /// 0 if the cell was not measured or has none.
 double sah_cost(const Cell* cell);
+
+/// How good each tree is, a line each; empty unless end-point overlap was asked for.
+std::string quality_report(const Document& document);
 
 /// Table 4, each of our numbers beside the paper's.
 std::string table4_report(const Document& document);

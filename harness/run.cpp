@@ -64,15 +64,28 @@ std::string absence(const BuilderChoice& choice)
     }
 }
 
+void put(Quality&& quality, Cell& cell)
+{
+    cell.counters.merge(quality.counters);
+    cell.left_out = std::move(quality.left_out);
+    cell.leaves_by_depth = std::move(quality.leaves_by_depth);
+}
+
 /// How good a tree is. One that is wrong has no quality.
 void count_quality(Cell& cell, const HostTree& tree, const Input& input, const NodeCosts& costs,
-                   bool with_overlap)
+                   bool with_epo)
 {
-    if (cell.check.verdict == Check::Verdict::differs)
+    if (cell.check.verdict == Check::Verdict::differs) {
+        for (const char* counter : {"sah_cost", "sibling_overlap", "depth_max", "epo"})
+            cell.left_out[counter] = "the tree is wrong";
         return;
-    cell.counters.merge(tree_counters(tree, costs));
-    if (with_overlap)
-        cell.counters.merge(overlap_counters(tree, input.points, input.faces, costs));
+    }
+    Quality quality = quality_of(tree, costs);
+    if (with_epo)
+        add_end_point_overlap(quality, tree, input.points, input.faces, costs);
+    else
+        quality.left_out["epo"] = "not asked for: --epo";
+    put(std::move(quality), cell);
 }
 
 }  // namespace

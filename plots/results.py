@@ -43,6 +43,8 @@ class Cell:
     checked: bool
     counters: dict[str, float]
     samples: list[dict[str, dict[str, Any]]]  # per sample: stage name to its numbers
+    left_out: dict[str, str]  # a counter that has no value, and why
+    leaves_by_depth: list[int]  # from the root's level on; empty before format 1.3
 
     def times_s(self, stage: str) -> numpy.ndarray:
         """Seconds per sample: first start to last end on the device's clock, else the host's clock."""
@@ -160,7 +162,8 @@ def cell_of(path: pathlib.Path, cell: dict[str, Any]) -> Cell:
     options = tuple(sorted((key, str(value)) for key, value in builder.get("options", {}).items()))
     samples = [{entry["stage"]: entry for entry in sample["stages"]} for sample in cell["samples"]]
     return Cell(cell["experiment"], scene["name"], scene.get("triangles", 0), scene.get("stand_in_for"), scene.get("outlier"),
-                builder["name"], options, cell.get("operation", "build"), cell["check"]["verdict"] == "agrees", cell["counters"], samples)
+                builder["name"], options, cell.get("operation", "build"), cell["check"]["verdict"] == "agrees", cell["counters"],
+                samples, cell.get("left_out", {}), cell.get("leaves_by_depth", []))
 
 
 def printed(name: str) -> dict[str, Any]:

@@ -64,7 +64,7 @@ def cell(experiment: str, scene: dict, builder: str, noise: random.Random) -> di
 
 def write(name: str, cells: list[dict]) -> None:
     lines = ",\n".join(json.dumps(entry) for entry in cells)
-    text = f'{{"format": "1.0",\n"run": {json.dumps(RUN)},\n"cells": [\n{lines}\n]}}\n'
+    text = f'{{"format": "1.3",\n"run": {json.dumps(RUN)},\n"cells": [\n{lines}\n]}}\n'
     (pathlib.Path(__file__).parent / name).write_text(text, encoding="utf-8")
 
 
@@ -87,7 +87,12 @@ def main() -> None:
 def valued(experiment: str, scene: dict, builder: str, order: str, cost: float, noise: random.Random) -> dict:
     entry = cell(experiment, scene, builder, noise)
     entry["builder"]["options"] = {"order": order}
-    entry["counters"] |= {"sah_cost": cost}
+    triangles = scene["triangles"]
+    level = (triangles - 1).bit_length()
+    around = [] if builder.startswith("oibvh") else [triangles // 3]
+    last = triangles - sum(around)
+    entry["counters"] |= {"sah_cost": cost, "depth_max": level + len(around)}
+    entry |= {"left_out": {"epo": "not asked for: --epo"}, "leaves_by_depth": [0] * level + around + [last]}
     return entry
 
 

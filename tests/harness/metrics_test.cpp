@@ -36,6 +36,15 @@ HostTree halved(const Mesh& mesh, std::vector<int> ids)
     });
 }
 
+std::map<std::string, double> counters_of(const HostTree& tree, const Mesh& mesh,
+                                          const NodeCosts& costs = {})
+{
+    Quality quality = quality_of(tree, costs);
+    add_end_point_overlap(quality, tree, mesh.points, mesh.faces, costs);
+    EXPECT_TRUE(quality.left_out.empty());
+    return quality.counters;
+}
+
 TEST(Metrics, OfATreeByHand)
 {
     // Leaves are flat unit squares, area 2; so are both inner nodes; the root is a unit cube, area 6.
@@ -72,9 +81,7 @@ TEST(Metrics, ArePublishedSoThatAnyCostsFollow)
     const Mesh mesh = make_soup(200);
     const HostTree tree = host_oi_tree(mesh);
     const NodeCosts costs{.inner = 3, .triangle = 0.5};
-    auto usual = tree_counters(tree), other = tree_counters(tree, costs);
-    usual.merge(overlap_counters(tree, mesh.points, mesh.faces));
-    other.merge(overlap_counters(tree, mesh.points, mesh.faces, costs));
+    auto usual = counters_of(tree, mesh), other = counters_of(tree, mesh, costs);
     EXPECT_EQ(usual["sah_cost"], 1.2 * usual["sah_inner"] + usual["sah_leaf"]);
     EXPECT_EQ(other["sah_cost"], 3 * usual["sah_inner"] + 0.5 * usual["sah_leaf"]);
     EXPECT_EQ(usual["epo"], 1.2 * usual["epo_inner"] + usual["epo_leaf"]);
@@ -103,10 +110,15 @@ TEST(Metrics, HaveNoValueWhereThereIsNoArea)
     EXPECT_EQ(area_sums(tree), std::nullopt);
     EXPECT_EQ(sibling_overlap(tree), std::nullopt);
     EXPECT_EQ(end_point_overlap(tree, mesh.points, mesh.faces), std::nullopt);
-    EXPECT_EQ(tree_counters(tree),
+    Quality quality = quality_of(tree);
+    add_end_point_overlap(quality, tree, mesh.points, mesh.faces);
+    EXPECT_EQ(quality.counters,
               (std::map<std::string, double>{{"depth_max", 1}, {"depth_mean", 1}}));
-    EXPECT_TRUE(overlap_counters(tree, mesh.points, mesh.faces).empty());
-    EXPECT_TRUE(tree_counters(HostTree{}).empty());
+    EXPECT_EQ(quality.left_out,
+              (std::map<std::string, std::string>{{"sah_cost", "the root's box has no area"},
+                                                  {"sibling_overlap", "the root's box has no area"},
+                                                  {"epo", "no triangle has an area"}}));
+    EXPECT_TRUE(quality_of(HostTree{}).counters.empty());
 }
 
 TEST(Metrics, AreThoseOfANaiveSumInLongDouble)
@@ -136,9 +148,7 @@ TEST(Metrics, DoNotDependOnAScaleThatIsAPowerOfTwo)
     for (Point& point : scaled.points)
         point = {std::ldexp(point.x, 40), std::ldexp(point.y, 40), std::ldexp(point.z, 40)};
     const HostTree one = host_oi_tree(mesh), other = host_oi_tree(scaled);
-    EXPECT_EQ(tree_counters(one), tree_counters(other));
-    EXPECT_EQ(overlap_counters(one, mesh.points, mesh.faces),
-              overlap_counters(other, scaled.points, scaled.faces));
+    EXPECT_EQ(counters_of(one, mesh), counters_of(other, scaled));
 }
 
 TEST(Metrics, TakeATreeAsDeepAsItHasLeaves)
@@ -149,7 +159,10 @@ TEST(Metrics, TakeATreeAsDeepAsItHasLeaves)
     const HostTree chain = tree_by(mesh, ids, [](std::size_t first, std::size_t last, std::size_t) {
         return last - first == 1 ? first : first + 1;
     });
-    EXPECT_EQ(tree_counters(chain).at("depth_max"), 99999);
+    const Quality quality = quality_of(chain);
+    EXPECT_EQ(quality.counters.at("depth_max"), 99999);
+    EXPECT_EQ(quality.leaves_by_depth.size(), 100000u);
+    EXPECT_EQ(quality.leaves_by_depth.back(), 2);
     EXPECT_GT(area_sums(chain)->inner, 40000) << "almost every box is the whole scene's";
 }
 

@@ -65,6 +65,14 @@ TEST(Options, OfCostsAreThoseOfAilaUnlessGiven)
     }
 }
 
+TEST(Options, OfQualityAreTwoNamesOfOneFlag)
+{
+    EXPECT_FALSE(std::get<RunCommand>(parsed({"run", "smoke"}).command).quality);
+    EXPECT_TRUE(std::get<RunCommand>(parsed({"run", "smoke", "--epo"}).command).quality);
+    EXPECT_TRUE(
+        std::get<ReproduceCommand>(parsed({"reproduce", "fig13", "--quality"}).command).quality);
+}
+
 TEST(Options, InCommonMayStandBeforeOrBehindTheCommand)
 {
     EXPECT_EQ(parsed({"--data", "d", "show", "f"}).common.data, "d");

@@ -89,7 +89,8 @@ def test_build_writes_a_valid_result_and_the_tree():
     cell, = valid("b.json")["cells"]
     assert len(cell["samples"]) == 4 and cell["check"]["verdict"] == "agrees"
     assert set(cell["counters"]) == {"nodes_count", "tree_bytes", "scratch_bytes", "sah_cost", "sah_inner",
-                                     "sah_leaf", "depth_max", "depth_mean"}
+                                     "sah_leaf", "sibling_overlap", "depth_max", "depth_mean"}
+    assert cell["left_out"] == {"epo": "not asked for: --epo"}
     nodes = json.loads(pathlib.Path("d.json").read_text())["nodes"]
     assert len(nodes) == cell["counters"]["nodes_count"]
     assert sorted(n["primitive"] for n in nodes if n["primitive"] >= 0) == list(range(300))
@@ -97,15 +98,17 @@ def test_build_writes_a_valid_result_and_the_tree():
 
 
 def test_quality_has_no_number_where_it_has_no_value():
-    expect(0, "build", "--builder", "oibvh-multi", "--scene", "grid:300", "--samples", "1", "--quality",
+    expect(0, "build", "--builder", "oibvh-multi", "--scene", "grid:300", "--samples", "1", "--epo",
            "--json", "q.json", says="epo")
     cell, = valid("q.json")["cells"]
-    assert {"epo", "sibling_overlap", "sah_cost"} <= set(cell["counters"])
+    assert {"epo", "epo_inner", "epo_leaf", "sibling_overlap", "sah_cost"} <= set(cell["counters"])
+    assert "left_out" not in cell
     pathlib.Path("line.obj").write_text("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\nf 3 2 1\n")
     expect(0, "build", "--builder", "oibvh-multi", "--scene", "line.obj", "--samples", "1", "--quality",
            "--json", "q.json")
     cell, = valid("q.json")["cells"]
     assert not {"epo", "sibling_overlap", "sah_cost", "sah_inner", "sah_leaf"} & set(cell["counters"])
+    assert set(cell["left_out"]) == {"epo", "sibling_overlap", "sah_cost"}
     assert cell["counters"]["depth_max"] == 1
 
 
@@ -133,6 +136,11 @@ def test_run_and_show_agree():
     result = valid("folder/s.json")
     assert len(result["cells"]) == 27 and "finished_at" in result["run"]
     assert result["run"]["copy_rate_bytes_per_s"] > 0 and result["run"]["compile_ns"] > 0
+    for cell in result["cells"]:
+        assert sum(cell["leaves_by_depth"]) == cell["scene"]["triangles"]
+        assert len(cell["leaves_by_depth"]) - 1 == cell["counters"]["depth_max"]
+        for counter in ("sah_cost", "sibling_overlap", "epo"):
+            assert (counter in cell["counters"]) != (counter in cell["left_out"]), cell
     orders = [s["order"] for cell in result["cells"] for s in cell["samples"]]
     assert len(set(orders)) == len(orders)
     assert expect(0, "show", "folder/s.json") in out

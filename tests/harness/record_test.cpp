@@ -87,6 +87,8 @@ TEST(Record, ReadsBackWhatItWrote)
     host.scene.outlier = {"bunny", 3, 2.5};
     host.scene.bend_of = "bunny";
     host.operation = Operation::refit;
+    host.left_out = {{"epo", "not asked for"}};
+    host.leaves_by_depth = {0, 1, 2};
     RunFacts run = fake_run();
     run.costs = {.inner = 2, .triangle = 0.5};
     const std::string text = text_of(run, {fake_cell(), failed, host});
@@ -97,6 +99,8 @@ TEST(Record, ReadsBackWhatItWrote)
     EXPECT_EQ(document.cells[2].scene.outlier.diameters, 2.5);
     EXPECT_EQ(document.cells[2].scene.bend_of, "bunny");
     EXPECT_EQ(document.cells[2].operation, Operation::refit);
+    EXPECT_EQ(document.cells[2].left_out, host.left_out);
+    EXPECT_EQ(document.cells[2].leaves_by_depth, host.leaves_by_depth);
     EXPECT_EQ(document.cells[2].samples[0].stages[0].elapsed_ns(), 1234);
 }
 

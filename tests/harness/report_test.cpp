@@ -73,6 +73,32 @@ TEST(CellReport, PrintsStagesCountersAndVerdict)
               "verdict: agrees with oibvh-reference, tree 00000000000000ff\n");
 }
 
+TEST(CellReport, SaysWhatIsMissingAndWhereTheLeavesAre)
+{
+    Cell cell = fake_cell();
+    cell.left_out = {{"epo", "not asked for"}};
+    cell.leaves_by_depth = {0, 1, 2, 4};
+    EXPECT_NE(cell_report(cell, fake_run())
+                  .find("no epo: not asked for\nlevels of leaves: 1–3, half by 3\nverdict: "),
+              std::string::npos);
+    EXPECT_EQ(depths_text({0, 3, 2, 1}), "1–3, half by 1");
+    EXPECT_EQ(depths_text({0, 0, 7}), "2");
+    EXPECT_EQ(depths_text({}), "");
+}
+
+TEST(QualityReport, IsThereIfEndPointOverlapIs)
+{
+    Cell cell = fake_cell();
+    cell.builder.order = "hilbert30";
+    cell.counters["sah_cost"] = 90;
+    cell.leaves_by_depth = {0, 0, 4};
+    EXPECT_EQ(quality_report({fake_run(), {cell}}), "");
+    cell.counters["epo"] = 12.345;
+    EXPECT_EQ(quality_report({fake_run(), {cell}}),
+              "scene  builder                   SAH    EPO  sibling overlap  levels of leaves\n"
+              "bunny  oibvh-multi, hilbert30  90.00  12.35                   2\n");
+}
+
 TEST(CellsReport, NeverPrintsATimeOfAWrongTree)
 {
     Cell wrong = fake_cell("oibvh-single");

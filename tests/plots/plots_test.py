@@ -131,6 +131,13 @@ class Reader(TemporaryFolder):
         self.assertEqual(run.left_out("table1"), [
             "oibvh-reference skipped on torus:2880000: slower than the time allowed a cell"])
 
+    def test_reads_the_levels_of_leaves_and_why_a_counter_is_missing(self) -> None:
+        for cell in results.load(GOLDEN / "quality.json").cells:
+            self.assertEqual(sum(cell.leaves_by_depth), cell.triangles)
+            self.assertEqual(len(cell.leaves_by_depth) - 1, cell.counters["depth_max"])
+            self.assertEqual(cell.left_out, {"epo": "not asked for: --epo"})
+        self.assertEqual(results.load(GOLDEN / "table1.json").cells[0].leaves_by_depth, [])
+
     def test_groups_cells_without_numbers_by_reason(self) -> None:
         cells = [{"experiment": "table1", "builder": {"name": builder}, "scene": {"name": scene},
                   "status": "failed", "reason": reason}
