@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "harness/clip.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace bvhbench {
@@ -21,22 +22,43 @@ Corner on_plane(const Corner& a, const Corner& b, int axis, double plane)
     return corner;
 }
 
-/// What lies on the side of `plane` where sign * coordinate >= sign * plane (Sutherland and Hodgman 1974).
-Polygon cut(const Polygon& polygon, int axis, double plane, double sign)
+void add(Polygon& polygon, const Corner& corner)
 {
-    const auto is_inside = [&](const Corner& corner) {
-        return sign * (corner.axis[axis] - plane) >= 0;
-    };
-    Polygon kept;
+    if (polygon.count < Polygon::most_corners)
+        polygon.corners[polygon.count++] = corner;
+}
+
+/// Into `kept` what lies on the side of `plane` where sign * coordinate >= sign * plane
+/// (Sutherland and Hodgman 1974).
+void cut(const Polygon& polygon, int axis, double plane, double sign, Polygon& kept)
+{
+    kept.count = 0;
+    const Corner* from = &polygon.corners[polygon.count - 1];
+    bool was_inside = sign * (from->axis[axis] - plane) >= 0;
     for (int i = 0; i < polygon.count; ++i) {
-        const Corner& from = polygon.corners[i];
-        const Corner& to = polygon.corners[i + 1 < polygon.count ? i + 1 : 0];
-        if (is_inside(from))
-            kept.corners[kept.count++] = from;
-        if (is_inside(from) != is_inside(to) && kept.count < 9)
-            kept.corners[kept.count++] = on_plane(from, to, axis, plane);
+        const Corner* to = &polygon.corners[i];
+        const bool is_inside = sign * (to->axis[axis] - plane) >= 0;
+        if (is_inside != was_inside)
+            add(kept, on_plane(*from, *to, axis, plane));
+        if (is_inside)
+            add(kept, *to);
+        from = to;
+        was_inside = is_inside;
     }
-    return kept;
+}
+
+/// Set the box of a polygon that has corners.
+void enclose(Polygon& polygon)
+{
+    for (int k = 0; k < 3; ++k) {
+        double low = polygon.corners[0].axis[k], high = low;
+        for (int i = 1; i < polygon.count; ++i) {
+            low = std::min(low, polygon.corners[i].axis[k]);
+            high = std::max(high, polygon.corners[i].axis[k]);
+        }
+        polygon.low[k] = low;
+        polygon.high[k] = high;
+    }
 }
 
 }  // namespace
@@ -44,21 +66,35 @@ Polygon cut(const Polygon& polygon, int axis, double plane, double sign)
 Polygon polygon_of(std::span<const Point> points, Face face)
 {
     Polygon polygon;
-    polygon.corners[0] = corner_of(points[face.a]);
-    polygon.corners[1] = corner_of(points[face.b]);
-    polygon.corners[2] = corner_of(points[face.c]);
-    polygon.count = 3;
+    for (const uint corner : {face.a, face.b, face.c})
+        add(polygon, corner_of(points[corner]));
+    enclose(polygon);
     return polygon;
 }
 
-Polygon clipped(const Polygon& polygon, const Aabb& box)
+void clip(const Polygon& polygon, const Aabb& box, Polygon& left)
 {
     const double low[3] = {box.min_x, box.min_y, box.min_z};
     const double high[3] = {box.max_x, box.max_y, box.max_z};
-    Polygon left = polygon;
-    for (int axis = 0; axis < 3 && left.count > 0; ++axis)
-        left = cut(cut(left, axis, low[axis], 1), axis, high[axis], -1);
-    return left;
+    Polygon other;
+    const Polygon* now = &polygon;
+    const auto keep = [&](int axis, double plane, double sign) {
+        Polygon& next = now == &left ? other : left;
+        cut(*now, axis, plane, sign, next);
+        now = &next;
+    };
+    for (int axis = 0; axis < 3; ++axis) {
+        if (now->count > 0 && polygon.low[axis] < low[axis])
+            keep(axis, low[axis], 1);
+        if (now->count > 0 && polygon.high[axis] > high[axis])
+            keep(axis, high[axis], -1);
+    }
+    if (now != &left) {
+        left.count = now->count;
+        std::copy_n(now->corners, now->count, left.corners);
+    }
+    if (left.count > 0)
+        enclose(left);
 }
 
 double area(const Polygon& polygon)

@@ -18,8 +18,10 @@ namespace bvhbench {
 /// boxes that any ray might meet, this counts those that a point of the surface is in without need.
 /// It is the cost of the sums given here. Nothing if all triangles together have no area.
 ///
-/// Every triangle descends from the root while some of it is in the box, and is cut to the box exactly.
+/// Every triangle descends from the root while some of it is in the box, and is cut to the box exactly, on as
+/// many threads as asked for, or as the host has. Their number does not change a bit of the sums.
+/// Throws Interrupted.
 std::optional<AreaSums> end_point_overlap(const HostTree& tree, std::span<const Point> points,
-                                          std::span<const Face> faces);
+                                          std::span<const Face> faces, unsigned threads = 0);
 
 }  // namespace bvhbench

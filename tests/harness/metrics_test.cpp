@@ -5,9 +5,7 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <random>
 
-#include "harness/clip.h"
 #include "harness/compensated_sum.h"
 #include "harness/end_point_overlap.h"
 #include "scenes/catalog.h"
@@ -164,64 +162,6 @@ TEST(Metrics, TakeATreeAsDeepAsItHasLeaves)
     EXPECT_EQ(quality.leaves_by_depth.size(), 100000u);
     EXPECT_EQ(quality.leaves_by_depth.back(), 2);
     EXPECT_GT(area_sums(chain)->inner, 40000) << "almost every box is the whole scene's";
-}
-
-TEST(EndPointOverlap, IsThatOfEveryNodeAgainstEveryTriangle)
-{
-    const Mesh mesh = make_soup(300);
-    const HostTree tree = host_oi_tree(mesh);
-    // By definition, without a hierarchy and without pruning.
-    std::vector<std::vector<bool>> below(tree.nodes.size(), std::vector<bool>(mesh.faces.size()));
-    for (std::size_t i = tree.nodes.size(); i-- > 0;) {
-        if (tree.nodes[i].primitive != HostTree::none)
-            below[i][static_cast<std::size_t>(tree.nodes[i].primitive)] = true;
-        for (const int child : tree.nodes[i].child)
-            for (std::size_t k = 0; child != HostTree::none && k < mesh.faces.size(); ++k)
-                below[i][k] = below[i][k] || below[static_cast<std::size_t>(child)][k];
-    }
-    double inner = 0, leaf = 0, surface = 0;
-    for (std::size_t k = 0; k < mesh.faces.size(); ++k) {
-        const Polygon polygon = polygon_of(mesh.points, mesh.faces[k]);
-        surface += area(polygon);
-        for (std::size_t i = 0; i < tree.nodes.size(); ++i)
-            if (!below[i][k])
-                (tree.nodes[i].primitive != HostTree::none ? leaf : inner) +=
-                    area(clipped(polygon, tree.nodes[i].box));
-    }
-    const AreaSums sums = end_point_overlap(tree, mesh.points, mesh.faces).value();
-    EXPECT_NEAR(sums.inner / (inner / surface), 1, 1e-12);
-    EXPECT_NEAR(sums.leaf / (leaf / surface), 1, 1e-12);
-}
-
-TEST(Clip, KeepsWhatIsInTheClosedBox)
-{
-    const std::vector<Point> points = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
-    const Polygon triangle = polygon_of(points, {0, 1, 2});
-    EXPECT_DOUBLE_EQ(area(triangle), 8);
-    EXPECT_DOUBLE_EQ(area(clipped(triangle, {0, 0, 0, 4, 4, 0})), 8) << "in the box's face";
-    EXPECT_DOUBLE_EQ(area(clipped(triangle, {0, 0, -1, 1, 1, 1})), 1);
-    EXPECT_DOUBLE_EQ(area(clipped(triangle, {1, 1, -1, 3, 3, 1})), 2) << "one corner is cut off";
-    EXPECT_EQ(area(clipped(triangle, {0, 0, 1, 4, 4, 2})), 0);
-    EXPECT_EQ(area(clipped(triangle, {4, 4, -1, 5, 5, 1})), 0);
-    EXPECT_EQ(area(clipped(triangle, {4, 0, -1, 5, 5, 1})), 0) << "they share a point";
-}
-
-TEST(Clip, OfTheCellsOfAGridAddsUpToTheTriangle)
-{
-    std::mt19937 random(7);
-    std::uniform_real_distribution<float> anywhere(-2, 2);
-    for (int repeat = 0; repeat < 200; ++repeat) {
-        std::vector<Point> points(3);
-        for (Point& point : points)
-            point = {anywhere(random), anywhere(random), anywhere(random)};
-        const Polygon triangle = polygon_of(points, {0, 1, 2});
-        double sum = 0;
-        for (float x = -2; x < 2; ++x)
-            for (float y = -2; y < 2; ++y)
-                for (float z = -2; z < 2; ++z)
-                    sum += area(clipped(triangle, {x, y, z, x + 1, y + 1, z + 1}));
-        EXPECT_NEAR(sum, area(triangle), 1e-12);
-    }
 }
 
 TEST(CompensatedSum, LosesNothingToALargeNumberThatGoesAgain)
