@@ -18,6 +18,7 @@ import fig8
 import figure
 import pareto_orders
 import results
+import scaling
 import style
 import table1
 import table4
@@ -29,6 +30,7 @@ FIGURES: dict[str, figure.Draw] = {
     "fig8": fig8.draw,
     "fig13": fig13.draw,
     "quality": pareto_orders.draw,
+    "scaling": scaling.draw,
 }
 
 

@@ -26,14 +26,8 @@ PANEL_HEIGHT = 1.9  # inches
 Point = tuple[float, float, results.Cell]  # milliseconds, cost
 
 
-def whole_time_s(cell: results.Cell) -> float:
-    """Median over samples of all stages together."""
-    stages = [name for name in cell.samples[0]]
-    return results.quantiles(sum(cell.times_s(stage) for stage in stages)).median
-
-
 def points_of(cells: list[results.Cell]) -> list[Point]:
-    return [(1e3 * whole_time_s(cell), cell.counters["sah_cost"], cell) for cell in cells
+    return [(1e3 * results.quantiles(cell.whole_times_s()).median, cell.counters["sah_cost"], cell) for cell in cells
             if cell.samples and "sah_cost" in cell.counters]
 
 

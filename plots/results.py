@@ -52,6 +52,10 @@ class Cell:
         times = [entry["span_ns"] if "span_ns" in entry else entry["wall_ns"] for entry in stages]
         return numpy.array(times, dtype=float) * 1e-9
 
+    def whole_times_s(self) -> numpy.ndarray:
+        """Seconds per sample of all stages together."""
+        return sum((self.times_s(stage) for stage in self.samples[0]), numpy.zeros(len(self.samples)))
+
     @property
     def on_host(self) -> bool:
         return any("wall_ns" in entry for sample in self.samples for entry in sample.values())

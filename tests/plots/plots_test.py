@@ -17,6 +17,7 @@ sys.path.insert(0, str(ROOT / "plots"))
 
 import fig8  # noqa: E402
 import results  # noqa: E402
+import scaling  # noqa: E402
 import style  # noqa: E402
 
 
@@ -45,7 +46,7 @@ class Scripts(TemporaryFolder):
         self.assertIn("</svg>", svg.read_text(encoding="utf-8"), svg)
 
     def test_all_draws_what_each_draws_byte_for_byte(self) -> None:
-        for name in ("table1", "table4", "fig8", "fig13"):
+        for name in ("table1", "table4", "fig8", "fig13", "scaling"):
             done = self.run_script(f"{name}.py", GOLDEN / f"{name}.json", "--out", self.folder / "out")
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             self.assert_pictures(name)
@@ -53,7 +54,8 @@ class Scripts(TemporaryFolder):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         names = sorted(path.name for path in (self.folder / "all").iterdir())
         self.assertEqual(names, [
-            f"{name}.{end}" for name in ("fig13", "fig8", "quality", "table1", "table4") for end in ("png", "svg")])
+            f"{name}.{end}" for name in ("fig13", "fig8", "quality", "scaling", "table1", "table4")
+            for end in ("png", "svg")])
         done = self.run_script("pareto_orders.py", GOLDEN / "quality.json", "--out", self.folder / "out")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         for name in names:
@@ -176,6 +178,26 @@ class Crossing(unittest.TestCase):
         slow, fast = self.curve([2, 2, 2]), self.curve([1, 1, 1])
         self.assertIsNone(fig8.crossing(slow, fast))
         self.assertIsNone(fig8.crossing(fast, slow))
+
+
+class Scaling(TemporaryFolder):
+    def test_has_a_panel_a_stage_and_one_for_the_whole_build(self) -> None:
+        run = results.load(GOLDEN / "scaling.json")
+        self.assertEqual(scaling.stages_of(run.of("scaling")), ["bounds", "codes", "sort", "hierarchy"])
+        drawing = scaling.draw(run)
+        titles = [axes.get_title("left") for axes in drawing.axes]
+        self.assertEqual(titles, ["bounds", "codes", "sort", "hierarchy", "whole build"] + 5 * [""])
+        self.assertEqual([len(axes.lines) for axes in drawing.axes], 10 * [4])
+
+    def test_adds_the_stages_up_and_divides_by_the_triangles(self) -> None:
+        run = results.load(GOLDEN / "scaling.json")
+        cell = run.of("scaling")[0]
+        whole = results.quantiles(sum(cell.times_s(stage) for stage in scaling.stages_of([cell]))).median
+        axes = scaling.draw(run).axes
+        above, below = axes[4].lines[0], axes[9].lines[0]
+        self.assertEqual(above.get_label(), cell.builder)
+        self.assertAlmostEqual(above.get_ydata()[0], 1e3 * whole)
+        self.assertAlmostEqual(below.get_ydata()[0], 1e9 * whole / cell.triangles)
 
 
 class Looks(unittest.TestCase):
