@@ -30,6 +30,7 @@ FIGURES: dict[str, figure.Draw] = {
     "fig8": fig8.draw,
     "fig13": fig13.draw,
     "quality": pareto_orders.draw,
+    "orders": pareto_orders.draw,
     "scaling": scaling.draw,
 }
 

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
-"""What a better tree costs: time of the whole build against surface area cost, a point a builder and order.
+"""What a better tree costs: time of the whole build against how good the tree is, a point a builder and order.
 
     plots/pareto_orders.py FILE... --out DIR
 
-A panel a scene. Reads any file whose cells have several orders or builders; the line joins what is not beaten
-by another in both (the Pareto front), and those points are filled.
+A panel a scene, beside it one for builders on the host, whose times are of another kind. Reads any file whose
+cells have several orders or builders, and shows all of them, the worse ones too. Numbers are orders; the line joins
+what is not beaten by another in both time and cost (the Pareto front), and those points are filled. Where cells
+count the box tests of a collision query (box_tests_count), a second row shows time against those.
 """
 from __future__ import annotations
 
@@ -12,23 +14,26 @@ import math
 import sys
 
 import matplotlib.pyplot as plt
+from matplotlib.axis import Axis
 from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
+from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 import figure
+import labels
 import results
 import style
 
-COLUMNS = 3
+COLUMNS = 2
+MEASURES = {"sah_cost": "surface area cost", "box_tests_count": "box tests of a query"}
 ALONG_A_CURVE = ("oibvh", "perfect", "apetrei", "karras", "lbvh", "radix")
-MARKERS = "osD^vP*X<>hd"  # an order each, by first appearance: here a colour is a builder
-PANEL_HEIGHT = 1.9  # inches
-Point = tuple[float, float, results.Cell]  # milliseconds, cost
+PANEL_HEIGHT = 2.2  # inches
+HOST_WIDTH = 0.42  # of the panel beside
+Point = tuple[float, float, results.Cell]  # milliseconds, measure
 
 
-def points_of(cells: list[results.Cell]) -> list[Point]:
-    return [(1e3 * results.quantiles(cell.whole_times_s()).median, cell.counters["sah_cost"], cell) for cell in cells
-            if cell.samples and "sah_cost" in cell.counters]
+def points_of(cells: list[results.Cell], measure: str = "sah_cost") -> list[Point]:
+    return [(1e3 * results.quantiles(cell.whole_times_s()).median, cell.counters[measure], cell) for cell in cells
+            if cell.samples and measure in cell.counters]
 
 
 def front(points: list[Point]) -> list[Point]:
@@ -40,59 +45,128 @@ def front(points: list[Point]) -> list[Point]:
     return kept
 
 
-def order_of(cell: results.Cell) -> str:
-    """Builders that sort along no curve ignore the option."""
+def order_of(cell: results.Cell) -> str | None:
+    """None of builders that sort along no curve: they ignore the option."""
     if not cell.builder.startswith(ALONG_A_CURVE):
-        return "own order"
+        return None
     return dict(cell.options).get("order", "morton30")
 
 
-def draw_scene(axes: plt.Axes, scene: str, points: list[Point], markers: dict[str, str]) -> None:
-    best = front(points)
-    axes.plot([time for time, _, _ in best], [cost for _, cost, _ in best], color="#888888", linewidth=0.8, zorder=1)
-    for time, cost, cell in points:
-        colour = style.look(cell.builder).colour
-        is_best = any(cell is other for _, _, other in best)
-        axes.plot(time, cost, marker=markers[order_of(cell)], linestyle="none", markeredgecolor=colour,
-                  markerfacecolor=colour if is_best else "white")
-    axes.set_title(f"{scene}\n{points[0][2].triangles:,} triangles", loc="left", fontsize=7)
-    axes.set_xscale("log")  # a host builder takes a thousand times as long as one on a GPU
-    axes.margins(x=0.12)
-    figure.log_ticks(axes.xaxis, min(time for time, _, _ in points), max(time for time, _, _ in points))
-    axes.set_ylim(0, 1.12 * max(cost for _, cost, _ in points))
+def ticks_between(low: float, high: float, most: int) -> list[float]:
+    """Round numbers for a logarithmic axis, as many as may be."""
+    found: list[float] = []
+    for steps in ((1,), (1, 3), (1, 2, 5), (1, 1.5, 2, 3, 5, 7), (1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8)):
+        decades = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
+        ticks = [float(f"{step}e{decade}") for decade in decades for step in steps]
+        ticks = [tick for tick in ticks if low <= tick <= high]
+        if len(ticks) <= most:
+            found = ticks
+    return found
+
+
+def scale(axis: Axis, values: list[float], most: int) -> None:
+    """Logarithmic, with room for markers and numbers."""
+    low, high = min(values), max(values)
+    low, high = low / 1.15 / (high / low) ** 0.1, high * 1.15 * (high / low) ** 0.1
+    axis.axes.set(**{f"{axis.axis_name}scale": "log", f"{axis.axis_name}lim": (low, high)})
+    axis.set_major_locator(FixedLocator(ticks_between(low, high, most)))
+    axis.set_minor_locator(NullLocator())
+    axis.set_major_formatter(FuncFormatter(
+        lambda value, _: f"{value / 1e6:,g} M" if value >= 1e6 else f"{value:,g}"))
+
+
+def draw_points(axes: plt.Axes, points: list[Point], best: list[Point]) -> None:
+    """Those of one clock; the front is that of all."""
+    joined = [point for point in best if point in points]
+    axes.plot([time for time, _, _ in joined], [value for _, value, _ in joined], color="#888888", linewidth=0.8,
+              zorder=1)
+    for point in points:
+        look = style.look(point[2].builder)
+        axes.plot(*point[:2], marker=look.marker, linestyle="none", markeredgecolor=look.colour,
+                  markerfacecolor=look.colour if point in best else "white")
     axes.grid(axis="x")
 
 
+class Panels:
+    """A grid of scenes, for each one row a measure, and in it one panel a clock."""
+
+    def __init__(self, by_scene: dict[str, list[results.Cell]], measures: list[str]):
+        self.has_host = any(cell.on_host for cells in by_scene.values() for cell in cells)
+        self.clocks = 2 if self.has_host else 1
+        self.columns = min(COLUMNS, len(by_scene))
+        lines = math.ceil(len(by_scene) / self.columns)
+        rows = lines * len(measures)
+        self.figure, grid = plt.subplots(
+            rows, self.columns * self.clocks, figsize=(style.PAGE_WIDTH, 1.2 + PANEL_HEIGHT * rows), squeeze=False,
+            layout="constrained", width_ratios=(1, HOST_WIDTH)[:self.clocks] * self.columns)
+        self.labels: list[tuple[plt.Axes, list[labels.Label], list[labels.Place]]] = []
+        unused = set(grid.flat)
+        for place, cells in enumerate(by_scene.values()):
+            for number, measure in enumerate(measures):
+                row = place // self.columns * len(measures) + number
+                left = place % self.columns * self.clocks
+                unused -= set(self.draw(grid[row][left:left + self.clocks], cells, measure, number == 0))
+        for axes in unused:
+            axes.remove()
+
+    def draw(self, pair: list[plt.Axes], cells: list[results.Cell], measure: str, is_first: bool) -> list[plt.Axes]:
+        """One scene and measure; answers the axes that show something."""
+        points = points_of(cells, measure)
+        best = front(points)
+        used = []
+        for axes, on_host in zip(pair, (False, True)):
+            here = [point for point in points if point[2].on_host == on_host]
+            if not here:
+                continue
+            draw_points(axes, here, best)
+            scale(axes.xaxis, [time for time, _, _ in here], 3 if on_host else 6)
+            scale(axes.yaxis, [value for _, value, _ in points], 6)
+            used.append(axes)
+            axes.set_xlabel("on the host, ms" if on_host else "whole build, ms")
+            self.labels.append((axes, [labels.Label(time, value, order_of(cell), style.look(cell.builder).colour)
+                                       for time, value, cell in here if order_of(cell)],
+                                [point[:2] for point in best if point in here]))
+        for axes in used[:1]:
+            axes.set_ylabel(MEASURES[measure])
+            if is_first:
+                axes.set_title(f"{cells[0].scene}, {cells[0].triangles:,} triangles", loc="left", fontsize=7)
+        for axes in used[1:]:
+            axes.tick_params(labelleft=False)
+        return used
+
+    def number(self, orders: dict[str, int]) -> None:
+        self.figure.draw_without_rendering()  # settles the layout
+        self.figure.set_layout_engine("none")
+        for axes, wanted, path in self.labels:
+            numbers = [labels.Label(label.x, label.y, str(orders[label.text]), label.colour) for label in wanted]
+            labels.draw(axes, numbers, path)
+
+
+def legend(drawing: plt.Figure, cells: list[results.Cell], orders: dict[str, int]) -> float:
+    builders = [name for name in style.LOOKS if any(cell.builder == name for cell in cells)]
+    handles = [Line2D([], [], color=style.look(name).colour, marker=style.look(name).marker, linestyle="none",
+                      label=name) for name in builders]
+    handles += [Line2D([], [], color="#222222", marker=f"${number}$", markersize=4.2 * len(str(number)),
+                       markeredgewidth=0.2, linestyle="none", label=order) for order, number in orders.items()]
+    return figure.legend_above(drawing, handles, columns=6)
+
+
 def draw(run: results.Run) -> plt.Figure:
-    by_scene = {scene: points_of([cell for cell in run.builds if cell.scene == scene])
+    by_scene = {scene: [cell for cell in run.builds if cell.scene == scene]
                 for scene in dict.fromkeys(cell.scene for cell in run.builds)}
-    by_scene = {scene: points for scene, points in by_scene.items() if len(points) > 1}
+    by_scene = {scene: cells for scene, cells in by_scene.items() if len(points_of(cells)) > 1}
     if not by_scene:
         raise results.Refused(f"{run.path}: no scene has times and surface area costs of two builders or orders")
-    columns = min(COLUMNS, len(by_scene))
-    rows = math.ceil(len(by_scene) / columns)
-    drawing, grid = plt.subplots(rows, columns, figsize=(style.PAGE_WIDTH, 1.4 + PANEL_HEIGHT * rows),
-                                 squeeze=False, layout="constrained")
-    panels = [axes for line in grid for axes in line]
-    orders = dict.fromkeys(order_of(cell) for points in by_scene.values() for _, _, cell in points)
-    markers = {order: MARKERS[place % len(MARKERS)] for place, order in enumerate(orders)}
-    for axes, (scene, points) in zip(panels, by_scene.items()):
-        draw_scene(axes, scene, points, markers)
-    for axes in panels[len(by_scene):]:
-        axes.remove()
-    for line in grid:
-        line[0].set_ylabel("surface area cost")
-    for axes in panels[max(0, len(by_scene) - columns):len(by_scene)]:
-        axes.set_xlabel("whole build, ms")
-    cells = [cell for points in by_scene.values() for _, _, cell in points]
-    names = [name for name in style.LOOKS if any(cell.builder == name for cell in cells)]
-    handles = [Patch(facecolor=style.look(name).colour, label=name) for name in names]
-    handles += [Line2D([], [], color="#222222", marker=marker, linestyle="none", label=order)
-                for order, marker in markers.items()]
-    height = figure.legend_above(drawing, handles, columns=6)
-    remark = "Down and left is better. Filled, joined: beaten by none in both time and cost. Times: medians."
-    figure.footer(drawing, run, cells[0].experiment, (remark,), height)
-    return drawing
+    cells = [cell for cells in by_scene.values() for cell in cells]
+    measures = [measure for measure in MEASURES if any(measure in cell.counters for cell in cells)]
+    orders = dict.fromkeys(order for cell in cells if (order := order_of(cell)))
+    orders = {order: number for number, order in enumerate(orders, 1)}
+    panels = Panels(by_scene, measures)
+    height = legend(panels.figure, cells, orders)
+    remark = "Numbers are orders. Down and left is better. Filled, joined: no other is as good in both. Times: medians."
+    figure.footer(panels.figure, run, cells[0].experiment, (remark, run.costs_remark()), height)
+    panels.number(orders)
+    return panels.figure
 
 
 if __name__ == "__main__":

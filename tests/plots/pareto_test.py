@@ -1,0 +1,135 @@
+#!/usr/bin/env python3
+"""The figure of orders shows every point, marks the best, and keeps its numbers apart.
+
+Usage: pareto_test.py <source root>
+"""
+import copy
+import itertools
+import json
+import math
+import pathlib
+import random
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
+GOLDEN = ROOT / "tests" / "golden" / "quality.json"
+sys.path.insert(0, str(ROOT / "plots"))
+
+import labels  # noqa: E402
+import pareto_orders  # noqa: E402
+import results  # noqa: E402
+import style  # noqa: E402
+from matplotlib.text import Text  # noqa: E402
+
+ORDERS = [f"order{number}" for number in range(1, 15)]
+
+
+class Labels(unittest.TestCase):
+    def test_cover_neither_each_other_nor_points(self) -> None:
+        noise = random.Random(4)
+        frame = labels.Box(0, 0, 170, 120)
+        points = [(noise.gauss(60, 14), noise.gauss(50, 14)) for _ in range(28)]
+        texts = [str(number) for number in range(1, 29)]
+        found = labels.offsets(points, texts, frame, [])
+        boxes = [labels.box_at(x + dx, y + dy, text) for (x, y), (dx, dy), text in zip(points, found, texts)]
+        for one, other in itertools.combinations(boxes, 2):
+            self.assertEqual(labels.shared(one, other), 0)
+        for box, (x, y) in itertools.product(boxes, points):
+            self.assertFalse(labels.meets(box, (x, y), (x, y)))
+        for box in boxes:
+            self.assertAlmostEqual(labels.shared(box, frame), box.area)
+
+    def test_are_nearest_to_their_own_point(self) -> None:
+        points = [(40.0, 50.0), (48.0, 50.0), (60.0, 50.0)]
+        found = labels.offsets(points, ["1", "2", "3"], labels.Box(0, 0, 100, 100), [])
+        for (x, y), (dx, dy) in zip(points, found):
+            place = (x + dx, y + dy)
+            self.assertEqual(min(points, key=lambda point: math.dist(point, place)), (x, y))
+
+    def test_keep_off_lines(self) -> None:
+        line = ((50.0, 0.0), (50.0, 100.0))
+        (dx, dy), = labels.offsets([(50.0, 50.0)], ["10"], labels.Box(0, 0, 100, 100), [line])
+        self.assertFalse(labels.meets(labels.box_at(50 + dx, 50 + dy, "10"), *line))
+
+    def test_know_the_lines_that_meet_a_box(self) -> None:
+        box = labels.Box(0, 0, 2, 1)
+        for start, end, expected in (((-1, 0.5), (3, 0.5), True), ((1, 0.5), (1, 0.6), True), ((-1, 2), (3, 2), False),
+                                     ((-1, 0), (1, 3), False), ((3, 0), (5, 1), False), ((1, -1), (1, 2), True)):
+            self.assertEqual(labels.meets(box, start, end), expected, (start, end))
+
+
+class Figure(unittest.TestCase):
+    def setUp(self) -> None:
+        style.set_up()
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.path = pathlib.Path(holder.name) / "quality.json"
+        self.document = json.loads(GOLDEN.read_text(encoding="utf-8"))
+
+    def many(self, with_tests: bool) -> results.Run:
+        """Fourteen orders of two builders on two scenes, one order much worse than all others, and a host builder."""
+        noise = random.Random(6)
+        scenes = list(dict.fromkeys(cell["scene"]["name"] for cell in self.document["cells"]))[:2]
+        cells = []
+        for scene, builder, order in itertools.product(scenes, ("oibvh-multi", "apetrei-fused", "sah-binned"), ORDERS):
+            if builder == "sah-binned" and order != ORDERS[0]:
+                continue
+            cell = copy.deepcopy(next(c for c in self.document["cells"] if c["scene"]["name"] == scene))
+            cell["builder"] = {"name": builder, "options": {"order": order}}
+            worse = 9 if order == "order12" else 1
+            cell["counters"]["sah_cost"] = worse * noise.uniform(100, 140)
+            time = int(noise.uniform(2e5, 3e5))
+            stage = {"stage": "hierarchy", "launches": 1, "busy_ns": time, "span_ns": time, "moved_bytes": 1}
+            if builder == "sah-binned":
+                stage = {"stage": "hierarchy", "wall_ns": 400 * time}
+            elif with_tests:
+                cell["counters"]["box_tests_count"] = int(worse * noise.uniform(1e6, 2e6))
+            cell["samples"] = [{"order": 0, "stages": [stage]}]
+            cells.append(cell)
+        self.path.write_text(json.dumps(self.document | {"cells": cells}), encoding="utf-8")
+        return results.load(self.path)
+
+    def test_shows_every_point_with_its_number(self) -> None:
+        drawing = pareto_orders.draw(self.many(with_tests=False))
+        device, host = drawing.axes[:2]
+        self.assertEqual(len(drawing.axes), 4)
+        self.assertEqual(len(device.lines) - 1, 28)  # and the front
+        self.assertEqual(sorted(int(text.get_text()) for text in device.texts), sorted(2 * list(range(1, 15))))
+        self.assertEqual((len(host.lines) - 1, len(host.texts)), (1, 0))
+        low, high = device.get_ylim()
+        for line in device.lines:
+            self.assertTrue(all(low < y < high for y in line.get_ydata()))
+
+    def test_keeps_its_numbers_apart(self) -> None:
+        drawing = pareto_orders.draw(self.many(with_tests=True))
+        drawing.draw_without_rendering()
+        for axes in drawing.axes:
+            # Of the words without the line to their point; digits need less than their line's height.
+            boxes = [labels.Box(*Text.get_window_extent(text).padded(-1).extents) for text in axes.texts]
+            for one, other in itertools.combinations(boxes, 2):
+                self.assertEqual(labels.shared(one, other), 0)
+
+    def test_has_a_second_row_for_box_tests_where_there_are_some(self) -> None:
+        drawing = pareto_orders.draw(self.many(with_tests=True))
+        names = [axes.get_ylabel() for axes in drawing.axes if axes.get_ylabel()]
+        self.assertEqual(sorted(names), 2 * ["box tests of a query"] + 2 * ["surface area cost"])
+        self.assertEqual(len(drawing.axes), 6)  # no query over a host builder's tree
+
+    def test_fills_what_no_other_is_as_good_as(self) -> None:
+        run = self.many(with_tests=False)
+        points = pareto_orders.points_of([cell for cell in run.cells if cell.scene == run.cells[0].scene])
+        best = pareto_orders.front(points)
+        for time, cost, cell in points:
+            beaten = any(t <= time and c <= cost and other is not cell for t, c, other in points)
+            self.assertEqual(any(cell is other for _, _, other in best), not beaten)
+
+    def test_takes_few_round_numbers_for_an_axis(self) -> None:
+        self.assertEqual(pareto_orders.ticks_between(0.16, 0.42, 6), [0.2, 0.25, 0.3, 0.4])
+        self.assertEqual(pareto_orders.ticks_between(4, 600, 3), [10, 100])
+        self.assertEqual(pareto_orders.ticks_between(0.1, 2, 6), [0.1, 0.2, 0.5, 1, 2])
+
+
+if __name__ == "__main__":
+    unittest.main()
