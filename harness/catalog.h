@@ -45,8 +45,6 @@ struct BuilderChoice {
     unsigned group_size = 0;
     unsigned items = 0;
     bool sorted_leaves = false;
-    /// Whether an experiment does without it, in a skipped cell, where a program does not know it or its order.
-    bool if_there = false;
 
     bool operator==(const BuilderChoice&) const = default;
     BuildOptions options() const

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "builders/orders.h"
 #include "geometry/error.h"
 #include "harness/scene_range.h"
 
@@ -71,8 +72,7 @@ BuilderChoice builder_of(const Json& json)
     if (json.is_string()) {
         choice.name = json.get<std::string>();
     } else {
-        refuse_unknown_keys(json, {"name", "order", "group_size", "items", "leaves", "if_there"},
-                            "a builder");
+        refuse_unknown_keys(json, {"name", "order", "group_size", "items", "leaves"}, "a builder");
         choice.name = text_at(json, "name");
         if (json.contains("order"))
             choice.order = text_at(json, "order");
@@ -87,11 +87,9 @@ BuilderChoice builder_of(const Json& json)
                 throw BadUsage("'leaves' is mesh or sorted, not '" + leaves + "'");
             choice.sorted_leaves = leaves == "sorted";
         }
-        if (json.contains("if_there"))
-            choice.if_there = truth_at(json, "if_there");
     }
-    if (!choice.if_there)
-        find_builder(choice.name);
+    find_builder(choice.name);
+    find_order(choice.order);
     return choice;
 }
 

@@ -20,7 +20,7 @@ namespace bvhbench {
 ///      "builders": ["perfect", {"name": "oibvh-multi", "group_size": 256}],
 ///      "stages": ["hierarchy"], "samples": 30, "warm_up": 3, "quality": true, "quick": {"samples": 5}}
 ///
-/// A builder with `"if_there": true` is a skipped cell in a program that does not know it or its order.
+/// A builder that this program was built without is a skipped cell.
 /// `"operations": ["build", "refit"]` makes two cells of each builder, both about the scene's second frame: one
 /// builds over it, one has built over the first and refits. The default is to build, over the first.
 /// `quick` replaces `scenes`, `builders`, `samples` or `warm_up` for --quick. In a scene with sizes, the key

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "builders/orders.h"
 #include "device/copy_rate.h"
 #include "geometry/error.h"
 #include "harness/check.h"
@@ -47,21 +46,6 @@ std::vector<BuilderChoice> chosen(const Experiment& experiment, const std::strin
         if (!filter || std::regex_search(scene + '/' + builder.name, *filter))
             builders.push_back(builder);
     return builders;
-}
-
-/// Why this program cannot make the builder; empty if it can. Throws BadUsage for one that must be there.
-std::string absence(const BuilderChoice& choice)
-{
-    try {
-        const BuilderEntry& entry = find_builder(choice.name);
-        find_order(choice.order);
-        return entry.make == nullptr ? std::string(entry.absent) : std::string();
-    } catch (const BadUsage& error) {
-        if (!choice.if_there)
-            throw;
-        const std::string sentence = error.what();
-        return sentence.substr(0, sentence.find(';'));  // without what there is instead
-    }
 }
 
 void put(Quality&& quality, Cell& cell)
@@ -164,7 +148,7 @@ void Run::scene(const Experiment& experiment, const std::string& name,
 Run::Prepared Run::prepare(const Experiment& experiment, const Frames& frames, Cell cell,
                            Oracles& oracles)
 {
-    std::string why_not = absence(cell.builder);
+    std::string why_not(find_builder(cell.builder.name).absent);
     if (!why_not.empty())
         return {unmeasured(std::move(cell), Cell::Status::skipped, std::move(why_not))};
 

@@ -68,7 +68,7 @@ TEST(Experiment, NamesTheKeyThatItDoesNotKnowAndThoseItDoes)
     EXPECT_EQ(refusal(R"({"experiment": "a", "scenes": ["soup:1"],
                           "builders": [{"name": "perfect", "size": 3}]})"),
               "x.json: 'size' is no key of a builder; there are: name, order, group_size, items, "
-              "leaves, if_there");
+              "leaves");
     EXPECT_EQ(refusal(R"({"experiment": "a", "scenes": [{"scene": "soup:{t}", "t": {"til": 3}}],
                           "builders": ["perfect"]})"),
               "x.json: 'til' is no key of the sizes 't'; there are: from, to, powers_of_two_from, "
@@ -115,6 +115,8 @@ TEST(Experiment, RefusesWhatMakesNoSense)
                  "builders": ["perfect"]})",
             R"({"experiment": "a", "scenes": ["b"],
                  "builders": [{"name": "perfect", "leaves": "both"}]})",
+            R"({"experiment": "a", "scenes": ["b"],
+                 "builders": [{"name": "perfect", "order": "zigzag"}]})",
         })
         EXPECT_TRUE(refusal(text).starts_with("x.json: ")) << text;
 }
@@ -123,14 +125,6 @@ TEST(Experiment, OnlyBuildsUnlessItSaysOtherwise)
 {
     for (const std::string_view name : experiment_names())
         EXPECT_EQ(find_experiment(std::string(name), false).has(Operation::refit), name == "refit");
-}
-
-TEST(Experiment, MayNameABuilderThatIsNotThereIfItSaysSo)
-{
-    const Experiment experiment = parse_experiment(
-        R"({"experiment": "a", "scenes": ["b"], "builders": [{"name": "no-such", "if_there": true}]})",
-        "x.json", false);
-    EXPECT_TRUE(experiment.builders.front().if_there);
 }
 
 TEST(Experiment, OfAnUnknownNameIsAnsweredWithThoseThereAre)
