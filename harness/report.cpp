@@ -160,21 +160,6 @@ std::string copy_share_text(double bytes, double ns, double copy_rate_bytes_per_
     return fixed(100 * (bytes / (ns * 1e-9)) / copy_rate_bytes_per_s, 1) + " %";
 }
 
-std::string variant_text(const BuilderChoice& builder)
-{
-    const BuilderChoice usual;
-    std::string text = builder.name;
-    if (builder.order != usual.order)
-        text += ", " + builder.order;
-    if (builder.group_size != usual.group_size)
-        text += ", groups of " + std::to_string(builder.group_size);
-    if (builder.items != usual.items)
-        text += ", " + std::to_string(builder.items) + " items";
-    if (builder.sorted_leaves)
-        text += ", sorted leaves";
-    return text;
-}
-
 std::string verdict_text(const Cell& cell)
 {
     if (cell.status != Cell::Status::measured)

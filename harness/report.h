@@ -25,9 +25,6 @@ double moved_bytes(const Cell& cell);
 /// "8.1 %" of the copy rate that `bytes` in `ns` are; blank if one of them is not known.
 std::string copy_share_text(double bytes, double ns, double copy_rate_bytes_per_s);
 
-/// The builder's name, with the options that are not the default.
-std::string variant_text(const BuilderChoice& builder);
-
 /// "agrees", "differs", "not checked", "skipped" or "failed".
 std::string verdict_text(const Cell& cell);
 
