@@ -22,7 +22,8 @@ bool is_radix(const std::string& builder)
 
 std::string number(double value) { return value > 0 ? fixed(value, 2) : ""; }
 
-/// Both kinds of tree on each scene in each order, in the order of the cells.
+/// Both kinds of tree on each scene in each order, in the order of the cells. An order without a radix tree of
+/// its own is paired with the scene's first.
 std::vector<CostPair> cost_pairs(const Document& document)
 {
     std::vector<CostPair> pairs;
@@ -37,9 +38,18 @@ std::vector<CostPair> cost_pairs(const Document& document)
         if (sah_cost(mine) <= 0)  // of several builders of one tree, the first that has it
             mine = &cell;
     }
+    std::map<std::string, const Cell*> first_radix;
+    for (CostPair& pair : pairs) {
+        if (pair.radix != nullptr)
+            first_radix.try_emplace(pair.radix->scene.name, pair.radix);
+        else if (const auto found = first_radix.find(pair.oibvh->scene.name);
+                 found != first_radix.end())
+            pair.radix = found->second;
+    }
     return pairs;
 }
 
+/// The cell that says the pair's order and scene.
 const Cell& either(const CostPair& pair) { return pair.oibvh ? *pair.oibvh : *pair.radix; }
 
 /// Why a pair has no ratio: what a cell of it says.

@@ -4,7 +4,8 @@
     plots/fig13.py FILE... --out DIR
 
 The triangle moves along its normal, by multiples of the diagonal of the mesh's box (the paper's Fig. 12).
-Left both costs, right their ratio, which is what the paper plots.
+Left the costs, right their ratio, which is what the paper plots. An Oi-BVH in another order than the radix
+tree's is compared with the same radix tree, and drawn in a colour of its own.
 """
 from __future__ import annotations
 
@@ -18,14 +19,22 @@ import style
 import table4
 
 SAYS = "In the paper: “the SAH cost of our method grows much faster compared to the LBVH” (Sec. 7)."
+ORDER_COLOURS = ("#222222", "#009e73", "#cc79a7", "#e69f00")  # of ratios: the paper's order first
 Costs = dict[float, tuple[tuple[str, float], tuple[str, float]]]  # by diameters: (builder, cost) of radix and Oi
 
 
-def costs_of(cells: list[results.Cell]) -> Costs:
+def order_of(cell: results.Cell) -> str:
+    return dict(cell.options).get("order", "")
+
+
+def costs_of(cells: list[results.Cell], order: str) -> Costs:
+    """Of the Oi-BVH in an order, beside the radix tree there is."""
     found = {}
     for diameters in sorted({cell.outlier["diameters"] for cell in cells}):
         here = [cell for cell in cells if cell.outlier["diameters"] == diameters]
-        radix, oibvh = (table4.cost_of(here, builders) for _, builders in table4.KINDS)
+        ordered = [cell for cell in here if order_of(cell) == order]
+        (_, radix_builders), (_, oibvh_builders) = table4.KINDS
+        radix, oibvh = table4.cost_of(here, radix_builders), table4.cost_of(ordered, oibvh_builders)
         if radix and oibvh:
             found[diameters] = (radix, oibvh)
     return found
@@ -34,24 +43,32 @@ def costs_of(cells: list[results.Cell]) -> Costs:
 def draw(run: results.Run) -> plt.Figure:
     cells = [cell for cell in run.of("fig13") if cell.outlier]
     models = list(dict.fromkeys(cell.outlier["of"] for cell in cells))
-    curves = {model: costs_of([cell for cell in cells if cell.outlier["of"] == model]) for model in models}
-    curves = {model: costs for model, costs in curves.items() if costs}
+    oibvh_builders = table4.KINDS[1][1]
+    orders = list(dict.fromkeys(order_of(cell) for cell in cells if cell.builder in oibvh_builders))
+    curves = {(model, order): costs_of([cell for cell in cells if cell.outlier["of"] == model], order)
+              for model in models for order in orders}
+    curves = {key: costs for key, costs in curves.items() if costs}
     if not curves:
         raise results.Refused(f"{run.path}: no mesh of fig13 has the costs of a radix tree and an Oi-BVH")
-    drawing, (cost_axes, ratio_axes) = plt.subplots(1, 2, figsize=(style.PAGE_WIDTH, 3.2), layout="constrained")
-    for model, line in zip(curves, style.VARIANT_LINES):
-        costs = curves[model]
-        for side in (0, 1):
+    drawing, (cost_axes, ratio_axes) = plt.subplots(1, 2, figsize=(style.PAGE_WIDTH, 3.4), layout="constrained")
+    several = len(orders) > 1
+    for (model, order), costs in curves.items():
+        line = style.VARIANT_LINES[models.index(model)]
+        colour = ORDER_COLOURS[orders.index(order) % len(ORDER_COLOURS)]
+        for side in (0, 1) if order == orders[0] else (1,):
             builder = next(iter(costs.values()))[side][0]
             look = style.look(builder)
-            cost_axes.plot(list(costs), [pair[side][1] for pair in costs.values()], color=look.colour,
-                           marker=look.marker, linestyle=line, label=f"{builder}, {model}")
-        ratio_axes.plot(list(costs), [oibvh[1] / radix[1] for radix, oibvh in costs.values()], color="#222222",
-                        marker=".", linestyle=line, label=model)
+            label = f"{builder}, {model}" + (f", {order}" if several and side == 1 else "")
+            cost_axes.plot(list(costs), [pair[side][1] for pair in costs.values()],
+                           color=look.colour if order == orders[0] else colour, marker=look.marker, linestyle=line,
+                           label=label)
+        ratio_axes.plot(list(costs), [oibvh[1] / radix[1] for radix, oibvh in costs.values()], color=colour,
+                        marker=".", linestyle=line, label=model + (f", {order}" if several else ""))
         last = max(costs)
         ratio = costs[last][1][1] / costs[last][0][1]
         ratio_axes.annotate(f"{ratio:.2f}×", (last, ratio), (5, 0), textcoords="offset points", ha="left",
-                            va="center", fontsize=style.SMALL)
+                            va="top" if order == orders[0] and several else "bottom" if several else "center",
+                            fontsize=style.SMALL)
     triangles = sorted({str(cell.outlier["triangle"]) for cell in cells})
     cost_axes.set(xlabel="distance of the triangle, diameters of the mesh", ylabel="surface area cost")
     ratio_axes.set(xlabel="distance of the triangle, diameters of the mesh", ylabel="Oi-BVH over radix tree")
