@@ -18,6 +18,7 @@ BlockMedians::BlockMedians(Programs& programs, MedianShape shape) : shape_(shape
     shape_.form = chosen_form(programs.device(), shape.form, block_bytes, shape.group_size);
     if (shape_.form == KernelForm::groups) {
         assert(shape.group_size >= 32 && shape.group_size <= 1u << shape.block_height);
+        assert(shape.block_height <= 10);  // a place in a list is ten bits
         kernel_ = programs.kernel(
             "builders/stages/medians_groups.cl", "order_blocks",
             {{"GROUP_HEIGHT", floor_log2(shape.group_size)}, {"BLOCK_HEIGHT", shape.block_height}},
