@@ -6,17 +6,11 @@
 #include <optional>
 
 #include "builders/builder.h"
+#include "builders/device_tree.h"
 #include "builders/stages/gather.h"
 #include "builders/stages/leaf_order.h"
 
 namespace bvhbench {
-
-/// A tree in device memory.
-class DeviceTree : public Tree {
-public:
-    const Queue* queue =
-        nullptr;  ///< where the last build was enqueued; set before anything is read
-};
 
 /// Memory, the order of the leaves and the stages around the hierarchy, which is left to who derives from it.
 class OrderedBuilder : public Builder {

@@ -5,15 +5,6 @@
 #include <iterator>
 
 namespace bvhbench {
-namespace {
-
-bool share_a_vertex(const Face& face, const Face& other)
-{
-    const auto in_other = [&](uint v) { return v == other.a || v == other.b || v == other.c; };
-    return in_other(face.a) || in_other(face.b) || in_other(face.c);
-}
-
-}  // namespace
 
 Relation relation_of(Pair pair, const Family& family)
 {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "collide/relation.h"
+
 namespace bvhbench {
 namespace {
 
@@ -50,6 +52,17 @@ PairList overlapping_pairs(std::span<const Aabb> boxes)
                 found.push_back({ids[i], ids[j]});
     }
     return PairList(std::move(found));
+}
+
+PairList touching_pairs(std::span<const Point> points, std::span<const Face> faces,
+                        bool keep_adjacent)
+{
+    std::vector<Aabb> boxes;
+    boxes.reserve(faces.size());
+    for (const Face& face : faces)
+        boxes.push_back(face_box(points, face));
+    PairList all = overlapping_pairs(boxes);
+    return keep_adjacent ? all : selected(all, {faces, {}}, Relation::apart);
 }
 
 }  // namespace bvhbench

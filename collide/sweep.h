@@ -4,7 +4,7 @@
 #include <span>
 
 #include "collide/pairs.h"
-#include "geometry/aabb.h"
+#include "geometry/mesh.h"
 
 namespace bvhbench {
 
@@ -13,5 +13,9 @@ namespace bvhbench {
 /// Sweep and prune on one core, without any tree: the oracle that trees are held to. Takes O(n log n) and
 /// one test for each pair of boxes that overlap along the axis swept, the longest.
 PairList overlapping_pairs(std::span<const Aabb> boxes);
+
+/// The same of the boxes of triangles; without `keep_adjacent`, only pairs that share no vertex index.
+PairList touching_pairs(std::span<const Point> points, std::span<const Face> faces,
+                        bool keep_adjacent);
 
 }  // namespace bvhbench

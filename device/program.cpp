@@ -22,6 +22,19 @@ Programs::Programs(const Device& device, std::string dialect)
 cl::Kernel Programs::kernel(std::string_view path, const char* name,
                             std::initializer_list<Define> defines, Optimise optimise)
 {
+    return compiled(device_.sources.flatten(path), path, name,
+                    std::span(defines.begin(), defines.size()));
+}
+
+cl::Kernel Programs::kernel(std::string_view header, std::string_view path, const char* name,
+                            std::span<const Define> defines)
+{
+    return compiled(device_.sources.flatten({header, path}), path, name, defines);
+}
+
+cl::Kernel Programs::compiled(const std::string& text, std::string_view path, const char* name,
+                              std::span<const Define> defines)
+{
     std::string options = "-cl-std=" + dialect_;
     if (optimise == Optimise::on_gpus && device_.is_cpu())
         options += " -cl-opt-disable";
@@ -30,7 +43,6 @@ cl::Kernel Programs::kernel(std::string_view path, const char* name,
     for (const Define& define : defines)
         options += " -D " + std::string(define.name) + '=' + std::to_string(define.value) + 'u';
 
-    const std::string text = device_.sources.flatten(path);
     const std::string key = options + '\n' + text;
     auto found = programs_.find(key);
     if (found == programs_.end())

@@ -3,6 +3,7 @@
 
 #include <initializer_list>
 #include <map>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -45,10 +46,16 @@ public:
                       std::initializer_list<Define> defines = {},
                       Optimise optimise = Optimise::freely);
 
+    /// The same of a file that is compiled behind a header it does not name, so that one text serves several.
+    cl::Kernel kernel(std::string_view header, std::string_view path, const char* name,
+                      std::span<const Define> defines);
+
     /// Host time spent compiling so far, in nanoseconds: reported once a run, never part of a sample.
     std::int64_t compile_ns() const { return compile_ns_; }
 
 private:
+    cl::Kernel compiled(const std::string& text, std::string_view path, const char* name,
+                        std::span<const Define> defines);
     cl::Program build(std::string_view path, const std::string& text, const std::string& options);
 
     const Device& device_;

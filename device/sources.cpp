@@ -75,11 +75,14 @@ Sources Sources::preferred()
     return root != nullptr && *root != '\0' ? tree(root) : embedded();
 }
 
-std::string Sources::flatten(std::string_view path) const
+std::string Sources::flatten(std::string_view path) const { return flatten({path}); }
+
+std::string Sources::flatten(std::initializer_list<std::string_view> paths) const
 {
     std::string out;
     std::set<std::string> seen;
-    append(out, seen, std::string(path), read_);
+    for (const std::string_view path : paths)
+        append(out, seen, std::string(path), read_);
     return out;
 }
 

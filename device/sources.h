@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -22,6 +23,9 @@ public:
     /// #line directives keep build logs pointing at the real file and line.
     /// Throws Unavailable when a file is not there.
     std::string flatten(std::string_view path) const;
+
+    /// The same of several files, one behind the other: a header that a kernel file leaves open, and the file.
+    std::string flatten(std::initializer_list<std::string_view> paths) const;
 
     /// For the result file: "embedded" or the tree's path.
     const std::string& origin() const { return origin_; }

@@ -32,6 +32,13 @@ SHARED_FN Aabb triangle_box(Point a, Point b, Point c)
     return box;
 }
 
+/// Whether two triangles name a vertex that is the same.
+SHARED_FN bool share_a_vertex(Face a, Face b)
+{
+    return a.a == b.a || a.a == b.b || a.a == b.c || a.b == b.a || a.b == b.b || a.b == b.c ||
+           a.c == b.a || a.c == b.b || a.c == b.c;
+}
+
 SHARED_END
 
 #ifndef __OPENCL_C_VERSION__

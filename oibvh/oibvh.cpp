@@ -12,6 +12,7 @@ constexpr ImplicitLayout oi_layout = {
     .first_slot = [](uint leaves, uint level) { return oi_first_slot(oi_shape(leaves), level); },
     .build_groups = "oibvh/build_groups.cl",
     .build_items = "oibvh/build_items.cl",
+    .access = "oibvh/access.clh",
 };
 
 }  // namespace

@@ -12,6 +12,7 @@ std::unique_ptr<Builder> make_perfect(Programs& programs, const BuildOptions& op
         .first_slot = [](uint, uint level) { return perfect_first_slot(level); },
         .build_groups = "baselines/perfect/build_groups.cl",
         .build_items = "baselines/perfect/build_items.cl",
+        .access = "baselines/perfect/access.clh",
     };
     return make_implicit_builder(programs,
                                  {"perfect", "Perfect implicit tree, padded [Chitalu2020, Table 1]",

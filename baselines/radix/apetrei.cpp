@@ -55,6 +55,13 @@ public:
         return nodes;
     }
 
+    std::string_view access_header() const override { return "baselines/radix/access_apetrei.clh"; }
+
+    cl_uint bind(cl::Kernel& kernel, cl_uint first) const override
+    {
+        return set_arguments_from(kernel, first, boxes_, children_, root_);
+    }
+
 private:
     template <class T>
     static std::int64_t bytes_of(const Buffer<T>& buffer)

@@ -41,6 +41,11 @@ public:
         return nodes_.download(queue);
     }
 
+    cl_uint bind(cl::Kernel& kernel, cl_uint first) const override
+    {
+        return set_arguments_from(kernel, first, nodes_);
+    }
+
 private:
     RadixLaunch launch_;
     cl::Kernel build_;

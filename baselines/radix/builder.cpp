@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+
 #include "baselines/radix/hierarchy.h"
 #include "builders/ordered_builder.h"
+#include "geometry/bits.h"
 
 namespace bvhbench {
 namespace {
@@ -9,6 +12,24 @@ class RadixTree final : public DeviceTree {
 public:
     RadixLeaves leaves;
     std::unique_ptr<RadixHierarchy> hierarchy;
+    uint code_bits = 0;
+
+    uint leaf_count() const override { return leaves.count; }
+    bool has_sorted_leaves() const override { return leaves.sorted; }
+    std::string_view access_header() const override { return hierarchy->access_header(); }
+    bool is_implicit() const override { return false; }
+
+    /// From the root down every node splits at a lower bit of its leaves' keys than its parent.
+    uint most_levels() const override
+    {
+        return std::min(leaves.count, code_bits + ceil_log2(leaves.count) + 1);
+    }
+
+    cl_uint bind(cl::Kernel& kernel, cl_uint first) const override
+    {
+        return set_arguments_from(kernel, hierarchy->bind(kernel, first), leaves.boxes, leaves.ids,
+                                  leaves.count);
+    }
 
     std::size_t node_count() const override { return 2 * std::size_t{leaves.count} - 1; }
 
@@ -49,6 +70,7 @@ public:
         : OrderedBuilder(programs, card, options), make_(make)
     {
         tree_.leaves.sorted = options.sorted_leaves;
+        tree_.code_bits = leaf_order_.code_bits();
         tree_.hierarchy = make({programs, RadixLaunch(programs.device(), options),
                                 leaf_order_.code_bits(), options.sorted_leaves});
     }

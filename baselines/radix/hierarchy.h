@@ -7,6 +7,7 @@
 
 #include "baselines/radix/node.h"
 #include "builders/builder.h"
+#include "builders/device_tree.h"
 #include "builders/stages/codes.h"
 
 namespace bvhbench {
@@ -75,6 +76,10 @@ public:
 
     /// The inner nodes, the children's indices as stored; `root` is set to the root's.
     virtual std::vector<RadixNode> download(const cl::CommandQueue& queue, uint& root) const = 0;
+
+    /// As DeviceTree says of the nodes; the leaves' parameters come behind.
+    virtual std::string_view access_header() const { return "baselines/radix/access.clh"; }
+    virtual cl_uint bind(cl::Kernel& kernel, cl_uint first) const = 0;
 };
 
 using MakeRadixHierarchy = std::unique_ptr<RadixHierarchy> (*)(const RadixSetup& setup);

@@ -64,6 +64,11 @@ public:
         return nodes_.download(queue);
     }
 
+    cl_uint bind(cl::Kernel& kernel, cl_uint first) const override
+    {
+        return set_arguments_from(kernel, first, nodes_);
+    }
+
 private:
     std::int64_t node_bytes() const { return static_cast<std::int64_t>(nodes_.bytes()); }
 

@@ -17,6 +17,7 @@ struct ImplicitLayout {
     uint (*first_slot)(uint leaves, uint level);  ///< where the first of them is
     std::string_view build_groups;                ///< kernel file, a work-group a subtree
     std::string_view build_items;                 ///< kernel file, a work-item a subtree
+    std::string_view access;                      ///< header, as builders/device_tree.h says
 };
 
 /// Level of the leaves; the root is level 0.

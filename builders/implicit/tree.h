@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "builders/device_tree.h"
 #include "builders/implicit/layout.h"
-#include "builders/ordered_builder.h"
 
 namespace bvhbench {
 
@@ -21,6 +21,16 @@ public:
 
     std::size_t node_count() const override;
     HostTree spelled_out() const override;
+
+    uint leaf_count() const override { return leaves; }
+    bool has_sorted_leaves() const override { return sorted_leaves; }
+    std::string_view access_header() const override { return layout.access; }
+    bool is_implicit() const override { return true; }
+    uint most_levels() const override { return implicit_leaf_level(leaves) + 1; }
+    cl_uint bind(cl::Kernel& kernel, cl_uint first) const override
+    {
+        return set_arguments_from(kernel, first, nodes, leaf_boxes, ids, leaves);
+    }
 };
 
 }  // namespace bvhbench

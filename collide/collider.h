@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "builders/input.h"
+#include "builders/stages/kernel_form.h"
+#include "builders/tree.h"
+#include "collide/pairs.h"
+#include "device/arena.h"
+#include "device/program.h"
+#include "device/queue.h"
+
+namespace bvhbench {
+
+/// Who a collider is, for listings and result files.
+struct ColliderCard {
+    std::string_view name;    ///< unique, stable, used on the command line and in result files
+    std::string_view method;  ///< the publication or library, as cited in docs/references.md
+};
+
+/// How to query. One struct for all colliders: what a collider has no use for it ignores.
+struct ColliderOptions {
+    /// Whether pairs that share a vertex index are wanted too: they touch by construction.
+    bool keep_adjacent = true;
+    /// Levels a step of a traversal descends, Eq. (12); 0 leaves the choice to the collider.
+    unsigned jump = 0;
+    /// The level a traversal starts on, no box above it being tested; 0 is the root.
+    unsigned start_level = 0;
+    /// Work-items in a group, a power of two; 0 leaves the choice to the collider, by kind of device.
+    unsigned group_size = 0;
+    KernelForm form = KernelForm::of_device;
+    /// Entries that buffers of pairs and queues have at first; 0: a guess. They grow when they must.
+    std::size_t capacity = 0;
+};
+
+/// What a query found and took. The same for every query of one tree.
+struct QueryCounts {
+    std::uint64_t pairs = 0;
+    std::uint64_t box_tests = 0;  ///< of two boxes for overlap
+    std::optional<std::uint64_t>
+        bvtt_peak;  ///< most entries in a queue of node pairs, if it has any
+};
+
+/// Finds the pairs of triangles of one tree whose closed boxes overlap: the smaller id first, each once.
+///
+/// A query never drops a pair in silence: `complete` tells whether all of them found room, and makes room if
+/// not, for the query to be repeated. `find_pairs` does so.
+///
+/// Stages are words from a fixed list: ropes, broad.
+class Collider {
+public:
+    virtual ~Collider() = default;
+
+    virtual ColliderCard card() const = 0;
+
+    /// Why it cannot query trees of this kind, as a sentence; empty if it can.
+    virtual std::string refusal(const Tree& tree) const = 0;
+
+    /// Compile for this kind of tree and take memory for its size. Never timed. Throws Unavailable, and BadUsage
+    /// for what `refusal` tells or options that the tree does not allow.
+    virtual void reserve(const Tree& tree) = 0;
+
+    /// What stands reserved.
+    virtual Footprint reserved() const = 0;
+
+    /// Enqueue one query of the tree that the last build left over `input`. Allocates nothing, does not wait.
+    virtual void query(const Tree& tree, const Input& input, Queue& queue) = 0;
+
+    /// Whether everything the last query found had room; if not, there is more now. Waits.
+    virtual bool complete(const Queue& queue) = 0;
+
+    /// Of the last query, which was complete. Both wait.
+    virtual QueryCounts counts(const Queue& queue) const = 0;
+    virtual std::vector<Pair> pairs(const Queue& queue) const = 0;
+};
+
+/// Query until it is complete; how many queries that took. Waits.
+int find_pairs(Collider& collider, const Tree& tree, const Input& input, Queue& queue);
+
+/// Makes a collider on the device that `programs` compiles for. Throws BadUsage for options it cannot keep.
+using MakeCollider = std::unique_ptr<Collider> (*)(Programs& programs,
+                                                   const ColliderOptions& options);
+
+}  // namespace bvhbench

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+//
+// Every way to find pairs.
+#pragma once
+
+#include "collide/collider.h"
+
+namespace bvhbench {
+
+/// Each leaf walks the tree by itself, without a stack: only over what lies behind it, so each pair appears once.
+std::unique_ptr<Collider> make_leaf(Programs& programs, const ColliderOptions& options);
+
+/// Sweep and prune on one core of the host, whatever the tree: the oracle.
+std::unique_ptr<Collider> make_brute(Programs& programs, const ColliderOptions& options);
+
+}  // namespace bvhbench

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// check: -include baselines/perfect/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=0 -DSINK_BLOCK=512u
+// check: -include baselines/radix/access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=1 -DSINK_BLOCK=512u
+//
+// A work-item a run of neighbouring leaves, one after the other.
+#include "builders/stages/chunk.clh"
+#include "collide/sink_chunks.clh"
+
+#include "collide/leaf.clh"
+
+/// As in leaf_groups.cl. `blocks` has SINK_BLOCK pairs a work-item.
+kernel void leaf_pairs(TREE_PARAMETERS, global const uint* ropes, global const Face* faces,
+                       global uint2* pairs, const uint capacity, volatile global uint* counters,
+                       global uint2* blocks)
+{
+    const Chunk chunk = own_chunk(leaves);
+    uint block_count = 0u;
+    ulong tests = 0ul;
+    for (uint place = chunk.first; place < chunk.end; ++place)
+        tests += walk_from(TREE, ropes, faces, SINK, place);
+    add_wide(counters + BOX_TESTS_COUNT, tests);
+    empty_block(SINK);
+}

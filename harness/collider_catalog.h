@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "collide/collider.h"
+
+namespace bvhbench {
+
+/// A line of `list colliders`.
+struct ColliderEntry {
+    std::string_view name;     ///< the key on the command line and in result files
+    std::string_view summary;  ///< one line
+    MakeCollider make;
+};
+
+/// Every collider, in the order tables list them.
+std::span<const ColliderEntry> collider_catalog();
+
+/// By name. Throws BadUsage with the known names when there is none.
+const ColliderEntry& find_collider(std::string_view name);
+
+/// Which collider, set up how: what the command line chooses. Owns its words.
+struct ColliderChoice {
+    std::string name;
+    bool keep_adjacent = true;
+    unsigned jump = 0;
+    unsigned start_level = 0;
+    unsigned group_size = 0;
+
+    bool operator==(const ColliderChoice&) const = default;
+    ColliderOptions options() const
+    {
+        return {.keep_adjacent = keep_adjacent,
+                .jump = jump,
+                .start_level = start_level,
+                .group_size = group_size};
+    }
+};
+
+}  // namespace bvhbench

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+//
+// What the tests of colliders share: a session, meshes that are hard to collide, and the pairs of a query.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "collide/sweep.h"
+#include "harness/catalog.h"
+#include "harness/collider_catalog.h"
+#include "harness/hard_inputs.h"
+#include "harness/session.h"
+#include "scenes/catalog.h"
+
+namespace bvhbench {
+
+inline Session& session()
+{
+    static Session session{CommonOptions{}};
+    return session;
+}
+
+struct NamedMesh {
+    std::string name;
+    Mesh mesh;
+};
+
+/// All triangles along a line, each overlapping the next few.
+inline Mesh collinear_mesh(uint count)
+{
+    Mesh mesh;
+    for (uint k = 0; k < count; ++k) {
+        const auto x = static_cast<float>(k);
+        mesh.points.insert(mesh.points.end(), {{x, 0, 0}, {x + 2.5f, 0, 0}, {x + 1, 0, 0}});
+        mesh.faces.push_back({3 * k, 3 * k + 1, 3 * k + 2});
+    }
+    return mesh;
+}
+
+/// Large triangles in a small space: most pairs overlap.
+inline Mesh crowded_mesh(std::size_t count)
+{
+    Mesh mesh = hard_inputs().front().make(count);
+    for (std::size_t k = 0; k < mesh.points.size(); ++k)
+        if (k % 3 != 0) {
+            mesh.points[k].x = 1 - mesh.points[k].x;
+            mesh.points[k].y = 1 - mesh.points[k].y;
+        }
+    return mesh;
+}
+
+/// The hard inputs of builders at `count` triangles, and more that are hard on queries.
+inline std::vector<NamedMesh> hard_meshes(std::size_t count)
+{
+    std::vector<NamedMesh> meshes;
+    for (const HardInput& input : hard_inputs())
+        meshes.push_back({std::string(input.name), input.make(count)});
+    meshes.push_back({"collinear", collinear_mesh(static_cast<uint>(count))});
+    meshes.push_back({"crowded", crowded_mesh(count)});
+    if (count > 1) {  // with shared vertices, and each triangle twice
+        Scene surface = load_scene("sphere:" + std::to_string(std::max<std::size_t>(8, count)), {});
+        meshes.push_back({"surface", {surface.frames.front(), surface.faces}});
+        const std::size_t once = surface.faces.size() / 2;
+        std::copy_n(surface.faces.begin(), once,
+                    surface.faces.begin() + static_cast<std::ptrdiff_t>(once));
+        meshes.push_back({"duplicates", {surface.frames.front(), surface.faces}});
+    }
+    return meshes;
+}
+
+/// The builders whose trees are in device memory.
+inline std::vector<BuilderEntry> device_builders()
+{
+    std::vector<BuilderEntry> builders;
+    for (const BuilderEntry& entry : builder_catalog())
+        if (entry.make != nullptr && !entry.name.ends_with("-reference") &&
+            entry.make(session().programs(), {})->card().runs == BuilderCard::Runs::on_device)
+            builders.push_back(entry);
+    return builders;
+}
+
+/// GoogleTest takes letters, digits and _ only.
+inline std::string test_name(std::string name)
+{
+    std::replace(name.begin(), name.end(), '-', '_');
+    return name;
+}
+
+/// A mesh on the device with a tree over it.
+struct Standing {
+    Mesh mesh;
+    Input input;
+    std::unique_ptr<Builder> builder;
+    const Tree* tree = nullptr;
+
+    Standing(const Mesh& over, MakeBuilder make, const BuildOptions& options = {})
+        : mesh(over)
+        , input(upload(session().device(), session().queue(), mesh.points, mesh.faces))
+        , builder(make(session().programs(), options))
+    {
+        builder->reserve(mesh.faces.size());
+        session().build_once(*builder, input, Start::from_triangles, &tree);
+    }
+};
+
+/// Hold one query, repeated until complete, to the oracle's pairs.
+inline void expect_oracles_pairs(Collider& collider, const Standing& standing, bool keep_adjacent)
+{
+    collider.reserve(*standing.tree);
+    find_pairs(collider, *standing.tree, standing.input, session().queue());
+    const PairList found(collider.pairs(session().queue()));
+    session().queue().finish();
+    EXPECT_EQ(found.surplus(), 0u);
+    EXPECT_EQ(found, touching_pairs(standing.input.points, standing.input.faces, keep_adjacent));
+    EXPECT_EQ(collider.counts(session().queue()).pairs, found.size());
+}
+
+}  // namespace bvhbench
