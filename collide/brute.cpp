@@ -22,7 +22,7 @@ public:
     }
 
     bool complete(const Queue&) override { return true; }
-    QueryCounts counts(const Queue&) const override { return {found_.size(), 0, {}}; }
+    QueryCounts counts(const Queue&) const override { return {found_.size(), {}, {}}; }
     std::vector<Pair> pairs(const Queue&) const override
     {
         return {found_.pairs().begin(), found_.pairs().end()};

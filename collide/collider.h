@@ -42,7 +42,7 @@ struct ColliderOptions {
 /// What a query found and took. The same for every query of one tree.
 struct QueryCounts {
     std::uint64_t pairs = 0;
-    std::uint64_t box_tests = 0;  ///< of two boxes for overlap
+    std::optional<std::uint64_t> box_tests;  ///< of two boxes for overlap, if they are counted
     std::optional<std::uint64_t>
         bvtt_peak;  ///< most entries in a queue of node pairs, if it has any
 };

@@ -29,13 +29,20 @@ std::span<const BuilderEntry> builder_catalog();
 /// By name. Throws BadUsage with the known names when there is none.
 const BuilderEntry& find_builder(std::string_view name);
 
-/// What is timed of a builder: a whole build, or new boxes for a tree that stands.
-enum class Operation { build, refit };
+/// What is timed: a whole build, new boxes for a tree that stands, or a build and a query of its tree.
+enum class Operation { build, refit, collide };
 
 /// The word for it in experiments and result files.
 constexpr std::string_view operation_name(Operation operation)
 {
-    return operation == Operation::build ? "build" : "refit";
+    switch (operation) {
+        case Operation::refit:
+            return "refit";
+        case Operation::collide:
+            return "collide";
+        default:
+            return "build";
+    }
 }
 
 /// Which builder, set up how: what the command line and experiment files choose. Owns its words.

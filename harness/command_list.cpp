@@ -27,6 +27,14 @@ std::string builders()
     return table.text();
 }
 
+std::string colliders()
+{
+    Table table = lines(2);
+    for (const ColliderEntry& entry : collider_catalog())
+        table.row({std::string(entry.name), std::string(entry.summary)});
+    return table.text();
+}
+
 std::string orders()
 {
     Table table = lines(3);
@@ -83,11 +91,12 @@ std::string devices()
 
 int list(const ListCommand& command, const Options& options)
 {
-    std::cout << (command.what == "builders"  ? builders()
-                  : command.what == "orders"  ? orders()
-                  : command.what == "scenes"  ? scenes(options.common)
-                  : command.what == "devices" ? devices()
-                                              : experiments());
+    std::cout << (command.what == "builders"    ? builders()
+                  : command.what == "colliders" ? colliders()
+                  : command.what == "orders"    ? orders()
+                  : command.what == "scenes"    ? scenes(options.common)
+                  : command.what == "devices"   ? devices()
+                                                : experiments());
     return 0;
 }
 

@@ -10,6 +10,7 @@ namespace bvhbench {
 
 int list(const ListCommand& command, const Options& options);
 int build(const BuildCommand& command, const Options& options);
+int collide(const CollideCommand& command, const Options& options);
 int run(const RunCommand& command, const Options& options);
 int reproduce(const ReproduceCommand& command, const Options& options);
 int check(const CheckCommand& command, const Options& options);

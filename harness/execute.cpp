@@ -16,6 +16,7 @@ struct Executor {
     }
     int operator()(const ListCommand& command) const { return list(command, options); }
     int operator()(const BuildCommand& command) const { return build(command, options); }
+    int operator()(const CollideCommand& command) const { return collide(command, options); }
     int operator()(const RunCommand& command) const { return run(command, options); }
     int operator()(const ReproduceCommand& command) const { return reproduce(command, options); }
     int operator()(const CheckCommand& command) const { return check(command, options); }

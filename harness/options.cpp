@@ -58,9 +58,11 @@ void add_quality(CLI::App& command, bool& quality, NodeCosts& costs)
 void add_list(CLI::App& app, ListCommand& list)
 {
     CLI::App* command = app.add_subcommand("list", "What there is, a line each");
-    command->add_option("WHAT", list.what, "builders, orders, scenes, devices or experiments")
+    command
+        ->add_option("WHAT", list.what,
+                     "builders, colliders, orders, scenes, devices or experiments")
         ->required()
-        ->check(one_of({"builders", "orders", "scenes", "devices", "experiments"}));
+        ->check(one_of({"builders", "colliders", "orders", "scenes", "devices", "experiments"}));
 }
 
 void add_build(CLI::App& app, BuildCommand& build, std::string& leaves)
@@ -82,6 +84,33 @@ void add_build(CLI::App& app, BuildCommand& build, std::string& leaves)
     add_quality(*command, build.quality, build.costs);
     command->add_option("--json", build.json, "write the result file");
     command->add_option("--dump", build.dump, "write the tree, spelled out, as JSON");
+}
+
+void add_collide(CLI::App& app, CollideCommand& collide, std::string& adjacent)
+{
+    CLI::App* command = app.add_subcommand(
+        "collide",
+        "Find the pairs of triangles whose boxes overlap, check them and time its stages");
+    command->add_option("--builder", collide.builder.name, "a name of `list builders`")->required();
+    command->add_option("--collider", collide.collider.name, "a name of `list colliders`")
+        ->required();
+    command->add_option("--scene", collide.scene, "a scene, data set or mesh file")->required();
+    command->add_option("--order", collide.builder.order, "a name of `list orders`")
+        ->capture_default_str();
+    command->add_option("--adjacent", adjacent, "keep or drop pairs that share a vertex index")
+        ->capture_default_str()
+        ->check(one_of({"keep", "drop"}));
+    command->add_option("--jump", collide.collider.jump,
+                        "levels a step of a traversal descends; 0: the collider's choice");
+    command->add_option("--start-level", collide.collider.start_level,
+                        "the level a traversal starts on; 0: the root");
+    command->add_option("--group-size", collide.collider.group_size,
+                        "work-items in a group, a power of two; 0: the collider's choice");
+    command->add_option("--samples", collide.samples, "timed builds and queries")
+        ->capture_default_str()
+        ->check(CLI::Range(1, most_samples));
+    command->add_option("--json", collide.json, "write the result file");
+    command->add_option("--pairs", collide.pairs, "write the pairs: .csv, or .bin of 32-bit ids");
 }
 
 void add_run(CLI::App& app, RunCommand& run)
@@ -158,14 +187,17 @@ Options parse_options(int argc, const char* const* argv)
     Options options{{}, {}, {argv, argv + argc}};
     ListCommand list;
     BuildCommand build;
+    CollideCommand collide;
     RunCommand run;
     ReproduceCommand reproduce;
     CheckCommand check;
     ShowCommand show;
     std::string leaves = "mesh";
+    std::string adjacent = "keep";
     add_common(app, options.common);
     add_list(app, list);
     add_build(app, build, leaves);
+    add_collide(app, collide, adjacent);
     add_run(app, run);
     add_reproduce(app, reproduce);
     add_check(app, check);
@@ -181,18 +213,23 @@ Options parse_options(int argc, const char* const* argv)
     }
     if (app.get_subcommands().empty())
         throw BadUsage(
-            "name a command: list, build, run, reproduce, check or show; `bvhbench --help` "
+            "name a command: list, build, collide, run, reproduce, check or show; `bvhbench "
+            "--help` "
             "says what they do");
     check_power_of_two("--group-size", build.builder.group_size);
     check_power_of_two("--items", build.builder.items);
     for (const NodeCosts& costs : {build.costs, run.costs, reproduce.costs})
         check_costs(costs);
+    check_power_of_two("--group-size", collide.collider.group_size);
     build.builder.sorted_leaves = leaves == "sorted";
+    collide.collider.keep_adjacent = adjacent == "keep";
     const std::string chosen = app.get_subcommands().front()->get_name();
     if (chosen == "list")
         options.command = list;
     else if (chosen == "build")
         options.command = build;
+    else if (chosen == "collide")
+        options.command = collide;
     else if (chosen == "run")
         options.command = run;
     else if (chosen == "reproduce")

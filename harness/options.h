@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "harness/catalog.h"
+#include "harness/collider_catalog.h"
 #include "harness/node_costs.h"
 
 namespace bvhbench {
@@ -24,7 +25,7 @@ struct PrintCommand {
     std::string text;
 };
 struct ListCommand {
-    std::string what;  ///< builders, orders, scenes, devices or experiments
+    std::string what;  ///< builders, colliders, orders, scenes, devices or experiments
 };
 struct BuildCommand {
     BuilderChoice builder;
@@ -34,6 +35,14 @@ struct BuildCommand {
     std::string dump;  ///< file for the spelled-out tree; may be empty
     bool quality = false;
     NodeCosts costs;
+};
+struct CollideCommand {
+    BuilderChoice builder;
+    ColliderChoice collider;
+    std::string scene;
+    int samples = 20;
+    std::string json;   ///< result file to write; may be empty
+    std::string pairs;  ///< file for the pairs, .csv or .bin; may be empty
 };
 struct RunCommand {
     std::string experiment;  ///< a name or a path
@@ -59,8 +68,8 @@ struct ShowCommand {
     std::string file;
 };
 
-using Command = std::variant<PrintCommand, ListCommand, BuildCommand, RunCommand, ReproduceCommand,
-                             CheckCommand, ShowCommand>;
+using Command = std::variant<PrintCommand, ListCommand, BuildCommand, CollideCommand, RunCommand,
+                             ReproduceCommand, CheckCommand, ShowCommand>;
 
 struct Options {
     CommonOptions common;

@@ -67,6 +67,16 @@ Json json_of(const BuilderChoice& builder)
               {"leaves", builder.sorted_leaves ? "sorted" : "mesh"}}}};
 }
 
+Json json_of(const ColliderChoice& collider)
+{
+    return {{"name", collider.name},
+            {"options",
+             {{"adjacent", collider.keep_adjacent ? "keep" : "drop"},
+              {"jump", collider.jump},
+              {"start_level", collider.start_level},
+              {"group_size", collider.group_size}}}};
+}
+
 Json json_of(const Check& check)
 {
     constexpr std::array verdicts = {"agrees", "differs", "not_checked"};
@@ -75,6 +85,8 @@ Json json_of(const Check& check)
     put_if(json, "detail", check.detail);
     if (check.tree_hash)
         json["tree_hash"] = hex(*check.tree_hash);
+    if (check.pairs_hash)
+        json["pairs_hash"] = hex(*check.pairs_hash);
     return json;
 }
 
@@ -133,9 +145,11 @@ std::string cell_text(const Cell& cell)
     constexpr std::array states = {"measured", "skipped", "failed"};
     Json json = {{"experiment", cell.experiment},
                  {"scene", json_of(cell.scene)},
-                 {"builder", json_of(cell.builder)},
-                 {"operation", operation_name(cell.operation)},
-                 {"status", states[static_cast<std::size_t>(cell.status)]}};
+                 {"builder", json_of(cell.builder)}};
+    if (!cell.collider.name.empty())
+        json["collider"] = json_of(cell.collider);
+    json["operation"] = operation_name(cell.operation);
+    json["status"] = states[static_cast<std::size_t>(cell.status)];
     if (cell.status != Cell::Status::measured) {
         json["reason"] = cell.reason;
         return dumped(json);

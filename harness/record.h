@@ -12,12 +12,13 @@
 
 #include "device/queue.h"
 #include "harness/catalog.h"
+#include "harness/collider_catalog.h"
 #include "harness/node_costs.h"
 #include "scenes/scene.h"
 
 namespace bvhbench {
 
-/// One timed build or refit.
+/// One timed build, refit, or build and query.
 struct Sample {
     int order = 0;  ///< position in the whole run, so that drift can be seen
     std::vector<StageTime> stages;
@@ -28,7 +29,8 @@ struct Check {
     enum class Verdict { agrees, differs, not_checked } verdict = Verdict::not_checked;
     std::string against;
     std::string detail;  ///< what differs, or why nothing was checked
-    std::optional<std::uint64_t> tree_hash;
+    std::optional<std::uint64_t> tree_hash = {};
+    std::optional<std::uint64_t> pairs_hash = {};
 };
 
 /// Which triangles were built over.
@@ -52,6 +54,7 @@ struct Cell {
     std::string experiment;
     SceneFacts scene;
     BuilderChoice builder;
+    ColliderChoice collider;  ///< of an empty name: none
     Operation operation = Operation::build;
     Status status = Status::measured;
     std::string reason;  ///< why it was skipped or failed

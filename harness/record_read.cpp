@@ -82,6 +82,16 @@ BuilderChoice builder_of(const Json& json)
             .sorted_leaves = options.value("leaves", "mesh") == "sorted"};
 }
 
+ColliderChoice collider_of(const Json& json)
+{
+    const Json options = json.value("options", Json::object());
+    return {.name = json.at("name").get<std::string>(),
+            .keep_adjacent = options.value("adjacent", "keep") == "keep",
+            .jump = get<unsigned>(options, "jump"),
+            .start_level = get<unsigned>(options, "start_level"),
+            .group_size = get<unsigned>(options, "group_size")};
+}
+
 Check check_of(const Json& json)
 {
     Check check;
@@ -91,6 +101,8 @@ Check check_of(const Json& json)
     check.detail = get<std::string>(json, "detail");
     if (json.contains("tree_hash"))
         check.tree_hash = hash_of(json["tree_hash"].get<std::string>());
+    if (json.contains("pairs_hash"))
+        check.pairs_hash = hash_of(json["pairs_hash"].get<std::string>());
     return check;
 }
 
@@ -100,8 +112,11 @@ Cell cell_of(const Json& json)
     cell.experiment = json.at("experiment").get<std::string>();
     cell.scene = scene_of(json.at("scene"));
     cell.builder = builder_of(json.at("builder"));
-    cell.operation = static_cast<Operation>(index_of(
-        json.value("operation", "build"), {"build", "refit"}));  // before 1.2 all were builds
+    if (json.contains("collider"))
+        cell.collider = collider_of(json["collider"]);
+    cell.operation = static_cast<Operation>(
+        index_of(json.value("operation", "build"),
+                 {"build", "refit", "collide"}));  // before 1.2 all were builds
     cell.status = static_cast<Cell::Status>(
         index_of(json.at("status").get<std::string>(), {"measured", "skipped", "failed"}));
     cell.reason = get<std::string>(json, "reason");

@@ -73,6 +73,8 @@ std::string verdict_line(const Cell& cell)
         text += cell.check.verdict == Check::Verdict::agrees ? " with " + cell.check.against : "";
     if (cell.check.tree_hash)
         text += ", tree " + hex(*cell.check.tree_hash);
+    if (cell.check.pairs_hash)
+        text += ", pairs " + hex(*cell.check.pairs_hash);
     if (!cell.check.detail.empty())
         text += ": " + cell.check.detail;
     if (!cell.reason.empty())
@@ -83,6 +85,8 @@ std::string verdict_line(const Cell& cell)
 /// What was measured: a builder, and what of it if that is no build.
 std::string subject_text(const Cell& cell)
 {
+    if (cell.operation == Operation::collide)
+        return variant_text(cell.collider) + " over " + variant_text(cell.builder);
     return variant_text(cell.builder) + (cell.operation == Operation::refit ? ", refit" : "");
 }
 
@@ -120,6 +124,21 @@ std::string variant_text(const BuilderChoice& builder)
         text += ", " + std::to_string(builder.items) + " items";
     if (builder.sorted_leaves)
         text += ", sorted leaves";
+    return text;
+}
+
+std::string variant_text(const ColliderChoice& collider)
+{
+    const ColliderChoice usual;
+    std::string text = collider.name;
+    if (!collider.keep_adjacent)
+        text += ", adjacent dropped";
+    if (collider.jump != usual.jump)
+        text += ", jump " + std::to_string(collider.jump);
+    if (collider.start_level != usual.start_level)
+        text += ", from level " + std::to_string(collider.start_level);
+    if (collider.group_size != usual.group_size)
+        text += ", groups of " + std::to_string(collider.group_size);
     return text;
 }
 

@@ -15,6 +15,9 @@ namespace bvhbench {
 /// The builder's name, with the options that are not the default.
 std::string variant_text(const BuilderChoice& builder);
 
+/// The same of a collider.
+std::string variant_text(const ColliderChoice& collider);
+
 /// "hierarchy" or all stages together of each sample, in nanoseconds.
 std::vector<double> stage_times_ns(const Cell& cell, std::string_view stage);
 std::vector<double> whole_times_ns(const Cell& cell);

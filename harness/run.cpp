@@ -16,20 +16,6 @@
 namespace bvhbench {
 namespace {
 
-RunFacts measured_facts(Session& session, std::vector<std::string> command, const NodeCosts& costs)
-{
-    RunFacts facts = run_facts(session.device(), std::move(command));
-    facts.costs = costs;
-    const std::string failure = reason_of_failure([&] {
-        const CopyRate rate = measure_copy_rate(session.programs(), session.queue());
-        facts.copy_rate_bytes_per_s = rate.bytes_per_s;
-        facts.copy_rate_buffer_bytes = static_cast<std::int64_t>(rate.buffer_bytes);
-    });
-    if (!failure.empty())
-        session.renew_queue();  // a device without room for the copy can still build small trees
-    return facts;
-}
-
 Cell unmeasured(Cell cell, Cell::Status status, std::string reason)
 {
     cell.status = status;
@@ -73,6 +59,20 @@ void count_quality(Cell& cell, const HostTree& tree, const Input& input, const N
 }
 
 }  // namespace
+
+RunFacts measured_facts(Session& session, std::vector<std::string> command, const NodeCosts& costs)
+{
+    RunFacts facts = run_facts(session.device(), std::move(command));
+    facts.costs = costs;
+    const std::string failure = reason_of_failure([&] {
+        const CopyRate rate = measure_copy_rate(session.programs(), session.queue());
+        facts.copy_rate_bytes_per_s = rate.bytes_per_s;
+        facts.copy_rate_buffer_bytes = static_cast<std::int64_t>(rate.buffer_bytes);
+    });
+    if (!failure.empty())
+        session.renew_queue();  // a device without room for the copy can still build small trees
+    return facts;
+}
 
 /// A cell on its way to being measured; without a builder it is finished already.
 struct Run::Prepared {

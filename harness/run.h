@@ -17,6 +17,10 @@ class Oracle;
 /// Which cells to run: those whose "scene/builder" it matches; all without one.
 using CellFilter = std::optional<std::regex>;
 
+/// What is known of a run when it starts, with the device's copy rate, the yardstick of the run, measured.
+RunFacts measured_facts(Session& session, std::vector<std::string> command,
+                        const NodeCosts& costs = {});
+
 /// Runs experiments: scene by scene, all builders of a scene prepared, checked, then sampled interleaved.
 ///
 /// A builder or scene that fails is a cell that says so, and the run goes on.

@@ -73,6 +73,26 @@ TEST(Options, OfQualityAreTwoNamesOfOneFlag)
         std::get<ReproduceCommand>(parsed({"reproduce", "fig13", "--quality"}).command).quality);
 }
 
+TEST(Options, OfCollideAreAllUnderstood)
+{
+    const Options options =
+        parsed({"collide", "--builder",     "karras",    "--collider",   "leaf", "--scene",
+                "soup:5",  "--order",       "hilbert30", "--adjacent",   "drop", "--jump",
+                "3",       "--start-level", "4",         "--group-size", "64",   "--samples",
+                "3",       "--json",        "a.json",    "--pairs",      "p.bin"});
+    const auto& collide = std::get<CollideCommand>(options.command);
+    EXPECT_EQ(collide.builder, (BuilderChoice{.name = "karras", .order = "hilbert30"}));
+    EXPECT_EQ(collide.collider, (ColliderChoice{.name = "leaf",
+                                                .keep_adjacent = false,
+                                                .jump = 3,
+                                                .start_level = 4,
+                                                .group_size = 64}));
+    EXPECT_EQ(collide.scene, "soup:5");
+    EXPECT_EQ(collide.samples, 3);
+    EXPECT_EQ(collide.json, "a.json");
+    EXPECT_EQ(collide.pairs, "p.bin");
+}
+
 TEST(Options, InCommonMayStandBeforeOrBehindTheCommand)
 {
     EXPECT_EQ(parsed({"--data", "d", "show", "f"}).common.data, "d");
@@ -81,7 +101,7 @@ TEST(Options, InCommonMayStandBeforeOrBehindTheCommand)
 
 TEST(Options, ThatAskForHelpOnlyPrint)
 {
-    for (const char* command : {"list", "build", "run", "reproduce", "check", "show"}) {
+    for (const char* command : {"list", "build", "collide", "run", "reproduce", "check", "show"}) {
         const auto text = std::get<PrintCommand>(parsed({command, "--help"}).command).text;
         EXPECT_NE(text.find("Usage: bvhbench " + std::string(command)), std::string::npos) << text;
     }
@@ -102,6 +122,8 @@ TEST(Options, ThatAreNotUnderstoodAreAnsweredInOneSentence)
              {"build", "--builder", "perfect", "--scene", "s", "--leaves", "green"},
              {"build", "--builder", "perfect", "--scene", "s", "--group-size", "48"},
              {"build", "--builder", "perfect", "--scene", "s", "--group-size", "-1"},
+             {"collide", "--builder", "perfect", "--scene", "s"},
+             {"collide", "--builder", "b", "--collider", "c", "--scene", "s", "--adjacent", "some"},
              {"run"},
              {"run", "table1", "--fast"},
              {"run", "table4", "--sah-inner", "-1"},
@@ -114,9 +136,10 @@ TEST(Options, ThatAreNotUnderstoodAreAnsweredInOneSentence)
         EXPECT_FALSE(sentence.empty()) << (words.empty() ? "" : words[0]);
         EXPECT_EQ(sentence.find('\n'), std::string::npos) << sentence;
     }
-    EXPECT_NE(refusal({"list", "colours"})
-                  .find("there is no 'colours'; there are: builders, orders, scenes, devices"),
-              std::string::npos);
+    EXPECT_NE(
+        refusal({"list", "colours"})
+            .find("there is no 'colours'; there are: builders, colliders, orders, scenes, devices"),
+        std::string::npos);
 }
 
 TEST(Catalog, ListsEachBuilderOnceUnderTheNameOnItsCard)
@@ -132,6 +155,15 @@ TEST(Catalog, ListsEachBuilderOnceUnderTheNameOnItsCard)
         names.starts_with("perfect karras apetrei apetrei-fused lbvh-levels oibvh-single "
                           "oibvh-multi oibvh-reference radix-reference "))
         << names;
+}
+
+TEST(Catalog, ListsEachColliderOnceAndAnswersAnUnknownNameWithThoseThereAre)
+{
+    for (const ColliderEntry& entry : collider_catalog()) {
+        EXPECT_EQ(&find_collider(entry.name), &entry);
+        EXPECT_FALSE(entry.summary.empty());
+    }
+    EXPECT_THROW(find_collider("leafs"), BadUsage);
 }
 
 TEST(Catalog, AnswersAnUnknownNameWithThoseThereAre)

@@ -3,6 +3,7 @@
 
 Usage: program_test.py <bvhbench> <result schema>
 """
+import array
 import json
 import os
 import pathlib
@@ -47,11 +48,16 @@ def valid(path: str) -> dict:
 def test_exit_codes():
     expect(2, says="name a command: list, build")
     expect(2, "paint", says="paint")
-    expect(2, "list", "colours", says="there are: builders, orders, scenes, devices, experiments")
+    expect(2, "list", "colours", says="there are: builders, colliders, orders, scenes, devices, experiments")
     expect(2, "build", "--builder", "x", "--scene", "soup:5", says="there are: perfect, ")
     expect(2, "build", "--builder", "perfect", "--scene", "no-such", says="no-such")
     expect(2, "build", "--builder", "perfect", "--scene", "soup:5", "--order", "x",
            says="there are: morton30")
+    expect(2, "collide", "--builder", "perfect", "--collider", "x", "--scene", "soup:5", says="there are: leaf, ")
+    expect(2, "collide", "--builder", "perfect", "--collider", "leaf", "--scene", "soup:5", "--pairs", "p.txt",
+           says="to .csv or .bin")
+    expect(2, "collide", "--builder", "median-split", "--collider", "leaf", "--scene", "soup:5",
+           says="leaf needs a tree in device memory")
     expect(2, "run", "tabel1", says="there are: table1, table4, fig8, fig13, peers, quality")
     expect(2, "run", "smoke", "--filter", "[", says="no regular expression")
     expect(2, "check", "--builder", "x", says="there are: perfect")
@@ -95,6 +101,31 @@ def test_build_writes_a_valid_result_and_the_tree():
     assert len(nodes) == cell["counters"]["nodes_count"]
     assert sorted(n["primitive"] for n in nodes if n["primitive"] >= 0) == list(range(300))
     expect(0, "show", "b.json", says="verdict: agrees")
+
+
+def test_collide_writes_a_valid_result_and_the_pairs():
+    common = ("--scene", "sphere:700", "--samples", "3")
+    hashes = set()
+    for collider in [line.split()[0] for line in expect(0, "list", "colliders").splitlines()]:
+        for builder in ("oibvh-multi", "karras"):
+            out = expect(0, "collide", "--builder", builder, "--collider", collider, *common, "--json", "c.json",
+                         "--pairs", "p.csv", says="verdict: agrees with brute, pairs ")
+            assert "\nbroad " in out and "\nhierarchy " in out, out
+            cell, = valid("c.json")["cells"]
+            assert cell["operation"] == "collide" and cell["collider"]["name"] == collider, cell
+            lines = pathlib.Path("p.csv").read_text().splitlines()
+            assert lines[0] == "a,b" and len(lines) == 1 + cell["counters"]["pairs_count"]
+            assert cell["counters"]["pairs_count"] > 700, cell
+            hashes.add(cell["check"]["pairs_hash"])
+            expect(0, "show", "c.json", says=f"{collider} over {builder}")
+    assert len(hashes) == 1, hashes
+    expect(0, "collide", "--builder", "perfect", "--collider", "leaf", *common, "--pairs", "p.bin", "--json", "c.json")
+    words = array.array("I", pathlib.Path("p.bin").read_bytes())
+    assert [f"{a},{b}" for a, b in zip(words[::2], words[1::2])] == lines[1:]
+    expect(0, "collide", "--builder", "perfect", "--collider", "leaf", *common, "--adjacent", "drop", "--json", "d.json",
+           says="leaf, adjacent dropped over perfect on sphere:700")
+    dropped, = valid("d.json")["cells"]
+    assert dropped["counters"]["pairs_count"] < len(lines) - 1
 
 
 def test_quality_has_no_number_where_it_has_no_value():

@@ -91,7 +91,11 @@ TEST(Record, ReadsBackWhatItWrote)
     host.leaves_by_depth = {0, 1, 2};
     RunFacts run = fake_run();
     run.costs = {.inner = 2, .triangle = 0.5};
-    const std::string text = text_of(run, {fake_cell(), failed, host});
+    Cell query = fake_cell();
+    query.operation = Operation::collide;
+    query.collider = {"leaf", false, 3, 2, 64};
+    query.check = {Check::Verdict::agrees, "brute", "", {}, 0x34u};
+    const std::string text = text_of(run, {fake_cell(), failed, host, query});
 
     const Document document = read_document(text, "x");
     EXPECT_EQ(text_of(document.run, document.cells), text);
@@ -101,6 +105,9 @@ TEST(Record, ReadsBackWhatItWrote)
     EXPECT_EQ(document.cells[2].operation, Operation::refit);
     EXPECT_EQ(document.cells[2].left_out, host.left_out);
     EXPECT_EQ(document.cells[2].leaves_by_depth, host.leaves_by_depth);
+    EXPECT_EQ(document.cells[3].operation, Operation::collide);
+    EXPECT_EQ(document.cells[3].collider, query.collider);
+    EXPECT_EQ(document.cells[3].check.pairs_hash, 0x34u);
     EXPECT_EQ(document.cells[2].samples[0].stages[0].elapsed_ns(), 1234);
 }
 
