@@ -10,6 +10,9 @@ namespace bvhbench {
 /// Each leaf walks the tree by itself, without a stack: only over what lies behind it, so each pair appears once.
 std::unique_ptr<Collider> make_leaf(Programs& programs, const ColliderOptions& options);
 
+/// The paper's traversal, Section 5: all pairs of nodes of a level before the next, in queues between launches.
+std::unique_ptr<Collider> make_bvtt(Programs& programs, const ColliderOptions& options);
+
 /// Sweep and prune on one core of the host, whatever the tree: the oracle.
 std::unique_ptr<Collider> make_brute(Programs& programs, const ColliderOptions& options);
 

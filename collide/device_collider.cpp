@@ -58,17 +58,19 @@ void DeviceCollider::reserve(const Tree& tree)
         throw BadUsage(why);
     tree_ = dynamic_cast<const DeviceTree*>(&tree);
     compile(*tree_);
-    if (!tree_->is_implicit())
+    if (has_ropes(*tree_))
         ropes_kernel_ = kernel(*tree_, "collide/ropes.cl", "ropes", {});
-    capacity_ = options_.capacity != 0 ? options_.capacity
-                                       : std::max<std::size_t>(1024, 8 * tree_->leaf_count());
+    capacity_ = options_.capacity != 0
+                    ? options_.capacity
+                    : std::max<std::size_t>(1024, 8 * std::size_t{tree_->leaf_count()});
     take_memory();
 }
 
 void DeviceCollider::take_all(Arena& arena)
 {
     counters_ = arena.take<uint>(QUEUES_COUNT + 2 * queue_count(*tree_), Use::scratch);
-    ropes_ = arena.take<uint>(tree_->is_implicit() ? 1 : 2 * tree_->leaf_count() - 1, Use::scratch);
+    ropes_ = arena.take<uint>(has_ropes(*tree_) ? 2 * std::size_t{tree_->leaf_count()} - 1 : 1,
+                              Use::scratch);
     plan(arena, *tree_);
     pairs_ = arena.take<Pair>(capacity_, Use::scratch);
 }
@@ -99,7 +101,7 @@ void DeviceCollider::query(const Tree& tree, const Input& input, Queue& queue)
     const auto& on_device = dynamic_cast<const DeviceTree&>(tree);
     assert(tree_ != nullptr && on_device.leaf_count() == tree_->leaf_count());
     const bool has_pairs = on_device.leaf_count() > 1;
-    if (!on_device.is_implicit() && has_pairs)
+    if (has_ropes(on_device) && has_pairs)
         enqueue_ropes(on_device, queue);
     queue.begin("broad");
     queue.clear(counters_.cl(), counters_.bytes());

@@ -33,6 +33,9 @@ protected:
     /// Launch what finds the pairs of two leaves or more, in the stage `broad`; counters are zero.
     virtual void enqueue(const DeviceTree& tree, const Input& input, Queue& queue) = 0;
 
+    /// Whether it walks without a stack, and so wants ropes of trees that have no arithmetic for them.
+    virtual bool needs_ropes() const { return true; }
+
     /// Queues between launches that counters are wanted for, and how to make room in them.
     virtual uint queue_count(const DeviceTree&) const { return 0; }
     virtual bool make_room(const std::vector<std::uint64_t>& /*queue_sizes*/) { return true; }
@@ -60,6 +63,7 @@ protected:
     std::size_t chunks_;  ///< work-items of the form for few cores
 
 private:
+    bool has_ropes(const DeviceTree& tree) const { return needs_ropes() && !tree.is_implicit(); }
     void take_all(Arena& arena);
     void take_memory();
     void enqueue_ropes(const DeviceTree& tree, Queue& queue);
@@ -71,7 +75,7 @@ private:
     std::size_t capacity_ = 0;          ///< pairs there is room for
     std::optional<Arena> arena_;
     cl::Kernel ropes_kernel_;
-    Buffer<uint> ropes_;     ///< one a node; one word for trees that need none
+    Buffer<uint> ropes_;     ///< one a node; one word where there are none
     Buffer<Pair> pairs_;     ///< found, in no order
     Buffer<uint> counters_;  ///< as collide/counters.h says
 };

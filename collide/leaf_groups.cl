@@ -5,6 +5,7 @@
 //
 // A work-item a leaf; a group's neighbouring leaves walk much the same nodes and write their pairs together.
 #include "collide/sink_groups.clh"
+#include "collide/sum_tests.clh"
 
 #include "collide/leaf.clh"
 

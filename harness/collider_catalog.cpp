@@ -10,6 +10,8 @@ namespace {
 // To add a collider, add its line here. Nothing registers itself.
 constexpr ColliderEntry catalog[] = {
     {"leaf", "each leaf against the tree, without a stack: by arithmetic, or by ropes", make_leaf},
+    {"bvtt", "pairs of nodes a level after the other, in queues between launches: the paper's",
+     make_bvtt},
     {"brute", "sweep and prune on one core of the host, without the tree: the oracle", make_brute},
 };
 

@@ -100,6 +100,55 @@ INSTANTIATE_TEST_SUITE_P(
                          (std::get<2>(tested.param) == KernelForm::groups ? "groups" : "chunks"));
     });
 
+class Bvtt : public testing::TestWithParam<KernelForm> {};
+
+TEST_P(Bvtt, FindsTheSameWhateverItJumpsAndWhereverItStarts)
+{
+    for (const std::size_t size : {2u, 3u, 9u, 700u}) {
+        const Standing standing(crowded_mesh(size), find_builder("oibvh-multi").make);
+        for (unsigned jump = 1; jump <= 5; ++jump)
+            for (const unsigned start_level : {0u, 1u, 3u, 7u}) {
+                SCOPED_TRACE(std::to_string(size) + " triangles, jump " + std::to_string(jump) +
+                             " from level " + std::to_string(start_level));
+                const auto bvtt = find_collider("bvtt").make(
+                    session().programs(),
+                    {.jump = jump, .start_level = start_level, .form = GetParam()});
+                expect_oracles_pairs(*bvtt, standing, true);
+                EXPECT_GE(bvtt->counts(session().queue()).bvtt_peak, 1u);
+            }
+    }
+}
+
+TEST_P(Bvtt, CountsWhatAHandCounts)
+{
+    // Four triangles in a row, each overlapping the next: the levels of the tree are 01 23 and 0 1 2 3.
+    const Standing standing(collinear_mesh(4), find_builder("oibvh-multi").make);
+    const auto bvtt = find_collider("bvtt").make(session().programs(), {.form = GetParam()});
+    expect_oracles_pairs(*bvtt, standing, true);
+    const QueryCounts counts = bvtt->counts(session().queue());
+    EXPECT_EQ(counts.pairs, 5u);      // 01 12 23 and, 2.5 being long, 02 13
+    EXPECT_EQ(counts.box_tests, 7u);  // (01, 23); 01; 23; 02 03 12 13
+    EXPECT_EQ(counts.bvtt_peak, 3u);  // 01 and 23 with themselves and with each other
+}
+
+TEST_P(Bvtt, RefusesWhatAnArithmeticWouldBeNeededFor)
+{
+    const Standing standing(crowded_mesh(20), find_builder("karras").make);
+    for (const ColliderOptions& options :
+         {ColliderOptions{.jump = 2}, ColliderOptions{.start_level = 1}})
+        EXPECT_THROW(
+            find_collider("bvtt").make(session().programs(), options)->reserve(*standing.tree),
+            BadUsage);
+    EXPECT_THROW(find_collider("bvtt").make(session().programs(), {.jump = 6}), BadUsage);
+    EXPECT_THROW(find_collider("bvtt").make(session().programs(), {.start_level = 13}), BadUsage);
+    EXPECT_THROW(find_collider("bvtt").make(session().programs(), {.group_size = 48}), BadUsage);
+}
+
+INSTANTIATE_TEST_SUITE_P(Forms, Bvtt, testing::Values(KernelForm::groups, KernelForm::chunks),
+                         [](const auto& tested) {
+                             return tested.param == KernelForm::groups ? "groups" : "chunks";
+                         });
+
 TEST(Brute, FindsWhatTheSweepFindsWhateverTheTree)
 {
     const Standing standing(crowded_mesh(200), find_builder("median-split").make);

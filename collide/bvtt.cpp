@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "collide/colliders.h"
+#include "collide/counters.h"
+#include "collide/device_collider.h"
+#include "geometry/bits.h"
+#include "geometry/error.h"
+
+namespace bvhbench {
+namespace {
+
+constexpr uint block_pairs =
+    256;                   // a work-item's own, of the form for few cores, for each of two lists
+constexpr uint items = 4;  // tasks a work-item has a turn, of the form for many lanes
+constexpr uint most_jump = 5;  // 4^5 tasks an entry
+constexpr uint most_start_level = 12;
+
+class Bvtt final : public DeviceCollider {
+public:
+    Bvtt(Programs& programs, const ColliderOptions& options)
+        : DeviceCollider(programs,
+                         {"bvtt", "Level-synchronous traversal with jumps [Chitalu2020, Sec. 5]"},
+                         options, 128)
+    {
+        if (options.jump > most_jump)
+            throw BadUsage("bvtt jumps at most " + std::to_string(most_jump) + " levels, not " +
+                           std::to_string(options.jump));
+        if (options.start_level > most_start_level)
+            throw BadUsage("bvtt starts on level " + std::to_string(most_start_level) +
+                           " at most, not " + std::to_string(options.start_level));
+    }
+
+    std::string refusal(const Tree& tree) const override
+    {
+        const auto* on_device = dynamic_cast<const DeviceTree*>(&tree);
+        if (on_device != nullptr && !on_device->is_implicit() &&
+            (options_.jump > 1 || options_.start_level > 0))
+            return "bvtt can neither jump nor start below the root in a tree with pointers";
+        return DeviceCollider::refusal(tree);
+    }
+
+    QueryCounts counts(const Queue& queue) const override
+    {
+        QueryCounts counts = DeviceCollider::counts(queue);
+        const std::vector<std::uint64_t> all = counters(queue);
+        counts.bvtt_peak = std::max<std::uint64_t>(
+            1, *std::max_element(all.begin() + QUEUES_COUNT / 2, all.end()));
+        return counts;
+    }
+
+private:
+    /// Levels each step descends. To start below the root is to jump there first.
+    std::vector<uint> steps(const DeviceTree& tree) const
+    {
+        uint left = tree.most_levels() - 1;
+        std::vector<uint> steps;
+        if (options_.start_level > 0 && left > 0)
+            steps.push_back(std::min(options_.start_level, left));
+        const uint jump = std::max(options_.jump, 1u);
+        for (left -= steps.empty() ? 0 : steps.front(); left > 0; left -= steps.back())
+            steps.push_back(std::min(jump, left));
+        return steps;
+    }
+
+    bool needs_ropes() const override { return false; }
+
+    void compile(const DeviceTree& tree) override
+    {
+        expand_ = by_groups() ? kernel(tree, "collide/bvtt_groups.cl", "expand",
+                                       {{"GROUP_SIZE", group_size_}, {"ITEMS", items}})
+                              : kernel(tree, "collide/bvtt_chunks.cl", "expand",
+                                       {{"SINK_BLOCK", block_pairs}});
+        queue_capacity_ = options_.capacity != 0
+                              ? options_.capacity
+                              : std::max<std::size_t>(1024, 8 * std::size_t{tree.leaf_count()});
+    }
+
+    void plan(Arena& arena, const DeviceTree&) override
+    {
+        for (Buffer<Pair>& queue : queues_)
+            queue = arena.take<Pair>(queue_capacity_, Use::scratch);
+        if (!by_groups())
+            blocks_ = arena.take<Pair>(2 * block_pairs * chunks_, Use::scratch);
+    }
+
+    /// One a step, and what the last of them would leave.
+    uint queue_count(const DeviceTree& tree) const override
+    {
+        return static_cast<uint>(steps(tree).size()) + 1;
+    }
+
+    bool make_room(const std::vector<std::uint64_t>& queue_sizes) override
+    {
+        const std::uint64_t needed = *std::max_element(queue_sizes.begin(), queue_sizes.end());
+        if (needed <= queue_capacity_)
+            return true;
+        constexpr std::uint64_t most = std::numeric_limits<uint>::max();
+        if (needed > most)
+            throw Unavailable(std::to_string(needed) + " pairs of nodes or more: a queue holds " +
+                              std::to_string(most));
+        // Steps behind the one that ran over have seen only some of their entries: they will need more.
+        queue_capacity_ = static_cast<std::size_t>(std::min(most, 2 * needed));
+        return false;
+    }
+
+    void enqueue(const DeviceTree& tree, const Input& input, Queue& queue) override
+    {
+        const std::size_t most_groups =
+            16 * std::size_t{device().cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()};
+        uint step = 0, depth = 0;
+        for (const uint levels : steps(tree)) {
+            const auto& from = queues_[step % 2];
+            const auto& to = queues_[(step + 1) % 2];
+            const auto room = static_cast<uint>(queue_capacity_);
+            depth += levels;
+            if (by_groups()) {
+                bind(expand_, tree, input, from, to, room, step, levels);
+                // No more tasks than there are pairs of nodes that deep.
+                const std::size_t most_tasks = std::size_t{1} << std::min(2 * depth, 40u);
+                const std::size_t groups = std::min(
+                    most_groups, (most_tasks + group_size_ * items - 1) / (group_size_ * items));
+                queue.launch(expand_, groups * group_size_, group_size_, 0);
+            } else {
+                bind(expand_, tree, input, from, to, room, step, levels, blocks_);
+                queue.launch(expand_, chunks_, 1, 0);
+            }
+            ++step;
+        }
+    }
+
+    cl::Kernel expand_;
+    std::size_t queue_capacity_ = 0;
+    std::array<Buffer<Pair>, 2> queues_;  ///< of nodes; a step goes from one to the other
+    Buffer<Pair> blocks_;
+};
+
+}  // namespace
+
+std::unique_ptr<Collider> make_bvtt(Programs& programs, const ColliderOptions& options)
+{
+    return std::make_unique<Bvtt>(programs, options);
+}
+
+}  // namespace bvhbench
