@@ -12,7 +12,7 @@
 
 static inline void keep_node(LISTS_PARAMETERS, const uint2 pair)
 {
-    (void)block, (void)block_count, (void)out, (void)capacity, (void)count;
+    (void)block, (void)block_count, (void)out, (void)capacity, (void)out_count;
     put(node_block, node_count, next, queue_capacity, next_size, pair);
 }
 

@@ -13,15 +13,18 @@
 namespace bvhbench {
 namespace {
 
+/// What a group of `group` keeps in local memory grows with its size: this many fit into 48 KB.
+constexpr std::size_t most_group_size = 256;
+
 uint chosen_group_size(const Device& device, unsigned asked, unsigned usual)
 {
-    const auto most = device.cl.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>();
+    const std::size_t most = std::min<std::size_t>(
+        most_group_size, std::bit_floor(device.cl.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>()));
     if (asked == 0)
-        return static_cast<uint>(std::min<std::size_t>(usual, std::bit_floor(most)));
-    if (!std::has_single_bit(asked) || asked > std::min<std::size_t>(most, 512))
-        throw BadUsage("a collider's group size is a power of two up to " +
-                       std::to_string(std::min<std::size_t>(most, 512)) + " on " + device.name() +
-                       ", not " + std::to_string(asked));
+        return static_cast<uint>(std::min<std::size_t>(usual, most));
+    if (!std::has_single_bit(asked) || asked > most)
+        throw BadUsage("a collider's group size is a power of two up to " + std::to_string(most) +
+                       " on " + device.name() + ", not " + std::to_string(asked));
     return asked;
 }
 

@@ -12,6 +12,8 @@ constexpr ColliderEntry catalog[] = {
     {"leaf", "each leaf against the tree, without a stack: by arithmetic, or by ropes", make_leaf},
     {"bvtt", "pairs of nodes a level after the other, in queues between launches: the paper's",
      make_bvtt},
+    {"group", "neighbouring leaves as one query with their common box, then leaf by leaf",
+     make_group},
     {"brute", "sweep and prune on one core of the host, without the tree: the oracle", make_brute},
 };
 

@@ -149,6 +149,33 @@ INSTANTIATE_TEST_SUITE_P(Forms, Bvtt, testing::Values(KernelForm::groups, Kernel
                              return tested.param == KernelForm::groups ? "groups" : "chunks";
                          });
 
+TEST(Group, IsRightWhereItsFrontierHasNoRoom)
+{
+    for (const char* builder : {"oibvh-multi", "karras"})
+        for (const Mesh& mesh : {crowded_mesh(200), hard_inputs()[1].make(70)}) {
+            SCOPED_TRACE(builder);
+            const auto group = find_collider("group").make(
+                session().programs(),
+                {.group_size = 32, .form = KernelForm::groups, .capacity = 1});
+            expect_oracles_pairs(*group, Standing(mesh, find_builder(builder).make), true);
+        }
+}
+
+TEST(Colliders, TakeEveryGroupSizeThatTheySayTheyDo)
+{
+    const Standing standing(crowded_mesh(600), find_builder("karras").make);
+    for (const char* name : {"leaf", "bvtt", "group"})
+        for (const unsigned group_size : {16u, 256u}) {
+            SCOPED_TRACE(std::string(name) + ", groups of " + std::to_string(group_size));
+            const auto collider = find_collider(name).make(
+                session().programs(), {.group_size = group_size, .form = KernelForm::groups});
+            expect_oracles_pairs(*collider, standing, true);
+        }
+    for (const unsigned group_size : {48u, 512u})
+        EXPECT_THROW(find_collider("leaf").make(session().programs(), {.group_size = group_size}),
+                     BadUsage);
+}
+
 TEST(Brute, FindsWhatTheSweepFindsWhateverTheTree)
 {
     const Standing standing(crowded_mesh(200), find_builder("median-split").make);

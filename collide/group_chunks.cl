@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=0 -DSINK_BLOCK=512u
+// check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DSINK_BLOCK=512u
+//
+// Eight neighbouring leaves as one query, for few cores with wide registers: they walk the tree together, without a
+// stack, over what lies behind them. A node that their common box meets is tested against all eight at once, and goes
+// on being walked if one of them meets it.
+#include "builders/stages/chunk.clh"
+#include "collide/next.clh"
+#include "collide/sink_chunks.clh"
+
+#define LANES 8u
+
+static inline float least(const float8 v)
+{
+    const float4 of_two = fmin(v.lo, v.hi);
+    const float2 of_four = fmin(of_two.lo, of_two.hi);
+    return fmin(of_four.x, of_four.y);
+}
+
+/// A bit a lane whose box overlaps `box`.
+static inline uint lanes_that_meet(const float8 min_x, const float8 min_y, const float8 min_z,
+                                   const float8 max_x, const float8 max_y, const float8 max_z,
+                                   const Aabb box)
+{
+    const int8 meets = (min_x <= box.max_x) & (max_x >= box.min_x) & (min_y <= box.max_y) &
+                       (max_y >= box.min_y) & (min_z <= box.max_z) & (max_z >= box.min_z);
+    const int8 bits = meets & (int8)(1, 2, 4, 8, 16, 32, 64, 128);
+    const int4 of_two = bits.lo | bits.hi;
+    const int2 of_four = of_two.lo | of_two.hi;
+    return (uint)(of_four.x | of_four.y);
+}
+
+/// Pairs of the leaf at `place` with the lanes of `meeting`, which begin at `first`.
+static inline void put_lanes(TREE_PARAMETERS, global const Face* faces, SINK_PARAMETERS,
+                             const uint first, uint meeting, const uint place)
+{
+    const uint other = tree_triangle(TREE, place);
+    for (; meeting != 0u; meeting &= meeting - 1u) {
+        const uint own = tree_triangle(TREE, first + 31u - clz(meeting & (0u - meeting)));
+        if (is_wanted(faces, own, other))
+            put(SINK_PASSED, pair_of(own, other));
+    }
+}
+
+/// The query of leaves `first` to before `end`, LANES at most. How many boxes it tested.
+static inline uint walk_with(TREE_PARAMETERS, global const uint* ropes, global const Face* faces,
+                             SINK_PARAMETERS, const uint first, const uint end)
+{
+    float lanes
+        [6]
+        [LANES];  // those without a leaf hold the first one's box, and are left out of what meets
+    for (uint k = 0u; k < LANES; ++k) {
+        const Aabb box = tree_box(TREE, tree_leaf(TREE, first + k < end ? first + k : first));
+        lanes[0][k] = box.min_x, lanes[1][k] = box.min_y, lanes[2][k] = box.min_z;
+        lanes[3][k] = box.max_x, lanes[4][k] = box.max_y, lanes[5][k] = box.max_z;
+    }
+    const float8 min_x = vload8(0, lanes[0]), min_y = vload8(0, lanes[1]);
+    const float8 min_z = vload8(0, lanes[2]), max_x = vload8(0, lanes[3]);
+    const float8 max_y = vload8(0, lanes[4]), max_z = vload8(0, lanes[5]);
+    const Aabb common = {least(min_x),   least(min_y),   least(min_z),
+                         -least(-max_x), -least(-max_y), -least(-max_z)};
+    const uint count = end - first, all = (1u << count) - 1u;
+
+    uint tests = count * (count - 1u) / 2u;
+    for (uint k = 1u; k < count; ++k) {
+        const Aabb box = tree_box(TREE, tree_leaf(TREE, first + k));
+        const uint before = lanes_that_meet(min_x, min_y, min_z, max_x, max_y, max_z, box);
+        put_lanes(TREE, faces, SINK_PASSED, first, before & ((1u << k) - 1u), first + k);
+    }
+    uint node = next_node(TREE, ropes, tree_leaf(TREE, end - 1u));
+    while (node != TREE_NONE) {
+        const Aabb box = tree_box(TREE, node);
+        const bool is_leaf = tree_is_leaf(TREE, node);
+        uint met = 0u;
+        ++tests;
+        if (overlap(common, box)) {
+            met = lanes_that_meet(min_x, min_y, min_z, max_x, max_y, max_z, box) & all;
+            tests += count;
+        }
+        if (met != 0u && is_leaf)
+            put_lanes(TREE, faces, SINK_PASSED, first, met, tree_place(TREE, node));
+        node = met != 0u && !is_leaf ? tree_left(TREE, node) : next_node(TREE, ropes, node);
+    }
+    return tests;
+}
+
+/// As in leaf_chunks.cl.
+kernel void group_pairs(TREE_PARAMETERS, global const uint* ropes, global const Face* faces,
+                        global uint2* pairs, const uint capacity, volatile global uint* counters,
+                        global uint2* blocks)
+{
+    const Chunk chunk = own_chunk(leaves);
+    uint block_count = 0u;
+    ulong tests = 0ul;
+    for (uint place = chunk.first; place < chunk.end; place += LANES)
+        tests += walk_with(TREE, ropes, faces, SINK, place, min(place + LANES, chunk.end));
+    add_wide(counters + BOX_TESTS_COUNT, tests);
+    empty_block(SINK);
+}
