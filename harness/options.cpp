@@ -86,7 +86,7 @@ void add_build(CLI::App& app, BuildCommand& build, std::string& leaves)
     command->add_option("--dump", build.dump, "write the tree, spelled out, as JSON");
 }
 
-void add_collide(CLI::App& app, CollideCommand& collide, std::string& adjacent)
+void add_collide(CLI::App& app, CollideCommand& collide, std::string& leaves, std::string& adjacent)
 {
     CLI::App* command = app.add_subcommand(
         "collide",
@@ -97,6 +97,8 @@ void add_collide(CLI::App& app, CollideCommand& collide, std::string& adjacent)
     command->add_option("--scene", collide.scene, "a scene, data set or mesh file")->required();
     command->add_option("--order", collide.builder.order, "a name of `list orders`")
         ->capture_default_str();
+    command->add_option("--leaves", leaves, "mesh or sorted: where leaf boxes are kept")
+        ->check(one_of({"mesh", "sorted"}));
     command->add_option("--adjacent", adjacent, "keep or drop pairs that share a vertex index")
         ->capture_default_str()
         ->check(one_of({"keep", "drop"}));
@@ -197,7 +199,7 @@ Options parse_options(int argc, const char* const* argv)
     add_common(app, options.common);
     add_list(app, list);
     add_build(app, build, leaves);
-    add_collide(app, collide, adjacent);
+    add_collide(app, collide, leaves, adjacent);
     add_run(app, run);
     add_reproduce(app, reproduce);
     add_check(app, check);
@@ -221,7 +223,7 @@ Options parse_options(int argc, const char* const* argv)
     for (const NodeCosts& costs : {build.costs, run.costs, reproduce.costs})
         check_costs(costs);
     check_power_of_two("--group-size", collide.collider.group_size);
-    build.builder.sorted_leaves = leaves == "sorted";
+    build.builder.sorted_leaves = collide.builder.sorted_leaves = leaves == "sorted";
     collide.collider.keep_adjacent = adjacent == "keep";
     const std::string chosen = app.get_subcommands().front()->get_name();
     if (chosen == "list")

@@ -40,6 +40,17 @@ TEST(Sources, IncludeEachFileOnceAndKeepItsLines)
               "#line 2 \"b.h\"\nint b;\n#line 3 \"k.cl\"\nint k;\n");
 }
 
+TEST(Sources, PutAHeaderBeforeAFileThatDoesNotNameIt)
+{
+    KernelFolder folder;
+    folder.write("a.h", "int a;\n");
+    folder.write("b.h", "#include \"a.h\"\n");
+    folder.write("k.cl", "#include \"a.h\"\nint k;\n");
+    EXPECT_EQ(folder.sources().flatten({"b.h", "k.cl"}),
+              "#line 1 \"b.h\"\n#line 1 \"a.h\"\nint a;\n#line 2 \"b.h\"\n#line 1 \"k.cl\"\n"
+              "#line 2 \"k.cl\"\nint k;\n");
+}
+
 TEST(Sources, NameTheFileThatIsNotThere)
 {
     KernelFolder folder;

@@ -76,12 +76,14 @@ TEST(Options, OfQualityAreTwoNamesOfOneFlag)
 TEST(Options, OfCollideAreAllUnderstood)
 {
     const Options options =
-        parsed({"collide", "--builder",     "karras",    "--collider",   "leaf", "--scene",
-                "soup:5",  "--order",       "hilbert30", "--adjacent",   "drop", "--jump",
-                "3",       "--start-level", "4",         "--group-size", "64",   "--samples",
-                "3",       "--json",        "a.json",    "--pairs",      "p.bin"});
+        parsed({"collide", "--builder", "karras",    "--collider",    "leaf",   "--scene",
+                "soup:5",  "--order",   "hilbert30", "--leaves",      "sorted", "--adjacent",
+                "drop",    "--jump",    "3",         "--start-level", "4",      "--group-size",
+                "64",      "--samples", "3",         "--json",        "a.json", "--pairs",
+                "p.bin"});
     const auto& collide = std::get<CollideCommand>(options.command);
-    EXPECT_EQ(collide.builder, (BuilderChoice{.name = "karras", .order = "hilbert30"}));
+    EXPECT_EQ(collide.builder,
+              (BuilderChoice{.name = "karras", .order = "hilbert30", .sorted_leaves = true}));
     EXPECT_EQ(collide.collider, (ColliderChoice{.name = "leaf",
                                                 .keep_adjacent = false,
                                                 .jump = 3,
