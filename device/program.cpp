@@ -23,17 +23,18 @@ cl::Kernel Programs::kernel(std::string_view path, const char* name,
                             std::initializer_list<Define> defines, Optimise optimise)
 {
     return compiled(device_.sources.flatten(path), path, name,
-                    std::span(defines.begin(), defines.size()));
+                    std::span(defines.begin(), defines.size()), optimise);
 }
 
 cl::Kernel Programs::kernel(std::string_view header, std::string_view path, const char* name,
                             std::span<const Define> defines)
 {
-    return compiled(device_.sources.flatten({header, path}), path, name, defines);
+    return compiled(device_.sources.flatten({header, path}), path, name, defines,
+                    Optimise::freely);
 }
 
 cl::Kernel Programs::compiled(const std::string& text, std::string_view path, const char* name,
-                              std::span<const Define> defines)
+                              std::span<const Define> defines, Optimise optimise)
 {
     std::string options = "-cl-std=" + dialect_;
     if (optimise == Optimise::on_gpus && device_.is_cpu())

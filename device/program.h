@@ -55,7 +55,7 @@ public:
 
 private:
     cl::Kernel compiled(const std::string& text, std::string_view path, const char* name,
-                        std::span<const Define> defines);
+                        std::span<const Define> defines, Optimise optimise);
     cl::Program build(std::string_view path, const std::string& text, const std::string& options);
 
     const Device& device_;
