@@ -12,12 +12,13 @@
 namespace bvhbench {
 namespace {
 
-class ColliderReference : public testing::TestWithParam<ColliderEntry> {};
+class ColliderReference : public testing::TestWithParam<std::tuple<ColliderEntry, KernelForm>> {};
 
 PairList pairs_found(const Standing& standing, bool keep_adjacent)
 {
+    const auto& [entry, form] = ColliderReference::GetParam();
     const auto collider =
-        ColliderReference::GetParam().make(session().programs(), {.keep_adjacent = keep_adjacent});
+        entry.make(session().programs(), {.keep_adjacent = keep_adjacent, .form = form});
     collider->reserve(*standing.tree);
     find_pairs(*collider, *standing.tree, standing.input, session().queue());
     PairList found(collider->pairs(session().queue()));
@@ -51,9 +52,13 @@ TEST_P(ColliderReference, CountedThePairsThatTheColliderFinds)
 }
 
 INSTANTIATE_TEST_SUITE_P(Catalog, ColliderReference,
-                         testing::ValuesIn(collider_catalog().begin(), collider_catalog().end()),
+                         testing::Combine(testing::ValuesIn(collider_catalog().begin(),
+                                                            collider_catalog().end()),
+                                          testing::Values(KernelForm::groups, KernelForm::chunks)),
                          [](const auto& tested) {
-                             return test_name(std::string(tested.param.name));
+                             return test_name(std::string(std::get<0>(tested.param).name)) + '_' +
+                                    (std::get<1>(tested.param) == KernelForm::groups ? "groups"
+                                                                                     : "chunks");
                          });
 
 }  // namespace
