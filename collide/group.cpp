@@ -1,21 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
-
 #include "collide/colliders.h"
-#include "collide/device_collider.h"
-#include "geometry/bits.h"
+#include "collide/walk_collider.h"
 
 namespace bvhbench {
 namespace {
 
-constexpr uint block_pairs = 512;  // a work-item's own, of the form for few cores
-
-class Group final : public DeviceCollider {
+class Group final : public WalkCollider {
 public:
     Group(Programs& programs, const ColliderOptions& options)
-        : DeviceCollider(programs,
-                         {"group", "Neighbouring leaves as one query [Chitalu2020, Eq. 12]"},
-                         options, 64)
+        : WalkCollider(programs,
+                       {"group", "Neighbouring leaves as one query [Chitalu2020, Eq. 12]"}, options)
     {}
 
 private:
@@ -33,28 +27,6 @@ private:
                 : kernel(tree, "collide/group_chunks.cl", "group_pairs",
                          {{"SINK_BLOCK", block_pairs}});
     }
-
-    void plan(Arena& arena, const DeviceTree&) override
-    {
-        if (!by_groups())
-            blocks_ = arena.take<Pair>(block_pairs * chunks_, Use::scratch);
-    }
-
-    void enqueue(const DeviceTree& tree, const Input& input, Queue& queue) override
-    {
-        if (by_groups()) {
-            bind(walk_, tree, input);
-            queue.launch(walk_,
-                         std::size_t{divided_up(tree.leaf_count(), group_size_)} * group_size_,
-                         group_size_, 0);
-        } else {
-            bind(walk_, tree, input, blocks_);
-            queue.launch(walk_, chunks_, 1, 0);
-        }
-    }
-
-    cl::Kernel walk_;
-    Buffer<Pair> blocks_;
 };
 
 }  // namespace
