@@ -55,6 +55,16 @@ public:
     /// Allocate everything for `primitives` triangles, 1 to 2^31. Never timed. Throws Unavailable.
     virtual void reserve(std::size_t primitives) = 0;
 
+    /// The same for objects of so many triangles each, none of them empty: one build makes a tree of each. Throws
+    /// Unavailable as well if it builds one tree only, and BadUsage for options that several objects do not allow.
+    virtual void reserve_objects(std::span<const uint> sizes)
+    {
+        if (sizes.size() != 1)
+            throw Unavailable(std::string(card().name) + " builds one tree at a time, not " +
+                              std::to_string(sizes.size()));
+        reserve(sizes.front());
+    }
+
     /// What `reserve` took, counted as it was handed out; zeros before.
     virtual Footprint reserved() const = 0;
 

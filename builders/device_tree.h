@@ -1,29 +1,36 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cassert>
 #include <string_view>
+#include <vector>
 
 #include "builders/tree.h"
 #include "device/buffer.h"
 #include "device/queue.h"
-#include "geometry/dialect.h"
+#include "geometry/forest.h"
 
 namespace bvhbench {
 
-/// A tree in device memory, which kernels walk through its layout's access header. The header defines
+/// The trees of a frame's objects in device memory, often of one, which kernels walk through their layout's access
+/// header. The header defines
 ///
-///     TREE_PARAMETERS, TREE        parameters as `bind` sets them, `leaves` among them; the same as arguments
-///     tree_root(TREE)              a node: a word. A tree of one leaf is not walked.
-///     tree_leaf(TREE, k)           the leaf at place k in leaf order
-///     tree_is_leaf(TREE, node), tree_place(TREE, node)      and back
-///     tree_triangle(TREE, k)       the triangle of that leaf
+///     FOREST_PARAMETERS, FOREST    parameters as `bind` sets them; the same as arguments
+///     PICK_TREE(object)            declares the variables of TREE: one object's tree, behind its ForestObject
+///     TREE_PARAMETERS, TREE        that tree as parameters, `leaves` among them, and as arguments
+///     tree_root(TREE)              a node: a word
+///     tree_leaf(TREE, k)           the leaf at place k in the object's leaf order
+///     tree_is_leaf(TREE, node)
+///     tree_triangle(TREE, leaf)    the triangle of a leaf
 ///     tree_left(TREE, node), tree_right(TREE, node)         of inner nodes; TREE_NONE for a virtual right
 ///     tree_box(TREE, node)
 ///     TREE_IMPLICIT                1: all leaves are on one level and arithmetic finds every relative:
 ///                                  tree_next, the node after a node's subtree in depth-first order, or
-///                                  TREE_NONE; tree_descendant, Eq. (12), or TREE_NONE if virtual; tree_level
+///                                  TREE_NONE; tree_descendant, Eq. (12), or TREE_NONE if virtual;
+///                                  tree_ancestor, Eq. (13); tree_level
 ///                                  0: inner nodes have numbers, tree_inner(TREE, k) for k + 1 < leaves, and
-///                                  every node has one, tree_number(TREE, node), leaves after inner nodes
+///                                  every node has one, tree_number(TREE, node), leaves after inner nodes; the
+///                                  objects' trees are parts of one, PICK_WHOLE_TREE, and nodes mean the same in all
 ///
 /// and is compiled with SORTED_LEAVES: 1 if leaf boxes are in leaf order, 0 if in mesh order behind ids.
 class DeviceTree : public Tree {
@@ -31,13 +38,24 @@ public:
     const Queue* queue =
         nullptr;  ///< where the last build was enqueued; set before anything is read
 
-    virtual uint leaf_count() const = 0;
+    std::vector<ForestObject> objects;  ///< of each object's tree
+    Buffer<ForestObject> device_objects;
+
+    /// One object's tree as `spelled_out` tells of the only one.
+    virtual HostTree spelled_out_object(uint object) const = 0;
+    HostTree spelled_out() const final
+    {
+        assert(objects.size() == 1);
+        return spelled_out_object(0);
+    }
+
+    virtual uint leaf_count() const = 0;  ///< of all objects
     virtual bool has_sorted_leaves() const = 0;
 
     virtual std::string_view access_header() const = 0;
     virtual bool is_implicit() const = 0;  ///< as the header says
 
-    /// Nodes on the longest way from the root to a leaf, at most, and exactly in an implicit tree.
+    /// Nodes on the longest way from a root to a leaf, at most, and exactly in the largest implicit tree.
     virtual uint most_levels() const = 0;
 
     /// Set the header's parameters from `first` on; returns the index after them.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "builders/input.h"
 
+#include <algorithm>
+
 namespace bvhbench {
 namespace {
 
@@ -17,9 +19,27 @@ Buffer<T> copied(const Device& device, const Queue& queue, std::span<const T> va
 }  // namespace
 
 Input upload(const Device& device, const Queue& queue, std::span<const Point> points,
-             std::span<const Face> faces)
+             std::span<const Face> faces, std::span<const FaceRange> objects)
 {
-    return {points, faces, copied(device, queue, points), copied(device, queue, faces)};
+    Input input{points, faces, copied(device, queue, points), copied(device, queue, faces), {}, {}};
+    input.objects.assign(objects.begin(), objects.end());
+    if (objects.empty())
+        input.objects = {{0, static_cast<uint>(faces.size())}};
+    std::vector<uint> owners(input.objects.size() > 1 ? faces.size() : 1, 0u);
+    if (input.objects.size() > 1)
+        for (uint object = 0; object < input.objects.size(); ++object)
+            std::fill_n(owners.begin() + input.objects[object].first, input.objects[object].count,
+                        object);
+    input.device_owners = copied<uint>(device, queue, owners);
+    return input;
+}
+
+std::vector<uint> object_sizes(const Input& input)
+{
+    std::vector<uint> sizes;
+    for (const FaceRange& object : input.objects)
+        sizes.push_back(object.count);
+    return sizes;
 }
 
 }  // namespace bvhbench

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "device/buffer.h"
 #include "device/queue.h"
@@ -15,12 +16,17 @@ struct Input {
     std::span<const Face> faces;
     Buffer<Point> device_points;
     Buffer<Face> device_faces;
+    std::vector<FaceRange> objects;  ///< what gets a tree of its own: at least one, together all faces in order
+    Buffer<uint> device_owners;      ///< the object of each face; one word if there is one object
 
     uint triangle_count() const { return static_cast<uint>(faces.size()); }
 };
 
-/// Copy a mesh to the device. The spans must outlive the input. Waits.
+/// Copy a mesh to the device. The spans must outlive the input. No objects: all faces are one. Waits.
 Input upload(const Device& device, const Queue& queue, std::span<const Point> points,
-             std::span<const Face> faces);
+             std::span<const Face> faces, std::span<const FaceRange> objects = {});
+
+/// Triangles of each object.
+std::vector<uint> object_sizes(const Input& input);
 
 }  // namespace bvhbench

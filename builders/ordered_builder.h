@@ -21,6 +21,7 @@ public:
     BuilderCard card() const final { return card_; }
     Footprint footprint(std::size_t primitives) const final;
     void reserve(std::size_t primitives) final;
+    void reserve_objects(std::span<const uint> sizes) final;
     Footprint reserved() const final { return arena_ ? arena_->used() : Footprint{}; }
     const Tree& build(const Input& input, Queue& queue, Start start) final;
     bool can_refit() const final { return true; }
@@ -30,8 +31,9 @@ protected:
     /// Another one like this, without memory.
     virtual std::unique_ptr<OrderedBuilder> twin() const = 0;
 
-    /// Take every buffer, `leaf_order_`'s too. With sorted leaves, `gathered_` is set as well.
-    virtual void plan(Arena& arena, uint primitives) = 0;
+    /// Take every buffer for objects of so many triangles each, `leaf_order_`'s too. With sorted leaves, `gathered_`
+    /// is set as well.
+    virtual void plan(Arena& arena, std::span<const uint> sizes) = 0;
 
     /// Fill what builds expect and leave as it was. Waits.
     virtual void prepare(const cl::CommandQueue& queue) = 0;
@@ -42,10 +44,11 @@ protected:
 
     virtual DeviceTree& tree() = 0;
 
-    /// Where the boxes of sorted leaves go: from `first` on.
+    /// Where the boxes of sorted leaves go: from `first` on, or, of several objects, from slots[object] on.
     struct Gathered {
         Buffer<Aabb> boxes;
         uint first = 0;
+        Buffer<uint> slots = {};
     };
 
     Programs& programs_;
@@ -54,12 +57,13 @@ protected:
     Gathered gathered_;
 
 private:
-    void gather_if_sorted(Queue& queue);
+    Footprint planned(std::span<const uint> sizes) const;
+    void gather_if_sorted(const Input& input, Queue& queue);
 
     BuilderCard card_;
     GatherStage gather_;
     std::optional<Arena> arena_;
-    uint primitives_ = 0;  ///< that there is memory for
+    std::vector<uint> sizes_;  ///< of the objects that there is memory for
 };
 
 }  // namespace bvhbench

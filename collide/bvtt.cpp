@@ -39,6 +39,11 @@ public:
         if (on_device != nullptr && !on_device->is_implicit() &&
             (options_.jump > 1 || options_.start_level > 0))
             return "bvtt can neither jump nor start below the root in a tree with pointers";
+        if (on_device != nullptr && label_bits(*on_device) < 32 &&
+            label_bits(*on_device) + ceil_log2(static_cast<uint>(on_device->objects.size())) > 32)
+            return "bvtt names an object and its node in 32 bits, too few for " +
+                   std::to_string(on_device->objects.size()) + " objects with trees of up to " +
+                   std::to_string(on_device->most_levels()) + " levels";
         return DeviceCollider::refusal(tree);
     }
 
@@ -56,6 +61,8 @@ private:
     std::vector<uint> steps(const DeviceTree& tree) const
     {
         uint left = tree.most_levels() - 1;
+        if (tree.objects.size() > 1)  // roots that are leaves meet in a step too
+            left = std::max(left, 1u);
         std::vector<uint> steps;
         if (options_.start_level > 0 && left > 0)
             steps.push_back(std::min(options_.start_level, left));
@@ -67,12 +74,23 @@ private:
 
     bool needs_ropes() const override { return false; }
 
+    /// Of a node in a queue's entry; the object is in the rest.
+    static uint label_bits(const DeviceTree& tree)
+    {
+        return tree.objects.size() > 1 && tree.is_implicit() ? tree.most_levels() : 32;
+    }
+
     void compile(const DeviceTree& tree) override
     {
+        const uint bits = label_bits(tree);
+        const Define one_object{"ONE_OBJECT", tree.objects.size() == 1 ? 1u : 0u};
+        const Define label{"LABEL_BITS", bits};
+        if (tree.objects.size() > 1)
+            roots_ = kernel(tree, "collide/roots.cl", "find_roots", {label});
         expand_ = by_groups() ? kernel(tree, "collide/bvtt_groups.cl", "expand",
-                                       {{"GROUP_SIZE", group_size_}, {"ITEMS", items}})
+                                       {{"GROUP_SIZE", group_size_}, {"ITEMS", items}, one_object, label})
                               : kernel(tree, "collide/bvtt_chunks.cl", "expand",
-                                       {{"SINK_BLOCK", block_pairs}});
+                                       {{"SINK_BLOCK", block_pairs}, one_object, label});
         queue_capacity_ = options_.capacity != 0
                               ? options_.capacity
                               : std::max<std::size_t>(1024, 8 * std::size_t{tree.leaf_count()});
@@ -92,7 +110,7 @@ private:
         return static_cast<uint>(steps(tree).size()) + 1;
     }
 
-    bool make_room(const std::vector<std::uint64_t>& queue_sizes) override
+    bool make_room(std::uint64_t, const std::vector<std::uint64_t>& queue_sizes) override
     {
         const std::uint64_t needed = *std::max_element(queue_sizes.begin(), queue_sizes.end());
         if (needed <= queue_capacity_)
@@ -110,6 +128,11 @@ private:
     {
         const std::size_t most_groups =
             16 * std::size_t{device().cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()};
+        const bool one_object = tree.objects.size() == 1;
+        if (one_object && !within())
+            return;
+        if (!one_object)
+            find_roots(tree, queue);
         uint step = 0, depth = 0;
         for (const uint levels : steps(tree)) {
             const auto& from = queues_[step % 2];
@@ -120,7 +143,7 @@ private:
                 bind(expand_, tree, input, from, to, room, step, levels);
                 // No more tasks than there are pairs of nodes that deep.
                 const std::size_t most_tasks = std::size_t{1} << std::min(2 * depth, 40u);
-                const std::size_t groups = std::min(
+                const std::size_t groups = !one_object ? most_groups : std::min(
                     most_groups, (most_tasks + group_size_ * items - 1) / (group_size_ * items));
                 queue.launch(expand_, groups * group_size_, group_size_, 0);
             } else {
@@ -131,7 +154,18 @@ private:
         }
     }
 
-    cl::Kernel expand_;
+    void find_roots(const DeviceTree& tree, Queue& queue)
+    {
+        constexpr uint others = 16, group = 64;  // OTHERS of roots.cl
+        const auto objects = static_cast<uint>(tree.objects.size());
+        set_arguments_from(roots_, tree.bind(roots_, 0), objects, within() ? 1u : 0u,
+                           between(tree) ? 1u : 0u, queues_[0], static_cast<uint>(queue_capacity_),
+                           counters_);
+        const std::size_t items = std::size_t{objects} * divided_up(objects, others);
+        queue.launch(roots_, (items + group - 1) / group * group, group, 0);
+    }
+
+    cl::Kernel roots_, expand_;
     std::size_t queue_capacity_ = 0;
     std::array<Buffer<Pair>, 2> queues_;  ///< of nodes; a step goes from one to the other
     Buffer<Pair> blocks_;

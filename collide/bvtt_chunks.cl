@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=0 -DSINK_BLOCK=512u
-// check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DSINK_BLOCK=512u
+// check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=0 -DSINK_BLOCK=512u -DONE_OBJECT=0 -DLABEL_BITS=20
+// check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DSINK_BLOCK=512u -DONE_OBJECT=1 -DLABEL_BITS=32
 //
 // A step of the traversal, a work-item a run of neighbouring tasks, with a block for nodes and one for pairs.
 #include "collide/sink_chunks.clh"
@@ -25,13 +25,13 @@ static inline void keep_pair(LISTS_PARAMETERS, const uint2 pair)
 #include "collide/bvtt.clh"
 
 /// As in bvtt_groups.cl. `blocks` has 2 SINK_BLOCK pairs a work-item.
-kernel void expand(TREE_PARAMETERS, global const uint* ropes, global const Face* faces,
+kernel void expand(FOREST_PARAMETERS, global const uint* ropes, global const Face* faces,
                    global uint2* pairs, const uint capacity, volatile global uint* counters,
                    global const uint2* queue, global uint2* next, const uint queue_capacity,
                    const uint step, const uint levels, global uint2* blocks)
 {
     volatile global uint* sizes = counters + QUEUES_COUNT + 2u * step;
-    const uint waiting = step == 0u ? 1u : min(sizes[0], queue_capacity);
+    const uint waiting = entries_of(sizes, queue_capacity, step);
     const ulong tasks = tasks_of(waiting, levels);
     const ulong share = (tasks + get_global_size(0) - 1ul) / get_global_size(0);
     const ulong first = min(tasks, get_global_id(0) * share), end = min(tasks, first + share);
@@ -39,7 +39,7 @@ kernel void expand(TREE_PARAMETERS, global const uint* ropes, global const Face*
     uint node_count = 0u, block_count = 0u;
     ulong tests = 0ul;
     for (ulong task = first; task < end; ++task)
-        tests += do_task(TREE, faces, queue, step, levels, task, node_block, &node_count, next,
+        tests += do_task(FOREST, faces, queue, step, levels, task, node_block, &node_count, next,
                          queue_capacity, sizes + 2, SINK);
     empty_block(node_block, &node_count, next, queue_capacity, sizes + 2);
     empty_block(SINK);

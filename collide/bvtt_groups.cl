@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=0 -DGROUP_SIZE=64u -DITEMS=4u
-// check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DGROUP_SIZE=64u -DITEMS=4u
+// check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=0 -DGROUP_SIZE=64u -DITEMS=4u -DONE_OBJECT=0 -DLABEL_BITS=20
+// check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DGROUP_SIZE=64u -DITEMS=4u -DONE_OBJECT=1 -DLABEL_BITS=32
 //
 // A step of the traversal by groups: ITEMS tasks a work-item a turn. What a group keeps it lines up in local memory,
 // nodes from the front and pairs from the back, and writes out with one atomic each.
@@ -39,14 +39,14 @@ static inline void write_out(local const uint2* kept, const uint first, const in
 /// `queue` holds the entries of this step, counted before it; `next` gets those of the step after it, and `pairs`
 /// what is found. Nothing is written where there is no room, but all is counted.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void expand(
-    TREE_PARAMETERS, global const uint* ropes, global const Face* faces, global uint2* pairs,
+    FOREST_PARAMETERS, global const uint* ropes, global const Face* faces, global uint2* pairs,
     const uint capacity, volatile global uint* counters, global const uint2* queue,
     global uint2* next, const uint queue_capacity, const uint step, const uint levels)
 {
     local uint2 kept[KEPT];
     local uint kept_counts[2], counts[2], slots[2], tests[GROUP_SIZE];
     volatile global uint* sizes = counters + QUEUES_COUNT + 2u * step;
-    const uint waiting = step == 0u ? 1u : min(sizes[0], queue_capacity);
+    const uint waiting = entries_of(sizes, queue_capacity, step);
     const ulong tasks = tasks_of(waiting, levels);
     const ulong a_turn = (ulong)get_num_groups(0) * KEPT;
     const uint turns = (uint)((tasks + a_turn - 1ul) / a_turn);
@@ -60,7 +60,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void expand(
         for (uint k = 0u; k < ITEMS; ++k) {
             const ulong task = first + k * GROUP_SIZE + item;
             if (task < tasks)
-                tests[item] += do_task(TREE, faces, queue, step, levels, task, kept, kept_counts);
+                tests[item] += do_task(FOREST, faces, queue, step, levels, task, kept, kept_counts);
         }
         barrier(CLK_LOCAL_MEM_FENCE);
         if (item < 2u) {

@@ -24,8 +24,12 @@ struct ColliderCard {
     std::string_view method;  ///< the publication or library, as cited in docs/references.md
 };
 
+/// Which triangles are looked for pairs, by the objects they are of.
+enum class Among { all, between_objects, within_objects };
+
 /// How to query. One struct for all colliders: what a collider has no use for it ignores.
 struct ColliderOptions {
+    Among among = Among::all;
     /// Whether pairs that share a vertex index are wanted too: they touch by construction.
     bool keep_adjacent = true;
     /// Levels a step of a traversal descends, Eq. (12); 0 leaves the choice to the collider.
@@ -45,9 +49,10 @@ struct QueryCounts {
     std::optional<std::uint64_t> box_tests;  ///< of two boxes for overlap, if they are counted
     std::optional<std::uint64_t>
         bvtt_peak;  ///< most entries in a queue of node pairs, if it has any
+    std::optional<std::uint64_t> tasks;  ///< held against other objects' trees, if it has several
 };
 
-/// Finds the pairs of triangles of one tree whose closed boxes overlap: the smaller id first, each once.
+/// Finds the pairs of triangles of a frame whose closed boxes overlap: the smaller id first, each once.
 ///
 /// A query never drops a pair in silence: `complete` tells whether all of them found room, and makes room if
 /// not, for the query to be repeated. `find_pairs` does so.

@@ -85,6 +85,7 @@ void DeviceCollider::take_memory()
     arena_.reset();  // the old memory goes before the new comes
     arena_ = Arena::reserved(device(), measuring.used());
     take_all(*arena_);
+    prepare(*tree_, cl::CommandQueue(device().context, device().cl));
 }
 
 void DeviceCollider::enqueue_ropes(const DeviceTree& tree, Queue& queue)
@@ -133,7 +134,8 @@ bool DeviceCollider::complete(const Queue& queue)
                               std::to_string(most));
         capacity_ = static_cast<std::size_t>(std::min(most, found + found / 8));
     }
-    const bool queues_had_room = make_room({counts.begin() + QUEUES_COUNT / 2, counts.end()});
+    const bool queues_had_room = make_room(counts[TASKS_COUNT / 2],
+                                           {counts.begin() + QUEUES_COUNT / 2, counts.end()});
     if (had_room && queues_had_room)
         return true;
     take_memory();
@@ -143,7 +145,10 @@ bool DeviceCollider::complete(const Queue& queue)
 QueryCounts DeviceCollider::counts(const Queue& queue) const
 {
     const std::vector<std::uint64_t> counts = counters(queue);
-    return {counts[PAIRS_COUNT / 2], counts[BOX_TESTS_COUNT / 2], {}};
+    QueryCounts result{counts[PAIRS_COUNT / 2], counts[BOX_TESTS_COUNT / 2], {}, {}};
+    if (tree_->objects.size() > 1)
+        result.tasks = counts[TASKS_COUNT / 2];
+    return result;
 }
 
 std::vector<Pair> DeviceCollider::pairs(const Queue& queue) const

@@ -30,15 +30,18 @@ protected:
     virtual void compile(const DeviceTree& tree) = 0;
     virtual void plan(Arena& arena, const DeviceTree& tree) = 0;
 
-    /// Launch what finds the pairs of two leaves or more, in the stage `broad`; counters are zero.
+    /// Launch what finds the pairs, in the stage `broad`; counters are zero.
     virtual void enqueue(const DeviceTree& tree, const Input& input, Queue& queue) = 0;
 
     /// Whether it walks without a stack, and so wants ropes of trees that have no arithmetic for them.
     virtual bool needs_ropes() const { return true; }
 
-    /// Queues between launches that counters are wanted for, and how to make room in them.
+    /// Queues between launches that counters are wanted for, and how to make room for so many tasks and entries.
     virtual uint queue_count(const DeviceTree&) const { return 0; }
-    virtual bool make_room(const std::vector<std::uint64_t>& /*queue_sizes*/) { return true; }
+    virtual bool make_room(std::uint64_t tasks, const std::vector<std::uint64_t>& queue_sizes) = 0;
+
+    /// Write down what queries expect and leave as it was, whenever memory was taken. Waits.
+    virtual void prepare(const DeviceTree&, const cl::CommandQueue&) {}
 
     /// Compiled behind the tree's access header, with `more` besides the defines that all have.
     cl::Kernel kernel(const DeviceTree& tree, std::string_view path, const char* name,
@@ -54,13 +57,19 @@ protected:
     }
 
     bool by_groups() const { return form_ == KernelForm::groups; }
+    bool within() const { return options_.among != Among::between_objects; }
+    bool between(const DeviceTree& tree) const
+    {
+        return options_.among != Among::within_objects && tree.objects.size() > 1;
+    }
     const Device& device() const { return programs_.device(); }
 
     std::vector<std::uint64_t> counters(const Queue& queue) const;
 
     ColliderOptions options_;
     uint group_size_;
-    std::size_t chunks_;  ///< work-items of the form for few cores
+    std::size_t chunks_;     ///< work-items of the form for few cores
+    Buffer<uint> counters_;  ///< as collide/counters.h says
 
 private:
     bool has_ropes(const DeviceTree& tree) const { return needs_ropes() && !tree.is_implicit(); }
@@ -76,8 +85,7 @@ private:
     std::optional<Arena> arena_;
     cl::Kernel ropes_kernel_;
     Buffer<uint> ropes_;     ///< one a node; one word where there are none
-    Buffer<Pair> pairs_;     ///< found, in no order
-    Buffer<uint> counters_;  ///< as collide/counters.h says
+    Buffer<Pair> pairs_;  ///< found, in no order
 };
 
 }  // namespace bvhbench

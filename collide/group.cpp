@@ -5,6 +5,8 @@
 namespace bvhbench {
 namespace {
 
+constexpr uint loose = 4;  // times the area of leaves together, from which on their common box says too little
+
 class Group final : public WalkCollider {
 public:
     Group(Programs& programs, const ColliderOptions& options)
@@ -13,17 +15,16 @@ public:
     {}
 
 private:
-    void compile(const DeviceTree& tree) override
+    cl::Kernel walk_kernel(const DeviceTree& tree) const override
     {
         // One more than there are levels, for the way down from the last node. The chain that a query starts with
         // is as long at most, so that twice as much is enough for any tree, if not for speed.
         const uint reserve = tree.most_levels() + 1;
         const uint frontier = options_.capacity != 0 ? 2 * reserve : 2 * reserve + 6 * group_size_;
-        walk_ =
-            by_groups()
+        return by_groups()
                 ? kernel(
                       tree, "collide/group_groups.cl", "group_pairs",
-                      {{"GROUP_SIZE", group_size_}, {"FRONTIER", frontier}, {"RESERVE", reserve}})
+                      {{"GROUP_SIZE", group_size_}, {"FRONTIER", frontier}, {"RESERVE", reserve}, {"LOOSE", loose}})
                 : kernel(tree, "collide/group_chunks.cl", "group_pairs",
                          {{"SINK_BLOCK", block_pairs}});
     }

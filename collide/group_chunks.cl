@@ -6,8 +6,8 @@
 // stack, over what lies behind them. A node that their common box meets is tested against all eight at once, and goes
 // on being walked if one of them meets it.
 #include "builders/stages/chunk.clh"
-#include "collide/next.clh"
 #include "collide/sink_chunks.clh"
+#include "collide/task.clh"
 
 #define LANES 8u
 
@@ -31,45 +31,52 @@ static inline uint lanes_that_meet(const float8 min_x, const float8 min_y, const
     return (uint)(of_four.x | of_four.y);
 }
 
-/// Pairs of the leaf at `place` with the lanes of `meeting`, which begin at `first`.
-static inline void put_lanes(TREE_PARAMETERS, global const Face* faces, SINK_PARAMETERS,
-                             const uint first, uint meeting, const uint place)
+/// Pairs of triangle `other` with those of the lanes of `meeting`.
+static inline void put_lanes(global const Face* faces, SINK_PARAMETERS, const uint* own_triangles,
+                             uint meeting, const uint other)
 {
-    const uint other = tree_triangle(TREE, place);
     for (; meeting != 0u; meeting &= meeting - 1u) {
-        const uint own = tree_triangle(TREE, first + 31u - clz(meeting & (0u - meeting)));
+        const uint own = own_triangles[31u - clz(meeting & (0u - meeting))];
         if (is_wanted(faces, own, other))
             put(SINK_PASSED, pair_of(own, other));
     }
 }
 
-/// The query of leaves `first` to before `end`, LANES at most. How many boxes it tested.
-static inline uint walk_with(TREE_PARAMETERS, global const uint* ropes, global const Face* faces,
-                             SINK_PARAMETERS, const uint first, const uint end)
+/// The query of leaves `first` to before `end` of a task, LANES at most. How many boxes it tested.
+static inline uint walk_with(FOREST_PARAMETERS, global const uint* ropes, global const Face* faces,
+                             SINK_PARAMETERS, const QueryTask task, const uint first,
+                             const uint end)
 {
+    const uint count = end - first, all = (1u << count) - 1u;
+    uint own_triangles[LANES];
     float lanes
         [6]
         [LANES];  // those without a leaf hold the first one's box, and are left out of what meets
     for (uint k = 0u; k < LANES; ++k) {
-        const Aabb box = tree_box(TREE, tree_leaf(TREE, first + k < end ? first + k : first));
-        lanes[0][k] = box.min_x, lanes[1][k] = box.min_y, lanes[2][k] = box.min_z;
-        lanes[3][k] = box.max_x, lanes[4][k] = box.max_y, lanes[5][k] = box.max_z;
+        const QueryLeaf query = query_leaf(FOREST, task.own, first + (k < count ? k : 0u));
+        own_triangles[k] = query.triangle;
+        lanes[0][k] = query.box.min_x, lanes[1][k] = query.box.min_y;
+        lanes[2][k] = query.box.min_z, lanes[3][k] = query.box.max_x;
+        lanes[4][k] = query.box.max_y, lanes[5][k] = query.box.max_z;
     }
     const float8 min_x = vload8(0, lanes[0]), min_y = vload8(0, lanes[1]);
     const float8 min_z = vload8(0, lanes[2]), max_x = vload8(0, lanes[3]);
     const float8 max_y = vload8(0, lanes[4]), max_z = vload8(0, lanes[5]);
     const Aabb common = {least(min_x),   least(min_y),   least(min_z),
                          -least(-max_x), -least(-max_y), -least(-max_z)};
-    const uint count = end - first, all = (1u << count) - 1u;
+    const bool is_own = task.own == task.other;
 
-    uint tests = count * (count - 1u) / 2u;
-    for (uint k = 1u; k < count; ++k) {
-        const Aabb box = tree_box(TREE, tree_leaf(TREE, first + k));
+    uint tests = is_own ? count * (count - 1u) / 2u : 0u;
+    for (uint k = 1u; is_own && k < count; ++k) {
+        const Aabb box = {lanes[0][k], lanes[1][k], lanes[2][k],
+                          lanes[3][k], lanes[4][k], lanes[5][k]};
         const uint before = lanes_that_meet(min_x, min_y, min_z, max_x, max_y, max_z, box);
-        put_lanes(TREE, faces, SINK_PASSED, first, before & ((1u << k) - 1u), first + k);
+        put_lanes(faces, SINK_PASSED, own_triangles, before & ((1u << k) - 1u), own_triangles[k]);
     }
-    uint node = next_node(TREE, ropes, tree_leaf(TREE, end - 1u));
-    while (node != TREE_NONE) {
+    PICK_TREE(task.other)
+    const uint stop = walk_end(TREE, ropes);
+    uint node = first_node(TREE, ropes, task, end - 1u);
+    while (node != stop) {
         const Aabb box = tree_box(TREE, node);
         const bool is_leaf = tree_is_leaf(TREE, node);
         uint met = 0u;
@@ -79,22 +86,26 @@ static inline uint walk_with(TREE_PARAMETERS, global const uint* ropes, global c
             tests += count;
         }
         if (met != 0u && is_leaf)
-            put_lanes(TREE, faces, SINK_PASSED, first, met, tree_place(TREE, node));
+            put_lanes(faces, SINK_PASSED, own_triangles, met, tree_triangle(TREE, node));
         node = met != 0u && !is_leaf ? tree_left(TREE, node) : next_node(TREE, ropes, node);
     }
     return tests;
 }
 
 /// As in leaf_chunks.cl.
-kernel void group_pairs(TREE_PARAMETERS, global const uint* ropes, global const Face* faces,
+kernel void group_pairs(FOREST_PARAMETERS, global const uint* ropes, global const Face* faces,
                         global uint2* pairs, const uint capacity, volatile global uint* counters,
-                        global uint2* blocks)
+                        TASKS_PARAMETERS, global uint2* blocks)
 {
-    const Chunk chunk = own_chunk(leaves);
+    const Chunk chunk = own_chunk(task_count(TASKS, counters));
     uint block_count = 0u;
     ulong tests = 0ul;
-    for (uint place = chunk.first; place < chunk.end; place += LANES)
-        tests += walk_with(TREE, ropes, faces, SINK, place, min(place + LANES, chunk.end));
+    for (uint k = chunk.first; k < chunk.end; ++k) {
+        const QueryTask task = task_of(TASKS, counters, k);
+        const uint end = task.first + task.count;
+        for (uint place = task.first; place < end; place += LANES)
+            tests += walk_with(FOREST, ropes, faces, SINK, task, place, min(place + LANES, end));
+    }
     add_wide(counters + BOX_TESTS_COUNT, tests);
     empty_block(SINK);
 }

@@ -13,9 +13,9 @@ public:
     {}
 
 private:
-    void compile(const DeviceTree& tree) override
+    cl::Kernel walk_kernel(const DeviceTree& tree) const override
     {
-        walk_ = by_groups() ? kernel(tree, "collide/leaf_groups.cl", "leaf_pairs",
+        return by_groups() ? kernel(tree, "collide/leaf_groups.cl", "leaf_pairs",
                                      {{"GROUP_SIZE", group_size_}})
                             : kernel(tree, "collide/leaf_chunks.cl", "leaf_pairs",
                                      {{"SINK_BLOCK", block_pairs}});

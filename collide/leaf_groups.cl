@@ -3,7 +3,7 @@
 // check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DGROUP_SIZE=64u
 // check: -include baselines/radix/access_apetrei.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=1 -DGROUP_SIZE=64u
 //
-// A work-item a leaf; a group's neighbouring leaves walk much the same nodes and write their pairs together.
+// A group a task, a work-item a leaf; a group's neighbouring leaves walk much the same nodes and write their pairs together.
 #include "collide/sink_groups.clh"
 #include "collide/sum_tests.clh"
 
@@ -11,15 +11,22 @@
 
 /// `counters` are zero. Afterwards `pairs` begin with all of them, if there was room.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void leaf_pairs(
-    TREE_PARAMETERS, global const uint* ropes, global const Face* faces, global uint2* pairs,
-    const uint capacity, volatile global uint* counters)
+    FOREST_PARAMETERS, global const uint* ropes, global const Face* faces, global uint2* pairs,
+    const uint capacity, volatile global uint* counters, TASKS_PARAMETERS)
 {
     SINK_LOCAL
     local uint tests[GROUP_SIZE];
     open_sink(&kept_count);
     barrier(CLK_LOCAL_MEM_FENCE);
-    const uint place = (uint)get_global_id(0);
-    tests[get_local_id(0)] = place < leaves ? walk_from(TREE, ropes, faces, SINK, place) : 0u;
+    const QueryTask task = task_of(TASKS, counters, (uint)get_group_id(0));
+    const uint item = (uint)get_local_id(0);
+    tests[item] = 0u;
+    if (item < task.count) {
+        const QueryLeaf query = query_leaf(FOREST, task.own, task.first + item);
+        PICK_TREE(task.other)
+        tests[item] = walk_from(TREE, ropes, faces, SINK, query.box, query.triangle,
+                                first_node(TREE, ropes, task, task.first + item));
+    }
     barrier(CLK_LOCAL_MEM_FENCE);
     count_tests(tests, counters);
     close_sink(SINK);

@@ -2,7 +2,8 @@
 // check: -include baselines/radix/access.clh -DSORTED_LEAVES=0
 //
 // Ropes for trees that know only their children: for each node, by its number, the node after its subtree in
-// depth-first order. Compiled behind an access header.
+// depth-first order. Of several objects, whose trees are parts of one, the last rope of one leads into the next.
+// Compiled behind an access header.
 //
 // The nodes whose subtrees end with a left child's are that child, its right child, that one's, and so on down to
 // a leaf; after all of them comes the right sibling. Every node but those on the root's right edge is in one such
@@ -25,8 +26,9 @@ static inline void rope_line(TREE_PARAMETERS, global uint* ropes, uint node, con
     ropes[tree_number(TREE, node)] = target;
 }
 
-kernel void ropes(TREE_PARAMETERS, global uint* ropes)
+kernel void ropes(FOREST_PARAMETERS, global uint* ropes)
 {
+    PICK_WHOLE_TREE
     const Chunk chunk = own_chunk(leaves);
     for (uint k = chunk.first; k < chunk.end; ++k) {
         const bool is_root =

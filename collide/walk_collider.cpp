@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "collide/walk_collider.h"
 
+#include <algorithm>
+
 #include "geometry/bits.h"
 
 namespace bvhbench {
 namespace {
 
 constexpr uint usual_group_size = 64;
+constexpr uint chunk_task_leaves = 64;  // of a task for a work-item: few enough for all to end together
 
 }  // namespace
 
@@ -15,20 +18,70 @@ WalkCollider::WalkCollider(Programs& programs, const ColliderCard& card,
     : DeviceCollider(programs, card, options, usual_group_size)
 {}
 
+void WalkCollider::compile(const DeviceTree& tree)
+{
+    walk_ = walk_kernel(tree);
+    const uint task_leaves = by_groups() ? group_size_ : chunk_task_leaves;
+    own_list_.clear();
+    for (uint k = 0; k < tree.objects.size(); ++k)
+        for (uint first = 0; first < tree.objects[k].leaves; first += task_leaves)
+            own_list_.push_back(
+                {k, k, first, std::min(task_leaves, tree.objects[k].leaves - first)});
+    most_between_ = 0;
+    if (between(tree)) {
+        between_kernel_ =
+            kernel(tree, "collide/between.cl", "find_between", {{"TASK_LEAVES", task_leaves}});
+        most_between_ = options_.capacity != 0 ? options_.capacity
+                                               : std::max<std::size_t>(256, 2 * own_list_.size());
+    }
+}
+
 void WalkCollider::plan(Arena& arena, const DeviceTree&)
 {
+    own_ = arena.take<QueryTask>(own_list_.size(), Use::scratch);
+    between_ = arena.take<QueryTask>(std::max<std::size_t>(1, most_between_), Use::scratch);
     if (!by_groups())
         blocks_ = arena.take<Pair>(block_pairs * chunks_, Use::scratch);
 }
 
+void WalkCollider::prepare(const DeviceTree&, const cl::CommandQueue& queue)
+{
+    own_.upload(queue, own_list_);
+}
+
+bool WalkCollider::make_room(std::uint64_t tasks, const std::vector<std::uint64_t>&)
+{
+    if (tasks <= most_between_)
+        return true;
+    most_between_ = static_cast<std::size_t>(tasks + tasks / 8);
+    return false;
+}
+
+void WalkCollider::find_between(const DeviceTree& tree, Queue& queue)
+{
+    set_arguments_from(between_kernel_, tree.bind(between_kernel_, 0), own_,
+                       static_cast<uint>(own_.size()), static_cast<uint>(tree.objects.size()),
+                       between_, static_cast<uint>(most_between_), counters_);
+    const std::size_t group = by_groups() ? group_size_ : 1;
+    queue.launch(between_kernel_,
+                 by_groups() ? divided_up(static_cast<uint>(own_.size()), group_size_) * group
+                             : chunks_,
+                 group, 0);
+}
+
 void WalkCollider::enqueue(const DeviceTree& tree, const Input& input, Queue& queue)
 {
+    if (between(tree))
+        find_between(tree, queue);
+    const uint own_count = within() ? static_cast<uint>(own_.size()) : 0;
+    const auto most_between = static_cast<uint>(most_between_);
+    if (own_count + most_between == 0)
+        return;
     if (by_groups()) {
-        bind(walk_, tree, input);
-        queue.launch(walk_, std::size_t{divided_up(tree.leaf_count(), group_size_)} * group_size_,
-                     group_size_, 0);
+        bind(walk_, tree, input, own_, own_count, between_, most_between);
+        queue.launch(walk_, (own_count + most_between_) * group_size_, group_size_, 0);
     } else {
-        bind(walk_, tree, input, blocks_);
+        bind(walk_, tree, input, own_, own_count, between_, most_between, blocks_);
         queue.launch(walk_, chunks_, 1, 0);
     }
 }

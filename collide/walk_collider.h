@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// What colliders share that find all pairs in one launch, each leaf or group of neighbouring leaves a walk of its
+// What colliders share that find all pairs in one launch, each leaf or each task's neighbouring leaves a walk of its
 // own: one says which kernel that is.
 #pragma once
 
 #include "collide/device_collider.h"
+#include "collide/task.h"
 
 namespace bvhbench {
 
@@ -15,13 +16,22 @@ protected:
 
     WalkCollider(Programs& programs, const ColliderCard& card, const ColliderOptions& options);
 
-    /// Set by `compile`. In the form for few cores it takes a block of pairs a work-item, behind all else.
-    cl::Kernel walk_;
+    /// The kernel that finds the pairs of a task in a group, or of a run of tasks in a work-item.
+    virtual cl::Kernel walk_kernel(const DeviceTree& tree) const = 0;
 
 private:
+    void compile(const DeviceTree& tree) final;
     void plan(Arena& arena, const DeviceTree& tree) final;
+    void prepare(const DeviceTree& tree, const cl::CommandQueue& queue) final;
+    bool make_room(std::uint64_t tasks, const std::vector<std::uint64_t>& queue_sizes) final;
     void enqueue(const DeviceTree& tree, const Input& input, Queue& queue) final;
+    void find_between(const DeviceTree& tree, Queue& queue);
 
+    cl::Kernel walk_, between_kernel_;
+    std::vector<QueryTask> own_list_;  ///< neighbouring leaves of each object, against its own tree
+    std::size_t most_between_ = 0;     ///< tasks between objects that there is room for
+    Buffer<QueryTask> own_;
+    Buffer<QueryTask> between_;
     Buffer<Pair> blocks_;
 };
 

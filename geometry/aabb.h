@@ -39,6 +39,13 @@ SHARED_FN bool overlap(Aabb a, Aabb b)
            a.min_z <= b.max_z && b.min_z <= a.max_z;
 }
 
+/// Half the surface of a box.
+SHARED_FN float half_surface(Aabb box)
+{
+    const float x = box.max_x - box.min_x, y = box.max_y - box.min_y, z = box.max_z - box.min_z;
+    return x * y + y * z + z * x;
+}
+
 SHARED_END
 
 #ifndef __OPENCL_C_VERSION__

@@ -14,6 +14,14 @@ struct Mesh {
     std::vector<Face> faces;
 };
 
+/// Triangles that belong together: a run of neighbouring faces.
+struct FaceRange {
+    uint first = 0;
+    uint count = 0;
+
+    bool operator==(const FaceRange&) const = default;
+};
+
 /// The box of triangle `face` of `points`.
 inline Aabb face_box(std::span<const Point> points, Face face)
 {

@@ -38,6 +38,8 @@ public:
         climb(queue);
     }
 
+    bool numbers_by_range() const override { return false; }
+
     /// The kernel finds the same tree again while it climbs; what leaves have in common has not changed.
     void refit(Queue& queue) override { climb(queue); }
 

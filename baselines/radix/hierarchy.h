@@ -71,6 +71,9 @@ public:
     /// Enqueue topology and boxes, for two leaves at least. Does not wait.
     virtual void build(Queue& queue) = 0;
 
+    /// Whether inner nodes have the numbers that node.h says, which tell where each object's root is.
+    virtual bool numbers_by_range() const { return true; }
+
     /// Enqueue boxes only, over the topology that the last build left. As `build`.
     virtual void refit(Queue& queue) = 0;
 

@@ -58,6 +58,8 @@ public:
 
     void refit(Queue& queue) override { make_boxes(queue); }
 
+    bool numbers_by_range() const override { return false; }
+
     std::vector<RadixNode> download(const cl::CommandQueue& queue, uint& root) const override
     {
         root = 0;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <numeric>
+#include <string>
 
 #include "builders/implicit/cut.h"
 #include "builders/implicit/layout.h"
@@ -30,8 +32,8 @@ private:
 
     void enqueue_hierarchy(Queue& queue) override
     {
-        for (uint i = 0; i < schedule_.count; ++i)
-            launch(schedule_.launches[i], queue);
+        for (uint k = 0; k < launches_.size(); ++k)
+            launch(k, queue);
     }
 
     /// The topology of an implicit tree is the order of its leaves, so this is the hierarchy over the old one.
@@ -41,73 +43,135 @@ private:
 
     bool handoff() const { return meeting_ == Meeting::by_handoff; }
     bool by_groups() const { return cut_.form == KernelForm::groups; }
-    uint leaf_level() const { return implicit_leaf_level(tree_.leaves); }
-    uint stored_on(uint level) const { return tree_.layout.stored_on(tree_.leaves, level); }
-    uint leaf_slot() const { return tree_.layout.first_slot(tree_.leaves, leaf_level()); }
+    bool is_forest() const { return tree_.objects.size() > 1; }
 
-    cl::Kernel kernel(const char* name) const
+    cl::Kernel kernel(std::string_view name) const
     {
+        const std::string text(name);
         if (!by_groups())
-            return programs_.kernel(tree_.layout.build_items, name);
+            return programs_.kernel(tree_.layout.build_items, text.c_str());
         return programs_.kernel(
-            tree_.layout.build_groups, name,
+            tree_.layout.build_groups, text.c_str(),
             {{"GROUP_SIZE", cut_.group_size}, {"ITEMS", cut_.items}, {"LEVELS", cut_.levels}});
     }
 
-    void plan(Arena& arena, uint primitives) override;
+    /// One launch, of all objects: those whose trees are so high take part in it.
+    struct Launch {
+        uint first_subtree = 0, subtrees = 0;  ///< of `subtree_list_`
+        SubtreeLaunch of_first;                ///< how the first object's tree takes part
+        std::int64_t moved_bytes = 0;
+    };
+
+    void plan(Arena& arena, std::span<const uint> sizes) override;
+    void plan_launches();
     void prepare(const cl::CommandQueue& queue) override;
-    void launch(const SubtreeLaunch& launch, Queue& queue);
-    std::int64_t moved_bytes(const SubtreeLaunch& launch) const;
+    void launch(uint index, Queue& queue);
+    std::int64_t moved_bytes(uint leaves, const SubtreeLaunch& launch) const;
 
     Meeting meeting_;
     Cut cut_;
     cl::Kernel from_ids_, from_nodes_;
     ImplicitTree tree_;
-    SubtreeSchedule schedule_;
-    Buffer<uint> arrivals_;  ///< hand-off only: one a node above the first launch's subtrees
+    std::vector<Launch> launches_;
+    std::vector<cl_uint2> subtree_list_;  ///< object and position, launch by launch; of several objects only
+    Buffer<cl_uint2> subtrees_;
+    Buffer<uint> arrivals_;  ///< hand-off only: one a node above the first launch's subtrees, or one a slot
 };
 
-void ImplicitBuilder::plan(Arena& arena, uint primitives)
+void ImplicitBuilder::plan(Arena& arena, std::span<const uint> sizes)
 {
+    const uint primitives = std::accumulate(sizes.begin(), sizes.end(), 0u);
     tree_.leaves = primitives;
-    cut_ = choose_cut(programs_.device(), options_, meeting_, primitives);
-    schedule_ =
-        subtree_schedule(leaf_level(), cut_.levels, [&](uint level) { return stored_on(level); });
-    if (handoff())
-        schedule_.count = std::min(schedule_.count, 1u);
+    tree_.most_leaves = *std::max_element(sizes.begin(), sizes.end());
+    tree_.objects.clear();
+    std::size_t slots = 0, padding = 0;
+    uint first = 0;
+    for (const uint size : sizes) {
+        tree_.objects.push_back({first, size, static_cast<uint>(slots), 1});
+        slots += tree_.slots(size);
+        padding += tree_.layout.stored_on(size, implicit_leaf_level(size)) - size;
+        first += size;
+    }
+    cut_ = choose_cut(programs_.device(), options_, meeting_, tree_.most_leaves);
+    plan_launches();
 
-    const uint inner = leaf_slot();
-    const uint stored_leaves = stored_on(leaf_level());
-    tree_.nodes = arena.take<Aabb>(tree_.sorted_leaves ? inner + stored_leaves : inner, Use::tree);
+    tree_.nodes = arena.take<Aabb>(slots, Use::tree);
     if (!tree_.sorted_leaves)  // what a padded layout stores past the leaves
-        arena.take<Aabb>(stored_leaves - primitives, Use::tree);
-    arena.take<uint>(stored_leaves - primitives, Use::tree);
+        arena.take<Aabb>(padding, Use::tree);
+    arena.take<uint>(padding, Use::tree);
+    tree_.device_objects = arena.take<ForestObject>(sizes.size(), Use::tree);
 
-    leaf_order_.plan(arena, primitives, tree_.sorted_leaves ? Use::scratch : Use::tree, false);
+    leaf_order_.plan(arena, sizes, tree_.sorted_leaves ? Use::scratch : Use::tree, false);
     tree_.leaf_boxes = tree_.sorted_leaves ? Buffer<Aabb>{} : leaf_order_.boxes();
     tree_.ids = leaf_order_.ids();
-    gathered_ = {tree_.nodes, leaf_slot()};
+    gathered_ = {tree_.nodes,
+                 tree_.layout.first_slot(primitives, implicit_leaf_level(primitives)),
+                 arena.take<uint>(is_forest() && tree_.sorted_leaves ? sizes.size() : 0,
+                                  Use::scratch)};
+    subtrees_ = arena.take<cl_uint2>(subtree_list_.size(), Use::scratch);
 
-    const SubtreeLaunch& first = schedule_.launches[0];
-    const uint above =
-        handoff() && schedule_.count > 0
-            ? tree_.layout.first_slot(primitives, first.entry_level + 1 - first.levels)
-            : 0;
+    std::size_t above = 0;
+    if (handoff() && is_forest())
+        above = slots;
+    else if (handoff() && !launches_.empty())
+        above = tree_.layout.first_slot(primitives, launches_[0].of_first.entry_level + 1 -
+                                                        launches_[0].of_first.levels);
     arrivals_ = arena.take<uint>(above, Use::scratch);
+}
+
+void ImplicitBuilder::plan_launches()
+{
+    launches_.clear();
+    subtree_list_.clear();
+    std::vector<SubtreeSchedule> schedules;
+    for (const ForestObject& object : tree_.objects)
+        schedules.push_back(
+            subtree_schedule(implicit_leaf_level(object.leaves), cut_.levels, [&](uint level) {
+                return tree_.layout.stored_on(object.leaves, level);
+            }));
+    uint count = 0;
+    for (const SubtreeSchedule& schedule : schedules)
+        count = std::max(count, handoff() ? std::min(schedule.count, 1u) : schedule.count);
+    for (uint k = 0; k < count; ++k) {
+        Launch launch{static_cast<uint>(subtree_list_.size()), 0, schedules[0].launches[k], 0};
+        for (uint object = 0; object < schedules.size(); ++object) {
+            if (k >= schedules[object].count)
+                continue;
+            const SubtreeLaunch& part = schedules[object].launches[k];
+            launch.subtrees += part.subtrees;
+            launch.moved_bytes += moved_bytes(tree_.objects[object].leaves, part);
+            for (uint position = 0; is_forest() && position < part.subtrees; ++position)
+                subtree_list_.push_back({{object, position}});
+        }
+        launches_.push_back(launch);
+    }
 }
 
 void ImplicitBuilder::prepare(const cl::CommandQueue& queue)
 {
-    from_ids_ = kernel(handoff() ? "single_from_ids" : "multi_from_ids");
-    from_nodes_ = kernel(handoff() ? "single_from_nodes" : "multi_from_nodes");
+    const std::string prefix = std::string(is_forest() ? "forest_" : "") +
+                               (handoff() ? "single_" : is_forest() ? "" : "multi_");
+    from_ids_ = kernel(prefix + "from_ids");
+    from_nodes_ = kernel(prefix + "from_nodes");
     arrivals_.upload(queue, std::vector<uint>(arrivals_.size(), 0u));
+    tree_.device_objects.upload(queue, tree_.objects);
+    subtrees_.upload(queue, subtree_list_);
+    if (gathered_.slots.size() > 0) {
+        std::vector<uint> slots;
+        for (const ForestObject& object : tree_.objects)
+            slots.push_back(object.nodes - object.first +
+                            tree_.layout.first_slot(object.leaves,
+                                                    implicit_leaf_level(object.leaves)));
+        gathered_.slots.upload(queue, slots);
+    }
     if (tree_.sorted_leaves)  // padding that a traversal may read
         tree_.nodes.upload(queue, std::vector<Aabb>(tree_.nodes.size(), empty_box()));
 }
 
-void ImplicitBuilder::launch(const SubtreeLaunch& launch, Queue& queue)
+void ImplicitBuilder::launch(uint k, Queue& queue)
 {
-    const bool from_ids = launch.entry_level + 1 == leaf_level() && !tree_.sorted_leaves;
+    const Launch& launch = launches_[k];
+    const bool from_ids = k == 0 && !tree_.sorted_leaves;
     cl::Kernel& kernel = from_ids ? from_ids_ : from_nodes_;
     cl_uint index = 0;
     const auto argument = [&](const auto& value) { kernel.setArg(index++, memory_of(value)); };
@@ -118,22 +182,34 @@ void ImplicitBuilder::launch(const SubtreeLaunch& launch, Queue& queue)
     argument(tree_.nodes);
     if (handoff())
         argument(arrivals_);
-    argument(tree_.leaves);
-    argument(launch.entry_level);
-    if (!from_ids)
-        argument(leaf_level());
-    if (!by_groups())
-        argument(launch.levels);
+    if (is_forest()) {
+        argument(tree_.device_objects);
+        argument(subtrees_);
+        if (!from_ids && !handoff()) {
+            argument(launch.first_subtree);
+            argument(k);
+        }
+        if (!by_groups())
+            argument(cut_.levels);
+    } else {
+        argument(tree_.leaves);
+        argument(launch.of_first.entry_level);
+        if (!from_ids)
+            argument(implicit_leaf_level(tree_.leaves));
+        if (!by_groups())
+            argument(launch.of_first.levels);
+    }
     queue.launch(kernel, std::size_t{launch.subtrees} * cut_.group_size, cut_.group_size,
-                 moved_bytes(launch));
+                 launch.moved_bytes);
 }
 
 /// Children read once, nodes written once. A hand-off build does all levels in its first launch.
-std::int64_t ImplicitBuilder::moved_bytes(const SubtreeLaunch& launch) const
+std::int64_t ImplicitBuilder::moved_bytes(uint leaves, const SubtreeLaunch& launch) const
 {
-    const bool from_leaves = launch.entry_level + 1 == leaf_level();
-    const std::int64_t read_boxes = from_leaves ? tree_.leaves : stored_on(launch.entry_level + 1);
-    const std::int64_t read_ids = from_leaves && !tree_.sorted_leaves ? tree_.leaves : 0;
+    const auto stored_on = [&](uint level) { return tree_.layout.stored_on(leaves, level); };
+    const bool from_leaves = launch.entry_level + 1 == implicit_leaf_level(leaves);
+    const std::int64_t read_boxes = from_leaves ? leaves : stored_on(launch.entry_level + 1);
+    const std::int64_t read_ids = from_leaves && !tree_.sorted_leaves ? leaves : 0;
     const uint last_level = handoff() ? 0 : launch.entry_level + 1 - launch.levels;
     std::int64_t written_boxes = 0;
     for (uint level = last_level; level <= launch.entry_level; ++level)

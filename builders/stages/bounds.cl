@@ -3,25 +3,8 @@
 //
 // Triangles to boxes, and in the same pass the bounds of them all. Two launches: every group or chunk leaves
 // the bounds of what it saw in `partials`, then one group or work-item joins those. No float atomics.
+#include "builders/stages/bounds_parts.clh"
 #include "builders/stages/chunk.clh"
-#include "geometry/bounds.h"
-#include "geometry/box_words.clh"
-
-static inline Aabb box_of_face(global const Point* points, const Face face)
-{
-    return triangle_box(points[face.a], points[face.b], points[face.c]);
-}
-
-/// `bounds[0]` of a group is afterwards the bounds of its work-items' `bounds`, one each.
-static inline void join_in_group(local Bounds* bounds)
-{
-    const uint item = (uint)get_local_id(0);
-    for (uint half_size = GROUP_SIZE / 2u; half_size > 0u; half_size /= 2u) {
-        barrier(CLK_LOCAL_MEM_FENCE);
-        if (item < half_size)
-            bounds[item] = joined(bounds[item], bounds[item + half_size]);
-    }
-}
 
 /// boxes[k] is the box of faces[k], for all `count`; partials[g] the bounds of what group g saw.
 /// The groups together take `rounds` rounds of a group's size each.

@@ -2,6 +2,9 @@
 //
 // One entry point an order: codes[k] is afterwards the code of boxes[k], given the bounds of all boxes and of
 // their centres. The code itself is a function shared with the host, and all that differs between orders.
+//
+// NAME_objects does the same for several objects at once, each against its own bounds: a box's object above, its
+// code below, less the `dropped` lowest bits for which there is no room.
 #include "geometry/box_words.clh"
 #include "geometry/hilbert.h"
 
@@ -13,6 +16,20 @@
         if (k < count) {                                                                        \
             const Aabb box = load_box(boxes, k);                                                \
             codes[k] = code_of_box;                                                             \
+        }                                                                                       \
+    }                                                                                           \
+                                                                                                \
+    kernel void name##_objects(                                                                 \
+        global const float2* restrict boxes, global const Bounds* restrict all_bounds,          \
+        global const uint* restrict owners, global Code* restrict codes, const uint count,      \
+        const uint dropped, const uint object_shift)                                            \
+    {                                                                                           \
+        const uint k = (uint)get_global_id(0);                                                  \
+        if (k < count) {                                                                        \
+            const Aabb box = load_box(boxes, k);                                                \
+            const uint owner = owners[k];                                                       \
+            global const Bounds* bounds = all_bounds + owner;                                   \
+            codes[k] = ((Code)owner << object_shift) | ((code_of_box) >> dropped);              \
         }                                                                                       \
     }
 

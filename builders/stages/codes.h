@@ -21,8 +21,16 @@ public:
     void enqueue(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bounds, const Buffer<uint>& codes,
                  Queue& queue);
 
+    /// The same of several objects at once: boxes against the bounds of their owners. A code is an owner, from bit
+    /// `object_shift` on, and below it the box's, without its `dropped` lowest bits.
+    void enqueue(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bounds, const Buffer<uint>& owners,
+                 const Buffer<uint>& codes, uint dropped, uint object_shift, Queue& queue);
+
 private:
-    cl::Kernel kernel_;
+    void launch(cl::Kernel& kernel, const Buffer<Aabb>& boxes, const Buffer<uint>& codes,
+                Queue& queue);
+
+    cl::Kernel kernel_, objects_kernel_;
 };
 
 }  // namespace bvhbench

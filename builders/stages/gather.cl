@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // check: -DGROUP_SIZE=64u
 //
-// sorted[first + k] becomes boxes[ids[k]], for all k below `count`. Boxes are seen as three pairs of floats.
+// sorted[first + k] becomes boxes[ids[k]], for all k below `count`. Boxes are seen as three pairs of floats. Of
+// several objects, `first` is the owner's slot, modulo 2^32: its own leaves do not begin at k = 0.
 #include "builders/stages/chunk.clh"
 #include "geometry/aabb.h"
 
@@ -29,4 +30,34 @@ kernel void gather_chunks(global const Aabb* restrict boxes, global const uint* 
     const Chunk chunk = own_chunk(count);
     for (uint k = chunk.first; k < chunk.end; ++k)
         sorted[(ulong)first + k] = boxes[ids[k]];
+}
+
+/// As gather_groups, of several objects.
+__attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void gather_objects_groups(
+    global const float2* restrict boxes, global const uint* restrict ids,
+    global const uint* restrict owners, global const uint* restrict slots,
+    global float2* restrict sorted, const uint count)
+{
+    const uint start = (uint)get_group_id(0) * GROUP_SIZE;
+    const uint words = 3u * min(GROUP_SIZE, count - start);
+#pragma unroll
+    for (uint round = 0u; round < 3u; ++round) {
+        const uint word = round * GROUP_SIZE + (uint)get_local_id(0);
+        if (word < words) {
+            const uint id = ids[start + word / 3u];
+            const uint slot = slots[owners[id]] + start + word / 3u;
+            sorted[3ul * slot + word % 3u] = boxes[3ul * id + word % 3u];
+        }
+    }
+}
+
+/// As gather_chunks, of several objects.
+kernel void gather_objects_chunks(global const Aabb* restrict boxes, global const uint* restrict ids,
+                                  global const uint* restrict owners,
+                                  global const uint* restrict slots, global Aabb* restrict sorted,
+                                  const uint count)
+{
+    const Chunk chunk = own_chunk(count);
+    for (uint k = chunk.first; k < chunk.end; ++k)
+        sorted[slots[owners[ids[k]]] + k] = boxes[ids[k]];
 }

@@ -15,23 +15,44 @@ GatherStage::GatherStage(Programs& programs, KernelForm form, uint group_size)
     , kernel_(programs.kernel("builders/stages/gather.cl",
                               form_ == KernelForm::groups ? "gather_groups" : "gather_chunks",
                               {{"GROUP_SIZE", group_size}}))
+    , objects_kernel_(
+          programs.kernel("builders/stages/gather.cl",
+                          form_ == KernelForm::groups ? "gather_objects_groups"
+                                                      : "gather_objects_chunks",
+                          {{"GROUP_SIZE", group_size}}))
 {}
 
 void GatherStage::enqueue(const Buffer<Aabb>& boxes, const Buffer<uint>& ids,
                           const Buffer<Aabb>& sorted, uint first, Queue& queue)
 {
-    queue.begin("gather");
-    const auto count = static_cast<uint>(ids.size());
     assert(first + ids.size() <= sorted.size());
+    set_arguments(kernel_, boxes, ids, sorted, first, static_cast<uint>(ids.size()));
+    launch(kernel_, ids.size(), 0, queue);
+}
+
+void GatherStage::enqueue(const Buffer<Aabb>& boxes, const Buffer<uint>& ids,
+                          const Buffer<uint>& owners, const Buffer<uint>& slots,
+                          const Buffer<Aabb>& sorted, Queue& queue)
+{
+    set_arguments(objects_kernel_, boxes, ids, owners, slots, sorted,
+                  static_cast<uint>(ids.size()));
+    launch(objects_kernel_, ids.size(), owners.bytes(), queue);
+}
+
+void GatherStage::launch(cl::Kernel& kernel, std::size_t count, std::size_t more_bytes,
+                         Queue& queue)
+{
+    queue.begin("gather");
     if (count == 0)
         return;
-    const auto moved = static_cast<std::int64_t>(ids.bytes() + 2 * ids.size() * sizeof(Aabb));
-    set_arguments(kernel_, boxes, ids, sorted, first, count);
+    const auto moved =
+        static_cast<std::int64_t>(count * (sizeof(uint) + 2 * sizeof(Aabb)) + more_bytes);
     if (form_ == KernelForm::groups)
-        queue.launch(kernel_, std::size_t{divided_up(count, group_size_)} * group_size_,
+        queue.launch(kernel,
+                     std::size_t{divided_up(static_cast<uint>(count), group_size_)} * group_size_,
                      group_size_, moved);
     else
-        queue.launch(kernel_, std::min(ids.size(), chunks_), 1, moved);
+        queue.launch(kernel, std::min(count, chunks_), 1, moved);
 }
 
 }  // namespace bvhbench

@@ -19,11 +19,17 @@ public:
     void enqueue(const Buffer<Aabb>& boxes, const Buffer<uint>& ids, const Buffer<Aabb>& sorted,
                  uint first, Queue& queue);
 
+    /// The same of several objects: sorted[slots[owner of ids[k]] + k], modulo 2^32, = boxes[ids[k]].
+    void enqueue(const Buffer<Aabb>& boxes, const Buffer<uint>& ids, const Buffer<uint>& owners,
+                 const Buffer<uint>& slots, const Buffer<Aabb>& sorted, Queue& queue);
+
 private:
+    void launch(cl::Kernel& kernel, std::size_t count, std::size_t more_bytes, Queue& queue);
+
     KernelForm form_;
     uint group_size_;
     std::size_t chunks_;
-    cl::Kernel kernel_;
+    cl::Kernel kernel_, objects_kernel_;
 };
 
 }  // namespace bvhbench

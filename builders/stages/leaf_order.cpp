@@ -10,7 +10,10 @@
 #include "builders/stages/codes.h"
 #include "builders/stages/medians.h"
 #include "builders/stages/number.h"
+#include "builders/stages/object_bounds.h"
 #include "builders/stages/sort.h"
+#include "geometry/bits.h"
+#include "geometry/error.h"
 
 namespace bvhbench {
 
@@ -25,8 +28,19 @@ struct LeafOrder::Stages {
     Buffer<uint> positions;  ///< what codes are with medians, if anyone reads them
     Buffer<uint> ids;
 
+    /// What takes the place of `bounds` and `sort` while there are several objects.
+    struct Several {
+        ObjectBounds bounds;
+        RadixSort sort;
+        uint dropped;       ///< bits of a box's code for which objects leave no room
+        uint object_shift;  ///< where they begin
+    };
+    std::optional<Several> several;
+    Programs& programs;
+    KernelForm form;
+
     Stages(Programs& programs, const OrderEntry& entry, KernelForm form)
-        : order(entry), bounds(programs, form), number(programs)
+        : order(entry), bounds(programs, form), number(programs), programs(programs), form(form)
     {
         if (entry.medians == Medians::everywhere) {
             cells.emplace(programs, MedianShape{.form = form});
@@ -37,6 +51,26 @@ struct LeafOrder::Stages {
         if (entry.medians != Medians::nowhere)
             blocks.emplace(programs, MedianShape{.form = form});
     }
+
+    /// The line begins with what sorts for as many objects. Codes keep their words: what does not fit is dropped.
+    void prepare_for(std::size_t objects)
+    {
+        several.reset();
+        if (objects == 1)
+            return;
+        if (order.medians != Medians::nowhere)
+            throw BadUsage("order " + std::string(order.name) +
+                           " lines up one object, not " + std::to_string(objects) +
+                           "; orders without medians take any number");
+        const uint most = 32 * code_words(order.code_bits);
+        const uint object_bits = ceil_log2(static_cast<uint>(objects));
+        const uint kept = std::min(order.code_bits, most - object_bits);
+        several.emplace(Several{ObjectBounds(programs, form),
+                                RadixSort(programs, kept + object_bits, SortShape{.form = form}),
+                                order.code_bits - kept, kept});
+    }
+
+    RadixSort& sorting() { return several ? several->sort : *sort; }
 };
 
 LeafOrder::LeafOrder(Programs& programs, std::string_view order, KernelForm form)
@@ -45,13 +79,18 @@ LeafOrder::LeafOrder(Programs& programs, std::string_view order, KernelForm form
 
 LeafOrder::~LeafOrder() = default;
 
-void LeafOrder::plan(Arena& arena, std::size_t primitives, Use boxes, bool reads_codes)
+void LeafOrder::plan(Arena& arena, std::span<const uint> sizes, Use boxes, bool reads_codes)
 {
     Stages& stages = *stages_;
-    stages.bounds.plan(arena, primitives, boxes);
+    const std::size_t primitives = std::accumulate(sizes.begin(), sizes.end(), std::size_t{0});
+    stages.prepare_for(sizes.size());
+    if (stages.several)
+        stages.several->bounds.plan(arena, sizes, boxes);
+    else
+        stages.bounds.plan(arena, primitives, boxes);
     if (stages.sort) {
-        stages.sort->plan(arena, primitives);
-        stages.ids = stages.sort->ids();
+        stages.sorting().plan(arena, primitives);
+        stages.ids = stages.sorting().ids();
     } else {
         stages.ids = arena.take<uint>(primitives, Use::tree);
     }
@@ -63,10 +102,23 @@ void LeafOrder::plan(Arena& arena, std::size_t primitives, Use boxes, bool reads
         arena.take<uint>(stages.blocks && reads_codes ? primitives : 0, Use::scratch);
 }
 
+void LeafOrder::prepare(const cl::CommandQueue& queue)
+{
+    if (stages_->several)
+        stages_->several->bounds.prepare(queue);
+}
+
 void LeafOrder::enqueue(const Input& input, Queue& queue)
 {
     Stages& stages = *stages_;
     enqueue_boxes(input, queue);
+    if (stages.several) {
+        auto& [bounds, sort, dropped, object_shift] = *stages.several;
+        stages.codes->enqueue(bounds.boxes(), bounds.bounds(), input.device_owners,
+                              sort.unsorted_codes(), dropped, object_shift, queue);
+        sort.enqueue(queue);
+        return;
+    }
     if (stages.codes) {
         stages.codes->enqueue(boxes(), bounds(), stages.sort->unsorted_codes(), queue);
         stages.sort->enqueue(queue);
@@ -82,17 +134,32 @@ void LeafOrder::enqueue(const Input& input, Queue& queue)
 
 void LeafOrder::enqueue_boxes(const Input& input, Queue& queue)
 {
-    stages_->bounds.enqueue(input, queue);
+    if (stages_->several)
+        stages_->several->bounds.enqueue(input, queue);
+    else
+        stages_->bounds.enqueue(input, queue);
 }
 
-const Buffer<Aabb>& LeafOrder::boxes() const { return stages_->bounds.boxes(); }
-const Buffer<Bounds>& LeafOrder::bounds() const { return stages_->bounds.bounds(); }
+const Buffer<Aabb>& LeafOrder::boxes() const
+{
+    return stages_->several ? stages_->several->bounds.boxes() : stages_->bounds.boxes();
+}
+const Buffer<Bounds>& LeafOrder::bounds() const
+{
+    return stages_->several ? stages_->several->bounds.bounds() : stages_->bounds.bounds();
+}
 const Buffer<uint>& LeafOrder::codes() const
 {
-    return stages_->blocks ? stages_->positions : stages_->sort->codes();
+    return stages_->blocks ? stages_->positions : stages_->sorting().codes();
 }
 const Buffer<uint>& LeafOrder::ids() const { return stages_->ids; }
-unsigned LeafOrder::code_bits() const { return stages_->blocks ? 32 : stages_->order.code_bits; }
+unsigned LeafOrder::code_bits() const
+{
+    if (stages_->blocks)
+        return 32;
+    const unsigned own = stages_->order.code_bits;
+    return stages_->several ? 32 * code_words(own) : own;
+}
 
 HostLeafOrder host_leaf_order(std::span<const Point> points, std::span<const Face> faces,
                               std::string_view order)

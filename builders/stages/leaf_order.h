@@ -4,6 +4,9 @@
 //
 //     triangles --bounds--> boxes (mesh order), bounds --codes--> codes --sort--> ids --order--> ids
 //
+// Several objects are lined up at once, one after the other: the object is the highest part of a code, and the rest
+// is measured against the object's own bounds.
+//
 // The last stage belongs to orders with medians only; with medians everywhere it starts from the boxes.
 #pragma once
 
@@ -28,10 +31,13 @@ public:
     LeafOrder(Programs& programs, std::string_view order, KernelForm form = KernelForm::of_device);
     ~LeafOrder();
 
-    /// Take every buffer the stages need for `primitives` triangles. The sorted ids are tree memory;
+    /// Take every buffer the stages need for objects of so many triangles each. The sorted ids are tree memory;
     /// the leaf boxes are what `boxes` says; everything else is scratch. Without `reads_codes`, orders with
-    /// medians leave none.
-    void plan(Arena& arena, std::size_t primitives, Use boxes, bool reads_codes);
+    /// medians leave none. Throws BadUsage for several objects and an order with medians.
+    void plan(Arena& arena, std::span<const uint> sizes, Use boxes, bool reads_codes);
+
+    /// Write down what builds expect. Waits.
+    void prepare(const cl::CommandQueue& queue);
 
     /// Enqueue the stages. Allocates nothing and does not wait.
     void enqueue(const Input& input, Queue& queue);
@@ -40,7 +46,7 @@ public:
     void enqueue_boxes(const Input& input, Queue& queue);
 
     const Buffer<Aabb>& boxes() const;     ///< one a triangle, in mesh order
-    const Buffer<Bounds>& bounds() const;  ///< one: of all boxes and of their centres
+    const Buffer<Bounds>& bounds() const;  ///< one an object: of its boxes and of their centres
     /// Ascending, of the leaves in their order; over 32 bits, two words each, low word first. Medians leave
     /// codes that do not ascend, so with them the codes are the leaves' positions: their radix tree is the
     /// tree whose splits the medians are.

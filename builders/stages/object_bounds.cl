@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// check: -DGROUP_SIZE=64u -DROUNDS=4u
+//
+// As bounds.cl, of several objects at once: a group or a work-item leaves the bounds of one run of one object's
+// triangles in `partials`, then one an object joins those of its runs, from first_runs[object] on.
+#include "builders/stages/bounds_parts.clh"
+
+/// boxes[k] is the box of faces[k]; partials[g] the bounds of runs[g], from the first to before the second, ROUNDS
+/// times a group's size at most. Boxes go through local memory, as in bounds.cl.
+__attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void runs_groups(
+    global const Point* restrict points, global const Face* restrict faces,
+    global float2* restrict boxes, global Bounds* restrict partials,
+    global const uint2* restrict runs)
+{
+    local float2 staged[3u * GROUP_SIZE];
+    local Bounds shared_bounds[GROUP_SIZE];
+    const uint item = (uint)get_local_id(0);
+    const uint2 run = runs[get_group_id(0)];
+    Bounds bounds = empty_bounds();
+
+    for (uint round = 0u; round < ROUNDS; ++round) {
+        const uint start = min(run.y, run.x + round * GROUP_SIZE);
+        const uint here = min(GROUP_SIZE, run.y - start);
+        if (item < here) {
+            const Aabb box = box_of_face(points, faces[start + item]);
+            store_local_box(staged, item, box);
+            bounds = grown(bounds, box);
+        }
+        barrier(CLK_LOCAL_MEM_FENCE);
+        for (uint word = item; word < 3u * here; word += GROUP_SIZE)
+            boxes[3ul * start + word] = staged[word];
+        barrier(CLK_LOCAL_MEM_FENCE);
+    }
+    shared_bounds[item] = bounds;
+    join_in_group(shared_bounds);
+    if (item == 0u)
+        partials[get_group_id(0)] = shared_bounds[0];
+}
+
+/// A group an object.
+__attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void join_groups(
+    global const Bounds* restrict partials, global Bounds* restrict result,
+    global const uint* restrict first_runs)
+{
+    local Bounds shared_bounds[GROUP_SIZE];
+    const uint item = (uint)get_local_id(0);
+    const uint end = first_runs[get_group_id(0) + 1];
+    Bounds bounds = empty_bounds();
+    for (uint run = first_runs[get_group_id(0)] + item; run < end; run += GROUP_SIZE)
+        bounds = joined(bounds, partials[run]);
+    shared_bounds[item] = bounds;
+    join_in_group(shared_bounds);
+    if (item == 0u)
+        result[get_group_id(0)] = shared_bounds[0];
+}
+
+/// As runs_groups, a work-item a run.
+kernel void runs_chunks(global const Point* restrict points, global const Face* restrict faces,
+                        global Aabb* restrict boxes, global Bounds* restrict partials,
+                        global const uint2* restrict runs)
+{
+    const uint2 run = runs[get_global_id(0)];
+    Bounds bounds = empty_bounds();
+    for (uint k = run.x; k < run.y; ++k) {
+        const Aabb box = box_of_face(points, faces[k]);
+        boxes[k] = box;
+        bounds = grown(bounds, box);
+    }
+    partials[get_global_id(0)] = bounds;
+}
+
+/// As join_groups, a work-item an object.
+kernel void join_chunks(global const Bounds* restrict partials, global Bounds* restrict result,
+                        global const uint* restrict first_runs)
+{
+    const uint object = (uint)get_global_id(0);
+    Bounds bounds = empty_bounds();
+    for (uint run = first_runs[object]; run < first_runs[object + 1u]; ++run)
+        bounds = joined(bounds, partials[run]);
+    result[object] = bounds;
+}

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DTASK_LEAVES=64u
+// check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DTASK_LEAVES=64u
+//
+// The tasks between objects: leaves of the object that has fewer, against every object whose box meets theirs. Their
+// box is that of the subtree over them, Eq. (13); in a tree with pointers it is that of their object.
+#include "builders/stages/chunk.clh"
+#include "collide/task.clh"
+#include "collide/wide_count.clh"
+
+static inline Aabb root_box(FOREST_PARAMETERS, const uint object)
+{
+    PICK_TREE(object)
+    return tree_box(TREE, tree_root(TREE));
+}
+
+static inline Aabb task_box(FOREST_PARAMETERS, const QueryTask task)
+{
+#if TREE_IMPLICIT
+    PICK_TREE(task.own)
+    return tree_box(TREE, tree_ancestor(TREE, tree_leaf(TREE, task.first), floor_log2(TASK_LEAVES)));
+#else
+    return root_box(FOREST, task.own);
+#endif
+}
+
+/// Whether the leaves of `a` are held against `b`, and not the other way round.
+static inline bool asks(const ForestObject a, const ForestObject b, const bool comes_first)
+{
+    return a.leaves < b.leaves || (a.leaves == b.leaves && comes_first);
+}
+
+/// `chunks` has the neighbouring leaves of all objects. What finds no room in `between` is counted and not written.
+kernel void find_between(FOREST_PARAMETERS, global const QueryTask* chunks, const uint chunk_count,
+                         const uint object_count, global QueryTask* between,
+                         const uint most_between, volatile global uint* counters)
+{
+    const Chunk part = own_chunk(chunk_count);
+    ulong tests = 0ul;
+    for (uint k = part.first; k < part.end; ++k) {
+        QueryTask task = chunks[k];
+        const Aabb box = task_box(FOREST, task);
+        for (uint other = 0u; other < object_count; ++other) {
+            if (other == task.own ||
+                !asks(objects[task.own], objects[other], task.own < other))
+                continue;
+            ++tests;
+            if (!overlap(box, root_box(FOREST, other)))
+                continue;
+            const uint slot = add_wide(counters + TASKS_COUNT, 1ul);
+            task.other = other;
+            if (slot < most_between)
+                between[slot] = task;
+        }
+    }
+    add_wide(counters + BOX_TESTS_COUNT, tests);
+}

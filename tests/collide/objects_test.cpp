@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+//
+// Several objects of a frame: one build makes a tree of each, and every collider finds the oracle's pairs between
+// them, within them, or both.
+#include <cstring>
+
+#include "builders/device_tree.h"
+#include "collide/relation.h"
+#include "tests/collide/collider_testing.h"
+
+namespace bvhbench {
+namespace {
+
+/// Objects that lie across each other, one of them a single triangle, and one far from all others.
+struct ManyObjects {
+    Mesh mesh;
+    std::vector<FaceRange> objects;
+    std::vector<uint> owners;
+
+    explicit ManyObjects(const std::vector<std::size_t>& sizes)
+    {
+        for (std::size_t k = 0; k < sizes.size(); ++k) {
+            const std::vector<NamedMesh> meshes = hard_meshes(sizes[k]);
+            const bool is_far = k == 2;
+            add(meshes[k % meshes.size()].mesh, is_far ? 1000.0f : 0.3f * static_cast<float>(k));
+        }
+    }
+
+    void add(const Mesh& part, float along)
+    {
+        const auto base = static_cast<uint>(mesh.points.size());
+        objects.push_back(
+            {static_cast<uint>(mesh.faces.size()), static_cast<uint>(part.faces.size())});
+        for (const Point& point : part.points)
+            mesh.points.push_back({point.x + along, point.y, point.z});
+        for (const Face& face : part.faces)
+            mesh.faces.push_back({face.a + base, face.b + base, face.c + base});
+        owners.resize(mesh.faces.size(), static_cast<uint>(objects.size() - 1));
+    }
+};
+
+bool same_bits(const Aabb& a, const Aabb& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+const std::vector<std::size_t> few_sizes = {1, 70, 3, 2, 129, 200, 1};
+
+PairList expected_pairs(const ManyObjects& many, Among among, bool keep_adjacent)
+{
+    const PairList all = touching_pairs(many.mesh.points, many.mesh.faces, keep_adjacent);
+    std::vector<Pair> chosen;
+    for (const Pair pair : all.pairs()) {
+        const bool is_between = many.owners[pair.a] != many.owners[pair.b];
+        if (among == Among::all || is_between == (among == Among::between_objects))
+            chosen.push_back(pair);
+    }
+    return PairList(std::move(chosen));
+}
+
+/// Trees of many objects on the device.
+struct StandingForest {
+    Input input;
+    std::unique_ptr<Builder> builder;
+    const Tree* tree = nullptr;
+
+    StandingForest(const ManyObjects& many, MakeBuilder make, const BuildOptions& options = {})
+        : input(upload(session().device(), session().queue(), many.mesh.points, many.mesh.faces,
+                       many.objects))
+        , builder(make(session().programs(), options))
+    {
+        builder->reserve_objects(object_sizes(input));
+        session().build_once(*builder, input, Start::from_triangles, &tree);
+    }
+    const DeviceTree& device_tree() const { return dynamic_cast<const DeviceTree&>(*tree); }
+};
+
+void expect_pairs(Collider& collider, const StandingForest& standing, const PairList& expected)
+{
+    collider.reserve(*standing.tree);
+    find_pairs(collider, *standing.tree, standing.input, session().queue());
+    const PairList found(collider.pairs(session().queue()));
+    session().queue().finish();
+    EXPECT_EQ(found.surplus(), 0u);
+    EXPECT_EQ(found, expected);
+}
+
+using Tested = std::tuple<BuilderEntry, bool>;
+
+class Objects : public testing::TestWithParam<Tested> {
+protected:
+    const BuilderEntry& builder() const { return std::get<0>(GetParam()); }
+    BuildOptions options() const { return {.sorted_leaves = std::get<1>(GetParam())}; }
+};
+
+TEST_P(Objects, HaveEachATreeOverTheirOwnTriangles)
+{
+    const ManyObjects many(few_sizes);
+    const StandingForest standing(many, builder().make, options());
+    const DeviceTree& forest = standing.device_tree();
+    ASSERT_EQ(forest.objects.size(), many.objects.size());
+    std::size_t nodes = 0;
+    for (uint k = 0; k < many.objects.size(); ++k) {
+        SCOPED_TRACE("object " + std::to_string(k));
+        const HostTree tree = forest.spelled_out_object(k);
+        nodes += tree.nodes.size();
+        std::vector<int> seen;
+        for (const HostTree::Node& node : tree.nodes) {
+            if (node.primitive != HostTree::none) {
+                seen.push_back(node.primitive);
+                const Face& face = many.mesh.faces.at(static_cast<std::size_t>(node.primitive));
+                EXPECT_TRUE(same_bits(node.box, face_box(many.mesh.points, face)));
+                continue;
+            }
+            Aabb around = empty_box();
+            for (const int child : node.child)
+                if (child != HostTree::none)
+                    around = merged(around, tree.nodes.at(static_cast<std::size_t>(child)).box);
+            EXPECT_TRUE(same_bits(node.box, around));
+        }
+        std::sort(seen.begin(), seen.end());
+        ASSERT_EQ(seen.size(), many.objects[k].count);
+        for (std::size_t i = 0; i < seen.size(); ++i)
+            EXPECT_EQ(seen[i], static_cast<int>(many.objects[k].first + i));
+    }
+    EXPECT_LE(nodes, standing.tree->node_count());
+}
+
+/// With few objects nothing of a code is dropped, so that each tree is the one of its object alone. Radix trees break
+/// ties of codes by places in the whole line, which are others.
+TEST_P(Objects, HaveTheTreesThatTheyHaveAlone)
+{
+    const ManyObjects many({300, 64, 65, 1});
+    const StandingForest standing(many, builder().make, options());
+    if (!standing.device_tree().is_implicit())
+        return;
+    for (uint k = 0; k < many.objects.size(); ++k) {
+        const FaceRange& range = many.objects[k];
+        const Mesh alone{many.mesh.points,
+                         {many.mesh.faces.begin() + range.first,
+                          many.mesh.faces.begin() + range.first + range.count}};
+        const HostTree expected =
+            Standing(alone, builder().make, options()).tree->spelled_out();
+        const HostTree found = standing.device_tree().spelled_out_object(k);
+        ASSERT_EQ(found.nodes.size(), expected.nodes.size());
+        for (std::size_t i = 0; i < found.nodes.size(); ++i) {
+            EXPECT_TRUE(same_bits(found.nodes[i].box, expected.nodes[i].box));
+            EXPECT_EQ(found.nodes[i].child, expected.nodes[i].child);
+            if (expected.nodes[i].primitive != HostTree::none)
+                EXPECT_EQ(found.nodes[i].primitive,
+                          expected.nodes[i].primitive + static_cast<int>(range.first));
+        }
+    }
+}
+
+TEST_P(Objects, AreHeldAgainstEachOtherByEveryCollider)
+{
+    const ManyObjects many(few_sizes);
+    const StandingForest standing(many, builder().make, options());
+    for (const char* name : {"leaf", "bvtt", "group"})
+        for (const KernelForm form : {KernelForm::groups, KernelForm::chunks})
+            for (const Among among :
+                 {Among::all, Among::between_objects, Among::within_objects})
+                for (const std::size_t capacity : {0u, 1u}) {
+                    SCOPED_TRACE(std::string(name) +
+                                 (form == KernelForm::groups ? " groups " : " chunks ") +
+                                 std::to_string(static_cast<int>(among)) + " capacity " +
+                                 std::to_string(capacity));
+                    const auto collider = find_collider(name).make(
+                        session().programs(), {.among = among,
+                                               .keep_adjacent = capacity == 0,
+                                               .form = form,
+                                               .capacity = capacity});
+                    expect_pairs(*collider, standing,
+                                 expected_pairs(many, among, capacity == 0));
+                }
+}
+
+INSTANTIATE_TEST_SUITE_P(Catalog, Objects,
+                         testing::Combine(testing::ValuesIn(device_builders()), testing::Bool()),
+                         [](const auto& tested) {
+                             return test_name(std::string(std::get<0>(tested.param).name) +
+                                              (std::get<1>(tested.param) ? "_sorted" : "_mesh"));
+                         });
+
+TEST(ObjectsOfOneBuild, MayBeHundreds)
+{
+    const ManyObjects many(std::vector<std::size_t>(100, 30));
+    for (const char* builder : {"oibvh-multi", "oibvh-single", "karras"}) {
+        const StandingForest standing(many, find_builder(builder).make);
+        for (const char* name : {"leaf", "bvtt", "group"}) {
+            SCOPED_TRACE(std::string(builder) + ' ' + name);
+            const auto collider = find_collider(name).make(session().programs(), {});
+            expect_pairs(*collider, standing, expected_pairs(many, Among::all, true));
+        }
+    }
+}
+
+TEST(ObjectsOfOneBuild, JumpAndStartBelowTheRoot)
+{
+    const ManyObjects many(few_sizes);
+    const StandingForest standing(many, find_builder("oibvh-multi").make);
+    for (unsigned jump = 1; jump <= 3; ++jump)
+        for (const unsigned start_level : {0u, 3u, 12u}) {
+            SCOPED_TRACE(std::to_string(jump) + " from " + std::to_string(start_level));
+            const auto bvtt = find_collider("bvtt").make(
+                session().programs(), {.jump = jump, .start_level = start_level});
+            expect_pairs(*bvtt, standing, expected_pairs(many, Among::all, true));
+        }
+}
+
+TEST(ObjectsOfOneBuild, AreRefusedWhereOneTreeIsBuilt)
+{
+    const ManyObjects many(few_sizes);
+    EXPECT_THROW(StandingForest(many, find_builder("median-split").make), Unavailable);
+    EXPECT_THROW(StandingForest(many, find_builder("oibvh-multi").make, {.order = "kd"}),
+                 BadUsage);
+}
+
+}  // namespace
+}  // namespace bvhbench
