@@ -8,28 +8,32 @@ namespace {
 
 class Brute final : public Collider {
 public:
-    explicit Brute(const ColliderOptions& options) : keep_adjacent_(options.keep_adjacent) {}
+    explicit Brute(const ColliderOptions& options) : options_(options) {}
 
     ColliderCard card() const override { return {"brute", "Sweep and prune [Cohen1995]"}; }
+    bool needs_tree() const override { return false; }
     std::string refusal(const Tree&) const override { return {}; }
-    void reserve(const Tree&) override {}
+    void reserve(const Tree*, const Input&) override {}
     Footprint reserved() const override { return {}; }
 
-    void query(const Tree&, const Input& input, Queue& queue) override
+    void query(const Tree*, const Input& input, Queue& queue) override
     {
-        queue.on_host("broad",
-                      [&] { found_ = touching_pairs(input.points, input.faces, keep_adjacent_); });
+        queue.on_host("broad", [&] {
+            found_ = among_objects(
+                touching_pairs(input.points, input.faces, options_.keep_adjacent), input.objects,
+                options_.among);
+        });
     }
 
     bool complete(const Queue&) override { return true; }
-    QueryCounts counts(const Queue&) const override { return {found_.size(), {}, {}}; }
+    QueryCounts counts(const Queue&) const override { return {found_.size(), {}, {}, {}}; }
     std::vector<Pair> pairs(const Queue&) const override
     {
         return {found_.pairs().begin(), found_.pairs().end()};
     }
 
 private:
-    bool keep_adjacent_;
+    ColliderOptions options_;
     PairList found_;
 };
 

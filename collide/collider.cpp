@@ -3,7 +3,7 @@
 
 namespace bvhbench {
 
-int find_pairs(Collider& collider, const Tree& tree, const Input& input, Queue& queue)
+int find_pairs(Collider& collider, const Tree* tree, const Input& input, Queue& queue)
 {
     for (int queries = 1;; ++queries) {
         collider.query(tree, input, queue);

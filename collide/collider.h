@@ -11,7 +11,7 @@
 #include "builders/input.h"
 #include "builders/stages/kernel_form.h"
 #include "builders/tree.h"
-#include "collide/pairs.h"
+#include "collide/relation.h"
 #include "device/arena.h"
 #include "device/program.h"
 #include "device/queue.h"
@@ -23,9 +23,6 @@ struct ColliderCard {
     std::string_view name;    ///< unique, stable, used on the command line and in result files
     std::string_view method;  ///< the publication or library, as cited in docs/references.md
 };
-
-/// Which triangles are looked for pairs, by the objects they are of.
-enum class Among { all, between_objects, within_objects };
 
 /// How to query. One struct for all colliders: what a collider has no use for it ignores.
 struct ColliderOptions {
@@ -64,18 +61,26 @@ public:
 
     virtual ColliderCard card() const = 0;
 
+    /// Whether it queries a builder's tree. One that does not is handed none, and keeps up with the input itself: all
+    /// that takes is part of its query.
+    virtual bool needs_tree() const { return true; }
+
+    /// Whether what it finds are the pairs that intersect, instead of those whose boxes overlap.
+    virtual bool finds_contacts() const { return false; }
+
     /// Why it cannot query trees of this kind, as a sentence; empty if it can.
     virtual std::string refusal(const Tree& tree) const = 0;
 
-    /// Compile for this kind of tree and take memory for its size. Never timed. Throws Unavailable, and BadUsage
-    /// for what `refusal` tells or options that the tree does not allow.
-    virtual void reserve(const Tree& tree) = 0;
+    /// Compile for this kind of tree, or none, and take memory for frames like this one: the same faces and objects,
+    /// other points. Never timed. Throws Unavailable, and BadUsage for what `refusal` tells or options that the
+    /// tree does not allow.
+    virtual void reserve(const Tree* tree, const Input& input) = 0;
 
     /// What stands reserved.
     virtual Footprint reserved() const = 0;
 
     /// Enqueue one query of the tree that the last build left over `input`. Allocates nothing, does not wait.
-    virtual void query(const Tree& tree, const Input& input, Queue& queue) = 0;
+    virtual void query(const Tree* tree, const Input& input, Queue& queue) = 0;
 
     /// Whether everything the last query found had room; if not, there is more now. Waits.
     virtual bool complete(const Queue& queue) = 0;
@@ -86,7 +91,7 @@ public:
 };
 
 /// Query until it is complete; how many queries that took. Waits.
-int find_pairs(Collider& collider, const Tree& tree, const Input& input, Queue& queue);
+int find_pairs(Collider& collider, const Tree* tree, const Input& input, Queue& queue);
 
 /// Makes a collider on the device that `programs` compiles for. Throws BadUsage for options it cannot keep.
 using MakeCollider = std::unique_ptr<Collider> (*)(Programs& programs,

@@ -55,11 +55,12 @@ cl::Kernel DeviceCollider::kernel(const DeviceTree& tree, std::string_view path,
     return programs_.kernel(tree.access_header(), path, name, more);
 }
 
-void DeviceCollider::reserve(const Tree& tree)
+void DeviceCollider::reserve(const Tree* tree, const Input&)
 {
-    if (const std::string why = refusal(tree); !why.empty())
+    assert(tree != nullptr);
+    if (const std::string why = refusal(*tree); !why.empty())
         throw BadUsage(why);
-    tree_ = dynamic_cast<const DeviceTree*>(&tree);
+    tree_ = dynamic_cast<const DeviceTree*>(tree);
     compile(*tree_);
     if (has_ropes(*tree_))
         ropes_kernel_ = kernel(*tree_, "collide/ropes.cl", "ropes", {});
@@ -100,9 +101,9 @@ void DeviceCollider::enqueue_ropes(const DeviceTree& tree, Queue& queue)
         2 * static_cast<std::int64_t>(ropes_.bytes()));  // each child read, each rope written
 }
 
-void DeviceCollider::query(const Tree& tree, const Input& input, Queue& queue)
+void DeviceCollider::query(const Tree* tree, const Input& input, Queue& queue)
 {
-    const auto& on_device = dynamic_cast<const DeviceTree&>(tree);
+    const auto& on_device = dynamic_cast<const DeviceTree&>(*tree);
     assert(tree_ != nullptr && on_device.leaf_count() == tree_->leaf_count());
     const bool has_pairs = on_device.leaf_count() > 1;
     if (has_ropes(on_device) && has_pairs)

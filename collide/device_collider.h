@@ -18,9 +18,9 @@ public:
 
     ColliderCard card() const final { return card_; }
     std::string refusal(const Tree& tree) const override;
-    void reserve(const Tree& tree) final;
+    void reserve(const Tree* tree, const Input& input) final;
     Footprint reserved() const final { return arena_ ? arena_->used() : Footprint{}; }
-    void query(const Tree& tree, const Input& input, Queue& queue) final;
+    void query(const Tree* tree, const Input& input, Queue& queue) final;
     bool complete(const Queue& queue) final;
     QueryCounts counts(const Queue& queue) const override;
     std::vector<Pair> pairs(const Queue& queue) const final;

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "collide/pairs.h"
-#include "geometry/triangle.h"
+#include "geometry/mesh.h"
 
 namespace bvhbench {
 
@@ -22,6 +22,12 @@ struct Family {
 };
 
 Relation relation_of(Pair pair, const Family& family);
+
+/// Which pairs are looked for, by the objects their triangles are of.
+enum class Among { all, between_objects, within_objects };
+
+/// The pairs among those objects.
+PairList among_objects(const PairList& pairs, std::span<const FaceRange> objects, Among among);
 
 /// The pairs of one relation.
 PairList selected(const PairList& pairs, const Family& family, Relation relation);

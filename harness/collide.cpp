@@ -68,8 +68,8 @@ Cell collide_scene(Session& session, const CollideCommand& command, PairList& pa
 
     const std::unique_ptr<Collider> collider =
         find_collider(command.collider.name).make(session.programs(), command.collider.options());
-    collider->reserve(*tree);
-    find_pairs(*collider, *tree, input, queue);
+    collider->reserve(tree, input);
+    find_pairs(*collider, tree, input, queue);
     const PairList expected =
         touching_pairs(input.points, input.faces, command.collider.keep_adjacent);
     const auto judge = [&] {
@@ -84,7 +84,7 @@ Cell collide_scene(Session& session, const CollideCommand& command, PairList& pa
 
     int order = 0;
     const auto once = [&] {
-        collider->query(builder.build(input, queue), input, queue);
+        collider->query(&builder.build(input, queue), input, queue);
         std::vector<StageTime> stages = queue.finish();
         if (!collider->complete(queue))
             throw Unavailable("a query found more than the one before it over the same triangles");

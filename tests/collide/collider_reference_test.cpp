@@ -19,8 +19,8 @@ PairList pairs_found(const Standing& standing, bool keep_adjacent)
     const auto& [entry, form] = ColliderReference::GetParam();
     const auto collider =
         entry.make(session().programs(), {.keep_adjacent = keep_adjacent, .form = form});
-    collider->reserve(*standing.tree);
-    find_pairs(*collider, *standing.tree, standing.input, session().queue());
+    collider->reserve(standing.tree, standing.input);
+    find_pairs(*collider, standing.tree, standing.input, session().queue());
     PairList found(collider->pairs(session().queue()));
     session().queue().finish();
     EXPECT_EQ(found.surplus(), 0u);

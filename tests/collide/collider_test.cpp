@@ -70,11 +70,11 @@ TEST_P(ColliderContract, CountsTheSameEveryTime)
 {
     const auto one = made(options());
     const Standing standing(crowded_mesh(500), builder().make);
-    one->reserve(*standing.tree);
-    find_pairs(*one, *standing.tree, standing.input, session().queue());
+    one->reserve(standing.tree, standing.input);
+    find_pairs(*one, standing.tree, standing.input, session().queue());
     const QueryCounts first = one->counts(session().queue());
     for (int repeat = 0; repeat < 5; ++repeat) {
-        EXPECT_EQ(find_pairs(*one, *standing.tree, standing.input, session().queue()), 1);
+        EXPECT_EQ(find_pairs(*one, standing.tree, standing.input, session().queue()), 1);
         const QueryCounts again = one->counts(session().queue());
         EXPECT_EQ(again.pairs, first.pairs);
         EXPECT_EQ(again.box_tests, first.box_tests);
@@ -137,7 +137,7 @@ TEST_P(Bvtt, RefusesWhatAnArithmeticWouldBeNeededFor)
     for (const ColliderOptions& options :
          {ColliderOptions{.jump = 2}, ColliderOptions{.start_level = 1}})
         EXPECT_THROW(
-            find_collider("bvtt").make(session().programs(), options)->reserve(*standing.tree),
+            find_collider("bvtt").make(session().programs(), options)->reserve(standing.tree, standing.input),
             BadUsage);
     EXPECT_THROW(find_collider("bvtt").make(session().programs(), {.jump = 6}), BadUsage);
     EXPECT_THROW(find_collider("bvtt").make(session().programs(), {.start_level = 13}), BadUsage);
@@ -184,7 +184,7 @@ TEST(Brute, FindsWhatTheSweepFindsWhateverTheTree)
     const auto leaf = find_collider("leaf").make(session().programs(), {});
     EXPECT_EQ(brute->refusal(*standing.tree), "");
     EXPECT_NE(leaf->refusal(*standing.tree), "");
-    EXPECT_THROW(leaf->reserve(*standing.tree), BadUsage);
+    EXPECT_THROW(leaf->reserve(standing.tree, standing.input), BadUsage);
 }
 
 }  // namespace

@@ -110,8 +110,8 @@ struct Standing {
 /// Hold one query, repeated until complete, to the oracle's pairs.
 inline void expect_oracles_pairs(Collider& collider, const Standing& standing, bool keep_adjacent)
 {
-    collider.reserve(*standing.tree);
-    find_pairs(collider, *standing.tree, standing.input, session().queue());
+    collider.reserve(standing.tree, standing.input);
+    find_pairs(collider, standing.tree, standing.input, session().queue());
     const PairList found(collider.pairs(session().queue()));
     session().queue().finish();
     EXPECT_EQ(found.surplus(), 0u);

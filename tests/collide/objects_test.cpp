@@ -74,8 +74,8 @@ struct StandingForest {
 
 void expect_pairs(Collider& collider, const StandingForest& standing, const PairList& expected)
 {
-    collider.reserve(*standing.tree);
-    find_pairs(collider, *standing.tree, standing.input, session().queue());
+    collider.reserve(standing.tree, standing.input);
+    find_pairs(collider, standing.tree, standing.input, session().queue());
     const PairList found(collider.pairs(session().queue()));
     session().queue().finish();
     EXPECT_EQ(found.surplus(), 0u);
