@@ -17,7 +17,8 @@ struct SceneLibrary {
     double time_limit_s = 0;             ///< likewise
 };
 
-/// The scene `text` asks for: a generator with its size ("torus:2880000"), a data set by name ("bunny"), a
+/// The scene `text` asks for: a generator with its size ("torus:2880000"), one of
+/// what moves with its size and maybe its number of frames ("cloth-ball:92000:94"), a data set by name ("bunny"), a
 /// path to a mesh file, or "refine:SCENE:N".
 ///
 /// Throws BadUsage when no scene is called so (lists the known), Unavailable when a file is not there, is

@@ -35,6 +35,10 @@ std::vector<SceneListing> list_scenes(const SceneLibrary& library)
     std::vector<SceneListing> lines;
     for (const Generator& generator : generators())
         lines.push_back({std::string(generator.name) + ":N", std::string(generator.summary)});
+    for (const MovingGenerator& generator : moving_generators())
+        lines.push_back({std::string(generator.name) + ":N:F",
+                         std::string(generator.summary) + "; F frames, " +
+                             std::to_string(generator.usual_frames) + " if left out"});
     lines.push_back(
         {"refine:SCENE:N", "any scene with its longest edges cut until it has N triangles"});
     lines.push_back(
