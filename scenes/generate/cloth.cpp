@@ -11,7 +11,7 @@ namespace {
 
 constexpr double gravity = 9.81;
 constexpr double fastest = 8;  ///< metres a second: what keeps a fault from growing without end
-constexpr uint pairs_hold_for = 5;  ///< steps for which pairs that come near are known
+constexpr uint pairs_hold_for = 3;  ///< steps for which pairs that come near are known
 
 /// Weights of four neighbours of which the middle two are passed through.
 std::array<double, 4> weights(double t)
@@ -60,14 +60,19 @@ Sheet Cloth::add(uint columns, uint rows, bool closed,
         for (uint i = 0; i < sheet.stride(); ++i)
             positions_.push_back(
                 position(static_cast<double>(i) / columns, static_cast<double>(j) / rows));
-    const std::size_t springs = springs_.size();
     add_springs(sheet);
-    for (std::size_t k = springs; k < springs_.size(); ++k)
-        if (neighbours_ == 0 || springs_[k].length < neighbours_)
-            neighbours_ = springs_[k].length;
+    sheet_of_.resize(positions_.size(), static_cast<uint>(sheets_.size()));
+    sheets_.push_back(sheet);
+    double sum = 0, count = 0;
+    for (const Spring& spring : springs_)
+        if (spring.compliance == 0) {
+            sum += spring.length;
+            ++count;
+        }
+    apart_ = settings_.apart * sum / count;
     Random random(sheet.first);
     for (std::size_t k = sheet.first; k < positions_.size(); ++k)
-        positions_[k] = positions_[k] + (0.02 * neighbours_) * vector_of(random.in_ball());
+        positions_[k] = positions_[k] + (0.02 * apart_) * vector_of(random.in_ball());
     velocities_.resize(positions_.size());
     movable_.resize(positions_.size(), 1);
     return sheet;
@@ -89,20 +94,40 @@ void Cloth::stretch()
     }
 }
 
+/// Whether two particles of one sheet are in cells that touch: springs see to these.
+bool Cloth::are_neighbours(uint a, uint b) const
+{
+    if (sheet_of_[a] != sheet_of_[b])
+        return false;
+    const Sheet& sheet = sheets_[sheet_of_[a]];
+    const uint stride = sheet.stride();
+    const uint i = (a - sheet.first) % stride, k = (b - sheet.first) % stride;
+    const uint j = (a - sheet.first) / stride, l = (b - sheet.first) / stride;
+    const uint across = std::max(i, k) - std::min(i, k), down = std::max(j, l) - std::min(j, l);
+    return down <= 1 && (across <= 1 || (sheet.closed && across + 1 == stride));
+}
+
+/// A little early, as they move on for some steps.
+void Cloth::find_near()
+{
+    pairs_.clear();
+    for (const auto& [i, j] : near_.find(positions_, 1.25 * apart_))
+        if (!are_neighbours(i, j))
+            pairs_.emplace_back(i, j);
+}
+
 void Cloth::keep_apart()
 {
-    if (pairs_ == nullptr ||
-        steps_ % pairs_hold_for == 0)  // found a little early, as they will move
-        pairs_ = &near_.find(positions_, 1.4 * settings_.apart * neighbours_);
-    const double apart = settings_.apart * neighbours_;
-    for (const auto& [i, j] : *pairs_) {
+    if (steps_ % pairs_hold_for == 0)
+        find_near();
+    for (const auto& [i, j] : pairs_) {
         const Vector between = positions_[j] - positions_[i];
         const double square = dot(between, between);
         const double both = movable_[i] + movable_[j];
-        if (square >= apart * apart || !(square > 0) || both == 0)
+        if (square >= apart_ * apart_ || !(square > 0) || both == 0)
             continue;
         const double now = std::sqrt(square);
-        const Vector by = ((apart - now) / (now * both)) * between;
+        const Vector by = ((apart_ - now) / (now * both)) * between;
         positions_[i] = positions_[i] - movable_[i] * by;
         positions_[j] = positions_[j] + movable_[j] * by;
     }

@@ -20,8 +20,8 @@ namespace bvhbench {
 /// Compliances are in metres a newton for particles of 1 kg; 0 is as stiff as one pass can make it.
 struct ClothSettings {
     double step_s = 1e-3;
-    double shear = 2e-5;
-    double bend = 1e-3;
+    double shear = 3e-6;
+    double bend = 1e-5;
     double drag = 0.6;      ///< of speed, a second
     double friction = 0.5;  ///< with obstacles
     double apart =
@@ -65,6 +65,8 @@ private:
     };
     void add_spring(uint a, uint b, double compliance);
     void add_springs(const Sheet& sheet);
+    bool are_neighbours(uint a, uint b) const;
+    void find_near();
     void stretch();
     void keep_apart();
     void meet(const std::vector<const Obstacle*>& obstacles);
@@ -73,9 +75,11 @@ private:
     std::vector<Vector> positions_, before_, velocities_;
     std::vector<double> movable_;  ///< 1, or 0 where pinned
     std::vector<Spring> springs_;
-    double neighbours_ = 0;  ///< the shortest distance between neighbours at rest
+    std::vector<Sheet> sheets_;
+    std::vector<uint> sheet_of_;  ///< by particle
+    double apart_ = 0;            ///< in metres
     NearPairs near_;
-    const std::vector<std::pair<uint, uint>>* pairs_ = nullptr;
+    std::vector<std::pair<uint, uint>> pairs_;  ///< that may have to be kept apart
     uint steps_ = 0;
 };
 

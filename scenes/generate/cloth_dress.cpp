@@ -11,17 +11,17 @@ constexpr double skirt_length = 0.45;
 
 const std::vector<Lathe::Ring> body_profile = {
     {0.06, 0.0},  {0.07, 0.1},  {0.11, 0.5}, {0.17, 0.9},  {0.12, 1.1},  {0.16, 1.3}, {0.16, 1.38},
-    {0.05, 1.45}, {0.05, 1.52}, {0.1, 1.58}, {0.11, 1.66}, {0.07, 1.74}, {0.0, 1.76}};
+    {0.05, 1.45}, {0.05, 1.52}, {0.1, 1.58}, {0.11, 1.66}, {0.07, 1.74}, {0.03, 1.76}};
 
 /// Skirt k of three layers at each of three heights, unturned: v goes down, and folds deepen towards the hem.
 Vector skirt_point(const Lathe& body, uint k, double u, double v)
 {
     const double top = 1.04 - 0.2 * (k / 3);
-    const double out = 0.012 + 0.013 * (k % 3);
+    const double out = 0.015 + 0.026 * (k % 3);
     const double fold = 0.06 * v * turn_of(9 * u).cosine;
     const double radius = body.radius_at(top)->first + out + skirt_length * 0.75 * v + fold;
     const Turn turn = turn_of(u);
-    const double height = top - skirt_length * (0.66 + 0.03 * (k % 3)) * v;
+    const double height = top - skirt_length * (0.66 - 0.015 * (k % 3)) * v;
     return {radius * turn.cosine, height, radius * turn.sine};
 }
 
@@ -29,7 +29,7 @@ Vector skirt_point(const Lathe& body, uint k, double u, double v)
 void dance(Placement& body, uint step, double step_s)
 {
     const double t = static_cast<double>(step) / steps;
-    body.spin = 9 * turn_of(1.25 * t).sine;
+    body.spin = 4.5 * turn_of(1.25 * t).sine;
     body.velocity = {0.5 * turn_of(1.5 * t).cosine, 0, 0.3 * turn_of(2 * t).sine};
     body.advance(step_s);
 }
@@ -46,7 +46,8 @@ Scene make_cloth_dress(uint triangles, uint frames)
     const std::vector<uint> shares = even_shares(triangles - body_triangles, skirts);
 
     ClothSettings settings;
-    settings.drag = 1.5;
+    settings.drag = 1;
+    settings.apart = 0.5;  // layers are sewn on closer than cells are wide
     Cloth cloth(settings);
     std::vector<Sheet> sheets;
     for (uint k = 0; k < skirts; ++k) {

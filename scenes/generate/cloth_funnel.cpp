@@ -6,7 +6,7 @@ namespace bvhbench {
 namespace {
 
 constexpr uint steps = 2400;
-constexpr double mouth = 0.62, neck = 0.13;
+constexpr double mouth = 0.62, neck = 0.1;
 
 }  // namespace
 
@@ -15,13 +15,13 @@ Scene make_cloth_funnel(uint triangles, uint frames)
 {
     Floor floor;
     Ball ball;
-    ball.radius = 0.1;
-    ball.placement.centre = {0, 1.12, 0};
-    ball.placement.velocity = {0, -0.41, 0};
+    ball.radius = 0.075;
+    ball.placement.centre = {0, 0.9, 0};
+    ball.placement.velocity = {0, -0.33, 0};
     Lathe funnel;
     funnel.is_wall = true;
     funnel.placement.centre = {0, 0.35, 0};
-    funnel.profile = {{neck, 0}, {neck, 0.15}, {mouth, 0.55}};
+    funnel.profile = {{neck, 0}, {neck, 0.12}, {mouth, 0.42}};
     const std::vector<const Obstacle*> obstacles = {&floor, &ball, &funnel};
 
     const uint rest = even_part(triangles, triangles < 4000 ? 0.3 : 0.1, 1);
@@ -30,11 +30,11 @@ Scene make_cloth_funnel(uint triangles, uint frames)
     const uint cloth_triangles = triangles - shares[0] - shares[1] - floor_triangles;
 
     ClothSettings settings;
-    settings.friction = 0.15;
+    settings.friction = 0.9;
     Cloth cloth(settings);
     const uint cells = sheet_cells(cloth_triangles, 90);
     const Sheet sheet = cloth.add(cells, cells, false, [](double u, double v) {
-        return Vector{0.85 * (u - 0.5) + 0.01, 0.96, 0.85 * (v - 0.5) + 0.006};
+        return Vector{0.85 * (u - 0.5) + 0.01, 0.8, 0.85 * (v - 0.5) + 0.006};
     });
     Film film;
     film.add("cloth", make_sheet(cloth_triangles, 1, false),

@@ -20,11 +20,11 @@ inline uint sheet_cells(uint triangles, uint most)
     return std::clamp<uint>(drawn, 8, most);
 }
 
-/// The surface of `lathe`, as triangles: u goes round, v up its profile.
+/// The surface of `lathe`, as triangles: u goes round, v down its profile.
 inline Vector on_lathe(const Lathe& lathe, Point at)
 {
     const double low = lathe.profile.front().height, high = lathe.profile.back().height;
-    const double height = low + at.y * (high - low);
+    const double height = high - at.y * (high - low);
     const auto surface = lathe.radius_at(std::clamp(height, low, high));
     const Turn turn = turn_of(at.x);
     const double radius = surface ? surface->first : 0;
