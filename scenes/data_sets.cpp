@@ -6,9 +6,11 @@
 namespace bvhbench {
 namespace {
 
-/// Whether the data set that "refine:NAME:N" is made from is there; anything else is always there.
+/// Whether the data set NAME or the one that "refine:NAME:N" is made from is there; what is generated always is.
 bool is_possible(const std::string& scene, const SceneLibrary& library)
 {
+    if (const ManifestEntry* const entry = manifest_entry(scene))
+        return !located(*entry, library.data).empty();
     const std::size_t first = scene.find(':');
     const std::size_t last = scene.rfind(':');
     if (scene.compare(0, first, "refine") != 0 || last <= first)

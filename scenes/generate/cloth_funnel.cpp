@@ -7,6 +7,8 @@ namespace {
 
 constexpr uint steps = 2400;
 constexpr double mouth = 0.62, neck = 0.1;
+constexpr double cloth_side = 0.85;
+constexpr double thickness = 0.0075;  // at most: more of the cloth would not fit the neck
 
 }  // namespace
 
@@ -29,12 +31,13 @@ Scene make_cloth_funnel(uint triangles, uint frames)
     const std::vector<uint> shares = even_shares(std::max(rest, 3u) - floor_triangles, 2);
     const uint cloth_triangles = triangles - shares[0] - shares[1] - floor_triangles;
 
+    const uint cells = sheet_cells(cloth_triangles, 90);
     ClothSettings settings;
     settings.friction = 0.9;
+    settings.apart = std::min(0.8, thickness / cloth_side * cells);
     Cloth cloth(settings);
-    const uint cells = sheet_cells(cloth_triangles, 90);
     const Sheet sheet = cloth.add(cells, cells, false, [](double u, double v) {
-        return Vector{0.85 * (u - 0.5) + 0.01, 0.8, 0.85 * (v - 0.5) + 0.006};
+        return Vector{cloth_side * (u - 0.5) + 0.01, 0.8, cloth_side * (v - 0.5) + 0.006};
     });
     Film film;
     film.add("cloth", make_sheet(cloth_triangles, 1, false),
