@@ -146,5 +146,26 @@ TEST(RigidFit, LeavesNoMoreThanItsAllowance)
     }
 }
 
+// Where the allowance must be more than the 2 of a point and the mean: most points pull the mean up, some at both ends
+// turn the fit, and one of those goes against all others.
+TEST(RigidFit, NeedsItsAllowanceForTheTurn)
+{
+    std::vector<Vector> from, to;
+    const auto add = [&](double x, double up) {
+        from.push_back({x, 0, 0});
+        to.push_back({x, up, 0});
+    };
+    for (int k = 0; k < 3000; ++k)
+        add(0, 1e-6);
+    for (int k = 0; k < 60; ++k) {
+        add(1, 1e-6);
+        add(-1, -1e-6);
+    }
+    add(1, -1e-6);
+    const double off = length(to.back() - fit_rigid(from, to)(from.back()));
+    EXPECT_GT(off, 2.8e-6);
+    EXPECT_LE(off, 1.001e-6 * fit_allowances(from).back());
+}
+
 }  // namespace
 }  // namespace bvhbench

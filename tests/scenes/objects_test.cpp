@@ -34,6 +34,15 @@ TEST(ObjectsBy, ComponentsGathersWhatTakesTurnsAndTellsWhereItCameFrom)
     EXPECT_EQ(again.content_hash, scene.content_hash);
 }
 
+TEST(ObjectsBy, ComponentsKeepsTheNumbersOfTheFileWhereTheOrderWasAnotherAlready)
+{
+    const Folder folder;
+    Scene loaded = load_scene(folder.file("a.obj", interleaved), {});
+    loaded.file_faces = {10, 11, 12, 13, 14};
+    EXPECT_EQ(with_objects(loaded, ObjectsBy::components).file_faces,
+              (std::vector<uint>{10, 12, 14, 11, 13}));
+}
+
 TEST(ObjectsBy, ComponentsLeavesTheOrderWhereItCan)
 {
     const Scene scene = with_objects(load_scene("n-body:3000:1", {}), ObjectsBy::components);

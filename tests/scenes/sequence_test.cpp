@@ -126,6 +126,9 @@ TEST(Sequence, RefusesAMetaThatDisagrees)
         {R"({"objects": [{"name": "a", "face_first": 0, "face_count": 2},
                          {"name": "b", "face_first": 2, "face_count": 1}]})",
          "has an object, 'a', over 2 triangles from 0, and the mesh has 1 from 0"},
+        {R"({"objects": [{"name": "a", "face_first": 0, "face_count": 1},
+                         {"name": "b", "face_first": 0, "face_count": 1}]})",
+         "has an object, 'b', over 1 triangles from 0, and the mesh has 1 from 1"},
     };
     for (const auto& [meta, message] : wrong)
         EXPECT_TRUE(contains(meta_refusal(meta), message)) << meta;
