@@ -3,8 +3,9 @@
 #
 # A room is a folder, a library and a rule. Its files may include, by path from the source root, only
 # their own headers and those of the rooms they NEED. A library's headers (<CL/...>, <assimp/...>) may be
-# included only by the room that OWNS their prefix. tests/rooms_test.py reads the rules back from
-# rooms.json, so this call is the only place where they are written.
+# included only by a room that OWNS their prefix; two do where both read or write files of that kind.
+# tests/rooms_test.py reads the rules back from rooms.json, so this call is the only place where they are
+# written.
 #
 # KERNELS lists every file that kernels are made of: .cl entry points and the headers they include.
 # Entry points (.cl) are also syntax-checked, each alone, by cmake/KernelChecks.cmake.

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "scenes/catalog.h"
 
-#include <unistd.h>
-
 #include <cmath>
 #include <new>
 
@@ -14,6 +12,7 @@
 #include "scenes/generate/outlier.h"
 #include "scenes/generate/refine.h"
 #include "scenes/manifest.h"
+#include "scenes/memory.h"
 #include "scenes/sequence.h"
 
 namespace bvhbench {
@@ -42,17 +41,6 @@ uint triangle_count(std::string_view scene, std::string_view number, uint most)
     return static_cast<uint>(*value);
 }
 
-/// Linux promises more memory than there is and ends the process that uses it, so it is counted first.
-void check_memory(std::string_view scene, std::uint64_t bytes)
-{
-    const auto there = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) *
-                       static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
-    if (bytes > there)
-        throw Unavailable("scene " + in_quotes(scene) + " takes about " +
-                          std::to_string(bytes >> 20) + " MiB of memory, and this machine has " +
-                          std::to_string(there >> 20));
-}
-
 Scene generated(std::string_view text, const Generator& generator, std::string_view number)
 {
     const uint count = triangle_count(text, number, generator.most);
@@ -62,6 +50,32 @@ Scene generated(std::string_view text, const Generator& generator, std::string_v
     scene.faces = std::move(mesh.faces);
     scene.frames.push_back(std::move(mesh.points));
     scene.source = "generated";
+    return scene;
+}
+
+/// "N" or "N:F", what follows "cloth-ball:".
+Scene moving(std::string_view text, const MovingGenerator& generator, std::string_view rest)
+{
+    const std::size_t colon = rest.find(':');
+    const uint count = triangle_count(text, rest.substr(0, colon), generator.most);
+    if (count < generator.least)
+        throw BadUsage("scene " + in_quotes(text) + " has too few triangles: there must be " +
+                       std::to_string(generator.least) + " at least, one for each object");
+    std::int64_t frames = generator.usual_frames;
+    if (colon != rest.npos) {
+        const std::string_view number = rest.substr(colon + 1);
+        const bool digits = !number.empty() && number.find_first_not_of("0123456789") == rest.npos;
+        frames = digits ? parse_integer(number).value_or(0) : 0;
+        if (frames < 1 || frames > generator.most_frames)
+            throw BadUsage("scene " + in_quotes(text) + " ends in " + in_quotes(number) +
+                           " where a number of frames from 1 to " +
+                           std::to_string(generator.most_frames) + " goes");
+    }
+    const std::uint64_t bytes_each =
+        generator.bytes_a_triangle + generator.bytes_a_frame * static_cast<std::uint64_t>(frames);
+    check_memory(text, count * bytes_each);
+    Scene scene = generator.make(count, static_cast<uint>(frames));
+    scene.has_meshes = true;
     return scene;
 }
 
@@ -112,6 +126,7 @@ Scene from_path(const std::filesystem::path& path, const SceneLibrary& library)
         FileMesh file = read_mesh_file(path, limits_of(library));
         scene.faces = std::move(file.mesh.faces);
         scene.objects = std::move(file.objects);
+        scene.has_meshes = !scene.objects.empty();
         scene.frames.push_back(std::move(file.mesh.points));
     }
     scene.source = path_in_library(path, library);
@@ -146,6 +161,8 @@ Scene from_data_set(const ManifestEntry& entry, const SceneLibrary& library)
     std::string known;
     for (const Generator& generator : generators())
         known += std::string(generator.name) + ":N, ";
+    for (const MovingGenerator& generator : moving_generators())
+        known += std::string(generator.name) + ":N:F, ";
     known += "refine:SCENE:N, outlier:SCENE:K:D, bend:SCENE, ";
     for (const ManifestEntry& entry : manifest())
         known += entry.set.name + ", ";
@@ -160,9 +177,10 @@ bool looks_like_path(std::string_view text)
            is_mesh_file(text);
 }
 
-const Generator* generator_called(std::string_view name)
+template <class G>
+const G* called(std::string_view name, std::span<const G> among)
 {
-    for (const Generator& generator : generators())
+    for (const G& generator : among)
         if (generator.name == name)
             return &generator;
     return nullptr;
@@ -181,8 +199,10 @@ Scene unfinished(std::string_view text, const SceneLibrary& library)
         return with_bend(load_any(rest, library));
     if (const ManifestEntry* const entry = manifest_entry(text))
         return from_data_set(*entry, library);
-    if (const Generator* const generator = generator_called(head))
+    if (const Generator* const generator = called(head, generators()))
         return generated(text, *generator, rest);
+    if (const MovingGenerator* const generator = called(head, moving_generators()))
+        return moving(text, *generator, rest);
     if (looks_like_path(text))
         return from_path(text, library);
     unknown(text);

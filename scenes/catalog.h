@@ -17,7 +17,8 @@ struct SceneLibrary {
     double time_limit_s = 0;             ///< likewise
 };
 
-/// The scene `text` asks for: a generator with its size ("torus:2880000"), a data set by name ("bunny"), a
+/// The scene `text` asks for: a generator with its size ("torus:2880000"), one of
+/// what moves with its size and maybe its number of frames ("cloth-ball:92000:94"), a data set by name ("bunny"), a
 /// path to a mesh file, or "refine:SCENE:N".
 ///
 /// Throws BadUsage when no scene is called so (lists the known), Unavailable when a file is not there, is
@@ -36,11 +37,13 @@ struct DataSet {
     std::string name;
     std::size_t triangles = 0;
     std::string
-        stand_in;  ///< the scene to build over when the file is not there, same triangle count
+        stand_in;  ///< the scene to build over when no file is there; of a mesh as many triangles
 };
 const DataSet* find_data_set(std::string_view name);
 
-/// The data set's own file if it is there, else its stand-in with `stand_in_for` set.
+/// The data set's own file if it is there, else the first of its stand-ins that is possible, with `stand_in_for`
+/// set. What stands in for a mesh has as many triangles; for a sequence, it is other frames or a simulation of
+/// about its size, and how many triangles, objects and frames it has must be read from the scene.
 Scene load_or_stand_in(const DataSet& set, const SceneLibrary& library);
 
 }  // namespace bvhbench

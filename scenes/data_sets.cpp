@@ -6,9 +6,11 @@
 namespace bvhbench {
 namespace {
 
-/// Whether the data set that "refine:NAME:N" is made from is there; anything else is always there.
+/// Whether the data set NAME or the one that "refine:NAME:N" is made from is there; what is generated always is.
 bool is_possible(const std::string& scene, const SceneLibrary& library)
 {
+    if (const ManifestEntry* const entry = manifest_entry(scene))
+        return !located(*entry, library.data).empty();
     const std::size_t first = scene.find(':');
     const std::size_t last = scene.rfind(':');
     if (scene.compare(0, first, "refine") != 0 || last <= first)
@@ -35,6 +37,10 @@ std::vector<SceneListing> list_scenes(const SceneLibrary& library)
     std::vector<SceneListing> lines;
     for (const Generator& generator : generators())
         lines.push_back({std::string(generator.name) + ":N", std::string(generator.summary)});
+    for (const MovingGenerator& generator : moving_generators())
+        lines.push_back({std::string(generator.name) + ":N:F",
+                         std::string(generator.summary) + "; F frames, " +
+                             std::to_string(generator.usual_frames) + " if left out"});
     lines.push_back(
         {"refine:SCENE:N", "any scene with its longest edges cut until it has N triangles"});
     lines.push_back(

@@ -81,6 +81,9 @@ Scene finished(Scene scene)
                               std::to_string(scene.frames.front().size()) + " vertices");
         canonicalise(scene, points);
     }
+    if (!scene.frame_labels.empty() && scene.frame_labels.size() != scene.frames.size())
+        refuse(scene, "has " + std::to_string(scene.frame_labels.size()) + " labels for " +
+                          std::to_string(scene.frames.size()) + " frames");
     check_faces(scene, scene.frames.front().size());
     if (scene.objects.empty())
         scene.objects.push_back({"all", 0, static_cast<uint>(scene.faces.size())});

@@ -34,28 +34,39 @@ private:
 
 }  // namespace
 
-std::vector<SceneObject> connected_parts(const std::vector<Face>& faces, std::size_t vertices)
+Parts parts_of(const std::vector<Face>& faces, std::size_t vertices)
 {
     Sets sets(vertices);
     for (const Face& face : faces) {
         sets.join(face.a, face.b);
         sets.join(face.a, face.c);
     }
-    std::vector<SceneObject> parts;
-    std::vector<bool> begun(vertices, false);
-    uint current = 0;
-    for (uint k = 0; k < faces.size(); ++k) {
-        const uint part = sets.find(faces[k].a);
-        if (parts.empty() || part != current) {
-            if (begun[part])
-                return {};
-            begun[part] = true;
-            parts.push_back({"part " + std::to_string(parts.size()), k, 0});
-            current = part;
-        }
-        ++parts.back().face_count;
+    constexpr uint none = 0xffffffffu;
+    std::vector<uint> number(vertices, none);  // of the part whose smallest vertex it is
+    Parts parts;
+    parts.of_face.reserve(faces.size());
+    for (const Face& face : faces) {
+        uint& part = number[sets.find(face.a)];
+        if (part == none)
+            part = parts.count++;
+        parts.of_face.push_back(part);
     }
     return parts;
+}
+
+std::vector<SceneObject> connected_parts(const std::vector<Face>& faces, std::size_t vertices)
+{
+    const Parts parts = parts_of(faces, vertices);
+    std::vector<SceneObject> objects;
+    for (uint k = 0; k < faces.size(); ++k) {
+        const uint part = parts.of_face[k];
+        if (part + 1 < objects.size())
+            return {};  // it went on after another one began
+        if (part == objects.size())
+            objects.push_back({"part " + std::to_string(part), k, 0});
+        ++objects.back().face_count;
+    }
+    return objects;
 }
 
 }  // namespace bvhbench

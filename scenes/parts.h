@@ -5,8 +5,17 @@
 
 namespace bvhbench {
 
+/// The connected part that each triangle is of; parts are numbered in the order of their first triangles.
+struct Parts {
+    std::vector<uint> of_face;
+    uint count = 0;
+};
+
+/// Two triangles that name a common vertex are of one part.
+Parts parts_of(const std::vector<Face>& faces, std::size_t vertices);
+
 /// The connected parts of a mesh as objects, in order of their first triangles; none if the triangles of
-/// some part do not follow each other. Two triangles that name a common vertex are connected.
+/// some part do not follow each other.
 std::vector<SceneObject> connected_parts(const std::vector<Face>& faces, std::size_t vertices);
 
 }  // namespace bvhbench

@@ -31,7 +31,13 @@ struct Scene {
     std::string name;                        ///< what the user typed, unique in a result file
     std::vector<Face> faces;                 ///< of all objects, at least one
     std::vector<SceneObject> objects;        ///< at least one
+    bool has_meshes = false;                 ///< what it was made from names these objects
     std::vector<std::vector<Point>> frames;  ///< positions of all vertices, one vector a frame
+    std::vector<std::string>
+        frame_labels;  ///< what the frames are called where they come from, or empty
+    /// Which triangle of the file (or generator) triangle k is; empty: it is k. Not empty once triangles were
+    /// put into another order so that those of an object follow each other (scenes/objects_by.h).
+    std::vector<uint> file_faces;
     std::string
         source;  ///< "generated", or the file that was read: its path in the data folder if it is there
     std::string

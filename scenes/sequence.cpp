@@ -8,6 +8,7 @@
 #include "geometry/error.h"
 #include "scenes/formats/text.h"
 #include "scenes/parts.h"
+#include "scenes/sequence_facts.h"
 
 namespace bvhbench {
 namespace {
@@ -40,7 +41,12 @@ std::optional<std::int64_t> frame_number(const std::filesystem::path& path)
     return parse_integer(std::string_view(stem).substr(begin, end + 1 - begin));
 }
 
-std::vector<std::filesystem::path> numbered_files(const std::filesystem::path& folder)
+struct NumberedFile {
+    std::int64_t number;
+    std::filesystem::path path;
+};
+
+std::vector<NumberedFile> numbered_files(const std::filesystem::path& folder)
 {
     std::map<std::int64_t, std::filesystem::path> files;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
@@ -51,9 +57,9 @@ std::vector<std::filesystem::path> numbered_files(const std::filesystem::path& f
             throw Unavailable(folder.string() + " has two files for frame " +
                               std::to_string(*number));
     }
-    std::vector<std::filesystem::path> result;
+    std::vector<NumberedFile> result;
     for (const auto& [number, path] : files)
-        result.push_back(path);
+        result.push_back({number, path});
     return result;
 }
 
@@ -64,22 +70,24 @@ bool same(const std::vector<Face>& a, const std::vector<Face>& b)
 
 Scene read_numbered(const std::filesystem::path& folder, const WorkerLimits& limits)
 {
-    const std::vector<std::filesystem::path> files = numbered_files(folder);
+    const std::vector<NumberedFile> files = numbered_files(folder);
     if (files.empty())
         throw Unavailable(folder.string() +
                           " has neither mesh.ply and frames.f32 nor numbered mesh files");
     Scene scene;
-    for (const auto& path : files) {
+    for (const auto& [number, path] : files) {
         FileMesh file = read_mesh_file(path, limits);
         if (scene.frames.empty()) {
             scene.faces = std::move(file.mesh.faces);
             scene.objects = std::move(file.objects);
         } else if (!same(scene.faces, file.mesh.faces)) {
-            throw Unavailable(path.string() + " has other triangles than " + files[0].string() +
-                              ", and frames share theirs");
+            throw Unavailable(path.string() + " has other triangles than " +
+                              files[0].path.string() + ", and frames share theirs");
         }
         scene.frames.push_back(std::move(file.mesh.points));
+        scene.frame_labels.push_back(std::to_string(number));
     }
+    scene.has_meshes = !scene.objects.empty();
     if (scene.objects.empty())
         scene.objects = connected_parts(scene.faces, scene.frames[0].size());
     return scene;
@@ -96,6 +104,8 @@ Scene read_sequence(const std::filesystem::path& folder, const WorkerLimits& lim
     scene.frames = read_frames(folder / "frames.f32", file.mesh.points.size());
     scene.faces = std::move(file.mesh.faces);
     scene.objects = std::move(file.objects);
+    scene.has_meshes = !scene.objects.empty();
+    add_sequence_facts(scene, folder / "meta.json");
     return scene;
 }
 

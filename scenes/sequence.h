@@ -9,6 +9,7 @@ namespace bvhbench {
 ///
 ///     mesh.ply     connectivity, and objects by `object_id`
 ///     frames.f32   for each frame, the positions of all vertices: three little-endian floats each
+///     meta.json    if it is there: names of objects, labels of frames, counts that are checked
 ///
 /// or mesh files whose names differ in a number, one a frame, in the order of those numbers. Where these
 /// name no objects, connected parts are objects, if each is a run of triangles.

@@ -43,6 +43,7 @@ Scene with_bend(Scene scene)
                         moved(point.z, reach * side * z)});
     }
     scene.frames.push_back(std::move(bent));
+    scene.frame_labels.clear();
     scene.bend_of = scene.name;
     return scene;
 }

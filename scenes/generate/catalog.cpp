@@ -2,6 +2,7 @@
 #include "scenes/generate/catalog.h"
 
 #include "scenes/generate/generators.h"
+#include "scenes/generate/moving.h"
 
 namespace bvhbench {
 namespace {
@@ -20,8 +21,18 @@ constexpr Generator catalog[] = {
      "small random triangles in the unit cube, no shared vertices"},
 };
 
+constexpr MovingGenerator moving_catalog[] = {
+    {"cloth-ball", make_cloth_ball, 2, "a cloth falls on a ball that turns; 2 objects"},
+    {"cloth-layers", make_cloth_layers, 4, "three cloths fall on a ball that turns; 4 objects"},
+    {"cloth-funnel", make_cloth_funnel, 4, "a ball pushes a cloth through a funnel; 4 objects"},
+    {"cloth-dress", make_cloth_dress, 10, "nine skirts in layers round a dancer; 10 objects"},
+    {"n-body", make_n_body, n_body_count,
+     "balls fall to their centre and bounce; 305 rigid objects"},
+};
+
 }  // namespace
 
 std::span<const Generator> generators() { return catalog; }
+std::span<const MovingGenerator> moving_generators() { return moving_catalog; }
 
 }  // namespace bvhbench

@@ -12,8 +12,8 @@ TEST(Catalog, NamesWhatIsKnownWhenAskedForSomethingElse)
 {
     const std::string message = refusal("cube:12");
     EXPECT_TRUE(contains(message, "BadUsage: no scene is called 'cube:12'; there are: torus:N"));
-    for (const char* known : {"hairball:N", "refine:SCENE:N", "outlier:SCENE:K:D", "bend:SCENE",
-                              "bunny", "nbody_sim", "a path to a mesh file"})
+    for (const char* known : {"hairball:N", "cloth-ball:N:F", "refine:SCENE:N", "outlier:SCENE:K:D",
+                              "bend:SCENE", "bunny", "nbody_sim", "a path to a mesh file"})
         EXPECT_TRUE(contains(message, known));
     EXPECT_TRUE(contains(refusal("bunni"), "BadUsage: no scene is called 'bunni'"));
     EXPECT_TRUE(contains(refusal(""), "BadUsage: no scene is called ''"));
@@ -35,6 +35,8 @@ TEST(Catalog, ListsEveryGeneratorAndDataSetByTheNameTyped)
         EXPECT_TRUE(names.insert(line.name).second) << line.name;
     for (const Generator& generator : generators())
         EXPECT_TRUE(names.count(std::string(generator.name) + ":N"));
+    for (const MovingGenerator& generator : moving_generators())
+        EXPECT_TRUE(names.count(std::string(generator.name) + ":N:F"));
     for (const ManifestEntry& entry : manifest())
         EXPECT_TRUE(names.count(entry.set.name));
     EXPECT_TRUE(names.count("refine:SCENE:N"));
@@ -91,15 +93,60 @@ TEST(DataSets, ThatAreNotThereSayWhereToGetThem)
     EXPECT_THROW(load_or_stand_in(*find_data_set("unc_nbody"), {}), Unavailable);
 }
 
-TEST(Manifest, HasStandInsOnlyOfTheCountTheyStandFor)
+TEST(DataSets, ThatAreSequencesHaveTheNearestThereIsForStandIn)
+{
+    const Folder folder;
+    const SceneLibrary library{folder.path(), 0, 0};
+    const Scene generated = load_or_stand_in(*find_data_set("n-body"), library);
+    EXPECT_EQ(generated.stand_in_for, "n-body");
+    EXPECT_EQ(generated.name, "n-body:146480");
+    EXPECT_EQ(generated.triangle_count(), 146480u);
+    EXPECT_EQ(generated.objects.size(), 305u);
+    if (data_folder().empty())
+        return;
+    const Scene real = load_or_stand_in(*find_data_set("n-body"), {data_folder(), 0, 0});
+    EXPECT_EQ(real.stand_in_for, "n-body");
+    EXPECT_EQ(real.name, "unc_nbody");
+}
+
+TEST(DataSets, OfTablesTwoAndThreeEndInAStandInOfAsManyObjects)
+{
+    const std::pair<const char*, std::size_t> tables[] = {
+        {"cloth-ball", 2}, {"funnel", 4},  {"n-body", 305},  {"flamenco", 10},
+        {"andy", 4},       {"bridson", 2}, {"bridson-3", 4},
+    };
+    for (const auto& [name, objects] : tables) {
+        const DataSet* const set = find_data_set(name);
+        ASSERT_NE(set, nullptr) << name;
+        const std::size_t colon = set->stand_in.find(':');
+        const std::string small = set->stand_in.substr(0, colon) + ":400:1";
+        EXPECT_EQ(load_scene(small, {}).objects.size(), objects) << set->stand_in;
+        EXPECT_THROW(load_scene(name, {}), Unavailable);  // by name it is itself or nothing
+    }
+}
+
+TEST(Manifest, HasStandInsOfTheSameCountForMeshesAndGeneratedLastForAll)
 {
     std::set<std::string> names;
-    for (const ManifestEntry& entry : manifest()) {
+    for (const ManifestEntry& entry : manifest())
         EXPECT_TRUE(names.insert(entry.set.name).second) << entry.set.name;
+    for (const ManifestEntry& entry : manifest()) {
         EXPECT_FALSE(entry.files.empty());
-        for (const std::string& stand_in : entry.stand_ins)
-            EXPECT_EQ(stand_in.substr(stand_in.rfind(':') + 1),
-                      std::to_string(entry.set.triangles));
+        for (const std::string& stand_in : entry.stand_ins) {
+            SCOPED_TRACE(entry.set.name + " " + stand_in);
+            const bool is_last = &stand_in == &entry.stand_ins.back();
+            if (entry.is_frames && !is_last) {
+                EXPECT_TRUE(names.count(stand_in));
+            }
+            if (is_last) {
+                EXPECT_NE(stand_in.find(':'), stand_in.npos);
+                EXPECT_FALSE(stand_in.starts_with("refine:"));
+            }
+            if (!entry.is_frames || (is_last && entry.set.triangles != 0)) {
+                EXPECT_EQ(stand_in.substr(stand_in.rfind(':') + 1),
+                          std::to_string(entry.set.triangles));
+            }
+        }
     }
     EXPECT_THROW(parse_manifest("name\tother\n"), std::logic_error);
 }

@@ -45,6 +45,95 @@ TEST(Sequence, MustHoldWholeFrames)
     EXPECT_TRUE(contains(refusal(folder.path().string()), "frames.f32 has 0 bytes"));
 }
 
+/// A sequence of two frames with this for its meta.json.
+Scene with_meta(const Folder& folder, const std::string& meta)
+{
+    folder.file("mesh.ply", mesh);
+    folder.file("frames.f32", frame_bytes(2));
+    folder.file("meta.json", meta);
+    return load_scene(folder.path().string(), {});
+}
+
+std::string meta_refusal(const std::string& meta)
+{
+    const Folder folder;
+    try {
+        with_meta(folder, meta);
+    } catch (const Unavailable& error) {
+        return error.what();
+    }
+    return "loaded";
+}
+
+TEST(Sequence, TakesNamesAndLabelsFromItsMeta)
+{
+    const Folder folder;
+    const Scene scene = with_meta(folder, R"({"frames": 2, "vertices": 6, "triangles": 2,
+"frame_labels": [5, "late"], "anything": {"else": [1, 2.5]},
+"objects": [{"name": "cloth", "face_first": 0, "face_count": 1, "vertex_first": 0},
+            {"name": "ball", "face_first": 1, "face_count": 1}]})");
+    EXPECT_EQ(scene.objects[0].name, "cloth");
+    EXPECT_EQ(scene.objects[1].name, "ball");
+    EXPECT_EQ(scene.frame_labels, (std::vector<std::string>{"5", "late"}));
+    EXPECT_TRUE(scene.has_meshes);
+    EXPECT_EQ(with_meta(folder, "{}").objects[1].name, "object 1");
+}
+
+TEST(Sequence, TakesObjectsFromItsMetaWhereTheMeshNamesNone)
+{
+    const Folder folder;
+    std::string plain = mesh;
+    plain.replace(plain.find("property ushort object_id\n"), 26, "");
+    plain.replace(plain.find("3 0 1 2 0"), 9, "3 0 1 2");
+    plain.replace(plain.find("3 3 4 5 1"), 9, "3 3 4 5");
+    folder.file("mesh.ply", plain);
+    folder.file("frames.f32", frame_bytes(2));
+    EXPECT_EQ(load_scene(folder.path().string(), {}).objects.size(), 1u);
+    EXPECT_FALSE(load_scene(folder.path().string(), {}).has_meshes);
+    const auto table = [](const char* second) {
+        return std::string(R"({"objects": [{"name": "a", "face_first": 0, "face_count": 1}, )"
+                           R"({"name": "b", "face_first": )") +
+               second + "}]}";
+    };
+    folder.file("meta.json", table(R"(1, "face_count": 1)"));
+    EXPECT_EQ(load_scene(folder.path().string(), {}).objects.size(), 2u);
+    for (const char* wrong :
+         {R"(0, "face_count": 1)", R"(1, "face_count": 2)", R"(1, "face_count": 0)"}) {
+        folder.file("meta.json", table(wrong));
+        EXPECT_TRUE(contains(refusal(folder.path().string()),
+                             "meta.json has objects that do not cover the mesh's triangles"));
+    }
+}
+
+TEST(Sequence, RefusesAMetaThatDisagrees)
+{
+    EXPECT_EQ(meta_refusal("{}"), "loaded");
+    const std::pair<const char*, const char*> wrong[] = {
+        {"{", "meta.json is not JSON"},
+        {"[]", "meta.json is no JSON object"},
+        {R"({"frames": 3})", "meta.json says 3 frames, and there are 2"},
+        {R"({"vertices": 5})", "meta.json says 5 vertices, and there are 6"},
+        {R"({"triangles": -2})", "has no count 'triangles'"},
+        {R"({"triangles": 9})", "meta.json says 9 triangles, and there are 2"},
+        {R"({"frame_labels": [1]})", "has 1 frame labels for 2 frames"},
+        {R"({"frame_labels": [1, 2.5]})", "neither text nor a whole number"},
+        {R"({"objects": 1})", "'objects' that are no list"},
+        {R"({"objects": [{"face_first": 0}]})", "an object without a name, number 0"},
+        {R"({"objects": [3]})", "an object without a name, number 0"},
+        {R"({"objects": [{"name": "a", "face_first": 0}]})", "no count 'face_count'"},
+        {R"({"objects": [{"name": "a", "face_first": 0, "face_count": 1}]})",
+         "has 1 objects, and the mesh has 2"},
+        {R"({"objects": [{"name": "a", "face_first": 0, "face_count": 2},
+                         {"name": "b", "face_first": 2, "face_count": 1}]})",
+         "has an object, 'a', over 2 triangles from 0, and the mesh has 1 from 0"},
+        {R"({"objects": [{"name": "a", "face_first": 0, "face_count": 1},
+                         {"name": "b", "face_first": 0, "face_count": 1}]})",
+         "has an object, 'b', over 1 triangles from 0, and the mesh has 1 from 1"},
+    };
+    for (const auto& [meta, message] : wrong)
+        EXPECT_TRUE(contains(meta_refusal(meta), message)) << meta;
+}
+
 TEST(Sequence, MayBeNumberedFilesWhosePartsAreObjects)
 {
     const Folder folder;
@@ -62,6 +151,8 @@ TEST(Sequence, MayBeNumberedFilesWhosePartsAreObjects)
     ASSERT_EQ(scene.frames.size(), 2u);
     EXPECT_EQ(scene.frames[0][3].z, 9.0f);  // by number, not by name
     EXPECT_EQ(scene.objects.size(), 2u);
+    EXPECT_EQ(scene.frame_labels, (std::vector<std::string>{"9", "10"}));
+    EXPECT_FALSE(scene.has_meshes);  // parts were found, none was named
 
     folder.file("cloth11.obj", points("11") + "f 1 3 2\nf 4 5 6\n");
     EXPECT_TRUE(contains(refusal(folder.path().string()), "cloth11.obj has other triangles than "));

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+#include "scenes/generate/cloth.h"
+
+#include <algorithm>
+#include <array>
+
+#include "scenes/generate/random.h"
+
+namespace bvhbench {
+namespace {
+
+constexpr double gravity = 9.81;
+constexpr double fastest = 8;  ///< metres a second: what keeps a fault from growing without end
+constexpr uint pairs_hold_for = 3;  ///< steps for which pairs that come near are known
+
+/// Weights of four neighbours of which the middle two are passed through.
+std::array<double, 4> weights(double t)
+{
+    const double s = t * t, c = s * t;
+    return {0.5 * (2 * s - c - t), 0.5 * (3 * c - 5 * s + 2), 0.5 * (4 * s - 3 * c + t),
+            0.5 * (c - s)};
+}
+
+}  // namespace
+
+void Cloth::add_spring(uint a, uint b, double compliance)
+{
+    const double rest = length(positions_[b] - positions_[a]);
+    springs_.push_back({a, b, rest, compliance});
+}
+
+// Every other cell first, then the ones between: no direction is favoured, and no spring waits for the last.
+void Cloth::add_springs(const Sheet& sheet)
+{
+    const uint wide = sheet.columns, high = sheet.rows;
+    const auto each = [&](uint across, uint down, auto&& add) {
+        const uint columns = sheet.closed ? wide : wide + 1 - across;
+        for (uint parity = 0; parity < 2; ++parity)
+            for (uint j = 0; j + down <= high; ++j)
+                for (uint i = parity; i < columns; i += 2)
+                    add(i, j);
+    };
+    const auto join = [&](uint i, uint j, uint k, uint l, double compliance) {
+        add_spring(sheet.particle(i, j), sheet.particle(k, l), compliance);
+    };
+    each(1, 0, [&](uint i, uint j) { join(i, j, i + 1, j, 0); });
+    each(0, 1, [&](uint i, uint j) { join(i, j, i, j + 1, 0); });
+    each(1, 1, [&](uint i, uint j) { join(i, j, i + 1, j + 1, settings_.shear); });
+    each(1, 1, [&](uint i, uint j) { join(i + 1, j, i, j + 1, settings_.shear); });
+    if (!sheet.closed || wide > 4)  // else two steps round meet from both sides
+        each(2, 0, [&](uint i, uint j) { join(i, j, i + 2, j, settings_.bend); });
+    each(0, 2, [&](uint i, uint j) { join(i, j, i, j + 2, settings_.bend); });
+}
+
+Sheet Cloth::add(uint columns, uint rows, bool closed,
+                 const std::function<Vector(double u, double v)>& position)
+{
+    const Sheet sheet = {static_cast<uint>(positions_.size()), columns, rows, closed};
+    for (uint j = 0; j <= rows; ++j)
+        for (uint i = 0; i < sheet.stride(); ++i)
+            positions_.push_back(
+                position(static_cast<double>(i) / columns, static_cast<double>(j) / rows));
+    add_springs(sheet);
+    sheet_of_.resize(positions_.size(), static_cast<uint>(sheets_.size()));
+    sheets_.push_back(sheet);
+    double sum = 0, count = 0;
+    for (const Spring& spring : springs_)
+        if (spring.compliance == 0) {
+            sum += spring.length;
+            ++count;
+        }
+    apart_ = settings_.apart * sum / count;
+    Random random(sheet.first);
+    for (std::size_t k = sheet.first; k < positions_.size(); ++k)
+        positions_[k] = positions_[k] + (0.02 * apart_) * vector_of(random.in_ball());
+    velocities_.resize(positions_.size());
+    movable_.resize(positions_.size(), 1);
+    return sheet;
+}
+
+void Cloth::stretch()
+{
+    const double per_square = 1 / (settings_.step_s * settings_.step_s);
+    for (const Spring& spring : springs_) {
+        const Vector between = positions_[spring.b] - positions_[spring.a];
+        const double now = length(between);
+        const double a = movable_[spring.a], b = movable_[spring.b];
+        const double resists = a + b + spring.compliance * per_square;
+        if (!(now > 0) || !(resists > 0))
+            continue;
+        const Vector by = ((now - spring.length) / (now * resists)) * between;
+        positions_[spring.a] = positions_[spring.a] + a * by;
+        positions_[spring.b] = positions_[spring.b] - b * by;
+    }
+}
+
+/// Whether two particles of one sheet are in cells that touch: springs see to these.
+bool Cloth::are_neighbours(uint a, uint b) const
+{
+    if (sheet_of_[a] != sheet_of_[b])
+        return false;
+    const Sheet& sheet = sheets_[sheet_of_[a]];
+    const uint stride = sheet.stride();
+    const uint i = (a - sheet.first) % stride, k = (b - sheet.first) % stride;
+    const uint j = (a - sheet.first) / stride, l = (b - sheet.first) / stride;
+    const uint across = std::max(i, k) - std::min(i, k), down = std::max(j, l) - std::min(j, l);
+    return down <= 1 && (across <= 1 || (sheet.closed && across + 1 == stride));
+}
+
+/// A little early, as they move on for some steps.
+void Cloth::find_near()
+{
+    pairs_.clear();
+    for (const auto& [i, j] : near_.find(positions_, 1.25 * apart_))
+        if (!are_neighbours(i, j))
+            pairs_.emplace_back(i, j);
+}
+
+void Cloth::keep_apart()
+{
+    if (steps_ % pairs_hold_for == 0)
+        find_near();
+    for (const auto& [i, j] : pairs_) {
+        const Vector between = positions_[j] - positions_[i];
+        const double square = dot(between, between);
+        const double both = movable_[i] + movable_[j];
+        if (square >= apart_ * apart_ || !(square > 0) || both == 0)
+            continue;
+        const double now = std::sqrt(square);
+        const Vector by = ((apart_ - now) / (now * both)) * between;
+        positions_[i] = positions_[i] - movable_[i] * by;
+        positions_[j] = positions_[j] + movable_[j] * by;
+    }
+}
+
+void Cloth::meet(const std::vector<const Obstacle*>& obstacles)
+{
+    for (std::size_t k = 0; k < positions_.size(); ++k) {
+        if (movable_[k] == 0)
+            continue;
+        for (const Obstacle* const obstacle : obstacles) {
+            const auto contact = obstacle->contact(positions_[k]);
+            if (!contact)
+                continue;
+            positions_[k] = positions_[k] + contact->depth * contact->normal;
+            const Vector slip = positions_[k] - before_[k] - settings_.step_s * contact->velocity;
+            const Vector along = slip - dot(slip, contact->normal) * contact->normal;
+            const double size = length(along), most = settings_.friction * contact->depth;
+            positions_[k] = positions_[k] - (size > most ? most / size : 1.0) * along;
+        }
+    }
+}
+
+void Cloth::step(const std::vector<const Obstacle*>& obstacles)
+{
+    const double dt = settings_.step_s;
+    before_ = positions_;
+    for (std::size_t k = 0; k < positions_.size(); ++k) {
+        Vector& v = velocities_[k];
+        v = (1 - settings_.drag * dt) * (v + Vector{0, -gravity * dt, 0});
+        positions_[k] = positions_[k] + (movable_[k] * dt) * v;
+    }
+    stretch();
+    keep_apart();
+    meet(obstacles);
+    for (std::size_t k = 0; k < positions_.size(); ++k) {
+        const Vector moved = positions_[k] - before_[k];
+        const double size = length(moved), most = fastest * dt;
+        if (size > most)
+            positions_[k] = before_[k] + (most / size) * moved;
+        velocities_[k] = (movable_[k] / dt) * (positions_[k] - before_[k]);
+    }
+    ++steps_;
+}
+
+Vector Cloth::surface(const Sheet& sheet, double u, double v,
+                      const std::vector<const Obstacle*>& obstacles) const
+{
+    const double x = u * sheet.columns, y = v * sheet.rows;
+    const uint i = std::min(static_cast<uint>(x), sheet.columns - 1);
+    const uint j = std::min(static_cast<uint>(y), sheet.rows - 1);
+    const auto across = weights(x - i), down = weights(y - j);
+    // Beyond an edge the surface goes on as it came: the second point again, mirrored at the first.
+    const auto in_row = [&](uint row, uint k) {
+        const auto at = [&](uint column) { return positions_[sheet.particle(column, row)]; };
+        if (sheet.closed)
+            return at((i + k + sheet.columns - 1) % sheet.columns);
+        if (i + k == 0)
+            return 2 * at(0) - at(1);
+        if (i + k > sheet.columns + 1)
+            return 2 * at(sheet.columns) - at(sheet.columns - 1);
+        return at(i + k - 1);
+    };
+    const auto row = [&](uint index) {
+        Vector sum;
+        for (uint k = 0; k < 4; ++k)
+            sum = sum + across[k] * in_row(index, k);
+        return sum;
+    };
+    Vector sum;
+    for (uint k = 0; k < 4; ++k)
+        if (j + k == 0)
+            sum = sum + down[k] * (2 * row(0) - row(1));
+        else if (j + k > sheet.rows + 1)
+            sum = sum + down[k] * (2 * row(sheet.rows) - row(sheet.rows - 1));
+        else
+            sum = sum + down[k] * row(j + k - 1);
+    for (const Obstacle* const obstacle : obstacles)
+        if (const auto contact = obstacle->contact(sum))
+            sum = sum + contact->depth * contact->normal;
+    return sum;
+}
+
+}  // namespace bvhbench

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+//
+// Points and directions in double, for what is simulated before it is rounded to float once. Only operations
+// that IEEE 754 fixes: a simulation that called sin would come out otherwise with another C library, by far
+// more than a last bit.
+#pragma once
+
+#include <cmath>
+
+#include "geometry/triangle.h"
+
+namespace bvhbench {
+
+struct Vector {
+    double x = 0, y = 0, z = 0;
+};
+
+inline Vector operator+(Vector a, Vector b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Vector operator-(Vector a, Vector b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Vector operator*(double s, Vector a) { return {s * a.x, s * a.y, s * a.z}; }
+inline double dot(Vector a, Vector b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Vector cross(Vector a, Vector b)
+{
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline double length(Vector a) { return std::sqrt(dot(a, a)); }
+
+inline Vector vector_of(Point point) { return {point.x, point.y, point.z}; }
+inline Point rounded(Vector a)
+{
+    return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
+}
+
+/// A point of the unit circle: the cosine and sine of an angle.
+struct Turn {
+    double cosine = 1, sine = 0;
+};
+
+/// The point after `turns` full turns, to about 1e-15, the same on every machine.
+inline Turn turn_of(double turns)
+{
+    const double quarters = std::floor(4 * turns + 0.5);
+    const double x =
+        1.5707963267948966 * (4 * turns - quarters);  // within an eighth of a turn of 0
+    const double s = x * x;
+    double sine = 0, cosine = 0;  // Taylor to x^17 and x^18
+    for (int k = 17; k >= 1; k -= 2) {
+        sine = 1 - s / ((k + 1) * (k + 2)) * sine;
+        cosine = 1 - s / (k * (k + 1)) * cosine;
+    }
+    sine *= x;
+    switch (static_cast<int>(quarters - 4 * std::floor(quarters / 4))) {
+        case 0:
+            return {cosine, sine};
+        case 1:
+            return {-sine, cosine};
+        case 2:
+            return {-cosine, -sine};
+        default:
+            return {sine, -cosine};
+    }
+}
+
+/// `a` turned about the y axis.
+inline Vector turned(Vector a, Turn by)
+{
+    return {by.cosine * a.x + by.sine * a.z, a.y, by.cosine * a.z - by.sine * a.x};
+}
+
+}  // namespace bvhbench

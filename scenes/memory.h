@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace bvhbench {
+
+/// Throws Unavailable when `scene`, as the user typed it, takes more `bytes` than this machine has. Linux
+/// promises more memory than there is and ends the process that uses it, so it is counted first.
+void check_memory(std::string_view scene, std::uint64_t bytes);
+
+}  // namespace bvhbench

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string_view>
+
+#include "scenes/scene.h"
+
+namespace bvhbench {
+
+/// What makes an object of a scene.
+enum class ObjectsBy {
+    automatic,  ///< as the scene was loaded: a sequence's objects, else the file's meshes, else all is one
+    one,         ///< all triangles are one object
+    mesh,        ///< as `automatic`, for scenes whose source does name objects
+    components,  ///< triangles that name a common vertex, and those that these meet so
+};
+
+/// The one called "automatic", "one", "mesh" or "components". Throws BadUsage, naming these.
+ObjectsBy objects_by_called(std::string_view name);
+
+/// `scene` with its objects chosen so, finished again (the content hash covers objects).
+///
+/// An object is a run of triangles, but a file may have those of a component among others. They are then put
+/// into another order: components by their first triangle, triangles of one as they were, and `file_faces` tells
+/// which triangle of the file each one is. Vertices and their numbers stay.
+/// Throws BadUsage by `mesh` when the scene's source names no objects.
+Scene with_objects(Scene scene, ObjectsBy by);
+
+}  // namespace bvhbench

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#include "scenes/sequence_facts.h"
+
+#include <nlohmann/json.hpp>
+
+#include "geometry/error.h"
+#include "scenes/mesh_file.h"
+
+namespace bvhbench {
+namespace {
+
+using Json = nlohmann::json;
+
+/// A disagreement, or something that is not as it should be; the file's name is put before it.
+struct Fault {
+    std::string what;
+};
+
+std::uint64_t count(const Json& json, const char* key)
+{
+    const auto found = json.find(key);
+    if (found == json.end() || !found->is_number_unsigned())
+        throw Fault{"has no count '" + std::string(key) + "' where one goes"};
+    return found->get<std::uint64_t>();
+}
+
+void expect(const Json& json, const char* key, std::size_t found)
+{
+    if (json.contains(key) && count(json, key) != found)
+        throw Fault{"says " + std::to_string(count(json, key)) + " " + key + ", and there are " +
+                    std::to_string(found)};
+}
+
+std::vector<SceneObject> object_table(const Json& table)
+{
+    if (!table.is_array())
+        throw Fault{"has 'objects' that are no list"};
+    std::vector<SceneObject> objects;
+    for (const Json& line : table) {
+        const auto name = line.is_object() ? line.find("name") : line.end();
+        if (!line.is_object() || name == line.end() || !name->is_string())
+            throw Fault{"has an object without a name, number " + std::to_string(objects.size())};
+        const std::uint64_t first = count(line, "face_first"), faces = count(line, "face_count");
+        if (first > 0xffffffffu || faces > 0xffffffffu)
+            throw Fault{"has an object of more triangles than there can be"};
+        objects.push_back(
+            {name->get<std::string>(), static_cast<uint>(first), static_cast<uint>(faces)});
+    }
+    return objects;
+}
+
+void take_objects(Scene& scene, std::vector<SceneObject> table)
+{
+    if (scene.objects.empty())
+        scene.objects.push_back({"all", 0, scene.triangle_count()});
+    if (scene.objects.size() ==
+        1) {  // one, or a mesh that tells none apart: the table may divide it
+        std::uint64_t covered = 0;
+        bool is_division = !table.empty();
+        for (const SceneObject& object : table) {
+            is_division = is_division && object.first_face == covered && object.face_count > 0;
+            covered += object.face_count;
+        }
+        if (!is_division || covered != scene.faces.size())
+            throw Fault{"has objects that do not cover the mesh's triangles one after the other"};
+        scene.objects = std::move(table);
+        return;
+    }
+    if (table.size() != scene.objects.size())
+        throw Fault{"has " + std::to_string(table.size()) + " objects, and the mesh has " +
+                    std::to_string(scene.objects.size())};
+    for (std::size_t k = 0; k < table.size(); ++k) {
+        SceneObject& object = scene.objects[k];
+        if (table[k].first_face != object.first_face || table[k].face_count != object.face_count)
+            throw Fault{"has an object, '" + table[k].name + "', over " +
+                        std::to_string(table[k].face_count) + " triangles from " +
+                        std::to_string(table[k].first_face) + ", and the mesh has " +
+                        std::to_string(object.face_count) + " from " +
+                        std::to_string(object.first_face)};
+        object.name = table[k].name;
+    }
+}
+
+std::vector<std::string> labels(const Json& list)
+{
+    std::vector<std::string> result;
+    for (const Json& label : list) {
+        if (!label.is_string() && !label.is_number_integer())
+            throw Fault{"has a frame label that is neither text nor a whole number"};
+        result.push_back(label.is_string() ? label.get<std::string>() : label.dump());
+    }
+    return result;
+}
+
+void take(Scene& scene, const Json& json)
+{
+    if (!json.is_object())
+        throw Fault{"is no JSON object"};
+    expect(json, "frames", scene.frames.size());
+    expect(json, "vertices", scene.frames.front().size());
+    expect(json, "triangles", scene.faces.size());
+    if (const auto table = json.find("objects"); table != json.end()) {
+        take_objects(scene, object_table(*table));
+        scene.has_meshes = true;
+    }
+    if (const auto list = json.find("frame_labels"); list != json.end()) {
+        scene.frame_labels = labels(*list);
+        if (scene.frame_labels.size() != scene.frames.size())
+            throw Fault{"has " + std::to_string(scene.frame_labels.size()) + " frame labels for " +
+                        std::to_string(scene.frames.size()) + " frames"};
+    }
+}
+
+}  // namespace
+
+void add_sequence_facts(Scene& scene, const std::filesystem::path& meta)
+{
+    if (!std::filesystem::exists(meta))
+        return;
+    const Json json = Json::parse(file_bytes(meta), nullptr, false);  // no exceptions: "discarded"
+    try {
+        if (json.is_discarded())
+            throw Fault{"is not JSON"};
+        take(scene, json);
+    } catch (const Fault& fault) {
+        throw Unavailable(meta.string() + " " + fault.what);
+    }
+}
+
+}  // namespace bvhbench

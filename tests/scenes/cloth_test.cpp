@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+#include "scenes/generate/cloth.h"
+
+#include <numbers>
+#include <set>
+
+#include "helpers.h"
+#include "scenes/generate/film.h"
+#include "scenes/generate/random.h"
+#include "scenes/generate/sheet_mesh.h"
+
+namespace bvhbench {
+namespace {
+
+TEST(Turn, IsWhatCosineAndSineSay)
+{
+    for (int k = -200; k <= 200; ++k) {
+        const Turn turn = turn_of(k / 37.0);
+        EXPECT_NEAR(turn.cosine, std::cos(2 * std::numbers::pi * k / 37.0), 2e-14);
+        EXPECT_NEAR(turn.sine, std::sin(2 * std::numbers::pi * k / 37.0), 2e-14);
+    }
+    EXPECT_EQ(turn_of(0.25).sine, 1.0);
+    EXPECT_EQ(turn_of(-1).cosine, 1.0);
+}
+
+TEST(NearPairs, AreThoseOfAllPairs)
+{
+    Random random(3);
+    std::vector<Vector> points;
+    for (int k = 0; k < 400; ++k)
+        points.push_back(2 * vector_of(random.in_ball()));
+    NearPairs near;
+    for (const double distance : {0.01, 0.2, 0.7, 9.0}) {
+        std::set<std::pair<uint, uint>> expected;
+        for (uint i = 0; i < points.size(); ++i)
+            for (uint j = i + 1; j < points.size(); ++j)
+                if (length(points[j] - points[i]) < distance)
+                    expected.insert({i, j});
+        const auto& found = near.find(points, distance);
+        EXPECT_EQ(found.size(), expected.size());  // each once
+        EXPECT_TRUE((std::set(found.begin(), found.end()) == expected)) << distance;
+    }
+}
+
+TEST(SheetMesh, HasExactlyItsTrianglesAndNoUnusedPoint)
+{
+    for (const bool closed : {false, true})
+        for (const double aspect : {0.2, 1.0, 5.0})
+            for (uint count = 1; count <= 200; ++count) {
+                const Mesh mesh = make_sheet(count, aspect, closed);
+                EXPECT_EQ(mesh.faces.size(), count);
+                std::set<uint> used;
+                for (const Face& face : mesh.faces)
+                    used.insert({face.a, face.b, face.c});
+                EXPECT_EQ(used.size(), mesh.points.size());
+                for (const Point& point : mesh.points)
+                    EXPECT_TRUE(point.x >= 0 && point.x <= 1 && point.y >= 0 && point.y <= 1);
+            }
+}
+
+TEST(SheetMesh, HasNoSeamWhenClosed)
+{
+    const Mesh mesh = make_sheet(2 * 12 * 4, 3, true);  // 12 round, 4 up
+    EXPECT_EQ(mesh.points.size(), 12u * 5u);
+    for (const Point& point : mesh.points)
+        EXPECT_LT(point.x, 1.0f);
+}
+
+TEST(Shares, AreEvenWhereTheyCanBeAndMakeUpTheWhole)
+{
+    for (uint total = 7; total < 100; ++total) {
+        const std::vector<uint> shares = even_shares(total, 7);
+        uint sum = 0;
+        for (std::size_t k = 0; k < shares.size(); ++k) {
+            sum += shares[k];
+            EXPECT_GE(shares[k], 1u);
+            if (total >= 14 && k + 1 < shares.size()) {
+                EXPECT_EQ(shares[k] % 2, 0u);
+            }
+        }
+        EXPECT_EQ(sum, total);
+    }
+}
+
+TEST(Cloth, HangsFromItsCornersWithoutBeingStretchedMuch)
+{
+    Cloth cloth{{}};
+    const Sheet sheet = cloth.add(20, 20, false, [](double u, double v) {
+        return Vector{u, 1, v};
+    });
+    for (const uint corner : {sheet.particle(0, 0), sheet.particle(20, 0)})
+        cloth.pin(corner);
+    const Vector held = cloth.position(sheet.particle(0, 0));
+    for (int step = 0; step < 3000; ++step)
+        cloth.step({});
+    EXPECT_EQ(length(cloth.position(sheet.particle(0, 0)) - held), 0.0);
+    const double drop = held.y - cloth.position(sheet.particle(10, 20)).y;
+    EXPECT_GT(drop, 0.9);  // it did fall
+    EXPECT_LT(drop, 1.5);
+    for (uint j = 0; j < 20; ++j)
+        for (uint i = 0; i <= 20; ++i) {
+            const double side = length(cloth.position(sheet.particle(i, j + 1)) -
+                                       cloth.position(sheet.particle(i, j)));
+            EXPECT_LT(side, 1.25 / 20);
+        }
+}
+
+TEST(Cloth, KeepsItsLayersApart)
+{
+    Floor floor;
+    Cloth cloth{{}};
+    std::vector<Sheet> sheets;
+    for (const double height : {0.05, 0.1})
+        sheets.push_back(cloth.add(12, 12, false, [&](double u, double v) {
+            return Vector{0.5 * u, height, 0.5 * v};
+        }));
+    for (int step = 0; step < 1000; ++step)
+        cloth.step({&floor});
+    const double cell = 0.5 / 12;
+    for (uint j = 0; j <= 12; ++j)
+        for (uint i = 0; i <= 12; ++i) {
+            EXPECT_GE(cloth.position(sheets[0].particle(i, j)).y, 0.0);
+            const double between = length(cloth.position(sheets[1].particle(i, j)) -
+                                          cloth.position(sheets[0].particle(i, j)));
+            EXPECT_GT(between, 0.6 * cell);
+        }
+}
+
+TEST(Cloth, SurfacePassesThroughItsParticles)
+{
+    for (const bool closed : {false, true}) {
+        Cloth cloth{{}};
+        const Sheet sheet = cloth.add(6, 4, closed, [](double u, double v) {
+            const Turn turn = turn_of(u);
+            return Vector{turn.cosine, v, turn.sine};
+        });
+        for (uint j = 0; j <= 4; ++j)
+            for (uint i = 0; i < 6; ++i)
+                EXPECT_LT(length(cloth.surface(sheet, i / 6.0, j / 4.0, {}) -
+                                 cloth.position(sheet.particle(i, j))),
+                          1e-12);
+        if (closed) {
+            EXPECT_LT(length(cloth.surface(sheet, 1, 0.3, {}) - cloth.surface(sheet, 0, 0.3, {})),
+                      1e-12);
+        }
+    }
+}
+
+TEST(Obstacles, PushTheShortestWayOut)
+{
+    Ball ball;
+    ball.radius = 0.5;
+    const auto in_ball = ball.contact({0.25, 0, 0});
+    ASSERT_TRUE(in_ball);
+    EXPECT_NEAR(in_ball->depth, 0.25 + Obstacle::gap, 1e-12);
+    EXPECT_EQ(in_ball->normal.x, 1.0);
+    EXPECT_FALSE(ball.contact({0.6, 0, 0}));
+
+    Lathe cone;
+    cone.profile = {{1, 0}, {2, 1}};  // opens upwards at 45 degrees
+    for (const bool is_wall : {false, true}) {
+        cone.is_wall = is_wall;
+        const Vector at = {is_wall ? 1.6 : 1.4, 0.5, 0};
+        const auto contact = cone.contact(at);
+        ASSERT_TRUE(contact);
+        const Vector out = at + contact->depth * contact->normal;
+        EXPECT_NEAR(std::fabs(out.x - (1 + out.y)) / std::sqrt(2.0), Obstacle::gap, 1e-12);
+        EXPECT_FALSE(cone.contact({is_wall ? 1.4 : 1.6, 0.5, 0}));
+    }
+}
+
+TEST(Obstacles, MoveWhatTheyCarry)
+{
+    Placement placement;
+    placement.velocity = {0, 1, 0};
+    placement.spin = 2;
+    const Vector local = {1, 0, 0};
+    const Vector before = placement.place(local);
+    const Vector velocity = placement.velocity_at(before);
+    placement.advance(1e-6);
+    const Vector moved = 1e6 * (placement.place(local) - before);
+    EXPECT_LT(length(moved - velocity), 1e-5);
+    for (int k = 0; k < 100000; ++k)
+        placement.advance(1e-3);
+    EXPECT_NEAR(
+        placement.turn.cosine * placement.turn.cosine + placement.turn.sine * placement.turn.sine,
+        1, 1e-15);
+}
+
+}  // namespace
+}  // namespace bvhbench

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <set>
+
+#include "geometry/hash.h"
+#include "helpers.h"
+#include "scenes/generate/catalog.h"
+#include "scenes/generate/moving.h"
+#include "scenes/motion.h"
+
+namespace bvhbench {
+namespace {
+
+Scene moving(std::string_view generator, std::size_t count, std::size_t frames)
+{
+    return load_scene(
+        std::string(generator) + ":" + std::to_string(count) + ":" + std::to_string(frames), {});
+}
+
+Aabb box_of(const std::vector<Point>& points)
+{
+    Aabb box = empty_box();
+    for (const Point& point : points)
+        box = merged(box, triangle_box(point, point, point));
+    return box;
+}
+
+class EachMovingGenerator : public testing::TestWithParam<MovingGenerator> {};
+
+TEST_P(EachMovingGenerator, MakesExactlyTheTrianglesAskedForFromItsLeastOn)
+{
+    const std::size_t least = GetParam().least;
+    for (const std::size_t more : {0u, 1u, 2u, 3u, 30u, 77u, 501u}) {
+        const Scene scene = GetParam().make(static_cast<uint>(least + more), 1);
+        EXPECT_EQ(scene.triangle_count(), least + more);
+        EXPECT_EQ(scene.objects.size(), least);  // at least one triangle each
+    }
+    EXPECT_TRUE(contains(refusal(std::string(GetParam().name) + ":" + std::to_string(least - 1)),
+                         "BadUsage: scene '"));
+}
+
+TEST_P(EachMovingGenerator, MakesTheSameTwiceAndTheSameMotionForAnyNumberOfFrames)
+{
+    const Scene four = moving(GetParam().name, 2000, 4);
+    ASSERT_EQ(four.frames.size(), 4u);
+    EXPECT_EQ(four.content_hash, moving(GetParam().name, 2000, 4).content_hash);
+    EXPECT_NE(four.content_hash, moving(GetParam().name, 2001, 4).content_hash);
+    const Scene two = moving(GetParam().name, 2000, 2);
+    for (std::size_t k = 0; k < two.frames[0].size(); ++k) {
+        EXPECT_EQ(two.frames[0][k].x, four.frames[1][k].x);
+        EXPECT_EQ(two.frames[1][k].y, four.frames[3][k].y);
+    }
+}
+
+TEST_P(EachMovingGenerator, NamesItsObjectsAndRepeatsNoTriangleAndNoCorner)
+{
+    const Scene scene = moving(GetParam().name, 3000, 1);
+    EXPECT_TRUE(scene.has_meshes);
+    EXPECT_EQ(scene.source, "generated");
+    std::set<std::string> names;
+    for (const SceneObject& object : scene.objects)
+        EXPECT_TRUE(names.insert(object.name).second) << object.name;
+    std::set<std::set<uint>> seen;
+    for (const Face& face : scene.faces) {
+        EXPECT_EQ(std::set<uint>({face.a, face.b, face.c}).size(), 3u);
+        EXPECT_TRUE(seen.insert({face.a, face.b, face.c}).second);
+    }
+}
+
+// Coordinates that left the stage would say that the simulation is not stable; loading refuses what is not finite.
+TEST_P(EachMovingGenerator, StaysOnItsStageWhateverItsSize)
+{
+    for (const std::size_t count : {310u, 12000u}) {
+        const Scene scene = moving(GetParam().name, count, 5);
+        for (const std::vector<Point>& frame : scene.frames) {
+            const Aabb box = box_of(frame);
+            for (const float low : {box.min_x, box.min_y, box.min_z})
+                EXPECT_GT(low, -2.0f);
+            for (const float high : {box.max_x, box.max_y, box.max_z})
+                EXPECT_LT(high, 2.0f);
+        }
+    }
+}
+
+// No triangle side is much longer than it was at rest: what explodes or hangs on one particle has some.
+TEST_P(EachMovingGenerator, TearsNothing)
+{
+    const Scene scene = moving(GetParam().name, 3000, 5);
+    const auto longest = [&](const std::vector<Point>& points, const SceneObject& object) {
+        double most = 0;
+        for (uint k = 0; k < object.face_count; ++k) {
+            const Face face = scene.faces[object.first_face + k];
+            const Point a = points[face.a], b = points[face.b];
+            most =
+                std::max(most, std::hypot(double{a.x} - b.x, double{a.y} - b.y, double{a.z} - b.z));
+        }
+        return most;
+    };
+    for (const SceneObject& object : scene.objects)
+        for (const std::vector<Point>& frame : scene.frames)
+            EXPECT_LT(longest(frame, object), 1.4 * longest(scene.frames[0], object) + 0.003)
+                << object.name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, EachMovingGenerator,
+                         testing::ValuesIn(moving_generators().begin(), moving_generators().end()),
+                         [](const auto& generator) {
+                             std::string name(generator.param.name);
+                             for (char& c : name)
+                                 c = c == '-' ? '_' : c;
+                             return name;
+                         });
+
+TEST(Moving, TakesANumberOfFramesAfterTheTriangles)
+{
+    EXPECT_EQ(load_scene("n-body:1000", {}).frames.size(), 16u);
+    EXPECT_EQ(load_scene("n-body:1000:1", {}).frames.size(), 1u);
+    EXPECT_EQ(load_scene("n-body:1000:1000", {}).frames.size(), 1000u);
+    EXPECT_EQ(load_scene("n-body:1000:7", {}).name, "n-body:1000:7");
+    for (const std::string bad :
+         {"0", "", "-1", "+4", "1001", "4x", " 4", "4:4", "99999999999999999999"})
+        EXPECT_TRUE(
+            contains(refusal("n-body:1000:" + bad), "' where a number of frames from 1 to 1000"))
+            << bad;
+    for (const std::string bad : {"", "x", "-5", ":4", "0:4"})
+        EXPECT_TRUE(contains(refusal("n-body:" + bad), "where a triangle count from 1 to")) << bad;
+    EXPECT_TRUE(contains(refusal("n-body:304"), "too few triangles: there must be 305 at least"));
+    EXPECT_TRUE(contains(refusal("n-body:268435457"), "a triangle count from 1 to 268435456"));
+}
+
+TEST(NBody, MovesEveryBodyRigidlyAndBringsThemTogether)
+{
+    const Scene scene = load_scene("n-body:9150:6", {});
+    ASSERT_EQ(scene.objects.size(), n_body_count);
+    for (std::size_t frame = 1; frame < scene.frames.size(); ++frame)
+        for (const Motion motion : object_motions(scene, frame - 1, frame))
+            EXPECT_EQ(motion, Motion::rigid);
+    EXPECT_LT(box_of(scene.frames.back()).max_x, 0.9f * box_of(scene.frames.front()).max_x);
+    std::size_t touching = 0;  // by boxes of bodies
+    std::vector<Aabb> boxes;
+    for (const SceneObject& object : scene.objects) {
+        Aabb box = empty_box();
+        for (uint k = 0; k < object.face_count; ++k)
+            box = merged(box, face_box(scene.frames.back(), scene.faces[object.first_face + k]));
+        for (const Aabb& other : boxes)
+            touching += overlap(box, other) ? 1 : 0;
+        boxes.push_back(box);
+    }
+    EXPECT_GT(touching, 2u * n_body_count);
+}
+
+TEST(ClothBall, LiesOnABallThatTurnsAndOnTheFloor)
+{
+    const Scene scene = load_scene("cloth-ball:5000:8", {});
+    ASSERT_EQ(scene.objects[0].name, "cloth");
+    const std::size_t ball_begin = scene.faces[scene.objects[1].first_face].a;
+    const auto motions = object_motions(scene, 6, 7);
+    EXPECT_EQ(motions[0], Motion::deforming);
+    EXPECT_EQ(motions[1], Motion::rigid);
+    float lowest = 1, highest = 0;
+    for (std::size_t k = 0; k < ball_begin; ++k) {
+        const Point p = scene.frames.back()[k];
+        lowest = std::min(lowest, p.y);
+        highest = std::max(highest, p.y);
+        EXPECT_GE(p.y, 0.0f);
+        EXPECT_GE(std::hypot(p.x, p.y - 0.15, p.z), 0.15);  // outside of the ball
+    }
+    EXPECT_LT(lowest, 0.01f);
+    EXPECT_GT(highest, 0.29f);
+    EXPECT_LT(highest, 0.33f);
+}
+
+TEST(ClothFunnel, PushesTheClothThroughTheNeck)
+{
+    const Scene scene = load_scene("cloth-funnel:3000:8", {});
+    const auto below_the_neck = [&](std::size_t frame) {  // what part of the cloth is
+        uint count = 0;
+        for (uint k = 0; k < scene.objects[0].face_count; ++k)
+            count += scene.frames[frame][scene.faces[k].a].y < 0.35f ? 1 : 0;
+        return static_cast<double>(count) / scene.objects[0].face_count;
+    };
+    EXPECT_EQ(below_the_neck(0), 0);
+    EXPECT_GT(below_the_neck(7), 0.6);
+    const auto motions = object_motions(scene, 3, 4);
+    EXPECT_EQ(motions[1], Motion::unchanged);  // funnel
+    EXPECT_EQ(motions[2], Motion::rigid);      // ball
+    EXPECT_EQ(motions[3], Motion::unchanged);  // floor
+}
+
+TEST(Moving, KeepsItsContent)
+{
+    const std::pair<const char*, const char*> hashes[] = {
+        {"cloth-ball:1000:4", "a4b18bfd43b83928"},   {"cloth-layers:1000:4", "fdd0ce703c806abc"},
+        {"cloth-funnel:1000:4", "7d4fd58d9e77ea33"}, {"cloth-dress:1000:4", "3702aec9b82d18e5"},
+        {"n-body:1000:4", "9e039e4cebea8e32"},
+    };
+    for (const auto& [scene, hash] : hashes)
+        EXPECT_EQ(hex(load_scene(scene, {}).content_hash), hash) << scene;
+}
+
+}  // namespace
+}  // namespace bvhbench
