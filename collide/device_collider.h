@@ -25,6 +25,10 @@ public:
     QueryCounts counts(const Queue& queue) const override;
     std::vector<Pair> pairs(const Queue& queue) const final;
 
+    /// Pairs where they are, for what goes on with them on the device; counted as collide/counters.h says.
+    const Buffer<Pair>& device_pairs() const { return pairs_; }
+    const Buffer<uint>& device_counters() const { return counters_; }
+
 protected:
     /// Take what else is needed for trees like this one: kernels, and buffers. Run twice, first measuring.
     virtual void compile(const DeviceTree& tree) = 0;

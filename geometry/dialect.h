@@ -4,7 +4,8 @@
 //
 // A header that includes this one is compiled twice: by the host compiler as constexpr C++, and by the
 // device compiler as OpenCL C. It may use uint and ulong, floats, plain structs passed by value,
-// and the names below. It may not use pointers, references, overloads or templates.
+// and the names below. It may not use pointers, references, overloads or templates. Doubles it may use
+// behind #if HAS_DOUBLES: not every device has them.
 #ifndef BVHBENCH_GEOMETRY_DIALECT_H
 #define BVHBENCH_GEOMETRY_DIALECT_H
 
@@ -17,7 +18,16 @@
 // A fused multiply-add rounds once where the host rounds twice. Boxes and codes are compared bit for bit.
 #pragma OPENCL FP_CONTRACT OFF
 
+#ifdef cl_khr_fp64
+#pragma OPENCL EXTENSION cl_khr_fp64 : enable
+#define HAS_DOUBLES 1
 #else
+#define HAS_DOUBLES 0
+#endif
+
+#else
+
+#define HAS_DOUBLES 1
 
 #include <bit>
 #include <cstdint>
@@ -38,6 +48,10 @@ constexpr float as_float(uint x) { return std::bit_cast<float>(x); }
 /// every device, so boxes are made from coordinates without -0 (see triangle_box).
 constexpr float fmin(float a, float b) { return b < a || a != a ? b : a; }
 constexpr float fmax(float a, float b) { return a < b || a != a ? b : a; }
+constexpr double fmax(double a, double b) { return a < b || a != a ? b : a; }
+constexpr double fmin(double a, double b) { return b < a || a != a ? b : a; }
+constexpr float fabs(float x) { return x < 0 ? -x : x; }
+constexpr double fabs(double x) { return x < 0 ? -x : x; }
 SHARED_END
 
 #endif

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+//
+// The second look at a pair, in doubles: whether two triangles meet, where no sign it takes is in doubt.
+//
+// No corner in the plane of the other and both planes crossed, each triangle has one corner alone on its side, and from
+// there two edges across: p -> q, p -> r and p' -> q', p' -> r'. They cross on the line that both planes have in
+// common, at I, J and K, M. The sign of orient3d(p, q, p', q') is the order of I and K on it, up to a sign that is the
+// same for all four, since all edges cross to the far side. So the triangles are apart if the four signs are equal.
+// As soon as two differ they meet.
+//
+// A shared corner v for origin: the far edges cross the line, n x n', at y and z. With n the normal of a, n' that of b,
+//     y ~ a1 (n'.a2) - a2 (n'.a1) = n' x (a1 x a2) = n' x n   up to the sign of n'.a1, and z ~ n x n' likewise,
+// so that they lie on one side of v if n'.a1 and n.b1 have different signs.
+//
+// The bounds are those of geometry/orient.h, with one origin for all differences and the largest of them all.
+#ifndef BVHBENCH_COLLIDE_DOUBLE_FILTER_H
+#define BVHBENCH_COLLIDE_DOUBLE_FILTER_H
+
+#include "collide/exact_contact.h"
+
+#define VERDICT_APART 0u
+#define VERDICT_MEET 1u
+#define VERDICT_UNSURE 2u
+
+#if HAS_DOUBLES
+SHARED_BEGIN
+
+/// As sides_to_plane, each side in doubt UNSURE.
+SHARED_FN Sides likely_sides(Corners a, Corners b)
+{
+    const Vector u = difference(a.at[1], a.at[0]), v = difference(a.at[2], a.at[0]);
+    const Vector p = difference(b.at[0], a.at[0]), q = difference(b.at[1], a.at[0]);
+    const Vector r = difference(b.at[2], a.at[0]);
+    const Vector normal = cross_product(u, v);
+    const Vector most = larger(larger(larger(magnitude(u), magnitude(v)), magnitude(p)),
+                               larger(magnitude(q), magnitude(r)));
+    const double bound = orient3d_bound(most);
+    const Sides sides = {{sign_beyond(dot(normal, p), bound), sign_beyond(dot(normal, q), bound),
+                          sign_beyond(dot(normal, r), bound)}};
+    return sides;
+}
+
+SHARED_FN bool strictly_parted(Sides sides)
+{
+    return sides.of[0] != UNSURE && strictly_beyond(sides);
+}
+
+SHARED_FN bool any_unsure(Sides sides)
+{
+    return sides.of[0] == UNSURE || sides.of[1] == UNSURE || sides.of[2] == UNSURE;
+}
+
+/// With the corner first that is alone on its side.
+SHARED_FN Corners led_by_lone(Corners a, Sides sides)
+{
+    const Corners second = {{a.at[1], a.at[2], a.at[0]}};
+    const Corners third = {{a.at[2], a.at[0], a.at[1]}};
+    if (sides.of[0] == sides.of[1])
+        return third;
+    return sides.of[0] == sides.of[2] ? second : a;
+}
+
+/// Whether two triangles meet, of which each has its first corner alone on one side of the other's plane.
+SHARED_FN uint lone_corners_verdict(Corners a, Corners b)
+{
+    const Vector q = difference(a.at[1], a.at[0]), r = difference(a.at[2], a.at[0]);
+    const Vector lone = difference(b.at[0], a.at[0]);
+    const Vector s = difference(b.at[1], a.at[0]), t = difference(b.at[2], a.at[0]);
+    const Vector to_s = cross_product(lone, s), to_t = cross_product(lone, t);
+    const Vector most = larger(larger(larger(magnitude(q), magnitude(r)), magnitude(lone)),
+                               larger(magnitude(s), magnitude(t)));
+    const double bound = orient3d_bound(most);
+    const double qs = dot(q, to_s), qt = dot(q, to_t), rs = dot(r, to_s), rt = dot(r, to_t);
+    const double low = fmin(fmin(qs, qt), fmin(rs, rt)), high = fmax(fmax(qs, qt), fmax(rs, rt));
+    if (low < -bound && high > bound)
+        return VERDICT_MEET;
+    return low > bound || high < -bound ? VERDICT_APART : VERDICT_UNSURE;
+}
+
+/// Of two triangles that share no corner.
+SHARED_FN uint likely_meet(Corners a, Corners b)
+{
+    const Sides of_b = likely_sides(a, b);
+    if (strictly_parted(of_b))
+        return VERDICT_APART;
+    const Sides of_a = likely_sides(b, a);
+    if (strictly_parted(of_a))
+        return VERDICT_APART;
+    if (any_unsure(of_a) || any_unsure(of_b))
+        return VERDICT_UNSURE;
+    return lone_corners_verdict(led_by_lone(a, of_a), led_by_lone(b, of_b));
+}
+
+/// Of two that share their first corner: beyond it.
+SHARED_FN uint likely_meet_beyond_corner(Corners a, Corners b)
+{
+    // The side of the corner itself is 0, computed without rounding: UNSURE.
+    const Sides of_b = likely_sides(a, b), of_a = likely_sides(b, a);
+    const bool b_known = of_b.of[1] != UNSURE && of_b.of[2] != UNSURE;
+    const bool a_known = of_a.of[1] != UNSURE && of_a.of[2] != UNSURE;
+    if ((b_known && of_b.of[1] == of_b.of[2]) || (a_known && of_a.of[1] == of_a.of[2]))
+        return VERDICT_APART;
+    if (!a_known || !b_known)
+        return VERDICT_UNSURE;
+    return of_a.of[1] != of_b.of[1] ? VERDICT_MEET : VERDICT_APART;
+}
+
+/// Of two that share their first two corners: beyond that edge.
+SHARED_FN uint likely_meet_beyond_edge(Corners a, Corners b)
+{
+    return likely_sides(a, b).of[2] != UNSURE ? VERDICT_APART : VERDICT_UNSURE;
+}
+
+/// Of two that share their first so many corners.
+SHARED_FN uint likely_verdict(Corners a, Corners b, uint shared)
+{
+    if (shared == 0u)
+        return likely_meet(a, b);
+    if (shared == 1u)
+        return likely_meet_beyond_corner(a, b);
+    return shared == 2u ? likely_meet_beyond_edge(a, b) : VERDICT_MEET;
+}
+
+SHARED_END
+#endif
+
+#endif

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+//
+// The first look at a pair: whether the plane of one triangle has the other strictly on one side, in floats.
+//
+// Said only where rounding cannot be to blame. With u = 2^-24 and X, Y, Z the largest differences along each axis as
+// computed, a determinant of differences is off by at most 46 u X Y Z (geometry/orient.h counts), if nothing overflows
+// or underflows. So all of X, Y, Z must be between 2^-30 and 2^40: then six products of three are below 2^123, and
+// what a device that flushes denormals makes of a difference, a product of two and one of three is off by 2^-126,
+// where they are measured against 2^-30, 2^-60 and 2^-90: by 2^-36 of X Y Z at most, u / 4096, a few times. 48 u covers
+// both. What is smaller or larger, and a triangle along an axis, is left to doubles.
+#ifndef BVHBENCH_COLLIDE_FLOAT_FILTER_H
+#define BVHBENCH_COLLIDE_FLOAT_FILTER_H
+
+#include "geometry/triangle.h"
+
+SHARED_BEGIN
+
+SHARED_FN float largest_of(float a, float b, float c) { return fmax(fmax(fabs(a), fabs(b)), fabs(c)); }
+
+/// Whether the plane of a, b, c is certain to have p, q, r strictly on one side.
+SHARED_FN bool plane_parts(Point a, Point b, Point c, Point p, Point q, Point r)
+{
+    const float ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
+    const float vx = c.x - a.x, vy = c.y - a.y, vz = c.z - a.z;
+    const float px = p.x - a.x, py = p.y - a.y, pz = p.z - a.z;
+    const float qx = q.x - a.x, qy = q.y - a.y, qz = q.z - a.z;
+    const float rx = r.x - a.x, ry = r.y - a.y, rz = r.z - a.z;
+    const float nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
+    const float at_p = nx * px + ny * py + nz * pz;
+    const float at_q = nx * qx + ny * qy + nz * qz;
+    const float at_r = nx * rx + ny * ry + nz * rz;
+
+    const float x = fmax(largest_of(ux, vx, px), fmax(fabs(qx), fabs(rx)));
+    const float y = fmax(largest_of(uy, vy, py), fmax(fabs(qy), fabs(ry)));
+    const float z = fmax(largest_of(uz, vz, pz), fmax(fabs(qz), fabs(rz)));
+    const float bound = 0x1.8p-19f * x * y * z;
+    const float low = fmin(fmin(at_p, at_q), at_r), high = fmax(fmax(at_p, at_q), at_r);
+    return (low > bound || high < -bound) && fmin(fmin(x, y), z) >= 0x1p-30f &&
+           fmax(fmax(x, y), z) <= 0x1p40f;
+}
+
+SHARED_END
+
+#endif

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+//
+// What the narrow phase counts on the device: 64-bit counts of two words each (collide/wide_count.clh).
+#ifndef BVHBENCH_COLLIDE_NARROW_COUNTERS_H
+#define BVHBENCH_COLLIDE_NARROW_COUNTERS_H
+
+#define CONTACTS_COUNT 0u       // pairs that intersect, be there room for them or not
+#define NARROW_FLOAT_COUNT 2u   // candidates decided by their indices or in floats,
+#define NARROW_DOUBLE_COUNT 4u  // in doubles,
+#define NARROW_EXACT_COUNT 6u   // and neither, so that they wait for exact arithmetic
+#define NARROW_COUNTERS 8u
+
+#endif

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+//
+// On which side of a plane or a line a point lies, exactly for the floats that are stored.
+//
+//     orient3d(a, b, c, d)    the sign of (a-d) . ((b-d) x (c-d)); 0: the four are in one plane
+//     orient2d(a, b, c, k)    the turn a, b, c as seen along axis k; 0: in one line, so seen
+//
+// First in doubles, which tells unless the points are all but in one plane. Differences of floats are rounded at most
+// once, no product of three can overflow, and none can underflow: the least float is 2^-149, the least product
+// 2^-447, and that of doubles 2^-1074. So the error is at most, with u = 2^-53 and X, Y, Z the largest differences
+// along each axis as computed,
+//
+//     a difference            u X
+//     a minor x y' - x' y     8 u X Y      two products of rounded factors, 3 u each; their difference, 2 u
+//     the sum of three        46 u X Y Z   each 8 + 2 for z + 2 for the product; two sums, 4 u and 6 u
+//
+// up to terms of u^2, which 48 u covers. Likewise 8 u X Y in the plane, and 9 u to cover.
+//
+// Otherwise as a sum of products of coordinates, not of differences. Two floats have an exact product in a double, and
+// its upper and lower half have one with a third float, so that the 24 products of the determinant are 48 terms. They
+// and all their sums are multiples of 2^-447 below 2^390: nothing overflows or underflows.
+#ifndef BVHBENCH_GEOMETRY_ORIENT_H
+#define BVHBENCH_GEOMETRY_ORIENT_H
+
+#include "geometry/exact_sum.h"
+#include "geometry/vectors.h"
+
+#if HAS_DOUBLES
+SHARED_BEGIN
+
+#define UNSURE 2
+
+/// The sign of a number that is off by at most `bound`, or UNSURE.
+SHARED_FN int sign_beyond(double value, double bound)
+{
+    return value > bound ? 1 : (value < -bound ? -1 : UNSURE);
+}
+
+/// What a determinant of differences may be off by, if none along an axis is larger than in `most`.
+SHARED_FN double orient3d_bound(Vector most) { return 0x1.8p-48 * most.x * most.y * most.z; }
+
+/// [p q r], term after term from `from` on, or its negative.
+SHARED_FN Terms with_determinant(Terms terms, uint from, Point p, Point q, Point r, double sign)
+{
+    const double factors[6] = {(double)q.y * (double)r.z, -((double)q.z * (double)r.y),
+                               (double)q.z * (double)r.x, -((double)q.x * (double)r.z),
+                               (double)q.x * (double)r.y, -((double)q.y * (double)r.x)};
+    const double others[3] = {sign * (double)p.x, sign * (double)p.y, sign * (double)p.z};
+    for (uint k = 0u; k < 6u; ++k) {
+        const double spread = 134217729.0 * factors[k];  // 2^27 + 1 [Veltkamp]
+        const double high = spread - (spread - factors[k]);
+        terms.at[from + 2u * k] = high * others[k / 2u];
+        terms.at[from + 2u * k + 1u] = (factors[k] - high) * others[k / 2u];
+    }
+    return terms;
+}
+
+/// orient3d without the look at it in doubles.
+SHARED_FN int orient3d_exactly(Point a, Point b, Point c, Point d)
+{
+    Terms terms = {{0.0}};
+    terms = with_determinant(terms, 0u, a, b, c, 1.0);
+    terms = with_determinant(terms, 12u, b, c, d, -1.0);
+    terms = with_determinant(terms, 24u, a, c, d, 1.0);
+    terms = with_determinant(terms, 36u, a, b, d, -1.0);
+    return sign_of_sum(terms, 48u);
+}
+
+SHARED_FN int orient3d(Point a, Point b, Point c, Point d)
+{
+    const Vector u = difference(a, d), v = difference(b, d), w = difference(c, d);
+    const Vector most = larger(larger(magnitude(u), magnitude(v)), magnitude(w));
+    const int sign = sign_beyond(dot(u, cross_product(v, w)), orient3d_bound(most));
+    return sign != UNSURE ? sign : orient3d_exactly(a, b, c, d);
+}
+
+SHARED_FN int orient2d(Point a, Point b, Point c, uint axis)
+{
+    const double ax = (double)coordinate(a, axis + 1u), ay = (double)coordinate(a, axis + 2u);
+    const double bx = (double)coordinate(b, axis + 1u), by = (double)coordinate(b, axis + 2u);
+    const double cx = (double)coordinate(c, axis + 1u), cy = (double)coordinate(c, axis + 2u);
+    const double ux = ax - cx, uy = ay - cy, vx = bx - cx, vy = by - cy;
+    const double bound = 0x1.2p-50 * fmax(fabs(ux), fabs(vx)) * fmax(fabs(uy), fabs(vy));
+    const int sign = sign_beyond(ux * vy - uy * vx, bound);
+    if (sign != UNSURE)
+        return sign;
+    const Terms terms = {{ax * by, -(ay * bx), bx * cy, -(by * cx), cx * ay, -(cy * ax)}};
+    return sign_of_sum(terms, 6u);
+}
+
+SHARED_END
+#endif
+
+#endif

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+//
+// The narrow phase against CGAL, pair for pair, on pairs that are hard to tell apart.
+#include <map>
+
+#include "tests/collide/narrow_testing.h"
+#include "tests/collide/pair_classes.h"
+
+namespace bvhbench {
+namespace {
+
+constexpr uint pairs_a_class = 20'000;
+
+class Narrow : public testing::TestWithParam<std::tuple<KernelForm, bool>> {
+protected:
+    void SetUp() override
+    {
+        if (!has_exact_reference)
+            GTEST_SKIP() << "built without CGAL: nothing is compared";
+    }
+
+    NarrowOptions options(bool keep_adjacent) const
+    {
+        return {.keep_adjacent = keep_adjacent,
+                .form = std::get<0>(GetParam()),
+                .without_doubles = std::get<1>(GetParam())};
+    }
+
+    static void hold_to_reference(NarrowPhase& narrow, const Mesh& mesh, bool keep_adjacent)
+    {
+        const Candidates candidates(mesh, neighbours(mesh));
+        narrow.reserve(mesh.faces.size());
+        expect_equal(mesh, contacts_found(narrow, candidates),
+                     intersecting_pairs(mesh.points, mesh.faces, candidates.pairs, keep_adjacent));
+    }
+};
+
+TEST_P(Narrow, TellsWhatMeetsInEveryClass)
+{
+    NarrowPhase narrow(bench().programs, options(false));
+    for (const PairClass& of : pair_classes()) {
+        SCOPED_TRACE(of.name);
+        hold_to_reference(narrow, apart_pairs(of, pairs_a_class), false);
+    }
+}
+
+TEST_P(Narrow, TellsWhatMeetsBeyondSharedCornersInEveryClass)
+{
+    NarrowPhase narrow(bench().programs, options(true));
+    for (const PairClass& of : pair_classes()) {
+        SCOPED_TRACE(of.name);
+        hold_to_reference(narrow, adjacent_pairs(of, pairs_a_class), true);
+        hold_to_reference(narrow, apart_pairs(of, 1'000), true);
+    }
+}
+
+TEST_P(Narrow, LeavesOutWhatSharesACornerUnlessAsked)
+{
+    NarrowPhase narrow(bench().programs, options(false));
+    for (const PairClass& of : pair_classes()) {
+        SCOPED_TRACE(of.name);
+        hold_to_reference(narrow, adjacent_pairs(of, 500), false);
+    }
+}
+
+TEST_P(Narrow, DropsNothingWhenBuffersBeginWithOneEntry)
+{
+    NarrowOptions tiny = options(true);
+    tiny.capacity = 1;
+    NarrowPhase narrow(bench().programs, tiny);
+    for (const PairClass& of : pair_classes()) {
+        SCOPED_TRACE(of.name);
+        hold_to_reference(narrow, apart_pairs(of, 3'000), true);
+        hold_to_reference(narrow, adjacent_pairs(of, 3'000), true);
+    }
+}
+
+TEST_P(Narrow, LooksAtNoMoreThanWasCountedAndNoMoreThanThereIsRoomFor)
+{
+    NarrowPhase narrow(bench().programs, options(false));
+    const Mesh mesh = apart_pairs(pair_classes()[5], 2'000);
+    narrow.reserve(mesh.faces.size());
+    Candidates candidates(mesh, neighbours(mesh));
+    for (const std::vector<uint>& counts :
+         {std::vector<uint>{0, 0}, {1, 0}, {130, 0}, {2'000, 0}, {2'001, 0}, {99'999, 0}, {5, 1}}) {
+        candidates.counters.upload(bench().queue.cl(), std::span<const uint>(counts));
+        find_contacts(narrow, candidates.input, candidates.on_device, candidates.counters,
+                      bench().queue);
+        const std::uint64_t there_are = counts[1] != 0 ? 99'999 : counts[0];
+        EXPECT_EQ(narrow.counts(bench().queue).candidates(),
+                  std::min<std::uint64_t>(there_are, candidates.on_device.size()));
+    }
+    bench().queue.finish();
+}
+
+TEST_P(Narrow, FindsTheSameEveryTime)
+{
+    NarrowPhase narrow(bench().programs, options(false));
+    const Mesh mesh = apart_pairs(pair_classes()[4], 5'000);
+    narrow.reserve(mesh.faces.size());
+    const Candidates candidates(mesh, neighbours(mesh));
+    const PairList first = contacts_found(narrow, candidates);
+    for (int repeat = 0; repeat < 5; ++repeat)
+        EXPECT_EQ(contacts_found(narrow, candidates), first);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Forms, Narrow,
+    testing::Combine(testing::Values(KernelForm::groups, KernelForm::chunks), testing::Bool()),
+    [](const auto& tested) {
+        return form_name(std::get<0>(tested.param)) +
+               (std::get<1>(tested.param) ? "_without_doubles" : "");
+    });
+
+TEST(NarrowStages, EachDecideWhatTheyAreFor)
+{
+    // Which of the stages decide some of a class.
+    struct Expected {
+        bool floats, doubles, exactly;
+        bool operator==(const Expected&) const = default;
+    };
+    const std::map<std::string, Expected> expected = {
+        {"generic", {true, true, false}},
+        {"near_touching", {false, true, false}},
+        {"coplanar_lattice", {false, false, true}},
+        {"hairs_breadth", {false, true, true}},
+        {"lattice_8", {true, true, true}},
+        {"same_place", {false, false, true}},
+        {"any_size", {true, true, true}},
+        {"scaled_1e-30", {false, true, false}},
+        {"scaled_1e30", {false, true, false}},
+    };
+    std::size_t compared = 0;
+    for (const KernelForm form : {KernelForm::groups, KernelForm::chunks}) {
+        NarrowPhase narrow(bench().programs, {.form = form});
+        for (const PairClass& of : pair_classes()) {
+            SCOPED_TRACE(of.name);
+            const Mesh mesh = apart_pairs(of, pairs_a_class);
+            narrow.reserve(mesh.faces.size());
+            const std::size_t found =
+                contacts_found(narrow, Candidates(mesh, neighbours(mesh))).size();
+            EXPECT_GT(found, 0u);
+            if (of.name != "same_place" && of.name != "twice")
+                EXPECT_LT(found, pairs_a_class);
+            const NarrowCounts counts = narrow.counts(bench().queue);
+            const Expected some = {counts.by_floats > 0, counts.by_doubles > 0,
+                                   counts.exactly > 0};
+            if (const auto wanted = expected.find(of.name); wanted != expected.end()) {
+                EXPECT_EQ(some, wanted->second)
+                    << counts.by_floats << " by floats, " << counts.by_doubles
+                    << " by doubles, " << counts.exactly << " exactly";
+                ++compared;
+            }
+        }
+    }
+    EXPECT_EQ(compared, 2 * expected.size());
+}
+
+}  // namespace
+}  // namespace bvhbench
