@@ -49,6 +49,12 @@ struct QueryCounts {
     std::optional<std::uint64_t> tasks;  ///< held against other objects' trees, if it has several
 };
 
+/// Pairs where a query left them, and their number at PAIRS_COUNT of the counters (collide/counters.h).
+struct DevicePairs {
+    Buffer<Pair> pairs;
+    Buffer<uint> counters;
+};
+
 /// Finds the pairs of triangles of a frame whose closed boxes overlap: the smaller id first, each once.
 ///
 /// A query never drops a pair in silence: `complete` tells whether all of them found room, and makes room if
@@ -88,6 +94,10 @@ public:
     /// Of the last query, which was complete. Both wait.
     virtual QueryCounts counts(const Queue& queue) const = 0;
     virtual std::vector<Pair> pairs(const Queue& queue) const = 0;
+
+    /// The same on the device, for what comes behind it in the queue. Of a collider on the host it copies them there, in
+    /// a stage `copy` that waits. Throws Unavailable if it finds contacts already.
+    virtual DevicePairs device_pairs(Queue& queue) = 0;
 };
 
 /// Query until it is complete; how many queries that took. Waits.

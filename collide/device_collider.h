@@ -24,6 +24,7 @@ public:
     bool complete(const Queue& queue) final;
     QueryCounts counts(const Queue& queue) const override;
     std::vector<Pair> pairs(const Queue& queue) const final;
+    DevicePairs device_pairs(Queue&) final { return {pairs_, counters_}; }
 
     /// Pairs where they are, for what goes on with them on the device; counted as collide/counters.h says.
     const Buffer<Pair>& device_pairs() const { return pairs_; }

@@ -63,9 +63,12 @@ std::vector<StageTime> Queue::finish()
         first[launch.stage] = std::min(first[launch.stage], start);
         last[launch.stage] = std::max(last[launch.stage], end);
     }
+    const cl_ulong begin = first.empty() ? unset : *std::min_element(first.begin(), first.end());
     for (std::size_t i = 0; i < stages_.size(); ++i)
-        if (first[i] != unset)
+        if (first[i] != unset) {
+            stages_[i].start_ns = static_cast<std::int64_t>(first[i] - begin);
             stages_[i].span_ns = static_cast<std::int64_t>(last[i] - first[i]);
+        }
     launches_.clear();
     return std::exchange(stages_, {});
 }

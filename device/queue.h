@@ -15,6 +15,7 @@ namespace bvhbench {
 struct StageTime {
     std::string stage;
     std::int64_t busy_ns = 0;  ///< device clock, sum of the kernels' run times
+    std::int64_t start_ns = 0;  ///< device clock, its first start, from that of the first stage on
     std::int64_t span_ns =
         0;  ///< device clock, first start to last end: gaps between launches count
     std::int64_t wall_ns = 0;  ///< host clock; set by host stages only

@@ -1,103 +1,252 @@
 // SPDX-License-Identifier: MIT
 #include "harness/collide.h"
 
+#include <algorithm>
+#include <memory>
+#include <optional>
+
+#include "collide/exact_reference.h"
 #include "collide/sweep.h"
 #include "geometry/error.h"
 #include "geometry/hash.h"
-#include "harness/frames.h"
+#include "harness/failure.h"
+#include "harness/interrupt.h"
+#include "harness/pipeline.h"
 #include "harness/sampler.h"
+#include "scenes/frames_between.h"
 
 namespace bvhbench {
 namespace {
 
-constexpr int warm_up = 3;
+/// What a frame's pairs and contacts are, found out when first asked for.
+class FrameOracle {
+public:
+    explicit FrameOracle(const Input& input) : input_(input) {}
 
-/// The verdict on what a query found.
-Check check_pairs(const PairList& found, const PairList& expected)
+    const PairList& pairs(const ColliderChoice& choice)
+    {
+        return entry(choice).pairs;
+    }
+
+    const PairList& contacts(const ColliderChoice& choice)
+    {
+        Entry& found = entry(choice);
+        if (!found.contacts)
+            found.contacts = intersecting_pairs(input_.points, input_.faces, found.pairs,
+                                                choice.keep_adjacent);
+        return *found.contacts;
+    }
+
+private:
+    struct Entry {
+        Among among;
+        bool keep_adjacent;
+        PairList pairs;
+        std::optional<PairList> contacts;
+    };
+
+    Entry& entry(const ColliderChoice& choice)
+    {
+        for (const auto& one : entries_)
+            if (one->among == choice.among && one->keep_adjacent == choice.keep_adjacent)
+                return *one;
+        const PairList all = touching_pairs(input_.points, input_.faces, choice.keep_adjacent);
+        entries_.push_back(std::make_unique<Entry>(
+            Entry{choice.among, choice.keep_adjacent,
+                  among_objects(all, input_.objects, choice.among), {}}));
+        return *entries_.back();
+    }
+
+    const Input& input_;
+    std::vector<std::unique_ptr<Entry>> entries_;
+};
+
+/// Hold a list to the oracle's. What differs is added to the check.
+void hold(const PairList& found, const PairList& expected, const std::string& what, Check& check)
+{
+    std::string detail;
+    if (found.surplus() > 0)
+        detail = std::to_string(found.surplus()) + ' ' + what + " were found twice";
+    else if (found != expected)
+        detail = "the oracle has " + std::to_string(expected.size()) + ' ' + what +
+                 " of the hash " + hex(expected.hash());
+    if (detail.empty())
+        return;
+    check.verdict = Check::Verdict::differs;
+    check.detail += (check.detail.empty() ? "" : "; ") + detail;
+}
+
+/// The verdict on what a pipeline found.
+Check judge(const Pipeline& pipeline, const ColliderChoice& choice, FrameOracle& oracle,
+            Found& found)
 {
     Check check;
-    check.against = "brute";
-    check.pairs_hash = found.hash();
-    check.verdict = Check::Verdict::differs;
-    if (found.surplus() > 0)
-        check.detail = std::to_string(found.surplus()) + " pairs were found twice";
-    else if (found != expected)
-        check.detail = "the oracle has " + std::to_string(expected.size()) + " pairs of the hash " +
-                       hex(expected.hash());
-    else
-        check.verdict = Check::Verdict::agrees;
+    check.verdict = Check::Verdict::agrees;
+    found = {};
+    if (pipeline.has_pairs()) {
+        found.pairs = pipeline.pairs();
+        check.against = "brute";
+        check.pairs_hash = found.pairs.hash();
+        hold(found.pairs, oracle.pairs(choice), "pairs", check);
+    }
+    if (pipeline.has_contacts()) {
+        found.contacts = pipeline.contacts();
+        check.contacts_hash = found.contacts.hash();
+        if (has_exact_reference) {
+            check.against += check.against.empty() ? "CGAL" : ", CGAL";
+            hold(found.contacts, oracle.contacts(choice), "contacts", check);
+        } else if (check.verdict == Check::Verdict::agrees) {
+            check.verdict = Check::Verdict::not_checked;
+            check.detail = "contacts: built without CGAL";
+        }
+    }
     return check;
 }
 
-std::map<std::string, double> counters_of(const QueryCounts& counts, const Collider& collider)
+/// A pipeline and its cell of the frame at hand.
+struct Running {
+    Cell cell;
+    std::unique_ptr<Pipeline> pipeline;
+    std::string failure;  ///< why there is none, or none any more
+};
+
+Scene loaded(const CollideTask& task, const SceneLibrary& library)
 {
-    std::map<std::string, double> counters = {
-        {"pairs_count", static_cast<double>(counts.pairs)},
-        {"query_bytes", static_cast<double>(collider.reserved().total())}};
-    if (counts.box_tests)
-        counters["box_tests_count"] = static_cast<double>(*counts.box_tests);
-    if (counts.bvtt_peak)
-        counters["bvtt_peak_count"] = static_cast<double>(*counts.bvtt_peak);
-    return counters;
+    const DataSet* set = task.may_stand_in ? find_data_set(task.scene) : nullptr;
+    Scene scene = set != nullptr ? load_or_stand_in(*set, library)
+                                 : load_scene(task.scene, library);
+    if (task.objects != ObjectsBy::automatic)
+        scene = with_objects(std::move(scene), task.objects);
+    return task.between > 0 ? with_frames_between(scene, task.between) : scene;
+}
+
+FrameRange checked(const CollideTask& task, const Scene& scene)
+{
+    const std::size_t there = scene.frames.size();
+    const FrameRange range{task.frames.first, task.frames.end == 0 ? there : task.frames.end};
+    if (range.first >= range.end || range.end > there)
+        throw BadUsage("scene '" + task.scene + "' has frames 0 to " + std::to_string(there - 1) +
+                       ", not " + std::to_string(range.first) + " to before " +
+                       std::to_string(range.end));
+    return range;
+}
+
+SceneFacts facts_of(const CollideTask& task, const Scene& scene)
+{
+    return {.name = task.scene,
+            .triangles = scene.triangle_count(),
+            .vertices = static_cast<std::int64_t>(scene.frames.front().size()),
+            .objects = static_cast<std::int64_t>(scene.objects.size()),
+            .source = scene.source,
+            .stand_in_for = scene.stand_in_for,
+            .outlier = scene.outlier,
+            .bend_of = scene.bend_of,
+            .content_hash = scene.content_hash};
+}
+
+void fail(Running& running, Session& session, const std::string& why)
+{
+    session.renew_queue();
+    running.failure = why;
+    running.cell.status = Cell::Status::failed;
+    running.cell.reason = why;
+    running.cell.samples.clear();
+}
+
+void sample(std::span<Running> all, const CollideTask& task, const Input& input, Session& session,
+            int& order, FrameOracle& oracle, Found& found)
+{
+    std::vector<Timed> timed;
+    std::vector<Running*> ready;
+    for (Running& one : all) {
+        if (!one.failure.empty() || one.cell.check.verdict == Check::Verdict::differs)
+            continue;
+        ready.push_back(&one);
+        timed.push_back({one.cell.collider.name, [&one, &input] { return one.pipeline->once(input); }});
+    }
+    std::vector<Taken> taken = take_samples(timed, task.samples, task.warm_up, order);
+    for (std::size_t k = 0; k < ready.size(); ++k) {
+        Running& one = *ready[k];
+        one.cell.samples = std::move(taken[k].samples);
+        std::string failure = std::move(taken[k].failure);
+        // What the last sample found: another pipeline may have used the same builder's tree since, so once more.
+        if (failure.empty())
+            failure = reason_of_failure([&] {
+                one.pipeline->once(input);
+                one.cell.check = judge(*one.pipeline, one.cell.collider, oracle, found);
+            });
+        if (!failure.empty())
+            fail(one, session, failure);
+    }
 }
 
 }  // namespace
 
-Cell collide_scene(Session& session, const CollideCommand& command, PairList& pairs)
+FrameRange frame_range(const std::string& text)
 {
-    Experiment experiment;
-    experiment.may_stand_in = false;  // who names a mesh means that mesh
-    Frames frames;
-    frames.load(experiment, command.scene, session.scenes());
-
-    Cell cell;
-    cell.experiment = "collide";
-    cell.scene = frames.facts();
-    cell.builder = command.builder;
-    cell.collider = command.collider;
-    cell.operation = Operation::collide;
-    cell.warm_up = warm_up;
-    frames.upload(session);
-    const Input& input = frames.now();
-    Queue& queue = session.queue();
-
-    Builder& builder = session.builder(command.builder);
-    builder.reserve(input.triangle_count());
-    const Tree* tree = nullptr;
-    session.build_once(builder, input, Start::from_triangles, &tree);
-
-    const std::unique_ptr<Collider> collider =
-        find_collider(command.collider.name).make(session.programs(), command.collider.options());
-    collider->reserve(tree, input);
-    find_pairs(*collider, tree, input, queue);
-    const PairList expected =
-        touching_pairs(input.points, input.faces, command.collider.keep_adjacent);
-    const auto judge = [&] {
-        pairs = PairList(collider->pairs(queue));
-        cell.check = check_pairs(pairs, expected);
+    const std::size_t colon = std::min(text.find(':'), text.size());
+    const auto number = [&](const std::string& digits) -> std::size_t {
+        if (digits.empty() || digits.size() > 9 ||
+            digits.find_first_not_of("0123456789") != digits.npos)
+            throw BadUsage("frames are given as a:b, from a to before b, not as '" + text + "'");
+        return std::stoul(digits);
     };
-    judge();
-    cell.counters = counters_of(collider->counts(queue), *collider);
-    queue.finish();
-    if (cell.check.verdict == Check::Verdict::differs)
-        return cell;
+    const std::size_t first = number(text.substr(0, colon));
+    if (colon == text.size())
+        return {first, first + 1};
+    const std::string end = text.substr(colon + 1);
+    const FrameRange range{first, end.empty() ? 0 : number(end)};
+    if (!end.empty() && range.end <= first)
+        throw BadUsage("frames " + text + " are none");
+    return range;
+}
 
-    int order = 0;
-    const auto once = [&] {
-        collider->query(&builder.build(input, queue), input, queue);
-        std::vector<StageTime> stages = queue.finish();
-        if (!collider->complete(queue))
-            throw Unavailable("a query found more than the one before it over the same triangles");
-        return stages;
-    };
-    std::vector<Taken> taken =
-        take_samples(std::vector<Timed>{{std::string(command.collider.name), once}},
-                     command.samples, warm_up, order);
-    if (!taken.front().failure.empty())
-        throw Unavailable(taken.front().failure);
-    cell.samples = std::move(taken.front().samples);
-    judge();
-    return cell;
+void collide_frames(Session& session, const CollideTask& task, int& order,
+                    const std::function<void(std::vector<Cell>&&, const Found&)>& add)
+{
+    const Scene scene = loaded(task, session.scenes());
+    const FrameRange frames = checked(task, scene);
+    std::vector<FaceRange> objects;
+    for (const SceneObject& object : scene.objects)
+        objects.push_back({object.first_face, object.face_count});
+
+    Input input = upload(session.device(), session.queue(), scene.frames[frames.first],
+                         scene.faces, objects);
+    std::vector<Running> all(task.pipelines.size());
+    for (std::size_t frame = frames.first; frame < frames.end; ++frame) {
+        throw_if_interrupted();
+        input.points = scene.frames[frame];
+        input.device_points.upload(session.queue().cl(), input.points);
+        FrameOracle oracle(input);
+        Found found;
+        for (std::size_t k = 0; k < all.size(); ++k) {
+            Running& one = all[k];
+            one.cell = {};
+            one.cell.experiment = task.experiment;
+            one.cell.scene = facts_of(task, scene);
+            one.cell.scene.frame = static_cast<std::int64_t>(frame);
+            one.cell.builder = task.pipelines[k].builder;
+            one.cell.collider = task.pipelines[k].collider;
+            one.cell.operation = Operation::collide;
+            one.cell.warm_up = task.warm_up;
+            if (one.failure.empty())
+                one.failure = reason_of_failure([&] {
+                    if (one.pipeline == nullptr)
+                        one.pipeline = std::make_unique<Pipeline>(session, one.cell.builder,
+                                                                  one.cell.collider, input);
+                    one.pipeline->settle(input);
+                    one.cell.check = judge(*one.pipeline, one.cell.collider, oracle, found);
+                    one.cell.counters = one.pipeline->counters();
+                });
+            if (!one.failure.empty())
+                fail(one, session, one.failure);
+        }
+        sample(all, task, input, session, order, oracle, found);
+        std::vector<Cell> cells;
+        for (Running& one : all)
+            cells.push_back(std::move(one.cell));
+        add(std::move(cells), found);
+    }
 }
 
 }  // namespace bvhbench

@@ -1,17 +1,59 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
+#include <string>
+#include <vector>
+
 #include "collide/pairs.h"
-#include "harness/options.h"
 #include "harness/record.h"
 #include "harness/session.h"
+#include "scenes/objects_by.h"
 
 namespace bvhbench {
 
-/// One collider over one builder's tree of one scene: checked against the oracle, then sampled, each sample a whole
-/// build and a whole query. A sample that finds other pairs than the oracle makes the verdict.
+/// A builder and the collider over its trees.
+struct PipelineChoice {
+    BuilderChoice builder;
+    ColliderChoice collider;
+    bool operator==(const PipelineChoice&) const = default;
+};
+
+/// Frames of a scene, from `first` to before `end`, counted after those between were put in.
+struct FrameRange {
+    std::size_t first = 0;
+    std::size_t end = 1;  ///< 0: all there are
+    bool operator==(const FrameRange&) const = default;
+};
+
+/// "a:b", a to before b; "a:", to the last; "a", that one. Throws BadUsage.
+FrameRange frame_range(const std::string& text);
+
+/// What is collided, and how often it is measured.
+struct CollideTask {
+    std::string experiment = "collide";
+    std::string scene;
+    bool may_stand_in = false;
+    ObjectsBy objects = ObjectsBy::automatic;
+    unsigned between = 0;  ///< frames put between each two of the scene's
+    FrameRange frames;
+    std::vector<PipelineChoice> pipelines;
+    int samples = 20;
+    int warm_up = 3;
+};
+
+/// What a pipeline found in a frame, in canonical order.
+struct Found {
+    PairList pairs, contacts;
+};
+
+/// Every pipeline over every frame, a cell each: checked against the oracles, then sampled, all of a frame
+/// interleaved; each sample is a whole frame from vertices to pairs or contacts. `add` gets the cells of a frame once
+/// it is done, and what the last pipeline found. `order` counts samples and goes on.
 ///
-/// `pairs` becomes the list found last. Throws what loading, building and querying throw.
-Cell collide_scene(Session& session, const CollideCommand& command, PairList& pairs);
+/// A pipeline that fails is a cell that says so. Throws BadUsage for options it cannot keep, what loading the scene
+/// throws, and Interrupted; frames done by then have been handed on.
+void collide_frames(Session& session, const CollideTask& task, int& order,
+                    const std::function<void(std::vector<Cell>&&, const Found&)>& add);
 
 }  // namespace bvhbench

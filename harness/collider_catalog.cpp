@@ -32,4 +32,32 @@ const ColliderEntry& find_collider(std::string_view name)
     throw BadUsage("no collider is called '" + std::string(name) + "'; there are: " + known);
 }
 
+std::unique_ptr<Collider> make_collider(const ColliderChoice& choice, Programs& programs)
+{
+    if (choice.narrow != "none" && choice.narrow != "exact")
+        throw BadUsage("no narrow phase is called '" + choice.narrow +
+                       "'; there are: none, exact");
+    return find_collider(choice.name).make(programs, choice.options());
+}
+
+std::string_view among_name(Among among)
+{
+    switch (among) {
+        case Among::between_objects:
+            return "between";
+        case Among::within_objects:
+            return "within";
+        default:
+            return "all";
+    }
+}
+
+Among among_called(std::string_view name)
+{
+    for (const Among among : {Among::all, Among::between_objects, Among::within_objects})
+        if (among_name(among) == name)
+            return among;
+    throw BadUsage("pairs are of all, between or within, not '" + std::string(name) + "'");
+}
+
 }  // namespace bvhbench

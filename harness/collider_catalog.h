@@ -23,10 +23,12 @@ std::span<const ColliderEntry> collider_catalog();
 /// By name. Throws BadUsage with the known names when there is none.
 const ColliderEntry& find_collider(std::string_view name);
 
-/// Which collider, set up how: what the command line chooses. Owns its words.
+/// Which collider, set up how: what the command line and experiment files choose. Owns its words.
 struct ColliderChoice {
     std::string name;
+    Among among = Among::all;
     bool keep_adjacent = true;
+    std::string narrow = "none";  ///< the narrow phase behind it: none or exact
     unsigned jump = 0;
     unsigned start_level = 0;
     unsigned group_size = 0;
@@ -34,11 +36,19 @@ struct ColliderChoice {
     bool operator==(const ColliderChoice&) const = default;
     ColliderOptions options() const
     {
-        return {.keep_adjacent = keep_adjacent,
+        return {.among = among,
+                .keep_adjacent = keep_adjacent,
                 .jump = jump,
                 .start_level = start_level,
                 .group_size = group_size};
     }
 };
+
+/// The collider chosen. Throws BadUsage, and Unavailable for one this program was built without.
+std::unique_ptr<Collider> make_collider(const ColliderChoice& choice, Programs& programs);
+
+/// "all", "between" or "within", and back. Throws BadUsage, naming these.
+std::string_view among_name(Among among);
+Among among_called(std::string_view name);
 
 }  // namespace bvhbench

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <iostream>
 
 #include "builders/orders.h"
@@ -11,28 +12,67 @@
 #include "harness/run.h"
 
 namespace bvhbench {
+namespace {
 
-int collide(const CollideCommand& command, const Options& options)
+/// Wrong words are found before anything is opened.
+CollideTask task_of(const CollideCommand& command)
 {
-    // Wrong words are found before anything is opened.
     find_builder(command.builder.name);
     find_order(command.builder.order);
     find_collider(command.collider.name);
-    if (!command.pairs.empty())
-        check_pairs_path(command.pairs);
+    for (const std::string& path : {command.pairs, command.contacts})
+        if (!path.empty())
+            check_pairs_path(path);
+    if (!command.contacts.empty() && command.collider.narrow == "none")
+        throw BadUsage("--contacts needs a narrow phase: --narrow exact");
+    CollideTask task;
+    task.objects = objects_by_called(command.objects);
+    task.frames = frame_range(command.frames);
+    task.between = command.between;
+    task.pipelines = {{command.builder, command.collider}};
+    task.samples = command.samples;
+    return task;
+}
 
+}  // namespace
+
+int collide(const CollideCommand& command, const Options& options)
+{
+    CollideTask task = task_of(command);
     Session session(options.common);
     ResultFile results(command.json, measured_facts(session, options.words));
-    PairList pairs;
-    Cell cell = collide_scene(session, command, pairs);
-    const bool differs = cell.check.verdict == Check::Verdict::differs;
-    results.add(cell);
+    Found last;
+    int order = 0;
+    for (const std::string& scene : command.scenes) {
+        task.scene = scene;
+        collide_frames(session, task, order, [&](std::vector<Cell>&& cells, const Found& found) {
+            for (Cell& cell : cells)
+                results.add(std::move(cell));
+            last = found;
+        });
+    }
     results.finish(session.programs().compile_ns());
-    const RunFacts& run = results.document().run;
-    std::cout << run_report(run) << cell_report(cell, run);
+    const Document& document = results.document();
+    std::cout << run_report(document.run);
+    if (document.cells.size() == 1)
+        std::cout << cell_report(document.cells.front(), document.run);
+    else
+        std::cout << frames_report(document);
     if (!command.pairs.empty())
-        write_pairs(command.pairs, pairs);
-    return differs ? 1 : 0;
+        write_pairs(command.pairs, last.pairs);
+    if (!command.contacts.empty())
+        write_pairs(command.contacts, last.contacts);
+    const auto failed = std::find_if(
+        document.cells.begin(), document.cells.end(),
+        [](const Cell& cell) { return cell.status == Cell::Status::failed; });
+    if (failed != document.cells.end())
+        throw Unavailable(failed->reason);
+    return std::any_of(document.cells.begin(), document.cells.end(),
+                       [](const Cell& cell) {
+                           return cell.check.verdict == Check::Verdict::differs;
+                       })
+               ? 1
+               : 0;
 }
 
 }  // namespace bvhbench

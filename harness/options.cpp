@@ -86,15 +86,38 @@ void add_build(CLI::App& app, BuildCommand& build, std::string& leaves)
     command->add_option("--dump", build.dump, "write the tree, spelled out, as JSON");
 }
 
-void add_collide(CLI::App& app, CollideCommand& collide, std::string& leaves, std::string& adjacent)
+void add_collide(CLI::App& app, CollideCommand& collide, std::string& leaves, std::string& adjacent,
+                 std::string& pairs_of)
 {
     CLI::App* command = app.add_subcommand(
         "collide",
-        "Find the pairs of triangles whose boxes overlap, check them and time its stages");
-    command->add_option("--builder", collide.builder.name, "a name of `list builders`")->required();
+        "Find the pairs of triangles that overlap or intersect, frame by frame, check them and time "
+        "the stages");
+    collide.builder.name = "oibvh-multi";
+    command->add_option("--builder", collide.builder.name, "a name of `list builders`")
+        ->capture_default_str();
     command->add_option("--collider", collide.collider.name, "a name of `list colliders`")
         ->required();
-    command->add_option("--scene", collide.scene, "a scene, data set or mesh file")->required();
+    command->add_option("--scene", collide.scenes, "scenes, data sets, mesh files or folders")
+        ->required();
+    command
+        ->add_option("--objects", collide.objects,
+                     "what gets a tree of its own: auto, one, mesh or components")
+        ->capture_default_str();
+    command->add_option("--pairs-of", pairs_of, "pairs of all triangles, between objects or within")
+        ->capture_default_str()
+        ->check(one_of({"all", "between", "within"}));
+    command->add_option("--frames", collide.frames, "a:b, from frame a to before b")
+        ->capture_default_str();
+    command
+        ->add_option("--between", collide.between,
+                     "frames put between each two of the scene's, in a straight line")
+        ->check(CLI::Range(0, 1000));
+    command
+        ->add_option("--narrow", collide.collider.narrow,
+                     "which pairs intersect: exact, or none, to stop at their boxes")
+        ->capture_default_str()
+        ->check(one_of({"none", "exact"}));
     command->add_option("--order", collide.builder.order, "a name of `list orders`")
         ->capture_default_str();
     command->add_option("--leaves", leaves, "mesh or sorted: where leaf boxes are kept")
@@ -112,7 +135,9 @@ void add_collide(CLI::App& app, CollideCommand& collide, std::string& leaves, st
         ->capture_default_str()
         ->check(CLI::Range(1, most_samples));
     command->add_option("--json", collide.json, "write the result file");
-    command->add_option("--pairs", collide.pairs, "write the pairs: .csv, or .bin of 32-bit ids");
+    command->add_option("--pairs", collide.pairs,
+                        "write the last frame's pairs: .csv, or .bin of 32-bit ids");
+    command->add_option("--contacts", collide.contacts, "the same of the pairs that intersect");
 }
 
 void add_run(CLI::App& app, RunCommand& run)
@@ -196,10 +221,11 @@ Options parse_options(int argc, const char* const* argv)
     ShowCommand show;
     std::string leaves = "mesh";
     std::string adjacent = "keep";
+    std::string pairs_of = "all";
     add_common(app, options.common);
     add_list(app, list);
     add_build(app, build, leaves);
-    add_collide(app, collide, leaves, adjacent);
+    add_collide(app, collide, leaves, adjacent, pairs_of);
     add_run(app, run);
     add_reproduce(app, reproduce);
     add_check(app, check);
@@ -225,6 +251,7 @@ Options parse_options(int argc, const char* const* argv)
     check_power_of_two("--group-size", collide.collider.group_size);
     build.builder.sorted_leaves = collide.builder.sorted_leaves = leaves == "sorted";
     collide.collider.keep_adjacent = adjacent == "keep";
+    collide.collider.among = among_called(pairs_of);
     const std::string chosen = app.get_subcommands().front()->get_name();
     if (chosen == "list")
         options.command = list;

@@ -39,10 +39,14 @@ struct BuildCommand {
 struct CollideCommand {
     BuilderChoice builder;
     ColliderChoice collider;
-    std::string scene;
+    std::vector<std::string> scenes;
+    std::string objects = "auto";
+    std::string frames = "0";
+    unsigned between = 0;
     int samples = 20;
-    std::string json;   ///< result file to write; may be empty
-    std::string pairs;  ///< file for the pairs, .csv or .bin; may be empty
+    std::string json;      ///< result file to write; may be empty
+    std::string pairs;     ///< file for the last frame's pairs, .csv or .bin; may be empty
+    std::string contacts;  ///< likewise for its contacts
 };
 struct RunCommand {
     std::string experiment;  ///< a name or a path

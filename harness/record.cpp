@@ -24,6 +24,7 @@ Json json_of(const StageTime& time)
         return {{"stage", time.stage}, {"wall_ns", time.wall_ns}};
     return {{"stage", time.stage},
             {"launches", time.launches},
+            {"start_ns", time.start_ns},
             {"busy_ns", time.busy_ns},
             {"span_ns", time.span_ns},
             {"moved_bytes", time.moved_bytes}};
@@ -71,7 +72,9 @@ Json json_of(const ColliderChoice& collider)
 {
     return {{"name", collider.name},
             {"options",
-             {{"adjacent", collider.keep_adjacent ? "keep" : "drop"},
+             {{"pairs_of", among_name(collider.among)},
+              {"adjacent", collider.keep_adjacent ? "keep" : "drop"},
+              {"narrow", collider.narrow},
               {"jump", collider.jump},
               {"start_level", collider.start_level},
               {"group_size", collider.group_size}}}};
@@ -87,6 +90,8 @@ Json json_of(const Check& check)
         json["tree_hash"] = hex(*check.tree_hash);
     if (check.pairs_hash)
         json["pairs_hash"] = hex(*check.pairs_hash);
+    if (check.contacts_hash)
+        json["contacts_hash"] = hex(*check.contacts_hash);
     return json;
 }
 
@@ -175,7 +180,7 @@ std::string cell_text(const Cell& cell)
 
 std::string document_text(const std::string& run, const std::vector<std::string>& cells)
 {
-    std::string text = "{\"format\": \"1.3\",\n\"run\": " + run + ",\n\"cells\": [";
+    std::string text = "{\"format\": \"1.4\",\n\"run\": " + run + ",\n\"cells\": [";
     for (std::size_t i = 0; i < cells.size(); ++i)
         text += (i == 0 ? "\n" : ",\n") + cells[i];
     return text + "\n]}\n";

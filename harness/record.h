@@ -31,6 +31,7 @@ struct Check {
     std::string detail;  ///< what differs, or why nothing was checked
     std::optional<std::uint64_t> tree_hash = {};
     std::optional<std::uint64_t> pairs_hash = {};
+    std::optional<std::uint64_t> contacts_hash = {};
 };
 
 /// Which triangles were built over.

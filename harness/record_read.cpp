@@ -37,6 +37,7 @@ StageTime stage_of(const Json& json)
 {
     return {.stage = json.at("stage").get<std::string>(),
             .busy_ns = get<std::int64_t>(json, "busy_ns"),
+            .start_ns = get<std::int64_t>(json, "start_ns"),
             .span_ns = get<std::int64_t>(json, "span_ns"),
             .wall_ns = get<std::int64_t>(json, "wall_ns"),
             .launches = get<int>(json, "launches"),
@@ -86,7 +87,9 @@ ColliderChoice collider_of(const Json& json)
 {
     const Json options = json.value("options", Json::object());
     return {.name = json.at("name").get<std::string>(),
+            .among = among_called(options.value("pairs_of", "all")),
             .keep_adjacent = options.value("adjacent", "keep") == "keep",
+            .narrow = options.value("narrow", "none"),
             .jump = get<unsigned>(options, "jump"),
             .start_level = get<unsigned>(options, "start_level"),
             .group_size = get<unsigned>(options, "group_size")};
@@ -103,6 +106,8 @@ Check check_of(const Json& json)
         check.tree_hash = hash_of(json["tree_hash"].get<std::string>());
     if (json.contains("pairs_hash"))
         check.pairs_hash = hash_of(json["pairs_hash"].get<std::string>());
+    if (json.contains("contacts_hash"))
+        check.contacts_hash = hash_of(json["contacts_hash"].get<std::string>());
     return check;
 }
 

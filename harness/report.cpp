@@ -75,6 +75,8 @@ std::string verdict_line(const Cell& cell)
         text += ", tree " + hex(*cell.check.tree_hash);
     if (cell.check.pairs_hash)
         text += ", pairs " + hex(*cell.check.pairs_hash);
+    if (cell.check.contacts_hash)
+        text += ", contacts " + hex(*cell.check.contacts_hash);
     if (!cell.check.detail.empty())
         text += ": " + cell.check.detail;
     if (!cell.reason.empty())
@@ -131,8 +133,12 @@ std::string variant_text(const ColliderChoice& collider)
 {
     const ColliderChoice usual;
     std::string text = collider.name;
+    if (collider.among != usual.among)
+        text += ", " + std::string(among_name(collider.among)) + " objects";
     if (!collider.keep_adjacent)
         text += ", adjacent dropped";
+    if (collider.narrow != usual.narrow)
+        text += ", contacts " + collider.narrow;
     if (collider.jump != usual.jump)
         text += ", jump " + std::to_string(collider.jump);
     if (collider.start_level != usual.start_level)
@@ -157,8 +163,16 @@ std::vector<double> whole_times_ns(const Cell& cell)
     std::vector<double> times;
     for (const Sample& sample : cell.samples) {
         times.push_back(0);
-        for (const StageTime& time : sample.stages)
+        // On the device from the first start to the last end, as far as files before 1.4 tell when stages started.
+        std::int64_t end = 0;
+        bool on_device = true;
+        for (const StageTime& time : sample.stages) {
             times.back() += static_cast<double>(time.elapsed_ns());
+            end = std::max(end, time.start_ns + time.span_ns);
+            on_device = on_device && time.wall_ns == 0;
+        }
+        if (on_device)
+            times.back() = std::max(times.back(), static_cast<double>(end));
     }
     return times;
 }
@@ -241,6 +255,31 @@ std::string cells_report(const Document& document, bool only_notable)
                          : "") +
            grouped(static_cast<std::int64_t>(document.cells.size())) + " cells, " +
            grouped(static_cast<std::int64_t>(agreeing)) + " agree\n";
+}
+
+std::string frames_report(const Document& document)
+{
+    Table table({{"scene", left}, {"frame"}, {"what", left}, {"median"}, {"p10"}, {"p90"}, {"pairs"},
+                 {"contacts"}, {"verdict", left}});
+    for (const Cell& cell : document.cells) {
+        const auto count = [&](const char* counter) {
+            const auto at = cell.counters.find(counter);
+            return at == cell.counters.end() ? std::string()
+                                             : grouped(static_cast<std::int64_t>(at->second));
+        };
+        std::vector<std::string> row = {cell.scene.name, std::to_string(cell.scene.frame),
+                                        subject_text(cell)};
+        if (has_times(cell)) {
+            const Spread spread = spread_of(whole_times_ns(cell));
+            row.insert(row.end(), {duration_text(spread.median), duration_text(spread.p10),
+                                   duration_text(spread.p90)});
+        } else {
+            row.insert(row.end(), {"", "", ""});
+        }
+        row.insert(row.end(), {count("pairs_count"), count("contacts_count"), verdict_line(cell)});
+        table.row(row);
+    }
+    return table.text();
 }
 
 std::string depths_text(const std::vector<std::int64_t>& leaves_by_depth)

@@ -37,6 +37,9 @@ std::string cell_report(const Cell& cell, const RunFacts& run);
 /// Every cell of a run in a line; with `only_notable`, those that agree are only counted.
 std::string cells_report(const Document& document, bool only_notable = false);
 
+/// Every frame of a collision run in a line.
+std::string frames_report(const Document& document);
+
 /// Where the leaves are: "14–38, half by 19"; "17" if all are on one level.
 std::string depths_text(const std::vector<std::int64_t>& leaves_by_depth);
 

@@ -55,7 +55,7 @@ void divide_by_component(Scene& scene)
 }
 
 constexpr std::pair<const char*, ObjectsBy> names[] = {
-    {"automatic", ObjectsBy::automatic},
+    {"auto", ObjectsBy::automatic},
     {"one", ObjectsBy::one},
     {"mesh", ObjectsBy::mesh},
     {"components", ObjectsBy::components},
@@ -68,7 +68,7 @@ ObjectsBy objects_by_called(std::string_view name)
     for (const auto& [known, by] : names)
         if (name == known)
             return by;
-    throw BadUsage("objects are chosen by automatic, one, mesh or components, not by '" +
+    throw BadUsage("objects are chosen by auto, one, mesh or components, not by '" +
                    std::string(name) + "'");
 }
 

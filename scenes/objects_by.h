@@ -15,7 +15,7 @@ enum class ObjectsBy {
     components,  ///< triangles that name a common vertex, and those that these meet so
 };
 
-/// The one called "automatic", "one", "mesh" or "components". Throws BadUsage, naming these.
+/// The one called "auto", "one", "mesh" or "components". Throws BadUsage, naming these.
 ObjectsBy objects_by_called(std::string_view name);
 
 /// `scene` with its objects chosen so, finished again (the content hash covers objects).

@@ -79,7 +79,7 @@ TEST(ObjectsBy, MeshNeedsMeshesThatAreNamed)
 
 TEST(ObjectsBy, IsChosenByName)
 {
-    EXPECT_EQ(objects_by_called("automatic"), ObjectsBy::automatic);
+    EXPECT_EQ(objects_by_called("auto"), ObjectsBy::automatic);
     EXPECT_EQ(objects_by_called("one"), ObjectsBy::one);
     EXPECT_EQ(objects_by_called("mesh"), ObjectsBy::mesh);
     EXPECT_EQ(objects_by_called("components"), ObjectsBy::components);

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+//
+// What colliders on the host share: the pairs they found, there and on their way to the device.
+#pragma once
+
+#include "collide/collider.h"
+
+namespace bvhbench {
+
+class HostCollider : public Collider {
+public:
+    HostCollider(const Device& device, const ColliderCard& card, const ColliderOptions& options)
+        : options_(options), device_(device), card_(card)
+    {}
+
+    ColliderCard card() const final { return card_; }
+    bool needs_tree() const final { return false; }
+    std::string refusal(const Tree&) const final { return {}; }
+    Footprint reserved() const final { return {}; }  ///< libraries do not tell
+    bool complete(const Queue&) final { return true; }
+    QueryCounts counts(const Queue&) const override { return {found_.size(), {}, {}, {}}; }
+    std::vector<Pair> pairs(const Queue&) const final { return found_; }
+    DevicePairs device_pairs(Queue& queue) final;
+
+protected:
+    ColliderOptions options_;
+    std::vector<Pair> found_;  ///< by the last query
+
+private:
+    const Device& device_;
+    ColliderCard card_;
+    DevicePairs copied_;
+};
+
+}  // namespace bvhbench

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "collide/narrow.h"
+#include "harness/record.h"
+#include "harness/session.h"
+
+namespace bvhbench {
+
+/// From a frame's vertices to its pairs, and on to its contacts: a builder, if the collider wants a tree, the collider,
+/// and a narrow phase, if one is chosen and the collider does not do its work.
+class Pipeline {
+public:
+    /// Compile and take memory for frames like `input`. Throws what builders and colliders throw.
+    Pipeline(Session& session, const BuilderChoice& builder, const ColliderChoice& collider,
+             const Input& input);
+
+    /// One whole frame, again and again until nothing lacked room. Waits.
+    void settle(const Input& input);
+
+    /// One whole frame, in its stages. Waits. Throws Unavailable if it lacked room, which one that was settled over the
+    /// same points does not.
+    std::vector<StageTime> once(const Input& input);
+
+    /// Of the last frame. All wait.
+    bool has_pairs() const { return !collider_->finds_contacts(); }
+    bool has_contacts() const { return collider_->finds_contacts() || narrow_.has_value(); }
+    PairList pairs() const;     ///< if it has them
+    PairList contacts() const;  ///< likewise
+    std::map<std::string, double> counters() const;
+
+    const Collider& collider() const { return *collider_; }
+
+private:
+    void enqueue(const Input& input);
+    bool complete();
+
+    Session& session_;
+    Builder* builder_ = nullptr;  ///< null if the collider wants no tree
+    std::unique_ptr<Collider> collider_;
+    std::optional<NarrowPhase> narrow_;
+};
+
+}  // namespace bvhbench
