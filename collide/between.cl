@@ -2,11 +2,13 @@
 // check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DTASK_LEAVES=64u
 // check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DTASK_LEAVES=64u
 //
-// The tasks between objects: leaves of the object that has fewer, against every object whose box meets theirs. Their
+// The tasks between objects: leaves of the object that has more, against every object whose box meets theirs. Their
 // box is that of the subtree over them, Eq. (13); in a tree with pointers it is that of their object.
 #include "builders/stages/chunk.clh"
 #include "collide/task.clh"
 #include "collide/wide_count.clh"
+
+#define OTHERS 16u  // objects that a work-item holds neighbouring leaves against, one after the other
 
 static inline Aabb root_box(FOREST_PARAMETERS, const uint object)
 {
@@ -24,10 +26,11 @@ static inline Aabb task_box(FOREST_PARAMETERS, const QueryTask task)
 #endif
 }
 
-/// Whether the leaves of `a` are held against `b`, and not the other way round.
+/// Whether the leaves of `a` are held against `b`, and not the other way round: many short walks end sooner than a
+/// few long ones. A ball's 760 leaves against a cloth's 91,470 took 7 times as long as the cloth's against the ball's.
 static inline bool asks(const ForestObject a, const ForestObject b, const bool comes_first)
 {
-    return a.leaves < b.leaves || (a.leaves == b.leaves && comes_first);
+    return a.leaves > b.leaves || (a.leaves == b.leaves && comes_first);
 }
 
 /// `chunks` has the neighbouring leaves of all objects. What finds no room in `between` is counted and not written.
@@ -35,14 +38,16 @@ kernel void find_between(FOREST_PARAMETERS, global const QueryTask* chunks, cons
                          const uint object_count, global QueryTask* between,
                          const uint most_between, volatile global uint* counters)
 {
-    const Chunk part = own_chunk(chunk_count);
+    const uint blocks = (object_count + OTHERS - 1u) / OTHERS;
+    const Chunk part = own_chunk(chunk_count * blocks);
     ulong tests = 0ul;
     for (uint k = part.first; k < part.end; ++k) {
-        QueryTask task = chunks[k];
+        QueryTask task = chunks[k / blocks];
+        const ForestObject own = objects[task.own];
         const Aabb box = task_box(FOREST, task);
-        for (uint other = 0u; other < object_count; ++other) {
-            if (other == task.own ||
-                !asks(objects[task.own], objects[other], task.own < other))
+        const uint first = k % blocks * OTHERS, end = min(object_count, first + OTHERS);
+        for (uint other = first; other < end; ++other) {
+            if (other == task.own || !asks(own, objects[other], task.own < other))
                 continue;
             ++tests;
             if (!overlap(box, root_box(FOREST, other)))

@@ -5,7 +5,7 @@
 namespace bvhbench {
 namespace {
 
-constexpr uint loose = 4;  // times the area of leaves together, from which on their common box says too little
+constexpr uint loose = 2;  // times the area of leaves together, from which on their common box says too little
 
 class Group final : public WalkCollider {
 public:

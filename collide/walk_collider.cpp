@@ -62,10 +62,10 @@ void WalkCollider::find_between(const DeviceTree& tree, Queue& queue)
     set_arguments_from(between_kernel_, tree.bind(between_kernel_, 0), own_,
                        static_cast<uint>(own_.size()), static_cast<uint>(tree.objects.size()),
                        between_, static_cast<uint>(most_between_), counters_);
+    constexpr std::size_t others = 16;  // OTHERS of between.cl
     const std::size_t group = by_groups() ? group_size_ : 1;
-    queue.launch(between_kernel_,
-                 by_groups() ? divided_up(static_cast<uint>(own_.size()), group_size_) * group
-                             : chunks_,
+    const std::size_t items = own_.size() * ((tree.objects.size() + others - 1) / others);
+    queue.launch(between_kernel_, by_groups() ? (items + group - 1) / group * group : chunks_,
                  group, 0);
 }
 

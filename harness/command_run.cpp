@@ -43,8 +43,11 @@ std::string paper_report(const std::string& what, const Document& document)
 int run(const RunCommand& command, const Options& options)
 {
     Experiment experiment = find_experiment(command.experiment, command.quick);
-    if (command.samples > 0)
+    if (command.samples > 0) {
         experiment.samples = command.samples;
+        for (CollideTask& task : experiment.collisions)
+            task.samples = command.samples;
+    }
     experiment.quality = experiment.quality || command.quality;
     const CellFilter filter = filter_of(command.filter);
     const std::string out = command.out.empty() ? experiment.name + ".json" : command.out;

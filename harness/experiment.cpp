@@ -5,93 +5,21 @@
 #include <cctype>
 #include <fstream>
 #include <iterator>
-#include <nlohmann/json.hpp>
 
-#include "builders/orders.h"
 #include "geometry/error.h"
+#include "harness/experiment_pipelines.h"
+#include "harness/json_keys.h"
 #include "harness/scene_range.h"
 
 namespace bvhbench {
 namespace {
 
-using Json = nlohmann::ordered_json;
-using Words = std::initializer_list<std::string_view>;
 
 // To add an experiment, add its file to experiments/ and its name here.
 constexpr std::string_view names[] = {"table1", "table4",  "fig8",  "fig13",    "peers", "quality",
-                                      "orders", "scaling", "refit", "equality", "smoke"};
+                                      "orders", "scaling", "refit", "equality", "smoke", "table2", "table3", "pairs", "rebuild"};
 
 constexpr std::int64_t most_sizes = 1 << 24;
-
-std::string joined(std::span<const std::string_view> words)
-{
-    std::string text;
-    for (const std::string_view word : words)
-        text += (text.empty() ? "" : ", ") + std::string(word);
-    return text;
-}
-
-void refuse_unknown_keys(const Json& json, Words known, const std::string& where)
-{
-    if (!json.is_object())
-        throw BadUsage(where + " must be an object");
-    for (const auto& [key, value] : json.items())
-        if (std::find(known.begin(), known.end(), key) == known.end())
-            throw BadUsage("'" + key + "' is no key of " + where +
-                           "; there are: " + joined({known.begin(), known.size()}));
-}
-
-std::string text_at(const Json& json, const char* key)
-{
-    const Json& value = json.at(key);
-    if (!value.is_string())
-        throw BadUsage("'" + std::string(key) + "' must be text");
-    return value.get<std::string>();
-}
-
-bool truth_at(const Json& json, const char* key)
-{
-    if (!json.at(key).is_boolean())
-        throw BadUsage("'" + std::string(key) + "' is true or false, not " + json[key].dump());
-    return json[key].get<bool>();
-}
-
-std::int64_t whole_number(const Json& value, const std::string& what, std::int64_t least,
-                          std::int64_t most)
-{
-    if (!value.is_number_integer() || value.get<std::int64_t>() < least ||
-        value.get<std::int64_t>() > most)
-        throw BadUsage(what + " must be a whole number from " + std::to_string(least) + " to " +
-                       std::to_string(most) + ", not " + value.dump());
-    return value.get<std::int64_t>();
-}
-
-BuilderChoice builder_of(const Json& json)
-{
-    BuilderChoice choice;
-    if (json.is_string()) {
-        choice.name = json.get<std::string>();
-    } else {
-        refuse_unknown_keys(json, {"name", "order", "group_size", "items", "leaves"}, "a builder");
-        choice.name = text_at(json, "name");
-        if (json.contains("order"))
-            choice.order = text_at(json, "order");
-        if (json.contains("group_size"))
-            choice.group_size =
-                static_cast<unsigned>(whole_number(json["group_size"], "group_size", 0, 1 << 16));
-        if (json.contains("items"))
-            choice.items = static_cast<unsigned>(whole_number(json["items"], "items", 0, 8));
-        if (json.contains("leaves")) {
-            const std::string leaves = text_at(json, "leaves");
-            if (leaves != "mesh" && leaves != "sorted")
-                throw BadUsage("'leaves' is mesh or sorted, not '" + leaves + "'");
-            choice.sorted_leaves = leaves == "sorted";
-        }
-    }
-    find_builder(choice.name);
-    find_order(choice.order);
-    return choice;
-}
 
 SizeRange range_of(const Json& json, const std::string& key)
 {
@@ -128,14 +56,6 @@ std::vector<std::string> scenes_of(const Json& json)
     return {};
 }
 
-void read_list(const Json& json, const char* key, const auto& add)
-{
-    if (!json.at(key).is_array() || json.at(key).empty())
-        throw BadUsage("'" + std::string(key) + "' must be a list of at least one");
-    for (const Json& item : json.at(key))
-        add(item);
-}
-
 /// The keys that `quick` may replace.
 void read_size(const Json& json, Experiment& experiment)
 {
@@ -149,7 +69,7 @@ void read_size(const Json& json, Experiment& experiment)
     if (json.contains("builders")) {
         experiment.builders.clear();
         read_list(json, "builders",
-                  [&](const Json& item) { experiment.builders.push_back(builder_of(item)); });
+                  [&](const Json& item) { experiment.builders.push_back(builder_choice(item)); });
     }
     if (json.contains("samples"))
         experiment.samples = static_cast<int>(whole_number(json["samples"], "samples", 1, 1000000));
@@ -197,9 +117,10 @@ Experiment experiment_of(const Json& json, bool quick)
 {
     refuse_unknown_keys(json,
                         {"experiment", "question", "paper", "scenes", "builders", "operations",
-                         "stages", "samples", "warm_up", "quality", "quick"},
+                         "pipelines", "stages", "samples", "warm_up", "quality", "quick"},
                         "an experiment");
-    for (const char* key : {"experiment", "scenes", "builders"})
+    const bool collides = json.contains("pipelines");
+    for (const char* key : {"experiment", "scenes", collides ? "pipelines" : "builders"})
         if (!json.contains(key))
             throw BadUsage("an experiment must have the key '" + std::string(key) + "'");
     Experiment experiment;
@@ -207,6 +128,10 @@ Experiment experiment_of(const Json& json, bool quick)
     check_name(experiment.name);
     experiment.question = json.contains("question") ? text_at(json, "question") : "";
     experiment.paper = json.contains("paper") ? text_at(json, "paper") : "";
+    if (collides) {
+        experiment.collisions = collisions_of(json, experiment.name, quick);
+        return experiment;
+    }
     read_size(json, experiment);
     if (json.contains("stages"))
         experiment.start = start_of(json["stages"]);

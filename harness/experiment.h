@@ -10,6 +10,7 @@
 
 #include "builders/builder.h"
 #include "harness/catalog.h"
+#include "harness/collide.h"
 
 namespace bvhbench {
 
@@ -23,6 +24,12 @@ namespace bvhbench {
 /// A builder that this program was built without is a skipped cell.
 /// `"operations": ["build", "refit"]` makes two cells of each builder, both about the scene's second frame: one
 /// builds over it, one has built over the first and refits. The default is to build, over the first.
+/// An experiment of whole frames has `pipelines` instead of builders, and scenes of more words (CollideTask):
+///
+///     {"experiment": "table2", "scenes": [{"scene": "unc_nbody", "frames": "0:", "pairs_of": "between"}],
+///      "pipelines": [{"builder": "oibvh-multi", "collider": {"name": "bvtt", "jump": 2}, "adjacent": "drop",
+///                     "narrow": "exact"}, ...]}
+///
 /// `quick` replaces `scenes`, `builders`, `samples` or `warm_up` for --quick. In a scene with sizes, the key
 /// in braces takes a list of numbers or an object of: `from` and `to` (every number), `powers_of_two_from`
 /// and `powers_of_two_to`, `around_powers_of_two_to` (one below, at and above each power of two up to it).
@@ -39,6 +46,8 @@ struct Experiment {
     bool may_stand_in = true;
     /// Whether end-point overlap is wanted too, the one measure of a tree that takes long.
     bool quality = false;
+    /// Of an experiment with pipelines, which has none of the other lists: a task a scene.
+    std::vector<CollideTask> collisions;
     int samples = 30;
     int warm_up = 3;
 

@@ -103,13 +103,47 @@ bool Run::has_differing_cell() const
 
 void Run::experiment(const Experiment& experiment, const CellFilter& filter)
 {
-    Progress progress(experiment.scenes.size());
+    Progress progress(experiment.scenes.size() + experiment.collisions.size());
+    for (const CollideTask& task : experiment.collisions)
+        collisions(task, filter, progress);
     for (const std::string& name : experiment.scenes) {
         throw_if_interrupted();
         const std::vector<BuilderChoice> builders = chosen(experiment, name, filter);
         progress.step(experiment.name + ": " + name);
         if (!builders.empty())
             scene(experiment, name, builders, progress);
+    }
+}
+
+/// A scene that is not there is a cell that says so; frames done before something ended are kept.
+void Run::collisions(CollideTask task, const CellFilter& filter, Progress& progress)
+{
+    progress.step(task.experiment + ": " + task.scene);
+    std::erase_if(task.pipelines, [&](const PipelineChoice& pipeline) {
+        return filter && !std::regex_search(task.scene + '/' + pipeline.builder.name + '/' +
+                                                pipeline.collider.name,
+                                            *filter);
+    });
+    if (task.pipelines.empty())
+        return;
+    const std::string no_scene = reason_of_failure([&] {
+        collide_frames(session_, task, order_, [&](std::vector<Cell>&& cells, const Found&) {
+            progress.note(task.experiment + ": " + task.scene + ", frame " +
+                          std::to_string(cells.front().scene.frame));
+            for (Cell& cell : cells)
+                results_.add(std::move(cell));
+        });
+    });
+    if (no_scene.empty())
+        return;
+    for (const PipelineChoice& pipeline : task.pipelines) {
+        Cell cell;
+        cell.experiment = task.experiment;
+        cell.scene.name = task.scene;
+        cell.builder = pipeline.builder;
+        cell.collider = pipeline.collider;
+        cell.operation = Operation::collide;
+        results_.add(unmeasured(std::move(cell), Cell::Status::skipped, no_scene));
     }
 }
 

@@ -45,6 +45,7 @@ private:
     struct Prepared;
     struct Oracles;
 
+    void collisions(CollideTask task, const CellFilter& filter, Progress& progress);
     void scene(const Experiment& experiment, const std::string& name,
                std::span<const BuilderChoice> builders, Progress& progress);
     Prepared prepare(const Experiment& experiment, const Frames& frames, Cell cell,

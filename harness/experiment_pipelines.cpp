@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include "harness/experiment_pipelines.h"
+
+#include "geometry/error.h"
+
+namespace bvhbench {
+namespace {
+
+unsigned number_at(const Json& json, const char* key, std::int64_t most)
+{
+    return json.contains(key) ? static_cast<unsigned>(whole_number(json[key], key, 0, most)) : 0;
+}
+
+ColliderChoice collider_of(const Json& json)
+{
+    ColliderChoice choice;
+    if (json.is_string()) {
+        choice.name = json.get<std::string>();
+    } else {
+        refuse_unknown_keys(json, {"name", "jump", "start_level", "group_size"}, "a collider");
+        choice.name = text_at(json, "name");
+        choice.jump = number_at(json, "jump", 32);
+        choice.start_level = number_at(json, "start_level", 32);
+        choice.group_size = number_at(json, "group_size", 1 << 16);
+    }
+    find_collider(choice.name);
+    return choice;
+}
+
+PipelineChoice pipeline_of(const Json& json)
+{
+    refuse_unknown_keys(json, {"builder", "collider", "pairs_of", "adjacent", "narrow"},
+                        "a pipeline");
+    PipelineChoice choice;
+    choice.builder.name = "none";
+    if (json.contains("builder"))
+        choice.builder = builder_choice(json["builder"]);
+    choice.collider = collider_of(json.at("collider"));
+    if (json.contains("pairs_of"))
+        choice.collider.among = among_called(text_at(json, "pairs_of"));
+    if (json.contains("adjacent")) {
+        const std::string adjacent = text_at(json, "adjacent");
+        if (adjacent != "keep" && adjacent != "drop")
+            throw BadUsage("'adjacent' is keep or drop, not '" + adjacent + "'");
+        choice.collider.keep_adjacent = adjacent == "keep";
+    }
+    if (json.contains("narrow"))
+        choice.collider.narrow = text_at(json, "narrow");
+    if (choice.collider.narrow != "none" && choice.collider.narrow != "exact")
+        throw BadUsage("'narrow' is none or exact, not '" + choice.collider.narrow + "'");
+    return choice;
+}
+
+CollideTask task_of(const Json& json, const std::vector<PipelineChoice>& pipelines)
+{
+    CollideTask task;
+    task.may_stand_in = true;
+    task.pipelines = pipelines;
+    if (json.is_string()) {
+        task.scene = json.get<std::string>();
+        return task;
+    }
+    refuse_unknown_keys(json, {"scene", "frames", "between", "objects", "pairs_of"}, "a scene");
+    task.scene = text_at(json, "scene");
+    if (json.contains("frames"))
+        task.frames = frame_range(text_at(json, "frames"));
+    task.between = number_at(json, "between", 1000);
+    if (json.contains("objects"))
+        task.objects = objects_by_called(text_at(json, "objects"));
+    if (json.contains("pairs_of"))
+        for (PipelineChoice& pipeline : task.pipelines)
+            pipeline.collider.among = among_called(text_at(json, "pairs_of"));
+    return task;
+}
+
+}  // namespace
+
+std::vector<CollideTask> collisions_of(const Json& json, const std::string& experiment, bool quick)
+{
+    const Json none = Json::object();
+    const Json& quicker = quick && json.contains("quick") ? json["quick"] : none;
+    refuse_unknown_keys(quicker, {"scenes", "pipelines", "samples", "warm_up"}, "'quick'");
+    const auto of = [&](const char* key) -> const Json& {
+        return quicker.contains(key) ? quicker : json;
+    };
+    std::vector<PipelineChoice> pipelines;
+    read_list(of("pipelines"), "pipelines",
+              [&](const Json& item) { pipelines.push_back(pipeline_of(item)); });
+    std::vector<CollideTask> tasks;
+    read_list(of("scenes"), "scenes", [&](const Json& item) {
+        CollideTask task = task_of(item, pipelines);
+        task.experiment = experiment;
+        if (of("samples").contains("samples"))
+            task.samples =
+                static_cast<int>(whole_number(of("samples")["samples"], "samples", 1, 1000000));
+        if (of("warm_up").contains("warm_up"))
+            task.warm_up =
+                static_cast<int>(whole_number(of("warm_up")["warm_up"], "warm_up", 0, 1000000));
+        tasks.push_back(std::move(task));
+    });
+    return tasks;
+}
+
+}  // namespace bvhbench

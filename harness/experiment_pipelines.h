@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "harness/collide.h"
+#include "harness/json_keys.h"
+
+namespace bvhbench {
+
+/// What an experiment with `pipelines` measures, a task a scene. A scene is text or an object of
+///
+///     scene, frames ("a:b"), between, objects, pairs_of
+///
+/// and a pipeline an object of
+///
+///     collider    a name, or an object of name, jump, start_level, group_size
+///     builder     as in other experiments; without, the collider wants no tree
+///     pairs_of    all, between or within, unless the scene says which; adjacent: keep or drop; narrow: none, exact
+///
+/// Throws BadUsage.
+std::vector<CollideTask> collisions_of(const Json& json, const std::string& experiment, bool quick);
+
+}  // namespace bvhbench
