@@ -142,13 +142,18 @@ inline SixPoints degenerate_six(Dice& dice)
     SixPoints six = lattice_six(dice, 3);
     for (const std::size_t at : {0u, 3u})
         switch (dice.below(4)) {
-            case 0: six[at + 1] = six[at]; break;
-            case 1: six[at + 1] = six[at + 2] = six[at]; break;
+            case 0:
+                six[at + 1] = six[at];
+                break;
+            case 1:
+                six[at + 1] = six[at + 2] = six[at];
+                break;
             case 2:  // three in a line
                 six[at + 2] = {2 * six[at + 1].x - six[at].x, 2 * six[at + 1].y - six[at].y,
                                2 * six[at + 1].z - six[at].z};
                 break;
-            default: break;
+            default:
+                break;
         }
     return six;
 }
@@ -212,8 +217,7 @@ inline std::vector<PairClass> pair_classes()
         {"any_size", any_size_six},
         {"translated_1e5", [](Dice& dice) { return moved(near_touching_six(dice), 1e5f); }},
         {"denormals", [](Dice& dice) { return scaled(lattice_six(dice, 9), 1.4e-45f); }},
-        {"small_and_denormal",
-         [](Dice& dice) { return scaled(near_touching_six(dice), 1e-37f); }},
+        {"small_and_denormal", [](Dice& dice) { return scaled(near_touching_six(dice), 1e-37f); }},
         {"largest", [](Dice& dice) { return scaled(near_touching_six(dice), 3.4e38f); }},
         {"flat_and_small",
          [](Dice& dice) {
@@ -237,8 +241,8 @@ inline Mesh apart_pairs(const PairClass& of, uint count)
     for (uint k = 0; k < count; ++k) {
         const SixPoints six = of.six(dice);
         mesh.points.insert(mesh.points.end(), six.begin(), six.end());
-        mesh.faces.insert(mesh.faces.end(), {{6 * k, 6 * k + 1, 6 * k + 2},
-                                             {6 * k + 3, 6 * k + 4, 6 * k + 5}});
+        mesh.faces.insert(mesh.faces.end(),
+                          {{6 * k, 6 * k + 1, 6 * k + 2}, {6 * k + 3, 6 * k + 4, 6 * k + 5}});
     }
     return mesh;
 }
