@@ -2,9 +2,9 @@
 //
 // The second look at a pair, in doubles: whether two triangles meet, where no sign it takes is in doubt.
 //
-// No corner in the plane of the other and both planes crossed, each triangle has one corner alone on its side, and from
-// there two edges across: p -> q, p -> r and p' -> q', p' -> r'. They cross on the line that both planes have in
-// common, at I, J and K, M. The sign of orient3d(p, q, p', q') is the order of I and K on it, up to a sign that is the
+// By orientations alone, as [Guigue2003], and by other ones. No corner in the plane of the other and both planes crossed,
+// each triangle has one corner alone on its side, and from there two edges across: p -> q, p -> r and p' -> q',
+// p' -> r'. They cross on the line that both planes have in common, at I, J and K, M. The sign of orient3d(p, q, p', q') is the order of I and K on it, up to a sign that is the
 // same for all four, since all edges cross to the far side. So the triangles are apart if the four signs are equal.
 // As soon as two differ they meet.
 //

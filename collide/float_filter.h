@@ -44,9 +44,8 @@ SHARED_FN_INLINED bool plane_parts(Point a, Point b, Point c, Point p, Point q, 
     const float bound = 0x1.8p-19f * x * y * z;
     const float low = smaller_of(smaller_of(at_p, at_q), at_r),
                 high = larger_of(larger_of(at_p, at_q), at_r);
-    // Without branches: which way they would go is hard to foretell.
-    return ((low > bound) | (high < -bound)) & (smaller_of(smaller_of(x, y), z) >= 0x1p-30f) &
-           (larger_of(larger_of(x, y), z) <= 0x1p40f);
+    return (low > bound || high < -bound) && smaller_of(smaller_of(x, y), z) >= 0x1p-30f &&
+           larger_of(larger_of(x, y), z) <= 0x1p40f;
 }
 
 SHARED_END

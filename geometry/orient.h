@@ -5,10 +5,10 @@
 //     orient3d(a, b, c, d)    the sign of (a-d) . ((b-d) x (c-d)); 0: the four are in one plane
 //     orient2d(a, b, c, k)    the turn a, b, c as seen along axis k; 0: in one line, so seen
 //
-// First in doubles, which tells unless the points are all but in one plane. Differences of floats are rounded at most
-// once, no product of three can overflow, and none can underflow: the least float is 2^-149, the least product
-// 2^-447, and that of doubles 2^-1074. So the error is at most, with u = 2^-53 and X, Y, Z the largest differences
-// along each axis as computed,
+// As [Shewchuk1997] does it: first in doubles, which tells unless the points are all but in one plane. Differences of
+// floats are rounded at most once, no product of three can overflow, and none can underflow: the least float is 2^-149,
+// the least product 2^-447, and that of doubles 2^-1074. So the error is at most, with u = 2^-53 and X, Y, Z the largest
+// differences along each axis as computed,
 //
 //     a difference            u X
 //     a minor x y' - x' y     8 u X Y      two products of rounded factors, 3 u each; their difference, 2 u
@@ -42,7 +42,7 @@ SHARED_FN int sign_beyond(double value, double bound)
 /// What a determinant of differences may be off by, if none along an axis is larger than in `most`.
 SHARED_FN double orient3d_bound(Vector most) { return 0x1.8p-48 * most.x * most.y * most.z; }
 
-/// The upper half of a double's bits: what is left has no more [Veltkamp].
+/// The upper half of a double's bits: what is left has no more (Veltkamp's splitting).
 SHARED_FN double upper_half(double x)
 {
     const double spread = 134217729.0 * x;  // 2^27 + 1
@@ -73,29 +73,25 @@ SHARED_FN int sign_of_regular(Vector u, Vector n)
     return sign_of_sum(terms, 6u);
 }
 
-/// [p q r], term after term from `from` on, or its negative.
-SHARED_FN Terms with_determinant(Terms terms, uint from, Point p, Point q, Point r, double sign)
-{
-    const double factors[6] = {(double)q.y * (double)r.z, -((double)q.z * (double)r.y),
-                               (double)q.z * (double)r.x, -((double)q.x * (double)r.z),
-                               (double)q.x * (double)r.y, -((double)q.y * (double)r.x)};
-    const double others[3] = {sign * (double)p.x, sign * (double)p.y, sign * (double)p.z};
-    for (uint k = 0u; k < 6u; ++k) {
-        const double upper = upper_half(factors[k]);
-        terms.at[from + 2u * k] = upper * others[k / 2u];
-        terms.at[from + 2u * k + 1u] = (factors[k] - upper) * others[k / 2u];
-    }
-    return terms;
-}
-
-/// orient3d of any floats, by nothing but the sum of 48.
+/// orient3d of any floats, by nothing but the sum of 48: - [b c d] + [a c d] - [a b d] + [a b c].
 SHARED_FN int orient3d_of_products(Point a, Point b, Point c, Point d)
 {
     Terms terms = {{0.0}};
-    terms = with_determinant(terms, 0u, a, b, c, 1.0);
-    terms = with_determinant(terms, 12u, b, c, d, -1.0);
-    terms = with_determinant(terms, 24u, a, c, d, 1.0);
-    terms = with_determinant(terms, 36u, a, b, d, -1.0);
+    for (uint without = 0u; without < 4u; ++without) {
+        const Point p = without == 0u ? b : a;
+        const Point q = without <= 1u ? c : b;
+        const Point r = without <= 2u ? d : c;
+        const double sign = without % 2u == 0u ? -1.0 : 1.0;
+        const double minors[6] = {(double)q.y * (double)r.z, -((double)q.z * (double)r.y),
+                                  (double)q.z * (double)r.x, -((double)q.x * (double)r.z),
+                                  (double)q.x * (double)r.y, -((double)q.y * (double)r.x)};
+        for (uint k = 0u; k < 6u; ++k) {
+            const double factor = sign * (double)coordinate(p, k / 2u);
+            const double upper = upper_half(minors[k]);
+            terms.at[12u * without + 2u * k] = upper * factor;
+            terms.at[12u * without + 2u * k + 1u] = (minors[k] - upper) * factor;
+        }
+    }
     return sign_of_sum(terms, 48u);
 }
 
