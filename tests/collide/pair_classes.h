@@ -227,9 +227,21 @@ inline std::vector<PairClass> pair_classes()
              return six;
          }},
     };
-    for (const float scale : {1e-30f, 1e-16f, 1e-4f, 1e10f, 1e13f, 1e30f})
-        classes.push_back({"scaled_1e" + std::to_string(std::lround(std::log10(scale))),
-                           [=](Dice& dice) { return scaled(near_touching_six(dice), scale); }});
+    // Among them those whose products of three floats are where floats end, at either end.
+    for (const auto& [name, scale] : {std::pair{"1e-30", 1e-30f},
+                                      {"1e-16", 1e-16f},
+                                      {"1e-15", 1e-15f},
+                                      {"1e-14", 1e-14f},
+                                      {"1e-13", 1e-13f},
+                                      {"1e-4", 1e-4f},
+                                      {"1e10", 1e10f},
+                                      {"4e12", 4e12f},
+                                      {"7e12", 7e12f},
+                                      {"1e13", 1e13f},
+                                      {"1e30", 1e30f}})
+        classes.push_back({std::string("scaled_") + name, [scale = scale](Dice& dice) {
+                               return scaled(near_touching_six(dice), scale);
+                           }});
     return classes;
 }
 
