@@ -2,9 +2,9 @@
 //
 // The second look at a pair, in doubles: whether two triangles meet, where no sign it takes is in doubt.
 //
-// No corner in the plane of the other and both planes crossed, each triangle has one corner alone on its side, and from
-// there two edges across: p -> q, p -> r and p' -> q', p' -> r'. They cross on the line that both planes have in
-// common, at I, J and K, M. The sign of orient3d(p, q, p', q') is the order of I and K on it, up to a sign that is the
+// By orientations alone, as [Guigue2003], and by other ones. No corner in the plane of the other and both planes crossed,
+// each triangle has one corner alone on its side, and from there two edges across: p -> q, p -> r and p' -> q',
+// p' -> r'. They cross on the line that both planes have in common, at I, J and K, M. The sign of orient3d(p, q, p', q') is the order of I and K on it, up to a sign that is the
 // same for all four, since all edges cross to the far side. So the triangles are apart if the four signs are equal.
 // As soon as two differ they meet.
 //
@@ -26,7 +26,7 @@
 SHARED_BEGIN
 
 /// As sides_to_plane, each side in doubt UNSURE.
-SHARED_FN Sides likely_sides(Corners a, Corners b)
+SHARED_FN_INLINED Sides likely_sides(Corners a, Corners b)
 {
     const Vector u = difference(a.at[1], a.at[0]), v = difference(a.at[2], a.at[0]);
     const Vector p = difference(b.at[0], a.at[0]), q = difference(b.at[1], a.at[0]);
@@ -40,18 +40,18 @@ SHARED_FN Sides likely_sides(Corners a, Corners b)
     return sides;
 }
 
-SHARED_FN bool strictly_parted(Sides sides)
+SHARED_FN_INLINED bool strictly_parted(Sides sides)
 {
     return sides.of[0] != UNSURE && strictly_beyond(sides);
 }
 
-SHARED_FN bool any_unsure(Sides sides)
+SHARED_FN_INLINED bool any_unsure(Sides sides)
 {
     return sides.of[0] == UNSURE || sides.of[1] == UNSURE || sides.of[2] == UNSURE;
 }
 
 /// With the corner first that is alone on its side.
-SHARED_FN Corners led_by_lone(Corners a, Sides sides)
+SHARED_FN_INLINED Corners led_by_lone(Corners a, Sides sides)
 {
     const Corners second = {{a.at[1], a.at[2], a.at[0]}};
     const Corners third = {{a.at[2], a.at[0], a.at[1]}};
@@ -61,7 +61,7 @@ SHARED_FN Corners led_by_lone(Corners a, Sides sides)
 }
 
 /// Whether two triangles meet, of which each has its first corner alone on one side of the other's plane.
-SHARED_FN uint lone_corners_verdict(Corners a, Corners b)
+SHARED_FN_INLINED uint lone_corners_verdict(Corners a, Corners b)
 {
     const Vector q = difference(a.at[1], a.at[0]), r = difference(a.at[2], a.at[0]);
     const Vector lone = difference(b.at[0], a.at[0]);
@@ -78,7 +78,7 @@ SHARED_FN uint lone_corners_verdict(Corners a, Corners b)
 }
 
 /// Of two triangles that share no corner.
-SHARED_FN uint likely_meet(Corners a, Corners b)
+SHARED_FN_INLINED uint likely_meet(Corners a, Corners b)
 {
     const Sides of_b = likely_sides(a, b);
     if (strictly_parted(of_b))
@@ -92,7 +92,7 @@ SHARED_FN uint likely_meet(Corners a, Corners b)
 }
 
 /// Of two that share their first corner: beyond it.
-SHARED_FN uint likely_meet_beyond_corner(Corners a, Corners b)
+SHARED_FN_INLINED uint likely_meet_beyond_corner(Corners a, Corners b)
 {
     // The side of the corner itself is 0, computed without rounding: UNSURE.
     const Sides of_b = likely_sides(a, b), of_a = likely_sides(b, a);
@@ -106,13 +106,13 @@ SHARED_FN uint likely_meet_beyond_corner(Corners a, Corners b)
 }
 
 /// Of two that share their first two corners: beyond that edge.
-SHARED_FN uint likely_meet_beyond_edge(Corners a, Corners b)
+SHARED_FN_INLINED uint likely_meet_beyond_edge(Corners a, Corners b)
 {
     return likely_sides(a, b).of[2] != UNSURE ? VERDICT_APART : VERDICT_UNSURE;
 }
 
 /// Of two that share their first so many corners.
-SHARED_FN uint likely_verdict(Corners a, Corners b, uint shared)
+SHARED_FN_INLINED uint likely_verdict(Corners a, Corners b, uint shared)
 {
     if (shared == 0u)
         return likely_meet(a, b);

@@ -43,9 +43,9 @@ SHARED_FN bool all_within(Sides sides)
 /// The sides of `b` to the plane of `a`.
 SHARED_FN Sides sides_to_plane(Corners a, Corners b)
 {
-    Sides sides = {{0, 0, 0}};
-    for (uint k = 0u; k < 3u; ++k)
-        sides.of[k] = orient3d(a.at[0], a.at[1], a.at[2], b.at[k]);
+    const Point p = a.at[0], q = a.at[1], r = a.at[2];
+    const Sides sides = {
+        {orient3d(p, q, r, b.at[0]), orient3d(p, q, r, b.at[1]), orient3d(p, q, r, b.at[2])}};
     return sides;
 }
 

@@ -84,7 +84,10 @@ bool far_edge_meets(std::span<const Point> points, Face face, uint corner, Face 
 }
 
 /// The third corner of a face that has area and names u and v.
-uint third(Face face, uint u, uint v) { return others(face, u)[0] == v ? others(face, u)[1] : others(face, u)[0]; }
+uint third(Face face, uint u, uint v)
+{
+    return others(face, u)[0] == v ? others(face, u)[1] : others(face, u)[0];
+}
 
 /// Two with area that share the edge u, v: folded onto each other?
 bool folded(std::span<const Point> points, Face a, Face b, uint u, uint v)

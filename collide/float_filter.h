@@ -15,10 +15,18 @@
 
 SHARED_BEGIN
 
-SHARED_FN float largest_of(float a, float b, float c) { return fmax(fmax(fabs(a), fabs(b)), fabs(c)); }
+// Not fmax and fmin, which tell numbers from NaN: that takes several instructions on processors, and nothing compared
+// here is one unless `x` is infinite, which is out of range.
+SHARED_FN_INLINED float larger_of(float a, float b) { return a < b ? b : a; }
+SHARED_FN_INLINED float smaller_of(float a, float b) { return a < b ? a : b; }
+
+SHARED_FN_INLINED float largest_of(float a, float b, float c)
+{
+    return larger_of(larger_of(fabs(a), fabs(b)), fabs(c));
+}
 
 /// Whether the plane of a, b, c is certain to have p, q, r strictly on one side.
-SHARED_FN bool plane_parts(Point a, Point b, Point c, Point p, Point q, Point r)
+SHARED_FN_INLINED bool plane_parts(Point a, Point b, Point c, Point p, Point q, Point r)
 {
     const float ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
     const float vx = c.x - a.x, vy = c.y - a.y, vz = c.z - a.z;
@@ -30,13 +38,14 @@ SHARED_FN bool plane_parts(Point a, Point b, Point c, Point p, Point q, Point r)
     const float at_q = nx * qx + ny * qy + nz * qz;
     const float at_r = nx * rx + ny * ry + nz * rz;
 
-    const float x = fmax(largest_of(ux, vx, px), fmax(fabs(qx), fabs(rx)));
-    const float y = fmax(largest_of(uy, vy, py), fmax(fabs(qy), fabs(ry)));
-    const float z = fmax(largest_of(uz, vz, pz), fmax(fabs(qz), fabs(rz)));
+    const float x = larger_of(largest_of(ux, vx, px), larger_of(fabs(qx), fabs(rx)));
+    const float y = larger_of(largest_of(uy, vy, py), larger_of(fabs(qy), fabs(ry)));
+    const float z = larger_of(largest_of(uz, vz, pz), larger_of(fabs(qz), fabs(rz)));
     const float bound = 0x1.8p-19f * x * y * z;
-    const float low = fmin(fmin(at_p, at_q), at_r), high = fmax(fmax(at_p, at_q), at_r);
-    return (low > bound || high < -bound) && fmin(fmin(x, y), z) >= 0x1p-30f &&
-           fmax(fmax(x, y), z) <= 0x1p40f;
+    const float low = smaller_of(smaller_of(at_p, at_q), at_r),
+                high = larger_of(larger_of(at_p, at_q), at_r);
+    return (low > bound || high < -bound) && smaller_of(smaller_of(x, y), z) >= 0x1p-30f &&
+           larger_of(larger_of(x, y), z) <= 0x1p40f;
 }
 
 SHARED_END

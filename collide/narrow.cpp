@@ -138,8 +138,7 @@ void NarrowPhase::decide_on_host(const Input& input, Queue& queue)
     if (!unsure.empty())
         queue.cl().enqueueReadBuffer(unsure_.cl(), CL_TRUE, 0, unsure.size() * sizeof(Pair),
                                      unsure.data());
-    std::erase_if(unsure,
-                  [&](Pair pair) { return !meet(input, pair, options_.keep_adjacent); });
+    std::erase_if(unsure, [&](Pair pair) { return !meet(input, pair, options_.keep_adjacent); });
 
     const std::size_t room = contacts_.size() - std::min<std::uint64_t>(found, contacts_.size());
     const std::size_t written = std::min(room, unsure.size());

@@ -22,7 +22,7 @@ kernel void filter_pairs(global const Point* points, global const Face* faces,
     uint by_floats = 0u, by_doubles = 0u;
     for (uint place = chunk.first; place < chunk.end; ++place) {
         const uint2 pair = candidates[place];
-        const uint verdict = first_verdict(points, faces, pair);
+        const uint verdict = first_verdict(points, faces[pair.x], faces[pair.y]);
         by_doubles += verdict & BY_DOUBLES ? 1u : 0u;
         by_floats += verdict == VERDICT_APART || verdict == VERDICT_MEET ? 1u : 0u;
         if ((verdict & VERDICT_MEET) != 0u)

@@ -41,7 +41,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void filter_pairs
         const ulong place = turn * a_turn + get_global_id(0);
         if (place < count) {
             const uint2 pair = candidates[place];
-            const uint verdict = first_verdict(points, faces, pair);
+            const uint verdict = first_verdict(points, faces[pair.x], faces[pair.y]);
             by_doubles += verdict & BY_DOUBLES ? 1u : 0u;
             by_floats += verdict == VERDICT_APART || verdict == VERDICT_MEET ? 1u : 0u;
             if ((verdict & VERDICT_MEET) != 0u)

@@ -5,7 +5,8 @@
 // A header that includes this one is compiled twice: by the host compiler as constexpr C++, and by the
 // device compiler as OpenCL C. It may use uint and ulong, floats, plain structs passed by value,
 // and the names below. It may not use pointers, references, overloads or templates. Doubles it may use
-// behind #if HAS_DOUBLES: not every device has them.
+// behind #if HAS_DOUBLES: not every device has them. SHARED_FN_INLINED is for short functions on the way of every
+// item: drivers need not inline others, and PoCL does not.
 #ifndef BVHBENCH_GEOMETRY_DIALECT_H
 #define BVHBENCH_GEOMETRY_DIALECT_H
 
@@ -14,6 +15,7 @@
 #define SHARED_BEGIN
 #define SHARED_END
 #define SHARED_FN static inline __attribute__((unused))
+#define SHARED_FN_INLINED static inline __attribute__((unused, always_inline))
 
 // A fused multiply-add rounds once where the host rounds twice. Boxes and codes are compared bit for bit.
 #pragma OPENCL FP_CONTRACT OFF
@@ -35,6 +37,7 @@
 #define SHARED_BEGIN namespace bvhbench {
 #define SHARED_END }
 #define SHARED_FN constexpr
+#define SHARED_FN_INLINED constexpr
 
 SHARED_BEGIN
 using uint = std::uint32_t;

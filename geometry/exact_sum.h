@@ -2,16 +2,16 @@
 //
 // The sign of a sum of doubles, exactly, by passes that leave the sum what it is and make it easier to see.
 //
-// One pass adds the terms in a row. Of each addition it keeps the rounding error, which is a double itself [Knuth],
-// in place of the term, and behind all errors the sum as rounded:
+// One pass adds the terms in a row. Of each addition it keeps the rounding error, which is a double itself, in place of
+// the term, and behind all errors the sum as rounded:
 //
 //     terms     t0  t1  t2  ...  tn-1
 //     errors        e1  e2  ...  en-1  s        their exact sum is that of the terms
 //
 // Where the errors together are less than s, its sign is the answer. Each pass makes the errors smaller than the last
-// did by a factor of 2n u, u = 2^-53 [Ogita, Rump, Oishi 2005, Lemma 4.2]. Terms made of floats are multiples of a
-// least number, and so are errors; below it they are all zero. For the 48 terms of orient3d that is 2^46 a pass, from
-// 2^390 down to 2^-447, and so never more than 19 passes; 2 or 3 are usual.
+// did by a factor of 2n u, u = 2^-53 [Ogita2005]. Terms made of floats are multiples of a least number, and so are
+// errors; below it they are all zero. For the 48 terms of orient3d that is 2^46 a pass, from 2^390 down to 2^-447, and
+// so never more than 19 passes; 2 or 3 are usual.
 #ifndef BVHBENCH_GEOMETRY_EXACT_SUM_H
 #define BVHBENCH_GEOMETRY_EXACT_SUM_H
 

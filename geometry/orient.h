@@ -5,10 +5,10 @@
 //     orient3d(a, b, c, d)    the sign of (a-d) . ((b-d) x (c-d)); 0: the four are in one plane
 //     orient2d(a, b, c, k)    the turn a, b, c as seen along axis k; 0: in one line, so seen
 //
-// First in doubles, which tells unless the points are all but in one plane. Differences of floats are rounded at most
-// once, no product of three can overflow, and none can underflow: the least float is 2^-149, the least product
-// 2^-447, and that of doubles 2^-1074. So the error is at most, with u = 2^-53 and X, Y, Z the largest differences
-// along each axis as computed,
+// As [Shewchuk1997] does it: first in doubles, which tells unless the points are all but in one plane. Differences of
+// floats are rounded at most once, no product of three can overflow, and none can underflow: the least float is 2^-149,
+// the least product 2^-447, and that of doubles 2^-1074. So the error is at most, with u = 2^-53 and X, Y, Z the largest
+// differences along each axis as computed,
 //
 //     a difference            u X
 //     a minor x y' - x' y     8 u X Y      two products of rounded factors, 3 u each; their difference, 2 u
@@ -16,9 +16,12 @@
 //
 // up to terms of u^2, which 48 u covers. Likewise 8 u X Y in the plane, and 9 u to cover.
 //
-// Otherwise as a sum of products of coordinates, not of differences. Two floats have an exact product in a double, and
-// its upper and lower half have one with a third float, so that the 24 products of the determinant are 48 terms. They
-// and all their sums are multiples of 2^-447 below 2^390: nothing overflows or underflows.
+// Otherwise by a sum that is exact, of which there are two. Where all coordinates along an axis are multiples of some g
+// and the differences less than 2^26 g, which holds for most of what is in doubt, all differences and minors are exact
+// doubles, and a product of three is the sum of two: 6 terms. Else as a sum of products of coordinates, not of
+// differences: two floats have an exact product in a double, and its upper and lower half have one with a third float,
+// so that the 24 products of the determinant are 48 terms. They and all their sums are multiples of 2^-447 below
+// 2^390: nothing overflows or underflows.
 #ifndef BVHBENCH_GEOMETRY_ORIENT_H
 #define BVHBENCH_GEOMETRY_ORIENT_H
 
@@ -39,39 +42,74 @@ SHARED_FN int sign_beyond(double value, double bound)
 /// What a determinant of differences may be off by, if none along an axis is larger than in `most`.
 SHARED_FN double orient3d_bound(Vector most) { return 0x1.8p-48 * most.x * most.y * most.z; }
 
-/// [p q r], term after term from `from` on, or its negative.
-SHARED_FN Terms with_determinant(Terms terms, uint from, Point p, Point q, Point r, double sign)
+/// The upper half of a double's bits: what is left has no more (Veltkamp's splitting).
+SHARED_FN double upper_half(double x)
 {
-    const double factors[6] = {(double)q.y * (double)r.z, -((double)q.z * (double)r.y),
-                               (double)q.z * (double)r.x, -((double)q.x * (double)r.z),
-                               (double)q.x * (double)r.y, -((double)q.y * (double)r.x)};
-    const double others[3] = {sign * (double)p.x, sign * (double)p.y, sign * (double)p.z};
-    for (uint k = 0u; k < 6u; ++k) {
-        const double spread = 134217729.0 * factors[k];  // 2^27 + 1 [Veltkamp]
-        const double high = spread - (spread - factors[k]);
-        terms.at[from + 2u * k] = high * others[k / 2u];
-        terms.at[from + 2u * k + 1u] = (factors[k] - high) * others[k / 2u];
-    }
-    return terms;
+    const double spread = 134217729.0 * x;  // 2^27 + 1
+    return spread - (spread - x);
 }
 
-/// orient3d without the look at it in doubles.
-SHARED_FN int orient3d_exactly(Point a, Point b, Point c, Point d)
+/// Whether x is a multiple of a g such that `most`, the largest difference between x and its like, is below 2^26 g: it
+/// must survive being added to a number 2^28 times as large. The sum is rounded to a multiple of half that number's
+/// last bit, 2^-54 of it or more, or of more than that: floats that are 2^26 times as large as their differences have
+/// none, so x is below a quarter of the number.
+SHARED_FN bool is_regular(float x, double most)
+{
+    const double large = 0x1p28 * most;
+    return ((double)x + large) - large == (double)x;
+}
+
+SHARED_FN bool is_point_regular(Point p, Vector most)
+{
+    return is_regular(p.x, most.x) && is_regular(p.y, most.y) && is_regular(p.z, most.z);
+}
+
+/// The sign of u . n, exactly, if u and what n is the cross product of are regular.
+SHARED_FN int sign_of_regular(Vector u, Vector n)
+{
+    const double x = upper_half(n.x), y = upper_half(n.y), z = upper_half(n.z);
+    const Terms terms = {
+        {u.x * x, u.y * y, u.z * z, u.x * (n.x - x), u.y * (n.y - y), u.z * (n.z - z)}};
+    return sign_of_sum(terms, 6u);
+}
+
+/// orient3d of any floats, by nothing but the sum of 48: - [b c d] + [a c d] - [a b d] + [a b c].
+SHARED_FN int orient3d_of_products(Point a, Point b, Point c, Point d)
 {
     Terms terms = {{0.0}};
-    terms = with_determinant(terms, 0u, a, b, c, 1.0);
-    terms = with_determinant(terms, 12u, b, c, d, -1.0);
-    terms = with_determinant(terms, 24u, a, c, d, 1.0);
-    terms = with_determinant(terms, 36u, a, b, d, -1.0);
+    for (uint without = 0u; without < 4u; ++without) {
+        const Point p = without == 0u ? b : a;
+        const Point q = without <= 1u ? c : b;
+        const Point r = without <= 2u ? d : c;
+        const double sign = without % 2u == 0u ? -1.0 : 1.0;
+        const double minors[6] = {(double)q.y * (double)r.z, -((double)q.z * (double)r.y),
+                                  (double)q.z * (double)r.x, -((double)q.x * (double)r.z),
+                                  (double)q.x * (double)r.y, -((double)q.y * (double)r.x)};
+        for (uint k = 0u; k < 6u; ++k) {
+            const double factor = sign * (double)coordinate(p, k / 2u);
+            const double upper = upper_half(minors[k]);
+            terms.at[12u * without + 2u * k] = upper * factor;
+            terms.at[12u * without + 2u * k + 1u] = (minors[k] - upper) * factor;
+        }
+    }
     return sign_of_sum(terms, 48u);
 }
 
 SHARED_FN int orient3d(Point a, Point b, Point c, Point d)
 {
     const Vector u = difference(a, d), v = difference(b, d), w = difference(c, d);
+    const Vector normal = cross_product(v, w);
     const Vector most = larger(larger(magnitude(u), magnitude(v)), magnitude(w));
-    const int sign = sign_beyond(dot(u, cross_product(v, w)), orient3d_bound(most));
-    return sign != UNSURE ? sign : orient3d_exactly(a, b, c, d);
+    const double bound = orient3d_bound(most);
+    const int sign = sign_beyond(dot(u, normal), bound);
+    if (sign != UNSURE)
+        return sign;
+    if (bound == 0.0)  // along some axis there is no difference
+        return 0;
+    if (is_point_regular(a, most) && is_point_regular(b, most) && is_point_regular(c, most) &&
+        is_point_regular(d, most))
+        return sign_of_regular(u, normal);
+    return orient3d_of_products(a, b, c, d);
 }
 
 SHARED_FN int orient2d(Point a, Point b, Point c, uint axis)
@@ -84,6 +122,8 @@ SHARED_FN int orient2d(Point a, Point b, Point c, uint axis)
     const int sign = sign_beyond(ux * vy - uy * vx, bound);
     if (sign != UNSURE)
         return sign;
+    if (bound == 0.0)
+        return 0;
     const Terms terms = {{ax * by, -(ay * bx), bx * cy, -(by * cx), cx * ay, -(cy * ax)}};
     return sign_of_sum(terms, 6u);
 }

@@ -13,37 +13,37 @@ typedef struct {
     double x, y, z;
 } Vector;
 
-SHARED_FN Vector difference(Point a, Point b)
+SHARED_FN_INLINED Vector difference(Point a, Point b)
 {
     const Vector v = {(double)a.x - (double)b.x, (double)a.y - (double)b.y,
                       (double)a.z - (double)b.z};
     return v;
 }
 
-SHARED_FN Vector cross_product(Vector a, Vector b)
+SHARED_FN_INLINED Vector cross_product(Vector a, Vector b)
 {
     const Vector v = {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
     return v;
 }
 
-SHARED_FN double dot(Vector a, Vector b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+SHARED_FN_INLINED double dot(Vector a, Vector b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 /// Of each component its size.
-SHARED_FN Vector magnitude(Vector a)
+SHARED_FN_INLINED Vector magnitude(Vector a)
 {
     const Vector v = {fabs(a.x), fabs(a.y), fabs(a.z)};
     return v;
 }
 
-/// Of each component the larger.
-SHARED_FN Vector larger(Vector a, Vector b)
+/// Of each component the larger. None may be NaN.
+SHARED_FN_INLINED Vector larger(Vector a, Vector b)
 {
-    const Vector v = {fmax(a.x, b.x), fmax(a.y, b.y), fmax(a.z, b.z)};
+    const Vector v = {a.x < b.x ? b.x : a.x, a.y < b.y ? b.y : a.y, a.z < b.z ? b.z : a.z};
     return v;
 }
 
 /// Coordinate 0, 1 or 2; 3 and on begin again at 0.
-SHARED_FN float coordinate(Point p, uint axis)
+SHARED_FN_INLINED float coordinate(Point p, uint axis)
 {
     axis = axis % 3u;
     return axis == 0u ? p.x : (axis == 1u ? p.y : p.z);

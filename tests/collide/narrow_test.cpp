@@ -104,13 +104,13 @@ TEST_P(Narrow, FindsTheSameEveryTime)
         EXPECT_EQ(contacts_found(narrow, candidates), first);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Forms, Narrow,
-    testing::Combine(testing::Values(KernelForm::groups, KernelForm::chunks), testing::Bool()),
-    [](const auto& tested) {
-        return form_name(std::get<0>(tested.param)) +
-               (std::get<1>(tested.param) ? "_without_doubles" : "");
-    });
+INSTANTIATE_TEST_SUITE_P(Forms, Narrow,
+                         testing::Combine(testing::Values(KernelForm::groups, KernelForm::chunks),
+                                          testing::Bool()),
+                         [](const auto& tested) {
+                             return form_name(std::get<0>(tested.param)) +
+                                    (std::get<1>(tested.param) ? "_without_doubles" : "");
+                         });
 
 TEST(NarrowStages, EachDecideWhatTheyAreFor)
 {
@@ -120,14 +120,10 @@ TEST(NarrowStages, EachDecideWhatTheyAreFor)
         bool operator==(const Expected&) const = default;
     };
     const std::map<std::string, Expected> expected = {
-        {"generic", {true, true, false}},
-        {"near_touching", {false, true, false}},
-        {"coplanar_lattice", {false, false, true}},
-        {"hairs_breadth", {false, true, true}},
-        {"lattice_8", {true, true, true}},
-        {"same_place", {false, false, true}},
-        {"any_size", {true, true, true}},
-        {"scaled_1e-30", {false, true, false}},
+        {"generic", {true, true, false}},           {"near_touching", {false, true, false}},
+        {"coplanar_lattice", {false, false, true}}, {"hairs_breadth", {false, false, true}},
+        {"lattice_8", {true, true, true}},          {"same_place", {false, false, true}},
+        {"any_size", {true, true, true}},           {"scaled_1e-30", {false, true, false}},
         {"scaled_1e30", {false, true, false}},
     };
     std::size_t compared = 0;
@@ -140,15 +136,15 @@ TEST(NarrowStages, EachDecideWhatTheyAreFor)
             const std::size_t found =
                 contacts_found(narrow, Candidates(mesh, neighbours(mesh))).size();
             EXPECT_GT(found, 0u);
-            if (of.name != "same_place" && of.name != "twice")
+            if (of.name != "same_place" && of.name != "twice") {
                 EXPECT_LT(found, pairs_a_class);
+            }
             const NarrowCounts counts = narrow.counts(bench().queue);
-            const Expected some = {counts.by_floats > 0, counts.by_doubles > 0,
-                                   counts.exactly > 0};
+            const Expected some = {counts.by_floats > 0, counts.by_doubles > 0, counts.exactly > 0};
             if (const auto wanted = expected.find(of.name); wanted != expected.end()) {
                 EXPECT_EQ(some, wanted->second)
-                    << counts.by_floats << " by floats, " << counts.by_doubles
-                    << " by doubles, " << counts.exactly << " exactly";
+                    << counts.by_floats << " by floats, " << counts.by_doubles << " by doubles, "
+                    << counts.exactly << " exactly";
                 ++compared;
             }
         }

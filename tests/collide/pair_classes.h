@@ -142,13 +142,18 @@ inline SixPoints degenerate_six(Dice& dice)
     SixPoints six = lattice_six(dice, 3);
     for (const std::size_t at : {0u, 3u})
         switch (dice.below(4)) {
-            case 0: six[at + 1] = six[at]; break;
-            case 1: six[at + 1] = six[at + 2] = six[at]; break;
+            case 0:
+                six[at + 1] = six[at];
+                break;
+            case 1:
+                six[at + 1] = six[at + 2] = six[at];
+                break;
             case 2:  // three in a line
                 six[at + 2] = {2 * six[at + 1].x - six[at].x, 2 * six[at + 1].y - six[at].y,
                                2 * six[at + 1].z - six[at].z};
                 break;
-            default: break;
+            default:
+                break;
         }
     return six;
 }
@@ -212,8 +217,7 @@ inline std::vector<PairClass> pair_classes()
         {"any_size", any_size_six},
         {"translated_1e5", [](Dice& dice) { return moved(near_touching_six(dice), 1e5f); }},
         {"denormals", [](Dice& dice) { return scaled(lattice_six(dice, 9), 1.4e-45f); }},
-        {"small_and_denormal",
-         [](Dice& dice) { return scaled(near_touching_six(dice), 1e-37f); }},
+        {"small_and_denormal", [](Dice& dice) { return scaled(near_touching_six(dice), 1e-37f); }},
         {"largest", [](Dice& dice) { return scaled(near_touching_six(dice), 3.4e38f); }},
         {"flat_and_small",
          [](Dice& dice) {
@@ -223,9 +227,21 @@ inline std::vector<PairClass> pair_classes()
              return six;
          }},
     };
-    for (const float scale : {1e-30f, 1e-16f, 1e-4f, 1e10f, 1e13f, 1e30f})
-        classes.push_back({"scaled_1e" + std::to_string(std::lround(std::log10(scale))),
-                           [=](Dice& dice) { return scaled(near_touching_six(dice), scale); }});
+    // Among them those whose products of three floats are where floats end, at either end.
+    for (const auto& [name, scale] : {std::pair{"1e-30", 1e-30f},
+                                      {"1e-16", 1e-16f},
+                                      {"1e-15", 1e-15f},
+                                      {"1e-14", 1e-14f},
+                                      {"1e-13", 1e-13f},
+                                      {"1e-4", 1e-4f},
+                                      {"1e10", 1e10f},
+                                      {"4e12", 4e12f},
+                                      {"7e12", 7e12f},
+                                      {"1e13", 1e13f},
+                                      {"1e30", 1e30f}})
+        classes.push_back({std::string("scaled_") + name, [scale = scale](Dice& dice) {
+                               return scaled(near_touching_six(dice), scale);
+                           }});
     return classes;
 }
 
@@ -237,8 +253,8 @@ inline Mesh apart_pairs(const PairClass& of, uint count)
     for (uint k = 0; k < count; ++k) {
         const SixPoints six = of.six(dice);
         mesh.points.insert(mesh.points.end(), six.begin(), six.end());
-        mesh.faces.insert(mesh.faces.end(), {{6 * k, 6 * k + 1, 6 * k + 2},
-                                             {6 * k + 3, 6 * k + 4, 6 * k + 5}});
+        mesh.faces.insert(mesh.faces.end(),
+                          {{6 * k, 6 * k + 1, 6 * k + 2}, {6 * k + 3, 6 * k + 4, 6 * k + 5}});
     }
     return mesh;
 }
