@@ -26,9 +26,6 @@ public:
     std::vector<Pair> pairs(const Queue& queue) const final;
     DevicePairs device_pairs(Queue&) final { return {pairs_, counters_}; }
 
-    /// Pairs where they are, for what goes on with them on the device; counted as collide/counters.h says.
-    const Buffer<Pair>& device_pairs() const { return pairs_; }
-    const Buffer<uint>& device_counters() const { return counters_; }
 
 protected:
     /// Take what else is needed for trees like this one: kernels, and buffers. Run twice, first measuring.

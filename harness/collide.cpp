@@ -133,7 +133,7 @@ FrameRange checked(const CollideTask& task, const Scene& scene)
 
 SceneFacts facts_of(const CollideTask& task, const Scene& scene)
 {
-    return {.name = task.scene,
+    return {.name = scene.stand_in_for.empty() ? task.scene : scene.name,
             .triangles = scene.triangle_count(),
             .vertices = static_cast<std::int64_t>(scene.frames.front().size()),
             .objects = static_cast<std::int64_t>(scene.objects.size()),
@@ -234,6 +234,8 @@ void collide_frames(Session& session, const CollideTask& task, int& order,
                     if (one.pipeline == nullptr)
                         one.pipeline = std::make_unique<Pipeline>(session, one.cell.builder,
                                                                   one.cell.collider, input);
+                    if (!one.pipeline->collider().needs_tree())
+                        one.cell.builder = {.name = "none"};
                     one.pipeline->settle(input);
                     one.cell.check = judge(*one.pipeline, one.cell.collider, oracle, found);
                     one.cell.counters = one.pipeline->counters();

@@ -8,6 +8,7 @@
 #include "harness/commands.h"
 #include "harness/plot.h"
 #include "harness/report.h"
+#include "harness/report_frames.h"
 #include "harness/report_paper.h"
 #include "harness/report_quality.h"
 #include "harness/report_refit.h"
@@ -30,11 +31,19 @@ CellFilter filter_of(const std::string& text)
     }
 }
 
+/// Figs. 9 and 10 show other sides of what Table 2 measures.
+bool is_of_table2(const std::string& what)
+{
+    return what == "table2" || what == "fig9" || what == "fig10";
+}
+
 std::string paper_report(const std::string& what, const Document& document)
 {
     return what == "table1"   ? table1_report(document)
            : what == "table4" ? table4_report(document)
            : what == "fig13"  ? fig13_report(document)
+           : what == "table3" ? frames_table(document, what)
+           : is_of_table2(what) ? frames_table(document, "table2")
                               : fig8_report(document);
 }
 
@@ -61,6 +70,7 @@ int run(const RunCommand& command, const Options& options)
                        "'");
     std::cout << run_report(run.document().run)
               << cells_report(run.document(), run.document().cells.size() > most_lines)
+              << frames_table(run.document())
               << refit_report(run.document()) << quality_report(run.document())
               << "written: " << out << '\n';
     return run.has_differing_cell() ? 1 : 0;
@@ -68,7 +78,8 @@ int run(const RunCommand& command, const Options& options)
 
 int reproduce(const ReproduceCommand& command, const Options& options)
 {
-    Experiment experiment = find_experiment(command.what, command.quick);
+    Experiment experiment =
+        find_experiment(is_of_table2(command.what) ? "table2" : command.what, command.quick);
     experiment.quality = experiment.quality || command.quality;
     const std::filesystem::path folder = command.out;
     const std::filesystem::path file = folder / (command.what + ".json");
@@ -94,7 +105,8 @@ int show(const ShowCommand& command, const Options&)
     if (document.cells.size() == 1)
         std::cout << cell_report(document.cells.front(), document.run);
     else
-        std::cout << cells_report(document) << refit_report(document) << quality_report(document);
+        std::cout << cells_report(document, document.cells.size() > most_lines)
+                  << frames_table(document) << refit_report(document) << quality_report(document);
     return 0;
 }
 

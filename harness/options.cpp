@@ -158,9 +158,9 @@ void add_reproduce(CLI::App& app, ReproduceCommand& reproduce)
 {
     CLI::App* command =
         app.add_subcommand("reproduce", "Measure, print and draw what the paper shows");
-    command->add_option("WHAT", reproduce.what, "table1, table4, fig8 or fig13")
+    command->add_option("WHAT", reproduce.what, "table1 to table4, fig8, fig9, fig10 or fig13")
         ->required()
-        ->check(one_of({"table1", "table4", "fig8", "fig13"}));
+        ->check(one_of({"table1", "table2", "table3", "table4", "fig8", "fig9", "fig10", "fig13"}));
     command->add_option("--out", reproduce.out, "folder for the result file and figures")
         ->capture_default_str();
     command->add_flag("--quick", reproduce.quick, "fewer scenes and samples");

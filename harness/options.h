@@ -58,7 +58,7 @@ struct RunCommand {
     NodeCosts costs;
 };
 struct ReproduceCommand {
-    std::string what;  ///< table1, table4, fig8 or fig13
+    std::string what;  ///< table1 to table4, fig8, fig9, fig10 or fig13
     std::string out = "out";
     bool quick = false;
     bool quality = false;

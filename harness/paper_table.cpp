@@ -36,6 +36,19 @@ PaperCosts paper_table4()
     return table;
 }
 
+std::vector<PaperFrame> paper_frames(std::string_view table)
+{
+    const auto json = nlohmann::json::parse(
+        embedded_paper("results/paper/" + std::string(table) + ".json").value());
+    std::vector<PaperFrame> frames;
+    for (const auto& row : json.at("rows"))
+        frames.push_back({row.at("scene").get<std::string>(), row.at("method").get<std::string>(),
+                          row.at("frames").get<int>(), row.at("frame_ms").get<double>(),
+                          row.value("frame_stdev_ms", 0.0),
+                          row.at("memory_megabytes").get<double>()});
+    return frames;
+}
+
 PaperTable paper_table1()
 {
     const auto json = nlohmann::json::parse(embedded_paper("results/paper/table1.json").value());

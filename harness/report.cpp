@@ -84,19 +84,11 @@ std::string verdict_line(const Cell& cell)
     return text;
 }
 
-/// What was measured: a builder, and what of it if that is no build.
-std::string subject_text(const Cell& cell)
-{
-    if (cell.operation == Operation::collide)
-        return variant_text(cell.collider) + " over " + variant_text(cell.builder);
-    return variant_text(cell.builder) + (cell.operation == Operation::refit ? ", refit" : "");
-}
-
 std::vector<std::string> line_of(const Cell& cell, double copy_rate)
 {
     std::vector<std::string> line = {
         cell.scene.name + (cell.scene.stand_in_for.empty() ? "" : " *"),
-        cell.scene.triangles > 0 ? grouped(cell.scene.triangles) : "", subject_text(cell)};
+        cell.scene.triangles > 0 ? grouped(cell.scene.triangles) : "", pipeline_text(cell)};
     if (!has_times(cell)) {
         line.insert(line.end(), {verdict_text(cell), "", "", "", "", ""});
         line.push_back(!cell.reason.empty() ? cell.reason : cell.check.detail);
@@ -113,6 +105,14 @@ std::vector<std::string> line_of(const Cell& cell, double copy_rate)
 }
 
 }  // namespace
+
+std::string pipeline_text(const Cell& cell)
+{
+    if (cell.operation == Operation::collide)
+        return variant_text(cell.collider) +
+               (cell.builder.name == "none" ? "" : " over " + variant_text(cell.builder));
+    return variant_text(cell.builder) + (cell.operation == Operation::refit ? ", refit" : "");
+}
 
 std::string variant_text(const BuilderChoice& builder)
 {
@@ -209,7 +209,7 @@ std::string verdict_text(const Cell& cell)
 
 std::string cell_report(const Cell& cell, const RunFacts& run)
 {
-    std::string text = subject_text(cell) + " on " + cell.scene.name;
+    std::string text = pipeline_text(cell) + " on " + cell.scene.name;
     if (cell.scene.triangles > 0)
         text += ", " + grouped(cell.scene.triangles) + " triangles";
     if (!cell.scene.stand_in_for.empty())
@@ -251,7 +251,7 @@ std::string cells_report(const Document& document, bool only_notable)
         table.row(line_of(cell, document.run.copy_rate_bytes_per_s));
     }
     return (shown > 0 ? table.text() : "") +
-           (has_stand_in ? "* a generated stand-in of the same size: the mesh itself is not there\n"
+           (has_stand_in ? "* a stand-in: the scene itself is not there\n"
                          : "") +
            grouped(static_cast<std::int64_t>(document.cells.size())) + " cells, " +
            grouped(static_cast<std::int64_t>(agreeing)) + " agree\n";
@@ -268,7 +268,7 @@ std::string frames_report(const Document& document)
                                              : grouped(static_cast<std::int64_t>(at->second));
         };
         std::vector<std::string> row = {cell.scene.name, std::to_string(cell.scene.frame),
-                                        subject_text(cell)};
+                                        pipeline_text(cell)};
         if (has_times(cell)) {
             const Spread spread = spread_of(whole_times_ns(cell));
             row.insert(row.end(), {duration_text(spread.median), duration_text(spread.p10),

@@ -18,6 +18,9 @@ std::string variant_text(const BuilderChoice& builder);
 /// The same of a collider.
 std::string variant_text(const ColliderChoice& collider);
 
+/// What was measured: a builder, or a collider over its trees, and what of it if that is no build.
+std::string pipeline_text(const Cell& cell);
+
 /// "hierarchy" or all stages together of each sample, in nanoseconds.
 std::vector<double> stage_times_ns(const Cell& cell, std::string_view stage);
 std::vector<double> whole_times_ns(const Cell& cell);

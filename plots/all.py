@@ -13,14 +13,18 @@ import pathlib
 import sys
 from collections.abc import Iterator
 
+import fig10
 import fig13
 import fig8
+import fig9
 import figure
 import pareto_orders
 import results
 import scaling
 import style
 import table1
+import table2
+import table3
 import table4
 
 # An experiment and the figure of it. To add a figure, add its line here.
@@ -32,6 +36,12 @@ FIGURES: dict[str, figure.Draw] = {
     "quality": pareto_orders.draw,
     "orders": pareto_orders.draw,
     "scaling": scaling.draw,
+}
+
+# The same of experiments over whole frames.
+FRAME_FIGURES: dict[str, dict[str, figure.Draw]] = {
+    "table2": {"table2": table2.draw, "fig9": fig9.draw, "fig10": fig10.draw},
+    "table3": {"table3": table3.draw},
 }
 
 
@@ -60,6 +70,11 @@ def main() -> int:
                     if run.of(name):
                         for picture in style.save(draw(run), folder, style.stem(path, name)):
                             print(picture)
+                for experiment, figures in FRAME_FIGURES.items():
+                    if any(cell.experiment == experiment and cell.operation == "collide" for cell in run.cells):
+                        for name, draw in figures.items():
+                            for picture in style.save(draw(run), folder, style.stem(path, name)):
+                                print(picture)
             except results.Refused as refusal:
                 print(refusal, file=sys.stderr)
                 refused = 1

@@ -39,7 +39,10 @@ class Cell:
     outlier: dict[str, Any] | None  # which triangle of which scene was moved, and how far
     builder: str
     options: tuple[tuple[str, str], ...]
-    operation: str  # what was timed: build or refit
+    operation: str  # what was timed: build, refit or collide
+    frame: int  # of the scene, from 0
+    collider: str | None  # what queried the tree; its builder is "none" if it wants no tree
+    collider_options: tuple[tuple[str, str], ...]
     checked: bool
     counters: dict[str, float]
     samples: list[dict[str, dict[str, Any]]]  # per sample: stage name to its numbers
@@ -50,6 +53,18 @@ class Cell:
         """Seconds per sample: first start to last end on the device's clock, else the host's clock."""
         stages = (sample[stage] for sample in self.samples if stage in sample)
         times = [entry["span_ns"] if "span_ns" in entry else entry["wall_ns"] for entry in stages]
+        return numpy.array(times, dtype=float) * 1e-9
+
+    def frame_times_s(self) -> numpy.ndarray:
+        """Seconds per sample from the first start to the last end: on the device's clock as it tells since format 1.4,
+        and host stages, which run by themselves, added."""
+        times = []
+        for sample in self.samples:
+            entries = sample.values()
+            on_device = [entry.get("start_ns", 0) + entry["span_ns"] for entry in entries if "span_ns" in entry]
+            on_host = [entry["wall_ns"] for entry in entries if "wall_ns" in entry]
+            spans = sum(entry["span_ns"] for entry in entries if "span_ns" in entry)
+            times.append((max(spans, *on_device, 0) if on_device and not on_host else spans) + sum(on_host))
         return numpy.array(times, dtype=float) * 1e-9
 
     def whole_times_s(self) -> numpy.ndarray:
@@ -95,6 +110,14 @@ class Run:
 
     def of(self, experiment: str) -> list[Cell]:
         return [cell for cell in self.builds if cell.experiment == experiment]
+
+    def frames(self, experiment: str) -> list[Cell]:
+        """Whole frames, from vertices to pairs or contacts. Raises Refused if there are none."""
+        cells = [cell for cell in self.cells
+                 if cell.experiment == experiment and cell.operation == "collide" and cell.samples]
+        if not cells:
+            raise Refused(f"{self.path}: no measured frame of {experiment}")
+        return cells
 
     def timed(self, experiment: str, stage: str) -> list[Cell]:
         """Those that a figure of this stage can show. Raises Refused if there are none."""
@@ -163,10 +186,13 @@ def cell_of(path: pathlib.Path, cell: dict[str, Any]) -> Cell:
     if cell["check"]["verdict"] == "differs":
         detail = cell["check"].get("detail", "no detail given")
         raise Refused(f"{path}: {builder['name']} gave a wrong answer on {scene['name']}: {detail}")
-    options = tuple(sorted((key, str(value)) for key, value in builder.get("options", {}).items()))
+    collider = cell.get("collider", {})
+    options, collider_options = (tuple(sorted((key, str(value)) for key, value in choice.get("options", {}).items()))
+                                 for choice in (builder, collider))
     samples = [{entry["stage"]: entry for entry in sample["stages"]} for sample in cell["samples"]]
     return Cell(cell["experiment"], scene["name"], scene.get("triangles", 0), scene.get("stand_in_for"), scene.get("outlier"),
-                builder["name"], options, cell.get("operation", "build"), cell["check"]["verdict"] == "agrees", cell["counters"],
+                builder["name"], options, cell.get("operation", "build"), scene.get("frame", 0), collider.get("name"), collider_options,
+                cell["check"]["verdict"] == "agrees", cell["counters"],
                 samples, cell.get("left_out", {}), cell.get("leaves_by_depth", []))
 
 

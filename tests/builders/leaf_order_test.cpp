@@ -21,8 +21,8 @@ protected:
     void expect_equal_to_host(const Mesh& mesh)
     {
         LeafOrder& device_order = *order_;
-        reserve(
-            [&](Arena& arena) { device_order.plan(arena, mesh.faces.size(), Use::tree, true); });
+        const auto size = static_cast<uint>(mesh.faces.size());
+        reserve([&](Arena& arena) { device_order.plan(arena, {&size, 1}, Use::tree, true); });
         const Input input = upload(bench().device, bench().queue, mesh.points, mesh.faces);
         device_order.enqueue(input, bench().queue);
         stages_ = bench().queue.finish();

@@ -6,7 +6,6 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "collide/device_collider.h"
 #include "collide/exact_reference.h"
 #include "collide/narrow.h"
 #include "geometry/hash.h"
@@ -33,14 +32,14 @@ Chain run_chain(const Standing& standing, KernelForm form, bool keep_adjacent)
     Queue& queue = session().queue();
     const auto collider = find_collider("group").make(
         session().programs(), {.keep_adjacent = keep_adjacent, .form = form});
-    const auto& broad = dynamic_cast<const DeviceCollider&>(*collider);
     NarrowPhase narrow(session().programs(), {.keep_adjacent = keep_adjacent, .form = form});
-    collider->reserve(*standing.tree);
+    collider->reserve(standing.tree, standing.input);
     narrow.reserve(standing.mesh.faces.size());
     bool broad_complete = false, narrow_complete = false;
     while (!broad_complete || !narrow_complete) {
-        collider->query(*standing.tree, standing.input, queue);
-        narrow.query(standing.input, broad.device_pairs(), broad.device_counters(), queue);
+        collider->query(standing.tree, standing.input, queue);
+        const DevicePairs found = collider->device_pairs(queue);
+        narrow.query(standing.input, found.pairs, found.counters, queue);
         narrow_complete = narrow.complete(queue);
         broad_complete = collider->complete(queue);
     }

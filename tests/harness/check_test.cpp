@@ -28,7 +28,7 @@ HostTree tree_over(const std::vector<Point>& at)
 Check verdict_on(const HostTree& tree)
 {
     const HostTree built = tree_over(points);
-    const Input input{moved, faces, {}, {}};
+    const Input input{moved, faces, {}, {}, {}, {}};
     return check_refit(tree, built, input, {agrees, "radix-reference", {}, tree_hash(built)});
 }
 
@@ -58,7 +58,7 @@ TEST(CheckRefit, FindsAnotherTreeEvenIfItIsAValidOne)
 
 TEST(CheckRefit, DoesNotMakeUpForATreeThatWasWrongBefore)
 {
-    const Input input{moved, faces, {}, {}};
+    const Input input{moved, faces, {}, {}, {}, {}};
     const Check check = check_refit(tree_over(moved), tree_over(points), input,
                                     {differs, "radix-reference", "node 3 is lost", 7u});
     EXPECT_EQ(check.verdict, differs);

@@ -27,9 +27,74 @@ TEST(Experiment, OfEveryNameInThisProgramIsValid)
             const Experiment experiment = find_experiment(std::string(name), quick);
             EXPECT_EQ(experiment.name, name);
             EXPECT_FALSE(experiment.question.empty());
-            EXPECT_FALSE(experiment.scenes.empty());
-            EXPECT_FALSE(experiment.builders.empty());
+            EXPECT_EQ(experiment.scenes.empty(), !experiment.collisions.empty());
+            EXPECT_EQ(experiment.builders.empty(), !experiment.collisions.empty());
+            for (const CollideTask& task : experiment.collisions) {
+                EXPECT_EQ(task.experiment, name);
+                EXPECT_FALSE(task.pipelines.empty());
+            }
         }
+}
+
+TEST(Experiment, OfWholeFramesReadsEveryKey)
+{
+    const std::string_view text = R"({
+        "experiment": "mine", "scenes": ["bunny", {"scene": "torus:9", "frames": "2:5", "between": 3,
+                                                   "objects": "components", "pairs_of": "between"}],
+        "pipelines": [{"collider": "brute", "narrow": "exact"},
+                      {"builder": {"name": "perfect", "leaves": "sorted"}, "adjacent": "drop", "pairs_of": "within",
+                       "collider": {"name": "bvtt", "jump": 2, "start_level": 3, "group_size": 64}}],
+        "samples": 7, "warm_up": 1, "quick": {"samples": 2, "scenes": ["torus:5"]}})";
+    const std::vector<CollideTask> tasks = parse_experiment(text, "x.json", false).collisions;
+    ASSERT_EQ(tasks.size(), 2u);
+    EXPECT_EQ(tasks[0].scene, "bunny");
+    EXPECT_EQ(tasks[0].frames, (FrameRange{0, 1}));
+    EXPECT_EQ(tasks[0].samples, 7);
+    EXPECT_EQ(tasks[0].warm_up, 1);
+    EXPECT_TRUE(tasks[0].may_stand_in);
+    EXPECT_EQ(tasks[0].pipelines[0].builder.name, "none");
+    EXPECT_EQ(tasks[0].pipelines[0].collider, (ColliderChoice{.name = "brute", .narrow = "exact"}));
+    EXPECT_EQ(tasks[0].pipelines[1].builder,
+              (BuilderChoice{.name = "perfect", .sorted_leaves = true}));
+    EXPECT_EQ(tasks[0].pipelines[1].collider, (ColliderChoice{.name = "bvtt",
+                                                              .among = Among::within_objects,
+                                                              .keep_adjacent = false,
+                                                              .jump = 2,
+                                                              .start_level = 3,
+                                                              .group_size = 64}));
+    EXPECT_EQ(tasks[1].frames, (FrameRange{2, 5}));
+    EXPECT_EQ(tasks[1].between, 3u);
+    EXPECT_EQ(tasks[1].objects, ObjectsBy::components);
+    EXPECT_EQ(tasks[1].pipelines[1].collider.among, Among::between_objects);
+
+    const std::vector<CollideTask> quick = parse_experiment(text, "x.json", true).collisions;
+    ASSERT_EQ(quick.size(), 1u);
+    EXPECT_EQ(quick[0].scene, "torus:5");
+    EXPECT_EQ(quick[0].samples, 2);
+    EXPECT_EQ(quick[0].warm_up, 1);
+}
+
+TEST(Experiment, OfWholeFramesIsRefusedForWhatItDoesNotKnow)
+{
+    const auto of = [](const std::string& rest) {
+        return refusal(R"({"experiment": "x", "scenes": ["s"], )" + rest + "}");
+    };
+    EXPECT_NE(of(R"("pipelines": [])").find("'pipelines' must be a list"), std::string::npos);
+    EXPECT_NE(of(R"("pipelines": [{"collider": "leap"}])").find("no collider is called 'leap'"),
+              std::string::npos);
+    EXPECT_NE(of(R"("pipelines": [{"collider": "leaf", "narrow": "guess"}])").find("narrow"),
+              std::string::npos);
+    EXPECT_NE(of(R"("pipelines": [{"collider": "leaf", "speed": 3}])").find("'speed' is no key"),
+              std::string::npos);
+}
+
+TEST(FrameRanges, AreOneFrameOrFromOneToBeforeAnother)
+{
+    EXPECT_EQ(frame_range("3"), (FrameRange{3, 4}));
+    EXPECT_EQ(frame_range("3:9"), (FrameRange{3, 9}));
+    EXPECT_EQ(frame_range("3:"), (FrameRange{3, 0}));
+    for (const char* text : {"", ":", "a", "3:3", "4:3", "-1", "1:2:3"})
+        EXPECT_THROW(frame_range(text), BadUsage) << text;
 }
 
 TEST(Experiment, ReadsEveryKey)

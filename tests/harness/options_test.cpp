@@ -89,7 +89,7 @@ TEST(Options, OfCollideAreAllUnderstood)
                                                 .jump = 3,
                                                 .start_level = 4,
                                                 .group_size = 64}));
-    EXPECT_EQ(collide.scene, "soup:5");
+    EXPECT_EQ(collide.scenes, std::vector<std::string>{"soup:5"});
     EXPECT_EQ(collide.samples, 3);
     EXPECT_EQ(collide.json, "a.json");
     EXPECT_EQ(collide.pairs, "p.bin");

@@ -82,7 +82,7 @@ TEST(Record, ReadsBackWhatItWrote)
     Cell host = fake_cell("oibvh-reference");
     host.builder.sorted_leaves = true;
     host.builder.order = "morton63";
-    host.samples = {{3, {{"hierarchy", 0, 0, 1234, 0, 0}}}};
+    host.samples = {{3, {{"hierarchy", 0, 0, 0, 1234, 0, 0}}}};
     host.check = {Check::Verdict::differs, "oibvh-reference", "something", 0x12u};
     host.scene.outlier = {"bunny", 3, 2.5};
     host.scene.bend_of = "bunny";
@@ -93,8 +93,8 @@ TEST(Record, ReadsBackWhatItWrote)
     run.costs = {.inner = 2, .triangle = 0.5};
     Cell query = fake_cell();
     query.operation = Operation::collide;
-    query.collider = {"leaf", false, 3, 2, 64};
-    query.check = {Check::Verdict::agrees, "brute", "", {}, 0x34u};
+    query.collider = {"leaf", Among::between_objects, false, "exact", 3, 2, 64};
+    query.check = {Check::Verdict::agrees, "brute", "", {}, 0x34u, 0x56u};
     const std::string text = text_of(run, {fake_cell(), failed, host, query});
 
     const Document document = read_document(text, "x");
@@ -108,6 +108,7 @@ TEST(Record, ReadsBackWhatItWrote)
     EXPECT_EQ(document.cells[3].operation, Operation::collide);
     EXPECT_EQ(document.cells[3].collider, query.collider);
     EXPECT_EQ(document.cells[3].check.pairs_hash, 0x34u);
+    EXPECT_EQ(document.cells[3].check.contacts_hash, 0x56u);
     EXPECT_EQ(document.cells[2].samples[0].stages[0].elapsed_ns(), 1234);
 }
 
