@@ -83,6 +83,8 @@ void DeviceCollider::take_memory()
 {
     Arena measuring = Arena::measuring(device());
     take_all(measuring);
+    if (arena_)
+        set_aside(cl::CommandQueue(device().context, device().cl));
     arena_.reset();  // the old memory goes before the new comes
     arena_ = Arena::reserved(device(), measuring.used());
     take_all(*arena_);

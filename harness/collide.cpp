@@ -234,6 +234,7 @@ void collide_frames(Session& session, const CollideTask& task, int& order,
                     if (one.pipeline == nullptr)
                         one.pipeline = std::make_unique<Pipeline>(session, one.cell.builder,
                                                                   one.cell.collider, input);
+                    one.pipeline->begin_frame();
                     one.pipeline->settle(input);
                     one.cell.check = judge(*one.pipeline, one.cell.collider, oracle, found);
                     one.cell.counters = one.pipeline->counters();
