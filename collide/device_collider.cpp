@@ -81,10 +81,10 @@ void DeviceCollider::take_all(Arena& arena)
 
 void DeviceCollider::take_memory()
 {
-    Arena measuring = Arena::measuring(device());
-    take_all(measuring);
     if (arena_)
         set_aside(cl::CommandQueue(device().context, device().cl));
+    Arena measuring = Arena::measuring(device());
+    take_all(measuring);
     arena_.reset();  // the old memory goes before the new comes
     arena_ = Arena::reserved(device(), measuring.used());
     take_all(*arena_);

@@ -18,6 +18,7 @@ kernel void list_parents(FOREST_PARAMETERS, global uint2* parents)
         parents[tree_number(TREE, tree_left(TREE, parent))].x = parent;
         parents[tree_number(TREE, tree_right(TREE, parent))].x = parent;
     }
+    (void)objects;
 }
 
 /// Objects' trees are parts of one; nothing climbs out of them.
@@ -40,4 +41,5 @@ kernel void list_depths(FOREST_PARAMETERS, global uint2* parents)
             ++depth;
         parents[k].y = depth;
     }
+    (void)objects;
 }
