@@ -47,7 +47,11 @@ struct QueryCounts {
     std::optional<std::uint64_t>
         bvtt_peak;  ///< most entries in a queue of node pairs, if it has any
     std::optional<std::uint64_t> tasks;  ///< held against other objects' trees, if it has several
+    std::vector<std::pair<std::string_view, std::uint64_t>> more = {};  ///< its own, by counters' names
 };
+
+/// How a frame's tree comes from that of the frame before: all of it anew, or new boxes for what stands.
+enum class TreeUpdate { rebuild, refit };
 
 /// Pairs where a query left them, and their number at PAIRS_COUNT of the counters (collide/counters.h).
 struct DevicePairs {
@@ -70,6 +74,14 @@ public:
     /// Whether it queries a builder's tree. One that does not is handed none, and keeps up with the input itself: all
     /// that takes is part of its query.
     virtual bool needs_tree() const { return true; }
+
+    /// Whether it goes on from frame to frame, as `next_frame` says, and so wants a tree that nobody else builds.
+    virtual bool keeps_tree() const { return false; }
+
+    /// Queries from here on are of the frame after the one that was queried last, completely; without such a query, of
+    /// a first frame. What its tree must be: rebuilt or refitted, before each of them or once for all. They begin where
+    /// that frame left off, however often they are repeated. If it is never called, all are of a first frame.
+    virtual TreeUpdate next_frame() { return TreeUpdate::rebuild; }
 
     /// Whether what it finds are the pairs that intersect, instead of those whose boxes overlap.
     virtual bool finds_contacts() const { return false; }

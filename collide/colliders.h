@@ -13,6 +13,10 @@ std::unique_ptr<Collider> make_leaf(Programs& programs, const ColliderOptions& o
 /// The paper's traversal, Section 5: all pairs of nodes of a level before the next, in queues between launches.
 std::unique_ptr<Collider> make_bvtt(Programs& programs, const ColliderOptions& options);
 
+/// The cut through the tree of tests at which the last frame stopped, moved to where this one does: the tree's topology
+/// stays, its boxes are refitted.
+std::unique_ptr<Collider> make_front(Programs& programs, const ColliderOptions& options);
+
 /// Neighbouring leaves as one query: their common box goes down the tree, and what it meets is tested against each.
 std::unique_ptr<Collider> make_group(Programs& programs, const ColliderOptions& options);
 

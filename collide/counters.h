@@ -9,4 +9,9 @@
 #define TASKS_COUNT 4u      // tasks between objects, and of bvtt the pairs of roots it starts with
 #define QUEUES_COUNT 6u     // bvtt: entries of each step's queue
 
+// Of front, from QUEUES_COUNT on:
+#define FRONT_COUNT 6u         // entries of the front that a frame leaves
+#define PRUNES_COUNT 8u        // entries that climbed to an ancestor
+#define FRONT_QUEUES_COUNT 8u  // from 2 behind it on: entries of each step's queue but the first's, the front itself
+
 #endif

@@ -81,6 +81,8 @@ void DeviceCollider::take_all(Arena& arena)
 
 void DeviceCollider::take_memory()
 {
+    if (arena_)
+        set_aside(cl::CommandQueue(device().context, device().cl));
     Arena measuring = Arena::measuring(device());
     take_all(measuring);
     arena_.reset();  // the old memory goes before the new comes

@@ -42,6 +42,9 @@ protected:
     virtual uint queue_count(const DeviceTree&) const { return 0; }
     virtual bool make_room(std::uint64_t tasks, const std::vector<std::uint64_t>& queue_sizes) = 0;
 
+    /// Copy what must outlive the memory that goes when there is to be more. Waits.
+    virtual void set_aside(const cl::CommandQueue&) {}
+
     /// Write down what queries expect and leave as it was, whenever memory was taken. Waits.
     virtual void prepare(const DeviceTree&, const cl::CommandQueue&) {}
 

@@ -236,6 +236,7 @@ void collide_frames(Session& session, const CollideTask& task, int& order,
                                                                   one.cell.collider, input);
                     if (!one.pipeline->collider().needs_tree())
                         one.cell.builder = {.name = "none"};
+                    one.pipeline->begin_frame();
                     one.pipeline->settle(input);
                     one.cell.check = judge(*one.pipeline, one.cell.collider, oracle, found);
                     one.cell.counters = one.pipeline->counters();

@@ -14,6 +14,8 @@ constexpr ColliderEntry catalog[] = {
      make_bvtt},
     {"group", "neighbouring leaves as one query with their common box, then leaf by leaf",
      make_group},
+    {"front", "where the frame before stopped, moved to where this one does, over refitted boxes",
+     make_front},
     {"brute", "sweep and prune on one core of the host, without the tree: the oracle", make_brute},
 };
 

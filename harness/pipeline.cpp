@@ -7,11 +7,14 @@ namespace bvhbench {
 
 Pipeline::Pipeline(Session& session, const BuilderChoice& builder, const ColliderChoice& collider,
                    const Input& input)
-    : session_(session), collider_(make_collider(collider, session.programs()))
+    : session_(session), choice_(builder), collider_(make_collider(collider, session.programs()))
 {
     const Tree* tree = nullptr;
     if (collider_->needs_tree()) {
-        builder_ = &session.builder(builder, Operation::collide);
+        if (collider_->keeps_tree())
+            own_builder_ = make_builder(choice_, session.programs());
+        builder_ = own_builder_ ? own_builder_.get()
+                                : &session.builder(builder, Operation::collide);
         builder_->reserve_objects(object_sizes(input));
         session.build_once(*builder_, input, Start::from_triangles, &tree);
     }
@@ -25,7 +28,10 @@ Pipeline::Pipeline(Session& session, const BuilderChoice& builder, const Collide
 void Pipeline::enqueue(const Input& input)
 {
     Queue& queue = session_.queue();
-    const Tree* tree = builder_ != nullptr ? &builder_->build(input, queue) : nullptr;
+    const Tree* tree = nullptr;
+    if (builder_ != nullptr)
+        tree = update_ == TreeUpdate::refit ? &builder_->refit(input, queue)
+                                            : &builder_->build(input, queue);
     collider_->query(tree, input, queue);
     if (!narrow_)
         return;
@@ -78,6 +84,8 @@ std::map<std::string, double> Pipeline::counters() const
         put("bvtt_peak_count", *counts.bvtt_peak);
     if (counts.tasks)
         put("tasks_count", *counts.tasks);
+    for (const auto& [name, value] : counts.more)
+        put(std::string(name).c_str(), value);
     std::size_t memory = collider_->reserved().total();
     put("query_bytes", memory);
     if (builder_ != nullptr) {

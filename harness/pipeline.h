@@ -20,6 +20,9 @@ public:
     Pipeline(Session& session, const BuilderChoice& builder, const ColliderChoice& collider,
              const Input& input);
 
+    /// Frames from here on are of the points after those settled last, for colliders that go on from there.
+    void begin_frame() { update_ = collider_->next_frame(); }
+
     /// One whole frame, again and again until nothing lacked room. Waits.
     void settle(const Input& input);
 
@@ -41,7 +44,10 @@ private:
     bool complete();
 
     Session& session_;
-    Builder* builder_ = nullptr;  ///< null if the collider wants no tree
+    BuilderChoice choice_;  ///< a builder may keep looking at its words
+    std::unique_ptr<Builder> own_builder_;  ///< whose tree stands from frame to frame
+    Builder* builder_ = nullptr;            ///< null if the collider wants no tree
+    TreeUpdate update_ = TreeUpdate::rebuild;
     std::unique_ptr<Collider> collider_;
     std::optional<NarrowPhase> narrow_;
 };

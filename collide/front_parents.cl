@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// check: -include baselines/radix/access.clh -DSORTED_LEAVES=0
+//
+// For trees that know only their children: each node's parent and how deep it lies below its object's root, by its
+// number. Three launches, after each build; a refit leaves them right. Compiled behind an access header.
+#include "builders/stages/chunk.clh"
+
+kernel void list_parents(FOREST_PARAMETERS, global uint2* parents)
+{
+    PICK_WHOLE_TREE
+    const Chunk chunk = own_chunk(leaves);
+    for (uint k = chunk.first; k < chunk.end; ++k) {
+        if (k + 1u == leaves) {  // as many inner nodes as leaves, but for one: the root
+            parents[tree_number(TREE, tree_root(TREE))] = (uint2)(TREE_NONE, 0u);
+            continue;
+        }
+        const uint parent = tree_inner(TREE, k);
+        parents[tree_number(TREE, tree_left(TREE, parent))].x = parent;
+        parents[tree_number(TREE, tree_right(TREE, parent))].x = parent;
+    }
+    (void)objects;
+}
+
+/// Objects' trees are parts of one; nothing climbs out of them.
+kernel void cut_off_roots(FOREST_PARAMETERS, global uint2* parents, const uint object_count)
+{
+    const uint object = (uint)get_global_id(0);
+    if (object >= object_count)
+        return;
+    PICK_TREE(object)
+    parents[tree_number(TREE, tree_root(TREE))].x = TREE_NONE;
+}
+
+kernel void list_depths(FOREST_PARAMETERS, global uint2* parents)
+{
+    PICK_WHOLE_TREE
+    const Chunk chunk = own_chunk(2u * leaves - 1u);
+    for (uint k = chunk.first; k < chunk.end; ++k) {
+        uint depth = 0u;
+        for (uint node = parents[k].x; node != TREE_NONE; node = parents[tree_number(TREE, node)].x)
+            ++depth;
+        parents[k].y = depth;
+    }
+    (void)objects;
+}

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: MIT
+//
+// Front tracking over frames that move a little, jump, part and come back: every frame has the oracle's pairs, each
+// once, whatever became of the front.
+#include <cmath>
+#include <map>
+
+#include "collide/relation.h"
+#include "harness/pipeline.h"
+#include "tests/collide/collider_testing.h"
+
+namespace bvhbench {
+namespace {
+
+/// Three objects in each other's way, one of them a single triangle.
+struct Moving {
+    Mesh mesh;
+    std::vector<FaceRange> objects;
+
+    explicit Moving(const std::vector<Mesh>& parts)
+    {
+        for (const Mesh& part : parts) {
+            const auto base = static_cast<uint>(mesh.points.size());
+            objects.push_back({static_cast<uint>(mesh.faces.size()),
+                               static_cast<uint>(part.faces.size())});
+            mesh.points.insert(mesh.points.end(), part.points.begin(), part.points.end());
+            for (const Face& face : part.faces)
+                mesh.faces.push_back({face.a + base, face.b + base, face.c + base});
+        }
+    }
+
+    /// Every vertex on a way of its own, `by` long at most; vertices from `first` on besides by (x, 0, 0).
+    std::vector<Point> moved(float by, int frame, std::size_t first = 0, float x = 0) const
+    {
+        std::vector<Point> points = mesh.points;
+        for (std::size_t k = 0; k < points.size(); ++k) {
+            const auto phase = static_cast<float>(k * (static_cast<std::size_t>(frame) + 1));
+            points[k].x += by * std::sin(phase) + (k >= first ? x : 0);
+            points[k].y += by * std::sin(1.3f * phase);
+            points[k].z += by * std::cos(0.7f * phase);
+        }
+        return points;
+    }
+};
+
+Moving three_objects()
+{
+    const Scene sphere = load_scene("sphere:300", {});
+    return Moving({{sphere.frames.front(), sphere.faces}, crowded_mesh(90), crowded_mesh(1)});
+}
+
+/// A front and the tree that it keeps, from frame to frame.
+class Tracked {
+public:
+    Tracked(const Moving& moving, bool as_one, MakeBuilder make, const ColliderOptions& options,
+            const BuildOptions& build = {})
+        : options_(options)
+        , points_(moving.mesh.points)
+        , input_(upload(session().device(), session().queue(), points_, moving.mesh.faces,
+                        as_one ? std::span<const FaceRange>{} : moving.objects))
+        , builder_(make(session().programs(), build))
+        , front_(find_collider("front").make(session().programs(), options))
+    {
+        builder_->reserve_objects(object_sizes(input_));
+        const Tree* tree = nullptr;
+        session().build_once(*builder_, input_, Start::from_triangles, &tree);
+        front_->reserve(tree, input_);
+    }
+
+    /// Go on to these points and hold what is found to the oracle's pairs.
+    void expect_pairs_at(const std::vector<Point>& points)
+    {
+        points_ = points;
+        input_.points = points_;
+        input_.device_points.upload(session().queue().cl(), points_);
+        update_ = front_->next_frame();
+        refits += update_ == TreeUpdate::refit ? 1 : 0;
+        while (!query()) {}
+        expect_pairs();
+    }
+
+    /// The same frame once more, from the same front.
+    void expect_the_same_again()
+    {
+        const std::map<std::string, double> before = counted();
+        ASSERT_TRUE(query());
+        expect_pairs();
+        EXPECT_EQ(counted(), before);
+    }
+
+    std::map<std::string, double> counted() const
+    {
+        const QueryCounts counts = front_->counts(session().queue());
+        std::map<std::string, double> all = {{"pairs", static_cast<double>(counts.pairs)},
+                                             {"tests", static_cast<double>(*counts.box_tests)},
+                                             {"peak", static_cast<double>(*counts.bvtt_peak)}};
+        for (const auto& [name, value] : counts.more)
+            all[std::string(name)] = static_cast<double>(value);
+        return all;
+    }
+
+    int refits = 0;
+
+private:
+    bool query()
+    {
+        const Tree& tree = update_ == TreeUpdate::refit
+                               ? builder_->refit(input_, session().queue())
+                               : builder_->build(input_, session().queue());
+        front_->query(&tree, input_, session().queue());
+        session().queue().finish();
+        return front_->complete(session().queue());
+    }
+
+    void expect_pairs() const
+    {
+        const PairList found(front_->pairs(session().queue()));
+        EXPECT_EQ(found.surplus(), 0u);
+        EXPECT_EQ(found,
+                  among_objects(touching_pairs(points_, input_.faces, options_.keep_adjacent),
+                                input_.objects, options_.among));
+    }
+
+    ColliderOptions options_;
+    std::vector<Point> points_;
+    Input input_;
+    std::unique_ptr<Builder> builder_;
+    std::unique_ptr<Collider> front_;
+    TreeUpdate update_ = TreeUpdate::rebuild;
+};
+
+class FrontOver : public testing::TestWithParam<std::tuple<BuilderEntry, KernelForm>> {
+protected:
+    MakeBuilder make() const { return std::get<0>(GetParam()).make; }
+    KernelForm form() const { return std::get<1>(GetParam()); }
+};
+
+/// Small motions, a jump that leaves nothing of the front right, small motions again, and back to where all began.
+void run_all(Tracked& tracked, const Moving& moving)
+{
+    int frame = 0;
+    for (const float by : {0.0f, 0.01f, 0.02f, 0.02f, 1.5f, 1.5f, 1.49f, 0.02f, 0.0f}) {
+        SCOPED_TRACE("frame " + std::to_string(frame));
+        tracked.expect_pairs_at(moving.moved(by, by > 1 ? 40 : ++frame));
+    }
+}
+
+TEST_P(FrontOver, FindsTheOraclesPairsInEveryFrameOfOneObject)
+{
+    const Moving moving = three_objects();
+    for (const bool keep_adjacent : {true, false})
+        for (const std::size_t capacity : {0u, 1u})
+            for (const bool sorted_leaves : {true, false}) {
+                SCOPED_TRACE(std::to_string(keep_adjacent) + std::to_string(capacity) +
+                             std::to_string(sorted_leaves));
+                Tracked tracked(
+                    moving, true, make(),
+                    {.keep_adjacent = keep_adjacent, .form = form(), .capacity = capacity},
+                    {.sorted_leaves = sorted_leaves});
+                run_all(tracked, moving);
+                EXPECT_GT(tracked.refits, 3);
+                EXPECT_GE(tracked.counted().at("restarts_count"), 1);
+            }
+}
+
+TEST_P(FrontOver, FindsTheOraclesPairsInEveryFrameOfSeveralObjects)
+{
+    const Moving moving = three_objects();
+    for (const Among among : {Among::all, Among::between_objects, Among::within_objects})
+        for (const std::size_t capacity : {0u, 1u}) {
+            SCOPED_TRACE(std::to_string(static_cast<int>(among)) + ' ' + std::to_string(capacity));
+            Tracked tracked(moving, false, make(),
+                            {.among = among, .form = form(), .capacity = capacity});
+            run_all(tracked, moving);
+            EXPECT_GT(tracked.refits, 3);
+        }
+}
+
+TEST_P(FrontOver, NoticesObjectsThatComeBack)
+{
+    const Moving moving = three_objects();
+    const std::size_t first = load_scene("sphere:300", {}).frames.front().size();
+    Tracked tracked(moving, false, make(), {.among = Among::between_objects, .form = form()});
+    for (const float x : {0.0f, 0.2f, 0.9f, 50.0f, 50.1f, 50.1f, 0.9f, 0.2f, 0.0f}) {
+        SCOPED_TRACE(x);
+        tracked.expect_pairs_at(moving.moved(0, 0, first, x));
+        if (x == 50.1f) {  // all that is left of the first object's are its roots with the other two's
+            EXPECT_LT(tracked.counted().at("front_count"), 900);
+            EXPECT_GE(tracked.counted().at("front_count"), 3);
+        }
+    }
+}
+
+TEST_P(FrontOver, NeitherSproutsNorPrunesWhereNothingMoves)
+{
+    const Moving moving = three_objects();
+    Tracked tracked(moving, true, make(), {.form = form()});
+    tracked.expect_pairs_at(moving.moved(0.01f, 1));
+    const auto first = tracked.counted();
+    tracked.expect_the_same_again();
+    for (int repeat = 0; repeat < 2; ++repeat) {
+        tracked.expect_pairs_at(moving.moved(0.01f, 1));
+        const auto still = tracked.counted();
+        EXPECT_EQ(still.at("front_count"), first.at("front_count"));
+        EXPECT_EQ(still.at("sprouts_count"), 0);
+        EXPECT_EQ(still.at("prunes_count"), 0);
+        tracked.expect_the_same_again();
+    }
+    EXPECT_EQ(tracked.refits, 2);
+}
+
+TEST_P(FrontOver, MayBeRepeatedWhileItMoves)
+{
+    const Moving moving = three_objects();
+    Tracked tracked(moving, false, make(), {.form = form()});
+    for (int frame = 0; frame < 6; ++frame) {
+        tracked.expect_pairs_at(moving.moved(0.03f, frame));
+        for (int repeat = 0; repeat < 3; ++repeat)
+            tracked.expect_the_same_again();
+    }
+    EXPECT_GE(tracked.refits, 3);
+}
+
+TEST_P(FrontOver, ClimbsBackToTheFrontOfTheFirstFrame)
+{
+    // Over the same tree a front depends on the points alone, not on the way there: it is the highest that is right.
+    const Moving moving = three_objects();
+    Tracked tracked(moving, true, make(), {.form = form()});
+    tracked.expect_pairs_at(moving.moved(0, 0));
+    const double first = tracked.counted().at("front_count");
+    double pruned = 0;
+    for (int frame = 1; frame < 7; ++frame) {
+        tracked.expect_pairs_at(moving.moved(0.03f, frame));
+        pruned += tracked.counted().at("prunes_count");
+    }
+    tracked.expect_pairs_at(moving.moved(0, 0));
+    ASSERT_EQ(tracked.refits, 7);
+    EXPECT_EQ(tracked.counted().at("front_count"), first);
+    EXPECT_GT(pruned, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Catalog, FrontOver,
+                         testing::Combine(testing::ValuesIn(device_builders()),
+                                          testing::Values(KernelForm::groups, KernelForm::chunks)),
+                         [](const auto& tested) {
+                             return test_name(
+                                 std::string(std::get<0>(tested.param).name) +
+                                 (std::get<1>(tested.param) == KernelForm::groups ? "_groups"
+                                                                                  : "_chunks"));
+                         });
+
+TEST(FrontPipeline, KeepsItsTreeWhileOthersBuildTheirs)
+{
+    const Moving moving = three_objects();
+    std::vector<Point> points = moving.mesh.points;
+    Input input = upload(session().device(), session().queue(), points, moving.mesh.faces);
+    const BuilderChoice builder{.name = "oibvh-multi"};
+    ColliderChoice front, leaf;
+    front.name = "front";
+    leaf.name = "leaf";
+    Pipeline tracking(session(), builder, front, input), walking(session(), builder, leaf, input);
+    for (int frame = 0; frame < 6; ++frame) {
+        points = moving.moved(0.02f, frame);
+        input.device_points.upload(session().queue().cl(), points);
+        for (Pipeline* one : {&tracking, &walking}) {
+            one->begin_frame();
+            one->settle(input);
+        }
+        for (int repeat = 0; repeat < 3; ++repeat)
+            for (Pipeline* one : {&walking, &tracking}) {
+                const std::vector<StageTime> stages = one->once(input);
+                const bool refits =
+                    std::any_of(stages.begin(), stages.end(),
+                                [](const StageTime& stage) { return stage.stage == "refit"; });
+                EXPECT_EQ(refits, one == &tracking && frame > 0);
+                EXPECT_EQ(one->pairs(), touching_pairs(points, moving.mesh.faces, true));
+            }
+    }
+}
+
+TEST(Front, RefusesToJump)
+{
+    for (const ColliderOptions& options :
+         {ColliderOptions{.jump = 2}, ColliderOptions{.start_level = 1}})
+        EXPECT_THROW(find_collider("front").make(session().programs(), options), BadUsage);
+}
+
+}  // namespace
+}  // namespace bvhbench
