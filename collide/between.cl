@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DTASK_LEAVES=64u
-// check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DTASK_LEAVES=64u
+// check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DTASK_LEAVES=64u -DSKIP_APART=1 -DSKIP_OVERLAP=1
+// check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DTASK_LEAVES=64u -DSKIP_APART=0 -DSKIP_OVERLAP=0
 //
 // The tasks between objects: leaves of the object that has more, against every object whose box meets theirs. Their
-// box is that of the subtree over them, Eq. (13); in a tree with pointers it is that of their object.
+// box is that of the subtree over them, Eq. (13); in a tree with pointers it is that of their object. SKIP_OVERLAP and
+// SKIP_APART: whether that box's test, and the whole object's, leave tasks out (skips.h).
 #include "builders/stages/chunk.clh"
 #include "collide/task.clh"
 #include "collide/wide_count.clh"
@@ -44,13 +45,14 @@ kernel void find_between(FOREST_PARAMETERS, global const QueryTask* chunks, cons
     for (uint k = part.first; k < part.end; ++k) {
         QueryTask task = chunks[k / blocks];
         const ForestObject own = objects[task.own];
-        const Aabb box = task_box(FOREST, task);
+        const Aabb box = task_box(FOREST, task), whole = root_box(FOREST, task.own);
         const uint first = k % blocks * OTHERS, end = min(object_count, first + OTHERS);
         for (uint other = first; other < end; ++other) {
             if (other == task.own || !asks(own, objects[other], task.own < other))
                 continue;
             ++tests;
-            if (!overlap(box, root_box(FOREST, other)))
+            const Aabb others = root_box(FOREST, other);
+            if ((SKIP_OVERLAP && !overlap(box, others)) || (SKIP_APART && !overlap(whole, others)))
                 continue;
             const uint slot = add_wide(counters + TASKS_COUNT, 1ul);
             task.other = other;

@@ -64,7 +64,7 @@ private:
         if (tree.objects.size() > 1)  // roots that are leaves meet in a step too
             left = std::max(left, 1u);
         std::vector<uint> steps;
-        if (options_.start_level > 0 && left > 0)
+        if (options_.start_level > 0 && left > 0 && skips(skip_start_level))
             steps.push_back(std::min(options_.start_level, left));
         const uint jump = std::max(options_.jump, 1u);
         for (left -= steps.empty() ? 0 : steps.front(); left > 0; left -= steps.back())
@@ -86,7 +86,8 @@ private:
         const Define one_object{"ONE_OBJECT", tree.objects.size() == 1 ? 1u : 0u};
         const Define label{"LABEL_BITS", bits};
         if (tree.objects.size() > 1)
-            roots_ = kernel(tree, "collide/roots.cl", "find_roots", {label});
+            roots_ = kernel(tree, "collide/roots.cl", "find_roots",
+                            {label, {"SKIP_APART", skips(skip_apart) ? 1u : 0u}});
         expand_ = by_groups() ? kernel(tree, "collide/bvtt_groups.cl", "expand",
                                        {{"GROUP_SIZE", group_size_}, {"ITEMS", items}, one_object, label})
                               : kernel(tree, "collide/bvtt_chunks.cl", "expand",

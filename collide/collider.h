@@ -33,6 +33,7 @@ struct ColliderOptions {
     unsigned jump = 0;
     /// The level a traversal starts on, no box above it being tested; 0 is the root.
     unsigned start_level = 0;
+    unsigned rules_off = 0;  ///< of skips.h: work that is done although it need not be
     /// Work-items in a group, a power of two; 0 leaves the choice to the collider, by kind of device.
     unsigned group_size = 0;
     KernelForm form = KernelForm::of_device;
@@ -50,8 +51,8 @@ struct QueryCounts {
     std::vector<std::pair<std::string_view, std::uint64_t>> more = {};  ///< its own, by counters' names
 };
 
-/// How a frame's tree comes from that of the frame before: all of it anew, or new boxes for what stands.
-enum class TreeUpdate { rebuild, refit };
+/// How a frame's tree comes from that of the frame before: all of it anew, new boxes for what stands, or not at all.
+enum class TreeUpdate { rebuild, refit, keep };
 
 /// Pairs where a query left them, and their number at PAIRS_COUNT of the counters (collide/counters.h).
 struct DevicePairs {

@@ -7,6 +7,7 @@
 
 #include "builders/device_tree.h"
 #include "collide/collider.h"
+#include "collide/skips.h"
 
 namespace bvhbench {
 
@@ -62,6 +63,7 @@ protected:
     }
 
     bool by_groups() const { return form_ == KernelForm::groups; }
+    bool skips(SkipRule rule) const { return (options_.rules_off & rule) == 0; }
     bool within() const { return options_.among != Among::between_objects; }
     bool between(const DeviceTree& tree) const
     {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DLABEL_BITS=20
-// check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DLABEL_BITS=32
+// check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DLABEL_BITS=20 -DSKIP_APART=1
+// check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DLABEL_BITS=32 -DSKIP_APART=0
 //
 // What a simultaneous traversal of several objects begins with: each root with itself, untested, if pairs within
-// objects are wanted, and the roots of two objects whose boxes overlap, if pairs between them are.
+// objects are wanted, and the roots of two objects whose boxes overlap, if pairs between them are; without SKIP_APART
+// (skips.h) of all two objects.
 #include "collide/counters.h"
 #include "collide/node_word.clh"
 #include "collide/wide_count.clh"
@@ -44,7 +45,8 @@ kernel void find_roots(FOREST_PARAMETERS, const uint object_count, const uint wi
     const uint end = between != 0u ? min(object_count, first + OTHERS) : 0u;
     for (uint other = max(first, own + 1u); other < end; ++other) {
         ++tests;
-        if (overlap(box, root_of(FOREST, other, &other_word, &other_is_leaf)))
+        const Aabb others = root_of(FOREST, other, &other_word, &other_is_leaf);
+        if (!SKIP_APART || overlap(box, others))
             push(queue, capacity, counters, (uint2)(word, other_word));
     }
     add_wide(counters + BOX_TESTS_COUNT, tests);

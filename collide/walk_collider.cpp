@@ -30,7 +30,10 @@ void WalkCollider::compile(const DeviceTree& tree)
     most_between_ = 0;
     if (between(tree)) {
         between_kernel_ =
-            kernel(tree, "collide/between.cl", "find_between", {{"TASK_LEAVES", task_leaves}});
+            kernel(tree, "collide/between.cl", "find_between",
+                   {{"TASK_LEAVES", task_leaves},
+                    {"SKIP_APART", skips(skip_apart) ? 1u : 0u},
+                    {"SKIP_OVERLAP", skips(skip_overlap) ? 1u : 0u}});
         most_between_ = options_.capacity != 0 ? options_.capacity
                                                : std::max<std::size_t>(256, 2 * own_list_.size());
     }

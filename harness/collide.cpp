@@ -217,6 +217,9 @@ void collide_frames(Session& session, const CollideTask& task, int& order,
         throw_if_interrupted();
         input.points = scene.frames[frame];
         input.device_points.upload(session.queue().cl(), input.points);
+        std::vector<Motion> motions;
+        if (frame > frames.first)
+            motions = object_motions(scene, frame - 1, frame);
         FrameOracle oracle(input);
         Found found;
         for (std::size_t k = 0; k < all.size(); ++k) {
@@ -236,7 +239,7 @@ void collide_frames(Session& session, const CollideTask& task, int& order,
                                                                   one.cell.collider, input);
                     if (!one.pipeline->collider().needs_tree())
                         one.cell.builder = {.name = "none"};
-                    one.pipeline->begin_frame();
+                    one.pipeline->begin_frame(motions);
                     one.pipeline->settle(input);
                     one.cell.check = judge(*one.pipeline, one.cell.collider, oracle, found);
                     one.cell.counters = one.pipeline->counters();

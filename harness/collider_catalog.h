@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "collide/collider.h"
+#include "collide/skips.h"
 
 namespace bvhbench {
 
@@ -32,6 +33,7 @@ struct ColliderChoice {
     unsigned jump = 0;
     unsigned start_level = 0;
     unsigned group_size = 0;
+    unsigned rules_off = 0;  ///< of collide/skips.h
 
     bool operator==(const ColliderChoice&) const = default;
     ColliderOptions options() const
@@ -40,6 +42,7 @@ struct ColliderChoice {
                 .keep_adjacent = keep_adjacent,
                 .jump = jump,
                 .start_level = start_level,
+                .rules_off = rules_off,
                 .group_size = group_size};
     }
 };

@@ -8,6 +8,7 @@
 #include "harness/commands.h"
 #include "harness/pairs_file.h"
 #include "harness/report.h"
+#include "harness/report_skips.h"
 #include "harness/result_file.h"
 #include "harness/run.h"
 
@@ -30,6 +31,11 @@ CollideTask task_of(const CollideCommand& command)
     task.frames = frame_range(command.frames);
     task.between = command.between;
     task.pipelines = {{command.builder, command.collider}};
+    for (const SkipRuleEntry& entry : skip_rules())
+        if (command.skips && (command.collider.rules_off & entry.rule) == 0) {
+            task.pipelines.push_back(task.pipelines.front());
+            task.pipelines.back().collider.rules_off |= entry.rule;
+        }
     task.samples = command.samples;
     return task;
 }
@@ -58,6 +64,7 @@ int collide(const CollideCommand& command, const Options& options)
         std::cout << cell_report(document.cells.front(), document.run);
     else
         std::cout << frames_report(document);
+    std::cout << skips_report(document);
     if (!command.pairs.empty())
         write_pairs(command.pairs, last.pairs);
     if (!command.contacts.empty())

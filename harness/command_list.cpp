@@ -35,6 +35,14 @@ std::string colliders()
     return table.text();
 }
 
+std::string skips()
+{
+    Table table = lines(2);
+    for (const SkipRuleEntry& entry : skip_rules())
+        table.row({std::string(entry.name), std::string(entry.summary)});
+    return table.text();
+}
+
 std::string orders()
 {
     Table table = lines(3);
@@ -94,6 +102,7 @@ int list(const ListCommand& command, const Options& options)
     std::cout << (command.what == "builders"    ? builders()
                   : command.what == "colliders" ? colliders()
                   : command.what == "orders"    ? orders()
+                  : command.what == "skips"     ? skips()
                   : command.what == "scenes"    ? scenes(options.common)
                   : command.what == "devices"   ? devices()
                                                 : experiments());

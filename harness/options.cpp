@@ -60,9 +60,9 @@ void add_list(CLI::App& app, ListCommand& list)
     CLI::App* command = app.add_subcommand("list", "What there is, a line each");
     command
         ->add_option("WHAT", list.what,
-                     "builders, colliders, orders, scenes, devices or experiments")
+                     "builders, colliders, orders, skips, scenes, devices or experiments")
         ->required()
-        ->check(one_of({"builders", "colliders", "orders", "scenes", "devices", "experiments"}));
+        ->check(one_of({"builders", "colliders", "orders", "skips", "scenes", "devices", "experiments"}));
 }
 
 void add_build(CLI::App& app, BuildCommand& build, std::string& leaves)
@@ -87,7 +87,7 @@ void add_build(CLI::App& app, BuildCommand& build, std::string& leaves)
 }
 
 void add_collide(CLI::App& app, CollideCommand& collide, std::string& leaves, std::string& adjacent,
-                 std::string& pairs_of)
+                 std::string& pairs_of, std::vector<std::string>& no_skip)
 {
     CLI::App* command = app.add_subcommand(
         "collide",
@@ -131,6 +131,10 @@ void add_collide(CLI::App& app, CollideCommand& collide, std::string& leaves, st
                         "the level a traversal starts on; 0: the root");
     command->add_option("--group-size", collide.collider.group_size,
                         "work-items in a group, a power of two; 0: the collider's choice");
+    command->add_option("--no-skip", no_skip,
+                        "a rule of `list skips` that is not used, or all: work is done that need not be");
+    command->add_flag("--skips", collide.skips,
+                      "measure each rule switched off as well, and what it saves");
     command->add_option("--samples", collide.samples, "timed builds and queries")
         ->capture_default_str()
         ->check(CLI::Range(1, most_samples));
@@ -222,10 +226,11 @@ Options parse_options(int argc, const char* const* argv)
     std::string leaves = "mesh";
     std::string adjacent = "keep";
     std::string pairs_of = "all";
+    std::vector<std::string> no_skip;
     add_common(app, options.common);
     add_list(app, list);
     add_build(app, build, leaves);
-    add_collide(app, collide, leaves, adjacent, pairs_of);
+    add_collide(app, collide, leaves, adjacent, pairs_of, no_skip);
     add_run(app, run);
     add_reproduce(app, reproduce);
     add_check(app, check);
@@ -252,6 +257,7 @@ Options parse_options(int argc, const char* const* argv)
     build.builder.sorted_leaves = collide.builder.sorted_leaves = leaves == "sorted";
     collide.collider.keep_adjacent = adjacent == "keep";
     collide.collider.among = among_called(pairs_of);
+    collide.collider.rules_off = skip_rules_called(no_skip);
     const std::string chosen = app.get_subcommands().front()->get_name();
     if (chosen == "list")
         options.command = list;

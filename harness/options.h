@@ -25,7 +25,7 @@ struct PrintCommand {
     std::string text;
 };
 struct ListCommand {
-    std::string what;  ///< builders, colliders, orders, scenes, devices or experiments
+    std::string what;  ///< builders, colliders, orders, skips, scenes, devices or experiments
 };
 struct BuildCommand {
     BuilderChoice builder;
@@ -44,6 +44,7 @@ struct CollideCommand {
     std::string frames = "0";
     unsigned between = 0;
     int samples = 20;
+    bool skips = false;    ///< whether each rule is measured switched off as well
     std::string json;      ///< result file to write; may be empty
     std::string pairs;     ///< file for the last frame's pairs, .csv or .bin; may be empty
     std::string contacts;  ///< likewise for its contacts

@@ -1,38 +1,57 @@
 // SPDX-License-Identifier: MIT
 #include "harness/pipeline.h"
 
+#include <algorithm>
+
 #include "geometry/error.h"
 
 namespace bvhbench {
 
 Pipeline::Pipeline(Session& session, const BuilderChoice& builder, const ColliderChoice& collider,
                    const Input& input)
-    : session_(session), choice_(builder), collider_(make_collider(collider, session.programs()))
+    : session_(session)
+    , choice_(builder)
+    , rules_off_(collider.rules_off)
+    , collider_(make_collider(collider, session.programs()))
 {
-    const Tree* tree = nullptr;
     if (collider_->needs_tree()) {
-        if (collider_->keeps_tree())
-            own_builder_ = make_builder(choice_, session.programs());
-        builder_ = own_builder_ ? own_builder_.get()
-                                : &session.builder(builder, Operation::collide);
+        builder_ = make_builder(choice_, session.programs());
         builder_->reserve_objects(object_sizes(input));
-        session.build_once(*builder_, input, Start::from_triangles, &tree);
+        session.build_once(*builder_, input, Start::from_triangles, &tree_);
     }
-    collider_->reserve(tree, input);
+    collider_->reserve(tree_, input);
     if (collider.narrow != "none" && !collider_->finds_contacts()) {
         narrow_.emplace(session.programs(), NarrowOptions{.keep_adjacent = collider.keep_adjacent});
         narrow_->reserve(input.triangle_count());
     }
 }
 
+TreeUpdate Pipeline::begin_frame(std::span<const Motion> motions)
+{
+    const auto all_are = [&](Motion most) {
+        return !motions.empty() && std::all_of(motions.begin(), motions.end(),
+                                               [&](Motion motion) { return motion <= most; });
+    };
+    const auto skips = [&](SkipRule rule) { return (rules_off_ & rule) == 0; };
+    if (collider_->keeps_tree())
+        update_ = collider_->next_frame();
+    else if (builder_ != nullptr && skips(skip_unchanged) && all_are(Motion::unchanged))
+        update_ = TreeUpdate::keep;
+    else if (builder_ != nullptr && skips(skip_rigid) && builder_->can_refit() &&
+             all_are(Motion::rigid))
+        update_ = TreeUpdate::refit;
+    else
+        update_ = TreeUpdate::rebuild;
+    return update_;
+}
+
 void Pipeline::enqueue(const Input& input)
 {
     Queue& queue = session_.queue();
-    const Tree* tree = nullptr;
-    if (builder_ != nullptr)
-        tree = update_ == TreeUpdate::refit ? &builder_->refit(input, queue)
-                                            : &builder_->build(input, queue);
-    collider_->query(tree, input, queue);
+    if (builder_ != nullptr && update_ != TreeUpdate::keep)
+        tree_ = update_ == TreeUpdate::refit ? &builder_->refit(input, queue)
+                                             : &builder_->build(input, queue);
+    collider_->query(tree_, input, queue);
     if (!narrow_)
         return;
     const DevicePairs found = collider_->device_pairs(queue);
@@ -92,6 +111,8 @@ std::map<std::string, double> Pipeline::counters() const
         const Footprint tree = builder_->reserved();
         put("tree_bytes", tree.tree_bytes);
         put("scratch_bytes", tree.scratch_bytes);
+        put("refits_count", update_ == TreeUpdate::refit ? 1 : 0);
+        put("rebuilds_count", update_ == TreeUpdate::rebuild ? 1 : 0);
         memory += tree.total();
     }
     if (narrow_) {

@@ -4,11 +4,13 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "collide/narrow.h"
 #include "harness/record.h"
 #include "harness/session.h"
+#include "scenes/motion.h"
 
 namespace bvhbench {
 
@@ -20,8 +22,10 @@ public:
     Pipeline(Session& session, const BuilderChoice& builder, const ColliderChoice& collider,
              const Input& input);
 
-    /// Frames from here on are of the points after those settled last, for colliders that go on from there.
-    void begin_frame() { update_ = collider_->next_frame(); }
+    /// Frames from here on are of other points than those settled last, to which objects have moved so; of the first
+    /// frame, and where nothing is known of how they moved, no motions. Says how the tree is brought along: as the
+    /// collider asks if it goes on from frame to frame, else as the rules `unchanged` and `rigid` allow (skips.h).
+    TreeUpdate begin_frame(std::span<const Motion> motions);
 
     /// One whole frame, again and again until nothing lacked room. Waits.
     void settle(const Input& input);
@@ -45,8 +49,9 @@ private:
 
     Session& session_;
     BuilderChoice choice_;  ///< a builder may keep looking at its words
-    std::unique_ptr<Builder> own_builder_;  ///< whose tree stands from frame to frame
-    Builder* builder_ = nullptr;            ///< null if the collider wants no tree
+    unsigned rules_off_;
+    std::unique_ptr<Builder> builder_;  ///< its own, whose tree stands from frame to frame; null if none is wanted
+    const Tree* tree_ = nullptr;
     TreeUpdate update_ = TreeUpdate::rebuild;
     std::unique_ptr<Collider> collider_;
     std::optional<NarrowPhase> narrow_;

@@ -77,7 +77,8 @@ Json json_of(const ColliderChoice& collider)
               {"narrow", collider.narrow},
               {"jump", collider.jump},
               {"start_level", collider.start_level},
-              {"group_size", collider.group_size}}}};
+              {"group_size", collider.group_size},
+              {"no_skip", skip_rules_text(collider.rules_off)}}}};
 }
 
 Json json_of(const Check& check)

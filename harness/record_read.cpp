@@ -83,6 +83,16 @@ BuilderChoice builder_of(const Json& json)
             .sorted_leaves = options.value("leaves", "mesh") == "sorted"};
 }
 
+/// The rules of "rigid, apart". Names of later formats are passed over.
+unsigned rules_of(const std::string& text)
+{
+    unsigned rules = 0;
+    for (const SkipRuleEntry& entry : skip_rules())
+        if ((", " + text + ", ").find(", " + std::string(entry.name) + ", ") != text.npos)
+            rules |= entry.rule;
+    return rules;
+}
+
 ColliderChoice collider_of(const Json& json)
 {
     const Json options = json.value("options", Json::object());
@@ -92,7 +102,8 @@ ColliderChoice collider_of(const Json& json)
             .narrow = options.value("narrow", "none"),
             .jump = get<unsigned>(options, "jump"),
             .start_level = get<unsigned>(options, "start_level"),
-            .group_size = get<unsigned>(options, "group_size")};
+            .group_size = get<unsigned>(options, "group_size"),
+            .rules_off = rules_of(get<std::string>(options, "no_skip"))};
 }
 
 Check check_of(const Json& json)

@@ -139,6 +139,8 @@ std::string variant_text(const ColliderChoice& collider)
         text += ", adjacent dropped";
     if (collider.narrow != usual.narrow)
         text += ", contacts " + collider.narrow;
+    if (collider.rules_off != 0)
+        text += ", without " + skip_rules_text(collider.rules_off);
     if (collider.jump != usual.jump)
         text += ", jump " + std::to_string(collider.jump);
     if (collider.start_level != usual.start_level)

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "collide/skips.h"
+
+#include <algorithm>
+
+#include "geometry/error.h"
+
+namespace bvhbench {
+namespace {
+
+constexpr SkipRuleEntry rules[] = {
+    {skip_unchanged, "unchanged", "no vertex has moved since the last frame: its trees stand"},
+    {skip_rigid, "rigid", "every object has moved rigidly: its leaves keep their order, boxes are refitted"},
+    {skip_apart, "apart", "objects whose boxes are apart are not held against each other"},
+    {skip_overlap, "overlap", "of two objects, only leaves near the other's box are held against it"},
+    {skip_start_level, "start-level", "levels above the start level are not tested (bvtt)"},
+};
+
+}  // namespace
+
+std::span<const SkipRuleEntry> skip_rules() { return rules; }
+
+unsigned skip_rules_called(std::span<const std::string> names)
+{
+    unsigned called = 0;
+    for (const std::string& name : names) {
+        std::string known;
+        unsigned found = 0;
+        for (const SkipRuleEntry& entry : rules) {
+            if (name == entry.name || name == "all")
+                found |= entry.rule;
+            known += std::string(entry.name) + ", ";
+        }
+        if (found == 0)
+            throw BadUsage("no rule is called '" + name + "'; there are: " + known + "or all");
+        called |= found;
+    }
+    return called;
+}
+
+std::string skip_rules_text(unsigned called)
+{
+    std::string text;
+    for (const SkipRuleEntry& entry : rules)
+        if ((called & entry.rule) != 0)
+            text += (text.empty() ? "" : ", ") + std::string(entry.name);
+    return text;
+}
+
+}  // namespace bvhbench

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "harness/report_skips.h"
+
+#include "harness/report.h"
+#include "harness/table.h"
+
+namespace bvhbench {
+namespace {
+
+using enum Table::Align;
+
+/// The cell of the same frame and pipeline with one rule less switched off; nullptr if there is none.
+const Cell* with_rule(const Cell& cell, unsigned rule, const Document& document)
+{
+    ColliderChoice wanted = cell.collider;
+    wanted.rules_off &= ~rule;
+    for (const Cell& other : document.cells)
+        if (other.collider == wanted && other.builder == cell.builder &&
+            other.scene.name == cell.scene.name && other.scene.frame == cell.scene.frame &&
+            other.experiment == cell.experiment && other.operation == Operation::collide)
+            return &other;
+    return nullptr;
+}
+
+bool may_be_printed(const Cell& cell)
+{
+    return verdict_text(cell) == "agrees" && !cell.samples.empty();
+}
+
+int launches_of(const Cell& cell)
+{
+    int launches = 0;
+    for (const StageTime& stage : cell.samples.front().stages)
+        launches += stage.launches;
+    return launches;
+}
+
+/// How much less there is with the rule.
+std::string less(double without, double with)
+{
+    return grouped(static_cast<std::int64_t>(without - with));
+}
+
+double counter(const Cell& cell, const char* key)
+{
+    const auto found = cell.counters.find(key);
+    return found == cell.counters.end() ? 0 : found->second;
+}
+
+std::vector<std::string> row_of(const Cell& with, const Cell& without, std::string_view rule)
+{
+    const double on = spread_of(whole_times_ns(with)).median;
+    const double off = spread_of(whole_times_ns(without)).median;
+    const bool same = with.check.pairs_hash == without.check.pairs_hash &&
+                      with.check.contacts_hash == without.check.contacts_hash;
+    return {with.scene.name,
+            std::to_string(with.scene.frame),
+            std::string(rule),
+            less(launches_of(without), launches_of(with)),
+            less(counter(without, "tasks_count"), counter(with, "tasks_count")),
+            less(counter(without, "box_tests_count"), counter(with, "box_tests_count")),
+            duration_text(on),
+            duration_text(off),
+            fixed(off / on, 2),
+            same ? "the same" : "NOT the same"};
+}
+
+}  // namespace
+
+std::string skips_report(const Document& document)
+{
+    Table table({{"scene", left},
+                 {"frame"},
+                 {"rule", left},
+                 {"launches left out"},
+                 {"tasks"},
+                 {"box tests"},
+                 {"with"},
+                 {"without"},
+                 {"times"},
+                 {"pairs", left}});
+    bool is_empty = true;
+    for (const Cell& cell : document.cells)
+        for (const SkipRuleEntry& entry : skip_rules()) {
+            if ((cell.collider.rules_off & entry.rule) == 0)
+                continue;
+            const Cell* with = with_rule(cell, entry.rule, document);
+            if (with == nullptr || !may_be_printed(cell) || !may_be_printed(*with))
+                continue;
+            table.row(row_of(*with, cell, entry.name));
+            is_empty = false;
+        }
+    return is_empty ? std::string() : "skips:\n" + table.text();
+}
+
+}  // namespace bvhbench
