@@ -67,7 +67,7 @@ Cell collide_scene(Session& session, const CollideCommand& command, PairList& pa
     session.build_once(builder, input, Start::from_triangles, &tree);
 
     const std::unique_ptr<Collider> collider =
-        find_collider(command.collider.name).make(session.programs(), command.collider.options());
+        make_collider(command.collider.name, session.programs(), command.collider.options());
     collider->reserve(tree, input);
     find_pairs(*collider, tree, input, queue);
     const PairList expected =

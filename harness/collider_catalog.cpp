@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "harness/collider_catalog.h"
 
+#include "baselines/colliders.h"
 #include "collide/colliders.h"
 #include "geometry/error.h"
 
 namespace bvhbench {
 namespace {
+
+constexpr ColliderEntry of_library(std::string_view name, std::string_view summary,
+                                   MakeCollider make, std::string_view absent)
+{
+    return {name, summary, make, make != nullptr ? "" : absent};
+}
 
 // To add a collider, add its line here. Nothing registers itself.
 constexpr ColliderEntry catalog[] = {
@@ -15,6 +22,12 @@ constexpr ColliderEntry catalog[] = {
     {"group", "neighbouring leaves as one query with their common box, then leaf by leaf",
      make_group},
     {"brute", "sweep and prune on one core of the host, without the tree: the oracle", make_brute},
+    of_library("embree", "Embree's rtcCollide over trees of its own, on all host threads",
+               make_embree_collider, "built without Embree"),
+    of_library("fcl-aabb", "triangles that intersect, by FCL over boxes of its own, on a host core",
+               make_fcl_aabb_collider, "built without FCL"),
+    of_library("fcl-obbrss", "the same over FCL's oriented boxes and swept spheres",
+               make_fcl_obbrss_collider, "built without FCL"),
 };
 
 }  // namespace
@@ -30,6 +43,15 @@ const ColliderEntry& find_collider(std::string_view name)
         known += (known.empty() ? "" : ", ") + std::string(entry.name);
     }
     throw BadUsage("no collider is called '" + std::string(name) + "'; there are: " + known);
+}
+
+std::unique_ptr<Collider> make_collider(std::string_view name, Programs& programs,
+                                        const ColliderOptions& options)
+{
+    const ColliderEntry& entry = find_collider(name);
+    if (entry.make == nullptr)
+        throw Unavailable(std::string(entry.absent));
+    return entry.make(programs, options);
 }
 
 }  // namespace bvhbench

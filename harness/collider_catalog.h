@@ -14,7 +14,8 @@ namespace bvhbench {
 struct ColliderEntry {
     std::string_view name;     ///< the key on the command line and in result files
     std::string_view summary;  ///< one line
-    MakeCollider make;
+    MakeCollider make;              ///< nullptr when this binary was built without it
+    std::string_view absent = {};  ///< then: why, as in "built without Embree"
 };
 
 /// Every collider, in the order tables list them.
@@ -40,5 +41,10 @@ struct ColliderChoice {
                 .group_size = group_size};
     }
 };
+
+/// Throws BadUsage when no collider is called so, Unavailable when this binary was built without it, and BadUsage for
+/// options that it cannot keep.
+std::unique_ptr<Collider> make_collider(std::string_view name, Programs& programs,
+                                        const ColliderOptions& options);
 
 }  // namespace bvhbench
