@@ -15,14 +15,16 @@ std::unique_ptr<Collider> make_embree_collider(Programs& programs, const Collide
 inline constexpr MakeCollider make_embree_collider = nullptr;
 #endif
 
-/// FCL's models in double, on one core of the host: pairs of triangles that intersect and share no vertex. Throws
-/// BadUsage if those that do are to be kept. nullptr in a binary built without it.
+/// FCL's models in double, on one core of the host: pairs of triangles that intersect and share no vertex. The trees are
+/// built each query; or refit, the topology being that of the points they were reserved for. They throw BadUsage if
+/// adjacent pairs are to be kept. nullptr in a binary built without FCL.
 #if BVHBENCH_HAS_FCL
-std::unique_ptr<Collider> make_fcl_aabb_collider(Programs& programs, const ColliderOptions& options);
-std::unique_ptr<Collider> make_fcl_obbrss_collider(Programs& programs, const ColliderOptions& options);
+std::unique_ptr<Collider> make_fcl_collider(Programs& programs, const ColliderOptions& options);
+std::unique_ptr<Collider> make_fcl_refit_collider(Programs& programs,
+                                                  const ColliderOptions& options);
 #else
-inline constexpr MakeCollider make_fcl_aabb_collider = nullptr;
-inline constexpr MakeCollider make_fcl_obbrss_collider = nullptr;
+inline constexpr MakeCollider make_fcl_collider = nullptr;
+inline constexpr MakeCollider make_fcl_refit_collider = nullptr;
 #endif
 
 }  // namespace bvhbench

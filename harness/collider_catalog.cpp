@@ -24,10 +24,10 @@ constexpr ColliderEntry catalog[] = {
     {"brute", "sweep and prune on one core of the host, without the tree: the oracle", make_brute},
     of_library("embree", "Embree's rtcCollide over trees of its own, on all host threads",
                make_embree_collider, "built without Embree"),
-    of_library("fcl-aabb", "triangles that intersect, by FCL over boxes of its own, on a host core",
-               make_fcl_aabb_collider, "built without FCL"),
-    of_library("fcl-obbrss", "the same over FCL's oriented boxes and swept spheres",
-               make_fcl_obbrss_collider, "built without FCL"),
+    of_library("fcl", "triangles that intersect, by FCL, its trees built each time, on a host core",
+               make_fcl_collider, "built without FCL"),
+    of_library("fcl-refit", "the same, its trees refit to moved points", make_fcl_refit_collider,
+               "built without FCL"),
 };
 
 }  // namespace

@@ -12,9 +12,9 @@ namespace bvhbench {
 
 /// A line of `list colliders`.
 struct ColliderEntry {
-    std::string_view name;     ///< the key on the command line and in result files
-    std::string_view summary;  ///< one line
-    MakeCollider make;              ///< nullptr when this binary was built without it
+    std::string_view name;         ///< the key on the command line and in result files
+    std::string_view summary;      ///< one line
+    MakeCollider make;             ///< nullptr when this binary was built without it
     std::string_view absent = {};  ///< then: why, as in "built without Embree"
 };
 

@@ -174,9 +174,11 @@ private:
     void collide(const Input& input)
     {
         by_thread_.clear();
-        if (options_.among != Among::within_objects)
-            for (const Pair pair : overlapping_pairs(object_boxes_).pairs())
+        if (options_.among != Among::within_objects) {
+            const PairList near = overlapping_pairs(object_boxes_);
+            for (const Pair pair : near.pairs())
                 meet(*objects_[pair.a], *objects_[pair.b]);
+        }
         if (options_.among != Among::between_objects)
             for (const auto& object : objects_)
                 meet(*object, *object);
