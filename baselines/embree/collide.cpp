@@ -61,9 +61,10 @@ public:
     void reserve(const Tree*, const Input& input) override
     {
         boxes_.resize(input.faces.size());
-        object_boxes_.resize(input.objects.size());
         objects_.clear();
         for (const FaceRange& faces : input.objects) {
+            if (faces.count == 0)
+                continue;  // rtcCollide calls a scene without triangles an invalid operation
             auto object = std::make_unique<Object>(Object{this, faces, {}, {}});
             object->geometry.reset(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER));
             rtcSetGeometryUserPrimitiveCount(object->geometry.get(), faces.count);
@@ -77,6 +78,7 @@ public:
             rtcAttachGeometry(object->scene.get(), object->geometry.get());
             objects_.push_back(std::move(object));
         }
+        object_boxes_.resize(objects_.size());
     }
 
     /// The boxes. What Embree takes it does not tell.

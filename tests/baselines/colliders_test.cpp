@@ -73,6 +73,7 @@ TEST(EmbreeCollider, FindsTheOraclesPairsOfObjectsThatMove)
     if (!is_built(make_embree_collider))
         GTEST_SKIP() << "built without Embree";
     ManyObjects before({1, 70, 3, 2, 129, 200, 1});
+    before.add({}, 0);
     // Two objects of one surface, which share vertices.
     const Mesh surface = hard_meshes(64).at(12).mesh;
     before.add(surface, 0.5f);
