@@ -19,11 +19,12 @@
 namespace bvhbench {
 namespace {
 
-/// Embree has its threads take floats below the normal ones for zeros, most of the time. Rounded outward to one that
-/// it does not touch, a box may only meet too many others.
+/// Embree has its threads take floats below the normal ones for zeros, most of the time, and some of it stops the
+/// program where an extent is one. Of floats that are zero or from `least` up, differences are zero or normal, too.
+/// A box rounded outward to these may only meet too many others.
 float rounded_down(float x)
 {
-    constexpr float least = std::numeric_limits<float>::min();
+    constexpr float least = 0x1p-100f;
     return std::abs(x) >= least ? x : x < 0 ? -least : 0;
 }
 
@@ -31,6 +32,11 @@ Aabb rounded_outward(const Aabb& box)
 {
     return {rounded_down(box.min_x),   rounded_down(box.min_y),   rounded_down(box.min_z),
             -rounded_down(-box.max_x), -rounded_down(-box.max_y), -rounded_down(-box.max_z)};
+}
+
+bool is_point(const Aabb& box)
+{
+    return box.min_x == box.max_x && box.min_y == box.max_y && box.min_z == box.max_z;
 }
 
 bool is_in_range(const Aabb& box)
@@ -160,9 +166,20 @@ private:
                 is_rounded_ = is_rounded_ || !same(box, boxes_[i]);
                 around = merged(around, boxes_[i]);
             }
+            if (is_point(around))
+                give_extent(first, count, around);
             object_boxes_[k] = around;
         }
         return {};
+    }
+
+    /// To triangles that are all one point: over two to four of them Embree asserts that there is an extent.
+    void give_extent(uint first, uint count, Aabb& around)
+    {
+        constexpr float above = std::numeric_limits<float>::max();
+        around.max_x = -rounded_down(-std::nextafter(around.max_x, above));
+        std::fill_n(boxes_.begin() + first, count, around);
+        is_rounded_ = true;
     }
 
     void build()

@@ -68,6 +68,31 @@ TEST(EmbreeCollider, FindsTheOraclesPairsOfHardMeshes)
     }
 }
 
+/// Embree takes floats below the normal ones for zeros, and differences of normal ones that are below too.
+TEST(EmbreeCollider, FindsTheOraclesPairsWhereFloatsEnd)
+{
+    if (!is_built(make_embree_collider))
+        GTEST_SKIP() << "built without Embree";
+    const auto embree = make_embree_collider(session().programs(), {});
+    for (const std::size_t size : {1u, 2u, 5u, 65u, 777u})
+        for (const auto& [scale, along] : {std::pair{0x1p-126f, 0x1p-126f},
+                                           {0x1p-125f, -0x1p-126f},
+                                           {0x1p-130f, 0x1p-99f},
+                                           {0x1p-100f, -0x1p-101f},
+                                           {0.0f, 0.0f},
+                                           {0.0f, 1.0f},
+                                           {0x1p-20f, 1e5f}}) {
+            SCOPED_TRACE(std::to_string(size) + " triangles, " + std::to_string(scale * 0x1p120f) +
+                         " at " + std::to_string(along * 0x1p120f));
+            Mesh mesh = hard_inputs().front().make(size);
+            for (Point& point : mesh.points)
+                point = {point.x * scale + along, point.y * scale + along, point.z * scale + along};
+            const Input input = uploaded(mesh.points, mesh.faces);
+            embree->reserve(nullptr, input);
+            EXPECT_EQ(found_by(*embree, input), touching_pairs(mesh.points, mesh.faces, true));
+        }
+}
+
 TEST(EmbreeCollider, FindsTheOraclesPairsOfObjectsThatMove)
 {
     if (!is_built(make_embree_collider))
