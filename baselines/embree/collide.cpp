@@ -4,7 +4,7 @@
 //
 // A scene an object, of one user geometry each. Objects whose boxes overlap are held against each other, and an object
 // against itself only if that is asked for: never slower than one scene of all objects, and between the 305 of a
-// real frame fourteen times as fast, for a scene against itself finds all pairs of neighbours first.
+// real frame a query is fourteen times as fast, for a scene against itself finds all pairs of neighbours first.
 #include <algorithm>
 #include <cmath>
 #include <limits>
