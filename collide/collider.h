@@ -65,7 +65,7 @@ struct DevicePairs {
 /// A query never drops a pair in silence: `complete` tells whether all of them found room, and makes room if
 /// not, for the query to be repeated. `find_pairs` does so.
 ///
-/// Stages are words from a fixed list: ropes, broad.
+/// Stages are words from a fixed list: ropes, broad; and of those with trees of their own hierarchy, refit.
 class Collider {
 public:
     virtual ~Collider() = default;

@@ -16,9 +16,9 @@ public:
     ColliderCard card() const final { return card_; }
     bool needs_tree() const final { return false; }
     std::string refusal(const Tree&) const final { return {}; }
-    Footprint reserved() const final { return {}; }  ///< libraries do not tell
+    Footprint reserved() const override { return {}; }
     bool complete(const Queue&) final { return true; }
-    QueryCounts counts(const Queue&) const override { return {found_.size(), {}, {}, {}}; }
+    QueryCounts counts(const Queue&) const final { return {found_.size(), {}, {}, {}}; }
     std::vector<Pair> pairs(const Queue&) const final { return found_; }
     DevicePairs device_pairs(Queue& queue) final;
 

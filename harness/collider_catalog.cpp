@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "harness/collider_catalog.h"
 
+#include "baselines/colliders.h"
 #include "collide/colliders.h"
 #include "geometry/error.h"
 
 namespace bvhbench {
 namespace {
+
+constexpr ColliderEntry of_library(std::string_view name, std::string_view summary,
+                                   MakeCollider make, std::string_view absent)
+{
+    return {name, summary, make, make != nullptr ? "" : absent};
+}
 
 // To add a collider, add its line here. Nothing registers itself.
 constexpr ColliderEntry catalog[] = {
@@ -17,6 +24,12 @@ constexpr ColliderEntry catalog[] = {
     {"front", "where the frame before stopped, moved to where this one does, over refitted boxes",
      make_front},
     {"brute", "sweep and prune on one core of the host, without the tree: the oracle", make_brute},
+    of_library("embree", "Embree's rtcCollide over trees of its own, on all host threads",
+               make_embree_collider, "built without Embree"),
+    of_library("fcl", "triangles that intersect, by FCL, its trees built each time, on a host core",
+               make_fcl_collider, "built without FCL"),
+    of_library("fcl-refit", "the same, its trees refit to moved points", make_fcl_refit_collider,
+               "built without FCL"),
 };
 
 }  // namespace
@@ -39,7 +52,16 @@ std::unique_ptr<Collider> make_collider(const ColliderChoice& choice, Programs& 
     if (choice.narrow != "none" && choice.narrow != "exact")
         throw BadUsage("no narrow phase is called '" + choice.narrow +
                        "'; there are: none, exact");
-    return find_collider(choice.name).make(programs, choice.options());
+    return make_collider(choice.name, programs, choice.options());
+}
+
+std::unique_ptr<Collider> make_collider(std::string_view name, Programs& programs,
+                                        const ColliderOptions& options)
+{
+    const ColliderEntry& entry = find_collider(name);
+    if (entry.make == nullptr)
+        throw Unavailable(std::string(entry.absent));
+    return entry.make(programs, options);
 }
 
 std::string_view among_name(Among among)

@@ -13,9 +13,10 @@ namespace bvhbench {
 
 /// A line of `list colliders`.
 struct ColliderEntry {
-    std::string_view name;     ///< the key on the command line and in result files
-    std::string_view summary;  ///< one line
-    MakeCollider make;
+    std::string_view name;         ///< the key on the command line and in result files
+    std::string_view summary;      ///< one line
+    MakeCollider make;             ///< nullptr when this binary was built without it
+    std::string_view absent = {};  ///< then: why, as in "built without Embree"
 };
 
 /// Every collider, in the order tables list them.
@@ -47,7 +48,12 @@ struct ColliderChoice {
     }
 };
 
-/// The collider chosen. Throws BadUsage, and Unavailable for one this program was built without.
+/// Throws BadUsage when no collider is called so, Unavailable when this binary was built without it, and BadUsage for
+/// options that it cannot keep.
+std::unique_ptr<Collider> make_collider(std::string_view name, Programs& programs,
+                                        const ColliderOptions& options);
+
+/// The collider chosen. Throws likewise.
 std::unique_ptr<Collider> make_collider(const ColliderChoice& choice, Programs& programs);
 
 /// "all", "between" or "within", and back. Throws BadUsage, naming these.

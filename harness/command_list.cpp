@@ -31,7 +31,8 @@ std::string colliders()
 {
     Table table = lines(2);
     for (const ColliderEntry& entry : collider_catalog())
-        table.row({std::string(entry.name), std::string(entry.summary)});
+        table.row({std::string(entry.name),
+                   std::string(entry.make != nullptr ? entry.summary : entry.absent)});
     return table.text();
 }
 

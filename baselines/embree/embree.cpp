@@ -8,18 +8,15 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "baselines/baselines.h"
+#include "baselines/embree/device.h"
 #include "baselines/host/host_builder.h"
 #include "geometry/error.h"
 
 namespace bvhbench {
 namespace {
-
-/// Larger coordinates make Embree drop a triangle from its own geometries, without a word.
-constexpr float largest_coordinate = 1.844e18f;
 
 /// No tree of ours reaches it. At Embree's default of 32 it would cut sets in halves instead of where it says.
 constexpr unsigned max_depth = 1024;
@@ -115,15 +112,9 @@ public:
 
 class Embree final : public HostMethod {
 public:
-    Embree(const BuilderCard& card, RTCBuildQuality quality) : card_(card)
+    Embree(const BuilderCard& card, RTCBuildQuality quality)
+        : card_(card), device_(start_embree()), bvh_(rtcNewBVH(device_.get()))
     {
-        // As many as every result file says the host has: host_threads.
-        const std::string threads =
-            "threads=" + std::to_string(std::thread::hardware_concurrency());
-        device_.reset(rtcNewDevice(threads.c_str()));
-        if (device_ == nullptr)
-            throw Unavailable("Embree could not be started");
-        bvh_.reset(rtcNewBVH(device_.get()));
         arguments_ = rtcDefaultBuildArguments();
         arguments_.buildQuality = quality;
         arguments_.maxBranchingFactor = 2;
@@ -158,7 +149,7 @@ public:
         for (std::size_t k = 0; k < boxes.size(); ++k) {
             const Aabb& box = boxes[k];
             for (const float x : {box.min_x, box.min_y, box.min_z, box.max_x, box.max_y, box.max_z})
-                if (!(std::abs(x) < largest_coordinate))
+                if (!(std::abs(x) < embree_largest_coordinate))
                     throw Unavailable("Embree takes no coordinates beyond 1.8e18, and triangle " +
                                       std::to_string(k) + " has some");
             primitives_[k] = {box.min_x, box.min_y, box.min_z, 0,
@@ -180,14 +171,9 @@ public:
     const Tree& tree() const override { return tree_; }
 
 private:
-    struct Release {
-        void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-        void operator()(RTCBVH bvh) const { rtcReleaseBVH(bvh); }
-    };
-
     BuilderCard card_;
-    std::unique_ptr<RTCDeviceTy, Release> device_;
-    std::unique_ptr<RTCBVHTy, Release> bvh_;
+    EmbreeHandle<RTCDevice> device_;
+    EmbreeHandle<RTCBVH> bvh_;
     RTCBuildArguments arguments_{};
     std::vector<RTCBuildPrimitive> primitives_;
     EmbreeTree tree_;

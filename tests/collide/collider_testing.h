@@ -83,6 +83,20 @@ inline std::vector<BuilderEntry> device_builders()
     return builders;
 }
 
+/// The colliders whose pairs are those of boxes that overlap; those that query a builder's tree, or all.
+inline std::vector<ColliderEntry> box_colliders(bool of_trees)
+{
+    std::vector<ColliderEntry> colliders;
+    for (const ColliderEntry& entry : collider_catalog()) {
+        if (entry.make == nullptr)
+            continue;
+        const auto collider = entry.make(session().programs(), {.keep_adjacent = false});
+        if (!collider->finds_contacts() && (collider->needs_tree() || !of_trees))
+            colliders.push_back(entry);
+    }
+    return colliders;
+}
+
 /// GoogleTest takes letters, digits and _ only.
 inline std::string test_name(std::string name)
 {

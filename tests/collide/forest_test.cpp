@@ -5,55 +5,15 @@
 #include <cstring>
 
 #include "builders/device_tree.h"
-#include "collide/relation.h"
 #include "tests/collide/collider_testing.h"
+#include "tests/collide/many_objects.h"
 
 namespace bvhbench {
 namespace {
 
-/// Objects that lie across each other, one of them a single triangle, and one far from all others.
-struct ManyObjects {
-    Mesh mesh;
-    std::vector<FaceRange> objects;
-    std::vector<uint> owners;
-
-    explicit ManyObjects(const std::vector<std::size_t>& sizes)
-    {
-        for (std::size_t k = 0; k < sizes.size(); ++k) {
-            const std::vector<NamedMesh> meshes = hard_meshes(sizes[k]);
-            const bool is_far = k == 2;
-            add(meshes[k % meshes.size()].mesh, is_far ? 1000.0f : 0.3f * static_cast<float>(k));
-        }
-    }
-
-    void add(const Mesh& part, float along)
-    {
-        const auto base = static_cast<uint>(mesh.points.size());
-        objects.push_back(
-            {static_cast<uint>(mesh.faces.size()), static_cast<uint>(part.faces.size())});
-        for (const Point& point : part.points)
-            mesh.points.push_back({point.x + along, point.y, point.z});
-        for (const Face& face : part.faces)
-            mesh.faces.push_back({face.a + base, face.b + base, face.c + base});
-        owners.resize(mesh.faces.size(), static_cast<uint>(objects.size() - 1));
-    }
-};
-
 bool same_bits(const Aabb& a, const Aabb& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
 const std::vector<std::size_t> few_sizes = {1, 70, 3, 2, 129, 200, 1};
-
-PairList expected_pairs(const ManyObjects& many, Among among, bool keep_adjacent)
-{
-    const PairList all = touching_pairs(many.mesh.points, many.mesh.faces, keep_adjacent);
-    std::vector<Pair> chosen;
-    for (const Pair pair : all.pairs()) {
-        const bool is_between = many.owners[pair.a] != many.owners[pair.b];
-        if (among == Among::all || is_between == (among == Among::between_objects))
-            chosen.push_back(pair);
-    }
-    return PairList(std::move(chosen));
-}
 
 /// Trees of many objects on the device.
 struct StandingForest {

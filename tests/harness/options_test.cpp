@@ -164,6 +164,7 @@ TEST(Catalog, ListsEachColliderOnceAndAnswersAnUnknownNameWithThoseThereAre)
     for (const ColliderEntry& entry : collider_catalog()) {
         EXPECT_EQ(&find_collider(entry.name), &entry);
         EXPECT_FALSE(entry.summary.empty());
+        EXPECT_EQ(entry.make == nullptr, !entry.absent.empty());
     }
     EXPECT_THROW(find_collider("leafs"), BadUsage);
 }

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+//
+// FCL's collision of meshes, the narrow phase of many robot planners: a model an object, its tree, and a test of two
+// triangles at the leaves. In double: FCL in float misses pairs. With axis-aligned boxes: with its oriented ones a
+// frame takes three to four times as long, in the trees and in their descent.
+//
+// fcl::collide would copy both models for each pair of objects. What it calls then is called here instead.
+#include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/math/bv/utility.h>
+#include <fcl/narrowphase/collision_request.h>
+#include <fcl/narrowphase/collision_result.h>
+#include <fcl/narrowphase/detail/traversal/collision/mesh_collision_traversal_node.h>
+#include <fcl/narrowphase/detail/traversal/collision_node.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "baselines/colliders.h"
+#include "collide/host_collider.h"
+#include "collide/sweep.h"
+#include "geometry/error.h"
+
+namespace bvhbench {
+namespace {
+
+constexpr uint unused = std::numeric_limits<uint>::max();
+
+/// An object as FCL has it: the points that its triangles name, numbered anew.
+struct Object {
+    FaceRange range;
+    std::span<const Face> faces;
+    std::vector<uint> used;  ///< the frame's number of each of its points
+    std::vector<fcl::Vector3d> moved;
+    fcl::BVHModel<fcl::AABBd> model;
+};
+
+/// FCL's descent of two trees. Adjacent triangles are not tested: FCL would find that they touch, and nothing else.
+class Meeting final : public fcl::detail::MeshCollisionTraversalNode<fcl::AABBd> {
+public:
+    Meeting(std::span<const Face> faces1, std::span<const Face> faces2)
+        : faces1_(faces1), faces2_(faces2)
+    {}
+
+    void leafTesting(int leaf1, int leaf2) const override
+    {
+        const auto triangle = [](const auto& of, int leaf) {
+            return static_cast<std::size_t>(of.getBV(leaf).primitiveId());
+        };
+        if (!share_a_vertex(faces1_[triangle(*model1, leaf1)], faces2_[triangle(*model2, leaf2)]))
+            MeshCollisionTraversalNode::leafTesting(leaf1, leaf2);
+    }
+
+private:
+    std::span<const Face> faces1_;
+    std::span<const Face> faces2_;
+};
+
+/// What becomes of a tree when its points have moved.
+enum class Keep { nothing, topology };
+
+class Fcl final : public HostCollider {
+public:
+    Fcl(const Device& device, const ColliderCard& card, const ColliderOptions& options, Keep keep)
+        : HostCollider(device, card, options), keep_(keep)
+    {
+        if (options.keep_adjacent)
+            throw BadUsage(std::string(card.name) +
+                           " cannot keep adjacent triangles: it does not tell those that only touch"
+                           " where they share a vertex from those that meet elsewhere too");
+    }
+
+    bool finds_contacts() const override { return true; }
+
+    void reserve(const Tree*, const Input& input) override
+    {
+        objects_.clear();
+        std::vector<uint> renumbered(input.points.size(), unused);
+        for (const FaceRange& range : input.objects)
+            if (range.count > 0)
+                objects_.push_back(object_of(input, range, renumbered));
+    }
+
+    /// FCL's trees. Its copies of the mesh are not counted, and ours neither.
+    Footprint reserved() const override
+    {
+        std::size_t nodes = 0;
+        for (const auto& object : objects_)
+            nodes += 2 * object->faces.size() - 1;
+        return {nodes * (sizeof(fcl::BVNode<fcl::AABBd>) + sizeof(unsigned)), 0};
+    }
+
+    void query(const Tree*, const Input& input, Queue& queue) override
+    {
+        queue.on_host(keep_ == Keep::topology ? "refit" : "hierarchy", [&] {
+            boxes_.clear();
+            for (const auto& object : objects_)
+                boxes_.push_back(move(*object, input.points));
+        });
+        queue.on_host("broad", [&] { collide(); });
+    }
+
+private:
+    static std::unique_ptr<Object> object_of(const Input& input, const FaceRange& range,
+                                             std::vector<uint>& renumbered)
+    {
+        auto object = std::make_unique<Object>();
+        object->range = range;
+        object->faces = input.faces.subspan(range.first, range.count);
+        const auto number = [&](uint vertex) {
+            if (renumbered[vertex] == unused) {
+                renumbered[vertex] = static_cast<uint>(object->used.size());
+                object->used.push_back(vertex);
+            }
+            return renumbered[vertex];
+        };
+        std::vector<fcl::Triangle> triangles;
+        for (const Face& face : object->faces)
+            triangles.emplace_back(number(face.a), number(face.b), number(face.c));
+        for (const uint vertex : object->used) {
+            const Point& p = input.points[vertex];
+            object->moved.emplace_back(p.x, p.y, p.z);
+            renumbered[vertex] = unused;  // for the next object
+        }
+        object->model.beginModel(static_cast<int>(triangles.size()),
+                                 static_cast<int>(object->moved.size()));
+        object->model.addSubModel(object->moved, triangles);
+        require(object->model.endModel());
+        return object;
+    }
+
+    /// To where the points are now. The object's box.
+    Aabb move(Object& object, std::span<const Point> points) const
+    {
+        Aabb around = empty_box();
+        for (std::size_t k = 0; k < object.used.size(); ++k) {
+            const Point& p = points[object.used[k]];
+            object.moved[k] = {p.x, p.y, p.z};
+            around = merged(around, triangle_box(p, p, p));
+        }
+        // To replace, not to update: an updated model is around where its points were, too.
+        object.model.beginReplaceModel();
+        object.model.replaceSubModel(object.moved);
+        const bool bottom_up = true;
+        require(object.model.endReplaceModel(keep_ == Keep::topology, bottom_up));
+        return around;
+    }
+
+    static void require(int result)
+    {
+        if (result != fcl::BVH_OK)
+            throw Unavailable("FCL built no tree: its error " + std::to_string(result));
+    }
+
+    void collide()
+    {
+        found_.clear();
+        if (options_.among != Among::within_objects) {
+            const PairList near = overlapping_pairs(boxes_);
+            for (const Pair pair : near.pairs())
+                meet(*objects_[pair.a], *objects_[pair.b]);
+        }
+        if (options_.among != Among::between_objects)
+            for (const auto& object : objects_)
+                meet(*object, *object);
+    }
+
+    void meet(Object& a, Object& b)
+    {
+        // All pairs, and of each no more than that they meet.
+        const fcl::CollisionRequestd request(std::numeric_limits<std::size_t>::max(), false);
+        fcl::CollisionResultd result;
+        fcl::Transform3d in_place = fcl::Transform3d::Identity();
+        Meeting meeting(a.faces, b.faces);
+        fcl::detail::initialize(meeting, a.model, in_place, b.model, in_place, request, result);
+        if (&a == &b)
+            fcl::detail::selfCollide<double>(&meeting);
+        else
+            fcl::detail::collide<double>(&meeting);
+        for (std::size_t k = 0; k < result.numContacts(); ++k) {
+            const fcl::Contactd& contact = result.getContact(k);
+            const uint one = a.range.first + static_cast<uint>(contact.b1);
+            const uint other = b.range.first + static_cast<uint>(contact.b2);
+            found_.push_back({std::min(one, other), std::max(one, other)});
+        }
+    }
+
+    Keep keep_;
+    std::vector<std::unique_ptr<Object>> objects_;
+    std::vector<Aabb> boxes_;  ///< of the objects
+};
+
+}  // namespace
+
+std::unique_ptr<Collider> make_fcl_collider(Programs& programs, const ColliderOptions& options)
+{
+    return std::make_unique<Fcl>(
+        programs.device(), ColliderCard{"fcl",
+                     "FCL in double, trees built each time, on one core of the host [Pan2012]"},
+        options, Keep::nothing);
+}
+
+std::unique_ptr<Collider> make_fcl_refit_collider(Programs& programs, const ColliderOptions& options)
+{
+    return std::make_unique<Fcl>(
+        programs.device(), ColliderCard{
+            "fcl-refit",
+            "FCL in double, trees refit to moved points, on one core of the host [Pan2012]"},
+        options, Keep::topology);
+}
+
+}  // namespace bvhbench
