@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -19,6 +20,15 @@ namespace {
 
 /// With more cells than this, only those that need a look are printed; the file has them all.
 constexpr std::size_t most_lines = 100;
+
+/// Frames have a table of their own.
+bool is_long(const Document& document)
+{
+    return document.cells.size() > most_lines ||
+           std::any_of(document.cells.begin(), document.cells.end(), [](const Cell& cell) {
+               return cell.operation == Operation::collide;
+           });
+}
 
 CellFilter filter_of(const std::string& text)
 {
@@ -69,7 +79,7 @@ int run(const RunCommand& command, const Options& options)
         throw BadUsage("--filter: no cell of " + experiment.name + " matches '" + command.filter +
                        "'");
     std::cout << run_report(run.document().run)
-              << cells_report(run.document(), run.document().cells.size() > most_lines)
+              << cells_report(run.document(), is_long(run.document()))
               << frames_table(run.document())
               << refit_report(run.document()) << quality_report(run.document())
               << "written: " << out << '\n';
@@ -105,7 +115,7 @@ int show(const ShowCommand& command, const Options&)
     if (document.cells.size() == 1)
         std::cout << cell_report(document.cells.front(), document.run);
     else
-        std::cout << cells_report(document, document.cells.size() > most_lines)
+        std::cout << cells_report(document, is_long(document))
                   << frames_table(document) << refit_report(document) << quality_report(document);
     return 0;
 }
