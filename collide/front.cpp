@@ -17,10 +17,17 @@ namespace {
 constexpr uint block_pairs = 256;  // a work-item's own, of the form for few cores, for each of three lists
 constexpr uint items = 4;          // tasks a work-item has a turn, of the form for many lanes
 
-/// Boxes that are only refitted grow loose, and the front grows with them: past this multiple of what the last build
-/// left, the tree is built anew and the front starts from the roots. Contacts make it grow as well; then what the new
-/// build leaves is the new measure, so that they cost a few builds and not one a frame.
-constexpr double most_growth = 1.5;
+/// To look whether parents are apart costs more tests than all else of a frame. So entries climb only in a frame that
+/// comes to a front grown past this multiple of what was left when they last did, and once in so many frames besides, as
+/// what parts does not grow; until then a front is right but deeper than it need be.
+constexpr double growth_to_climb = 1.5;
+constexpr uint frames_to_climb = 16;
+
+/// Boxes that are only refitted grow loose, and the front grows with them: where entries have climbed and still leave a
+/// front past this multiple of what the last build left, the tree is built anew and the front starts from the roots.
+/// Contacts make it grow as well; then what the new build leaves is the new measure, so that they cost a few builds and
+/// not one a frame.
+constexpr double growth_to_restart = 2;
 
 constexpr std::uint64_t most_entries = std::numeric_limits<uint>::max();
 
@@ -52,15 +59,21 @@ public:
 
     TreeUpdate next_frame() override
     {
-        const bool from_roots = !standing_;
+        const bool from_roots = !standing_, is_highest = from_roots || climbs_;
         standing_ = last_front_;
         last_front_.reset();
         if (!standing_)
             return TreeUpdate::rebuild;
         std::swap(fronts_[0], fronts_[1]);
+        const double size = *standing_;
         if (from_roots)
-            after_build_ = *standing_;
-        if (static_cast<double>(*standing_) <= most_growth * after_build_)
+            after_build_ = size;
+        if (is_highest) {
+            after_climb_ = size;
+            since_climb_ = 0;
+        }
+        climbs_ = size > growth_to_climb * after_climb_ || ++since_climb_ == frames_to_climb;
+        if (!is_highest || size <= growth_to_restart * after_build_)
             return TreeUpdate::refit;
         standing_.reset();
         ++restarts_;
@@ -124,6 +137,7 @@ private:
         front_capacity_ = std::max(guess, static_cast<std::size_t>(roots));
         standing_.reset();
         last_front_.reset();
+        climbs_ = false;
         restarts_ = 0;
     }
 
@@ -201,13 +215,11 @@ private:
             const Buffer<Pair>& from = step == 0 ? fronts_[0] : queues_[step % 2];
             bind(advance_, tree, input, parents_, from, queues_[(step + 1) % 2],
                  static_cast<uint>(queue_capacity_), fronts_[1],
-                 static_cast<uint>(front_capacity_), step, standing);
-            if (by_groups()) {
+                 static_cast<uint>(front_capacity_), step, standing, climbs_ ? 1u : 0u, blocks_);
+            if (by_groups())
                 queue.launch(advance_, groups(standing, step) * group_size_, group_size_, 0);
-            } else {
-                advance_.setArg(advance_.getInfo<CL_KERNEL_NUM_ARGS>() - 1, blocks_.cl());
+            else
                 queue.launch(advance_, chunks_, 1, 0);
-            }
         }
     }
 
@@ -246,12 +258,15 @@ private:
     std::array<Buffer<Pair>, 2> fronts_;  ///< that stands, and that the query leaves
     std::array<Buffer<Pair>, 2> queues_;  ///< of nodes that sprout; a step goes from one to the other
     Buffer<Pair> parents_;                ///< front_parents.cl; one where there is arithmetic
-    Buffer<Pair> blocks_;
+    Buffer<Pair> blocks_;                 ///< of the form for few cores
     std::vector<Pair> set_aside_, parents_aside_;
 
     std::optional<uint> standing_;    ///< entries of the front that stands; none: start from the roots
     std::optional<uint> last_front_;  ///< that the last query left, if it was complete
+    bool climbs_ = false;             ///< whether entries of the front that stands may climb
+    uint since_climb_ = 0;            ///< frames
     double after_build_ = 0;          ///< entries that the first frame after the last build left
+    double after_climb_ = 0;          ///< the same of the last frame in which they climbed
     std::uint64_t restarts_ = 0;
 };
 

@@ -48,7 +48,8 @@ kernel void advance(FOREST_PARAMETERS, global const uint* ropes, global const Fa
                     global uint2* pairs, const uint capacity, volatile global uint* counters,
                     global const uint2* parents, global const uint2* queue, global uint2* next,
                     const uint queue_capacity, global uint2* front, const uint front_capacity,
-                    const uint step, const uint standing, global uint2* blocks)
+                    const uint step, const uint standing, const uint climbs,
+                    global uint2* blocks)
 {
     const ulong tasks = tasks_of(counters, standing, queue_capacity, step);
     const ulong share = (tasks + get_global_size(0) - 1ul) / get_global_size(0);
@@ -61,7 +62,7 @@ kernel void advance(FOREST_PARAMETERS, global const uint* ropes, global const Fa
                    0ul};
     ulong tests = 0ul;
     for (ulong task = first; task < end; ++task)
-        tests += do_task(FOREST, faces, parents, queue, step, task, &lists);
+        tests += do_task(FOREST, faces, parents, queue, step, climbs, task, &lists);
     empty_block(SINK_OF(lists.nodes));
     empty_block(SINK_OF(lists.pairs));
     empty_block(SINK_OF(lists.entries));

@@ -53,13 +53,14 @@ static inline void write_out(local const uint2* kept, const uint first, const in
 }
 
 /// Step 0 takes the old front, `standing` entries, from `queue`; a later one the nodes that the step before it left
-/// there. `next` gets those of the step after it, `front` what stays, and `pairs` what is found. Nothing is written
+/// there. With `climbs`, entries of the old front do. `next` gets those of the step after it, `front` what stays, and `pairs` what is found. Nothing is written
 /// where there is no room, but all is counted.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void advance(
     FOREST_PARAMETERS, global const uint* ropes, global const Face* faces, global uint2* pairs,
     const uint capacity, volatile global uint* counters, global const uint2* parents,
     global const uint2* queue, global uint2* next, const uint queue_capacity, global uint2* front,
-    const uint front_capacity, const uint step, const uint standing)
+    const uint front_capacity, const uint step, const uint standing, const uint climbs,
+    global uint2* blocks)
 {
     local uint2 kept[KEPT], kept_entries[KEPT];
     local uint kept_counts[4], counts[4], slots[4], tests[GROUP_SIZE];
@@ -76,7 +77,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void advance(
         for (uint k = 0u; k < ITEMS; ++k) {
             const ulong task = first + k * GROUP_SIZE + item;
             if (task < tasks)
-                tests[item] += do_task(FOREST, faces, parents, queue, step, task, kept,
+                tests[item] += do_task(FOREST, faces, parents, queue, step, climbs, task, kept,
                                        kept_entries, kept_counts);
         }
         barrier(CLK_LOCAL_MEM_FENCE);
@@ -94,5 +95,5 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void advance(
         barrier(CLK_LOCAL_MEM_FENCE);
     }
     count_tests(tests, counters);
-    (void)ropes;
+    (void)ropes, (void)blocks;
 }
