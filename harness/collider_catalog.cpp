@@ -14,6 +14,7 @@ constexpr ColliderEntry catalog[] = {
      make_bvtt},
     {"group", "neighbouring leaves as one query with their common box, then leaf by leaf",
      make_group},
+    {"grid", "no tree: boxes hashed by the cells they cover, on levels by their size", make_grid},
     {"brute", "sweep and prune on one core of the host, without the tree: the oracle", make_brute},
 };
 
