@@ -64,7 +64,7 @@ private:
 
     const DeviceTree* tree_ = nullptr;  ///< that there is memory for
     cl::Kernel ropes_kernel_;
-    Buffer<uint> ropes_;     ///< one a node; one word where there are none
+    Buffer<uint> ropes_;  ///< one a node; one word where there are none
 };
 
 }  // namespace bvhbench

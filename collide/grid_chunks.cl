@@ -27,8 +27,8 @@ kernel void level_pairs(TABLE_PARAMETERS, global uint2* pairs, const uint capaci
                         volatile global uint* counters, global uint2* blocks, const uint triangles)
 {
     const uint levels = grid->levels;
-    if ((levels & (levels - 1u)) == 0u)
-        return;
+    if (levels == 1u)
+        return;  // the smallest boxes are of level 0, and there are no others
     const Chunk chunk = own_chunk(triangles);
     uint block_count = 0u;
     ulong tests = 0ul;

@@ -40,8 +40,8 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void level_pairs(
     local uint tests[GROUP_SIZE];
     const uint item = (uint)get_local_id(0);
     const uint levels = grid->levels;
-    if ((levels & (levels - 1u)) == 0u)
-        return;  // there is one level only
+    if (levels == 1u)
+        return;  // the smallest boxes are of level 0, and there are no others
     open_sink(&kept_count);
     barrier(CLK_LOCAL_MEM_FENCE);
     tests[item] = 0u;

@@ -8,11 +8,12 @@
 //     choose_cells  *grid        the side of cells, from the mean
 //     count_cells   ends[b]      how many entries bucket b gets
 //       ... a scan of ends ...   where bucket b begins
-//     enter_cells   entries      (number of a cell, triangle), bucket after bucket; ends[b] is where b ends
+//     enter_cells   entries      as in grid_entry.clh, bucket after bucket; ends[b] is where b ends
 //
 // Counting by buckets places every entry with no list of unsorted ones, and no pass over a number of entries that only
 // the device knows.
 #include "builders/stages/chunk.clh"
+#include "collide/grid_entry.clh"
 #include "collide/hash_grid.h"
 #include "geometry/bounds.h"
 #include "geometry/box_words.clh"
@@ -34,7 +35,7 @@ kernel void add_sides(global const float2* restrict boxes, global float* restric
     partials[get_global_id(0)] = sum;
 }
 
-/// Cells are CELL_SIDES times as long as the mean longest side of a box: one that covers fewer cells has more company in
+/// Cells are `cell_sides` times as long as the mean longest side of a box: one that covers fewer cells has more company in
 /// each. Where all boxes are points, as if their sides were the scene's divided by their number. One group.
 ///
 /// 2^126 cells a unit are the most: all of a scene of denormals is in one.
@@ -83,7 +84,7 @@ kernel void count_cells(global const float2* restrict boxes, volatile global Has
 
 /// What finds no room is counted in `ends` and not written.
 kernel void enter_cells(global const float2* restrict boxes, global const HashGrid* restrict grid,
-                        volatile global uint* ends, global uint2* restrict entries,
+                        volatile global uint* ends, global uint4* restrict entries,
                         const uint entry_room, const uint count, const uint shift)
 {
     const uint k = (uint)get_global_id(0);
@@ -99,6 +100,6 @@ kernel void enter_cells(global const float2* restrict boxes, global const HashGr
                 const uint number = cell_number(level, x, y, z);
                 const uint slot = atomic_inc(&ends[bucket_of(number, shift)]);
                 if (slot < entry_room)
-                    entries[slot] = (uint2)(number, k);
+                    store_entry(entries, slot, box, number, k);
             }
 }

@@ -41,8 +41,8 @@ PairCollider::PairCollider(Programs& programs, const ColliderCard& card,
 
 void PairCollider::take_memory_for(std::size_t triangles)
 {
-    capacity_ = options_.capacity != 0 ? options_.capacity
-                                       : std::max<std::size_t>(1024, 8 * triangles);
+    capacity_ =
+        options_.capacity != 0 ? options_.capacity : std::max<std::size_t>(1024, 8 * triangles);
     take_memory();
 }
 
@@ -84,8 +84,8 @@ bool PairCollider::complete(const Queue& queue)
                               std::to_string(most));
         capacity_ = static_cast<std::size_t>(std::min(most, found + found / 8));
     }
-    const bool queues_had_room = make_room(counts[TASKS_COUNT / 2],
-                                           {counts.begin() + QUEUES_COUNT / 2, counts.end()});
+    const bool queues_had_room =
+        make_room(counts[TASKS_COUNT / 2], {counts.begin() + QUEUES_COUNT / 2, counts.end()});
     if (had_room && queues_had_room)
         return true;
     take_memory();

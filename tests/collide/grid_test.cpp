@@ -101,8 +101,8 @@ TEST_P(GridCollider, FindsTheOraclesPairsOfMany)
 {
     for (const bool keep_adjacent : {true, false})
         expect_oracles_pairs_of(meshes(777), {.keep_adjacent = keep_adjacent});
-    expect_oracles_pairs_of({{"touching", mesh_of_touching_boxes()},
-                             {"many sizes", mesh_of_many_sizes(5000)}}, {});
+    expect_oracles_pairs_of(
+        {{"touching", mesh_of_touching_boxes()}, {"many sizes", mesh_of_many_sizes(5000)}}, {});
 }
 
 TEST_P(GridCollider, DropsNothingWhenBuffersBeginWithOneEntry)
@@ -140,7 +140,8 @@ TEST_P(GridCollider, KeepsUpWithPointsThatMoveAndFacesThatGrow)
     grid->reserve(nullptr, input);
     for (const float factor : {1.0f, 3.0f, 0.01f, -40.0f}) {
         for (std::size_t k = 0; k < mesh.points.size(); k += 3)
-            mesh.points[k].x *= factor;  // triangles change their sizes, and so the levels they are on
+            mesh.points[k].x *=
+                factor;  // triangles change their sizes, and so the levels they are on
         input.device_points.upload(session().queue().cl(), mesh.points);
         expect_pairs(*grid, input, touching_pairs(mesh.points, mesh.faces, true));
     }
