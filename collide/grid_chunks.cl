@@ -33,7 +33,7 @@ kernel void level_pairs(TABLE_PARAMETERS, global uint2* pairs, const uint capaci
     uint block_count = 0u;
     ulong tests = 0ul;
     for (uint k = chunk.first; k < chunk.end; ++k)
-        tests += meet_coarser(TABLE, SINK, k);
+        tests += meet_coarser(TABLE, SINK, load_box(boxes, k), k);
     add_wide(counters + BOX_TESTS_COUNT, tests);
     empty_block(SINK);
 }

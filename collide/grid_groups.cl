@@ -46,7 +46,8 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void level_pairs(
     barrier(CLK_LOCAL_MEM_FENCE);
     tests[item] = 0u;
     if (get_global_id(0) < triangles)
-        tests[item] = meet_coarser(TABLE, SINK, (uint)get_global_id(0));
+        tests[item] = meet_coarser(TABLE, SINK, load_box(boxes, (uint)get_global_id(0)),
+                                   (uint)get_global_id(0));
     barrier(CLK_LOCAL_MEM_FENCE);
     count_tests(tests, counters);
     close_sink(SINK);
