@@ -20,6 +20,10 @@ std::unique_ptr<Collider> make_front(Programs& programs, const ColliderOptions& 
 /// Neighbouring leaves as one query: their common box goes down the tree, and what it meets is tested against each.
 std::unique_ptr<Collider> make_group(Programs& programs, const ColliderOptions& options);
 
+/// No tree: every box entered into the cells it covers, of a grid of several levels that is hashed, sorted and
+/// searched anew each frame.
+std::unique_ptr<Collider> make_grid(Programs& programs, const ColliderOptions& options);
+
 /// Sweep and prune on one core of the host, whatever the tree: the oracle.
 std::unique_ptr<Collider> make_brute(Programs& programs, const ColliderOptions& options);
 

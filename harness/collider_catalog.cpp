@@ -23,6 +23,7 @@ constexpr ColliderEntry catalog[] = {
      make_group},
     {"front", "where the frame before stopped, moved to where this one does, over refitted boxes",
      make_front},
+    {"grid", "no tree: boxes hashed by the cells they cover, on levels by their size", make_grid},
     {"brute", "sweep and prune on one core of the host, without the tree: the oracle", make_brute},
     of_library("embree", "Embree's rtcCollide over trees of its own, on all host threads",
                make_embree_collider, "built without Embree"),
