@@ -53,11 +53,11 @@ static inline uint walk_with(FOREST_PARAMETERS, global const uint* ropes, global
         [6]
         [LANES];  // those without a leaf hold the first one's box, and are left out of what meets
     for (uint k = 0u; k < LANES; ++k) {
-        const QueryLeaf query = query_leaf(FOREST, task.own, first + (k < count ? k : 0u));
-        own_triangles[k] = query.triangle;
-        lanes[0][k] = query.box.min_x, lanes[1][k] = query.box.min_y;
-        lanes[2][k] = query.box.min_z, lanes[3][k] = query.box.max_x;
-        lanes[4][k] = query.box.max_y, lanes[5][k] = query.box.max_z;
+        const uint place = first + (k < count ? k : 0u);
+        const Aabb box = leaf_box_of(FOREST, task.own, place);
+        own_triangles[k] = leaf_triangle_of(FOREST, task.own, place);
+        lanes[0][k] = box.min_x, lanes[1][k] = box.min_y, lanes[2][k] = box.min_z;
+        lanes[3][k] = box.max_x, lanes[4][k] = box.max_y, lanes[5][k] = box.max_z;
     }
     const float8 min_x = vload8(0, lanes[0]), min_y = vload8(0, lanes[1]);
     const float8 min_z = vload8(0, lanes[2]), max_x = vload8(0, lanes[3]);

@@ -42,11 +42,11 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void group_pairs(
     // Own leaves; items without one repeat the last, and meet nothing.
     const uint last = task.first + max(count, 1u) - 1u;
     const uint place = min(task.first + item, last);
-    const QueryLeaf query = query_leaf(FOREST, task.own, place);
-    store_local_box(own, item, query.box);
-    store_local_box(seen, item, query.box);
-    own_ids[item] = query.triangle;
-    areas[item] = half_surface(query.box);
+    const Aabb box = leaf_box_of(FOREST, task.own, place);
+    store_local_box(own, item, box);
+    store_local_box(seen, item, box);
+    own_ids[item] = leaf_triangle_of(FOREST, task.own, place);
+    areas[item] = half_surface(box);
     tests[item] = 0u;
     open_sink(&kept_count);
     barrier(CLK_LOCAL_MEM_FENCE);

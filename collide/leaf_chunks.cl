@@ -20,8 +20,9 @@ kernel void leaf_pairs(FOREST_PARAMETERS, global const uint* ropes, global const
         const QueryTask task = task_of(TASKS, counters, k);
         PICK_TREE(task.other)
         for (uint place = task.first; place < task.first + task.count; ++place) {
-            const QueryLeaf query = query_leaf(FOREST, task.own, place);
-            tests += walk_from(TREE, ropes, faces, SINK, query.box, query.triangle,
+            const Aabb box = leaf_box_of(FOREST, task.own, place);
+            tests += walk_from(TREE, ropes, faces, SINK, box,
+                               leaf_triangle_of(FOREST, task.own, place),
                                first_node(TREE, ropes, task, place));
         }
     }

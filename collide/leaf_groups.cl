@@ -22,10 +22,12 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void leaf_pairs(
     const uint item = (uint)get_local_id(0);
     tests[item] = 0u;
     if (item < task.count) {
-        const QueryLeaf query = query_leaf(FOREST, task.own, task.first + item);
+        const uint place = task.first + item;
+        const Aabb box = leaf_box_of(FOREST, task.own, place);
+        const uint triangle = leaf_triangle_of(FOREST, task.own, place);
         PICK_TREE(task.other)
-        tests[item] = walk_from(TREE, ropes, faces, SINK, query.box, query.triangle,
-                                first_node(TREE, ropes, task, task.first + item));
+        tests[item] = walk_from(TREE, ropes, faces, SINK, box, triangle,
+                                first_node(TREE, ropes, task, place));
     }
     barrier(CLK_LOCAL_MEM_FENCE);
     count_tests(tests, counters);

@@ -15,12 +15,12 @@ namespace bvhbench {
 struct StageTime {
     std::string stage;
     std::int64_t busy_ns = 0;  ///< device clock, sum of the kernels' run times
-    std::int64_t start_ns = 0;  ///< device clock, its first start, from that of the first stage on
     std::int64_t span_ns =
         0;  ///< device clock, first start to last end: gaps between launches count
     std::int64_t wall_ns = 0;  ///< host clock; set by host stages only
     int launches = 0;
     std::int64_t moved_bytes = 0;  ///< the least its launches must read and write, as they declared
+    std::int64_t start_ns = 0;     ///< device clock, its first start, from that of the first stage on
 
     /// The one duration to quote: the span on the device, else the host clock.
     std::int64_t elapsed_ns() const { return launches > 0 ? span_ns : wall_ns; }

@@ -24,10 +24,10 @@ Json json_of(const StageTime& time)
         return {{"stage", time.stage}, {"wall_ns", time.wall_ns}};
     return {{"stage", time.stage},
             {"launches", time.launches},
-            {"start_ns", time.start_ns},
             {"busy_ns", time.busy_ns},
             {"span_ns", time.span_ns},
-            {"moved_bytes", time.moved_bytes}};
+            {"moved_bytes", time.moved_bytes},
+            {"start_ns", time.start_ns}};
 }
 
 Json json_of(const Sample& sample)

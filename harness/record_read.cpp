@@ -37,11 +37,11 @@ StageTime stage_of(const Json& json)
 {
     return {.stage = json.at("stage").get<std::string>(),
             .busy_ns = get<std::int64_t>(json, "busy_ns"),
-            .start_ns = get<std::int64_t>(json, "start_ns"),
             .span_ns = get<std::int64_t>(json, "span_ns"),
             .wall_ns = get<std::int64_t>(json, "wall_ns"),
             .launches = get<int>(json, "launches"),
-            .moved_bytes = get<std::int64_t>(json, "moved_bytes")};
+            .moved_bytes = get<std::int64_t>(json, "moved_bytes"),
+            .start_ns = get<std::int64_t>(json, "start_ns")};
 }
 
 Sample sample_of(const Json& json)

@@ -272,7 +272,7 @@ TEST(FrontPipeline, KeepsItsTreeWhileOthersBuildTheirs)
         points = moving.moved(0.02f, frame);
         input.device_points.upload(session().queue().cl(), points);
         for (Pipeline* one : {&tracking, &walking}) {
-            one->begin_frame();
+            one->begin_frame({});
             one->settle(input);
         }
         for (int repeat = 0; repeat < 3; ++repeat)

@@ -129,7 +129,7 @@ TEST(Experiment, NamesTheKeyThatItDoesNotKnowAndThoseItDoes)
 {
     EXPECT_EQ(refusal(R"({"experiment": "a", "scene": ["soup:1"], "builders": ["perfect"]})"),
               "x.json: 'scene' is no key of an experiment; there are: experiment, question, paper, "
-              "scenes, builders, operations, stages, samples, warm_up, quality, quick");
+              "scenes, builders, operations, pipelines, stages, samples, warm_up, quality, quick");
     EXPECT_EQ(refusal(R"({"experiment": "a", "scenes": ["soup:1"],
                           "builders": [{"name": "perfect", "size": 3}]})"),
               "x.json: 'size' is no key of a builder; there are: name, order, group_size, items, "

@@ -48,7 +48,7 @@ def valid(path: str) -> dict:
 def test_exit_codes():
     expect(2, says="name a command: list, build")
     expect(2, "paint", says="paint")
-    expect(2, "list", "colours", says="there are: builders, colliders, orders, scenes, devices, experiments")
+    expect(2, "list", "colours", says="there are: builders, colliders, orders, skips, scenes, devices, experiments")
     expect(2, "build", "--builder", "x", "--scene", "soup:5", says="there are: perfect, ")
     expect(2, "build", "--builder", "perfect", "--scene", "no-such", says="no-such")
     expect(2, "build", "--builder", "perfect", "--scene", "soup:5", "--order", "x",

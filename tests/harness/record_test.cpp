@@ -30,7 +30,7 @@ TEST(Record, WritesACellOnOneLineWithKeysThatEndInTheirUnit)
         R"("builder":{"name":"oibvh-multi","options":{"order":"morton30","group_size":0,"items":0,)"
         R"("leaves":"mesh"}},"operation":"build","status":"measured","warm_up":1,"samples":[{"order":7,"stages":)"
         R"([{"stage":"hierarchy","launches":2,"busy_ns":109990,"span_ns":110000,)"
-        R"("moved_bytes":50000000}]}],"counters":{"nodes_count":288100,"scratch_bytes":0,)"
+        R"("moved_bytes":50000000,"start_ns":0}]}],"counters":{"nodes_count":288100,"scratch_bytes":0,)"
         R"("tree_bytes":6914400},"check":{"verdict":"agrees","against":"oibvh-reference",)"
         R"("tree_hash":"00000000000000ff"}})");
 }
@@ -82,7 +82,7 @@ TEST(Record, ReadsBackWhatItWrote)
     Cell host = fake_cell("oibvh-reference");
     host.builder.sorted_leaves = true;
     host.builder.order = "morton63";
-    host.samples = {{3, {{"hierarchy", 0, 0, 0, 1234, 0, 0}}}};
+    host.samples = {{3, {{"hierarchy", 0, 0, 1234, 0, 0}}}};
     host.check = {Check::Verdict::differs, "oibvh-reference", "something", 0x12u};
     host.scene.outlier = {"bunny", 3, 2.5};
     host.scene.bend_of = "bunny";
