@@ -14,8 +14,9 @@
 namespace bvhbench {
 namespace {
 
-constexpr uint block_pairs = 256;  // a work-item's own, of the form for few cores, for each of three lists
-constexpr uint items = 4;          // tasks a work-item has a turn, of the form for many lanes
+constexpr uint block_pairs =
+    256;                   // a work-item's own, of the form for few cores, for each of three lists
+constexpr uint items = 4;  // tasks a work-item has a turn, of the form for many lanes
 
 /// To look whether parents are apart costs more tests than all else of a frame. So entries climb only in a frame that
 /// comes to a front grown past this multiple of what was left when they last did, and once in so many frames besides, as
@@ -36,9 +37,10 @@ constexpr std::uint64_t most_entries = std::numeric_limits<uint>::max();
 class Front final : public DeviceCollider {
 public:
     Front(Programs& programs, const ColliderOptions& options)
-        : DeviceCollider(programs,
-                         {"front", "Front tracking over refitted boxes [Lauterbach2010], [Wang2018]"},
-                         options, 128)
+        : DeviceCollider(
+              programs,
+              {"front", "Front tracking over refitted boxes [Lauterbach2010], [Wang2018]"}, options,
+              128)
     {
         if (options.jump > 1 || options.start_level > 0)
             throw BadUsage("front descends a level after the other and starts where it stands");
@@ -87,8 +89,8 @@ public:
         const std::vector<std::uint64_t> all = counters(queue);
         const auto queues = all.begin() + FRONT_QUEUES_COUNT / 2 + 1;
         const std::uint64_t front = all[FRONT_COUNT / 2];
-        counts.bvtt_peak = std::max({front, std::uint64_t{standing_.value_or(0)},
-                                     *std::max_element(queues, all.end())});
+        counts.bvtt_peak = std::max(
+            {front, std::uint64_t{standing_.value_or(0)}, *std::max_element(queues, all.end())});
         counts.more = {{"front_count", front},
                        {"sprouts_count", std::accumulate(queues, all.end(), std::uint64_t{0})},
                        {"prunes_count", all[PRUNES_COUNT / 2]},
@@ -119,11 +121,10 @@ private:
             throw Unavailable(std::to_string(roots) + " pairs of objects: a front holds at most " +
                               std::to_string(most_entries));
         const Define label{"LABEL_BITS", label_bits(tree)};
-        advance_ = by_groups()
-                       ? kernel(tree, "collide/front_groups.cl", "advance",
-                                {{"GROUP_SIZE", group_size_}, {"ITEMS", items}, label})
-                       : kernel(tree, "collide/front_chunks.cl", "advance",
-                                {{"SINK_BLOCK", block_pairs}, label});
+        advance_ = by_groups() ? kernel(tree, "collide/front_groups.cl", "advance",
+                                        {{"GROUP_SIZE", group_size_}, {"ITEMS", items}, label})
+                               : kernel(tree, "collide/front_chunks.cl", "advance",
+                                        {{"SINK_BLOCK", block_pairs}, label});
         roots_ = kernel(tree, "collide/front_roots.cl", "list_roots", {label});
         if (!tree.is_implicit()) {
             list_parents_ = kernel(tree, "collide/front_parents.cl", "list_parents", {});
@@ -131,8 +132,9 @@ private:
             list_depths_ = kernel(tree, "collide/front_parents.cl", "list_depths", {});
         }
         const std::size_t guess =
-            options_.capacity != 0 ? options_.capacity
-                                   : std::max<std::size_t>(1024, 8 * std::size_t{tree.leaf_count()});
+            options_.capacity != 0
+                ? options_.capacity
+                : std::max<std::size_t>(1024, 8 * std::size_t{tree.leaf_count()});
         queue_capacity_ = guess;
         front_capacity_ = std::max(guess, static_cast<std::size_t>(roots));
         standing_.reset();
@@ -147,8 +149,8 @@ private:
             front = arena.take<Pair>(front_capacity_, Use::scratch);
         for (Buffer<Pair>& queue : queues_)
             queue = arena.take<Pair>(queue_capacity_, Use::scratch);
-        parents_ = arena.take<Pair>(
-            tree.is_implicit() ? 1 : 2 * std::size_t{tree.leaf_count()} - 1, Use::scratch);
+        parents_ = arena.take<Pair>(tree.is_implicit() ? 1 : 2 * std::size_t{tree.leaf_count()} - 1,
+                                    Use::scratch);
         blocks_ = arena.take<Pair>(by_groups() ? 1 : 3 * block_pairs * chunks_, Use::scratch);
     }
 
@@ -159,8 +161,8 @@ private:
         if (!set_aside_.empty())
             queue.enqueueReadBuffer(fronts_[0].cl(), CL_TRUE, 0, set_aside_.size() * sizeof(Pair),
                                     set_aside_.data());
-        parents_aside_ = standing_ && parents_.size() > 1 ? parents_.download(queue)
-                                                          : std::vector<Pair>{};
+        parents_aside_ =
+            standing_ && parents_.size() > 1 ? parents_.download(queue) : std::vector<Pair>{};
     }
 
     void prepare(const DeviceTree&, const cl::CommandQueue& queue) override
@@ -187,8 +189,7 @@ private:
         const std::uint64_t waiting = *std::max_element(sizes.begin() + queues, sizes.end());
         // Steps behind one that ran over have seen only some of their entries: they, and the front, will need more.
         const bool queues_had_room = had_room(queue_capacity_, waiting, waiting);
-        const bool front_had_room =
-            had_room(front_capacity_, sizes.front(), sizes.front() / 4);
+        const bool front_had_room = had_room(front_capacity_, sizes.front(), sizes.front() / 4);
         if (queues_had_room && front_had_room)
             last_front_ = static_cast<uint>(sizes.front());
         return queues_had_room && front_had_room;
@@ -214,8 +215,8 @@ private:
         for (uint step = 0; step <= descents(tree); ++step) {
             const Buffer<Pair>& from = step == 0 ? fronts_[0] : queues_[step % 2];
             bind(advance_, tree, input, parents_, from, queues_[(step + 1) % 2],
-                 static_cast<uint>(queue_capacity_), fronts_[1],
-                 static_cast<uint>(front_capacity_), step, standing, climbs_ ? 1u : 0u, blocks_);
+                 static_cast<uint>(queue_capacity_), fronts_[1], static_cast<uint>(front_capacity_),
+                 step, standing, climbs_ ? 1u : 0u, blocks_);
             if (by_groups())
                 queue.launch(advance_, groups(standing, step) * group_size_, group_size_, 0);
             else
@@ -256,12 +257,14 @@ private:
     cl::Kernel advance_, roots_, list_parents_, cut_off_roots_, list_depths_;
     std::size_t queue_capacity_ = 0, front_capacity_ = 0;
     std::array<Buffer<Pair>, 2> fronts_;  ///< that stands, and that the query leaves
-    std::array<Buffer<Pair>, 2> queues_;  ///< of nodes that sprout; a step goes from one to the other
-    Buffer<Pair> parents_;                ///< front_parents.cl; one where there is arithmetic
-    Buffer<Pair> blocks_;                 ///< of the form for few cores
+    std::array<Buffer<Pair>, 2>
+        queues_;            ///< of nodes that sprout; a step goes from one to the other
+    Buffer<Pair> parents_;  ///< front_parents.cl; one where there is arithmetic
+    Buffer<Pair> blocks_;   ///< of the form for few cores
     std::vector<Pair> set_aside_, parents_aside_;
 
-    std::optional<uint> standing_;    ///< entries of the front that stands; none: start from the roots
+    std::optional<uint>
+        standing_;  ///< entries of the front that stands; none: start from the roots
     std::optional<uint> last_front_;  ///< that the last query left, if it was complete
     bool climbs_ = false;             ///< whether entries of the front that stands may climb
     uint since_climb_ = 0;            ///< frames

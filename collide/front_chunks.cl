@@ -20,7 +20,7 @@ typedef struct {
     ulong prunes;
 } Lists;
 
-#define LISTS_PARAMETERS Lists *lists
+#define LISTS_PARAMETERS Lists* lists
 #define LISTS_PASSED lists
 #define SINK_OF(list) (list).block, &(list).filled, (list).out, (list).capacity, (list).out_count
 
@@ -48,8 +48,7 @@ kernel void advance(FOREST_PARAMETERS, global const uint* ropes, global const Fa
                     global uint2* pairs, const uint capacity, volatile global uint* counters,
                     global const uint2* parents, global const uint2* queue, global uint2* next,
                     const uint queue_capacity, global uint2* front, const uint front_capacity,
-                    const uint step, const uint standing, const uint climbs,
-                    global uint2* blocks)
+                    const uint step, const uint standing, const uint climbs, global uint2* blocks)
 {
     const ulong tasks = tasks_of(counters, standing, queue_capacity, step);
     const ulong share = (tasks + get_global_size(0) - 1ul) / get_global_size(0);

@@ -82,8 +82,8 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void advance(
         }
         barrier(CLK_LOCAL_MEM_FENCE);
         if (item < 4u) {
-            const uint places[4] = {FRONT_QUEUES_COUNT + 2u * (step + 1u), PAIRS_COUNT,
-                                    FRONT_COUNT, PRUNES_COUNT};
+            const uint places[4] = {FRONT_QUEUES_COUNT + 2u * (step + 1u), PAIRS_COUNT, FRONT_COUNT,
+                                    PRUNES_COUNT};
             counts[item] = kept_counts[item];
             kept_counts[item] = 0u;
             slots[item] = counts[item] != 0u ? add_wide(counters + places[item], counts[item]) : 0u;
