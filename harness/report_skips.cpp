@@ -35,12 +35,6 @@ int launches_of(const Cell& cell)
     return launches;
 }
 
-/// How much less there is with the rule.
-std::string less(double without, double with)
-{
-    return grouped(static_cast<std::int64_t>(without - with));
-}
-
 double counter(const Cell& cell, const char* key)
 {
     const auto found = cell.counters.find(key);
@@ -53,16 +47,20 @@ std::vector<std::string> row_of(const Cell& with, const Cell& without, std::stri
     const double off = spread_of(whole_times_ns(without)).median;
     const bool same = with.check.pairs_hash == without.check.pairs_hash &&
                       with.check.contacts_hash == without.check.contacts_hash;
-    return {with.scene.name,
-            std::to_string(with.scene.frame),
-            std::string(rule),
-            less(launches_of(without), launches_of(with)),
-            less(counter(without, "tasks_count"), counter(with, "tasks_count")),
-            less(counter(without, "box_tests_count"), counter(with, "box_tests_count")),
-            duration_text(on),
-            duration_text(off),
-            fixed(off / on, 2),
-            same ? "the same" : "NOT the same"};
+    const auto less = [&](const char* key) {
+        return static_cast<std::int64_t>(counter(without, key) - counter(with, key));
+    };
+    const int launches = launches_of(without) - launches_of(with);
+    const std::int64_t tasks = less("tasks_count"), tests = less("box_tests_count");
+    std::vector<std::string> row = {with.scene.name, std::to_string(with.scene.frame),
+                                    std::string(rule), std::to_string(launches), grouped(tasks),
+                                    grouped(tests)};
+    if (launches == 0 && tasks == 0 && tests == 0)
+        row.insert(row.end(), {"", "", "nothing to skip"});  // its times would be noise
+    else
+        row.insert(row.end(), {duration_text(on), duration_text(off), fixed(off / on, 2)});
+    row.push_back(same ? "the same" : "NOT the same");
+    return row;
 }
 
 }  // namespace
