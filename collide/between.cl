@@ -45,15 +45,22 @@ kernel void find_between(FOREST_PARAMETERS, global const QueryTask* chunks, cons
     for (uint k = part.first; k < part.end; ++k) {
         QueryTask task = chunks[k / blocks];
         const ForestObject own = objects[task.own];
-        const Aabb box = task_box(FOREST, task), whole = root_box(FOREST, task.own);
+        const Aabb box __attribute__((unused)) = task_box(FOREST, task);
+        const Aabb whole __attribute__((unused)) = root_box(FOREST, task.own);
         const uint first = k % blocks * OTHERS, end = min(object_count, first + OTHERS);
         for (uint other = first; other < end; ++other) {
             if (other == task.own || !asks(own, objects[other], task.own < other))
                 continue;
             ++tests;
-            const Aabb others = root_box(FOREST, other);
-            if ((SKIP_OVERLAP && !overlap(box, others)) || (SKIP_APART && !overlap(whole, others)))
+            const Aabb others __attribute__((unused)) = root_box(FOREST, other);
+#if SKIP_OVERLAP
+            if (!overlap(box, others))
                 continue;
+#endif
+#if SKIP_APART
+            if (!overlap(whole, others))
+                continue;
+#endif
             const uint slot = add_wide(counters + TASKS_COUNT, 1ul);
             task.other = other;
             if (slot < most_between)

@@ -22,11 +22,11 @@ std::string DeviceCollider::refusal(const Tree& tree) const
 }
 
 cl::Kernel DeviceCollider::kernel(const DeviceTree& tree, std::string_view path, const char* name,
-                                  std::vector<Define> more) const
+                                  std::vector<Define> more, Optimise optimise) const
 {
     more.push_back({"SORTED_LEAVES", tree.has_sorted_leaves() ? 1u : 0u});
     more.push_back({"KEEP_ADJACENT", options_.keep_adjacent ? 1u : 0u});
-    return programs().kernel(tree.access_header(), path, name, more);
+    return programs().kernel(tree.access_header(), path, name, more, optimise);
 }
 
 void DeviceCollider::reserve(const Tree* tree, const Input&)

@@ -42,7 +42,7 @@ protected:
 
     /// Compiled behind the tree's access header, with `more` besides the defines that all have.
     cl::Kernel kernel(const DeviceTree& tree, std::string_view path, const char* name,
-                      std::vector<Define> more) const;
+                      std::vector<Define> more, Optimise optimise = Optimise::freely) const;
 
     /// Set the arguments that all have, the tree's first; `more` come behind.
     template <class... Arguments>

@@ -24,7 +24,8 @@ private:
         return by_groups()
                 ? kernel(
                       tree, "collide/group_groups.cl", "group_pairs",
-                      {{"GROUP_SIZE", group_size_}, {"FRONTIER", frontier}, {"RESERVE", reserve}, {"LOOSE", loose}})
+                      {{"GROUP_SIZE", group_size_}, {"FRONTIER", frontier}, {"RESERVE", reserve}, {"LOOSE", loose}},
+                      Optimise::on_gpus)
                 : kernel(tree, "collide/group_chunks.cl", "group_pairs",
                          {{"SINK_BLOCK", block_pairs}});
     }

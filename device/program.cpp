@@ -27,10 +27,9 @@ cl::Kernel Programs::kernel(std::string_view path, const char* name,
 }
 
 cl::Kernel Programs::kernel(std::string_view header, std::string_view path, const char* name,
-                            std::span<const Define> defines)
+                            std::span<const Define> defines, Optimise optimise)
 {
-    return compiled(device_.sources.flatten({header, path}), path, name, defines,
-                    Optimise::freely);
+    return compiled(device_.sources.flatten({header, path}), path, name, defines, optimise);
 }
 
 cl::Kernel Programs::compiled(const std::string& text, std::string_view path, const char* name,

@@ -27,7 +27,8 @@ struct Define {
 /// How far the compiler may go.
 enum class Optimise {
     freely,
-    on_gpus,  ///< not on a CPU: PoCL 3.1 compiles some kernels of many helpers wrongly, and not so without
+    on_gpus,  ///< not on a CPU: of some kernels of many helpers PoCL 3.1 makes wrong code, and not so without, and
+              ///< oclgrind cannot read the marks that inlining leaves
 };
 
 /// The programs of one device, each compiled once however many builders ask for it.
@@ -48,7 +49,7 @@ public:
 
     /// The same of a file that is compiled behind a header it does not name, so that one text serves several.
     cl::Kernel kernel(std::string_view header, std::string_view path, const char* name,
-                      std::span<const Define> defines);
+                      std::span<const Define> defines, Optimise optimise = Optimise::freely);
 
     /// Host time spent compiling so far, in nanoseconds: reported once a run, never part of a sample.
     std::int64_t compile_ns() const { return compile_ns_; }

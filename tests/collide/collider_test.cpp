@@ -169,6 +169,25 @@ TEST(Colliders, TakeEveryGroupSizeThatTheySayTheyDo)
                      BadUsage);
 }
 
+TEST(Colliders, FindOneSetOfPairsInAThousandRepeats)
+{
+    const Standing standing(hard_meshes(900).back().mesh, find_builder("oibvh-multi").make);
+    for (const ColliderEntry& entry : box_colliders(true)) {
+        SCOPED_TRACE(std::string(entry.name));
+        const auto collider = entry.make(session().programs(), {});
+        collider->reserve(standing.tree, standing.input);
+        find_pairs(*collider, standing.tree, standing.input, session().queue());
+        const std::uint64_t hash = PairList(collider->pairs(session().queue())).hash();
+        int others = 0;
+        for (int repeat = 0; repeat < 1000; ++repeat) {
+            find_pairs(*collider, standing.tree, standing.input, session().queue());
+            others += PairList(collider->pairs(session().queue())).hash() != hash ? 1 : 0;
+            session().queue().finish();
+        }
+        EXPECT_EQ(others, 0);
+    }
+}
+
 TEST(Brute, FindsWhatTheSweepFindsWhateverTheTree)
 {
     const Standing standing(crowded_mesh(200), find_builder("median-split").make);
