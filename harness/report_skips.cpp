@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "harness/report_skips.h"
 
+#include <cmath>
+
 #include "harness/report.h"
 #include "harness/table.h"
 
@@ -55,7 +57,9 @@ std::vector<std::string> row_of(const Cell& with, const Cell& without, std::stri
     std::vector<std::string> row = {with.scene.name, std::to_string(with.scene.frame),
                                     std::string(rule), std::to_string(launches), grouped(tasks),
                                     grouped(tests)};
-    if (launches == 0 && tasks == 0 && tests == 0)
+    // A group takes its nodes in the order in which they turn up: of its box tests a few in a million come and go.
+    const bool few = 1000 * std::abs(static_cast<double>(tests)) < counter(with, "box_tests_count");
+    if (launches == 0 && tasks == 0 && few)
         row.insert(row.end(), {"", "", "nothing to skip"});  // its times would be noise
     else
         row.insert(row.end(), {duration_text(on), duration_text(off), fixed(off / on, 2)});

@@ -134,13 +134,15 @@ def test_collide_writes_a_valid_result_and_the_pairs():
 
 def test_collide_goes_through_frames_and_objects_to_contacts():
     common = ("--scene", "n-body:6100:3", "--samples", "2", "--adjacent", "drop", "--narrow", "exact")
-    expect(0, "collide", "--collider", "group", *common, "--pairs-of", "between", "--frames", "0:", "--between", "1",
+    expect(0, "collide", "--collider", "leaf", *common, "--frames", "1:", "--between", "1", "--json", "b.json")
+    assert [cell["scene"]["frame"] for cell in valid("b.json")["cells"]] == [1, 2, 3, 4]
+    expect(0, "collide", "--collider", "group", *common, "--pairs-of", "between", "--frames", "0:",
            "--json", "f.json", "--pairs", "p.csv", "--contacts", "k.csv", "--skips", says="skips:")
     cells = valid("f.json")["cells"]
-    assert {cell["scene"]["frame"] for cell in cells} == {0, 1, 2, 3, 4}, cells
+    assert {cell["scene"]["frame"] for cell in cells} == {0, 1, 2}, cells
     assert {cell["scene"]["objects"] for cell in cells} == {305}
     assert all(cell["check"]["verdict"] == "agrees" for cell in cells), cells
-    last = [cell for cell in cells if cell["scene"]["frame"] == 4]
+    last = [cell for cell in cells if cell["scene"]["frame"] == 2]
     assert len({cell["check"]["contacts_hash"] for cell in last}) == 1
     assert any(cell["counters"]["refits_count"] == 1 for cell in last), last
     assert any(cell["counters"]["rebuilds_count"] == 1 and "rigid" in cell["collider"]["options"]["no_skip"]
