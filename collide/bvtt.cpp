@@ -113,6 +113,17 @@ private:
 
     bool make_room(std::uint64_t, const std::vector<std::uint64_t>& queue_sizes) override
     {
+        // Entries that the last step left although it was not the last there is: all are launched next time.
+        const bool ended = launched_ + 1 == queue_sizes.size() || queue_sizes[launched_] == 0;
+        // One object's first entry, the root with itself, is in no queue.
+        auto first_empty = queue_sizes.begin() + (has_one_object_ ? 1 : 0);
+        first_empty = std::find(first_empty, queue_sizes.end(), 0u);
+        needed_steps_ = ended ? static_cast<uint>(first_empty - queue_sizes.begin()) : all_steps;
+        return has_room_for(queue_sizes) && ended;
+    }
+
+    bool has_room_for(const std::vector<std::uint64_t>& queue_sizes)
+    {
         const std::uint64_t needed = *std::max_element(queue_sizes.begin(), queue_sizes.end());
         if (needed <= queue_capacity_)
             return true;
@@ -130,12 +141,15 @@ private:
         const std::size_t most_groups =
             16 * std::size_t{device().cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()};
         const bool one_object = tree.objects.size() == 1;
+        has_one_object_ = one_object;
         if (one_object && !within())
             return;
         if (!one_object)
             find_roots(tree, queue);
         uint step = 0, depth = 0;
         for (const uint levels : steps(tree)) {
+            if (step == needed_steps_ && skips(skip_empty_queue))
+                break;
             const auto& from = queues_[step % 2];
             const auto& to = queues_[(step + 1) % 2];
             const auto room = static_cast<uint>(queue_capacity_);
@@ -153,6 +167,7 @@ private:
             }
             ++step;
         }
+        launched_ = step;
     }
 
     void find_roots(const DeviceTree& tree, Queue& queue)
@@ -162,11 +177,16 @@ private:
         set_arguments_from(roots_, tree.bind(roots_, 0), objects, within() ? 1u : 0u,
                            between(tree) ? 1u : 0u, queues_[0], static_cast<uint>(queue_capacity_),
                            counters_);
-        const std::size_t items = std::size_t{objects} * divided_up(objects, others);
-        queue.launch(roots_, (items + group - 1) / group * group, group, 0);
+        const std::size_t lanes = std::size_t{objects} * divided_up(objects, others);
+        queue.launch(roots_, (lanes + group - 1) / group * group, group, 0);
     }
 
+    static constexpr uint all_steps = std::numeric_limits<uint>::max();
+
     cl::Kernel roots_, expand_;
+    bool has_one_object_ = false;
+    uint launched_ = 0;               ///< steps of the last query
+    uint needed_steps_ = all_steps;   ///< those of the query before that had something to expand
     std::size_t queue_capacity_ = 0;
     std::array<Buffer<Pair>, 2> queues_;  ///< of nodes; a step goes from one to the other
     Buffer<Pair> blocks_;

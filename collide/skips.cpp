@@ -14,6 +14,7 @@ constexpr SkipRuleEntry rules[] = {
     {skip_apart, "apart", "objects whose boxes are apart are not held against each other"},
     {skip_overlap, "overlap", "of two objects, only leaves near the other's box are held against it"},
     {skip_start_level, "start-level", "levels above the start level are not tested (bvtt)"},
+    {skip_empty_queue, "empty-queue", "steps that found their queue empty in the query before are not launched (bvtt)"},
 };
 
 }  // namespace

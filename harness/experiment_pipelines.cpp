@@ -27,15 +27,20 @@ ColliderChoice collider_of(const Json& json)
     return choice;
 }
 
-PipelineChoice pipeline_of(const Json& json)
+/// The value at `key`, or each of the list there.
+void read_each(const Json& json, const char* key, const std::function<void(const Json&)>& add)
 {
-    refuse_unknown_keys(json, {"builder", "collider", "pairs_of", "adjacent", "narrow"},
-                        "a pipeline");
+    if (json[key].is_array())
+        read_list(json, key, add);
+    else
+        add(json[key]);
+}
+
+PipelineChoice pipeline_of(const Json& json, const BuilderChoice& builder, const Json& collider)
+{
     PipelineChoice choice;
-    choice.builder.name = "none";
-    if (json.contains("builder"))
-        choice.builder = builder_choice(json["builder"]);
-    choice.collider = collider_of(json.at("collider"));
+    choice.builder = builder;
+    choice.collider = collider_of(collider);
     if (json.contains("pairs_of"))
         choice.collider.among = among_called(text_at(json, "pairs_of"));
     if (json.contains("adjacent")) {
@@ -49,6 +54,27 @@ PipelineChoice pipeline_of(const Json& json)
     if (choice.collider.narrow != "none" && choice.collider.narrow != "exact")
         throw BadUsage("'narrow' is none or exact, not '" + choice.collider.narrow + "'");
     return choice;
+}
+
+/// Each of the builders with each of the colliders.
+std::vector<PipelineChoice> pipelines_of(const Json& json)
+{
+    refuse_unknown_keys(json, {"builder", "collider", "pairs_of", "adjacent", "narrow"},
+                        "a pipeline");
+    if (!json.contains("collider"))
+        throw BadUsage("a pipeline needs 'collider'");
+    std::vector<BuilderChoice> builders;
+    if (json.contains("builder"))
+        read_each(json, "builder",
+                  [&](const Json& item) { builders.push_back(builder_choice(item)); });
+    else
+        builders.push_back({.name = "none"});
+    std::vector<PipelineChoice> choices;
+    for (const BuilderChoice& builder : builders)
+        read_each(json, "collider", [&](const Json& item) {
+            choices.push_back(pipeline_of(json, builder, item));
+        });
+    return choices;
 }
 
 CollideTask task_of(const Json& json, const std::vector<PipelineChoice>& pipelines)
@@ -84,8 +110,10 @@ std::vector<CollideTask> collisions_of(const Json& json, const std::string& expe
         return quicker.contains(key) ? quicker : json;
     };
     std::vector<PipelineChoice> pipelines;
-    read_list(of("pipelines"), "pipelines",
-              [&](const Json& item) { pipelines.push_back(pipeline_of(item)); });
+    read_list(of("pipelines"), "pipelines", [&](const Json& item) {
+        for (PipelineChoice& choice : pipelines_of(item))
+            pipelines.push_back(std::move(choice));
+    });
     std::vector<CollideTask> tasks;
     read_list(of("scenes"), "scenes", [&](const Json& item) {
         CollideTask task = task_of(item, pipelines);

@@ -16,6 +16,8 @@ namespace bvhbench {
 ///     builder     as in other experiments; without, the collider wants no tree
 ///     pairs_of    all, between or within, unless the scene says which; adjacent: keep or drop; narrow: none, exact
 ///
+/// Lists of colliders and builders mean each with each.
+///
 /// Throws BadUsage.
 std::vector<CollideTask> collisions_of(const Json& json, const std::string& experiment, bool quick);
 

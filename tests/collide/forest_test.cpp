@@ -103,9 +103,10 @@ TEST_P(Objects, HaveTheTreesThatTheyHaveAlone)
         for (std::size_t i = 0; i < found.nodes.size(); ++i) {
             EXPECT_TRUE(same_bits(found.nodes[i].box, expected.nodes[i].box));
             EXPECT_EQ(found.nodes[i].child, expected.nodes[i].child);
-            if (expected.nodes[i].primitive != HostTree::none)
-                EXPECT_EQ(found.nodes[i].primitive,
-                          expected.nodes[i].primitive + static_cast<int>(range.first));
+            const int alone_id = expected.nodes[i].primitive;
+            EXPECT_EQ(found.nodes[i].primitive, alone_id == HostTree::none
+                                                    ? HostTree::none
+                                                    : alone_id + static_cast<int>(range.first));
         }
     }
 }
@@ -163,6 +164,54 @@ TEST(ObjectsOfOneBuild, JumpAndStartBelowTheRoot)
             const auto bvtt = find_collider("bvtt").make(
                 session().programs(), {.jump = jump, .start_level = start_level});
             expect_pairs(*bvtt, standing, expected_pairs(many, Among::all, true));
+        }
+}
+
+/// Two objects that move through each other: as many steps are launched as the frame before had use for, and if that
+/// is too few, all of them.
+TEST(ObjectsOfOneBuild, AreGivenNoStepsForEmptyQueues)
+{
+    for (const char* builder : {"oibvh-multi", "karras"})
+        for (const KernelForm form : {KernelForm::groups, KernelForm::chunks}) {
+            SCOPED_TRACE(builder);
+            ManyObjects many({});
+            const Mesh part = hard_inputs().front().make(100);
+            many.add(part, 0);
+            many.add(part, 1000);
+            StandingForest standing(many, find_builder(builder).make);
+            const auto made = [&](unsigned rules_off) {
+                auto collider = find_collider("bvtt").make(
+                    session().programs(),
+                    {.among = Among::between_objects, .rules_off = rules_off, .form = form});
+                collider->reserve(standing.tree, standing.input);
+                return collider;
+            };
+            const auto with = made(0), without = made(skip_empty_queue);
+            const auto launches_of = [&](Collider& collider) {
+                find_pairs(collider, standing.tree, standing.input, session().queue());
+                session().queue().finish();
+                collider.query(standing.tree, standing.input, session().queue());
+                const std::vector<StageTime> stages = session().queue().finish();
+                EXPECT_TRUE(collider.complete(session().queue()));
+                EXPECT_EQ(PairList(collider.pairs(session().queue())),
+                          expected_pairs(many, Among::between_objects, true));
+                return stages.back().launches;
+            };
+            const int all = launches_of(*without);
+            const int none = launches_of(*with);
+            EXPECT_LT(none, all);
+            for (const float along : {0.25f, 1000.0f, 0.25f}) {  // into each other, apart, and again
+                for (uint k = 0; k < part.points.size(); ++k)
+                    many.mesh.points[part.points.size() + k].x = part.points[k].x + along;
+                standing.input.points = many.mesh.points;
+                standing.input.device_points.upload(session().queue().cl(), many.mesh.points);
+                session().build_once(*standing.builder, standing.input, Start::from_triangles,
+                                     &standing.tree);
+                const int launched = launches_of(*with);
+                EXPECT_EQ(launched == none, along > 1);
+                EXPECT_LE(launched, all);
+                EXPECT_EQ(launches_of(*without), all);
+            }
         }
 }
 

@@ -74,12 +74,33 @@ TEST(Experiment, OfWholeFramesReadsEveryKey)
     EXPECT_EQ(quick[0].warm_up, 1);
 }
 
+TEST(Experiment, OfWholeFramesPairsEachBuilderWithEachCollider)
+{
+    const std::string_view text = R"({
+        "experiment": "mine", "scenes": ["bunny"],
+        "pipelines": [{"collider": ["grid", "brute"]},
+                      {"builder": ["perfect", {"name": "karras", "order": "hilbert30"}],
+                       "collider": ["leaf", {"name": "bvtt", "jump": 2}, "group"], "adjacent": "drop"}]})";
+    const std::vector<CollideTask> tasks = parse_experiment(text, "x.json", false).collisions;
+    ASSERT_EQ(tasks.size(), 1u);
+    std::vector<std::string> seen;
+    for (const PipelineChoice& choice : tasks[0].pipelines) {
+        seen.push_back(choice.builder.name + ' ' + choice.collider.name);
+        EXPECT_EQ(choice.collider.keep_adjacent, choice.builder.name == "none");
+    }
+    EXPECT_EQ(seen, (std::vector<std::string>{"none grid", "none brute", "perfect leaf", "perfect bvtt", "perfect group",
+                                              "karras leaf", "karras bvtt", "karras group"}));
+}
+
 TEST(Experiment, OfWholeFramesIsRefusedForWhatItDoesNotKnow)
 {
     const auto of = [](const std::string& rest) {
         return refusal(R"({"experiment": "x", "scenes": ["s"], )" + rest + "}");
     };
     EXPECT_NE(of(R"("pipelines": [])").find("'pipelines' must be a list"), std::string::npos);
+    EXPECT_NE(of(R"("pipelines": [{"builder": "perfect"}])").find("'collider'"), std::string::npos);
+    EXPECT_NE(of(R"("pipelines": [{"collider": []}])").find("'collider' must be a list"),
+              std::string::npos);
     EXPECT_NE(of(R"("pipelines": [{"collider": "leap"}])").find("no collider is called 'leap'"),
               std::string::npos);
     EXPECT_NE(of(R"("pipelines": [{"collider": "leaf", "narrow": "guess"}])").find("narrow"),
