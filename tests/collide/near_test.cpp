@@ -81,9 +81,9 @@ ManyObjects one_inside()
 
 ManyObjects bodies()
 {
-    const Scene scene = load_scene("n-body:6100:2", {});
+    const Scene scene = load_scene("n-body:6100:3", {});
     ManyObjects many = none();
-    many.mesh = {scene.frames.back(), scene.faces};
+    many.mesh = {scene.frames.front(), scene.faces};
     for (const SceneObject& object : scene.objects) {
         many.objects.push_back({object.first_face, object.face_count});
         many.owners.resize(object.first_face + object.face_count,
@@ -201,6 +201,8 @@ private:
 
 TEST_P(Near, AreThoseThatTheDefinitionSays)
 {
+    EXPECT_GT(entering(bodies()), 300u);
+    EXPECT_LT(entering(bodies()), 6100u / 2);
     for (const NamedObjects& one : all_objects()) {
         SCOPED_TRACE(one.name);
         expect_definition(one.many);
@@ -208,7 +210,24 @@ TEST_P(Near, AreThoseThatTheDefinitionSays)
     expect_definition(ManyObjects({1, 70, 3, 2, 129, 200, 1}));
 }
 
-TEST_P(Near, OfFewAreThose) { expect_definition(touching_squares()); }
+TEST_P(Near, OfFewAreThoseAndGetTheirNumbersBack)
+{
+    const ManyObjects many = touching_squares();
+    expect_definition(many);
+    const Input input = uploaded(many);
+    NearTriangles near(session().programs(), options());
+    near.reserve(input);
+    EXPECT_EQ(near.find(input, session().queue()), (std::vector<uint>{2, 2, 0}));
+    const cl::CommandQueue& queue = session().queue().cl();
+    Arena arena = Arena::reserved(session().device(), {0, 1 << 16});
+    DevicePairs found{arena.take<Pair>(3, Use::scratch), arena.take<uint>(8, Use::scratch)};
+    found.pairs.upload(queue, std::vector<Pair>{{0, 2}, {1, 3}, {0, 1}});
+    found.counters.upload(queue, std::vector<uint>{2, 0});  // the third is nobody's
+    near.map_back(found, session().queue());
+    const std::vector<Pair> mapped = found.pairs.download(queue);
+    EXPECT_EQ(mapped, (std::vector<Pair>{{10, 12}, {11, 13}, {0, 1}}));
+    session().queue().finish();
+}
 
 /// Trees and colliders in the same form, over what is near alone.
 TEST_P(Near, HaveThePairsBetweenObjects)
