@@ -28,10 +28,9 @@ NearTriangles::NearTriangles(Programs& programs, const NearOptions& options)
     , scan_ranks_(programs, form_)
 {
     const auto kernel = [&](const char* name) {
-        return programs.kernel(
-            path, name,
-            {{"GROUP_SIZE", form_ == KernelForm::groups ? usual_group_size : 1u},
-             {"LISTED", options_.listed}});
+        return programs.kernel(path, name,
+                               {{"GROUP_SIZE", form_ == KernelForm::groups ? usual_group_size : 1u},
+                                {"LISTED", options_.listed}});
     };
     list_ = kernel("list_touching");
     flag_ = kernel("flag_near");
@@ -127,8 +126,9 @@ Input NearTriangles::frame(const Input& whole, const std::vector<uint>& counts,
     faces.resize(total);
     if (total > 0)
         queue.cl().enqueueReadBuffer(faces_.cl(), CL_TRUE, 0, total * sizeof(Face), faces.data());
-    return {whole.points,         faces,   whole.device_points, {faces_.cl(), total},
-            std::move(objects), {owners_.cl(), total}};
+    return {whole.points,        faces,
+            whole.device_points, {faces_.cl(), total},
+            std::move(objects),  {owners_.cl(), total}};
 }
 
 void NearTriangles::map_back(const DevicePairs& found, Queue& queue)

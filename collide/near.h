@@ -64,13 +64,13 @@ private:
     cl::Kernel list_, flag_, count_, compact_, map_;
     std::optional<Arena> arena_;
     Buffer<uint> lists_, list_sizes_;  ///< of each object, the others that its box touches
-    Buffer<uint> places_;              ///< of each triangle and behind the last, how many before it are near
-    Buffer<uint> first_faces_;         ///< of each object, and behind the last one's end
-    Buffer<uint> counts_, ranks_;      ///< of each object
-    Buffer<uint> test_count_;          ///< of two words
-    Buffer<Face> faces_;               ///< of the frame, as owners_ and ids_
+    Buffer<uint> places_;  ///< of each triangle and behind the last, how many before it are near
+    Buffer<uint> first_faces_;     ///< of each object, and behind the last one's end
+    Buffer<uint> counts_, ranks_;  ///< of each object
+    Buffer<uint> test_count_;      ///< of two words
+    Buffer<Face> faces_;           ///< of the frame, as owners_ and ids_
     Buffer<uint> owners_;
-    Buffer<uint> ids_;                 ///< which triangles of the whole frame they are
+    Buffer<uint> ids_;  ///< which triangles of the whole frame they are
 };
 
 }  // namespace bvhbench

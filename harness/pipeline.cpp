@@ -49,8 +49,8 @@ TreeUpdate Pipeline::begin_frame(std::span<const Motion> motions)
     else if (builder_ != nullptr && skips(skip_unchanged) && queries() &&
              all_are(Motion::unchanged))
         update_ = TreeUpdate::keep;
-    else if (builder_ != nullptr && skips(skip_rigid) && !entering_ &&
-             builder_->can_refit() && all_are(Motion::rigid))
+    else if (builder_ != nullptr && skips(skip_rigid) && !entering_ && builder_->can_refit() &&
+             all_are(Motion::rigid))
         update_ = TreeUpdate::refit;
     else
         update_ = TreeUpdate::rebuild;
@@ -113,8 +113,7 @@ void Pipeline::enqueue_query(const Input& input)
 bool Pipeline::complete()
 {
     const Queue& queue = session_.queue();
-    return !queries() ||
-           (collider_->complete(queue) && (!narrow_ || narrow_->complete(queue)));
+    return !queries() || (collider_->complete(queue) && (!narrow_ || narrow_->complete(queue)));
 }
 
 void Pipeline::settle(const Input& input)

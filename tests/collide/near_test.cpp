@@ -31,8 +31,7 @@ Mesh squares(uint first, uint count)
     Mesh mesh;
     for (uint k = 0; k < count; ++k) {
         const auto x = static_cast<float>(first + k);
-        mesh.points.insert(mesh.points.end(),
-                           {{x, 0, 0}, {x + 1, 0, 0}, {x + 1, 1, 0}, {x, 1, 0}});
+        mesh.points.insert(mesh.points.end(), {{x, 0, 0}, {x + 1, 0, 0}, {x + 1, 1, 0}, {x, 1, 0}});
         mesh.faces.push_back({4 * k, 4 * k + 1, 4 * k + 2});
         mesh.faces.push_back({4 * k, 4 * k + 2, 4 * k + 3});
     }
@@ -175,9 +174,9 @@ private:
         const std::vector<Face> on_device =
             frame.triangle_count() > 0 ? frame.device_faces.download(session().queue().cl())
                                        : std::vector<Face>{};
-        const std::vector<uint> owners =
-            frame.triangle_count() > 0 ? frame.device_owners.download(session().queue().cl())
-                                       : std::vector<uint>{};
+        const std::vector<uint> owners = frame.triangle_count() > 0
+                                             ? frame.device_owners.download(session().queue().cl())
+                                             : std::vector<uint>{};
         std::size_t place = 0, object = 0;
         for (const std::vector<uint>& triangles : expected) {
             if (triangles.empty())
@@ -353,8 +352,7 @@ public:
         pipeline_.settle(input_);
         stages_ = pipeline_.once(input_);
         const PairList all = touching_pairs(points_, many_.mesh.faces, false);
-        EXPECT_EQ(pipeline_.pairs(),
-                  among_objects(all, many_.objects, Among::between_objects));
+        EXPECT_EQ(pipeline_.pairs(), among_objects(all, many_.objects, Among::between_objects));
         const std::map<std::string, double> counters = pipeline_.counters();
         return counters.contains("entered_count") ? counters.at("entered_count")
                                                   : static_cast<double>(many_.mesh.faces.size());
@@ -437,8 +435,8 @@ TEST(NearFrames, ThatLaterChangeTheirMindAreAnError)
 {
     const ManyObjects many = row(2, 0.9f);
     std::vector<Point> points = many.mesh.points;
-    Input input = upload(session().device(), session().queue(), points, many.mesh.faces,
-                         many.objects);
+    Input input =
+        upload(session().device(), session().queue(), points, many.mesh.faces, many.objects);
     Pipeline pipeline(session(), {.name = "oibvh-multi"}, between("leaf"), input);
     pipeline.settle(input);
     points.back().x = -100;  // so that its object's box goes round all of the other
