@@ -11,6 +11,7 @@ namespace {
 constexpr SkipRuleEntry rules[] = {
     {skip_unchanged, "unchanged", "no vertex has moved since the last frame: its trees stand"},
     {skip_rigid, "rigid", "every object has moved rigidly: its leaves keep their order, boxes are refitted"},
+    {skip_near, "near", "only triangles near another object's box enter a frame of pairs between objects"},
     {skip_apart, "apart", "objects whose boxes are apart are not held against each other"},
     {skip_overlap, "overlap", "of two objects, only leaves near the other's box are held against it"},
     {skip_start_level, "start-level", "levels above the start level are not tested (bvtt)"},

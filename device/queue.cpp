@@ -40,6 +40,12 @@ void Queue::clear(const cl::Buffer& memory, std::size_t bytes)
                              &record(static_cast<std::int64_t>(bytes)));
 }
 
+void Queue::read(const cl::Buffer& memory, std::size_t bytes, void* to)
+{
+    queue_.enqueueReadBuffer(memory, CL_TRUE, 0, bytes, to, nullptr,
+                             &record(static_cast<std::int64_t>(bytes)));
+}
+
 void Queue::on_host(std::string_view stage, const std::function<void()>& work)
 {
     using clock = std::chrono::steady_clock;

@@ -43,6 +43,9 @@ public:
     /// Enqueue `bytes` of zeros at the front of `memory`. Timed like a launch.
     void clear(const cl::Buffer& memory, std::size_t bytes);
 
+    /// Read the front of `memory` once all before has run. Waits. Timed like a launch.
+    void read(const cl::Buffer& memory, std::size_t bytes, void* to);
+
     /// Run host work as a stage of its own, after everything enqueued before has finished.
     void on_host(std::string_view stage, const std::function<void()>& work);
 

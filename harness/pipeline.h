@@ -8,6 +8,7 @@
 #include <string>
 
 #include "collide/narrow.h"
+#include "collide/near.h"
 #include "harness/record.h"
 #include "harness/session.h"
 #include "scenes/motion.h"
@@ -24,10 +25,11 @@ public:
 
     /// Frames from here on are of other points than those settled last, to which objects have moved so; of the first
     /// frame, and where nothing is known of how they moved, no motions. Says how the tree is brought along: as the
-    /// collider asks if it goes on from frame to frame, else as the rules `unchanged` and `rigid` allow (skips.h).
+    /// collider asks if it goes on from frame to frame, else as the rules `unchanged` and `rigid` allow (skips.h). What
+    /// the rule `near` has left stands for a frame that is `unchanged`, and is no tree of all to be refitted.
     TreeUpdate begin_frame(std::span<const Motion> motions);
 
-    /// One whole frame, again and again until nothing lacked room. Waits.
+    /// One whole frame, again and again until nothing lacked room, with memory for what enters it. Waits.
     void settle(const Input& input);
 
     /// One whole frame, in its stages. Waits. Throws Unavailable if it lacked room, which one that was settled over the
@@ -44,7 +46,21 @@ public:
     const Collider& collider() const { return *collider_; }
 
 private:
+    /// What enters a frame under the rule `near`: some of the triangles, of those objects that have any.
+    struct Entering {
+        std::vector<uint> counts;  ///< of each object of the whole frame
+        std::vector<Face> faces;
+        Input input;
+
+        bool has_pairs() const { return input.objects.size() > 1; }
+    };
+
+    bool skips(SkipRule rule) const { return (rules_off_ & rule) == 0; }
+    void reserve_for(const Input& input);
+    void choose_entering(const Input& input);
+    bool queries() const { return !entering_ || entering_->has_pairs(); }
     void enqueue(const Input& input);
+    void enqueue_query(const Input& input);
     bool complete();
 
     Session& session_;
@@ -55,6 +71,8 @@ private:
     TreeUpdate update_ = TreeUpdate::rebuild;
     std::unique_ptr<Collider> collider_;
     std::optional<NarrowPhase> narrow_;
+    std::optional<NearTriangles> near_;  ///< if the rule may apply
+    std::optional<Entering> entering_;   ///< if it does; else everything enters
 };
 
 }  // namespace bvhbench

@@ -43,6 +43,13 @@ double counter(const Cell& cell, const char* key)
     return found == cell.counters.end() ? 0 : found->second;
 }
 
+/// Triangles that the frame's work began with.
+double entered(const Cell& cell)
+{
+    return cell.counters.contains("entered_count") ? counter(cell, "entered_count")
+                                                   : static_cast<double>(cell.scene.triangles);
+}
+
 std::vector<std::string> row_of(const Cell& with, const Cell& without, std::string_view rule)
 {
     const double on = spread_of(whole_times_ns(with)).median;
@@ -52,14 +59,15 @@ std::vector<std::string> row_of(const Cell& with, const Cell& without, std::stri
     const auto less = [&](const char* key) {
         return static_cast<std::int64_t>(counter(without, key) - counter(with, key));
     };
+    const auto triangles = static_cast<std::int64_t>(entered(without) - entered(with));
     const int launches = launches_of(without) - launches_of(with);
     const std::int64_t tasks = less("tasks_count"), tests = less("box_tests_count");
     std::vector<std::string> row = {with.scene.name, std::to_string(with.scene.frame),
-                                    std::string(rule), std::to_string(launches), grouped(tasks),
-                                    grouped(tests)};
+                                    std::string(rule), grouped(triangles),
+                                    std::to_string(launches), grouped(tasks), grouped(tests)};
     // A group takes its nodes in the order in which they turn up: of its box tests a few in a million come and go.
     const bool few = 1000 * std::abs(static_cast<double>(tests)) < counter(with, "box_tests_count");
-    if (launches == 0 && tasks == 0 && few)
+    if (triangles == 0 && launches == 0 && tasks == 0 && few)
         row.insert(row.end(), {"", "", "nothing to skip"});  // its times would be noise
     else
         row.insert(row.end(), {duration_text(on), duration_text(off), fixed(off / on, 2)});
@@ -74,7 +82,8 @@ std::string skips_report(const Document& document)
     Table table({{"scene", left},
                  {"frame"},
                  {"rule", left},
-                 {"launches left out"},
+                 {"triangles left out"},
+                 {"launches"},
                  {"tasks"},
                  {"box tests"},
                  {"with"},

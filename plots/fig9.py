@@ -17,7 +17,7 @@ import results
 import style
 
 # The paper's words, the stages they are made of here, and a colour each.
-PARTS = (("boxes", ("bounds",), "#999999"), ("MC eval", ("codes",), "#56B4E9"), ("MC sort", ("sort", "order"), "#0072B2"),
+PARTS = (("boxes", ("near", "bounds"), "#999999"), ("MC eval", ("codes",), "#56B4E9"), ("MC sort", ("sort", "order"), "#0072B2"),
          ("build", ("gather", "hierarchy", "refit", "ropes"), "#009E73"), ("broad phase", ("broad", "copy"), "#E69F00"),
          ("narrow phase", ("narrow",), "#D55E00"))
 

@@ -56,11 +56,11 @@ void ObjectBounds::prepare(const cl::CommandQueue& queue)
     first_runs_.upload(queue, first_run_list_);
 }
 
-void ObjectBounds::enqueue(const Input& input, Queue& queue)
+void ObjectBounds::enqueue(const Input& input, Queue& queue, std::string_view stage)
 {
     assert(input.triangle_count() == boxes_.size() && input.objects.size() == bounds_.size());
     const std::size_t group = form_ == KernelForm::groups ? group_size_ : 1;
-    queue.begin("bounds");
+    queue.begin(stage);
     set_arguments(boxes_kernel_, input.device_points, input.device_faces, boxes_, partials_, runs_);
     queue.launch(boxes_kernel_, runs_.size() * group, group,
                  static_cast<std::int64_t>(input.device_points.bytes() +

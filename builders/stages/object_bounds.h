@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <string_view>
 
 #include "builders/input.h"
 #include "builders/stages/kernel_form.h"
@@ -24,8 +25,8 @@ public:
     /// Write down which triangles are whose. Waits.
     void prepare(const cl::CommandQueue& queue);
 
-    /// Enqueue for an input of objects as planned. Does not wait.
-    void enqueue(const Input& input, Queue& queue);
+    /// Enqueue for an input of objects as planned, as a stage called so. Does not wait.
+    void enqueue(const Input& input, Queue& queue, std::string_view stage = "bounds");
 
     const Buffer<Aabb>& boxes() const { return boxes_; }      ///< one a triangle, in mesh order
     const Buffer<Bounds>& bounds() const { return bounds_; }  ///< one an object

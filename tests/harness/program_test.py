@@ -136,7 +136,7 @@ def test_collide_goes_through_frames_and_objects_to_contacts():
     common = ("--scene", "n-body:6100:3", "--samples", "2", "--adjacent", "drop", "--narrow", "exact")
     expect(0, "collide", "--collider", "leaf", *common, "--frames", "1:", "--between", "1", "--json", "b.json")
     assert [cell["scene"]["frame"] for cell in valid("b.json")["cells"]] == [1, 2, 3, 4]
-    expect(0, "collide", "--collider", "group", *common, "--pairs-of", "between", "--frames", "0:",
+    shown = expect(0, "collide", "--collider", "group", *common, "--pairs-of", "between", "--frames", "0:",
            "--json", "f.json", "--pairs", "p.csv", "--contacts", "k.csv", "--skips", says="skips:")
     cells = valid("f.json")["cells"]
     assert {cell["scene"]["frame"] for cell in cells} == {0, 1, 2}, cells
@@ -147,6 +147,17 @@ def test_collide_goes_through_frames_and_objects_to_contacts():
     assert any(cell["counters"]["refits_count"] == 1 for cell in last), last
     assert any(cell["counters"]["rebuilds_count"] == 1 and "rigid" in cell["collider"]["options"]["no_skip"]
                for cell in last), last
+    for cell in cells:  # in the last frame more than half of the triangles are near
+        near = cell["scene"]["frame"] < 2 and cell["collider"]["options"]["no_skip"] != "near"
+        assert near == ("entered_count" in cell["counters"]), cell
+        assert near == any(stage["stage"] == "near" for stage in cell["samples"][0]["stages"]), cell
+        assert not near or 0 < cell["counters"]["entered_count"] < cell["scene"]["triangles"] / 2, cell
+    rows = [line.split() for line in shown.splitlines() if line.split()[2:3] == ["near"]]
+    assert [int(row[3].replace(",", "")) > 3050 for row in rows] == [True, True, False], shown
+    expect(0, "collide", "--collider", "leaf", *common, "--pairs-of", "between", "--no-skip", "near", "--json", "n.json")
+    whole, = valid("n.json")["cells"]
+    assert whole["collider"]["options"]["no_skip"] == "near" and "entered_count" not in whole["counters"], whole
+    assert whole["check"]["contacts_hash"] == next(cell for cell in cells if cell["scene"]["frame"] == 0)["check"]["contacts_hash"]
     pairs, contacts = (pathlib.Path(name).read_text().splitlines() for name in ("p.csv", "k.csv"))
     assert set(contacts[1:]) <= set(pairs[1:]) and len(contacts) - 1 == last[0]["counters"]["contacts_count"]
     one = expect(0, "collide", "--collider", "leaf", *common, "--objects", "one", "--json", "o.json",

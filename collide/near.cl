@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+// check: -DGROUP_SIZE=64u -DLISTED=256u
+// check: -DGROUP_SIZE=1u -DLISTED=4u
+//
+// Which triangles can be in a pair between two objects, and those alone as a frame of their own:
+//
+//     list_touching  lists      of each object the others whose boxes touch its box
+//     flag_near      places[k]  1 if triangle k's box touches one of those boxes, else 0
+//       ... a scan of places ...  how many are near before it
+//     count_near     counts     of each object the triangles that are near; ranks: 1 if there are any
+//       ... a scan of ranks ...   which of the objects that have some it is
+//     compact_near   near_*     what is near, in the frame's order, by what it is there
+//
+// A group, or a work-item that is one, has neighbouring items in all of them: GROUP_SIZE is 1 on few cores.
+#include "builders/stages/chunk.clh"
+#include "collide/wide_count.clh"
+#include "geometry/bounds.h"
+#include "geometry/box_words.clh"
+
+/// Add what a group's work-items have counted.
+static inline void add_tests(local ulong* tests, const ulong own, volatile global uint* count)
+{
+    tests[get_local_id(0)] = own;
+    barrier(CLK_LOCAL_MEM_FENCE);
+    if (get_local_id(0) != 0)
+        return;
+    ulong sum = 0ul;
+    for (uint k = 0u; k < GROUP_SIZE; ++k)
+        sum += tests[k];
+    if (sum != 0ul)
+        add_wide(count, sum);
+}
+
+/// lists[LISTED * k] has those that object k touches, list_sizes[k] of them; where they are more than LISTED, the rest
+/// is counted and not written.
+__attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void list_touching(
+    global const Bounds* restrict bounds, const uint object_count, global uint* restrict lists,
+    global uint* restrict list_sizes, volatile global uint* test_count)
+{
+    local ulong group_tests[GROUP_SIZE];
+    const Chunk part = own_chunk(object_count);
+    for (uint own = part.first; own < part.end; ++own) {
+        const Aabb box = bounds[own].scene;
+        uint size = 0u;
+        for (uint other = 0u; other < object_count; ++other) {
+            if (other == own || !overlap(box, bounds[other].scene))
+                continue;
+            if (size < LISTED)
+                lists[(ulong)LISTED * own + size] = other;
+            ++size;
+        }
+        list_sizes[own] = size;
+    }
+    add_tests(group_tests, (ulong)(part.end - part.first) * (object_count - 1u), test_count);
+}
+
+/// Whether `box`, of object `own`, touches the box of another. An object whose list ran over is held against all.
+static inline bool is_near(const Aabb box, const uint own, global const Bounds* bounds,
+                           const uint object_count, global const uint* lists,
+                           global const uint* list_sizes, ulong* tests)
+{
+    const uint size = list_sizes[own];
+    const bool ran_over = size > LISTED;
+    const uint end = ran_over ? object_count : size;
+    bool touches = false;
+    for (uint k = 0u; k < end && !touches; ++k) {
+        const uint other = ran_over ? k : lists[(ulong)LISTED * own + k];
+        if (other == own)
+            continue;
+        ++*tests;
+        touches = overlap(box, bounds[other].scene);
+    }
+    return touches;
+}
+
+/// One place more than there are triangles: behind the last one, 0.
+__attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void flag_near(
+    global const float2* restrict boxes, global const uint* restrict owners,
+    global const Bounds* restrict bounds, const uint object_count,
+    global const uint* restrict lists, global const uint* restrict list_sizes,
+    global uint* restrict places, const uint count, volatile global uint* test_count)
+{
+    local ulong group_tests[GROUP_SIZE];
+    const Chunk part = own_chunk(count + 1u);
+    ulong tests = 0ul;
+    for (uint k = part.first; k < part.end; ++k)
+        places[k] = k < count && is_near(load_box(boxes, k), owners[k], bounds, object_count, lists,
+                                         list_sizes, &tests)
+                        ? 1u
+                        : 0u;
+    add_tests(group_tests, tests, test_count);
+}
+
+/// Object k has the triangles from first_faces[k] to before first_faces[k + 1].
+__attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void count_near(
+    global const uint* restrict places, global const uint* restrict first_faces,
+    const uint object_count, global uint* restrict counts, global uint* restrict ranks)
+{
+    const Chunk part = own_chunk(object_count);
+    for (uint object = part.first; object < part.end; ++object) {
+        const uint count = places[first_faces[object + 1u]] - places[first_faces[object]];
+        counts[object] = count;
+        ranks[object] = count > 0u ? 1u : 0u;
+    }
+}
+
+/// What finds no room among `most` is not written: then nobody reads any of it.
+__attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void compact_near(
+    global const uint* restrict places, global const Face* restrict faces,
+    global const uint* restrict owners, global const uint* restrict ranks,
+    global Face* restrict near_faces, global uint* restrict near_owners,
+    global uint* restrict near_ids, const uint count, const uint most)
+{
+    const Chunk part = own_chunk(count);
+    for (uint k = part.first; k < part.end; ++k) {
+        const uint place = places[k];
+        if (places[k + 1u] == place || place >= most)
+            continue;
+        near_faces[place] = faces[k];
+        near_owners[place] = ranks[owners[k]];
+        near_ids[place] = k;
+    }
+}
+
+/// Pairs of what is near become pairs of the frame's triangles. Those are in the same order, so that the smaller one
+/// stays first.
+__attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void map_pairs(
+    global uint2* restrict pairs, global const uint* restrict pair_count, const uint capacity,
+    global const uint* restrict near_ids)
+{
+    const uint found = pair_count[1] != 0u ? capacity : min(pair_count[0], capacity);
+    const Chunk part = own_chunk(found);
+    for (uint k = part.first; k < part.end; ++k) {
+        const uint2 pair = pairs[k];
+        pairs[k] = (uint2)(near_ids[pair.x], near_ids[pair.y]);
+    }
+}
