@@ -53,6 +53,8 @@ public:
         const std::vector<std::uint64_t> all = counters(queue);
         counts.bvtt_peak = std::max<std::uint64_t>(
             1, *std::max_element(all.begin() + QUEUES_COUNT / 2, all.end()));
+        if (counts.tasks)
+            counts.tasks = all[QUEUES_COUNT / 2];  // the pairs of roots it starts with
         return counts;
     }
 
