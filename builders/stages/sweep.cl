@@ -19,6 +19,8 @@
 #define TEAMS (GROUP_SIZE / LANES)
 #define TILE (GROUP_SIZE * KEYS_PER_ITEM)
 #define MOST_PASSES 8u
+#define SCRATCH_WORDS                                                                           \
+    (CODE_WORDS * TILE > TEAMS * DIGITS ? CODE_WORDS * TILE : TEAMS * DIGITS)
 
 /// Of this work-item's digits, the first; they end before the smaller of it plus DIGITS_PER_ITEM and DIGITS.
 #define OWN_DIGITS(digit)                                                                       \
@@ -87,8 +89,9 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void sweep(
 {
     const uint shift = 8u * pass;
     // The counters of the teams make way for the tile once pairs know their places.
-    local Code tile[TILE > TEAMS * DIGITS ? TILE : TEAMS * DIGITS];
-    local uint* const team_counts = (local uint*)tile;
+    local uint words[SCRATCH_WORDS] __attribute__((aligned(8)));
+    local uint* const team_counts = words;
+    local Code* const tile = (local Code*)words;
     local uint starts[DIGITS];  // where the digit's pairs start in the sorted tile
     local uint places[DIGITS];  // where those of the tile go, less that
     local uint sums[DIGITS];    // how many there are in the tile
@@ -187,7 +190,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void sweep(
             codes_out[to[k]] = tile[at];
     }
     barrier(CLK_LOCAL_MEM_FENCE);
-    local uint* const tile_ids = (local uint*)tile;
+    local uint* const tile_ids = words;
 #pragma unroll
     for (uint k = 0u; k < KEYS_PER_ITEM; ++k)
         tile_ids[ranks[k]] = ids[k];
