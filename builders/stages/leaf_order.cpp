@@ -106,6 +106,8 @@ void LeafOrder::prepare(const cl::CommandQueue& queue)
 {
     if (stages_->several)
         stages_->several->bounds.prepare(queue);
+    if (stages_->sort)
+        stages_->sorting().prepare(queue);
 }
 
 void LeafOrder::enqueue(const Input& input, Queue& queue)

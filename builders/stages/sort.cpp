@@ -22,7 +22,14 @@ RadixSort::RadixSort(Programs& programs, unsigned code_bits, SortShape shape)
 {
     shape_.form = chosen_form(programs.device(), shape.form);
     const uint words = code_words(code_bits);
-    if (shape_.form == KernelForm::groups) {
+    using enum SortShape::Sweeps;
+    if (shape_.form == KernelForm::groups &&
+        (shape.sweeps == always ||
+         (shape.sweeps == of_device && DigitSweeps::suit(programs.device())))) {
+        digit_bits_ = group_digit_bits;
+        sweeps_.emplace(programs, code_bits, shape.sweep_group_size,
+                        std::max(1u, shape.sweep_keys_per_item / words));
+    } else if (shape_.form == KernelForm::groups) {
         assert(shape.group_size >= 16 && shape.group_size <= 256);
         assert(shape.keys_per_item % 2 == 1 && shape.keys_per_item <= 15);
         const auto kernel = [&](const char* name) {
@@ -66,14 +73,26 @@ void RadixSort::plan(Arena& arena, std::size_t size)
     ids_[(passes_ + 1) % 2] = arena.take<uint>(size, Use::scratch);
     for (Buffer<uint>& codes : codes_)
         codes = arena.take<uint>(words, Use::scratch);
+    if (sweeps_) {
+        sweeps_->plan(arena, size);
+        return;
+    }
     counts_ = arena.take<uint>(digits * run_count(), Use::scratch);
     totals_ = arena.take<uint>(digits, Use::scratch);
+}
+
+void RadixSort::prepare(const cl::CommandQueue& queue)
+{
+    if (sweeps_)
+        sweeps_->prepare(queue);
 }
 
 void RadixSort::enqueue(Queue& queue)
 {
     queue.begin("sort");
-    if (size_ > 0)
+    if (sweeps_ && size_ > 0)
+        sweeps_->enqueue(codes_, ids_, queue);
+    else if (size_ > 0)
         for (uint pass = 0; pass < passes_; ++pass)
             enqueue_pass(queue, pass);
 }

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "builders/stages/codes.h"
 #include "builders/stages/kernel_form.h"
+#include "builders/stages/sweep.h"
 
 namespace bvhbench {
 
@@ -17,6 +19,10 @@ struct SortShape {
     uint keys_per_item = 15;
     /// Chunks only: bits a pass sorts by at most.
     uint chunk_digit_bits = 8;
+    /// Groups only: whether they wait for each other, so that a pass is one launch, and their shape if they do.
+    enum class Sweeps { of_device, never, always } sweeps = Sweeps::of_device;
+    uint sweep_group_size = 512;
+    uint sweep_keys_per_item = 8;  ///< codes of two words: half as many
 };
 
 /// The stage `sort`: a stable radix sort of (code, id) pairs, least significant digit first, by only the bits
@@ -27,6 +33,9 @@ public:
 
     /// Take the buffers for `size` pairs, 0 to 2^31. The sorted ids are tree memory, the rest is scratch.
     void plan(Arena& arena, std::size_t size);
+
+    /// Write down what `enqueue` expects and leaves as it was. Waits.
+    void prepare(const cl::CommandQueue& queue);
 
     /// To be filled before enqueue, which overwrites it: code_words(code_bits) words a code.
     const Buffer<uint>& unsorted_codes() const { return codes_[0]; }
@@ -46,7 +55,8 @@ private:
     uint digit_bits_;  ///< of every pass but perhaps the last
     uint passes_;
     std::size_t chunks_;
-    cl::Kernel count_, scan_, scatter_;
+    cl::Kernel count_, scan_, scatter_;  ///< unless it sweeps
+    std::optional<DigitSweeps> sweeps_;
     std::size_t size_ = 0;
     std::array<Buffer<uint>, 2> codes_;  ///< pass p goes from [p % 2] to the other
     std::array<Buffer<uint>, 2> ids_;    ///< likewise

@@ -65,6 +65,23 @@ struct Case {
     SortShape shape;
 };
 
+/// In groups as small as can be: of one team on GPUs, and of 16 where a team is one work-item.
+SortShape sweeping(uint keys_per_item)
+{
+    SortShape shape{KernelForm::groups};
+    shape.sweeps = SortShape::Sweeps::always;
+    shape.sweep_group_size = bench().device.is_cpu() ? 16 : 32;
+    shape.sweep_keys_per_item = keys_per_item;
+    return shape;
+}
+
+SortShape three_launches(uint group_size = 256, uint keys_per_item = 15)
+{
+    SortShape shape{KernelForm::groups, group_size, keys_per_item};
+    shape.sweeps = SortShape::Sweeps::never;
+    return shape;
+}
+
 class RadixSortContract : public testing::TestWithParam<Case> {
 protected:
     void SetUp() override
@@ -75,6 +92,7 @@ protected:
     void plan(std::size_t size)
     {
         reserve([&](Arena& arena) { sort_->plan(arena, size); });
+        sort_->prepare(bench().queue.cl());
     }
 
     void expect_equal_to_host(const std::vector<ulong>& codes)
@@ -110,7 +128,10 @@ std::string case_name(const testing::TestParamInfo<Case>& instance)
 TEST_P(RadixSortOfEverySize, EqualsAStableSortUpToPastTwoTiles)
 {
     const SortShape& shape = GetParam().shape;
-    const std::size_t last = 2 * std::size_t{shape.group_size} * shape.keys_per_item + 1;
+    const bool sweeps = shape.sweeps == SortShape::Sweeps::always;
+    const uint tile = sweeps ? shape.sweep_group_size * shape.sweep_keys_per_item
+                             : shape.group_size * shape.keys_per_item;
+    const std::size_t last = 2 * std::size_t{tile} + 1;
     for (std::size_t size = 0; size <= last; ++size) {
         plan(size);
         for (const auto& [name, codes] : hard_codes(size, GetParam().bits)) {
@@ -124,7 +145,8 @@ TEST_P(RadixSortOfEverySize, EqualsAStableSortUpToPastTwoTiles)
 INSTANTIATE_TEST_SUITE_P(Small, RadixSortOfEverySize, testing::ValuesIn([] {
                              std::vector<Case> cases;
                              for (const unsigned bits : {8, 30, 32, 63}) {
-                                 cases.push_back({"groups", bits, {KernelForm::groups, 16, 3}});
+                                 cases.push_back({"groups", bits, three_launches(16, 3)});
+                                 cases.push_back({"sweeps", bits, sweeping(2)});
                                  cases.push_back({"chunks", bits, {KernelForm::chunks, 16, 3}});
                              }
                              return cases;
@@ -147,8 +169,11 @@ TEST_P(RadixSortAsShipped, EqualsAStableSortAroundEveryBoundary)
 }
 
 INSTANTIATE_TEST_SUITE_P(Default, RadixSortAsShipped,
-                         testing::Values(Case{"groups", 30, {KernelForm::groups}},
-                                         Case{"groups", 63, {KernelForm::groups}},
+                         testing::Values(Case{"groups", 30, three_launches()},
+                                         Case{"groups", 63, three_launches()},
+                                         Case{"sweeps", 30, sweeping(8)},
+                                         Case{"of_device", 30, {KernelForm::groups}},
+                                         Case{"of_device", 63, {KernelForm::groups}},
                                          Case{"chunks", 30, {KernelForm::chunks}},
                                          Case{"chunks", 63, {KernelForm::chunks}}),
                          case_name);
@@ -162,6 +187,7 @@ TEST(RadixSort, EqualsAStableSortPastTheIntegersOfAFloat)
         code = static_cast<uint>(random() >> 2);
     RadixSort sort(bench().programs, 30);
     reserve([&](Arena& arena) { sort.plan(arena, size); });
+    sort.prepare(bench().queue.cl());
     Buffer<uint> unsorted = sort.unsorted_codes();
     unsorted.upload(bench().queue.cl(), codes);
     sort.enqueue(bench().queue);
@@ -189,8 +215,10 @@ TEST_P(RadixSortOfFewSizes, EqualsAStableSort)
 
 // Small enough for an interpreter that checks every access.
 INSTANTIATE_TEST_SUITE_P(Few, RadixSortOfFewSizes,
-                         testing::Values(Case{"groups", 30, {KernelForm::groups, 16, 3}},
-                                         Case{"groups", 63, {KernelForm::groups, 32, 15}},
+                         testing::Values(Case{"groups", 30, three_launches(16, 3)},
+                                         Case{"groups", 63, three_launches(32, 15)},
+                                         Case{"sweeps", 30, sweeping(3)},
+                                         Case{"sweeps", 63, sweeping(4)},
                                          Case{"chunks", 30, {KernelForm::chunks}}),
                          case_name);
 

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "builders/stages/sweep.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "builders/stages/codes.h"
+#include "geometry/bits.h"
+
+namespace bvhbench {
+namespace {
+
+constexpr auto path = "builders/stages/sweep.cl";
+constexpr uint digits = 256, most_passes = 8;  // as in sweep.cl
+constexpr uint last_epoch = (1u << 31) - 1;    // STATE_EPOCH_SHIFT of look_back.clh
+
+}  // namespace
+
+DigitSweeps::DigitSweeps(Programs& programs, unsigned code_bits, uint group_size,
+                         uint keys_per_item)
+    : code_bits_(code_bits)
+    , passes_(divided_up(code_bits, 8u))
+    , group_size_(group_size)
+    , tile_(group_size * keys_per_item)
+    , most_counting_groups_(2 * programs.device().cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>())
+{
+    assert(group_size >= 16 && group_size <= 512);
+    const auto kernel = [&](const char* name) {
+        return programs.kernel(path, name,
+                               {{"GROUP_SIZE", group_size},
+                                {"KEYS_PER_ITEM", keys_per_item},
+                                {"CODE_WORDS", code_words(code_bits)}},
+                               Optimise::on_gpus);
+    };
+    count_ = kernel("count_digits");
+    sweep_ = kernel("sweep");
+}
+
+bool DigitSweeps::suit(const Device& device)
+{
+    return device.cl.getInfo<CL_DEVICE_EXTENSIONS>().find("cl_nv_") != std::string::npos;
+}
+
+void DigitSweeps::plan(Arena& arena, std::size_t size)
+{
+    size_ = size;
+    epoch_ = 0;
+    turn_ = 0;
+    for (Buffer<uint>& counters : counters_)
+        counters = arena.take<uint>(most_passes * (digits + 1), Use::scratch);
+    states_ = arena.take<ulong>(std::size_t{divided_up(static_cast<uint>(size), tile_)} * digits,
+                                Use::scratch);
+}
+
+void DigitSweeps::prepare(const cl::CommandQueue& queue)
+{
+    if (states_.size() == 0)
+        return;
+    queue.enqueueFillBuffer(states_.cl(), cl_uint{0}, 0, states_.bytes());
+    for (const Buffer<uint>& counters : counters_)
+        queue.enqueueFillBuffer(counters.cl(), cl_uint{0}, 0, counters.bytes());
+    queue.finish();
+}
+
+void DigitSweeps::enqueue(const std::array<Buffer<uint>, 2>& codes,
+                          const std::array<Buffer<uint>, 2>& ids, Queue& queue)
+{
+    const auto size = static_cast<uint>(size_);
+    const uint tiles = divided_up(size, tile_);
+    if (epoch_ > last_epoch - passes_) {
+        queue.clear(states_.cl(), states_.bytes());
+        epoch_ = 0;
+    }
+    const Buffer<uint>& counters = counters_[turn_];
+    turn_ = 1 - turn_;
+    set_arguments(count_, codes[0], counters, size, code_bits_);
+    queue.launch(count_, std::min<std::size_t>(tiles, most_counting_groups_) * group_size_,
+                 group_size_, static_cast<std::int64_t>(codes[0].bytes()));
+    for (uint pass = 0; pass < passes_; ++pass) {
+        const uint to = (pass + 1) % 2;
+        set_arguments(sweep_, codes[pass % 2], ids[pass % 2], codes[to], ids[to], counters,
+                      counters_[turn_], states_, size, pass, ++epoch_);
+        queue.launch(sweep_, std::size_t{tiles} * group_size_, group_size_,
+                     static_cast<std::int64_t>(codes[0].bytes() + codes[1].bytes() +
+                                               ids[0].bytes() * (pass == 0 ? 1 : 2)));
+    }
+}
+
+}  // namespace bvhbench

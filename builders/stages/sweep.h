@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+
+#include "device/arena.h"
+#include "device/program.h"
+#include "device/queue.h"
+
+namespace bvhbench {
+
+/// The passes of a radix sort in one launch each, in which groups wait for groups [Adinets2022]: for devices that let
+/// every group that has started go on. Digits have eight bits.
+class DigitSweeps {
+public:
+    /// `group_size` work-items, a power of two from 32 (from 16 where a team is one work-item) to 512, take `keys_per_item` pairs each.
+    DigitSweeps(Programs& programs, unsigned code_bits, uint group_size, uint keys_per_item);
+
+    /// Whether groups of the device may wait for groups that have started.
+    static bool suit(const Device& device);
+
+    void plan(Arena& arena, std::size_t size);
+
+    /// Write down what `enqueue` expects and leaves as it was. Waits.
+    void prepare(const cl::CommandQueue& queue);
+
+    /// Sort from codes[0], and ids which are 0, 1, 2, …, to the buffers that the number of passes leads to. Does not wait.
+    void enqueue(const std::array<Buffer<uint>, 2>& codes, const std::array<Buffer<uint>, 2>& ids,
+                 Queue& queue);
+
+private:
+    uint code_bits_, passes_, group_size_, tile_;
+    std::size_t most_counting_groups_;
+    cl::Kernel count_, sweep_;
+    std::size_t size_ = 0;
+    uint epoch_ = 0;  ///< of the last pass
+    uint turn_ = 0;   ///< which of the counters are next
+    std::array<Buffer<uint>, 2>
+        counters_;          ///< a row of digits a pass, then the tiles taken in each pass
+    Buffer<ulong> states_;  ///< a row of digits a tile: look_back.clh
+};
+
+}  // namespace bvhbench
