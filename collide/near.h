@@ -31,6 +31,13 @@ public:
     /// Of so many triangles, more than these are too many for a frame of their own to be worth making.
     static std::size_t most_of(std::size_t triangles) { return triangles / 2; }
 
+    /// Whether the search may be worth its time on so many triangles. A GPU builds over a million of them sooner than it
+    /// makes the search's launches and the host reads what it found; a processor's launches cost nothing beside.
+    static bool may_pay(const Device& device, std::size_t triangles)
+    {
+        return device.is_cpu() || triangles >= std::size_t{1} << 22;
+    }
+
     /// Take memory for frames like this one: the same faces and objects, other points. Never timed. Waits.
     void reserve(const Input& input);
 

@@ -23,7 +23,8 @@ Pipeline::Pipeline(Session& session, const BuilderChoice& builder, const Collide
         narrow_->reserve(input.triangle_count());
     }
     if (skips(skip_near) && collider.among == Among::between_objects && input.objects.size() > 1 &&
-        builder_ != nullptr && !collider_->keeps_tree()) {
+        builder_ != nullptr && !collider_->keeps_tree() &&
+        NearTriangles::may_pay(session.device(), input.triangle_count())) {
         near_.emplace(session.programs(), NearOptions{});
         near_->reserve(input);
     }

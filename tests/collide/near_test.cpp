@@ -291,6 +291,8 @@ class NearPipeline : public testing::TestWithParam<BuilderChoice> {};
 
 TEST_P(NearPipeline, FindsWhatIsFoundWithoutTheRule)
 {
+    if (!NearTriangles::may_pay(session().device(), 1))
+        GTEST_SKIP() << "not worth it on this device";
     for (const NamedObjects& one : all_objects())
         for (const char* name : {"leaf", "bvtt", "group"}) {
             SCOPED_TRACE(one.name + ' ' + name);
@@ -373,6 +375,8 @@ private:
 
 TEST(NearFrames, TakeInWhatIsNearThen)
 {
+    if (!NearTriangles::may_pay(session().device(), 1))
+        GTEST_SKIP() << "not worth it on this device";
     Frames frames;
     const double some = frames.entered_at(0.9f, Motion::deforming);
     EXPECT_GT(some, 0);
@@ -390,6 +394,8 @@ TEST(NearFrames, TakeInWhatIsNearThen)
 
 TEST(NearFrames, AreKeptWhenNothingMoves)
 {
+    if (!NearTriangles::may_pay(session().device(), 1))
+        GTEST_SKIP() << "not worth it on this device";
     Frames frames;
     const double some = frames.entered_at(0.9f, Motion::deforming);
     EXPECT_EQ(frames.entered_at(0.9f, Motion::unchanged), some);
@@ -404,6 +410,8 @@ TEST(NearFrames, AreKeptWhenNothingMoves)
 /// What is refitted is a tree of all triangles, and a frame of fewer has left none.
 TEST(NearFrames, AreRefittedAsAWholeOnly)
 {
+    if (!NearTriangles::may_pay(session().device(), 1))
+        GTEST_SKIP() << "not worth it on this device";
     Frames frames;
     EXPECT_EQ(frames.entered_at(0.1f, Motion::deforming), 800);
     EXPECT_EQ(frames.entered_at(0.9f, Motion::rigid), 800);
@@ -433,6 +441,8 @@ TEST(NearFrames, AreOnlyThoseOfPairsBetweenObjects)
 
 TEST(NearFrames, ThatLaterChangeTheirMindAreAnError)
 {
+    if (!NearTriangles::may_pay(session().device(), 1))
+        GTEST_SKIP() << "not worth it on this device";
     const ManyObjects many = row(2, 0.9f);
     std::vector<Point> points = many.mesh.points;
     Input input =
