@@ -57,6 +57,7 @@ public:
 private:
     void compile(const Input& input);
     void plan_rest(Arena& arena) override;
+    void write_down(const cl::CommandQueue& queue) override { bounds_.prepare(queue); }
     uint wide_counters() const override { return 1; }
     bool make_room(std::uint64_t, const std::vector<std::uint64_t>& queue_sizes) override;
     bool has_pairs(const Input& input) const;

@@ -25,9 +25,21 @@ struct Device {
     /// Kernels are written for two kinds of device: many slow lanes in groups, or a few fast cores.
     bool is_cpu() const { return (cl.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU) != 0; }
 
+    /// Whether work-groups of one launch may hand work to each other: device/handoff.clh says why there.
+    bool lets_groups_meet() const { return is_cpu() || is_nvidia(); }
+
+    /// Whether a group may also wait for one that has started, while others are not even there.
+    bool lets_groups_wait() const { return is_nvidia(); }
+
     /// Throws Unavailable when one allocation of `bytes` will not fit. Asked before every allocation: PoCL
     /// never reports that memory ran out, the process is killed instead.
     void require_memory(std::size_t bytes) const;
+
+private:
+    bool is_nvidia() const
+    {
+        return cl.getInfo<CL_DEVICE_EXTENSIONS>().find("cl_nv_") != std::string::npos;
+    }
 };
 
 /// "Platform/device" of every device there is, in the order an index chooses them.

@@ -1,23 +1,27 @@
 // SPDX-License-Identifier: MIT
 // check: -DGROUP_SIZE=64u
 //
-// Triangles to boxes, and in the same pass the bounds of them all. Two launches: every group or chunk leaves
-// the bounds of what it saw in `partials`, then one group or work-item joins those. No float atomics.
+// Triangles to boxes, and in the same pass the bounds of them all. Every group or chunk leaves the bounds of what it saw
+// in `partials`. Who joins those is the last group to finish, where groups may meet (device/handoff.clh), else a launch of
+// its own. No float atomics.
+#include "device/handoff.clh"
 #include "builders/stages/bounds_parts.clh"
 #include "builders/stages/chunk.clh"
 
-/// boxes[k] is the box of faces[k], for all `count`; partials[g] the bounds of what group g saw.
-/// The groups together take `rounds` rounds of a group's size each.
+/// boxes[k] is the box of faces[k], for all `count`; *result the bounds of them all. The groups together take `rounds`
+/// rounds of a group's size each. *arrivals is zero before and after. Unless they `meet`, nobody joins.
 ///
 /// A box is 24 bytes: written by its own work-item, each store would touch three times the memory it fills.
 /// So boxes go through local memory and leave as pairs of floats, neighbours by neighbours.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void bounds_groups(
     global const Point* restrict points, global const Face* restrict faces,
-    global float2* restrict boxes, global Bounds* restrict partials, const uint count,
-    const uint rounds)
+    global float2* restrict boxes, global Bounds* partials,
+    global Bounds* restrict result, volatile global Arrivals* restrict arrivals, const uint count,
+    const uint rounds, const uint meet)
 {
     local float2 staged[3u * GROUP_SIZE];
     local Bounds shared_bounds[GROUP_SIZE];
+    local uint is_last[1];
     const uint item = (uint)get_local_id(0);
     Bounds bounds = empty_bounds();
 
@@ -36,11 +40,26 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void bounds_group
     }
     shared_bounds[item] = bounds;
     join_in_group(shared_bounds);
-    if (item == 0u)
+    if (item == 0u) {
         partials[get_group_id(0)] = shared_bounds[0];
+        is_last[0] = meet != 0u && arrived_last(arrivals, (uint)get_num_groups(0)) ? 1u : 0u;
+    }
+    barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
+
+    // All groups go on, so that no barrier is left out, but only the last has something to join.
+    const uint to_join = is_last[0] != 0u ? (uint)get_num_groups(0) : 0u;
+    bounds = empty_bounds();
+    for (uint partial = item; partial < to_join; partial += GROUP_SIZE)
+        bounds = joined(bounds, partials[partial]);
+    shared_bounds[item] = bounds;
+    join_in_group(shared_bounds);
+    if (item == 0u && is_last[0] != 0u) {
+        *result = shared_bounds[0];
+        forget_arrivals(arrivals);
+    }
 }
 
-/// *result is the bounds of all `partial_count` partials. One group; `rounds` of its size cover them.
+/// *result is the bounds of all `partial_count` partials. One group; rounds of its size cover them.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void join_groups(
     global const Bounds* restrict partials, global Bounds* restrict result,
     const uint partial_count)

@@ -22,6 +22,7 @@ std::size_t most_groups(const Device& device)
 BoundsStage::BoundsStage(Programs& programs, KernelForm form, uint group_size)
     : form_(chosen_form(programs.device(), form))
     , group_size_(group_size)
+    , groups_meet_(form_ == KernelForm::groups && programs.device().lets_groups_meet())
     , most_partials_(form_ == KernelForm::groups ? most_groups(programs.device())
                                                  : chunk_count(programs.device()))
 {
@@ -44,6 +45,13 @@ void BoundsStage::plan(Arena& arena, std::size_t primitives, Use boxes)
     boxes_ = arena.take<Aabb>(primitives, boxes);
     partials_ = arena.take<Bounds>(partial_count(primitives), Use::scratch);
     bounds_ = arena.take<Bounds>(1, Use::scratch);
+    arrivals_ = arena.take<uint>(1, Use::scratch);
+}
+
+void BoundsStage::prepare(const cl::CommandQueue& queue)
+{
+    const uint none = 0;
+    arrivals_.upload(queue, {&none, 1});
 }
 
 void BoundsStage::enqueue(const Input& input, Queue& queue)
@@ -58,13 +66,15 @@ void BoundsStage::enqueue(const Input& input, Queue& queue)
     if (form_ == KernelForm::groups) {
         const uint rounds = divided_up(count, group_size_ * partials);
         set_arguments(boxes_kernel_, input.device_points, input.device_faces, boxes_, partials_,
-                      count, rounds);
+                      bounds_, arrivals_, count, rounds, groups_meet_ ? 1u : 0u);
         queue.launch(boxes_kernel_, partials_.size() * group_size_, group_size_, moved);
     } else {
         set_arguments(boxes_kernel_, input.device_points, input.device_faces, boxes_, partials_,
                       count);
         queue.launch(boxes_kernel_, partials_.size(), 1, moved);
     }
+    if (groups_meet_)
+        return;
     set_arguments(join_kernel_, partials_, bounds_, partials);
     const uint join_size = form_ == KernelForm::groups ? group_size_ : 1;
     queue.launch(join_kernel_, join_size, join_size,

@@ -18,6 +18,9 @@ public:
     /// Take the buffers for `primitives` triangles. The boxes are what `boxes` says, the rest is scratch.
     void plan(Arena& arena, std::size_t primitives, Use boxes);
 
+    /// Write down what `enqueue` expects and leaves as it was. Waits.
+    void prepare(const cl::CommandQueue& queue);
+
     /// Enqueue for an input of as many triangles as planned, at least one. Does not wait.
     void enqueue(const Input& input, Queue& queue);
 
@@ -29,12 +32,14 @@ private:
 
     KernelForm form_;
     uint group_size_;
+    bool groups_meet_;  ///< the last one joins what all have found
     std::size_t most_partials_;
     cl::Kernel boxes_kernel_;
     cl::Kernel join_kernel_;
     Buffer<Aabb> boxes_;
     Buffer<Bounds> partials_;
     Buffer<Bounds> bounds_;
+    Buffer<uint> arrivals_;  ///< of groups that are done; 0 between launches
 };
 
 /// The same on the host: the bounds of `boxes`.

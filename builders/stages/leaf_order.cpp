@@ -106,6 +106,8 @@ void LeafOrder::prepare(const cl::CommandQueue& queue)
 {
     if (stages_->several)
         stages_->several->bounds.prepare(queue);
+    else
+        stages_->bounds.prepare(queue);
     if (stages_->sort)
         stages_->sorting().prepare(queue);
 }

@@ -25,7 +25,7 @@ RadixSort::RadixSort(Programs& programs, unsigned code_bits, SortShape shape)
     using enum SortShape::Sweeps;
     if (shape_.form == KernelForm::groups &&
         (shape.sweeps == always ||
-         (shape.sweeps == of_device && DigitSweeps::suit(programs.device())))) {
+         (shape.sweeps == of_device && programs.device().lets_groups_wait()))) {
         digit_bits_ = group_digit_bits;
         sweeps_.emplace(programs, code_bits, shape.sweep_group_size,
                         std::max(1u, shape.sweep_keys_per_item / words));

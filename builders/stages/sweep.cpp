@@ -36,11 +36,6 @@ DigitSweeps::DigitSweeps(Programs& programs, unsigned code_bits, uint group_size
     sweep_ = kernel("sweep");
 }
 
-bool DigitSweeps::suit(const Device& device)
-{
-    return device.cl.getInfo<CL_DEVICE_EXTENSIONS>().find("cl_nv_") != std::string::npos;
-}
-
 void DigitSweeps::plan(Arena& arena, std::size_t size)
 {
     size_ = size;

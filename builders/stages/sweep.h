@@ -10,14 +10,12 @@
 namespace bvhbench {
 
 /// The passes of a radix sort in one launch each, in which groups wait for groups [Adinets2022]: for devices that let
-/// every group that has started go on. Digits have eight bits.
+/// groups wait. Digits have eight bits.
 class DigitSweeps {
 public:
-    /// `group_size` work-items, a power of two from 32 (from 16 where a team is one work-item) to 512, take `keys_per_item` pairs each.
+    /// `group_size` work-items, a power of two from 32 (from 16 where a team is one work-item) to 512, take
+    /// `keys_per_item` pairs each.
     DigitSweeps(Programs& programs, unsigned code_bits, uint group_size, uint keys_per_item);
-
-    /// Whether groups of the device may wait for groups that have started.
-    static bool suit(const Device& device);
 
     void plan(Arena& arena, std::size_t size);
 

@@ -16,6 +16,7 @@ protected:
     {
         BoundsStage stage(bench().programs, GetParam(), group_size);
         reserve([&](Arena& arena) { stage.plan(arena, mesh.faces.size(), Use::tree); });
+        stage.prepare(bench().queue.cl());
         const Input input = upload(bench().device, bench().queue, mesh.points, mesh.faces);
         stage.enqueue(input, bench().queue);
         bench().queue.finish();

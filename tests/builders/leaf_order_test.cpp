@@ -23,6 +23,7 @@ protected:
         LeafOrder& device_order = *order_;
         const auto size = static_cast<uint>(mesh.faces.size());
         reserve([&](Arena& arena) { device_order.plan(arena, {&size, 1}, Use::tree, true); });
+        device_order.prepare(bench().queue.cl());
         const Input input = upload(bench().device, bench().queue, mesh.points, mesh.faces);
         device_order.enqueue(input, bench().queue);
         stages_ = bench().queue.finish();
