@@ -14,6 +14,7 @@ enum SkipRule : unsigned {
     skip_apart = 1u << 2,
     skip_overlap = 1u << 3,
     skip_start_level = 1u << 4,
+    skip_sorted = 1u << 5,
 };
 
 struct SkipRuleEntry {

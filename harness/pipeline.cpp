@@ -12,6 +12,7 @@ Pipeline::Pipeline(Session& session, const BuilderChoice& builder, const Collide
     : session_(session)
     , choice_(builder)
     , rules_off_(collider.rules_off)
+    , updates_(input.objects.size(), TreeUpdate::rebuild)
     , collider_(make_collider(collider, session.programs()))
 {
     if (collider_->needs_tree()) {
@@ -26,31 +27,47 @@ Pipeline::Pipeline(Session& session, const BuilderChoice& builder, const Collide
     }
 }
 
-TreeUpdate Pipeline::begin_frame(std::span<const Motion> motions)
+TreeUpdate Pipeline::update_after(Motion motion) const
 {
-    const auto all_are = [&](Motion most) {
-        return !motions.empty() && std::all_of(motions.begin(), motions.end(),
-                                               [&](Motion motion) { return motion <= most; });
-    };
     const auto skips = [&](SkipRule rule) { return (rules_off_ & rule) == 0; };
+    if (skips(skip_unchanged) && motion == Motion::unchanged)
+        return TreeUpdate::keep;
+    return skips(skip_rigid) && motion <= Motion::rigid && builder_->can_refit()
+               ? TreeUpdate::refit
+               : TreeUpdate::rebuild;
+}
+
+void Pipeline::begin_frame(std::span<const Motion> motions)
+{
+    Queue& queue = session_.queue();
+    std::vector<TreeUpdate> wanted(updates_.size(), TreeUpdate::rebuild);
     if (collider_->keeps_tree())
-        update_ = collider_->next_frame();
-    else if (builder_ != nullptr && skips(skip_unchanged) && all_are(Motion::unchanged))
-        update_ = TreeUpdate::keep;
-    else if (builder_ != nullptr && skips(skip_rigid) && builder_->can_refit() &&
-             all_are(Motion::rigid))
-        update_ = TreeUpdate::refit;
-    else
-        update_ = TreeUpdate::rebuild;
-    return update_;
+        wanted.assign(wanted.size(), collider_->next_frame());
+    if (builder_ == nullptr)
+        return;
+    if (trials_.is_trying())
+        trials_.learn(!builder_->lined_up_anew(queue));
+    bool try_order = false;
+    if (!collider_->keeps_tree() && !motions.empty()) {
+        std::transform(motions.begin(), motions.end(), wanted.begin(),
+                       [&](Motion motion) { return update_after(motion); });
+        try_order = (rules_off_ & skip_sorted) == 0 &&
+                    std::count(wanted.begin(), wanted.end(), TreeUpdate::rebuild) > 0 &&
+                    trials_.next();
+    }
+    updates_ = builder_->plan_update(wanted, try_order, queue);
+}
+
+std::size_t Pipeline::updated(TreeUpdate how) const
+{
+    return static_cast<std::size_t>(std::count(updates_.begin(), updates_.end(), how));
 }
 
 void Pipeline::enqueue(const Input& input)
 {
     Queue& queue = session_.queue();
-    if (builder_ != nullptr && update_ != TreeUpdate::keep)
-        tree_ = update_ == TreeUpdate::refit ? &builder_->refit(input, queue)
-                                             : &builder_->build(input, queue);
+    if (builder_ != nullptr && updated(TreeUpdate::keep) < updates_.size())
+        tree_ = &builder_->update(input, queue);
     collider_->query(tree_, input, queue);
     if (!narrow_)
         return;
@@ -111,8 +128,10 @@ std::map<std::string, double> Pipeline::counters() const
         const Footprint tree = builder_->reserved();
         put("tree_bytes", tree.tree_bytes);
         put("scratch_bytes", tree.scratch_bytes);
-        put("refits_count", update_ == TreeUpdate::refit ? 1 : 0);
-        put("rebuilds_count", update_ == TreeUpdate::rebuild ? 1 : 0);
+        put("rebuilt_objects_count", updated(TreeUpdate::rebuild));
+        put("refitted_objects_count", updated(TreeUpdate::refit));
+        put("kept_objects_count", updated(TreeUpdate::keep));
+        put("sorts_count", builder_->lined_up_anew(queue) ? 1 : 0);
         memory += tree.total();
     }
     if (narrow_) {

@@ -6,8 +6,10 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "collide/narrow.h"
+#include "harness/order_trials.h"
 #include "harness/record.h"
 #include "harness/session.h"
 #include "scenes/motion.h"
@@ -23,9 +25,9 @@ public:
              const Input& input);
 
     /// Frames from here on are of other points than those settled last, to which objects have moved so; of the first
-    /// frame, and where nothing is known of how they moved, no motions. Says how the tree is brought along: as the
-    /// collider asks if it goes on from frame to frame, else as the rules `unchanged` and `rigid` allow (skips.h).
-    TreeUpdate begin_frame(std::span<const Motion> motions);
+    /// frame, and where nothing is known of how they moved, no motions. Trees are brought along as the collider asks
+    /// if it goes on from frame to frame, else as the rules `unchanged`, `rigid` and `sorted` allow (skips.h).
+    void begin_frame(std::span<const Motion> motions);
 
     /// One whole frame, again and again until nothing lacked room. Waits.
     void settle(const Input& input);
@@ -44,6 +46,8 @@ public:
     const Collider& collider() const { return *collider_; }
 
 private:
+    TreeUpdate update_after(Motion motion) const;
+    std::size_t updated(TreeUpdate how) const;  ///< objects
     void enqueue(const Input& input);
     bool complete();
 
@@ -52,7 +56,8 @@ private:
     unsigned rules_off_;
     std::unique_ptr<Builder> builder_;  ///< its own, whose tree stands from frame to frame; null if none is wanted
     const Tree* tree_ = nullptr;
-    TreeUpdate update_ = TreeUpdate::rebuild;
+    std::vector<TreeUpdate> updates_;  ///< what becomes of each object's tree
+    OrderTrials trials_;
     std::unique_ptr<Collider> collider_;
     std::optional<NarrowPhase> narrow_;
 };
