@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "builders/stages/leaf_order.h"
+#include "builders/stages/standing_order.h"
 #include "tests/builders/stage_testing.h"
 
 namespace bvhbench {
@@ -222,6 +223,63 @@ TEST_P(StandingOrderContract, IsWhatTheHostSaysForManyLeaves)
         EXPECT_TRUE(update({rebuild}));
     }
 }
+
+/// The stage alone, in small groups: of four objects the second and the last are lined up.
+class StandingOrderStage : public testing::TestWithParam<KernelForm> {};
+
+TEST_P(StandingOrderStage, SortsAsideAndPutsBackUnlessItHolds)
+{
+    constexpr uint bits = 12, object_shift = 8;
+    const cl::CommandQueue& queue = bench().queue.cl();
+    const std::vector<uint> sizes = {3, 40, 1, 9}, chosen = {1, 3};
+    RadixSort sort(bench().programs, bits,
+                   {.form = GetParam(), .group_size = 16, .keys_per_item = 1});
+    StandingOrder standing(bench().programs, bits, GetParam());
+    ObjectRuns runs(bench().device, GetParam(), 16);
+    Buffer<uint> ids;
+    reserve([&](Arena& arena) {
+        sort.plan(arena, 53);
+        sort.plan_aside(arena);
+        standing.plan(arena, 53);
+        runs.plan(arena, sizes);
+        ids = arena.take<uint>(53, Use::tree);
+    });
+    standing.prepare(queue);
+    runs.choose(queue, chosen);
+    std::vector<uint> expected(53);
+    std::iota(expected.begin(), expected.end(), 0u);
+    std::reverse(expected.begin() + 3, expected.begin() + 43);
+    ids.upload(queue, expected);
+
+    std::mt19937 random(3);
+    for (const bool holds : {false, true, false}) {
+        std::vector<uint> codes(49);  // of the 40 and the 9
+        for (uint k = 0; k < codes.size(); ++k)
+            codes[k] = (k < 40 ? 1u : 3u) << object_shift | (holds ? 7u : random() % 16);
+        if (holds)  // as they stand
+            for (uint k = 0; k < codes.size(); ++k)
+                codes[expected[k < 40 ? 3 + k : 4 + k] - (k < 40 ? 3 : 4)] =
+                    (k < 40 ? 1u : 3u) << object_shift | k;
+        Buffer<uint>(sort.unsorted_codes()).upload(queue, codes);
+        standing.take(queue, ids, runs);
+        const SortUnlessIdle unless = standing.enqueue_try(sort.unsorted_codes(), bench().queue);
+        sort.enqueue_aside(bench().queue, runs.lined_up_triangles(), unless);
+        standing.enqueue_put(sort.ids_aside(), ids, runs, unless, bench().queue);
+        bench().queue.finish();
+        EXPECT_EQ(standing.held(queue), holds);
+        std::vector<uint> sorted(49);
+        std::iota(sorted.begin(), sorted.end(), 0u);
+        std::stable_sort(sorted.begin(), sorted.end(),
+                         [&](uint a, uint b) { return codes[a] < codes[b]; });
+        for (uint k = 0; k < sorted.size(); ++k)
+            expected[k < 40 ? 3 + k : 4 + k] = sorted[k] + (k < 40 ? 3 : 4);
+        EXPECT_EQ(ids.download(queue), expected);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Stage, StandingOrderStage,
+                         testing::Values(KernelForm::groups, KernelForm::chunks),
+                         [](const auto& instance) { return form_name(instance.param); });
 
 INSTANTIATE_TEST_SUITE_P(Orders, StandingOrderContract, testing::ValuesIn([] {
                              std::vector<Case> cases;
