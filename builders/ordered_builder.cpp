@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "builders/ordered_builder.h"
 
+#include <algorithm>
 #include <cassert>
 
 namespace bvhbench {
@@ -31,6 +32,17 @@ Footprint OrderedBuilder::planned(std::span<const uint> sizes) const
     return arena.used();
 }
 
+Footprint OrderedBuilder::reserved() const
+{
+    Footprint all;
+    for (const std::optional<Arena>* arena : {&arena_, &update_arena_})
+        if (*arena) {
+            all.tree_bytes += (*arena)->used().tree_bytes;
+            all.scratch_bytes += (*arena)->used().scratch_bytes;
+        }
+    return all;
+}
+
 void OrderedBuilder::reserve(std::size_t primitives)
 {
     const auto size = static_cast<uint>(primitives);
@@ -41,6 +53,7 @@ void OrderedBuilder::reserve_objects(std::span<const uint> sizes)
 {
     const Footprint wanted = planned(sizes);
     const Device& device = programs_.device();
+    update_arena_.reset();
     arena_.reset();  // the old memory goes before the new comes
     arena_ = Arena::reserved(device, wanted);
     sizes_.assign(sizes.begin(), sizes.end());
@@ -72,6 +85,75 @@ const Tree& OrderedBuilder::refit(const Input& input, Queue& queue)
     queue.begin("refit");
     enqueue_refit(queue);
     return tree();
+}
+
+void OrderedBuilder::reserve_updates(Queue& queue)
+{
+    const auto plan_all = [&](Arena& arena) {
+        leaf_order_.plan_updates(arena);
+        if (sizes_.size() > 1)
+            plan_updates(arena);
+    };
+    Arena measuring = Arena::measuring(programs_.device());
+    plan_all(measuring);
+    update_arena_ = Arena::reserved(programs_.device(), measuring.used());
+    plan_all(*update_arena_);
+    leaf_order_.prepare_updates(queue.cl());
+}
+
+std::vector<TreeUpdate> OrderedBuilder::plan_update(std::span<const TreeUpdate> wanted,
+                                                    bool try_order, Queue& queue)
+{
+    assert(wanted.size() == sizes_.size());
+    queue.finish();
+    update_ = update_of_all(wanted, can_refit());
+    of_some_ = can_update_some() && std::any_of(wanted.begin(), wanted.end(),
+                                                [&](TreeUpdate one) { return one != update_; });
+    std::vector<TreeUpdate> updates(wanted.begin(), wanted.end());
+    if (!of_some_)
+        std::fill(updates.begin(), updates.end(), update_);
+    if (!of_some_ && update_ != TreeUpdate::rebuild)
+        return updates;  // as refits do it, or nothing to do
+    if (!update_arena_ && (of_some_ || try_order))
+        reserve_updates(queue);
+    leaf_order_.begin_update(queue.cl(), updates, try_order);
+    if (of_some_)
+        begin_update(queue.cl(), updates);
+    return updates;
+}
+
+const Tree& OrderedBuilder::update(const Input& input, Queue& queue)
+{
+    assert(object_sizes(input) == sizes_);
+    if (of_some_)
+        return update_some(input, queue);
+    if (update_ == TreeUpdate::refit)
+        return refit(input, queue);
+    if (update_ == TreeUpdate::keep)
+        return tree();
+    tree().queue = &queue;
+    leaf_order_.enqueue_update(input, queue);
+    gather_if_sorted(input, queue);
+    queue.begin("hierarchy");
+    enqueue_hierarchy(queue);
+    return tree();
+}
+
+const Tree& OrderedBuilder::update_some(const Input& input, Queue& queue)
+{
+    tree().queue = &queue;
+    leaf_order_.enqueue_update(input, queue);
+    if (options_.sorted_leaves)
+        gather_.enqueue(leaf_order_.boxes(), leaf_order_.ids(), leaf_order_.updated(),
+                        gathered_.slots, gathered_.boxes, queue);
+    queue.begin(update_ == TreeUpdate::refit ? "refit" : "hierarchy");
+    enqueue_update(queue);
+    return tree();
+}
+
+bool OrderedBuilder::lined_up_anew(const Queue& queue) const
+{
+    return update_ == TreeUpdate::rebuild && leaf_order_.sorted_anew(queue.cl());
 }
 
 void OrderedBuilder::gather_if_sorted(const Input& input, Queue& queue)

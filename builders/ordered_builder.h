@@ -22,10 +22,14 @@ public:
     Footprint footprint(std::size_t primitives) const final;
     void reserve(std::size_t primitives) final;
     void reserve_objects(std::span<const uint> sizes) final;
-    Footprint reserved() const final { return arena_ ? arena_->used() : Footprint{}; }
+    Footprint reserved() const final;
     const Tree& build(const Input& input, Queue& queue, Start start) final;
     bool can_refit() const final { return true; }
     const Tree& refit(const Input& input, Queue& queue) final;
+    std::vector<TreeUpdate> plan_update(std::span<const TreeUpdate> wanted, bool try_order,
+                                        Queue& queue) final;
+    const Tree& update(const Input& input, Queue& queue) final;
+    bool lined_up_anew(const Queue& queue) const final;
 
 protected:
     /// Another one like this, without memory.
@@ -41,6 +45,18 @@ protected:
     /// Enqueue what makes the tree of the leaves; for a refit, what makes its boxes while its topology stands.
     virtual void enqueue_hierarchy(Queue& queue) = 0;
     virtual void enqueue_refit(Queue& queue) = 0;
+
+    /// Whether it can make the trees of some objects only, by the next three.
+    virtual bool can_update_some() const { return false; }
+
+    /// Take what updates need besides; of several objects only.
+    virtual void plan_updates(Arena&) {}
+
+    /// Write down which trees updates from here on make, of those objects that are rebuilt or refitted. Waits.
+    virtual void begin_update(const cl::CommandQueue&, std::span<const TreeUpdate>) {}
+
+    /// Enqueue what makes those.
+    virtual void enqueue_update(Queue&) {}
 
     virtual DeviceTree& tree() = 0;
 
@@ -59,11 +75,16 @@ protected:
 private:
     Footprint planned(std::span<const uint> sizes) const;
     void gather_if_sorted(const Input& input, Queue& queue);
+    void reserve_updates(Queue& queue);
+    const Tree& update_some(const Input& input, Queue& queue);
 
     BuilderCard card_;
     GatherStage gather_;
-    std::optional<Arena> arena_;
+    std::optional<Arena> arena_, update_arena_;
     std::vector<uint> sizes_;  ///< of the objects that there is memory for
+    /// What updates do: the same for all objects, or not.
+    TreeUpdate update_ = TreeUpdate::rebuild;
+    bool of_some_ = false;
 };
 
 }  // namespace bvhbench

@@ -11,6 +11,7 @@
 #include "builders/input.h"
 #include "builders/stages/kernel_form.h"
 #include "builders/tree.h"
+#include "builders/update.h"
 #include "collide/relation.h"
 #include "device/arena.h"
 #include "device/program.h"
@@ -50,9 +51,6 @@ struct QueryCounts {
     std::optional<std::uint64_t> tasks;  ///< held against other objects' trees, if it has several
     std::vector<std::pair<std::string_view, std::uint64_t>> more = {};  ///< its own, by counters' names
 };
-
-/// How a frame's tree comes from that of the frame before: all of it anew, new boxes for what stands, or not at all.
-enum class TreeUpdate { rebuild, refit, keep };
 
 /// Pairs where a query left them, and their number at PAIRS_COUNT of the counters (collide/counters.h).
 struct DevicePairs {

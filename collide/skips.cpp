@@ -9,8 +9,9 @@ namespace bvhbench {
 namespace {
 
 constexpr SkipRuleEntry rules[] = {
-    {skip_unchanged, "unchanged", "no vertex has moved since the last frame: its trees stand"},
-    {skip_rigid, "rigid", "every object has moved rigidly: its leaves keep their order, boxes are refitted"},
+    {skip_unchanged, "unchanged", "an object of which no vertex has moved since the last frame keeps its tree"},
+    {skip_rigid, "rigid", "an object that has moved rigidly keeps the order of its leaves, its boxes are refitted"},
+    {skip_sorted, "sorted", "leaves whose order still holds after a frame are not sorted again"},
     {skip_near, "near", "only triangles near another object's box enter a frame of pairs between objects"},
     {skip_apart, "apart", "objects whose boxes are apart are not held against each other"},
     {skip_overlap, "overlap", "of two objects, only leaves near the other's box are held against it"},

@@ -13,6 +13,7 @@ Pipeline::Pipeline(Session& session, const BuilderChoice& builder, const Collide
     : session_(session)
     , choice_(builder)
     , rules_off_(collider.rules_off)
+    , updates_(input.objects.size(), TreeUpdate::rebuild)
     , collider_(make_collider(collider, session.programs()))
 {
     if (collider_->needs_tree())
@@ -39,41 +40,81 @@ void Pipeline::reserve_for(const Input& input)
     collider_->reserve(tree_, input);
 }
 
-TreeUpdate Pipeline::begin_frame(std::span<const Motion> motions)
+TreeUpdate Pipeline::update_after(Motion motion) const
 {
-    const auto all_are = [&](Motion most) {
-        return !motions.empty() && std::all_of(motions.begin(), motions.end(),
-                                               [&](Motion motion) { return motion <= most; });
-    };
+    if (skips(skip_unchanged) && motion == Motion::unchanged)
+        return TreeUpdate::keep;
+    return skips(skip_rigid) && motion <= Motion::rigid && builder_->can_refit()
+               ? TreeUpdate::refit
+               : TreeUpdate::rebuild;
+}
+
+void Pipeline::begin_frame(std::span<const Motion> motions)
+{
+    const TreeUpdate asked =
+        collider_->keeps_tree() ? collider_->next_frame() : TreeUpdate::rebuild;
+    if (builder_ == nullptr)
+        return;
     if (collider_->keeps_tree())
-        update_ = collider_->next_frame();
-    else if (builder_ != nullptr && skips(skip_unchanged) && queries() &&
-             all_are(Motion::unchanged))
-        update_ = TreeUpdate::keep;
-    else if (builder_ != nullptr && skips(skip_rigid) && !entering_ && builder_->can_refit() &&
-             all_are(Motion::rigid))
-        update_ = TreeUpdate::refit;
+        updates_ = builder_->plan_update(std::vector(updates_.size(), asked), false,
+                                         session_.queue());
+    else if (entering_)
+        updates_.assign(updates_.size(), keeps_all(motions) ? TreeUpdate::keep : TreeUpdate::rebuild);
     else
-        update_ = TreeUpdate::rebuild;
-    return update_;
+        updates_ = planned_updates(motions);
+}
+
+bool Pipeline::keeps_all(std::span<const Motion> motions) const
+{
+    return skips(skip_unchanged) && queries() && !motions.empty() &&
+           std::all_of(motions.begin(), motions.end(),
+                       [](Motion motion) { return motion == Motion::unchanged; });
+}
+
+std::vector<TreeUpdate> Pipeline::planned_updates(std::span<const Motion> motions)
+{
+    Queue& queue = session_.queue();
+    std::vector<TreeUpdate> wanted(updates_.size(), TreeUpdate::rebuild);
+    if (trials_.is_trying())
+        trials_.learn(!builder_->lined_up_anew(queue));
+    bool try_order = false;
+    if (!motions.empty()) {
+        std::transform(motions.begin(), motions.end(), wanted.begin(),
+                       [&](Motion motion) { return update_after(motion); });
+        try_order = skips(skip_sorted) &&
+                    std::count(wanted.begin(), wanted.end(), TreeUpdate::rebuild) > 0 &&
+                    trials_.next();
+    }
+    return builder_->plan_update(wanted, try_order, queue);
+}
+
+std::size_t Pipeline::updated(TreeUpdate how) const
+{
+    const auto objects = std::count(updates_.begin(), updates_.end(), how);
+    const bool has_some = objects > 0 && queries();
+    return !entering_ ? static_cast<std::size_t>(objects)
+                      : has_some ? entering_->input.objects.size() : 0;
 }
 
 /// Memory is for as many triangles as enter, and to know how many they are takes the device's work of a frame. So it is
 /// found out here, where nothing is timed, whether this frame is worth it; a simulation would go by the frame before.
 void Pipeline::choose_entering(const Input& input)
 {
-    if (!near_ || update_ != TreeUpdate::rebuild)
+    if (!near_ || std::count(updates_.begin(), updates_.end(), TreeUpdate::rebuild) == 0)
         return;
     Queue& queue = session_.queue();
     std::vector<uint> counts = near_->find(input, queue);
     queue.finish();
     const std::size_t total = std::accumulate(counts.begin(), counts.end(), std::size_t{0});
     if (total > NearTriangles::most_of(input.triangle_count())) {
-        if (entering_)
+        if (entering_) {
+            entering_.reset();
             reserve_for(input);
-        entering_.reset();
+            updates_ = planned_updates({});
+        }
         return;
     }
+    updates_.assign(updates_.size(), TreeUpdate::rebuild);
     const bool has_memory = entering_ && entering_->counts == counts;
     entering_.emplace();
     entering_->input = near_->frame(input, counts, entering_->faces, queue);
@@ -88,7 +129,7 @@ void Pipeline::enqueue(const Input& input)
     if (!entering_) {
         enqueue_query(input);
     } else {
-        if (update_ != TreeUpdate::keep && near_->find(input, queue) != entering_->counts)
+        if (updates_.front() != TreeUpdate::keep && near_->find(input, queue) != entering_->counts)
             throw Unavailable("other triangles enter the frame than when memory was taken for it");
         if (!entering_->has_pairs())
             return;
@@ -105,9 +146,9 @@ void Pipeline::enqueue(const Input& input)
 void Pipeline::enqueue_query(const Input& input)
 {
     Queue& queue = session_.queue();
-    if (builder_ != nullptr && update_ != TreeUpdate::keep)
-        tree_ = update_ == TreeUpdate::refit ? &builder_->refit(input, queue)
-                                             : &builder_->build(input, queue);
+    if (builder_ != nullptr && std::count(updates_.begin(), updates_.end(), TreeUpdate::keep) <
+                                   std::ssize(updates_))
+        tree_ = entering_ ? &builder_->build(input, queue) : &builder_->update(input, queue);
     collider_->query(tree_, input, queue);
 }
 
@@ -157,7 +198,7 @@ std::map<std::string, double> Pipeline::counters() const
         counts = collider_->counts(queue);
     else
         counts.box_tests = counts.tasks = 0;
-    if (entering_ && update_ != TreeUpdate::keep)
+    if (entering_ && updates_.front() != TreeUpdate::keep)
         *counts.box_tests += near_->box_tests(queue);
     put(collider_->finds_contacts() ? "contacts_count" : "pairs_count", counts.pairs);
     if (counts.box_tests)
@@ -174,8 +215,12 @@ std::map<std::string, double> Pipeline::counters() const
         const Footprint tree = builder_->reserved();
         put("tree_bytes", tree.tree_bytes);
         put("scratch_bytes", tree.scratch_bytes);
-        put("refits_count", update_ == TreeUpdate::refit ? 1 : 0);
-        put("rebuilds_count", update_ == TreeUpdate::rebuild && queries() ? 1 : 0);
+        put("rebuilt_objects_count", updated(TreeUpdate::rebuild));
+        put("refitted_objects_count", updated(TreeUpdate::refit));
+        put("kept_objects_count", updated(TreeUpdate::keep));
+        const bool sorted = entering_ ? updated(TreeUpdate::rebuild) > 0
+                                      : builder_->lined_up_anew(queue);
+        put("sorts_count", sorted ? 1 : 0);
         memory += tree.total();
     }
     if (entering_)

@@ -6,9 +6,11 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "collide/narrow.h"
 #include "collide/near.h"
+#include "harness/order_trials.h"
 #include "harness/record.h"
 #include "harness/session.h"
 #include "scenes/motion.h"
@@ -24,10 +26,10 @@ public:
              const Input& input);
 
     /// Frames from here on are of other points than those settled last, to which objects have moved so; of the first
-    /// frame, and where nothing is known of how they moved, no motions. Says how the tree is brought along: as the
-    /// collider asks if it goes on from frame to frame, else as the rules `unchanged` and `rigid` allow (skips.h). What
-    /// the rule `near` has left stands for a frame that is `unchanged`, and is no tree of all to be refitted.
-    TreeUpdate begin_frame(std::span<const Motion> motions);
+    /// frame, and where nothing is known of how they moved, no motions. Trees are brought along as the collider asks
+    /// if it goes on from frame to frame, else as the rules `unchanged`, `rigid` and `sorted` allow (skips.h). What the
+    /// rule `near` has left stands for a frame of which all is unchanged, and is no tree of all to be brought along.
+    void begin_frame(std::span<const Motion> motions);
 
     /// One whole frame, again and again until nothing lacked room, with memory for what enters it. Waits.
     void settle(const Input& input);
@@ -59,6 +61,10 @@ private:
     void reserve_for(const Input& input);
     void choose_entering(const Input& input);
     bool queries() const { return !entering_ || entering_->has_pairs(); }
+    TreeUpdate update_after(Motion motion) const;
+    bool keeps_all(std::span<const Motion> motions) const;
+    std::vector<TreeUpdate> planned_updates(std::span<const Motion> motions);
+    std::size_t updated(TreeUpdate how) const;  ///< objects
     void enqueue(const Input& input);
     void enqueue_query(const Input& input);
     bool complete();
@@ -68,7 +74,8 @@ private:
     unsigned rules_off_;
     std::unique_ptr<Builder> builder_;  ///< its own, whose tree stands from frame to frame; null if none is wanted
     const Tree* tree_ = nullptr;
-    TreeUpdate update_ = TreeUpdate::rebuild;
+    std::vector<TreeUpdate> updates_;  ///< what becomes of each object's tree
+    OrderTrials trials_;
     std::unique_ptr<Collider> collider_;
     std::optional<NarrowPhase> narrow_;
     std::optional<NearTriangles> near_;  ///< if the rule may apply

@@ -30,14 +30,18 @@ private:
                                                  options_);
     }
 
-    void enqueue_hierarchy(Queue& queue) override
-    {
-        for (uint k = 0; k < launches_.size(); ++k)
-            launch(k, queue);
-    }
+    void enqueue_hierarchy(Queue& queue) override { enqueue(whole_, queue); }
 
     /// The topology of an implicit tree is the order of its leaves, so this is the hierarchy over the old one.
     void enqueue_refit(Queue& queue) override { enqueue_hierarchy(queue); }
+
+    bool can_update_some() const override { return true; }
+    void plan_updates(Arena& arena) override
+    {
+        update_.subtrees = arena.take<cl_uint2>(whole_.subtree_list.size(), Use::scratch);
+    }
+    void begin_update(const cl::CommandQueue& queue, std::span<const TreeUpdate> updates) override;
+    void enqueue_update(Queue& queue) override { enqueue(update_, queue); }
 
     DeviceTree& tree() override { return tree_; }
 
@@ -57,24 +61,30 @@ private:
 
     /// One launch, of all objects: those whose trees are so high take part in it.
     struct Launch {
-        uint first_subtree = 0, subtrees = 0;  ///< of `subtree_list_`
+        uint first_subtree = 0, subtrees = 0;  ///< of the list
         SubtreeLaunch of_first;                ///< how the first object's tree takes part
         std::int64_t moved_bytes = 0;
     };
 
+    /// The launches that make the trees of all objects, or of some.
+    struct Launches {
+        std::vector<Launch> list;
+        std::vector<cl_uint2> subtree_list;  ///< object and position, launch by launch; of several objects only
+        Buffer<cl_uint2> subtrees;
+    };
+
     void plan(Arena& arena, std::span<const uint> sizes) override;
-    void plan_launches();
+    void plan_launches(Launches& launches, std::span<const uint> objects) const;
     void prepare(const cl::CommandQueue& queue) override;
-    void launch(uint index, Queue& queue);
+    void enqueue(const Launches& launches, Queue& queue);
+    void launch(const Launches& launches, uint index, Queue& queue);
     std::int64_t moved_bytes(uint leaves, const SubtreeLaunch& launch) const;
 
     Meeting meeting_;
     Cut cut_;
     cl::Kernel from_ids_, from_nodes_;
     ImplicitTree tree_;
-    std::vector<Launch> launches_;
-    std::vector<cl_uint2> subtree_list_;  ///< object and position, launch by launch; of several objects only
-    Buffer<cl_uint2> subtrees_;
+    Launches whole_, update_;
     Buffer<uint> arrivals_;  ///< hand-off only: one a node above the first launch's subtrees, or one a slot
 };
 
@@ -93,7 +103,9 @@ void ImplicitBuilder::plan(Arena& arena, std::span<const uint> sizes)
         first += size;
     }
     cut_ = choose_cut(programs_.device(), options_, meeting_, tree_.most_leaves);
-    plan_launches();
+    std::vector<uint> all(sizes.size());
+    std::iota(all.begin(), all.end(), 0u);
+    plan_launches(whole_, all);
 
     tree_.nodes = arena.take<Aabb>(slots, Use::tree);
     if (!tree_.sorted_leaves)  // what a padded layout stores past the leaves
@@ -108,43 +120,63 @@ void ImplicitBuilder::plan(Arena& arena, std::span<const uint> sizes)
                  tree_.layout.first_slot(primitives, implicit_leaf_level(primitives)),
                  arena.take<uint>(is_forest() && tree_.sorted_leaves ? sizes.size() : 0,
                                   Use::scratch)};
-    subtrees_ = arena.take<cl_uint2>(subtree_list_.size(), Use::scratch);
+    whole_.subtrees = arena.take<cl_uint2>(whole_.subtree_list.size(), Use::scratch);
 
     std::size_t above = 0;
     if (handoff() && is_forest())
         above = slots;
-    else if (handoff() && !launches_.empty())
-        above = tree_.layout.first_slot(primitives, launches_[0].of_first.entry_level + 1 -
-                                                        launches_[0].of_first.levels);
+    else if (handoff() && !whole_.list.empty())
+        above = tree_.layout.first_slot(primitives, whole_.list[0].of_first.entry_level + 1 -
+                                                        whole_.list[0].of_first.levels);
     arrivals_ = arena.take<uint>(above, Use::scratch);
 }
 
-void ImplicitBuilder::plan_launches()
+void ImplicitBuilder::plan_launches(Launches& launches, std::span<const uint> objects) const
 {
-    launches_.clear();
-    subtree_list_.clear();
+    launches.list.clear();
+    launches.subtree_list.clear();
     std::vector<SubtreeSchedule> schedules;
-    for (const ForestObject& object : tree_.objects)
+    for (const uint object : objects) {
+        const uint leaves = tree_.objects[object].leaves;
         schedules.push_back(
-            subtree_schedule(implicit_leaf_level(object.leaves), cut_.levels, [&](uint level) {
-                return tree_.layout.stored_on(object.leaves, level);
-            }));
+            subtree_schedule(implicit_leaf_level(leaves), cut_.levels,
+                             [&](uint level) { return tree_.layout.stored_on(leaves, level); }));
+    }
     uint count = 0;
     for (const SubtreeSchedule& schedule : schedules)
         count = std::max(count, handoff() ? std::min(schedule.count, 1u) : schedule.count);
     for (uint k = 0; k < count; ++k) {
-        Launch launch{static_cast<uint>(subtree_list_.size()), 0, schedules[0].launches[k], 0};
-        for (uint object = 0; object < schedules.size(); ++object) {
-            if (k >= schedules[object].count)
+        Launch launch{static_cast<uint>(launches.subtree_list.size()), 0,
+                      schedules[0].launches[k], 0};
+        for (std::size_t chosen = 0; chosen < objects.size(); ++chosen) {
+            if (k >= schedules[chosen].count)
                 continue;
-            const SubtreeLaunch& part = schedules[object].launches[k];
+            const uint object = objects[chosen];
+            const SubtreeLaunch& part = schedules[chosen].launches[k];
             launch.subtrees += part.subtrees;
             launch.moved_bytes += moved_bytes(tree_.objects[object].leaves, part);
             for (uint position = 0; is_forest() && position < part.subtrees; ++position)
-                subtree_list_.push_back({{object, position}});
+                launches.subtree_list.push_back({{object, position}});
         }
-        launches_.push_back(launch);
+        launches.list.push_back(launch);
     }
+}
+
+void ImplicitBuilder::begin_update(const cl::CommandQueue& queue,
+                                   std::span<const TreeUpdate> updates)
+{
+    std::vector<uint> objects;
+    for (uint object = 0; object < updates.size(); ++object)
+        if (updates[object] != TreeUpdate::keep)
+            objects.push_back(object);
+    plan_launches(update_, objects);
+    update_.subtrees.upload(queue, update_.subtree_list);
+}
+
+void ImplicitBuilder::enqueue(const Launches& launches, Queue& queue)
+{
+    for (uint k = 0; k < launches.list.size(); ++k)
+        launch(launches, k, queue);
 }
 
 void ImplicitBuilder::prepare(const cl::CommandQueue& queue)
@@ -155,7 +187,7 @@ void ImplicitBuilder::prepare(const cl::CommandQueue& queue)
     from_nodes_ = kernel(prefix + "from_nodes");
     arrivals_.upload(queue, std::vector<uint>(arrivals_.size(), 0u));
     tree_.device_objects.upload(queue, tree_.objects);
-    subtrees_.upload(queue, subtree_list_);
+    whole_.subtrees.upload(queue, whole_.subtree_list);
     if (gathered_.slots.size() > 0) {
         std::vector<uint> slots;
         for (const ForestObject& object : tree_.objects)
@@ -168,9 +200,9 @@ void ImplicitBuilder::prepare(const cl::CommandQueue& queue)
         tree_.nodes.upload(queue, std::vector<Aabb>(tree_.nodes.size(), empty_box()));
 }
 
-void ImplicitBuilder::launch(uint k, Queue& queue)
+void ImplicitBuilder::launch(const Launches& launches, uint k, Queue& queue)
 {
-    const Launch& launch = launches_[k];
+    const Launch& launch = launches.list[k];
     const bool from_ids = k == 0 && !tree_.sorted_leaves;
     cl::Kernel& kernel = from_ids ? from_ids_ : from_nodes_;
     cl_uint index = 0;
@@ -184,7 +216,7 @@ void ImplicitBuilder::launch(uint k, Queue& queue)
         argument(arrivals_);
     if (is_forest()) {
         argument(tree_.device_objects);
-        argument(subtrees_);
+        argument(launches.subtrees);
         if (!from_ids && !handoff()) {
             argument(launch.first_subtree);
             argument(k);

@@ -4,7 +4,8 @@
 // their centres. The code itself is a function shared with the host, and all that differs between orders.
 //
 // NAME_objects does the same for several objects at once, each against its own bounds: a box's object above, its
-// code below, less the `dropped` lowest bits for which there is no room.
+// code below, less the `dropped` lowest bits for which there is no room. NAME_runs does so for some of the objects,
+// a run (ObjectRun) a group or a work-item: their codes are put one object behind the other.
 #include "geometry/box_words.clh"
 #include "geometry/hilbert.h"
 
@@ -30,6 +31,19 @@
             const uint owner = owners[k];                                                       \
             global const Bounds* bounds = all_bounds + owner;                                   \
             codes[k] = ((Code)owner << object_shift) | ((code_of_box) >> dropped);              \
+        }                                                                                       \
+    }                                                                                           \
+                                                                                                \
+    kernel void name##_runs(                                                                    \
+        global const float2* restrict boxes, global const Bounds* restrict all_bounds,          \
+        global const uint4* restrict runs, global Code* restrict codes, const uint dropped,     \
+        const uint object_shift)                                                                \
+    {                                                                                           \
+        const uint4 run = runs[get_group_id(0)];                                                \
+        global const Bounds* bounds = all_bounds + run.z;                                       \
+        for (uint k = run.x + (uint)get_local_id(0); k < run.y; k += (uint)get_local_size(0)) { \
+            const Aabb box = load_box(boxes, k);                                                \
+            codes[k - run.w] = ((Code)run.z << object_shift) | ((code_of_box) >> dropped);      \
         }                                                                                       \
     }
 

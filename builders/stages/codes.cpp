@@ -8,14 +8,16 @@
 namespace bvhbench {
 namespace {
 
+constexpr auto path = "builders/stages/codes.cl";
 constexpr uint group_size = 256;
 
 }  // namespace
 
 CodesStage::CodesStage(Programs& programs, const OrderEntry& order)
-    : kernel_(programs.kernel("builders/stages/codes.cl", order.kernel))
-    , objects_kernel_(programs.kernel("builders/stages/codes.cl",
-                                      (std::string(order.kernel) + "_objects").c_str()))
+    : words_(code_words(order.code_bits))
+    , kernel_(programs.kernel(path, order.kernel))
+    , objects_kernel_(programs.kernel(path, (std::string(order.kernel) + "_objects").c_str()))
+    , runs_kernel_(programs.kernel(path, (std::string(order.kernel) + "_runs").c_str()))
 {}
 
 void CodesStage::enqueue(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bounds,
@@ -32,6 +34,17 @@ void CodesStage::enqueue(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bounds
     set_arguments(objects_kernel_, boxes, bounds, owners, codes, static_cast<uint>(boxes.size()),
                   dropped, object_shift);
     launch(objects_kernel_, boxes, codes, queue);
+}
+
+void CodesStage::enqueue(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bounds,
+                         const ObjectRuns& runs, const Buffer<uint>& codes, uint dropped,
+                         uint object_shift, Queue& queue)
+{
+    queue.begin("codes");
+    set_arguments(runs_kernel_, boxes, bounds, runs.runs(), codes, dropped, object_shift);
+    queue.launch(runs_kernel_, runs.lined_up_count() * runs.group(), runs.group(),
+                 static_cast<std::int64_t>(runs.lined_up_triangles() *
+                                           (sizeof(Aabb) + words_ * sizeof(uint))));
 }
 
 void CodesStage::launch(cl::Kernel& kernel, const Buffer<Aabb>& boxes, const Buffer<uint>& codes,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "builders/orders.h"
+#include "builders/stages/object_runs.h"
 #include "device/arena.h"
 #include "device/program.h"
 #include "device/queue.h"
@@ -26,11 +27,16 @@ public:
     void enqueue(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bounds, const Buffer<uint>& owners,
                  const Buffer<uint>& codes, uint dropped, uint object_shift, Queue& queue);
 
+    /// The same of the objects that `runs` lines up, at least one: their codes one object behind the other.
+    void enqueue(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bounds, const ObjectRuns& runs,
+                 const Buffer<uint>& codes, uint dropped, uint object_shift, Queue& queue);
+
 private:
     void launch(cl::Kernel& kernel, const Buffer<Aabb>& boxes, const Buffer<uint>& codes,
                 Queue& queue);
 
-    cl::Kernel kernel_, objects_kernel_;
+    unsigned words_;
+    cl::Kernel kernel_, objects_kernel_, runs_kernel_;
 };
 
 }  // namespace bvhbench

@@ -61,3 +61,26 @@ kernel void gather_objects_chunks(global const Aabb* restrict boxes, global cons
     for (uint k = chunk.first; k < chunk.end; ++k)
         sorted[slots[owners[ids[k]]] + k] = boxes[ids[k]];
 }
+
+/// As gather_objects_groups, of some of the objects: a group fills a run (ObjectRun).
+__attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void gather_runs_groups(
+    global const float2* restrict boxes, global const uint* restrict ids,
+    global const uint4* restrict runs, global const uint* restrict slots,
+    global float2* restrict sorted)
+{
+    const uint4 run = runs[get_group_id(0)];
+    const uint slot = slots[run.z] + run.x;
+    const uint words = 3u * (run.y - run.x);
+    for (uint word = (uint)get_local_id(0); word < words; word += GROUP_SIZE)
+        sorted[3ul * slot + word] = boxes[3ul * ids[run.x + word / 3u] + word % 3u];
+}
+
+/// The same, each work-item a run.
+kernel void gather_runs_chunks(global const Aabb* restrict boxes, global const uint* restrict ids,
+                               global const uint4* restrict runs, global const uint* restrict slots,
+                               global Aabb* restrict sorted)
+{
+    const uint4 run = runs[get_global_id(0)];
+    for (uint k = run.x; k < run.y; ++k)
+        sorted[slots[run.z] + k] = boxes[ids[k]];
+}

@@ -12,15 +12,16 @@ GatherStage::GatherStage(Programs& programs, KernelForm form, uint group_size)
     : form_(chosen_form(programs.device(), form))
     , group_size_(group_size)
     , chunks_(chunk_count(programs.device()))
-    , kernel_(programs.kernel("builders/stages/gather.cl",
-                              form_ == KernelForm::groups ? "gather_groups" : "gather_chunks",
-                              {{"GROUP_SIZE", group_size}}))
-    , objects_kernel_(
-          programs.kernel("builders/stages/gather.cl",
-                          form_ == KernelForm::groups ? "gather_objects_groups"
-                                                      : "gather_objects_chunks",
-                          {{"GROUP_SIZE", group_size}}))
-{}
+{
+    const bool groups = form_ == KernelForm::groups;
+    const auto kernel = [&](const char* of_groups, const char* of_chunks) {
+        return programs.kernel("builders/stages/gather.cl", groups ? of_groups : of_chunks,
+                               {{"GROUP_SIZE", group_size}});
+    };
+    kernel_ = kernel("gather_groups", "gather_chunks");
+    objects_kernel_ = kernel("gather_objects_groups", "gather_objects_chunks");
+    runs_kernel_ = kernel("gather_runs_groups", "gather_runs_chunks");
+}
 
 void GatherStage::enqueue(const Buffer<Aabb>& boxes, const Buffer<uint>& ids,
                           const Buffer<Aabb>& sorted, uint first, Queue& queue)
@@ -37,6 +38,18 @@ void GatherStage::enqueue(const Buffer<Aabb>& boxes, const Buffer<uint>& ids,
     set_arguments(objects_kernel_, boxes, ids, owners, slots, sorted,
                   static_cast<uint>(ids.size()));
     launch(objects_kernel_, ids.size(), owners.bytes(), queue);
+}
+
+void GatherStage::enqueue(const Buffer<Aabb>& boxes, const Buffer<uint>& ids,
+                          const ObjectRuns& runs, const Buffer<uint>& slots,
+                          const Buffer<Aabb>& sorted, Queue& queue)
+{
+    queue.begin("gather");
+    if (runs.count() == 0)
+        return;
+    set_arguments(runs_kernel_, boxes, ids, runs.runs(), slots, sorted);
+    queue.launch(runs_kernel_, runs.count() * runs.group(), runs.group(),
+                 static_cast<std::int64_t>(runs.triangles() * (sizeof(uint) + 2 * sizeof(Aabb))));
 }
 
 void GatherStage::launch(cl::Kernel& kernel, std::size_t count, std::size_t more_bytes,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "builders/stages/kernel_form.h"
+#include "builders/stages/object_runs.h"
 #include "device/buffer.h"
 #include "device/program.h"
 #include "device/queue.h"
@@ -23,13 +23,17 @@ public:
     void enqueue(const Buffer<Aabb>& boxes, const Buffer<uint>& ids, const Buffer<uint>& owners,
                  const Buffer<uint>& slots, const Buffer<Aabb>& sorted, Queue& queue);
 
+    /// The same of the objects that `runs`, cut for this form and group size, are of.
+    void enqueue(const Buffer<Aabb>& boxes, const Buffer<uint>& ids, const ObjectRuns& runs,
+                 const Buffer<uint>& slots, const Buffer<Aabb>& sorted, Queue& queue);
+
 private:
     void launch(cl::Kernel& kernel, std::size_t count, std::size_t more_bytes, Queue& queue);
 
     KernelForm form_;
     uint group_size_;
     std::size_t chunks_;
-    cl::Kernel kernel_, objects_kernel_;
+    cl::Kernel kernel_, objects_kernel_, runs_kernel_;
 };
 
 }  // namespace bvhbench

@@ -2,6 +2,7 @@
 #include "builders/stages/leaf_order.h"
 
 #include <algorithm>
+#include <cassert>
 #include <numeric>
 #include <optional>
 
@@ -12,6 +13,7 @@
 #include "builders/stages/number.h"
 #include "builders/stages/object_bounds.h"
 #include "builders/stages/sort.h"
+#include "builders/stages/standing_order.h"
 #include "geometry/bits.h"
 #include "geometry/error.h"
 
@@ -34,8 +36,17 @@ struct LeafOrder::Stages {
         RadixSort sort;
         uint dropped;       ///< bits of a box's code for which objects leave no room
         uint object_shift;  ///< where they begin
+        ObjectRuns updated;
     };
     std::optional<Several> several;
+    std::optional<StandingOrder> standing;  ///< once there are updates, unless there are medians
+    std::vector<uint> sizes;                ///< of the objects
+    bool reads_codes = false;
+
+    /// What updates do.
+    bool is_whole = true;      ///< all objects are lined up
+    bool tries_order = false;
+    bool lines_up = true;      ///< any at all
     Programs& programs;
     KernelForm form;
 
@@ -67,8 +78,14 @@ struct LeafOrder::Stages {
         const uint kept = std::min(order.code_bits, most - object_bits);
         several.emplace(Several{ObjectBounds(programs, form),
                                 RadixSort(programs, kept + object_bits, SortShape{.form = form}),
-                                order.code_bits - kept, kept});
+                                order.code_bits - kept, kept,
+                                ObjectRuns(programs.device(), form)});
     }
+
+    /// What follows the boxes, of all objects.
+    void line_up_all(const Input& input, Queue& queue, bool tries);
+    /// The same of those that are updated.
+    void line_up_some(Queue& queue);
 
     RadixSort& sorting() { return several ? several->sort : *sort; }
 };
@@ -84,6 +101,8 @@ void LeafOrder::plan(Arena& arena, std::span<const uint> sizes, Use boxes, bool 
     Stages& stages = *stages_;
     const std::size_t primitives = std::accumulate(sizes.begin(), sizes.end(), std::size_t{0});
     stages.prepare_for(sizes.size());
+    stages.sizes.assign(sizes.begin(), sizes.end());
+    stages.reads_codes = reads_codes;
     if (stages.several)
         stages.several->bounds.plan(arena, sizes, boxes);
     else
@@ -114,26 +133,45 @@ void LeafOrder::prepare(const cl::CommandQueue& queue)
 
 void LeafOrder::enqueue(const Input& input, Queue& queue)
 {
-    Stages& stages = *stages_;
     enqueue_boxes(input, queue);
-    if (stages.several) {
-        auto& [bounds, sort, dropped, object_shift] = *stages.several;
-        stages.codes->enqueue(bounds.boxes(), bounds.bounds(), input.device_owners,
-                              sort.unsorted_codes(), dropped, object_shift, queue);
-        sort.enqueue(queue);
-        return;
+    stages_->line_up_all(input, queue, false);
+}
+
+void LeafOrder::Stages::line_up_all(const Input& input, Queue& queue, bool tries)
+{
+    if (several)
+        codes->enqueue(several->bounds.boxes(), several->bounds.bounds(), input.device_owners,
+                       several->sort.unsorted_codes(), several->dropped, several->object_shift,
+                       queue);
+    else if (codes)
+        codes->enqueue(bounds.boxes(), bounds.bounds(), sort->unsorted_codes(), queue);
+    if (sort) {
+        RadixSort& all = sorting();
+        all.enqueue(queue, tries ? standing->enqueue_try(all.unsorted_codes(), queue)
+                                 : SortUnlessIdle{});
+        if (tries && reads_codes)
+            standing->enqueue_codes(all.unsorted_codes(), all.codes(), all.other_codes(), queue);
     }
-    if (stages.codes) {
-        stages.codes->enqueue(boxes(), bounds(), stages.sort->unsorted_codes(), queue);
-        stages.sort->enqueue(queue);
-    }
-    if (!stages.blocks)
+    if (!blocks)
         return;
     queue.begin("order");
-    if (stages.cells)
-        stages.cells->enqueue(boxes(), bounds(), ids(), queue);
-    stages.blocks->enqueue(boxes(), ids(), queue);
-    stages.number.enqueue(stages.positions, queue);
+    const Buffer<Aabb>& boxes = bounds.boxes();
+    if (cells)
+        cells->enqueue(boxes, bounds.bounds(), ids, queue);
+    blocks->enqueue(boxes, ids, queue);
+    number.enqueue(positions, queue);
+}
+
+void LeafOrder::Stages::line_up_some(Queue& queue)
+{
+    const ObjectRuns& runs = several->updated;
+    const Buffer<uint>& unsorted = several->sort.unsorted_codes();
+    codes->enqueue(several->bounds.boxes(), several->bounds.bounds(), runs, unsorted,
+                   several->dropped, several->object_shift, queue);
+    const SortUnlessIdle unless =
+        tries_order ? standing->enqueue_try(unsorted, queue) : SortUnlessIdle{};
+    several->sort.enqueue_aside(queue, runs.lined_up_triangles(), unless);
+    standing->enqueue_put(several->sort.ids_aside(), ids, runs, unless, queue);
 }
 
 void LeafOrder::enqueue_boxes(const Input& input, Queue& queue)
@@ -142,6 +180,70 @@ void LeafOrder::enqueue_boxes(const Input& input, Queue& queue)
         stages_->several->bounds.enqueue(input, queue);
     else
         stages_->bounds.enqueue(input, queue);
+}
+
+void LeafOrder::plan_updates(Arena& arena)
+{
+    Stages& stages = *stages_;
+    if (!stages.standing && stages.order.medians == Medians::nowhere)
+        stages.standing.emplace(stages.programs, stages.order.code_bits, stages.form);
+    if (stages.standing)
+        stages.standing->plan(arena, stages.ids.size());
+    if (!stages.several)
+        return;
+    stages.several->updated.plan(arena, stages.sizes);
+    stages.several->sort.plan_aside(arena);
+}
+
+void LeafOrder::prepare_updates(const cl::CommandQueue& queue)
+{
+    if (stages_->standing)
+        stages_->standing->prepare(queue);
+}
+
+void LeafOrder::begin_update(const cl::CommandQueue& queue, std::span<const TreeUpdate> updates,
+                             bool try_order)
+{
+    Stages& stages = *stages_;
+    std::vector<uint> rebuilt, refitted;
+    for (uint object = 0; object < updates.size(); ++object) {
+        if (updates[object] == TreeUpdate::rebuild)
+            rebuilt.push_back(object);
+        else if (updates[object] == TreeUpdate::refit)
+            refitted.push_back(object);
+    }
+    stages.lines_up = !rebuilt.empty();
+    stages.is_whole = rebuilt.size() == updates.size();
+    stages.tries_order = try_order && stages.lines_up && stages.standing;
+    assert(stages.is_whole || stages.several);
+    if (!stages.is_whole)
+        stages.several->updated.choose(queue, rebuilt, refitted);
+    if (!stages.tries_order)
+        return;
+    if (stages.is_whole)
+        stages.standing->take(queue, stages.ids, static_cast<uint>(stages.ids.size()));
+    else
+        stages.standing->take(queue, stages.ids, stages.several->updated);
+}
+
+void LeafOrder::enqueue_update(const Input& input, Queue& queue)
+{
+    Stages& stages = *stages_;
+    if (stages.is_whole) {
+        enqueue_boxes(input, queue);
+        stages.line_up_all(input, queue, stages.tries_order);
+        return;
+    }
+    stages.several->bounds.enqueue(input, stages.several->updated, queue);
+    if (stages.lines_up)
+        stages.line_up_some(queue);
+}
+
+const ObjectRuns& LeafOrder::updated() const { return stages_->several->updated; }
+
+bool LeafOrder::sorted_anew(const cl::CommandQueue& queue) const
+{
+    return stages_->lines_up && !(stages_->tries_order && stages_->standing->held(queue));
 }
 
 const Buffer<Aabb>& LeafOrder::boxes() const

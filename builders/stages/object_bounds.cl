@@ -2,20 +2,21 @@
 // check: -DGROUP_SIZE=64u -DROUNDS=4u
 //
 // As bounds.cl, of several objects at once: a group or a work-item leaves the bounds of one run of one object's
-// triangles in `partials`, then one an object joins those of its runs, from first_runs[object] on.
+// triangles in `partials`, then one an object joins those of its runs: of objects[k], from first_runs[k] on. Runs are
+// those of ObjectRun, from .x to before .y.
 #include "builders/stages/bounds_parts.clh"
 
-/// boxes[k] is the box of faces[k]; partials[g] the bounds of runs[g], from the first to before the second, ROUNDS
-/// times a group's size at most. Boxes go through local memory, as in bounds.cl.
+/// boxes[k] is the box of faces[k]; partials[g] the bounds of runs[g], ROUNDS times a group's size
+/// at most. Boxes go through local memory, as in bounds.cl.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void runs_groups(
     global const Point* restrict points, global const Face* restrict faces,
     global float2* restrict boxes, global Bounds* restrict partials,
-    global const uint2* restrict runs)
+    global const uint4* restrict runs)
 {
     local float2 staged[3u * GROUP_SIZE];
     local Bounds shared_bounds[GROUP_SIZE];
     const uint item = (uint)get_local_id(0);
-    const uint2 run = runs[get_group_id(0)];
+    const uint4 run = runs[get_group_id(0)];
     Bounds bounds = empty_bounds();
 
     for (uint round = 0u; round < ROUNDS; ++round) {
@@ -40,7 +41,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void runs_groups(
 /// A group an object.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void join_groups(
     global const Bounds* restrict partials, global Bounds* restrict result,
-    global const uint* restrict first_runs)
+    global const uint* restrict first_runs, global const uint* restrict objects)
 {
     local Bounds shared_bounds[GROUP_SIZE];
     const uint item = (uint)get_local_id(0);
@@ -51,15 +52,15 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void join_groups(
     shared_bounds[item] = bounds;
     join_in_group(shared_bounds);
     if (item == 0u)
-        result[get_group_id(0)] = shared_bounds[0];
+        result[objects[get_group_id(0)]] = shared_bounds[0];
 }
 
 /// As runs_groups, a work-item a run.
 kernel void runs_chunks(global const Point* restrict points, global const Face* restrict faces,
                         global Aabb* restrict boxes, global Bounds* restrict partials,
-                        global const uint2* restrict runs)
+                        global const uint4* restrict runs)
 {
-    const uint2 run = runs[get_global_id(0)];
+    const uint4 run = runs[get_global_id(0)];
     Bounds bounds = empty_bounds();
     for (uint k = run.x; k < run.y; ++k) {
         const Aabb box = box_of_face(points, faces[k]);
@@ -71,11 +72,12 @@ kernel void runs_chunks(global const Point* restrict points, global const Face* 
 
 /// As join_groups, a work-item an object.
 kernel void join_chunks(global const Bounds* restrict partials, global Bounds* restrict result,
-                        global const uint* restrict first_runs)
+                        global const uint* restrict first_runs,
+                        global const uint* restrict objects)
 {
-    const uint object = (uint)get_global_id(0);
+    const uint k = (uint)get_global_id(0);
     Bounds bounds = empty_bounds();
-    for (uint run = first_runs[object]; run < first_runs[object + 1u]; ++run)
+    for (uint run = first_runs[k]; run < first_runs[k + 1u]; ++run)
         bounds = joined(bounds, partials[run]);
-    result[object] = bounds;
+    result[objects[k]] = bounds;
 }

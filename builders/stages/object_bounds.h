@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "builders/input.h"
-#include "builders/stages/kernel_form.h"
+#include "builders/stages/object_runs.h"
 #include "device/arena.h"
 #include "device/program.h"
 #include "geometry/bounds.h"
@@ -13,7 +13,7 @@
 namespace bvhbench {
 
 /// The stage `bounds` over several objects: leaf boxes in mesh order, and the bounds of each object's, in one pass
-/// over all objects, however many there are.
+/// over all objects, or those chosen, however many there are.
 class ObjectBounds {
 public:
     explicit ObjectBounds(Programs& programs, KernelForm form = KernelForm::of_device,
@@ -23,29 +23,31 @@ public:
     void plan(Arena& arena, std::span<const uint> sizes, Use boxes);
 
     /// Write down which triangles are whose. Waits.
-    void prepare(const cl::CommandQueue& queue);
+    void prepare(const cl::CommandQueue& queue) { all_.choose_all(queue); }
 
     /// Enqueue for an input of objects as planned, as a stage called so. Does not wait.
-    void enqueue(const Input& input, Queue& queue, std::string_view stage = "bounds");
+    void enqueue(const Input& input, Queue& queue, std::string_view stage = "bounds")
+    {
+        queue.begin(stage);
+        enqueue_chosen(input, all_, queue);
+    }
+
+    /// The boxes of chosen objects, and the bounds of those that are lined up. All others stay.
+    void enqueue(const Input& input, const ObjectRuns& chosen, Queue& queue)
+    {
+        queue.begin("bounds");
+        enqueue_chosen(input, chosen, queue);
+    }
 
     const Buffer<Aabb>& boxes() const { return boxes_; }      ///< one a triangle, in mesh order
     const Buffer<Bounds>& bounds() const { return bounds_; }  ///< one an object
 
 private:
-    /// Neighbouring triangles of one object, which a group or a work-item reads.
-    struct Run {
-        uint first = 0, end = 0;
-    };
+    void enqueue_chosen(const Input& input, const ObjectRuns& chosen, Queue& queue);
 
-    KernelForm form_;
-    uint group_size_;
-    std::size_t chunks_;
+    ObjectRuns all_;
     cl::Kernel boxes_kernel_, join_kernel_;
-    std::vector<Run> run_list_;
-    std::vector<uint> first_run_list_;
     Buffer<Aabb> boxes_;
-    Buffer<Run> runs_;
-    Buffer<uint> first_runs_;  ///< of each object, and behind the last one's end
     Buffer<Bounds> partials_;  ///< one a run
     Buffer<Bounds> bounds_;
 };

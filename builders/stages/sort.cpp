@@ -32,11 +32,13 @@ RadixSort::RadixSort(Programs& programs, unsigned code_bits, SortShape shape)
     } else if (shape_.form == KernelForm::groups) {
         assert(shape.group_size >= 16 && shape.group_size <= 256);
         assert(shape.keys_per_item % 2 == 1 && shape.keys_per_item <= 15);
+        // Where a whole group may return before a barrier, PoCL 3.1 makes code that crashes.
         const auto kernel = [&](const char* name) {
             return programs.kernel(groups_path, name,
                                    {{"GROUP_SIZE", shape.group_size},
                                     {"KEYS_PER_ITEM", shape.keys_per_item},
-                                    {"CODE_WORDS", words}});
+                                    {"CODE_WORDS", words}},
+                                   Optimise::on_gpus);
         };
         digit_bits_ = group_digit_bits;
         count_ = kernel("count_tiles");
@@ -56,12 +58,12 @@ RadixSort::RadixSort(Programs& programs, unsigned code_bits, SortShape shape)
 }
 
 /// Tiles or chunks the pairs are cut into.
-uint RadixSort::run_count() const
+uint RadixSort::run_count(std::size_t size) const
 {
-    const auto size = static_cast<uint>(size_);
+    const auto count = static_cast<uint>(size);
     if (shape_.form == KernelForm::groups)
-        return divided_up(size, shape_.group_size * shape_.keys_per_item);
-    return std::min(size, static_cast<uint>(chunks_));
+        return divided_up(count, shape_.group_size * shape_.keys_per_item);
+    return std::min(count, static_cast<uint>(chunks_));
 }
 
 void RadixSort::plan(Arena& arena, std::size_t size)
@@ -77,7 +79,7 @@ void RadixSort::plan(Arena& arena, std::size_t size)
         sweeps_->plan(arena, size);
         return;
     }
-    counts_ = arena.take<uint>(digits * run_count(), Use::scratch);
+    counts_ = arena.take<uint>(digits * run_count(size), Use::scratch);
     totals_ = arena.take<uint>(digits, Use::scratch);
 }
 
@@ -87,46 +89,69 @@ void RadixSort::prepare(const cl::CommandQueue& queue)
         sweeps_->prepare(queue);
 }
 
-void RadixSort::enqueue(Queue& queue)
+void RadixSort::plan_aside(Arena& arena) { aside_ = arena.take<uint>(size_, Use::scratch); }
+
+void RadixSort::enqueue(Queue& queue, const SortUnlessIdle& unless)
 {
-    queue.begin("sort");
-    if (sweeps_ && size_ > 0)
-        sweeps_->enqueue(codes_, ids_, queue);
-    else if (size_ > 0)
-        for (uint pass = 0; pass < passes_; ++pass)
-            enqueue_pass(queue, pass);
+    enqueue_passes(queue, static_cast<uint>(size_), ids(), unless);
 }
 
-void RadixSort::enqueue_pass(Queue& queue, uint pass)
+void RadixSort::enqueue_aside(Queue& queue, uint count, const SortUnlessIdle& unless)
 {
-    const auto size = static_cast<uint>(size_);
-    const uint runs = run_count();
+    assert(count > 0 && count <= aside_.size());
+    enqueue_passes(queue, count, aside_, unless);
+}
+
+void RadixSort::enqueue_passes(Queue& queue, uint count, const Buffer<uint>& result,
+                               const SortUnlessIdle& unless)
+{
+    if (unless.build == 0)  // else whoever looked has begun it
+        queue.begin("sort");
+    if (count == 0)
+        return;
+    const Buffer<uint>& other = ids_[(passes_ + 1) % 2];
+    if (sweeps_) {
+        sweeps_->enqueue(codes_, result, other, count, unless, queue);
+        return;
+    }
+    for (uint pass = 0; pass < passes_; ++pass) {
+        const bool to_result = (passes_ - pass) % 2 == 1;
+        enqueue_pass(queue, pass, count, to_result ? other : result, to_result ? result : other,
+                     unless);
+    }
+}
+
+void RadixSort::enqueue_pass(Queue& queue, uint pass, uint count, const Buffer<uint>& ids_in,
+                             const Buffer<uint>& ids_out, const SortUnlessIdle& unless)
+{
+    const uint runs = run_count(count);
     const uint shift = pass * digit_bits_;
     const uint mask = (1u << std::min(digit_bits_, code_bits_ - shift)) - 1;
     const uint is_first = pass == 0 ? 1 : 0;
     const Buffer<uint>& codes_in = codes_[pass % 2];
     const Buffer<uint>& codes_out = codes_[(pass + 1) % 2];
-    const Buffer<uint>& ids_in = ids_[pass % 2];
-    const Buffer<uint>& ids_out = ids_[(pass + 1) % 2];
+    // Of a build that does not look, the number is read and no more.
+    const Buffer<uint>& unsorted = unless.build == 0 ? counts_ : unless.unsorted;
 
     const std::size_t table = (std::size_t{mask} + 1) * runs;
-    const std::int64_t count_bytes = codes_in.bytes() + bytes(table);
+    const std::size_t words = std::size_t{count} * code_words(code_bits_);
+    const std::int64_t count_bytes = bytes(words + table);
     const std::int64_t scan_bytes = bytes(2 * table);
-    const std::int64_t scatter_bytes = bytes(2 * codes_in.size() + (2 - is_first) * size_ + table);
+    const std::int64_t scatter_bytes = bytes(2 * words + (2 - is_first) * std::size_t{count} + table);
 
-    set_arguments(count_, codes_in, counts_, size, shift, mask);
+    set_arguments(count_, codes_in, counts_, count, shift, mask, unsorted, unless.build);
     if (shape_.form == KernelForm::groups) {
-        set_arguments(scan_, counts_, totals_, runs);
-        set_arguments(scatter_, codes_in, ids_in, codes_out, ids_out, counts_, totals_, size, shift,
-                      mask, is_first);
+        set_arguments(scan_, counts_, totals_, runs, unsorted, unless.build);
+        set_arguments(scatter_, codes_in, ids_in, codes_out, ids_out, counts_, totals_, count,
+                      shift, mask, is_first, unsorted, unless.build);
         const std::size_t group = shape_.group_size;
         queue.launch(count_, runs * group, group, count_bytes);
         queue.launch(scan_, (mask + 1) * group, group, scan_bytes);
         queue.launch(scatter_, runs * group, group, scatter_bytes);
     } else {
-        set_arguments(scan_, counts_, static_cast<uint>(table));
-        set_arguments(scatter_, codes_in, ids_in, codes_out, ids_out, counts_, size, shift, mask,
-                      is_first);
+        set_arguments(scan_, counts_, static_cast<uint>(table), unsorted, unless.build);
+        set_arguments(scatter_, codes_in, ids_in, codes_out, ids_out, counts_, count, shift, mask,
+                      is_first, unsorted, unless.build);
         queue.launch(count_, runs, 1, count_bytes);
         queue.launch(scan_, 1, 1, scan_bytes);
         queue.launch(scatter_, runs, 1, scatter_bytes);

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "builders/stages/codes.h"
+#include "builders/stages/idle.h"
 #include "builders/stages/kernel_form.h"
 #include "builders/stages/sweep.h"
 
@@ -37,18 +38,32 @@ public:
     /// Write down what `enqueue` expects and leaves as it was. Waits.
     void prepare(const cl::CommandQueue& queue);
 
+    /// Take one more, for `enqueue_aside`.
+    void plan_aside(Arena& arena);
+
     /// To be filled before enqueue, which overwrites it: code_words(code_bits) words a code.
     const Buffer<uint>& unsorted_codes() const { return codes_[0]; }
 
     /// Enqueue the sort. Allocates nothing and does not wait.
-    void enqueue(Queue& queue);
+    void enqueue(Queue& queue, const SortUnlessIdle& unless = {});
+
+    /// The same of the first `count` pairs only, at least one. Their ids go to `ids_aside` and leave those of an
+    /// earlier sort as they are.
+    void enqueue_aside(Queue& queue, uint count, const SortUnlessIdle& unless = {});
+
+    const Buffer<uint>& ids_aside() const { return aside_; }
+    /// Nobody's after an even number of passes; after an odd one, `codes`.
+    const Buffer<uint>& other_codes() const { return codes_[1]; }
 
     const Buffer<uint>& codes() const { return codes_[passes_ % 2]; }  ///< ascending
     const Buffer<uint>& ids() const { return ids_[passes_ % 2]; }      ///< of the sorted codes
 
 private:
-    uint run_count() const;
-    void enqueue_pass(Queue& queue, uint pass);
+    uint run_count(std::size_t size) const;
+    void enqueue_passes(Queue& queue, uint count, const Buffer<uint>& result,
+                        const SortUnlessIdle& unless);
+    void enqueue_pass(Queue& queue, uint pass, uint count, const Buffer<uint>& ids_in,
+                      const Buffer<uint>& ids_out, const SortUnlessIdle& unless);
 
     SortShape shape_;
     uint code_bits_;
@@ -60,6 +75,7 @@ private:
     std::size_t size_ = 0;
     std::array<Buffer<uint>, 2> codes_;  ///< pass p goes from [p % 2] to the other
     std::array<Buffer<uint>, 2> ids_;    ///< likewise
+    Buffer<uint> aside_;
     Buffer<uint> counts_;                ///< a row a digit, a column a tile or chunk
     Buffer<uint> totals_;                ///< groups only: one a digit
 };

@@ -8,9 +8,12 @@
 // all of them have. So groups wait for others of the same launch, which must be running already: tiles are
 // handed out in the order in which groups start.
 //
+// All of them do nothing where is_idle() says so, but that counters are cleared.
+//
 // Pairs are ranked by teams of LANES work-items that vote: on NVIDIA's GPUs a warp; elsewhere, in tests, each
 // by itself.
 #include "builders/stages/code.clh"
+#include "builders/stages/idle.clh"
 #include "builders/stages/look_back.clh"
 #include "builders/stages/peers.clh"
 
@@ -37,10 +40,12 @@
 
 /// Count the digits of all passes, which are those of `bits` bits.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void count_digits(
-    global const Code* restrict codes, volatile global uint* restrict counters, const uint count,
-    const uint bits)
+    global const Code* restrict codes, volatile global uint* counters, const uint count,
+    const uint bits, global const uint* unsorted, const uint build)
 {
     local uint counts[MOST_PASSES * DIGITS];
+    if (is_idle(unsorted, build))
+        return;
     const uint passes = (bits + 7u) / 8u;
     for (uint k = (uint)get_local_id(0); k < passes * DIGITS; k += GROUP_SIZE)
         counts[k] = 0u;
@@ -84,8 +89,9 @@ static inline void scan_digits(local uint* const values, local uint* const team_
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void sweep(
     global const Code* restrict codes_in, global const uint* restrict ids_in,
     global Code* restrict codes_out, global uint* restrict ids_out,
-    volatile global uint* restrict counters, global uint* restrict other_counters,
-    volatile global ulong* restrict states, const uint count, const uint pass, const uint epoch)
+    volatile global uint* counters, global uint* restrict other_counters,
+    volatile global ulong* restrict states, const uint count, const uint pass, const uint epoch,
+    global const uint* unsorted, const uint build)
 {
     const uint shift = 8u * pass;
     // The counters of the teams make way for the tile once pairs know their places.
@@ -100,6 +106,11 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void sweep(
     const uint item = (uint)get_local_id(0);
     const uint team = item / LANES, lane = item % LANES;
 
+    if (pass == 0u && get_group_id(0) == 0u)
+        for (uint k = item; k < COUNTERS; k += GROUP_SIZE)
+            other_counters[k] = 0u;
+    if (is_idle(unsorted, build))
+        return;
     if (item == 0u)
         own_tile = atomic_inc(&counters[TICKETS(pass)]);
     for (uint k = item; k < TEAMS * DIGITS; k += GROUP_SIZE)
@@ -139,9 +150,6 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void sweep(
 
     // The first tile knows what comes before: all pairs of smaller digits.
     if (tile_number == 0u) {
-        if (pass == 0u)
-            for (uint k = item; k < COUNTERS; k += GROUP_SIZE)
-                other_counters[k] = 0u;
         for (OWN_DIGITS(digit))
             places[digit] = counters[HISTOGRAM(pass) + digit];
         scan_digits(places, team_sums);

@@ -38,7 +38,6 @@ DigitSweeps::DigitSweeps(Programs& programs, unsigned code_bits, uint group_size
 
 void DigitSweeps::plan(Arena& arena, std::size_t size)
 {
-    size_ = size;
     epoch_ = 0;
     turn_ = 0;
     for (Buffer<uint>& counters : counters_)
@@ -57,27 +56,33 @@ void DigitSweeps::prepare(const cl::CommandQueue& queue)
     queue.finish();
 }
 
-void DigitSweeps::enqueue(const std::array<Buffer<uint>, 2>& codes,
-                          const std::array<Buffer<uint>, 2>& ids, Queue& queue)
+void DigitSweeps::enqueue(const std::array<Buffer<uint>, 2>& codes, const Buffer<uint>& result,
+                          const Buffer<uint>& other, uint count, const SortUnlessIdle& unless,
+                          Queue& queue)
 {
-    const auto size = static_cast<uint>(size_);
-    const uint tiles = divided_up(size, tile_);
+    const uint tiles = divided_up(count, tile_);
     if (epoch_ > last_epoch - passes_) {
         queue.clear(states_.cl(), states_.bytes());
         epoch_ = 0;
     }
     const Buffer<uint>& counters = counters_[turn_];
     turn_ = 1 - turn_;
-    set_arguments(count_, codes[0], counters, size, code_bits_);
+    // Of a build that does not look, the number is read and no more.
+    const Buffer<uint>& unsorted = unless.build == 0 ? counters : unless.unsorted;
+    const std::size_t id_bytes = count * sizeof(uint);
+    const std::size_t code_bytes = id_bytes * code_words(code_bits_);
+
+    set_arguments(count_, codes[0], counters, count, code_bits_, unsorted, unless.build);
     queue.launch(count_, std::min<std::size_t>(tiles, most_counting_groups_) * group_size_,
-                 group_size_, static_cast<std::int64_t>(codes[0].bytes()));
+                 group_size_, static_cast<std::int64_t>(code_bytes));
     for (uint pass = 0; pass < passes_; ++pass) {
-        const uint to = (pass + 1) % 2;
-        set_arguments(sweep_, codes[pass % 2], ids[pass % 2], codes[to], ids[to], counters,
-                      counters_[turn_], states_, size, pass, ++epoch_);
+        const bool to_result = (passes_ - pass) % 2 == 1;
+        const Buffer<uint>& from = to_result ? other : result;
+        const Buffer<uint>& to = to_result ? result : other;
+        set_arguments(sweep_, codes[pass % 2], from, codes[(pass + 1) % 2], to, counters,
+                      counters_[turn_], states_, count, pass, ++epoch_, unsorted, unless.build);
         queue.launch(sweep_, std::size_t{tiles} * group_size_, group_size_,
-                     static_cast<std::int64_t>(codes[0].bytes() + codes[1].bytes() +
-                                               ids[0].bytes() * (pass == 0 ? 1 : 2)));
+                     static_cast<std::int64_t>(2 * code_bytes + (pass == 0 ? 1 : 2) * id_bytes));
     }
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "builders/stages/idle.h"
 #include "device/arena.h"
 #include "device/program.h"
 #include "device/queue.h"
@@ -22,15 +23,15 @@ public:
     /// Write down what `enqueue` expects and leaves as it was. Waits.
     void prepare(const cl::CommandQueue& queue);
 
-    /// Sort from codes[0], and ids which are 0, 1, 2, …, to the buffers that the number of passes leads to. Does not wait.
-    void enqueue(const std::array<Buffer<uint>, 2>& codes, const std::array<Buffer<uint>, 2>& ids,
-                 Queue& queue);
+    /// Sort the first `count` from codes[0], with ids 0, 1, 2, …, unless idle. Codes end in the buffer that the number of
+    /// passes leads to, ids in `result`, by way of `other`. Does not wait.
+    void enqueue(const std::array<Buffer<uint>, 2>& codes, const Buffer<uint>& result,
+                 const Buffer<uint>& other, uint count, const SortUnlessIdle& unless, Queue& queue);
 
 private:
     uint code_bits_, passes_, group_size_, tile_;
     std::size_t most_counting_groups_;
     cl::Kernel count_, sweep_;
-    std::size_t size_ = 0;
     uint epoch_ = 0;  ///< of the last pass
     uint turn_ = 0;   ///< which of the counters are next
     std::array<Buffer<uint>, 2>

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+//
+// What a frame's pipeline leaves out, and that it finds the same pairs all the same.
+#include "harness/pipeline.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "collide/skips.h"
+#include "collide/sweep.h"
+#include "harness/order_trials.h"
+#include "tests/collide/collider_testing.h"
+
+namespace bvhbench {
+namespace {
+
+TEST(OrderTrials, LeaveOutTwiceAsManyFramesEachTimeThatNothingCameOfOne)
+{
+    OrderTrials trials;
+    std::vector<int> pauses;
+    for (int trial = 0; trial < 9; ++trial) {
+        int pause = 0;
+        while (!trials.next())
+            ++pause;
+        pauses.push_back(pause);
+        EXPECT_TRUE(trials.is_trying());
+        trials.learn(false);
+        EXPECT_FALSE(trials.is_trying());
+    }
+    EXPECT_EQ(pauses, (std::vector<int>{0, 1, 2, 4, 8, 16, 32, 64, 64}));
+}
+
+TEST(OrderTrials, GoOnWithoutAPauseOnceOneHeld)
+{
+    OrderTrials trials;
+    EXPECT_TRUE(trials.next());
+    trials.learn(false);
+    EXPECT_FALSE(trials.next());
+    EXPECT_TRUE(trials.next());
+    trials.learn(true);
+    EXPECT_TRUE(trials.next());
+    trials.learn(false);
+    EXPECT_FALSE(trials.next());
+    EXPECT_TRUE(trials.next());
+}
+
+/// A pipeline of some scene's frames, its pairs held to the sweep's.
+class Frames {
+public:
+    Frames(const Scene& scene, const char* builder, unsigned rules_off) : scene_(scene)
+    {
+        for (const SceneObject& object : scene.objects)
+            objects_.push_back({object.first_face, object.face_count});
+        input_ = upload(session().device(), session().queue(), scene.frames[0], scene.faces,
+                        objects_);
+        ColliderChoice collider;
+        collider.name = "group";
+        collider.rules_off = rules_off;
+        pipeline_ = std::make_unique<Pipeline>(
+            session(), BuilderChoice{.name = builder, .order = "hilbert30"}, collider, input_);
+    }
+
+    std::map<std::string, double> go_to(std::size_t frame, std::span<const Motion> motions)
+    {
+        input_.points = scene_.frames[frame];
+        input_.device_points.upload(session().queue().cl(), input_.points);
+        pipeline_->begin_frame(motions);
+        pipeline_->settle(input_);
+        const std::map<std::string, double> counters = pipeline_->counters();
+        for (int sample = 0; sample < 2; ++sample) {
+            pipeline_->once(input_);
+            EXPECT_EQ(pipeline_->pairs(), touching_pairs(input_.points, input_.faces, true));
+            EXPECT_EQ(pipeline_->counters(), counters);  // a sample does what the last one did
+        }
+        return counters;
+    }
+
+private:
+    const Scene& scene_;
+    std::vector<FaceRange> objects_;
+    Input input_;
+    std::unique_ptr<Pipeline> pipeline_;
+};
+
+using Counts = std::array<double, 4>;
+
+/// Objects rebuilt, refitted and kept, and sorts.
+Counts counts_of(const std::map<std::string, double>& counters)
+{
+    return {counters.at("rebuilt_objects_count"), counters.at("refitted_objects_count"),
+            counters.at("kept_objects_count"), counters.at("sorts_count")};
+}
+
+void expect_counts(const Scene& scene, const char* builder, unsigned rules_off,
+                   const Counts& expected)
+{
+    SCOPED_TRACE(std::string(builder) + " without " + skip_rules_text(rules_off));
+    Frames frames(scene, builder, rules_off);
+    EXPECT_EQ(counts_of(frames.go_to(0, {})), (Counts{2, 0, 0, 1}));
+    EXPECT_EQ(counts_of(frames.go_to(1, object_motions(scene, 0, 1))), expected);
+}
+
+TEST(Pipeline, RebuildsOfAMixedSceneOnlyWhatDeforms)
+{
+    const Scene scene = load_scene("cloth-ball:4000:3", {});
+    for (const char* builder : {"oibvh-multi", "oibvh-single", "perfect"}) {
+        expect_counts(scene, builder, 0, {1, 1, 0, 1});
+        expect_counts(scene, builder, skip_rigid, {2, 0, 0, 1});
+        expect_counts(scene, builder, skip_sorted, {1, 1, 0, 1});
+    }
+    expect_counts(scene, "karras", 0, {2, 0, 0, 1});
+}
+
+TEST(Pipeline, LeavesAloneWhatHasNotMoved)
+{
+    Scene scene = load_scene("cloth-ball:4000:3", {});
+    const SceneObject& ball = scene.objects.back();
+    for (uint face = ball.first_face; face < ball.first_face + ball.face_count; ++face)
+        for (const uint corner : {scene.faces[face].a, scene.faces[face].b, scene.faces[face].c})
+            scene.frames[1][corner] = scene.frames[0][corner];
+    expect_counts(scene, "oibvh-multi", 0, {1, 0, 1, 1});
+    expect_counts(scene, "oibvh-multi", skip_unchanged, {1, 1, 0, 1});
+    expect_counts(scene, "oibvh-multi", skip_unchanged | skip_rigid, {2, 0, 0, 1});
+}
+
+/// The order is tried, holds, is tried again and does not; then a frame goes by.
+TEST(Pipeline, SortsOnlyWhatIsOutOfOrder)
+{
+    Scene scene = load_scene("cloth-ball:4000:3", {});
+    const std::vector<std::vector<Point>> given = scene.frames;
+    scene.frames = {given[0], given[0], given[2], given[2], given[2]};
+    const std::vector<Motion> deforming(2, Motion::deforming);
+    for (const char* builder : {"oibvh-multi", "perfect", "karras", "apetrei"})
+        for (const bool is_off : {false, true}) {
+            SCOPED_TRACE(std::string(builder) + (is_off ? " off" : " on"));
+            Frames frames(scene, builder, is_off ? skip_sorted : 0);
+            std::vector<double> sorts;
+            for (std::size_t frame = 0; frame < scene.frames.size(); ++frame)
+                sorts.push_back(frames.go_to(frame, frame == 0 ? std::span<const Motion>()
+                                                               : deforming)["sorts_count"]);
+            EXPECT_EQ(sorts, is_off ? std::vector<double>(5, 1)
+                                    : (std::vector<double>{1, 0, 1, 1, 0}));
+        }
+}
+
+TEST(Pipeline, RebuildsOfARealMixedSceneOnlyWhatDeforms)
+{
+    if (std::getenv("BVHBENCH_DATA") == nullptr)
+        GTEST_SKIP() << "BVHBENCH_DATA is not set";
+    const Scene scene = load_scene("unc_cloth_ball", scene_library({}));
+    if (scene.objects.size() != 2)
+        GTEST_SKIP() << "has " << scene.objects.size() << " objects";
+    Frames frames(scene, "oibvh-multi", 0);
+    frames.go_to(0, {});
+    const Counts counts = counts_of(frames.go_to(1, object_motions(scene, 0, 1)));
+    EXPECT_EQ(counts[0], 1);
+    EXPECT_EQ(counts[1] + counts[2], 1);
+}
+
+}  // namespace
+}  // namespace bvhbench
