@@ -72,8 +72,7 @@ kernel void runs_chunks(global const Point* restrict points, global const Face* 
 
 /// As join_groups, a work-item an object.
 kernel void join_chunks(global const Bounds* restrict partials, global Bounds* restrict result,
-                        global const uint* restrict first_runs,
-                        global const uint* restrict objects)
+                        global const uint* restrict first_runs, global const uint* restrict objects)
 {
     const uint k = (uint)get_global_id(0);
     Bounds bounds = empty_bounds();

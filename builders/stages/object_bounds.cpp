@@ -37,7 +37,8 @@ void ObjectBounds::enqueue_chosen(const Input& input, const ObjectRuns& chosen, 
     if (chosen.count() == 0)
         return;
     // Of the points those of the chosen objects, of which an equal share is as good a guess as any.
-    const double share = static_cast<double>(chosen.triangles()) / static_cast<double>(boxes_.size());
+    const double share =
+        static_cast<double>(chosen.triangles()) / static_cast<double>(boxes_.size());
     const auto moved = static_cast<double>(input.device_points.bytes() +
                                            input.device_faces.bytes() + boxes_.bytes());
     set_arguments(boxes_kernel_, input.device_points, input.device_faces, boxes_, partials_,

@@ -46,8 +46,11 @@ public:
     uint lined_up_triangles() const { return lined_up_triangles_; }
 
     const Buffer<ObjectRun>& runs() const { return runs_; }
-    const Buffer<uint>& first_runs() const { return first_runs_; }  ///< of each chosen object, and the end
-    const Buffer<uint>& objects() const { return objects_; }        ///< the chosen ones
+    const Buffer<uint>& first_runs() const
+    {
+        return first_runs_;
+    }  ///< of each chosen object, and the end
+    const Buffer<uint>& objects() const { return objects_; }  ///< the chosen ones
 
 private:
     KernelForm form_;

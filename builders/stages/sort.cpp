@@ -137,7 +137,8 @@ void RadixSort::enqueue_pass(Queue& queue, uint pass, uint count, const Buffer<u
     const std::size_t words = std::size_t{count} * code_words(code_bits_);
     const std::int64_t count_bytes = bytes(words + table);
     const std::int64_t scan_bytes = bytes(2 * table);
-    const std::int64_t scatter_bytes = bytes(2 * words + (2 - is_first) * std::size_t{count} + table);
+    const std::int64_t scatter_bytes =
+        bytes(2 * words + (2 - is_first) * std::size_t{count} + table);
 
     set_arguments(count_, codes_in, counts_, count, shift, mask, unsorted, unless.build);
     if (shape_.form == KernelForm::groups) {

@@ -76,8 +76,8 @@ private:
     std::array<Buffer<uint>, 2> codes_;  ///< pass p goes from [p % 2] to the other
     std::array<Buffer<uint>, 2> ids_;    ///< likewise
     Buffer<uint> aside_;
-    Buffer<uint> counts_;                ///< a row a digit, a column a tile or chunk
-    Buffer<uint> totals_;                ///< groups only: one a digit
+    Buffer<uint> counts_;  ///< a row a digit, a column a tile or chunk
+    Buffer<uint> totals_;  ///< groups only: one a digit
 };
 
 }  // namespace bvhbench

@@ -52,8 +52,8 @@ kernel void scan_chunks(global uint* restrict counts, const uint count_size,
 kernel void scatter_chunks(global const Code* restrict codes_in, global const uint* restrict ids_in,
                            global Code* restrict codes_out, global uint* restrict ids_out,
                            global const uint* restrict counts, const uint count, const uint shift,
-                           const uint mask, const uint is_first_pass,
-                           global const uint* unsorted, const uint build)
+                           const uint mask, const uint is_first_pass, global const uint* unsorted,
+                           const uint build)
 {
     if (is_idle(unsorted, build))
         return;

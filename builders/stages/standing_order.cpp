@@ -79,7 +79,8 @@ void StandingOrder::enqueue_codes(const Buffer<uint>& codes, const Buffer<uint>&
 {
     const bool in_place = codes.cl()() == ordered.cl()();
     const std::size_t words = words_ * std::size_t{count_};
-    set_arguments(order_, codes, standing_, in_place ? between : ordered, unsorted_, count_, build_);
+    set_arguments(order_, codes, standing_, in_place ? between : ordered, unsorted_, count_,
+                  build_);
     launch(order_, bytes(2 * words + count_), queue);
     if (!in_place)
         return;

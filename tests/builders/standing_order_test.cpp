@@ -159,7 +159,7 @@ TEST_P(StandingOrderOfFew, IsBrokenByOneSwap)
     const std::vector<uint> ids = host_ids();
     const std::vector<ulong> codes = host_order(0).codes;
     int swaps = 0;
-    for (std::size_t k = 0; k + 1 < ids.size(); k += 3) {
+    for (std::size_t k = 0; k + 1 < ids.size(); k += 2) {
         if (codes[k] == codes[k + 1])
             continue;
         ++swaps;
@@ -169,7 +169,7 @@ TEST_P(StandingOrderOfFew, IsBrokenByOneSwap)
         EXPECT_TRUE(update({rebuild}));
         EXPECT_FALSE(update({rebuild}));
     }
-    EXPECT_GT(swaps, 5);
+    EXPECT_GT(swaps, 10);
 }
 
 /// Equal codes are no disorder, unless ids descend: a stable sort would turn them round.
@@ -192,7 +192,8 @@ TEST_P(StandingOrderOfFew, HoldsOverEqualCodesAsLongAsTheirIdsAscend)
 
 TEST_P(StandingOrderOfFew, IsTriedOnThoseObjectsOnlyThatAreLinedUp)
 {
-    start({lattice_places(3, 1), lattice_places(40, 2), lattice_places(1, 3), lattice_places(20, 4)});
+    start(
+        {lattice_places(3, 1), lattice_places(40, 2), lattice_places(1, 3), lattice_places(20, 4)});
     EXPECT_FALSE(update({rebuild, rebuild, rebuild, rebuild}));
     EXPECT_FALSE(update({keep, rebuild, keep, rebuild}));
     objects_[1] = lattice_places(40, 9);
@@ -281,30 +282,29 @@ INSTANTIATE_TEST_SUITE_P(Stage, StandingOrderStage,
                          testing::Values(KernelForm::groups, KernelForm::chunks),
                          [](const auto& instance) { return form_name(instance.param); });
 
-INSTANTIATE_TEST_SUITE_P(Orders, StandingOrderContract, testing::ValuesIn([] {
-                             std::vector<Case> cases;
-                             for (const char* order :
-                                  {"morton30", "hilbert30", "morton63", "hilbert63"})
-                                 for (const KernelForm form :
-                                      {KernelForm::groups, KernelForm::chunks})
-                                     cases.push_back({form, order});
-                             return cases;
-                         }()),
-                         [](const auto& instance) {
-                             return instance.param.order + "_" + form_name(instance.param.form);
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Orders, StandingOrderContract, testing::ValuesIn([] {
+        std::vector<Case> cases;
+        for (const char* order : {"morton30", "hilbert30", "morton63", "hilbert63"})
+            for (const KernelForm form : {KernelForm::groups, KernelForm::chunks})
+                cases.push_back({form, order});
+        return cases;
+    }()),
+    [](const auto& instance) {
+        return instance.param.order + "_" + form_name(instance.param.form);
+    });
 
-INSTANTIATE_TEST_SUITE_P(Few, StandingOrderOfFew, testing::ValuesIn([] {
-                             std::vector<Case> cases;
-                             for (const char* order : {"hilbert30", "morton63"})
-                                 for (const KernelForm form :
-                                      {KernelForm::groups, KernelForm::chunks})
-                                     cases.push_back({form, order});
-                             return cases;
-                         }()),
-                         [](const auto& instance) {
-                             return instance.param.order + "_" + form_name(instance.param.form);
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Few, StandingOrderOfFew, testing::ValuesIn([] {
+        std::vector<Case> cases;
+        for (const char* order : {"hilbert30", "morton63"})
+            for (const KernelForm form : {KernelForm::groups, KernelForm::chunks})
+                cases.push_back({form, order});
+        return cases;
+    }()),
+    [](const auto& instance) {
+        return instance.param.order + "_" + form_name(instance.param.form);
+    });
 
 }  // namespace
 }  // namespace bvhbench

@@ -52,8 +52,8 @@ public:
     {
         for (const SceneObject& object : scene.objects)
             objects_.push_back({object.first_face, object.face_count});
-        input_ = upload(session().device(), session().queue(), scene.frames[0], scene.faces,
-                        objects_);
+        input_ =
+            upload(session().device(), session().queue(), scene.frames[0], scene.faces, objects_);
         ColliderChoice collider;
         collider.name = "group";
         collider.rules_off = rules_off;
@@ -137,10 +137,10 @@ TEST(Pipeline, SortsOnlyWhatIsOutOfOrder)
             Frames frames(scene, builder, is_off ? skip_sorted : 0);
             std::vector<double> sorts;
             for (std::size_t frame = 0; frame < scene.frames.size(); ++frame)
-                sorts.push_back(frames.go_to(frame, frame == 0 ? std::span<const Motion>()
-                                                               : deforming)["sorts_count"]);
-            EXPECT_EQ(sorts, is_off ? std::vector<double>(5, 1)
-                                    : (std::vector<double>{1, 0, 1, 1, 0}));
+                sorts.push_back(frames.go_to(
+                    frame, frame == 0 ? std::span<const Motion>() : deforming)["sorts_count"]);
+            EXPECT_EQ(sorts,
+                      is_off ? std::vector<double>(5, 1) : (std::vector<double>{1, 0, 1, 1, 0}));
         }
 }
 
