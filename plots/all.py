@@ -18,6 +18,7 @@ import fig13
 import fig8
 import fig9
 import figure
+import frames
 import pareto_orders
 import results
 import scaling
@@ -42,6 +43,7 @@ FIGURES: dict[str, figure.Draw] = {
 FRAME_FIGURES: dict[str, dict[str, figure.Draw]] = {
     "table2": {"table2": table2.draw, "fig9": fig9.draw, "fig10": fig10.draw},
     "table3": {"table3": table3.draw},
+    **{name: {name: draw} for name, draw in frames.FIGURES.items()},
 }
 
 
@@ -71,7 +73,7 @@ def main() -> int:
                         for picture in style.save(draw(run), folder, style.stem(path, name)):
                             print(picture)
                 for experiment, figures in FRAME_FIGURES.items():
-                    if any(cell.experiment == experiment and cell.operation == "collide" for cell in run.cells):
+                    if run.has_frames(experiment):
                         for name, draw in figures.items():
                             for picture in style.save(draw(run), folder, style.stem(path, name)):
                                 print(picture)

@@ -35,17 +35,14 @@ def draw(run: results.Run) -> plt.Figure:
             pairs = pipeline.mean("pairs_count")
             axes.annotate(f" {peak:,.0f} for {pairs:,.0f} pairs", (peak, row), (3, 0), textcoords="offset points",
                           va="center", fontsize=style.SMALL)
-        axes.set_yticks(range(len(shown)), [pipeline.label for pipeline in shown], fontsize=style.SMALL)
-        axes.set_ylim(len(shown) - 0.4, -0.6)
-        axes.set_title(pipelines.scene_title(shown), loc="left")
-        axes.grid(axis="x")
-        axes.grid(visible=False, axis="y")
-        axes.tick_params(axis="y", length=0)
+        pipelines.dress(axes, shown)
     panels[-1, 0].set_xscale("log")
     panels[-1, 0].set_xlim(min(values) / 3, max(values) * 8)
     figure.log_ticks(panels[-1, 0].xaxis, min(values), max(values))
     panels[-1, 0].set_xlabel("node pairs waiting at once, at most")
-    figure.footer(drawing, run, "table2", ("The paper prints its sizes as a picture without numbers.",))
+    figure.footer(drawing, run, "table2", ("Means over frames. The paper prints its sizes as a picture without numbers.",
+                                           *pipelines.remarks(scenes)))
+    figure.settle(drawing)
     return drawing
 
 

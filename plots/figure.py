@@ -19,15 +19,20 @@ MISSING_SHOWN = 4
 Draw = Callable[[results.Run], plt.Figure]
 
 
+def listed(names: list[str]) -> str:
+    return ("; " if any("," in name for name in names) else ", ").join(names)
+
+
 def notes(run: results.Run, experiment: str) -> list[str]:
     """What a reader must know of how cells were timed, were not checked, or are missing."""
-    cells, lines = run.of(experiment), []
-    on_host = sorted({cell.builder for cell in cells if cell.on_host})
+    cells = [cell for cell in run.cells if cell.experiment == experiment and cell.operation in ("build", "collide")]
+    lines = []
+    on_host = sorted({cell.called for cell in cells if cell.on_host})
     if on_host:
-        lines.append(f"On the host and its clock: {', '.join(on_host)} ({run.facts['host']['cpu']}).")
-    unchecked = sorted({cell.builder for cell in cells if not cell.checked})
+        lines.append(f"On the host and its clock: {listed(on_host)} ({run.facts['host']['cpu']}).")
+    unchecked = sorted({cell.called for cell in cells if not cell.checked})
     if unchecked:
-        lines.append(f"Answers not checked: {', '.join(unchecked)}.")
+        lines.append(f"Answers not checked: {listed(unchecked)}.")
     missing = run.left_out(experiment)
     if len(missing) > MISSING_SHOWN:
         missing[MISSING_SHOWN:] = [f"and {len(missing) - MISSING_SHOWN} more reasons for missing cells"]
@@ -38,7 +43,7 @@ def log_ticks(axis: Axis, low: float, high: float) -> None:
     """Plain numbers, at powers of ten; between them too where there are few."""
     steps = (1,) if high / low > 300 else (1, 2, 5)
     axis.set_major_locator(LogLocator(subs=steps, numticks=20))
-    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,g}"))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.10g}"))
     axis.set_minor_formatter(NullFormatter())
 
 
@@ -60,23 +65,45 @@ def footer(figure: plt.Figure, run: results.Run, experiment: str, extra: tuple[s
                 linespacing=1.25)
 
 
-def write(path: pathlib.Path, folder: pathlib.Path, name: str, draw: Draw) -> list[pathlib.Path]:
-    style.set_up()
-    return style.save(draw(results.load(path)), folder, style.stem(path, name))
+def settle(figure: plt.Figure) -> None:
+    """Fix the layout, rounded: its last digits depend on what was drawn before, and clip paths are named after them."""
+    figure.draw_without_rendering()
+    figure.set_layout_engine("none")
+    for axes in figure.axes:
+        axes.set_position([round(length, 5) for length in axes.get_position().bounds])
 
 
-def command_line(name: str, description: str | None, draw: Draw) -> int:
-    """One picture per file, called after it. Exits 1 with a sentence if one cannot be made."""
+def draw_from(description: str | None, draw_all: Callable[[pathlib.Path, pathlib.Path], list[pathlib.Path]]) -> int:
+    """What a command line asks for. Exits 1 with a sentence if a picture cannot be made."""
     parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("files", nargs="+", type=pathlib.Path, metavar="FILE", help="result files")
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("."), metavar="DIR",
                         help="where the pictures go (default: here)")
     arguments = parser.parse_args()
+    style.set_up()
     try:
         for path in arguments.files:
-            for picture in write(path, arguments.out, name, draw):
+            for picture in draw_all(path, arguments.out):
                 print(picture)
     except results.Refused as refusal:
         print(refusal, file=sys.stderr)
         return 1
     return 0
+
+
+def command_line(name: str, description: str | None, draw: Draw) -> int:
+    """One picture per file, called after it."""
+    return draw_from(description, lambda path, folder: style.save(draw(results.load(path)), folder,
+                                                                  style.stem(path, name)))
+
+
+def command_line_of_frames(figures: dict[str, Draw], description: str | None) -> int:
+    """A picture for each of these experiments that a file has frames of."""
+    def draw_all(path: pathlib.Path, folder: pathlib.Path) -> list[pathlib.Path]:
+        run = results.load(path)
+        found = [name for name in figures if run.has_frames(name)]
+        if not found:
+            raise results.Refused(f"{path}: no measured frame of {' or '.join(figures)}")
+        return [picture for name in found for picture in style.save(figures[name](run), folder, style.stem(path, name))]
+
+    return draw_from(description, draw_all)

@@ -27,37 +27,36 @@ def draw_scene(axes: plt.Axes, shown: list[pipelines.Pipeline], printed: list[di
                       fontsize=style.SMALL)
     for line in printed:
         axes.plot(line["frame_ms"], len(shown) - 0.1, MARKS[line["method"]][0], color="black", markersize=4.5,
-                  markerfacecolor="white", clip_on=False)
-    axes.set_yticks(range(len(shown)), [pipeline.label for pipeline in shown], fontsize=style.SMALL)
-    axes.set_ylim(len(shown) + (0.4 if printed else -0.4), -0.6)
-    axes.set_title(pipelines.scene_title(shown), loc="left")
-    axes.grid(axis="x")
-    axes.grid(visible=False, axis="y")
-    axes.tick_params(axis="y", length=0)
+                  markerfacecolor="none", clip_on=False)
+    pipelines.dress(axes, shown, 0.8 if printed else 0)
 
 
 def draw(run: results.Run, table: str) -> plt.Figure:
     scenes = pipelines.of(run, table)
-    printed = results.printed(table)["rows"]
+    paper = results.printed(table)
+    printed, device = paper["rows"], paper["device"].removeprefix("NVIDIA GeForce ")
     rows = [len(shown) + 2.2 for shown in scenes.values()]
     drawing, panels = plt.subplots(len(scenes), 1, figsize=(style.PAGE_WIDTH, ROW * sum(rows) + 0.7), squeeze=False,
                                    height_ratios=rows, layout="constrained", sharex=True)
     values: list[float] = []
+    methods: list[str] = []
     for axes, (scene, shown) in zip(panels[:, 0], scenes.items()):
         of = shown[0].first.stand_in_for or scene
         lines = [line for line in printed if line["scene"] == of]
         draw_scene(axes, shown, lines)
         values += [float(time) for pipeline in shown for time in pipeline.frame_ms()] + [line["frame_ms"] for line in lines]
+        methods += [line["method"] for line in lines if line["method"] not in methods]
     panels[-1, 0].set_xscale("log")
     panels[-1, 0].set_xlim(min(values) / 1.6, max(values) * 4)
     figure.log_ticks(panels[-1, 0].xaxis, min(values), max(values))
     panels[-1, 0].set_xlabel("milliseconds a frame")
-    methods = list(dict.fromkeys(line["method"] for line in printed))
-    handles = [Line2D([], [], marker=MARKS[method][0], color="black", markersize=4.5, markerfacecolor="white",
-                      linestyle="none", label=f"{MARKS[method][1]}, printed (GTX 1080)") for method in methods]
-    height = figure.legend_above(drawing, handles)
+    handles = [Line2D([], [], marker=MARKS[method][0], color="black", markersize=4.5, markerfacecolor="none",
+                      linestyle="none", label=f"{MARKS[method][1]}, printed ({device}, another machine)")
+               for method in methods]
+    height = figure.legend_above(drawing, handles) if handles else 0
     figure.footer(drawing, run, table,
                   ("A frame is all from moved vertices to exact contacts: boxes, order, trees, pairs, contacts. Bars are means "
                    "over frames of their medians, lines reach from the fastest frame to the slowest.",
-                   "Memory is all that a pipeline reserves on the device."), height)
+                   "Memory is all that a pipeline reserves on the device.", *pipelines.remarks(scenes)), height)
+    figure.settle(drawing)
     return drawing

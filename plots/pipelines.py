@@ -3,18 +3,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import matplotlib.pyplot as plt
 import numpy
 from matplotlib.colors import to_rgb
 
 import results
 import style
 
-USUAL = {"order": "morton30", "group_size": "0", "items": "0", "leaves": "mesh", "jump": "0", "start_level": "0"}
-SAID_ELSEWHERE = ("pairs_of", "adjacent", "narrow")  # the same of all pipelines of a figure, or the scene's
-
 # A collider tells the pipelines of a builder apart by hatch; one without a tree has a colour of its own.
-HATCHES = {"leaf": "", "group": "////", "bvtt": "....", "front": "xxxx"}
-COLOURS = {"grid": "#8C510A", "embree": "#009E73", "fcl": "#F0E442", "brute": "#000000"}
+HATCHES = {"leaf": "", "group": "////", "bvtt": "....", "front": "xxxx", "fcl-refit": "////"}
+COLOURS = {"grid": "#8C510A", "embree": "#009E73", "fcl": "#F0E442", "fcl-refit": "#F0E442", "brute": "#000000"}
 
 
 @dataclass(frozen=True)
@@ -30,12 +28,7 @@ class Pipeline:
 
     @property
     def label(self) -> str:
-        parts = [self.first.collider or ""]
-        parts += said(self.first.collider_options)
-        if self.first.builder != "none":
-            parts[0] += f" over {self.first.builder}"
-            parts += said(self.first.options)
-        return ", ".join(parts)
+        return self.first.called
 
     @property
     def colour(self) -> str:
@@ -59,13 +52,6 @@ class Pipeline:
         return sum(values) / len(values) if values else None
 
 
-def said(options: tuple[tuple[str, str], ...]) -> list[str]:
-    words = {"jump": "jump {}", "start_level": "from level {}", "group_size": "groups of {}", "items": "{} items",
-             "order": "{}", "leaves": "{} leaves"}
-    return [words[key].format(value) for key, value in options
-            if key not in SAID_ELSEWHERE and key in words and USUAL.get(key) != value]
-
-
 def of(run: results.Run, experiment: str) -> dict[str, list[Pipeline]]:
     """The pipelines of each scene, both in the file's order."""
     cells: dict[str, dict[tuple, list[results.Cell]]] = {}
@@ -75,11 +61,44 @@ def of(run: results.Run, experiment: str) -> dict[str, list[Pipeline]]:
     return {scene: [Pipeline(scene, frames) for frames in by_pipeline.values()] for scene, by_pipeline in cells.items()}
 
 
-def scene_title(pipelines: list[Pipeline]) -> str:
-    cell = pipelines[0].first
-    name = f"{cell.scene}" + (f" (stands in for {cell.stand_in_for})" if cell.stand_in_for not in (None, cell.scene) else "")
-    frames = len(pipelines[0].cells)
-    return f"{name}: {cell.triangles:,} triangles, {frames} frame{'' if frames == 1 else 's'}"
+def frames_of(shown: list[Pipeline]) -> int:
+    return len({cell.frame for pipeline in shown for cell in pipeline.cells})
+
+
+def scene_title(shown: list[Pipeline], between: str = " ") -> str:
+    cell = shown[0].first
+    name = f"{cell.stand_in_for}* ({cell.scene})" if stands_in(cell) else cell.scene
+    frames = frames_of(shown)
+    asked = dict(cell.collider_options).get("pairs_of", "all")
+    return (f"{name}:{between}{cell.triangles:,} triangles, {frames} frame{'' if frames == 1 else 's'}"
+            + ("" if asked == "all" else f", pairs {asked} objects"))
+
+
+def stands_in(cell: results.Cell) -> bool:
+    return cell.stand_in_for not in (None, cell.scene)
+
+
+def remarks(scenes: dict[str, list[Pipeline]]) -> tuple[str, ...]:
+    """What a star means, if there is one."""
+    starred = any(stands_in(shown[0].first) for shown in scenes.values())
+    star = "* was not there: the scene in brackets stands in, with its own numbers of triangles and frames."
+    return (star,) if starred else ()
+
+
+def labels(shown: list[Pipeline]) -> list[str]:
+    """One that lacks some of the scene's frames says so."""
+    frames = frames_of(shown)
+    return [one.label + ("" if len(one.cells) == frames else f", {len(one.cells)} of {frames} frames") for one in shown]
+
+
+def dress(axes: plt.Axes, shown: list[Pipeline], room: float = 0) -> None:
+    """A panel of horizontal bars, a row a pipeline, with some room below them."""
+    axes.set_yticks(range(len(shown)), labels(shown), fontsize=style.SMALL)
+    axes.set_ylim(len(shown) - 0.4 + room, -0.6)
+    axes.set_title(scene_title(shown), loc="left")
+    axes.grid(axis="x")
+    axes.grid(visible=False, axis="y")
+    axes.tick_params(axis="y", length=0)
 
 
 def ink(colour: str) -> str:

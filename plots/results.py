@@ -11,6 +11,8 @@ from typing import Any
 
 import numpy
 
+import names
+
 MAJOR = "1"
 PAPER = pathlib.Path(__file__).resolve().parent.parent / "results" / "paper"
 
@@ -72,6 +74,13 @@ class Cell:
         return sum((self.times_s(stage) for stage in self.samples[0]), numpy.zeros(len(self.samples)))
 
     @property
+    def called(self) -> str:
+        """The pipeline of a frame, the builder of a build."""
+        if self.collider is None:
+            return self.builder
+        return names.pipeline(self.collider, dict(self.collider_options), self.builder, dict(self.options))
+
+    @property
     def on_host(self) -> bool:
         return any("wall_ns" in entry for sample in self.samples for entry in sample.values())
 
@@ -111,6 +120,9 @@ class Run:
     def of(self, experiment: str) -> list[Cell]:
         return [cell for cell in self.builds if cell.experiment == experiment]
 
+    def has_frames(self, experiment: str) -> bool:
+        return any(cell.experiment == experiment and cell.operation == "collide" and cell.samples for cell in self.cells)
+
     def frames(self, experiment: str) -> list[Cell]:
         """Whole frames, from vertices to pairs or contacts. Raises Refused if there are none."""
         cells = [cell for cell in self.cells
@@ -127,16 +139,19 @@ class Run:
         return cells
 
     def left_out(self, experiment: str) -> list[str]:
-        """Who has no numbers where and why, a sentence for each group of builders and scenes."""
-        scenes: dict[tuple[str, str, str], list[str]] = {}
+        """Who has no numbers where and why, a sentence for each group of builders or pipelines and scenes."""
+        scenes: dict[tuple[str, str, str], dict[str, list[int]]] = {}
         for cell in self.without_numbers:
             if cell["experiment"] == experiment:
-                why = (cell["builder"]["name"], cell["status"], cell["reason"])
-                scenes.setdefault(why, []).append(cell["scene"]["name"])
+                why = (called(cell), cell["status"], cell["reason"])
+                frames = scenes.setdefault(why, {}).setdefault(cell["scene"]["name"], [])
+                if "collider" in cell:
+                    frames.append(cell["scene"].get("frame", 0))
         builders: dict[tuple[str, str, str], list[str]] = {}
         for (builder, status, reason), where in scenes.items():
-            builders.setdefault((status, ", ".join(dict.fromkeys(where)), reason), []).append(builder)
-        return [f"{', '.join(who)} {status} on {where}: {reason}"
+            places = [scene + (f" ({names.frames(frames)})" if frames else "") for scene, frames in where.items()]
+            builders.setdefault((status, ", ".join(places), reason), []).append(builder)
+        return [f"{('; ' if ',' in ''.join(who) else ', ').join(who)} {status} on {where}: {reason}"
                 for (status, where, reason), who in builders.items()]
 
     def costs_remark(self) -> str:
@@ -181,11 +196,19 @@ def load(path: pathlib.Path) -> Run:
     return Run(path, document["run"], [cell_of(path, cell) for cell in measured], without)
 
 
+def called(cell: dict[str, Any]) -> str:
+    """As Cell.called, of a cell that may have no numbers."""
+    builder, collider = cell["builder"], cell.get("collider")
+    if collider is None:
+        return builder["name"]
+    return names.pipeline(collider["name"], collider.get("options", {}), builder["name"], builder.get("options", {}))
+
+
 def cell_of(path: pathlib.Path, cell: dict[str, Any]) -> Cell:
     scene, builder = cell["scene"], cell["builder"]
     if cell["check"]["verdict"] == "differs":
         detail = cell["check"].get("detail", "no detail given")
-        raise Refused(f"{path}: {builder['name']} gave a wrong answer on {scene['name']}: {detail}")
+        raise Refused(f"{path}: {called(cell)} gave a wrong answer on {scene['name']}: {detail}")
     collider = cell.get("collider", {})
     options, collider_options = (tuple(sorted((key, str(value)) for key, value in choice.get("options", {}).items()))
                                  for choice in (builder, collider))

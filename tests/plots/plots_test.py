@@ -6,6 +6,7 @@ Usage: plots_test.py <source root>
 import copy
 import json
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -16,6 +17,8 @@ GOLDEN = ROOT / "tests" / "golden"
 sys.path.insert(0, str(ROOT / "plots"))
 
 import fig8  # noqa: E402
+import frame_stages  # noqa: E402
+import pipelines  # noqa: E402
 import results  # noqa: E402
 import scaling  # noqa: E402
 import style  # noqa: E402
@@ -46,15 +49,19 @@ class Scripts(TemporaryFolder):
         self.assertIn("</svg>", svg.read_text(encoding="utf-8"), svg)
 
     def test_all_draws_what_each_draws_byte_for_byte(self) -> None:
-        for name in ("table1", "table4", "fig8", "fig13", "scaling"):
-            done = self.run_script(f"{name}.py", GOLDEN / f"{name}.json", "--out", self.folder / "out")
+        alone = ("table1", "table2", "table3", "table4", "fig8", "fig13", "scaling")
+        scripts = {name: (f"{name}.py", name) for name in alone}
+        scripts |= {f"table2-{name}": (f"{name}.py", "table2") for name in ("fig9", "fig10")}
+        scripts |= {name: ("frames.py", name) for name in ("rebuild", "pairs", "libraries")}
+        for picture, (script, file) in scripts.items():
+            done = self.run_script(script, GOLDEN / f"{file}.json", "--out", self.folder / "out")
             self.assertEqual((done.returncode, done.stderr), (0, ""))
-            self.assert_pictures(name)
+            self.assert_pictures(picture)
         done = self.run_script("all.py", GOLDEN, "--out", self.folder / "all")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         names = sorted(path.name for path in (self.folder / "all").iterdir())
         self.assertEqual(names, [
-            f"{name}.{end}" for name in ("fig13", "fig8", "quality", "scaling", "table1", "table4")
+            f"{name}.{end}" for name in sorted([*scripts, "quality"], key=lambda name: f"{name}.")
             for end in ("png", "svg")])
         done = self.run_script("pareto_orders.py", GOLDEN / "quality.json", "--out", self.folder / "out")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
@@ -99,6 +106,107 @@ class Scripts(TemporaryFolder):
         text = (self.folder / "out" / "table4.svg").read_text(encoding="utf-8")
         self.assertIn("An inner node costs 2.0, a triangle 0.5", text)
         self.assertNotIn("paper", text)
+
+
+class Frames(TemporaryFolder):
+    def golden(self, name: str) -> dict:
+        return json.loads((GOLDEN / f"{name}.json").read_text(encoding="utf-8"))
+
+    def drawn(self, script: str, name: str, document: dict | None = None) -> str:
+        """The text of the SVG."""
+        done = self.run_script(script, self.written(document or self.golden(name), f"{name}.json"), "--out", self.folder)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        svg, = self.folder.glob("*.svg")
+        return svg.read_text(encoding="utf-8")
+
+    def test_tables_say_what_a_reader_must_know(self) -> None:
+        text = self.drawn("table2.py", "table2")
+        for words in ("cloth-ball* (unc_cloth_ball): 92,230 triangles, 2 frames", "* was not there", "Invented GPU",
+                      "Wang et al. 2018, printed (GTX 1080, another machine)", "n-body: 146,480 triangles, 1 frame, "
+                      "pairs between objects", "bvtt (jump 2) over oibvh-multi", "front over oibvh-multi, 1 of 2 frames",
+                      "front over oibvh-multi failed on unc_cloth_ball (frame 1): the device has too little memory",
+                      "leaf over apetrei-fused skipped on cloth-funnel:18484 (frame 0): slower than the time allowed",
+                      "Answers not checked: leaf over oibvh-multi.", "milliseconds a frame", " MB<"):
+            self.assertIn(words, text)
+        self.assertNotIn("n-body*", text)
+        self.assertNotIn("On the host", text)
+
+    def test_says_nothing_of_stand_ins_and_the_paper_where_there_are_none(self) -> None:
+        document = self.golden("table2")
+        for cell in document["cells"]:
+            cell["scene"] |= {"name": "mine"}
+            cell["scene"].pop("stand_in_for", None)
+        text = self.drawn("table2.py", "table2", document)
+        self.assertIn("mine: ", text)
+        for words in ("was not there", "printed", "mine*"):
+            self.assertNotIn(words, text)
+
+    def test_libraries_are_said_to_be_on_the_host_and_rules_to_be_off(self) -> None:
+        text = self.drawn("frames.py", "libraries")
+        for words in ("On the host and its clock: embree, fcl, fcl-refit (Invented CPU).", "cloth-ball* (unc_cloth_ball)",
+                      "leaf (without near) over oibvh-multi", "shortened to 12 times"):
+            self.assertIn(words, text)
+
+    def test_the_most_pairs_that_wait_are_of_those_that_count_them(self) -> None:
+        text = self.drawn("fig10.py", "table2")
+        self.assertIn("784,455 for 738,340 pairs", text)  # the mean of two frames
+        self.assertIn("* was not there", text)
+        self.assertNotIn("leaf over oibvh-multi<", text)
+
+    def test_a_wrong_answer_makes_no_picture(self) -> None:
+        scripts = {"table2": ("table2.py", "fig9.py", "fig10.py", "all.py"), "table3": ("table3.py",),
+                   "libraries": ("frames.py",)}
+        for name, those in scripts.items():
+            document = self.golden(name)
+            document["cells"][3]["check"] = {"verdict": "differs", "detail": "pair 7"}
+            who = results.called(document["cells"][3])
+            for script in those:
+                done = self.run_script(script, self.written(document, f"{name}.json"), "--out", self.folder / "out")
+                self.assertEqual(done.returncode, 1)
+                self.assertIn(f"{who} gave a wrong answer on", done.stderr)
+                self.assertIn("pair 7", done.stderr)
+                self.assertFalse((self.folder / "out").exists())
+
+    def test_a_file_without_frames_makes_no_picture(self) -> None:
+        for script in ("table2.py", "fig9.py", "fig10.py", "frames.py"):
+            done = self.run_script(script, GOLDEN / "table1.json", "--out", self.folder / "out")
+            self.assertEqual(done.returncode, 1)
+            self.assertIn("no measured frame of ", done.stderr)
+            self.assertFalse((self.folder / "out").exists())
+
+    def test_a_frame_is_from_its_first_start_to_its_last_end(self) -> None:
+        run = results.load(GOLDEN / "table2.json")
+        cell = run.frames("table2")[0]
+        narrow = cell.samples[0]["narrow"]
+        self.assertAlmostEqual(cell.frame_times_s()[0] * 1e9, narrow["start_ns"] + narrow["span_ns"])
+        embree = next(cell for cell in results.load(GOLDEN / "libraries.json").cells if cell.collider == "embree")
+        times = [entry.get("wall_ns", entry.get("span_ns")) for entry in embree.samples[0].values()]
+        self.assertAlmostEqual(embree.frame_times_s()[0] * 1e9, sum(times))
+
+    def test_parts_are_all_stages_and_add_up_to_the_frame(self) -> None:
+        schema = json.loads((ROOT / "results" / "schema" / "result-1.schema.json").read_text(encoding="utf-8"))
+        sample = schema["$defs"]["cell"]["properties"]["samples"]["items"]["properties"]
+        stages = sample["stages"]["items"]["properties"]["stage"]["enum"]
+        self.assertEqual(sorted(stage for _, those, _ in frame_stages.PARTS for stage in those), sorted(stages))
+        for name in ("table2", "libraries", "rebuild"):
+            for shown in pipelines.of(results.load(GOLDEN / f"{name}.json"), name).values():
+                for one in shown:
+                    parts = sum(width for _, _, width in frame_stages.parts_of(one))
+                    self.assertAlmostEqual(parts, one.frame_ms().mean(), places=9)
+
+    def test_pipelines_of_one_scene_are_told_apart(self) -> None:
+        for name in ("table2", "table3", "rebuild", "pairs", "libraries"):
+            for shown in pipelines.of(results.load(GOLDEN / f"{name}.json"), name).values():
+                self.assertEqual(len({one.label for one in shown}), len(shown))
+
+    def test_every_collider_has_a_look(self) -> None:
+        catalog = (ROOT / "harness" / "collider_catalog.cpp").read_text(encoding="utf-8")
+        colliders = re.findall(r"^    (?:of_library\(|\{)\"([a-z-]+)\"", catalog, re.MULTILINE)
+        self.assertGreater(len(colliders), 8)
+        for collider in colliders:
+            self.assertTrue(collider in pipelines.HATCHES or collider in pipelines.COLOURS, collider)
+        looks = {(pipelines.COLOURS.get(name), pipelines.HATCHES.get(name, "")) for name in colliders}
+        self.assertEqual(len(looks), len(colliders))
 
 
 class Reader(TemporaryFolder):
