@@ -50,8 +50,8 @@ struct LeafOrder::Stages {
     Programs& programs;
     KernelForm form;
 
-    Stages(Programs& programs, const OrderEntry& entry, KernelForm form)
-        : order(entry), bounds(programs, form), number(programs), programs(programs), form(form)
+    Stages(Programs& on, const OrderEntry& entry, KernelForm chosen)
+        : order(entry), bounds(on, chosen), number(on), programs(on), form(chosen)
     {
         if (entry.medians == Medians::everywhere) {
             cells.emplace(programs, MedianShape{.form = form});

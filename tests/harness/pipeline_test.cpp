@@ -134,7 +134,7 @@ TEST(Pipeline, SortsOnlyWhatIsOutOfOrder)
     for (const char* builder : {"oibvh-multi", "perfect", "karras", "apetrei"})
         for (const bool is_off : {false, true}) {
             SCOPED_TRACE(std::string(builder) + (is_off ? " off" : " on"));
-            Frames frames(scene, builder, is_off ? skip_sorted : 0);
+            Frames frames(scene, builder, is_off ? unsigned{skip_sorted} : 0u);
             std::vector<double> sorts;
             for (std::size_t frame = 0; frame < scene.frames.size(); ++frame)
                 sorts.push_back(frames.go_to(
