@@ -11,33 +11,44 @@ namespace bvhbench {
 namespace {
 
 constexpr auto path = "builders/stages/sweep.cl";
-constexpr uint digits = 256, most_passes = 8;  // as in sweep.cl
-constexpr uint last_epoch = (1u << 31) - 1;    // STATE_EPOCH_SHIFT of look_back.clh
+constexpr uint digits = 256, most_passes = 8;    // as in sweep.cl
+constexpr std::size_t counting_groups_each = 2;  // a compute unit
+constexpr uint last_epoch = (1u << 31) - 1;      // STATE_EPOCH_SHIFT of look_back.clh
 
 }  // namespace
 
 DigitSweeps::DigitSweeps(Programs& programs, unsigned code_bits, uint group_size,
                          uint keys_per_item)
-    : code_bits_(code_bits)
+    : programs_(programs)
+    , code_bits_(code_bits)
     , passes_(divided_up(code_bits, 8u))
     , group_size_(group_size)
-    , tile_(group_size * keys_per_item)
-    , most_counting_groups_(2 * programs.device().cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>())
+    , most_keys_(keys_per_item)
+    , units_(programs.device().cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>())
 {
     assert(group_size >= 16 && group_size <= 512);
-    const auto kernel = [&](const char* name) {
-        return programs.kernel(path, name,
-                               {{"GROUP_SIZE", group_size},
-                                {"KEYS_PER_ITEM", keys_per_item},
-                                {"CODE_WORDS", code_words(code_bits)}},
-                               Optimise::on_gpus);
-    };
-    count_ = kernel("count_digits");
-    sweep_ = kernel("sweep");
+}
+
+/// As many as asked for, or half as many where that leaves compute units without a tile.
+uint DigitSweeps::keys_for(std::size_t size) const
+{
+    const bool is_small = size < std::size_t{units_} * group_size_ * most_keys_;
+    return is_small ? divided_up(most_keys_, 2u) : most_keys_;
 }
 
 void DigitSweeps::plan(Arena& arena, std::size_t size)
 {
+    const uint keys = keys_for(size);
+    const auto kernel = [&](const char* name) {
+        return programs_.kernel(path, name,
+                                {{"GROUP_SIZE", group_size_},
+                                 {"KEYS_PER_ITEM", keys},
+                                 {"CODE_WORDS", code_words(code_bits_)}},
+                                Optimise::on_gpus);
+    };
+    count_ = kernel("count_digits");
+    sweep_ = kernel("sweep");
+    tile_ = group_size_ * keys;
     epoch_ = 0;
     turn_ = 0;
     for (Buffer<uint>& counters : counters_)
@@ -73,7 +84,7 @@ void DigitSweeps::enqueue(const std::array<Buffer<uint>, 2>& codes, const Buffer
     const std::size_t code_bytes = id_bytes * code_words(code_bits_);
 
     set_arguments(count_, codes[0], counters, count, code_bits_, unsorted, unless.build);
-    queue.launch(count_, std::min<std::size_t>(tiles, most_counting_groups_) * group_size_,
+    queue.launch(count_, std::min<std::size_t>(tiles, counting_groups_each * units_) * group_size_,
                  group_size_, static_cast<std::int64_t>(code_bytes));
     for (uint pass = 0; pass < passes_; ++pass) {
         const bool to_result = (passes_ - pass) % 2 == 1;

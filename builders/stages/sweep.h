@@ -15,7 +15,7 @@ namespace bvhbench {
 class DigitSweeps {
 public:
     /// `group_size` work-items, a power of two from 32 (from 16 where a team is one work-item) to 512, take
-    /// `keys_per_item` pairs each.
+    /// `keys_per_item` pairs each, or half as many of few pairs.
     DigitSweeps(Programs& programs, unsigned code_bits, uint group_size, uint keys_per_item);
 
     void plan(Arena& arena, std::size_t size);
@@ -29,8 +29,11 @@ public:
                  const Buffer<uint>& other, uint count, const SortUnlessIdle& unless, Queue& queue);
 
 private:
-    uint code_bits_, passes_, group_size_, tile_;
-    std::size_t most_counting_groups_;
+    uint keys_for(std::size_t size) const;
+
+    Programs& programs_;
+    uint code_bits_, passes_, group_size_, most_keys_, units_;
+    uint tile_ = 0;
     cl::Kernel count_, sweep_;
     uint epoch_ = 0;  ///< of the last pass
     uint turn_ = 0;   ///< which of the counters are next
