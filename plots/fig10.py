@@ -42,7 +42,6 @@ def draw(run: results.Run) -> plt.Figure:
     panels[-1, 0].set_xlabel("node pairs waiting at once, at most")
     figure.footer(drawing, run, "table2", ("Means over frames. The paper prints its sizes as a picture without numbers.",
                                            *pipelines.remarks(scenes)))
-    figure.settle(drawing)
     return drawing
 
 

@@ -65,14 +65,6 @@ def footer(figure: plt.Figure, run: results.Run, experiment: str, extra: tuple[s
                 linespacing=1.25)
 
 
-def settle(figure: plt.Figure) -> None:
-    """Fix the layout, rounded: its last digits depend on what was drawn before, and clip paths are named after them."""
-    figure.draw_without_rendering()
-    figure.set_layout_engine("none")
-    for axes in figure.axes:
-        axes.set_position([round(length, 5) for length in axes.get_position().bounds])
-
-
 def draw_from(description: str | None, draw_all: Callable[[pathlib.Path, pathlib.Path], list[pathlib.Path]]) -> int:
     """What a command line asks for. Exits 1 with a sentence if a picture cannot be made."""
     parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawTextHelpFormatter)

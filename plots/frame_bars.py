@@ -58,5 +58,4 @@ def draw(run: results.Run, table: str) -> plt.Figure:
                   ("A frame is all from moved vertices to exact contacts: boxes, order, trees, pairs, contacts. Bars are means "
                    "over frames of their medians, lines reach from the fastest frame to the slowest.",
                    "Memory is all that a pipeline reserves on the device.", *pipelines.remarks(scenes)), height)
-    figure.settle(drawing)
     return drawing

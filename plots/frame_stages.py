@@ -82,5 +82,4 @@ def draw(run: results.Run, experiment: str, remarks: tuple[str, ...] = ()) -> pl
         lines += (f"Bars with a white stroke are shortened to {MOST} times their scene's shortest; "
                   "the stages keep their shares.",)
     figure.footer(drawing, run, experiment, lines, height)
-    figure.settle(drawing)
     return drawing

@@ -70,8 +70,8 @@ def scene_title(shown: list[Pipeline], between: str = " ") -> str:
     name = f"{cell.stand_in_for}* ({cell.scene})" if stands_in(cell) else cell.scene
     frames = frames_of(shown)
     asked = dict(cell.collider_options).get("pairs_of", "all")
-    return (f"{name}:{between}{cell.triangles:,} triangles, {frames} frame{'' if frames == 1 else 's'}"
-            + ("" if asked == "all" else f", pairs {asked} objects"))
+    name += "" if asked == "all" else f", {asked} objects"
+    return f"{name}:{between}{cell.triangles:,} triangles, {frames} frame{'' if frames == 1 else 's'}"
 
 
 def stands_in(cell: results.Cell) -> bool:

@@ -104,9 +104,19 @@ def stem(path: pathlib.Path, figure: str) -> str:
     return path.stem if figure in path.stem else f"{path.stem}-{figure}"
 
 
+def settle(figure: plt.Figure) -> None:
+    """Fix the layout, rounded: its last digits depend on what was drawn before, and clip paths are named after them."""
+    figure.draw_without_rendering()
+    figure.set_layout_engine("none")
+    for axes in figure.axes:
+        axes.set_position([round(length, 5) for length in axes.get_position().bounds])
+
+
 def save(figure: plt.Figure, folder: pathlib.Path, name: str) -> list[pathlib.Path]:
     """Write PNG and SVG. The same numbers give the same bytes: no dates, no random names."""
     folder.mkdir(parents=True, exist_ok=True)
+    if figure.get_layout_engine() is not None:
+        settle(figure)
     written = [folder / f"{name}.png", folder / f"{name}.svg"]
     figure.savefig(written[0], dpi=200, metadata={"Software": None})
     figure.savefig(written[1], metadata={"Date": None, "Creator": None})

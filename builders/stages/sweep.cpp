@@ -29,10 +29,10 @@ DigitSweeps::DigitSweeps(Programs& programs, unsigned code_bits, uint group_size
     assert(group_size >= 16 && group_size <= 512);
 }
 
-/// As many as asked for, or half as many where that leaves compute units without a tile.
+/// As many as asked for, or half as many where that would leave half of the compute units without a tile.
 uint DigitSweeps::keys_for(std::size_t size) const
 {
-    const bool is_small = size < std::size_t{units_} * group_size_ * most_keys_;
+    const bool is_small = size < std::size_t{units_} * group_size_ * most_keys_ / 2;
     return is_small ? divided_up(most_keys_, 2u) : most_keys_;
 }
 

@@ -122,8 +122,8 @@ class Frames(TemporaryFolder):
     def test_tables_say_what_a_reader_must_know(self) -> None:
         text = self.drawn("table2.py", "table2")
         for words in ("cloth-ball* (unc_cloth_ball): 92,230 triangles, 2 frames", "* was not there", "Invented GPU",
-                      "Wang et al. 2018, printed (GTX 1080, another machine)", "n-body: 146,480 triangles, 1 frame, "
-                      "pairs between objects", "bvtt (jump 2) over oibvh-multi", "front over oibvh-multi, 1 of 2 frames",
+                      "Wang et al. 2018, printed (GTX 1080, another machine)", "n-body, between objects: 146,480 triangles, "
+                      "1 frame", "bvtt (jump 2) over oibvh-multi", "front over oibvh-multi, 1 of 2 frames",
                       "front over oibvh-multi failed on unc_cloth_ball (frame 1): the device has too little memory",
                       "leaf over apetrei-fused skipped on cloth-funnel:18484 (frame 0): slower than the time allowed",
                       "Answers not checked: leaf over oibvh-multi.", "milliseconds a frame", " MB<"):
