@@ -144,6 +144,17 @@ SceneFacts facts_of(const CollideTask& task, const Scene& scene)
             .content_hash = scene.content_hash};
 }
 
+/// Pairs by the numbers that a file's triangles have in it, where objects have put them into another order.
+PairList numbered_as_in_file(const PairList& pairs, const Scene& scene)
+{
+    if (scene.file_faces.empty())
+        return pairs;
+    std::vector<Pair> numbered;
+    for (const Pair pair : pairs.pairs())
+        numbered.push_back({scene.file_faces[pair.a], scene.file_faces[pair.b]});
+    return PairList(std::move(numbered));
+}
+
 void fail(Running& running, Session& session, const std::string& why)
 {
     session.renew_queue();
@@ -251,6 +262,7 @@ void collide_frames(Session& session, const CollideTask& task, int& order,
         std::vector<Cell> cells;
         for (Running& one : all)
             cells.push_back(std::move(one.cell));
+        found = {numbered_as_in_file(found.pairs, scene), numbered_as_in_file(found.contacts, scene)};
         add(std::move(cells), found);
     }
 }

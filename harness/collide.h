@@ -42,7 +42,7 @@ struct CollideTask {
     int warm_up = 3;
 };
 
-/// What a pipeline found in a frame, in canonical order.
+/// What a pipeline found in a frame, in canonical order, by the numbers triangles have in the file.
 struct Found {
     PairList pairs, contacts;
 };

@@ -172,6 +172,19 @@ def test_collide_goes_through_frames_and_objects_to_contacts():
            says="order kd lines up one object, not 9")
 
 
+def test_collide_numbers_pairs_as_the_file_does_whatever_its_objects_are():
+    corners = [(x, y, z) for z in (0, 1) for x, y in ((0, 0), (4, 0), (4, 4 - z), (0, 4))]
+    faces = [(1, 2, 3), (5, 6, 7), (1, 3, 4), (5, 7, 8)]  # of two squares in turns
+    pathlib.Path("turns.obj").write_text("".join(f"v {x} {y} {0.5 * z * x}\n" for x, y, z in corners)
+                                         + "".join(f"f {a} {b} {c}\n" for a, b, c in faces))
+    for objects in ("one", "components"):
+        expect(0, "collide", "--collider", "leaf", "--scene", "turns.obj", "--objects", objects, "--samples", "1",
+               "--narrow", "exact", "--pairs", f"{objects}.csv", "--contacts", f"{objects}-contacts.csv")
+    for name in (".csv", "-contacts.csv"):
+        one, components = (pathlib.Path(objects + name).read_text() for objects in ("one", "components"))
+        assert one == components and len(one.splitlines()) > 2, (name, one, components)
+
+
 def test_quality_has_no_number_where_it_has_no_value():
     expect(0, "build", "--builder", "oibvh-multi", "--scene", "grid:300", "--samples", "1", "--epo",
            "--json", "q.json", says="epo")
