@@ -131,12 +131,9 @@ const Tree& OrderedBuilder::update(const Input& input, Queue& queue)
         return refit(input, queue);
     if (update_ == TreeUpdate::keep)
         return tree();
-    tree().queue = &queue;
     leaf_order_.enqueue_update(input, queue);
     gather_if_sorted(input, queue);
-    queue.begin("hierarchy");
-    enqueue_hierarchy(queue);
-    return tree();
+    return build(input, queue, Start::from_sorted_leaves);
 }
 
 const Tree& OrderedBuilder::update_some(const Input& input, Queue& queue)

@@ -18,6 +18,11 @@ protected:
         reserve([&](Arena& arena) { stage.plan(arena, mesh.faces.size(), Use::tree); });
         stage.prepare(bench().queue.cl());
         const Input input = upload(bench().device, bench().queue, mesh.points, mesh.faces);
+        // Twice, the second time without the first one's result: each launch must leave all ready for the next.
+        stage.enqueue(input, bench().queue);
+        const Bounds none = empty_bounds();
+        Buffer<Bounds> found = stage.bounds();
+        found.upload(bench().queue.cl(), {&none, 1});
         stage.enqueue(input, bench().queue);
         bench().queue.finish();
 

@@ -188,13 +188,14 @@ TEST(ObjectsOfOneBuild, AreGivenNoStepsForEmptyQueues)
             };
             const auto with = made(0), without = made(skip_empty_queue);
             const auto launches_of = [&](Collider& collider) {
+                const PairList expected = expected_pairs(many, Among::between_objects, true);
                 find_pairs(collider, standing.tree, standing.input, session().queue());
+                EXPECT_EQ(PairList(collider.pairs(session().queue())), expected);
                 session().queue().finish();
                 collider.query(standing.tree, standing.input, session().queue());
                 const std::vector<StageTime> stages = session().queue().finish();
                 EXPECT_TRUE(collider.complete(session().queue()));
-                EXPECT_EQ(PairList(collider.pairs(session().queue())),
-                          expected_pairs(many, Among::between_objects, true));
+                EXPECT_EQ(PairList(collider.pairs(session().queue())), expected);
                 return stages.back().launches;
             };
             const int all = launches_of(*without);
