@@ -20,6 +20,9 @@ std::unique_ptr<Collider> make_front(Programs& programs, const ColliderOptions& 
 /// Neighbouring leaves as one query: their common box goes down the tree, and what it meets is tested against each.
 std::unique_ptr<Collider> make_group(Programs& programs, const ColliderOptions& options);
 
+/// Blocks of neighbouring leaves against blocks: their boxes go down an implicit tree, and where two meet, so do leaves.
+std::unique_ptr<Collider> make_block(Programs& programs, const ColliderOptions& options);
+
 /// No tree: every box entered into the cells it covers, of a grid of several levels that is hashed, sorted and
 /// searched anew each frame.
 std::unique_ptr<Collider> make_grid(Programs& programs, const ColliderOptions& options);

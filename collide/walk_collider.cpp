@@ -9,7 +9,8 @@ namespace bvhbench {
 namespace {
 
 constexpr uint usual_group_size = 64;
-constexpr uint chunk_task_leaves = 64;  // of a task for a work-item: few enough for all to end together
+constexpr uint chunk_task_leaves =
+    64;  // of a task for a work-item: few enough for all to end together
 
 }  // namespace
 
@@ -18,10 +19,17 @@ WalkCollider::WalkCollider(Programs& programs, const ColliderCard& card,
     : DeviceCollider(programs, card, options, usual_group_size)
 {}
 
+WalkCollider::Shape WalkCollider::shape() const
+{
+    if (by_groups())
+        return {group_size_, group_size_, group_size_};
+    return {chunk_task_leaves, 0, 1};
+}
+
 void WalkCollider::compile(const DeviceTree& tree)
 {
     walk_ = walk_kernel(tree);
-    const uint task_leaves = by_groups() ? group_size_ : chunk_task_leaves;
+    const uint task_leaves = shape().task_leaves;
     own_list_.clear();
     for (uint k = 0; k < tree.objects.size(); ++k)
         for (uint first = 0; first < tree.objects[k].leaves; first += task_leaves)
@@ -29,11 +37,10 @@ void WalkCollider::compile(const DeviceTree& tree)
                 {k, k, first, std::min(task_leaves, tree.objects[k].leaves - first)});
     most_between_ = 0;
     if (between(tree)) {
-        between_kernel_ =
-            kernel(tree, "collide/between.cl", "find_between",
-                   {{"TASK_LEAVES", task_leaves},
-                    {"SKIP_APART", skips(skip_apart) ? 1u : 0u},
-                    {"SKIP_OVERLAP", skips(skip_overlap) ? 1u : 0u}});
+        between_kernel_ = kernel(tree, "collide/between.cl", "find_between",
+                                 {{"TASK_LEAVES", task_leaves},
+                                  {"SKIP_APART", skips(skip_apart) ? 1u : 0u},
+                                  {"SKIP_OVERLAP", skips(skip_overlap) ? 1u : 0u}});
         most_between_ = options_.capacity != 0 ? options_.capacity
                                                : std::max<std::size_t>(256, 2 * own_list_.size());
     }
@@ -43,7 +50,7 @@ void WalkCollider::plan(Arena& arena, const DeviceTree&)
 {
     own_ = arena.take<QueryTask>(own_list_.size(), Use::scratch);
     between_ = arena.take<QueryTask>(std::max<std::size_t>(1, most_between_), Use::scratch);
-    if (!by_groups())
+    if (shape().items_a_task == 0)
         blocks_ = arena.take<Pair>(block_pairs * chunks_, Use::scratch);
 }
 
@@ -80,12 +87,14 @@ void WalkCollider::enqueue(const DeviceTree& tree, const Input& input, Queue& qu
     const auto most_between = static_cast<uint>(most_between_);
     if (own_count + most_between == 0)
         return;
-    if (by_groups()) {
+    const auto [leaves, items_a_task, group] = shape();
+    if (items_a_task > 0) {
         bind(walk_, tree, input, own_, own_count, between_, most_between);
-        queue.launch(walk_, (own_count + most_between_) * group_size_, group_size_, 0);
+        const std::size_t items = (own_count + most_between_) * items_a_task;
+        queue.launch(walk_, (items + group - 1) / group * group, group, 0);
     } else {
         bind(walk_, tree, input, own_, own_count, between_, most_between, blocks_);
-        queue.launch(walk_, chunks_, 1, 0);
+        queue.launch(walk_, chunks_, group, 0);
     }
 }
 

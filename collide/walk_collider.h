@@ -16,7 +16,18 @@ protected:
 
     WalkCollider(Programs& programs, const ColliderCard& card, const ColliderOptions& options);
 
-    /// The kernel that finds the pairs of a task in a group, or of a run of tasks in a work-item.
+    /// How a launch is cut into tasks.
+    struct Shape {
+        uint task_leaves;  ///< neighbouring leaves of a task, at most; a power of two
+        std::size_t
+            items_a_task;  ///< work-items that do a task; 0: a few work-items share all tasks
+        std::size_t group_size;
+    };
+
+    /// Of the form that the collider has: a group a task, or a run of tasks a work-item.
+    virtual Shape shape() const;
+
+    /// The kernel that finds the pairs of tasks.
     virtual cl::Kernel walk_kernel(const DeviceTree& tree) const = 0;
 
 private:

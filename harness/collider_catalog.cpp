@@ -21,6 +21,8 @@ constexpr ColliderEntry catalog[] = {
      make_bvtt},
     {"group", "neighbouring leaves as one query with their common box, then leaf by leaf",
      make_group},
+    {"block", "blocks of neighbouring leaves against blocks, then their leaves: implicit trees",
+     make_block},
     {"front", "where the frame before stopped, moved to where this one does, over refitted boxes",
      make_front},
     {"grid", "no tree: boxes hashed by the cells they cover, on levels by their size", make_grid},

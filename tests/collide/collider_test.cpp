@@ -2,6 +2,7 @@
 //
 // Every collider of the catalog finds the oracle's pairs on every device tree. A new one is tested the moment it is
 // listed, as is a new builder.
+#include "builders/device_tree.h"
 #include "tests/collide/collider_testing.h"
 
 namespace bvhbench {
@@ -70,6 +71,8 @@ TEST_P(ColliderContract, CountsTheSameEveryTime)
 {
     const auto one = made(options());
     const Standing standing(crowded_mesh(500), builder().make);
+    if (!takes(*one, standing))
+        return;
     one->reserve(standing.tree, standing.input);
     find_pairs(*one, standing.tree, standing.input, session().queue());
     const QueryCounts first = one->counts(session().queue());
@@ -129,9 +132,10 @@ TEST_P(Bvtt, RefusesWhatAnArithmeticWouldBeNeededFor)
     const Standing standing(crowded_mesh(20), find_builder("karras").make);
     for (const ColliderOptions& options :
          {ColliderOptions{.jump = 2}, ColliderOptions{.start_level = 1}})
-        EXPECT_THROW(
-            find_collider("bvtt").make(session().programs(), options)->reserve(standing.tree, standing.input),
-            BadUsage);
+        EXPECT_THROW(find_collider("bvtt")
+                         .make(session().programs(), options)
+                         ->reserve(standing.tree, standing.input),
+                     BadUsage);
     EXPECT_THROW(find_collider("bvtt").make(session().programs(), {.jump = 6}), BadUsage);
     EXPECT_THROW(find_collider("bvtt").make(session().programs(), {.start_level = 13}), BadUsage);
     EXPECT_THROW(find_collider("bvtt").make(session().programs(), {.group_size = 48}), BadUsage);
@@ -167,6 +171,45 @@ TEST(Colliders, TakeEveryGroupSizeThatTheySayTheyDo)
     for (const unsigned group_size : {48u, 512u})
         EXPECT_THROW(find_collider("leaf").make(session().programs(), {.group_size = group_size}),
                      BadUsage);
+}
+
+TEST(Colliders, TakeEveryTreeOnADeviceButBlockThoseWithPointers)
+{
+    const Mesh mesh = crowded_mesh(20);
+    for (const BuilderEntry& builder : device_builders()) {
+        const Standing standing(mesh, builder.make);
+        const bool is_implicit = dynamic_cast<const DeviceTree&>(*standing.tree).is_implicit();
+        for (const ColliderEntry& entry : box_colliders(true)) {
+            const auto collider = entry.make(session().programs(), {});
+            EXPECT_EQ(collider->refusal(*standing.tree).empty(),
+                      is_implicit || entry.name != "block")
+                << entry.name << " over " << builder.name;
+        }
+    }
+}
+
+TEST(Block, FindsTheOraclesPairsWhereItsTreeHasSeveralLevelsOfBlocks)
+{
+    // Leaves at and beside what five, ten and fifteen levels hold; an order that jumps, and one that does not.
+    for (const std::size_t size : {31u, 32u, 1023u, 1024u, 1025u, 32769u})
+        for (const char* order : {"morton30", "kd"}) {
+            SCOPED_TRACE(std::to_string(size) + " triangles, " + order);
+            const auto block = find_collider("block").make(session().programs(), {});
+            const Scene surface = load_scene("torus:" + std::to_string(size), {});
+            const Mesh mesh{surface.frames.front(), surface.faces};
+            expect_oracles_pairs(
+                *block, Standing(mesh, find_builder("oibvh-multi").make, {.order = order}), true);
+        }
+}
+
+TEST(Block, FindsMorePairsThanATeamKeeps)
+{
+    // The same triangle 200 times: seven blocks meet each other, more than 256 pairs most times.
+    Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, std::vector<Face>(200, Face{0, 1, 2})};
+    const auto block = find_collider("block").make(session().programs(), {});
+    const Standing standing(mesh, find_builder("perfect").make);
+    expect_oracles_pairs(*block, standing, true);
+    EXPECT_EQ(block->counts(session().queue()).pairs, 200u * 199 / 2);
 }
 
 TEST(Colliders, FindOneSetOfPairsInAThousandRepeats)

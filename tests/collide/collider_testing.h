@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "collide/sweep.h"
+#include "geometry/error.h"
 #include "harness/catalog.h"
 #include "harness/collider_catalog.h"
 #include "harness/hard_inputs.h"
@@ -121,9 +122,20 @@ struct Standing {
     }
 };
 
+/// Whether it queries such trees; if not, it says so before anything is taken.
+inline bool takes(Collider& collider, const Standing& standing)
+{
+    if (collider.refusal(*standing.tree).empty())
+        return true;
+    EXPECT_THROW(collider.reserve(standing.tree, standing.input), BadUsage);
+    return false;
+}
+
 /// Hold one query, repeated until complete, to the oracle's pairs.
 inline void expect_oracles_pairs(Collider& collider, const Standing& standing, bool keep_adjacent)
 {
+    if (!takes(collider, standing))
+        return;
     collider.reserve(standing.tree, standing.input);
     find_pairs(collider, standing.tree, standing.input, session().queue());
     const PairList found(collider.pairs(session().queue()));

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include "collide/colliders.h"
+#include "collide/walk_collider.h"
+
+namespace bvhbench {
+namespace {
+
+constexpr uint block_leaves = 32;  // BLOCK of block.cl
+constexpr uint warp_lanes = 32;    // LANES of builders/stages/peers.clh, on NVIDIA's
+constexpr uint teams_a_group = 4;  // 2 to 8 are within 5 % of each other on an H200
+constexpr uint loose = 4;          // as in group.cpp; 2 takes 3 to 9 % longer over hilbert30
+
+class Block final : public WalkCollider {
+public:
+    Block(Programs& programs, const ColliderOptions& options)
+        : WalkCollider(programs, {"block", "Blocks of leaves against blocks [Chitalu2020, Eq. 12]"},
+                       options)
+        , has_warps_(programs.device().lets_groups_wait())
+    {}
+
+    std::string refusal(const Tree& tree) const override
+    {
+        const auto* on_device = dynamic_cast<const DeviceTree*>(&tree);
+        if (on_device != nullptr && !on_device->is_implicit())
+            return "block needs a tree whose blocks of leaves are subtrees, an implicit one";
+        return DeviceCollider::refusal(tree);
+    }
+
+private:
+    uint lanes() const { return has_warps_ ? warp_lanes : 1; }
+    uint teams() const { return has_warps_ ? teams_a_group : 1; }
+
+    Shape shape() const override { return {block_leaves, lanes(), teams() * lanes()}; }
+
+    cl::Kernel walk_kernel(const DeviceTree& tree) const override
+    {
+        return kernel(tree, "collide/block.cl", "block_pairs",
+                      {{"TEAMS", teams()}, {"LOOSE", loose}}, Optimise::on_gpus);
+    }
+
+    bool has_warps_;
+};
+
+}  // namespace
+
+std::unique_ptr<Collider> make_block(Programs& programs, const ColliderOptions& options)
+{
+    return std::make_unique<Block>(programs, options);
+}
+
+}  // namespace bvhbench
