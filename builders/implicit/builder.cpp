@@ -56,7 +56,8 @@ private:
             return programs_.kernel(tree_.layout.build_items, text.c_str());
         return programs_.kernel(
             tree_.layout.build_groups, text.c_str(),
-            {{"GROUP_SIZE", cut_.group_size}, {"ITEMS", cut_.items}, {"LEVELS", cut_.levels}});
+            {{"GROUP_SIZE", cut_.group_size}, {"ITEMS", cut_.items}, {"LEVELS", cut_.levels}},
+            handoff() ? Optimise::on_gpus : Optimise::freely);  // groups return before a barrier
     }
 
     /// One launch, of all objects: those whose trees are so high take part in it.

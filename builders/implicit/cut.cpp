@@ -47,6 +47,15 @@ Cut subtrees_of_items(const Device& device, uint leaf_level)
             std::clamp(leaf_level > split ? leaf_level - split : 0u, 10u, 16u)};
 }
 
+/// Where groups go on in one launch, their number costs little. On an H200 (µs, hierarchy from ids): 144,046 triangles
+/// take 11.1 in groups of 256 and 12.3 of 512 with two nodes each; 2,880,000 take 59.8 and 56.3.
+Cut groups_of_one_launch(uint leaf_level, uint items, uint most)
+{
+    if (leaf_level <= 18 || items != 0)
+        return groups_of(std::min(256u, most), std::max(1u, items));
+    return groups_of(std::min(512u, most), 2);
+}
+
 void require_power_of_two(const char* what, uint value, uint most, const Device& device)
 {
     if (!std::has_single_bit(value) || value > most)
@@ -67,9 +76,8 @@ Cut choose_cut(const Device& device, const BuildOptions& options, Meeting meetin
     }
     if (device.is_cpu())
         return subtrees_of_items(device, implicit_leaf_level(leaves));
-    if (meeting ==
-        Meeting::by_handoff)  // fewer climbers: 14.5 µs of 512 against 15.9 of 256 at 144,046
-        return groups_of(std::min(512u, most), items);
+    if (meeting == Meeting::by_handoff)
+        return groups_of_one_launch(implicit_leaf_level(leaves), options.items, most);
     return smallest_group_with_fewest_launches(implicit_leaf_level(leaves), items, most);
 }
 
