@@ -29,6 +29,9 @@ RadixSort::RadixSort(Programs& programs, unsigned code_bits, SortShape shape)
         digit_bits_ = group_digit_bits;
         sweeps_.emplace(programs, code_bits, shape.sweep_group_size,
                         std::max(1u, shape.sweep_keys_per_item / words));
+        if (shape.at_once)
+            at_once_.emplace(programs, code_bits, shape.sweep_group_size,
+                             std::max(1u, shape.sweep_keys_per_item / words));
     } else if (shape_.form == KernelForm::groups) {
         assert(shape.group_size >= 16 && shape.group_size <= 256);
         assert(shape.keys_per_item % 2 == 1 && shape.keys_per_item <= 15);
@@ -75,6 +78,10 @@ void RadixSort::plan(Arena& arena, std::size_t size)
     ids_[(passes_ + 1) % 2] = arena.take<uint>(size, Use::scratch);
     for (Buffer<uint>& codes : codes_)
         codes = arena.take<uint>(words, Use::scratch);
+    if (is_at_once()) {
+        at_once_->plan(arena, size);
+        return;
+    }
     if (sweeps_) {
         sweeps_->plan(arena, size);
         return;
@@ -85,7 +92,9 @@ void RadixSort::plan(Arena& arena, std::size_t size)
 
 void RadixSort::prepare(const cl::CommandQueue& queue)
 {
-    if (sweeps_)
+    if (is_at_once())
+        at_once_->prepare(queue);
+    else if (sweeps_)
         sweeps_->prepare(queue);
 }
 
@@ -110,6 +119,10 @@ void RadixSort::enqueue_passes(Queue& queue, uint count, const Buffer<uint>& res
     if (count == 0)
         return;
     const Buffer<uint>& other = ids_[(passes_ + 1) % 2];
+    if (is_at_once()) {
+        at_once_->enqueue(codes_, result, other, count, unless, queue);
+        return;
+    }
     if (sweeps_) {
         sweeps_->enqueue(codes_, result, other, count, unless, queue);
         return;

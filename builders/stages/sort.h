@@ -7,6 +7,7 @@
 #include "builders/stages/codes.h"
 #include "builders/stages/idle.h"
 #include "builders/stages/kernel_form.h"
+#include "builders/stages/sort_at_once.h"
 #include "builders/stages/sweep.h"
 
 namespace bvhbench {
@@ -24,6 +25,8 @@ struct SortShape {
     enum class Sweeps { of_device, never, always } sweeps = Sweeps::of_device;
     uint sweep_group_size = 512;
     uint sweep_keys_per_item = 8;  ///< codes of two words: half as many
+    /// Groups that wait only: whether few pairs are sorted in one launch. Not measured on a GPU yet, hence not the default.
+    bool at_once = false;
 };
 
 /// The stage `sort`: a stable radix sort of (code, id) pairs, least significant digit first, by only the bits
@@ -60,6 +63,7 @@ public:
 
 private:
     uint run_count(std::size_t size) const;
+    bool is_at_once() const { return at_once_ && at_once_->takes(size_); }
     void enqueue_passes(Queue& queue, uint count, const Buffer<uint>& result,
                         const SortUnlessIdle& unless);
     void enqueue_pass(Queue& queue, uint pass, uint count, const Buffer<uint>& ids_in,
@@ -72,6 +76,7 @@ private:
     std::size_t chunks_;
     cl::Kernel count_, scan_, scatter_;  ///< unless it sweeps
     std::optional<DigitSweeps> sweeps_;
+    std::optional<SortAtOnce> at_once_;  ///< where there are sweeps, and takes their place for few pairs
     std::size_t size_ = 0;
     std::array<Buffer<uint>, 2> codes_;  ///< pass p goes from [p % 2] to the other
     std::array<Buffer<uint>, 2> ids_;    ///< likewise

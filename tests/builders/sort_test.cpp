@@ -72,6 +72,15 @@ SortShape sweeping(uint keys_per_item)
     shape.sweeps = SortShape::Sweeps::always;
     shape.sweep_group_size = bench().device.is_cpu() ? 16 : 32;
     shape.sweep_keys_per_item = keys_per_item;
+    shape.at_once = false;
+    return shape;
+}
+
+/// The same, all passes in one launch of as many groups as may wait for each other: one where none may.
+SortShape at_once(uint keys_per_item)
+{
+    SortShape shape = sweeping(keys_per_item);
+    shape.at_once = true;
     return shape;
 }
 
@@ -147,6 +156,7 @@ INSTANTIATE_TEST_SUITE_P(Small, RadixSortOfEverySize, testing::ValuesIn([] {
                              for (const unsigned bits : {8, 30, 32, 63}) {
                                  cases.push_back({"groups", bits, three_launches(16, 3)});
                                  cases.push_back({"sweeps", bits, sweeping(2)});
+                                 cases.push_back({"at_once", bits, at_once(6)});
                                  cases.push_back({"chunks", bits, {KernelForm::chunks, 16, 3}});
                              }
                              return cases;
@@ -172,6 +182,7 @@ INSTANTIATE_TEST_SUITE_P(Default, RadixSortAsShipped,
                          testing::Values(Case{"groups", 30, three_launches()},
                                          Case{"groups", 63, three_launches()},
                                          Case{"sweeps", 30, sweeping(8)},
+                                         Case{"at_once", 30, at_once(8)},
                                          Case{"of_device", 30, {KernelForm::groups}},
                                          Case{"of_device", 63, {KernelForm::groups}},
                                          Case{"chunks", 30, {KernelForm::chunks}},
@@ -249,6 +260,8 @@ INSTANTIATE_TEST_SUITE_P(Few, RadixSortOfFewSizes,
                                          Case{"groups", 63, three_launches(32, 15)},
                                          Case{"sweeps", 30, sweeping(3)},
                                          Case{"sweeps", 63, sweeping(4)},
+                                         Case{"at_once", 30, at_once(80)},
+                                         Case{"at_once", 63, at_once(160)},
                                          Case{"chunks", 30, {KernelForm::chunks}}),
                          case_name);
 
