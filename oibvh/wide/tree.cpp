@@ -37,11 +37,26 @@ std::size_t WideTree::node_count() const
     return count;
 }
 
+std::vector<Aabb> WideTree::stored_boxes(uint object) const
+{
+    const ForestObject& own = objects.at(object);
+    const std::vector<NodeWord> words = nodes.download(queue->cl());
+    std::vector<Aabb> boxes;
+    for (std::size_t slot = 0; slot < wide_inner_count(own.leaves, format.child_bits); ++slot)
+        for (uint k = 0; k < format.children(); ++k)
+            boxes.push_back(
+                child_box(format,
+                          std::span(words).subspan((own.nodes + slot) * format.node_words(),
+                                                   format.node_words()),
+                          k));
+    return boxes;
+}
+
 HostTree WideTree::spelled_out_object(uint object) const
 {
     const ForestObject& own = objects.at(object);
     const uint bits = format.child_bits, leaf_level = wide_leaf_level(own.leaves, bits);
-    const std::vector<NodeWord> all_words = nodes.download(queue->cl());
+    const std::vector<Aabb> stored = stored_boxes(object);
     const std::vector<uint> primitives = ids.download(queue->cl());
     const std::vector<Aabb> boxes = leaf_boxes.download(queue->cl());
 
@@ -49,17 +64,20 @@ HostTree WideTree::spelled_out_object(uint object) const
     tree.is_tight = !format.on_grid;
     const std::size_t inner = wide_inner_count(own.leaves, bits);
     tree.nodes.resize(inner + own.leaves);
+    HostTree::Node& root =
+        tree.nodes.front();  // nobody keeps its box: it is what its children fill
+    root.box = empty_box();
     for (uint level = 0; level < leaf_level; ++level)
         for (uint p = 0; p < wide_real_on(own.leaves, bits, level); ++p) {
             const std::size_t slot = wide_first_slot(own.leaves, bits, level) + p;
-            const auto words = std::span(all_words).subspan(
-                (own.nodes + slot) * format.node_words(), format.node_words());
             const std::size_t below = wide_first_slot(own.leaves, bits, level + 1);
             const uint first = p << bits, real = wide_real_on(own.leaves, bits, level + 1);
             for (uint k = 0; k < format.children() && first + k < real; ++k) {
                 const std::size_t child = below + first + k;
                 tree.nodes[slot].child[k] = static_cast<int>(child);
-                tree.nodes[child].box = child_box(format, words, k);
+                tree.nodes[child].box = stored[slot * format.children() + k];
+                if (level == 0)
+                    root.box = merged(root.box, tree.nodes[child].box);
             }
         }
     for (uint place = 0; place < own.leaves; ++place) {
@@ -68,12 +86,6 @@ HostTree WideTree::spelled_out_object(uint object) const
         if (format.on_grid)
             leaf.box = boxes.at(sorted_leaves ? own.first + place : primitives[own.first + place]);
     }
-    HostTree::Node& root =
-        tree.nodes.front();  // nobody keeps its box: it is what its children fill
-    root.box = empty_box();
-    const auto words = std::span(all_words).subspan(own.nodes * format.node_words());
-    for (uint k = 0; k < wide_real_on(own.leaves, bits, 1); ++k)
-        root.box = merged(root.box, child_box(format, words, k));
     return tree;
 }
 

@@ -41,6 +41,10 @@ public:
     std::size_t node_count() const override;
     HostTree spelled_out_object(uint object) const override;
 
+    /// Boxes of an object's nodes as their parents keep them: of child k of the inner node in slot s at [s * children + k].
+    /// Of children that are not real, anything.
+    std::vector<Aabb> stored_boxes(uint object) const;
+
     uint leaf_count() const override { return leaves; }
     bool has_sorted_leaves() const override { return sorted_leaves; }
     std::string_view access_header() const override { return format.access; }
