@@ -41,8 +41,9 @@ namespace bvhbench {
 /// tested together. What is stored of them may be larger than they are, but of boxes that tree_box tells too, a child's
 /// always lies within its parent's:
 ///
-///     tree_stored_box(TREE, node, k)            of child k of an inner node
-///     tree_children_meeting(TREE, node, box)    a bit a child: whether its stored box overlaps; of none, anything
+///     tree_slot(TREE, node)                     where an inner node is stored
+///     tree_stored_box(TREE, slot, k)            of child k of the node there
+///     tree_children_meeting(TREE, slot, box)    a bit a child: whether its stored box overlaps; of none, anything
 ///     tree_children_from(TREE, node, first)     a bit a child: whether it has leaves from place `first` on
 ///     TREE_EXACT_LEAVES                         1: stored boxes of leaves are exact; 0: tree_box has to be asked
 class DeviceTree : public Tree {

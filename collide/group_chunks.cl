@@ -84,13 +84,13 @@ static inline uint walk_with(FOREST_PARAMETERS, global const uint* ropes, global
     const uint behind = is_own ? end : 0u;
     WideWalk walk = walk_from_root(TREE, common, behind);
     tests += TREE_CHILDREN;
-    for (uint leaf = next_leaf(TREE, common, behind, &walk, &tests); leaf != TREE_NONE;
+    for (uint leaf = next_leaf(TREE, common, behind, &walk, &tests); leaf != TREE_CHILDREN;
          leaf = next_leaf(TREE, common, behind, &walk, &tests)) {
-        const Aabb box = tree_box(TREE, leaf);
+        const Aabb box = found_leaf_box(TREE, &walk, leaf);
         const uint met = lanes_that_meet(min_x, min_y, min_z, max_x, max_y, max_z, box) & all;
         tests += count;
         if (met != 0u)
-            put_lanes(faces, SINK_PASSED, own_triangles, met, tree_triangle(TREE, leaf));
+            put_lanes(faces, SINK_PASSED, own_triangles, met, found_triangle(TREE, &walk, leaf));
     }
 #else
     const uint stop = walk_end(TREE, ropes);

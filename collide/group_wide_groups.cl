@@ -39,7 +39,7 @@ static inline void descend_to_child(TREE_PARAMETERS, const uint node, const uint
     const bool is_behind = (tree_children_from(TREE, node, first) >> k & 1u) != 0u;
     if (!is_behind || last_leaf >> (TREE_CHILD_BITS * above_leaves) == child)
         return;
-    Aabb box = tree_stored_box(TREE, node, k);
+    Aabb box = tree_stored_box(TREE, tree_slot(TREE, node), k);
     if (!overlap(common, box))
         return;
     if (above_leaves != 0u) {

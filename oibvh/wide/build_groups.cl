@@ -24,18 +24,21 @@ static inline void build_subtree(global uint4* nodes, local float2* boxes, const
     const uint item = (uint)get_local_id(0);
     for (uint width = GROUP_SIZE; width >= LANE_COUNT; width /= LANE_COUNT, --level) {
         const uint node = position * (width / LANE_COUNT) + item / LANE_COUNT;
-        Aabb whole = empty_box();
+        Aabb stored = empty_box();
         if (item < width) {
+            Aabb whole = empty_box();
             for (uint k = 0u; k < LANE_COUNT; ++k)
                 whole = merged(whole, load_local_box(boxes, item / LANE_COUNT * LANE_COUNT + k));
-            if (level >= 0 && node < wide_real_on(leaves, TREE_CHILD_BITS, (uint)level))
+            if (level >= 0 && node < wide_real_on(leaves, TREE_CHILD_BITS, (uint)level)) {
+                const NodeFrame frame = frame_of(whole);
                 store_child(nodes, wide_first_slot(leaves, TREE_CHILD_BITS, (uint)level) + node,
-                            item % LANE_COUNT, load_local_box(boxes, item), whole);
+                            item % LANE_COUNT, load_local_box(boxes, item), frame);
+                stored = stored_box(frame, whole);
+            }
         }
         barrier(CLK_LOCAL_MEM_FENCE);  // all have read
         if (item < width && item % LANE_COUNT == 0u)
-            store_local_box(boxes, item / LANE_COUNT,
-                            whole.min_x <= whole.max_x ? stored_box(whole) : whole);
+            store_local_box(boxes, item / LANE_COUNT, stored);
         barrier(CLK_LOCAL_MEM_FENCE);
     }
 }

@@ -15,8 +15,9 @@ static inline void store_node(global uint4* nodes, const uint slot, const Aabb* 
     Aabb whole = children[0];
     for (uint k = 1u; k < LANE_COUNT; ++k)
         whole = merged(whole, children[k]);
+    const NodeFrame frame = frame_of(whole);
     for (uint k = 0u; k < LANE_COUNT; ++k)
-        store_child(nodes, slot, k, children[k], whole);
+        store_child(nodes, slot, k, children[k], frame);
 }
 
 /// The nodes of `level` from position `begin` to before `end`, from the level below.
