@@ -113,15 +113,6 @@ SHARED_FN Aabb box_between(BoxGrid grid, GridBox points)
     return box;
 }
 
-/// What the stored children of a node fill together, if their exact boxes fill `box`. Larger points are around larger
-/// coordinates, so this is the union of the stored boxes; boxes of nodes above are made of it, so that stored boxes lie
-/// within each other as exact ones do.
-SHARED_FN Aabb box_on_grid(Aabb box)
-{
-    const BoxGrid grid = grid_of(box);
-    return box_between(grid, points_around(grid, box));
-}
-
 SHARED_END
 
 #ifndef __OPENCL_C_VERSION__

@@ -134,7 +134,7 @@ TEST(GridBox, ContainsTheBoxItIsMadeOfWhateverTheNumbers)
             ASSERT_TRUE(contains(stored, box)) << "round " << round;
             stored_whole = merged(stored_whole, stored);
         }
-        const Aabb on_grid = box_on_grid(whole);
+        const Aabb on_grid = box_between(grid, points_around(grid, whole));
         ASSERT_EQ(std::memcmp(&on_grid, &stored_whole, sizeof on_grid), 0) << "round " << round;
     }
 }
