@@ -82,11 +82,13 @@ static inline uint walk_with(FOREST_PARAMETERS, global const uint* ropes, global
 #if TREE_CHILD_BITS > 1u
     (void)ropes;
     const uint behind = is_own ? end : 0u;
-    WideWalk walk = walk_from_root(TREE, common, behind);
+    WideWalk walk;
+    begin_walk(TREE, common, behind, &walk);
     tests += TREE_CHILDREN;
     for (uint leaf = next_leaf(TREE, common, behind, &walk, &tests); leaf != TREE_CHILDREN;
          leaf = next_leaf(TREE, common, behind, &walk, &tests)) {
-        const Aabb box = found_leaf_box(TREE, &walk, leaf);
+        Aabb box;
+        load_found_box(TREE, &walk, leaf, &box);
         const uint met = lanes_that_meet(min_x, min_y, min_z, max_x, max_y, max_z, box) & all;
         tests += count;
         if (met != 0u)

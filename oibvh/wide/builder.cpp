@@ -188,7 +188,9 @@ void WideBuilder::prepare(const cl::CommandQueue& queue)
     const std::string_view path =
         by_groups() ? "oibvh/wide/build_groups.cl" : "oibvh/wide/build_items.cl";
     from_leaves_ = programs_.kernel(tree_.format.text, path, "build_from_leaves", defines);
-    from_nodes_ = programs_.kernel(tree_.format.text, path, "build_from_nodes", defines);
+    // The few nodes that are left: where optimising is in doubt, there is nothing to win.
+    from_nodes_ = programs_.kernel(tree_.format.text, path, "build_from_nodes", defines,
+                                   Optimise::on_gpus);
     tree_.device_objects.upload(queue, tree_.objects);
     whole_.subtrees.upload(queue, whole_.subtree_list);
     gathered_.slots.upload(queue, std::vector<uint>(gathered_.slots.size(), 0u));
