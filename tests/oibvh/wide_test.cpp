@@ -22,7 +22,9 @@ namespace {
 
 TEST(WideLayout, IsAppendixCsOfInnerNodes)
 {
-    std::vector<uint> sizes = {144046, 1087474, 2880000, 4194304, (1u << 30) - 1, 1u << 30};
+    // One above a power: every digit of the virtual leaves is as large as can be.
+    std::vector<uint> sizes = {144046,         1087474,        2880000,        4194304,
+                               (1u << 24) + 1, (1u << 27) + 1, (1u << 30) - 1, 1u << 30};
     for (uint leaves = 2; leaves < 5000; ++leaves)
         sizes.push_back(leaves);
     for (const uint bits : {2u, 3u})
