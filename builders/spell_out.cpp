@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "builders/spell_out.h"
 
+#include <algorithm>
 #include <cstring>
 #include <vector>
 
@@ -34,7 +35,7 @@ bool depth_first(const HostTree& tree, const Visit& visit)
         met[static_cast<std::size_t>(index)] = true;
         const HostTree::Node& node = tree.nodes[static_cast<std::size_t>(index)];
         visit(node, static_cast<std::size_t>(index));
-        for (std::size_t side = 2; side-- > 0;)
+        for (std::size_t side = HostTree::most_children; side-- > 0;)
             if (node.child[side] != HostTree::none)
                 stack.push_back(node.child[side]);
     }
@@ -70,8 +71,10 @@ std::string broken_inner(const HostTree& tree, const HostTree::Node& node, std::
         }
     if (node.child[0] == HostTree::none)
         return "inner " + node_text(index) + " has no left child";
-    if (!same_bits(node.box, box))
+    if (tree.is_tight && !same_bits(node.box, box))
         return "the box of " + node_text(index) + " is not the union of its children's";
+    if (!same_bits(node.box, merged(node.box, box)))
+        return "the box of " + node_text(index) + " does not contain its children's";
     return {};
 }
 
@@ -84,10 +87,22 @@ std::uint64_t tree_hash(const HostTree& tree)
     depth_first(tree, [&](const HostTree::Node& node, std::size_t) {
         hash.value(node.box);
         hash.value(node.primitive);
-        hash.value((node.child[0] != HostTree::none ? 1 : 0) +
-                   (node.child[1] != HostTree::none ? 2 : 0));
+        int which = 0;  // a bit a child
+        for (std::size_t side = 0; side < HostTree::most_children; ++side)
+            which |= node.child[side] != HostTree::none ? 1 << side : 0;
+        hash.value(which);
     });
     return hash.get();
+}
+
+bool same_refit(const HostTree& a, const HostTree& b)
+{
+    if (a.is_tight && b.is_tight)
+        return tree_hash(a) == tree_hash(b);
+    return std::equal(a.nodes.begin(), a.nodes.end(), b.nodes.begin(), b.nodes.end(),
+                      [](const HostTree::Node& one, const HostTree::Node& other) {
+                          return one.child == other.child && one.primitive == other.primitive;
+                      });
 }
 
 HostTree refitted(HostTree tree, std::span<const Point> points, std::span<const Face> faces)

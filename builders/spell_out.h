@@ -17,10 +17,15 @@ std::uint64_t tree_hash(const HostTree& tree);
 /// The same tree with boxes over moved points, from the leaves up, slowly: the oracle of every refit.
 HostTree refitted(HostTree tree, std::span<const Point> points, std::span<const Face> faces);
 
+/// Whether a refit left what `refitted` does: the same tree, or, of trees whose boxes are not tight, the same topology,
+/// node by node.
+bool same_refit(const HostTree& found, const HostTree& expected);
+
 /// The first promise of every builder that `tree` breaks over these triangles, as a sentence; empty if none.
 ///
 /// Each triangle is in exactly one leaf, each leaf's box is its triangle's box, each inner node's box is the
-/// union of its children's, bit for bit, every node is reached once from the root.
+/// union of its children's, bit for bit, or contains them where the tree does not say that it is tight; every node is
+/// reached once from the root.
 std::string broken_promise(const HostTree& tree, std::span<const Point> points,
                            std::span<const Face> faces);
 

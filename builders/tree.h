@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <initializer_list>
 #include <vector>
 
 #include "geometry/aabb.h"
@@ -12,15 +14,28 @@ namespace bvhbench {
 /// Any tree, spelled out: the one form that tests, checks and metrics read.
 struct HostTree {
     static constexpr int none = -1;
+    static constexpr std::size_t most_children = 8;
+
+    /// The first so many of `most_children`; the rest are none.
+    struct Children : std::array<int, most_children> {
+        Children() { fill(none); }
+        Children(std::initializer_list<int> first) : Children()
+        {
+            std::copy(first.begin(), first.end(), begin());
+        }
+    };
 
     struct Node {
         Aabb box = {};
-        std::array<int, 2> child = {none,
-                                    none};  ///< the second may be absent: support nodes have one
-        int primitive = none;               ///< set on leaves only
+        Children child;        ///< all but the first may be absent: support nodes have one
+        int primitive = none;  ///< set on leaves only
     };
 
     std::vector<Node> nodes;  ///< the root is nodes[0]; children come after their parent
+
+    /// Whether an inner node's box is the union of its children's; if not, as where boxes are rounded outward, it
+    /// contains them. A leaf's box is its triangle's in any case.
+    bool is_tight = true;
 };
 
 /// What a builder leaves behind, in whatever layout and memory suits it.

@@ -21,7 +21,8 @@ static inline Aabb task_box(FOREST_PARAMETERS, const QueryTask task)
 {
 #if TREE_IMPLICIT
     PICK_TREE(task.own)
-    return tree_box(TREE, tree_ancestor(TREE, tree_leaf(TREE, task.first), floor_log2(TASK_LEAVES)));
+    const uint levels = divided_up(floor_log2(TASK_LEAVES), TREE_CHILD_BITS);
+    return tree_box(TREE, tree_ancestor(TREE, tree_leaf(TREE, task.first), levels));
 #else
     return root_box(FOREST, task.own);
 #endif

@@ -21,8 +21,8 @@ public:
     std::string refusal(const Tree& tree) const override
     {
         const auto* on_device = dynamic_cast<const DeviceTree*>(&tree);
-        if (on_device != nullptr && !on_device->is_implicit())
-            return "block needs a tree whose blocks of leaves are subtrees, an implicit one";
+        if (on_device != nullptr && (!on_device->is_implicit() || on_device->child_bits() != 1))
+            return "block needs a binary implicit tree, whose blocks of leaves are subtrees";
         return DeviceCollider::refusal(tree);
     }
 

@@ -39,11 +39,18 @@ public:
         if (on_device != nullptr && !on_device->is_implicit() &&
             (options_.jump > 1 || options_.start_level > 0))
             return "bvtt can neither jump nor start below the root in a tree with pointers";
+        if (on_device != nullptr && (on_device->child_bits() * options_.jump > most_jump ||
+                                     on_device->child_bits() * options_.start_level > most_start_level))
+            return "bvtt jumps at most " + std::to_string(most_jump / on_device->child_bits()) +
+                   " levels and starts on level " +
+                   std::to_string(most_start_level / on_device->child_bits()) +
+                   " at most where a node has " + std::to_string(1u << on_device->child_bits()) +
+                   " children";
         if (on_device != nullptr && label_bits(*on_device) < 32 &&
             label_bits(*on_device) + ceil_log2(static_cast<uint>(on_device->objects.size())) > 32)
             return "bvtt names an object and its node in 32 bits, too few for " +
-                   std::to_string(on_device->objects.size()) + " objects with trees of up to " +
-                   std::to_string(on_device->most_levels()) + " levels";
+                   std::to_string(on_device->objects.size()) + " objects with labels of up to " +
+                   std::to_string(on_device->label_bits()) + " bits";
         return DeviceCollider::refusal(tree);
     }
 
@@ -79,7 +86,7 @@ private:
     /// Of a node in a queue's entry; the object is in the rest.
     static uint label_bits(const DeviceTree& tree)
     {
-        return tree.objects.size() > 1 && tree.is_implicit() ? tree.most_levels() : 32;
+        return tree.objects.size() > 1 && tree.is_implicit() ? tree.label_bits() : 32;
     }
 
     void compile(const DeviceTree& tree) override
@@ -155,7 +162,7 @@ private:
             const auto& from = queues_[step % 2];
             const auto& to = queues_[(step + 1) % 2];
             const auto room = static_cast<uint>(queue_capacity_);
-            depth += levels;
+            depth += tree.child_bits() * levels;
             if (by_groups()) {
                 bind(expand_, tree, input, from, to, room, step, levels);
                 // No more tasks than there are pairs of nodes that deep.

@@ -104,7 +104,7 @@ private:
     /// Of a node in an entry; the object is in the rest.
     static uint label_bits(const DeviceTree& tree)
     {
-        return tree.objects.size() > 1 && tree.is_implicit() ? tree.most_levels() : 32;
+        return tree.objects.size() > 1 && tree.is_implicit() ? tree.label_bits() : 32;
     }
 
     /// Entries of the front that tracking begins with.
@@ -218,18 +218,19 @@ private:
                  static_cast<uint>(queue_capacity_), fronts_[1], static_cast<uint>(front_capacity_),
                  step, standing, climbs_ ? 1u : 0u, blocks_);
             if (by_groups())
-                queue.launch(advance_, groups(standing, step) * group_size_, group_size_, 0);
+                queue.launch(advance_, groups(standing, tree.child_bits() * step) * group_size_,
+                             group_size_, 0);
             else
                 queue.launch(advance_, chunks_, 1, 0);
         }
     }
 
-    /// As many as have something to do, up to what fills the device: an entry has 4 children.
-    std::size_t groups(uint standing, uint step) const
+    /// As many as have something to do, up to what fills the device: an entry has 4 children a level of binary trees.
+    std::size_t groups(uint standing, uint levels) const
     {
         const std::size_t most =
             16 * std::size_t{device().cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()};
-        const std::size_t tasks = std::size_t{standing} << std::min(2 * step, 30u);
+        const std::size_t tasks = std::size_t{standing} << std::min(2 * levels, 30u);
         const std::size_t a_group = std::size_t{group_size_} * items;
         return std::clamp<std::size_t>((tasks + a_group - 1) / a_group, 1, most);
     }

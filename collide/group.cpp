@@ -17,6 +17,8 @@ public:
 private:
     cl::Kernel walk_kernel(const DeviceTree& tree) const override
     {
+        if (by_groups() && tree.child_bits() > 1)
+            return wide_kernel(tree);
         // One more than there are levels, for the way down from the last node. The chain that a query starts with
         // is as long at most, so that twice as much is enough for any tree, if not for speed.
         const uint reserve = tree.most_levels() + 1;
@@ -28,6 +30,16 @@ private:
                       Optimise::on_gpus)
                 : kernel(tree, "collide/group_chunks.cl", "group_pairs",
                          {{"SINK_BLOCK", block_pairs}});
+    }
+
+    cl::Kernel wide_kernel(const DeviceTree& tree) const
+    {
+        // A node taken on each level leaves its other children waiting, and a query starts with a node a level.
+        const uint reserve = (tree.most_levels() << tree.child_bits()) + 1;
+        const uint frontier = options_.capacity != 0 ? 2 * reserve : 2 * reserve + 4 * group_size_;
+        return kernel(tree, "collide/group_wide_groups.cl", "group_pairs",
+                      {{"GROUP_SIZE", group_size_}, {"FRONTIER", frontier}, {"RESERVE", reserve}, {"LOOSE", loose}},
+                      Optimise::on_gpus);
     }
 };
 

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: MIT
 // check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=0 -DSINK_BLOCK=512u
+// check: -include oibvh/wide/wide8_q8_access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=1 -DSINK_BLOCK=512u
 // check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DSINK_BLOCK=512u
 //
 // Eight neighbouring leaves as one query, for few cores with wide registers: they walk the tree together, without a
 // stack, over what lies behind them. A node that their common box meets is tested against all eight at once, and goes
-// on being walked if one of them meets it.
+// on being walked if one of them meets it. A wide tree's inner nodes are tested against the common box only, eight of
+// them at once.
 #include "builders/stages/chunk.clh"
 #include "collide/sink_chunks.clh"
 #include "collide/task.clh"
+#if TREE_CHILD_BITS > 1u
+#include "collide/wide_walk.clh"
+#endif
 
 #define LANES 8u
 
@@ -74,6 +79,22 @@ static inline uint walk_with(FOREST_PARAMETERS, global const uint* ropes, global
         put_lanes(faces, SINK_PASSED, own_triangles, before & ((1u << k) - 1u), own_triangles[k]);
     }
     PICK_TREE(task.other)
+#if TREE_CHILD_BITS > 1u
+    (void)ropes;
+    const uint behind = is_own ? end : 0u;
+    WideWalk walk;
+    begin_walk(TREE, common, behind, &walk);
+    tests += TREE_CHILDREN;
+    for (uint leaf = next_leaf(TREE, common, behind, &walk, &tests); leaf != TREE_CHILDREN;
+         leaf = next_leaf(TREE, common, behind, &walk, &tests)) {
+        Aabb box;
+        load_found_box(TREE, &walk, leaf, &box);
+        const uint met = lanes_that_meet(min_x, min_y, min_z, max_x, max_y, max_z, box) & all;
+        tests += count;
+        if (met != 0u)
+            put_lanes(faces, SINK_PASSED, own_triangles, met, found_triangle(TREE, &walk, leaf));
+    }
+#else
     const uint stop = walk_end(TREE, ropes);
     uint node = first_node(TREE, ropes, task, end - 1u);
     while (node != stop) {
@@ -89,6 +110,7 @@ static inline uint walk_with(FOREST_PARAMETERS, global const uint* ropes, global
             put_lanes(faces, SINK_PASSED, own_triangles, met, tree_triangle(TREE, node));
         node = met != 0u && !is_leaf ? tree_left(TREE, node) : next_node(TREE, ropes, node);
     }
+#endif
     return tests;
 }
 

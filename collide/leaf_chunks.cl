@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // check: -include baselines/perfect/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=0 -DSINK_BLOCK=512u
+// check: -include oibvh/wide/wide8_access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=1 -DSINK_BLOCK=512u
 // check: -include baselines/radix/access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=1 -DSINK_BLOCK=512u
 //
 // A work-item a run of tasks, leaf after leaf.
@@ -21,9 +22,8 @@ kernel void leaf_pairs(FOREST_PARAMETERS, global const uint* ropes, global const
         PICK_TREE(task.other)
         for (uint place = task.first; place < task.first + task.count; ++place) {
             const Aabb box = leaf_box_of(FOREST, task.own, place);
-            tests += walk_from(TREE, ropes, faces, SINK, box,
-                               leaf_triangle_of(FOREST, task.own, place),
-                               first_node(TREE, ropes, task, place));
+            tests += walk_of(TREE, ropes, faces, SINK, box,
+                             leaf_triangle_of(FOREST, task.own, place), task, place);
         }
     }
     add_wide(counters + BOX_TESTS_COUNT, tests);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=0 -DGROUP_SIZE=64u
+// check: -include oibvh/wide/wide8_q8_access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=1 -DGROUP_SIZE=64u
 // check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DGROUP_SIZE=64u
 // check: -include baselines/radix/access_apetrei.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=1 -DGROUP_SIZE=64u
 //
@@ -26,8 +27,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void leaf_pairs(
         const Aabb box = leaf_box_of(FOREST, task.own, place);
         const uint triangle = leaf_triangle_of(FOREST, task.own, place);
         PICK_TREE(task.other)
-        tests[item] = walk_from(TREE, ropes, faces, SINK, box, triangle,
-                                first_node(TREE, ropes, task, place));
+        tests[item] = walk_of(TREE, ropes, faces, SINK, box, triangle, task, place);
     }
     barrier(CLK_LOCAL_MEM_FENCE);
     count_tests(tests, counters);

@@ -48,7 +48,7 @@ struct DepthFirst {
             if (is_leaf)
                 leaves.push_back({place, static_cast<std::uint32_t>(node.primitive)});
             stack.push_back(~static_cast<int>(place));
-            for (std::size_t side = 2; side-- > 0;)
+            for (std::size_t side = HostTree::most_children; side-- > 0;)
                 if (node.child[side] != HostTree::none)
                     stack.push_back(node.child[side]);
         }

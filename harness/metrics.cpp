@@ -57,12 +57,14 @@ std::optional<double> sibling_overlap(const HostTree& tree)
         return std::nullopt;
     CompensatedSum sum;
     for (const HostTree::Node& node : tree.nodes) {
-        if (node.child[0] == HostTree::none || node.child[1] == HostTree::none)
-            continue;
-        const Aabb& left = node_at(tree, node.child[0]).box;
-        const Aabb& right = node_at(tree, node.child[1]).box;
-        if (overlap(left, right))
-            sum.add(surface_area(common(left, right)));
+        for (std::size_t side = 1; side < HostTree::most_children; ++side)
+            for (std::size_t before = 0; before < side && node.child[side] != HostTree::none;
+                 ++before) {
+                const Aabb& left = node_at(tree, node.child[before]).box;
+                const Aabb& right = node_at(tree, node.child[side]).box;
+                if (overlap(left, right))
+                    sum.add(surface_area(common(left, right)));
+            }
     }
     return sum.value() / whole;
 }

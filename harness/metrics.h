@@ -38,7 +38,7 @@ struct AreaSums {
 /// with T = 1, is their cost. Nothing if the root has no area.
 std::optional<AreaSums> area_sums(const HostTree& tree);
 
-/// Sum over inner nodes with two children of the area of what both children's boxes cover, of A_root.
+/// Sum over any two children of one node of the area of what both their boxes cover, of A_root.
 /// Nothing if the root has no area.
 std::optional<double> sibling_overlap(const HostTree& tree);
 

@@ -115,6 +115,27 @@ TEST_P(Bvtt, FindsTheSameWhateverItJumpsAndWhereverItStarts)
     }
 }
 
+TEST_P(Bvtt, JumpsAndStartsBelowTheRootOfWideTreesAsFarAsTheyAllow)
+{
+    const Standing standing(crowded_mesh(700), find_builder("oibvh-wide4").make);
+    for (unsigned jump = 1; jump <= 2; ++jump)
+        for (const unsigned start_level : {0u, 1u, 3u, 6u}) {
+            SCOPED_TRACE("jump " + std::to_string(jump) + " from level " +
+                         std::to_string(start_level));
+            const auto bvtt = find_collider("bvtt").make(
+                session().programs(),
+                {.jump = jump, .start_level = start_level, .form = GetParam()});
+            expect_oracles_pairs(*bvtt, standing, true);
+        }
+    for (const ColliderOptions& options :
+         {ColliderOptions{.jump = 3}, ColliderOptions{.start_level = 7}}) {
+        const auto bvtt = find_collider("bvtt").make(session().programs(), options);
+        EXPECT_EQ(bvtt->refusal(*standing.tree),
+                  "bvtt jumps at most 2 levels and starts on level 6 at most where a node has 4 "
+                  "children");
+    }
+}
+
 TEST_P(Bvtt, CountsWhatAHandCounts)
 {
     // Four triangles in a row, each overlapping the next: the levels of the tree are 01 23 and 0 1 2 3.
@@ -148,7 +169,7 @@ INSTANTIATE_TEST_SUITE_P(Forms, Bvtt, testing::Values(KernelForm::groups, Kernel
 
 TEST(Group, IsRightWhereItsFrontierHasNoRoom)
 {
-    for (const char* builder : {"oibvh-multi", "karras"})
+    for (const char* builder : {"oibvh-multi", "karras", "oibvh-wide4", "oibvh-wide8-q8"})
         for (const Mesh& mesh : {crowded_mesh(200), hard_inputs()[1].make(70)}) {
             SCOPED_TRACE(builder);
             const auto group = find_collider("group").make(
@@ -161,28 +182,31 @@ TEST(Group, IsRightWhereItsFrontierHasNoRoom)
 TEST(Colliders, TakeEveryGroupSizeThatTheySayTheyDo)
 {
     const Standing standing(crowded_mesh(600), find_builder("karras").make);
+    const Standing wide(crowded_mesh(600), find_builder("oibvh-wide8").make);
     for (const char* name : {"leaf", "bvtt", "group"})
         for (const unsigned group_size : {16u, 256u}) {
             SCOPED_TRACE(std::string(name) + ", groups of " + std::to_string(group_size));
             const auto collider = find_collider(name).make(
                 session().programs(), {.group_size = group_size, .form = KernelForm::groups});
             expect_oracles_pairs(*collider, standing, true);
+            expect_oracles_pairs(*collider, wide, true);
         }
     for (const unsigned group_size : {48u, 512u})
         EXPECT_THROW(find_collider("leaf").make(session().programs(), {.group_size = group_size}),
                      BadUsage);
 }
 
-TEST(Colliders, TakeEveryTreeOnADeviceButBlockThoseWithPointers)
+TEST(Colliders, TakeEveryTreeOnADeviceButBlockBinaryImplicitOnes)
 {
     const Mesh mesh = crowded_mesh(20);
     for (const BuilderEntry& builder : device_builders()) {
         const Standing standing(mesh, builder.make);
-        const bool is_implicit = dynamic_cast<const DeviceTree&>(*standing.tree).is_implicit();
+        const auto& tree = dynamic_cast<const DeviceTree&>(*standing.tree);
+        const bool has_blocks = tree.is_implicit() && tree.child_bits() == 1;
         for (const ColliderEntry& entry : box_colliders(true)) {
             const auto collider = entry.make(session().programs(), {});
             EXPECT_EQ(collider->refusal(*standing.tree).empty(),
-                      is_implicit || entry.name != "block")
+                      has_blocks || entry.name != "block")
                 << entry.name << " over " << builder.name;
         }
     }

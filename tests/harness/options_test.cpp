@@ -155,7 +155,8 @@ TEST(Catalog, ListsEachBuilderOnceUnderTheNameOnItsCard)
     }
     EXPECT_TRUE(
         names.starts_with("perfect karras apetrei apetrei-fused lbvh-levels oibvh-single "
-                          "oibvh-multi oibvh-reference radix-reference "))
+                          "oibvh-multi oibvh-wide4 oibvh-wide8 oibvh-wide8-q8 oibvh-reference "
+                          "radix-reference "))
         << names;
 }
 

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// check: -include oibvh/wide/wide4.clh
+// check: -include oibvh/wide/wide8_q8.clh
+//
+// Algorithm 1 over a wide tree, for devices with a few fast cores: a work-item builds a whole subtree, level by level.
+// The same launches and arguments as build_groups.cl, with `levels` a launch chosen at run time.
+//
+// Compiled behind what says how a node keeps its children's boxes.
+#include "geometry/forest.h"
+#include "oibvh/wide/layout.h"
+
+/// Store a node of these children.
+static inline void store_node(global uint4* nodes, const uint slot, const Aabb* children)
+{
+    Aabb whole = children[0];
+    for (uint k = 1u; k < LANE_COUNT; ++k)
+        whole = merged(whole, children[k]);
+    const NodeFrame frame = frame_of(whole);
+    for (uint k = 0u; k < LANE_COUNT; ++k)
+        store_child(nodes, slot, k, children[k], frame);
+}
+
+/// The nodes of `level` from position `begin` to before `end`, from the level below.
+static inline void build_level(global uint4* nodes, const uint leaves, const uint level,
+                               const uint begin, const uint end)
+{
+    const uint slot = wide_first_slot(leaves, TREE_CHILD_BITS, level);
+    const uint below = wide_first_slot(leaves, TREE_CHILD_BITS, level + 1u);
+    const uint count = wide_real_on(leaves, TREE_CHILD_BITS, level + 1u);
+    Aabb children[LANE_COUNT];
+    for (uint node = begin; node < end; ++node) {
+        for (uint k = 0u; k < LANE_COUNT; ++k) {
+            const uint child = LANE_COUNT * node + k;
+            children[k] = child < count ? node_box(nodes, below + child) : empty_box();
+        }
+        store_node(nodes, slot + node, children);
+    }
+}
+
+/// The subtree rooted at `position`, `above` levels above `level`: its levels above that one.
+static inline void build_upwards(global uint4* nodes, const uint leaves, const uint position,
+                                 uint level, uint above)
+{
+    while (above > 0u) {
+        --level;
+        --above;
+        const uint real = wide_real_on(leaves, TREE_CHILD_BITS, level);
+        build_level(nodes, leaves, level, min(position << (TREE_CHILD_BITS * above), real),
+                    min((position + 1u) << (TREE_CHILD_BITS * above), real));
+    }
+}
+
+/// The first launch.
+kernel void build_from_leaves(global const float2* leaf_boxes, global const uint* ids,
+                              global uint4* nodes, global const ForestObject* objects,
+                              global const uint2* subtrees, const uint levels)
+{
+    const uint2 subtree = subtrees[get_global_id(0)];
+    const ForestObject object = objects[subtree.x];
+    const uint leaves = object.leaves, level = wide_leaf_level(leaves, TREE_CHILD_BITS) - 1u;
+    const uint above = min(levels - 1u, level);
+    const uint real = wide_real_on(leaves, TREE_CHILD_BITS, level);
+    const uint slot = wide_first_slot(leaves, TREE_CHILD_BITS, level);
+    const uint end = min((subtree.y + 1u) << (TREE_CHILD_BITS * above), real);
+    global uint4* own = nodes + NODE_WORDS * object.nodes;
+    Aabb children[LANE_COUNT];
+    for (uint node = subtree.y << (TREE_CHILD_BITS * above); node < end; ++node) {
+        for (uint k = 0u; k < LANE_COUNT; ++k) {
+            const uint place = LANE_COUNT * node + k;
+            children[k] =
+                place < leaves ? load_box(leaf_boxes, ids[object.first + place]) : empty_box();
+        }
+        store_node(own, slot + node, children);
+    }
+    build_upwards(own, leaves, subtree.y, level, above);
+}
+
+/// The others.
+kernel void build_from_nodes(global uint4* nodes, global const ForestObject* objects,
+                             global const uint2* subtrees, const uint first_subtree,
+                             const uint levels_done, const uint levels)
+{
+    const uint2 subtree = subtrees[first_subtree + get_global_id(0)];
+    const ForestObject object = objects[subtree.x];
+    const uint level = wide_leaf_level(object.leaves, TREE_CHILD_BITS) - levels_done;
+    build_upwards(nodes + NODE_WORDS * object.nodes, object.leaves, subtree.y, level,
+                  min(levels, level));
+}

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+
+#include "builders/device_tree.h"
+#include "oibvh/wide/layout.h"
+
+namespace bvhbench {
+
+/// How wide nodes are kept, oibvh/wide/floats.clh or bytes.clh.
+struct WideFormat {
+    uint child_bits;  ///< log2 of the children a node
+    bool
+        on_grid;  ///< children's boxes as points of a grid; leaf boxes are then kept beside the nodes
+    std::string_view text;    ///< header that says so to kernels
+    std::string_view access;  ///< header, as builders/device_tree.h says
+
+    uint children() const { return 1u << child_bits; }
+    std::size_t node_words() const  ///< of 16 bytes
+    {
+        return on_grid ? 1 + 6 * std::size_t{children()} / 16 : 6 * std::size_t{children()} / 4;
+    }
+};
+
+using NodeWord = std::array<uint, 4>;  ///< 16 bytes, the widest access of a lane
+
+/// The wide trees of one or more objects in device memory, one behind the other. Leaf k of the whole line holds
+/// triangle ids[k].
+class WideTree final : public DeviceTree {
+public:
+    WideFormat format;
+    uint leaves = 0;       ///< of all objects
+    uint most_leaves = 0;  ///< of one object
+    bool sorted_leaves = false;
+    Buffer<NodeWord> nodes;  ///< inner nodes by slot
+    Buffer<Aabb>
+        leaf_boxes;  ///< where nodes are on grids: in leaf order if sorted, else in mesh order
+    Buffer<uint> ids;
+
+    std::size_t node_count() const override;
+    HostTree spelled_out_object(uint object) const override;
+
+    /// Boxes of an object's nodes as their parents keep them: of child k of the inner node in slot s at [s * children + k].
+    /// Of children that are not real, anything.
+    std::vector<Aabb> stored_boxes(uint object) const;
+
+    uint leaf_count() const override { return leaves; }
+    bool has_sorted_leaves() const override { return sorted_leaves; }
+    std::string_view access_header() const override { return format.access; }
+    bool is_implicit() const override { return true; }
+    uint child_bits() const override { return format.child_bits; }
+    uint most_levels() const override
+    {
+        return wide_leaf_level(most_leaves, format.child_bits) + 1;
+    }
+    cl_uint bind(cl::Kernel& kernel, cl_uint first) const override
+    {
+        return set_arguments_from(kernel, first, nodes, leaf_boxes, ids, device_objects);
+    }
+};
+
+}  // namespace bvhbench
