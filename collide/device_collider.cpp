@@ -10,8 +10,8 @@
 namespace bvhbench {
 
 DeviceCollider::DeviceCollider(Programs& programs, const ColliderCard& card,
-                               const ColliderOptions& options, unsigned usual_group_size)
-    : PairCollider(programs, card, options, usual_group_size)
+                               const ColliderOptions& options, const Parameter& group_size)
+    : PairCollider(programs, card, options, group_size)
 {}
 
 std::string DeviceCollider::refusal(const Tree& tree) const

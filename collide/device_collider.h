@@ -13,7 +13,7 @@ class DeviceCollider : public PairCollider {
 public:
     /// Throws BadUsage for a group size that the device does not have.
     DeviceCollider(Programs& programs, const ColliderCard& card, const ColliderOptions& options,
-                   unsigned usual_group_size);
+                   const Parameter& group_size);
 
     std::string refusal(const Tree& tree) const override;
     void reserve(const Tree* tree, const Input& input) final;

@@ -6,22 +6,16 @@
 #include "geometry/bits.h"
 
 namespace bvhbench {
-namespace {
-
-constexpr uint usual_group_size = 64;
-constexpr uint chunk_task_leaves = 64;  // of a task for a work-item: few enough for all to end together
-
-}  // namespace
 
 WalkCollider::WalkCollider(Programs& programs, const ColliderCard& card,
                            const ColliderOptions& options)
-    : DeviceCollider(programs, card, options, usual_group_size)
+    : DeviceCollider(programs, card, options, walk_group_size)
 {}
 
 void WalkCollider::compile(const DeviceTree& tree)
 {
     walk_ = walk_kernel(tree);
-    const uint task_leaves = by_groups() ? group_size_ : chunk_task_leaves;
+    const uint task_leaves = by_groups() ? group_size_ : device().tuned(walk_task_leaves);
     own_list_.clear();
     for (uint k = 0; k < tree.objects.size(); ++k)
         for (uint first = 0; first < tree.objects[k].leaves; first += task_leaves)
@@ -44,7 +38,7 @@ void WalkCollider::plan(Arena& arena, const DeviceTree&)
     own_ = arena.take<QueryTask>(own_list_.size(), Use::scratch);
     between_ = arena.take<QueryTask>(std::max<std::size_t>(1, most_between_), Use::scratch);
     if (!by_groups())
-        blocks_ = arena.take<Pair>(block_pairs * chunks_, Use::scratch);
+        blocks_ = arena.take<Pair>(block_pairs() * chunks_, Use::scratch);
 }
 
 void WalkCollider::prepare(const DeviceTree&, const cl::CommandQueue& queue)
