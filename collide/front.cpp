@@ -209,6 +209,12 @@ private:
         return false;
     }
 
+    /// The front that stands. What of the tree it leads to depends on how it stands.
+    std::int64_t reads_at_least(const DeviceTree&) const override
+    {
+        return std::int64_t{standing_.value_or(0)} * std::int64_t{sizeof(Pair)};
+    }
+
     void enqueue(const DeviceTree& tree, const Input& input, Queue& queue) override
     {
         if (!standing_)

@@ -213,8 +213,10 @@ void HashedGrid::query(const Tree*, const Input& input, Queue& queue)
     }
     queue.begin("broad");
     queue.clear(counters_.cl(), counters_.bytes());
-    if (has_pairs(input))
-        enqueue_pairs(input, queue);
+    if (!has_pairs(input))
+        return;
+    queue.declare(std::int64_t{triangles_} * std::int64_t{sizeof(Entry)});  // one a triangle, or more
+    enqueue_pairs(input, queue);
 }
 
 }  // namespace
