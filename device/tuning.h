@@ -22,9 +22,9 @@
 namespace bvhbench {
 
 /// The values that a search tries, up to eight.
-class Candidates {
+class CandidateValues {
 public:
-    constexpr Candidates(std::initializer_list<uint> values)
+    constexpr CandidateValues(std::initializer_list<uint> values)
     {
         assert(values.size() <= values_.size());
         for (const uint value : values)
@@ -50,7 +50,7 @@ struct Parameter {
     uint elsewhere = 0;        ///< and of the others
     uint least = 0, most = 0;
     ValueIs values = ValueIs::any_number;
-    Candidates candidates;
+    CandidateValues candidates;
 
     constexpr uint usual(bool is_cpu) const { return is_cpu ? on_cpu : elsewhere; }
 

@@ -32,7 +32,7 @@ COLUMNS = 4
 # Colliders over one tree would all have its builder's colour. Okabe and Ito's here too, and no builder's marker with it.
 COLLIDERS = {"leaf": style.Look("#000000", "*"), "group": style.Look("#E69F00", "P"),
              "bvtt": style.Look("#009E73", "X"), "front": style.Look("#CC79A7", "H"),
-             "grid": style.Look(pipelines.COLOURS["grid"], "v")}
+             "grid": style.Look(pipelines.COLOURS["grid"], "d")}
 
 
 class Line(NamedTuple):
