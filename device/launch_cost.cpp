@@ -16,8 +16,7 @@ LaunchCost measure_launch_cost(Programs& programs, Queue& queue)
     const std::size_t units = device.cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
     const std::size_t local = device.is_cpu() ? 1 : 64;
 
-    Arena arena =
-        Arena::reserved(device, {.tree_bytes = 0, .scratch_bytes = sizeof(cl_uint)});
+    Arena arena = Arena::reserved(device, {.tree_bytes = 0, .scratch_bytes = sizeof(cl_uint)});
     const Buffer<cl_uint> word = arena.take<cl_uint>(1, Use::scratch);
     cl::Kernel empty = programs.kernel("device/launch_cost.cl", "launch_empty");
     set_arguments(empty, word);

@@ -9,7 +9,8 @@ namespace bvhbench {
 /// What a launch takes that has next to nothing to do, measured: the other yardstick of stage times, beside the copy
 /// rate.
 struct LaunchCost {
-    double ns = 0;     ///< device clock: the span of many launches in a row over their number; the median of `samples`
+    double ns =
+        0;  ///< device clock: the span of many launches in a row over their number; the median of `samples`
     int launches = 0;  ///< in a row
     int samples = 0;
 };

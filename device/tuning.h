@@ -39,7 +39,12 @@ private:
 };
 
 /// What values of a parameter there can be, besides its range.
-enum class ValueIs { any_number, odd, power_of_two, group_size };  ///< a group size is a power of two, too
+enum class ValueIs {
+    any_number,
+    odd,
+    power_of_two,
+    group_size
+};  ///< a group size is a power of two, too
 
 /// A number that a part lets a device choose. Declared once, in its room's `parameters.h`.
 struct Parameter {
@@ -88,7 +93,8 @@ public:
 
 private:
     std::string origin_ = "none";
-    std::map<std::string_view, uint> values_;  ///< names are parameters', which live as long as the program
+    std::map<std::string_view, uint>
+        values_;  ///< names are parameters', which live as long as the program
     mutable std::set<const Parameter*> asked_;
 };
 

@@ -106,7 +106,8 @@ int tune(const TuneCommand& command, const Options& options)
             interrupted = stop;
         }
         if (!interrupted && result.searched.empty())
-            throw BadUsage(target + " asks " + device.name() + " for no parameter: there is nothing to tune");
+            throw BadUsage(target + " asks " + device.name() +
+                           " for no parameter: there is nothing to tune");
         std::cout << "tuned: " << target << " over " << command.scene << " on " << device.name()
                   << '\n'
                   << search_report(result);

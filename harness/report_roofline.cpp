@@ -33,11 +33,11 @@ std::vector<Floor> floors_of(const Document& document)
             if (stage.launches == 0 || stage.moved_bytes == 0 || !is_shown(cell, stage))
                 continue;
             const auto bytes = static_cast<double>(stage.moved_bytes);
-            floors.push_back({cell.scene.name, cell.scene.triangles, pipeline_text(cell),
-                              stage.stage, stage.launches, bytes,
-                              1e9 * bytes / run.copy_rate_bytes_per_s +
-                                  stage.launches * run.launch_cost_ns,
-                              spread_of(stage_times_ns(cell, stage.stage)).median});
+            floors.push_back(
+                {cell.scene.name, cell.scene.triangles, pipeline_text(cell), stage.stage,
+                 stage.launches, bytes,
+                 1e9 * bytes / run.copy_rate_bytes_per_s + stage.launches * run.launch_cost_ns,
+                 spread_of(stage_times_ns(cell, stage.stage)).median});
         }
     }
     return floors;
@@ -59,11 +59,13 @@ std::string roofline_report(const Document& document)
                  {"reached"},
                  {"ratio"}});
     for (const Floor& floor : floors_of(document))
-        table.row({floor.scene, floor.of, floor.stage, std::to_string(floor.launches),
-                   bytes_text(floor.bytes),
-                   fixed(floor.bytes / static_cast<double>(std::max<std::int64_t>(1, floor.triangles)), 1),
-                   duration_text(floor.floor_ns), duration_text(floor.reached_ns),
-                   fixed(floor.reached_ns / floor.floor_ns, 2)});
+        table.row(
+            {floor.scene, floor.of, floor.stage, std::to_string(floor.launches),
+             bytes_text(floor.bytes),
+             fixed(floor.bytes / static_cast<double>(std::max<std::int64_t>(1, floor.triangles)),
+                   1),
+             duration_text(floor.floor_ns), duration_text(floor.reached_ns),
+             fixed(floor.reached_ns / floor.floor_ns, 2)});
     return "floor: bytes at the copy rate, and launches at the launch cost\n" + table.text();
 }
 

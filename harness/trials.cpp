@@ -94,13 +94,11 @@ private:
     {
         const std::size_t words = code_words(order_.code_bits);
         const auto code = [&](uint k) {
-            return words == 1 ? codes[k]
-                              : std::uint64_t{codes[2 * k + 1]} << 32 | codes[2 * k];
+            return words == 1 ? codes[k] : std::uint64_t{codes[2 * k + 1]} << 32 | codes[2 * k];
         };
         std::vector<uint> ids(input_.triangle_count());
         std::iota(ids.begin(), ids.end(), 0u);
-        std::stable_sort(ids.begin(), ids.end(),
-                         [&](uint a, uint b) { return code(a) < code(b); });
+        std::stable_sort(ids.begin(), ids.end(), [&](uint a, uint b) { return code(a) < code(b); });
         return ids;
     }
 
@@ -128,9 +126,8 @@ public:
     std::string wrong() override
     {
         once();
-        const Check check =
-            check_ ? check_again(*tree_, *check_)
-                   : check_tree(tree_->spelled_out(), input_, choice_, oracle_);
+        const Check check = check_ ? check_again(*tree_, *check_)
+                                   : check_tree(tree_->spelled_out(), input_, choice_, oracle_);
         check_ = check;
         return check.verdict == Check::Verdict::differs ? check.detail : std::string();
     }
@@ -228,8 +225,8 @@ TuneTarget::TuneTarget(Session& session, TuneTask task)
 {
     check_target(task_.target);
     over_->scene = load_scene(task_.scene, session.scenes());
-    over_->input = upload(session.device(), session.queue(), over_->scene.frames.front(),
-                          over_->scene.faces);
+    over_->input =
+        upload(session.device(), session.queue(), over_->scene.frames.front(), over_->scene.faces);
     over_->oracle.emplace(session, over_->input);
     if (is_in(builder_catalog(), task_.target))
         task_.builder.name = task_.target;
@@ -237,12 +234,10 @@ TuneTarget::TuneTarget(Session& session, TuneTask task)
         return;
     task_.collider.name = task_.target;
     const Input& input = over_->input;
-    over_->answer.pairs =
-        touching_pairs(input.points, input.faces, task_.collider.keep_adjacent);
+    over_->answer.pairs = touching_pairs(input.points, input.faces, task_.collider.keep_adjacent);
     if (has_exact_reference && task_.collider.narrow != "none")
-        over_->answer.contacts =
-            intersecting_pairs(input.points, input.faces, over_->answer.pairs,
-                               task_.collider.keep_adjacent);
+        over_->answer.contacts = intersecting_pairs(input.points, input.faces, over_->answer.pairs,
+                                                    task_.collider.keep_adjacent);
 }
 
 TuneTarget::~TuneTarget() = default;

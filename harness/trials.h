@@ -14,7 +14,8 @@ namespace bvhbench {
 struct TuneTask {
     std::string target;  ///< "sort", a builder's name or a collider's
     std::string scene;
-    BuilderChoice builder;    ///< of a collider's trees, or with the options of the builder that is tuned
+    BuilderChoice
+        builder;  ///< of a collider's trees, or with the options of the builder that is tuned
     ColliderChoice collider;  ///< with the collider's options
 };
 

@@ -36,19 +36,19 @@ using MakeTrial = std::function<std::unique_ptr<Trial>(const Tuning&)>;
 struct SearchOptions {
     int samples = 15;  ///< timed runs a value and turn
     int warm_up = 2;
-    int rounds = 2;  ///< through all parameters, the second only if the first found something
+    int rounds = 2;       ///< through all parameters, the second only if the first found something
     bool is_cpu = false;  ///< whose defaults values start from
 };
 
 /// A value that was tried, and what came of it.
 struct Tried {
     enum class Verdict {
-        current,      ///< the value that the others were held against
-        better,       ///< by more than noise, and once more in a second comparison: kept
-        not_better,   ///< or not by more than noise
-        not_again,    ///< better, but not in the second comparison
-        wrong,        ///< gave a wrong answer
-        impossible,   ///< the device cannot do it, or it failed
+        current,     ///< the value that the others were held against
+        better,      ///< by more than noise, and once more in a second comparison: kept
+        not_better,  ///< or not by more than noise
+        not_again,   ///< better, but not in the second comparison
+        wrong,       ///< gave a wrong answer
+        impossible,  ///< the device cannot do it, or it failed
     };
     const Parameter* parameter = nullptr;
     uint value = 0;
@@ -71,7 +71,7 @@ struct SearchResult {
     std::vector<Kept> kept;    ///< each parameter once
     std::vector<Tried> tries;  ///< in the order made
     std::set<const Parameter*> searched;  ///< parameters that are settled, be they kept or left
-    double start_ns = 0, best_ns = 0;     ///< medians of a whole run, compared in the end; 0: not done
+    double start_ns = 0, best_ns = 0;  ///< medians of a whole run, compared in the end; 0: not done
 };
 
 /// Whether times of samples are lower than others by more than both scatter: three standard errors of the difference of

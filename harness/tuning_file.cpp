@@ -26,8 +26,7 @@ TunedValue value_of(const Json& json, const Parameter& parameter)
     refuse_unknown_keys(json,
                         {"value", "target", "scene", "ratio", "samples", "found_at", "commit"},
                         std::string(parameter.name));
-    if (!json["value"].is_number_unsigned() ||
-        json["value"].get<std::uint64_t>() > parameter.most)
+    if (!json["value"].is_number_unsigned() || json["value"].get<std::uint64_t>() > parameter.most)
         throw BadUsage(std::string(parameter.name) + " must be from " +
                        std::to_string(parameter.least) + " to " + std::to_string(parameter.most) +
                        ", not " + json["value"].dump());
@@ -138,8 +137,8 @@ std::string tuning_text(const TuningFile& file)
 Tuning tuning_of(const TuningFile& file, const Device& device, const std::string& origin)
 {
     if (!file.values.empty() && file.device != device.name())
-        throw Unavailable(origin + ": its values are of '" + file.device + "', and the device is '" +
-                          device.name() + "'");
+        throw Unavailable(origin + ": its values are of '" + file.device +
+                          "', and the device is '" + device.name() + "'");
     Tuning tuning(origin);
     for (const auto& [name, found] : file.values) {
         const Parameter& parameter = find_parameter(name, origin);

@@ -23,12 +23,12 @@ const Parameter& find_parameter(std::string_view name, const std::string& origin
 /// A value, and what it was found with.
 struct TunedValue {
     uint value = 0;
-    std::string target;     ///< what was tuned: sort, a builder or a collider
+    std::string target;  ///< what was tuned: sort, a builder or a collider
     std::string scene;
-    double ratio = 1;       ///< of the median time to that with the value it replaced
-    int samples = 0;        ///< that each median is of
-    std::string found_at;   ///< UTC
-    std::string commit;     ///< of the program
+    double ratio = 1;      ///< of the median time to that with the value it replaced
+    int samples = 0;       ///< that each median is of
+    std::string found_at;  ///< UTC
+    std::string commit;    ///< of the program
     bool operator==(const TunedValue&) const = default;
 };
 

@@ -9,10 +9,23 @@
 namespace bvhbench {
 namespace {
 
-constexpr Parameter keys{.name = "part.keys", .meaning = "keys", .stage = "sort", .on_cpu = 3, .elsewhere = 5,
-                         .least = 1, .most = 15, .values = ValueIs::odd, .candidates = {1, 3, 5}};
-constexpr Parameter group{.name = "part.group", .meaning = "work-items", .stage = "sort", .on_cpu = 0,
-                          .elsewhere = 64, .least = 0, .most = 1024, .values = ValueIs::group_size,
+constexpr Parameter keys{.name = "part.keys",
+                         .meaning = "keys",
+                         .stage = "sort",
+                         .on_cpu = 3,
+                         .elsewhere = 5,
+                         .least = 1,
+                         .most = 15,
+                         .values = ValueIs::odd,
+                         .candidates = {1, 3, 5}};
+constexpr Parameter group{.name = "part.group",
+                          .meaning = "work-items",
+                          .stage = "sort",
+                          .on_cpu = 0,
+                          .elsewhere = 64,
+                          .least = 0,
+                          .most = 1024,
+                          .values = ValueIs::group_size,
                           .candidates = {64, 128}};
 
 TEST(Parameter, SaysWhyItCannotBeAValue)
@@ -77,10 +90,9 @@ TEST(Device, RefusesGroupsThatItDoesNotHaveInOneSentence)
     EXPECT_EQ(refusal(device, most + 1, 0), "a part needs groups of " + std::to_string(most + 1) +
                                                 " work-items, and " + device.name() +
                                                 " has them up to " + std::to_string(most));
-    EXPECT_EQ(refusal(device, 1, local + 1),
-              "a part needs " + std::to_string(local + 1) +
-                  " bytes of local memory, and a group has " + std::to_string(local) + " on " +
-                  device.name());
+    EXPECT_EQ(refusal(device, 1, local + 1), "a part needs " + std::to_string(local + 1) +
+                                                 " bytes of local memory, and a group has " +
+                                                 std::to_string(local) + " on " + device.name());
 }
 
 TEST(LaunchCost, IsMoreThanNothingAndLessThanACopy)

@@ -13,17 +13,37 @@
 namespace bvhbench {
 namespace {
 
-constexpr Parameter keys_parameter{.name = "fake.keys", .meaning = "keys", .stage = "sort", .on_cpu = 4, .elsewhere = 4,
-                         .least = 1, .most = 64, .candidates = {1, 2, 4, 8, 16}};
-constexpr Parameter items_parameter{.name = "fake.items", .meaning = "items", .stage = "hierarchy", .on_cpu = 1,
-                          .elsewhere = 1, .least = 1, .most = 8, .candidates = {1, 2, 3}};
-constexpr Parameter aside_parameter{.name = "fake.aside", .meaning = "nobody asks", .stage = "sort", .on_cpu = 1,
-                          .elsewhere = 1, .least = 1, .most = 8, .candidates = {1, 2, 3}};
+constexpr Parameter keys_parameter{.name = "fake.keys",
+                                   .meaning = "keys",
+                                   .stage = "sort",
+                                   .on_cpu = 4,
+                                   .elsewhere = 4,
+                                   .least = 1,
+                                   .most = 64,
+                                   .candidates = {1, 2, 4, 8, 16}};
+constexpr Parameter items_parameter{.name = "fake.items",
+                                    .meaning = "items",
+                                    .stage = "hierarchy",
+                                    .on_cpu = 1,
+                                    .elsewhere = 1,
+                                    .least = 1,
+                                    .most = 8,
+                                    .candidates = {1, 2, 3}};
+constexpr Parameter aside_parameter{.name = "fake.aside",
+                                    .meaning = "nobody asks",
+                                    .stage = "sort",
+                                    .on_cpu = 1,
+                                    .elsewhere = 1,
+                                    .least = 1,
+                                    .most = 8,
+                                    .candidates = {1, 2, 3}};
 
 /// What a trial takes and leaves for a value of `keys` and of `items`.
 struct World {
     std::function<std::int64_t(uint keys, uint items)> sort_ns = [](uint, uint) { return 1000; };
-    std::function<std::int64_t(uint keys, uint items)> hierarchy_ns = [](uint, uint) { return 500; };
+    std::function<std::int64_t(uint keys, uint items)> hierarchy_ns = [](uint, uint) {
+        return 500;
+    };
     std::function<std::string(uint keys, uint items)> wrong = [](uint, uint) { return ""; };
     std::function<void(uint keys, uint items)> make = [](uint, uint) {};
     std::function<void()> run = [] {};
@@ -46,7 +66,8 @@ public:
         const std::int64_t jitter = 3 * (runs_++ % 5);  // less than a part in a hundred
         const std::int64_t sort = world_.sort_ns(keys_, items_) + jitter;
         return {{"sort", sort, sort, 0, 1, 0},
-                {"hierarchy", world_.hierarchy_ns(keys_, items_), world_.hierarchy_ns(keys_, items_), 0, 1, 0}};
+                {"hierarchy", world_.hierarchy_ns(keys_, items_),
+                 world_.hierarchy_ns(keys_, items_), 0, 1, 0}};
     }
     std::set<const Parameter*> asked() const override { return tuning_.asked(); }
 
@@ -61,7 +82,8 @@ SearchResult searched(const World& world, const Tuning& start = {}, int rounds =
 {
     SearchResult result;
     search([&](const Tuning& tuning) { return std::make_unique<FakeTrial>(world, tuning); }, start,
-           [](const Parameter&) { return true; }, {.samples = 7, .warm_up = 1, .rounds = rounds, .is_cpu = true},
+           [](const Parameter&) { return true; },
+           {.samples = 7, .warm_up = 1, .rounds = rounds, .is_cpu = true},
            [](const std::string&) {}, result);
     return result;
 }
@@ -85,7 +107,8 @@ TEST(Search, KeepsTheFastestValueOfEachParameter)
     EXPECT_EQ(result.kept.size(), 2u);
     EXPECT_EQ(tried(result, keys_parameter, 8).verdict, Tried::Verdict::better);
     EXPECT_NEAR(tried(result, keys_parameter, 8).ratio, 0.6, 0.01);
-    EXPECT_EQ(tried(result, keys_parameter, 2).verdict, Tried::Verdict::not_better) << "but not the fastest";
+    EXPECT_EQ(tried(result, keys_parameter, 2).verdict, Tried::Verdict::not_better)
+        << "but not the fastest";
     EXPECT_EQ(tried(result, keys_parameter, 4).verdict, Tried::Verdict::current);
     EXPECT_NEAR(result.start_ns, 1500, 20);
     EXPECT_NEAR(result.best_ns, 900, 20);
@@ -154,7 +177,9 @@ TEST(Search, GivesUpWhatMakesTheWholeNoFaster)
 TEST(Search, GoesThroughAllAgainWhereOneDependsOnAnother)
 {
     World world;  // more keys pay only with more items, which come first by name
-    world.sort_ns = [](uint keys, uint items) { return keys == 8 ? (items == 2 ? 500 : 700) : 1000; };
+    world.sort_ns = [](uint keys, uint items) {
+        return keys == 8 ? (items == 2 ? 500 : 700) : 1000;
+    };
     world.hierarchy_ns = [](uint keys, uint items) { return items == 2 && keys == 8 ? 100 : 500; };
     EXPECT_EQ(searched(world, {}, 1).best.value(items_parameter, true), 1u);
     EXPECT_EQ(searched(world, {}, 2).best.value(items_parameter, true), 2u);
@@ -193,12 +218,16 @@ TEST(Search, KeepsWhatWasFoundWhenItIsStopped)
         {
             remember_interrupts();
             try {
-                search([&](const Tuning& tuning) { return std::make_unique<FakeTrial>(world, tuning); }, {},
-                       [](const Parameter&) { return true; },
-                       {.samples = 7, .warm_up = 1, .rounds = 2, .is_cpu = true}, [](const std::string&) {},
-                       result);
+                search(
+                    [&](const Tuning& tuning) {
+                        return std::make_unique<FakeTrial>(world, tuning);
+                    },
+                    {}, [](const Parameter&) { return true; },
+                    {.samples = 7, .warm_up = 1, .rounds = 2, .is_cpu = true},
+                    [](const std::string&) {}, result);
             } catch (const Interrupted&) {
-                std::exit(result.best.value(items_parameter, true) == 3 && result.kept.size() == 1 &&
+                std::exit(result.best.value(items_parameter, true) == 3 &&
+                                  result.kept.size() == 1 &&
                                   result.searched == std::set<const Parameter*>{&items_parameter}
                               ? 42
                               : 1);

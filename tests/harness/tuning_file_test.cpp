@@ -25,13 +25,15 @@ std::string refusal(const auto& action)
 
 std::string with_values(const std::string& values)
 {
-    return R"({"format": "tuning 1", "device": "a device", "driver": "1", "values": )" + values + "}";
+    return R"({"format": "tuning 1", "device": "a device", "driver": "1", "values": )" + values +
+           "}";
 }
 
 TuningFile some_file()
 {
     TuningFile file{"Some Device (TM) 9000", "3.1", {}};
-    file.values["sort.chunk_digit_bits"] = {11, "sort", "torus:1000", 0.875, 15, "2025-11-30T08:15:42Z", "abc"};
+    file.values["sort.chunk_digit_bits"] = {
+        11, "sort", "torus:1000", 0.875, 15, "2025-11-30T08:15:42Z", "abc"};
     file.values["walk.task_leaves"] = {32, "leaf", "bunny", 0.5, 5, "", ""};
     return file;
 }
@@ -48,7 +50,8 @@ TEST(TuningFile, ComesBackAsItWasWritten)
 TEST(TuningFile, IsNamedAfterTheDevice)
 {
     EXPECT_EQ(device_slug("NVIDIA H200"), "nvidia-h200");
-    EXPECT_EQ(device_slug("  pthread-Intel(R) Xeon(R) @ 2.80GHz "), "pthread-intel-r-xeon-r-2-80ghz");
+    EXPECT_EQ(device_slug("  pthread-Intel(R) Xeon(R) @ 2.80GHz "),
+              "pthread-intel-r-xeon-r-2-80ghz");
     EXPECT_EQ(device_slug("../é"), "device");
 }
 
@@ -70,9 +73,11 @@ TEST(TuningFile, RefusesInOneSentenceWhatCannotBe)
     EXPECT_EQ(says(with_values(R"({"sort.keys_per_item": {"value": 4}})")),
               "x.json: sort.keys_per_item must be odd, not 4");
     for (const char* value : {"99", "0", "-3", "2.5", "\"3\"", "4294967299", "null"})
-        EXPECT_EQ(says(with_values(R"({"sort.keys_per_item": {"value": )" + std::string(value) + "}}")),
-                  "x.json: sort.keys_per_item must be from 1 to 15, not " + std::string(value));
-    EXPECT_NE(says(with_values(R"({"sort.keys_per_item": {"value": 3, "luck": 1}})")).find("'luck' is no key"),
+        EXPECT_EQ(
+            says(with_values(R"({"sort.keys_per_item": {"value": )" + std::string(value) + "}}")),
+            "x.json: sort.keys_per_item must be from 1 to 15, not " + std::string(value));
+    EXPECT_NE(says(with_values(R"({"sort.keys_per_item": {"value": 3, "luck": 1}})"))
+                  .find("'luck' is no key"),
               std::string::npos);
 }
 
@@ -81,7 +86,8 @@ TEST(TuningFile, IsOfOneDeviceAndOfGroupsThatItHas)
     const Device device = open_device("");
     TuningFile file = some_file();
     EXPECT_EQ(refusal([&] { tuning_of(file, device, "x.json"); }),
-              "x.json: its values are of 'Some Device (TM) 9000', and the device is '" + device.name() + "'");
+              "x.json: its values are of 'Some Device (TM) 9000', and the device is '" +
+                  device.name() + "'");
     file.device = device.name();
     EXPECT_EQ(tuning_of(file, device, "x.json").values().size(), 2u);
     EXPECT_EQ(tuning_of(file, device, "x.json").origin(), "x.json");
@@ -112,7 +118,8 @@ TEST_F(Folder, GivesTheDevicesFileOrNone)
     EXPECT_EQ(tuning_file_for(device_, "").origin, "none") << "an empty word means none";
     write("{");
     EXPECT_NE(refusal([&] { tuning_file_for(device_, path_.string()); }), "no error");
-    EXPECT_EQ(refusal([&] { tuning_file_for(device_, "/no/such"); }), "tuning: there is no folder '/no/such'");
+    EXPECT_EQ(refusal([&] { tuning_file_for(device_, "/no/such"); }),
+              "tuning: there is no folder '/no/such'");
 }
 
 TEST_F(Folder, IsTheOptionsBeforeTheVariables)
@@ -131,7 +138,8 @@ TEST(EmbeddedTuning, AreFilesOfParametersThatThereAre)
 {
     EXPECT_FALSE(embedded_tuning("results/tuning/no-such-device.json"));
     for (const std::string& name : device_names()) {
-        const std::string path = "results/tuning/" + device_slug(name.substr(name.find('/') + 1)) + ".json";
+        const std::string path =
+            "results/tuning/" + device_slug(name.substr(name.find('/') + 1)) + ".json";
         if (const auto text = embedded_tuning(path)) {
             EXPECT_NO_THROW(parse_tuning(*text, path));
         }
@@ -161,7 +169,8 @@ TEST(TunedDevice, HasItsSortCutUpSo)
     device.tuning.set(sort_chunk_digit_bits, 11);
     device.tuning.set(chunks_per_core, 7);
     EXPECT_EQ(sort_shape(device, KernelForm::chunks).chunk_digit_bits, 11u);
-    EXPECT_EQ(chunk_count(device), 7 * std::size_t{device.cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()});
+    EXPECT_EQ(chunk_count(device),
+              7 * std::size_t{device.cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()});
 }
 
 }  // namespace
