@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "collide/colliders.h"
+#include "collide/parameters.h"
 #include "collide/walk_collider.h"
 
 namespace bvhbench {
@@ -7,8 +8,6 @@ namespace {
 
 constexpr uint block_leaves = 32;  // BLOCK of block.cl
 constexpr uint warp_lanes = 32;    // LANES of builders/stages/peers.clh, on NVIDIA's
-constexpr uint teams_a_group = 4;  // 2 to 8 are within 5 % of each other on an H200
-constexpr uint loose = 4;          // as in group.cpp; 2 takes 3 to 9 % longer over hilbert30
 
 class Block final : public WalkCollider {
 public:
@@ -28,14 +27,14 @@ public:
 
 private:
     uint lanes() const { return has_warps_ ? warp_lanes : 1; }
-    uint teams() const { return has_warps_ ? teams_a_group : 1; }
+    uint teams() const { return has_warps_ ? device().tuned(block_teams) : 1; }
 
     Shape shape() const override { return {block_leaves, lanes(), teams() * lanes()}; }
 
     cl::Kernel walk_kernel(const DeviceTree& tree) const override
     {
         return kernel(tree, "collide/block.cl", "block_pairs",
-                      {{"TEAMS", teams()}, {"LOOSE", loose}}, Optimise::on_gpus);
+                      {{"TEAMS", teams()}, {"LOOSE", device().tuned(block_loose)}}, Optimise::on_gpus);
     }
 
     bool has_warps_;

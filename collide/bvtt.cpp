@@ -6,15 +6,13 @@
 #include "collide/colliders.h"
 #include "collide/counters.h"
 #include "collide/device_collider.h"
+#include "collide/parameters.h"
 #include "geometry/bits.h"
 #include "geometry/error.h"
 
 namespace bvhbench {
 namespace {
 
-constexpr uint block_pairs =
-    256;                   // a work-item's own, of the form for few cores, for each of two lists
-constexpr uint items = 4;  // tasks a work-item has a turn, of the form for many lanes
 constexpr uint most_jump = 5;  // 4^5 tasks an entry
 constexpr uint most_start_level = 12;
 
@@ -23,7 +21,7 @@ public:
     Bvtt(Programs& programs, const ColliderOptions& options)
         : DeviceCollider(programs,
                          {"bvtt", "Level-synchronous traversal with jumps [Chitalu2020, Sec. 5]"},
-                         options, 128)
+                         options, bvtt_group_size)
     {
         if (options.jump > most_jump)
             throw BadUsage("bvtt jumps at most " + std::to_string(most_jump) + " levels, not " +
@@ -66,6 +64,17 @@ public:
     }
 
 private:
+    /// What was asked for, else as the device is tuned where nodes have descendants by arithmetic, else `otherwise`.
+    uint chosen(const DeviceTree& tree, uint asked, const Parameter& parameter, uint otherwise) const
+    {
+        return asked != 0 ? asked : tree.is_implicit() ? device().tuned(parameter) : otherwise;
+    }
+
+    /// Pairs of a work-item's own, of the form for few cores, for each of two lists.
+    uint block_pairs() const { return device().tuned(bvtt_block_pairs); }
+    /// Tasks a work-item has a turn, of the form for many lanes.
+    uint items() const { return device().tuned(bvtt_items); }
+
     /// Levels each step descends. To start below the root is to jump there first.
     std::vector<uint> steps(const DeviceTree& tree) const
     {
@@ -73,9 +82,10 @@ private:
         if (tree.objects.size() > 1)  // roots that are leaves meet in a step too
             left = std::max(left, 1u);
         std::vector<uint> steps;
-        if (options_.start_level > 0 && left > 0 && skips(skip_start_level))
-            steps.push_back(std::min(options_.start_level, left));
-        const uint jump = std::max(options_.jump, 1u);
+        const uint start_level = chosen(tree, options_.start_level, bvtt_start_level, 0);
+        if (start_level > 0 && left > 0 && skips(skip_start_level))
+            steps.push_back(std::min(start_level, left));
+        const uint jump = chosen(tree, options_.jump, bvtt_jump, 1);
         for (left -= steps.empty() ? 0 : steps.front(); left > 0; left -= steps.back())
             steps.push_back(std::min(jump, left));
         return steps;
@@ -98,9 +108,9 @@ private:
             roots_ = kernel(tree, "collide/roots.cl", "find_roots",
                             {label, {"SKIP_APART", skips(skip_apart) ? 1u : 0u}});
         expand_ = by_groups() ? kernel(tree, "collide/bvtt_groups.cl", "expand",
-                                       {{"GROUP_SIZE", group_size_}, {"ITEMS", items}, one_object, label})
+                                       {{"GROUP_SIZE", group_size_}, {"ITEMS", items()}, one_object, label})
                               : kernel(tree, "collide/bvtt_chunks.cl", "expand",
-                                       {{"SINK_BLOCK", block_pairs}, one_object, label});
+                                       {{"SINK_BLOCK", block_pairs()}, one_object, label});
         queue_capacity_ = options_.capacity != 0
                               ? options_.capacity
                               : std::max<std::size_t>(1024, 8 * std::size_t{tree.leaf_count()});
@@ -111,7 +121,7 @@ private:
         for (Buffer<Pair>& queue : queues_)
             queue = arena.take<Pair>(queue_capacity_, Use::scratch);
         if (!by_groups())
-            blocks_ = arena.take<Pair>(2 * block_pairs * chunks_, Use::scratch);
+            blocks_ = arena.take<Pair>(2 * block_pairs() * chunks_, Use::scratch);
     }
 
     /// One a step, and what the last of them would leave.
@@ -147,8 +157,6 @@ private:
 
     void enqueue(const DeviceTree& tree, const Input& input, Queue& queue) override
     {
-        const std::size_t most_groups =
-            16 * std::size_t{device().cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()};
         const bool one_object = tree.objects.size() == 1;
         has_one_object_ = one_object;
         if (one_object && !within())
@@ -167,8 +175,13 @@ private:
                 bind(expand_, tree, input, from, to, room, step, levels);
                 // No more tasks than there are pairs of nodes that deep.
                 const std::size_t most_tasks = std::size_t{1} << std::min(2 * depth, 40u);
-                const std::size_t groups = !one_object ? most_groups : std::min(
-                    most_groups, (most_tasks + group_size_ * items - 1) / (group_size_ * items));
+                const std::size_t a_group = std::size_t{group_size_} * items();
+                const std::size_t most_groups =
+                    device().tuned(bvtt_groups_per_unit) *
+                    std::size_t{device().cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()};
+                const std::size_t groups =
+                    !one_object ? most_groups
+                                : std::min(most_groups, (most_tasks + a_group - 1) / a_group);
                 queue.launch(expand_, groups * group_size_, group_size_, 0);
             } else {
                 bind(expand_, tree, input, from, to, room, step, levels, blocks_);

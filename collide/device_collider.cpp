@@ -10,8 +10,8 @@
 namespace bvhbench {
 
 DeviceCollider::DeviceCollider(Programs& programs, const ColliderCard& card,
-                               const ColliderOptions& options, unsigned usual_group_size)
-    : PairCollider(programs, card, options, usual_group_size)
+                               const ColliderOptions& options, const Parameter& group_size)
+    : PairCollider(programs, card, options, group_size)
 {}
 
 std::string DeviceCollider::refusal(const Tree& tree) const
@@ -69,8 +69,18 @@ void DeviceCollider::query(const Tree* tree, const Input& input, Queue& queue)
         enqueue_ropes(on_device, queue);
     queue.begin("broad");
     queue.clear(counters_.cl(), counters_.bytes());
+    queue.declare(has_pairs ? reads_at_least(on_device) : 0);
     if (has_pairs)
         enqueue(on_device, input, queue);
+}
+
+std::int64_t DeviceCollider::reads_at_least(const DeviceTree& tree) const
+{
+    if (!within())  // of trees that are apart from all others hardly anything is read
+        return 0;
+    const std::int64_t leaves = tree.leaf_count();
+    const std::int64_t nodes = 2 * leaves - std::ssize(tree.objects);
+    return nodes * std::int64_t{sizeof(Aabb)} + leaves * std::int64_t{sizeof(uint)};
 }
 
 QueryCounts DeviceCollider::counts(const Queue& queue) const

@@ -13,7 +13,7 @@ class DeviceCollider : public PairCollider {
 public:
     /// Throws BadUsage for a group size that the device does not have.
     DeviceCollider(Programs& programs, const ColliderCard& card, const ColliderOptions& options,
-                   unsigned usual_group_size);
+                   const Parameter& group_size);
 
     std::string refusal(const Tree& tree) const override;
     void reserve(const Tree* tree, const Input& input) final;
@@ -27,6 +27,9 @@ protected:
 
     /// Launch what finds the pairs, in the stage `broad`; counters are zero.
     virtual void enqueue(const DeviceTree& tree, const Input& input, Queue& queue) = 0;
+
+    /// Bytes that `broad` must read: of a tree held against itself each box, and each leaf's triangle, once.
+    virtual std::int64_t reads_at_least(const DeviceTree& tree) const;
 
     /// Whether it walks without a stack, and so wants ropes of trees that have no arithmetic for them.
     virtual bool needs_ropes() const { return true; }

@@ -8,15 +8,12 @@
 #include "collide/colliders.h"
 #include "collide/counters.h"
 #include "collide/device_collider.h"
+#include "collide/parameters.h"
 #include "geometry/bits.h"
 #include "geometry/error.h"
 
 namespace bvhbench {
 namespace {
-
-constexpr uint block_pairs =
-    256;                   // a work-item's own, of the form for few cores, for each of three lists
-constexpr uint items = 4;  // tasks a work-item has a turn, of the form for many lanes
 
 /// To look whether parents are apart costs more tests than all else of a frame. So entries climb only in a frame that
 /// comes to a front grown past this multiple of what was left when they last did, and once in so many frames besides, as
@@ -40,7 +37,7 @@ public:
         : DeviceCollider(
               programs,
               {"front", "Front tracking over refitted boxes [Lauterbach2010], [Wang2018]"}, options,
-              128)
+              bvtt_group_size)
     {
         if (options.jump > 1 || options.start_level > 0)
             throw BadUsage("front descends a level after the other and starts where it stands");
@@ -101,6 +98,11 @@ public:
 private:
     bool needs_ropes() const override { return false; }
 
+    /// Entries of a work-item's own, of the form for few cores, for each of three lists.
+    uint block_pairs() const { return device().tuned(bvtt_block_pairs); }
+    /// Tasks a work-item has a turn, of the form for many lanes.
+    uint items() const { return device().tuned(bvtt_items); }
+
     /// Of a node in an entry; the object is in the rest.
     static uint label_bits(const DeviceTree& tree)
     {
@@ -122,9 +124,9 @@ private:
                               std::to_string(most_entries));
         const Define label{"LABEL_BITS", label_bits(tree)};
         advance_ = by_groups() ? kernel(tree, "collide/front_groups.cl", "advance",
-                                        {{"GROUP_SIZE", group_size_}, {"ITEMS", items}, label})
+                                        {{"GROUP_SIZE", group_size_}, {"ITEMS", items()}, label})
                                : kernel(tree, "collide/front_chunks.cl", "advance",
-                                        {{"SINK_BLOCK", block_pairs}, label});
+                                        {{"SINK_BLOCK", block_pairs()}, label});
         roots_ = kernel(tree, "collide/front_roots.cl", "list_roots", {label});
         if (!tree.is_implicit()) {
             list_parents_ = kernel(tree, "collide/front_parents.cl", "list_parents", {});
@@ -151,7 +153,7 @@ private:
             queue = arena.take<Pair>(queue_capacity_, Use::scratch);
         parents_ = arena.take<Pair>(tree.is_implicit() ? 1 : 2 * std::size_t{tree.leaf_count()} - 1,
                                     Use::scratch);
-        blocks_ = arena.take<Pair>(by_groups() ? 1 : 3 * block_pairs * chunks_, Use::scratch);
+        blocks_ = arena.take<Pair>(by_groups() ? 1 : 3 * block_pairs() * chunks_, Use::scratch);
     }
 
     /// What the frame goes on from is all that more memory must not lose.
@@ -207,6 +209,12 @@ private:
         return false;
     }
 
+    /// The front that stands. What of the tree it leads to depends on how it stands.
+    std::int64_t reads_at_least(const DeviceTree&) const override
+    {
+        return std::int64_t{standing_.value_or(0)} * std::int64_t{sizeof(Pair)};
+    }
+
     void enqueue(const DeviceTree& tree, const Input& input, Queue& queue) override
     {
         if (!standing_)
@@ -229,9 +237,10 @@ private:
     std::size_t groups(uint standing, uint levels) const
     {
         const std::size_t most =
-            16 * std::size_t{device().cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()};
+            device().tuned(bvtt_groups_per_unit) *
+            std::size_t{device().cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()};
         const std::size_t tasks = std::size_t{standing} << std::min(2 * levels, 30u);
-        const std::size_t a_group = std::size_t{group_size_} * items;
+        const std::size_t a_group = std::size_t{group_size_} * items();
         return std::clamp<std::size_t>((tasks + a_group - 1) / a_group, 1, most);
     }
 

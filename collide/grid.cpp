@@ -13,22 +13,18 @@
 #include "collide/colliders.h"
 #include "collide/hash_grid.h"
 #include "collide/pair_collider.h"
+#include "collide/parameters.h"
 #include "geometry/bits.h"
 
 namespace bvhbench {
 namespace {
 
-constexpr uint usual_group_size = 64;
-constexpr uint block_pairs = 512;  // that a work-item collects before it passes them on
 constexpr uint sum_group = 256;    // of the kernels that find the mean side
 constexpr uint sums_per_unit = 2;  // groups of those, a compute unit
 
 // How long a cell of the finest level is, in mean longest sides of boxes. Of 1, 1.5, 2 and 3, two has the fewest box
 // tests where objects differ in detail; on closed surfaces 1.5 has a tenth to a fifth fewer, and more entries.
 constexpr float cell_sides = 2.0f;
-
-// A triangle, before rounding up to a power of two. Two and four times as many were no faster.
-constexpr std::size_t buckets_each = 1;
 
 constexpr std::size_t entries_each = 4;  // a triangle, that there is room for at first
 
@@ -42,7 +38,7 @@ class HashedGrid final : public PairCollider {
 public:
     HashedGrid(Programs& programs, const ColliderOptions& options)
         : PairCollider(programs, {"grid", "Hierarchical hashed grid, after [Fan2011] and [Tang2018]"}, options,
-                       usual_group_size)
+                       grid_group_size)
         , bounds_(programs, options.form)
         , scan_(programs, options.form)
         , table_group_(std::min<std::size_t>(sum_group,
@@ -61,6 +57,8 @@ private:
     uint wide_counters() const override { return 1; }
     bool make_room(std::uint64_t, const std::vector<std::uint64_t>& queue_sizes) override;
     bool has_pairs(const Input& input) const;
+    /// That a work-item of the form for few cores collects before it passes them on.
+    uint block_pairs() const { return device().tuned(grid_block_pairs); }
     void enqueue_cells(Queue& queue);
     void enqueue_entries(Queue& queue);
     void enqueue_pairs(const Input& input, Queue& queue);
@@ -106,7 +104,7 @@ void HashedGrid::compile(const Input& input)
             by_groups() ? "collide/grid_groups.cl" : "collide/grid_chunks.cl", name,
             {{"AMONG", among},
              {"KEEP_ADJACENT", options_.keep_adjacent ? 1u : 0u},
-             by_groups() ? Define{"GROUP_SIZE", group_size_} : Define{"SINK_BLOCK", block_pairs}});
+             by_groups() ? Define{"GROUP_SIZE", group_size_} : Define{"SINK_BLOCK", block_pairs()}});
     };
     cell_pairs_ = pairs("cell_pairs");
     level_pairs_ = pairs("level_pairs");
@@ -127,12 +125,12 @@ void HashedGrid::plan_rest(Arena& arena)
     sides_ =
         arena.take<float>(by_groups() ? sums_per_unit * units * sum_group : chunks_, Use::scratch);
     grid_ = arena.take<HashGrid>(1, Use::scratch);
-    ends_ = arena.take<uint>(std::bit_ceil(std::max<std::size_t>(16, buckets_each * triangles_)),
+    ends_ = arena.take<uint>(std::bit_ceil(std::max<std::size_t>(16, std::size_t{device().tuned(grid_buckets_each)} * triangles_)),
                              Use::scratch);
     scan_.plan(arena, ends_.size());
     entries_ = arena.take<Entry>(entry_room_, Use::scratch);
     if (!by_groups())
-        blocks_ = arena.take<Pair>(block_pairs * chunks_, Use::scratch);
+        blocks_ = arena.take<Pair>(block_pairs() * chunks_, Use::scratch);
 }
 
 bool HashedGrid::make_room(std::uint64_t, const std::vector<std::uint64_t>& queue_sizes)
@@ -215,8 +213,10 @@ void HashedGrid::query(const Tree*, const Input& input, Queue& queue)
     }
     queue.begin("broad");
     queue.clear(counters_.cl(), counters_.bytes());
-    if (has_pairs(input))
-        enqueue_pairs(input, queue);
+    if (!has_pairs(input))
+        return;
+    queue.declare(std::int64_t{triangles_} * std::int64_t{sizeof(Entry)});  // one a triangle, or more
+    enqueue_pairs(input, queue);
 }
 
 }  // namespace

@@ -5,8 +5,6 @@
 namespace bvhbench {
 namespace {
 
-constexpr uint loose = 2;  // times the area of leaves together, from which on their common box says too little
-
 class Group final : public WalkCollider {
 public:
     Group(Programs& programs, const ColliderOptions& options)
@@ -15,6 +13,9 @@ public:
     {}
 
 private:
+    /// That a group's frontier has room for beyond what it cannot do without.
+    uint frontier_nodes() const { return device().tuned(group_frontier_per_item) * group_size_; }
+
     cl::Kernel walk_kernel(const DeviceTree& tree) const override
     {
         if (by_groups() && tree.child_bits() > 1)
@@ -22,14 +23,16 @@ private:
         // One more than there are levels, for the way down from the last node. The chain that a query starts with
         // is as long at most, so that twice as much is enough for any tree, if not for speed.
         const uint reserve = tree.most_levels() + 1;
-        const uint frontier = options_.capacity != 0 ? 2 * reserve : 2 * reserve + 6 * group_size_;
-        return by_groups()
-                ? kernel(
-                      tree, "collide/group_groups.cl", "group_pairs",
-                      {{"GROUP_SIZE", group_size_}, {"FRONTIER", frontier}, {"RESERVE", reserve}, {"LOOSE", loose}},
-                      Optimise::on_gpus)
-                : kernel(tree, "collide/group_chunks.cl", "group_pairs",
-                         {{"SINK_BLOCK", block_pairs}});
+        if (!by_groups())
+            return kernel(tree, "collide/group_chunks.cl", "group_pairs",
+                          {{"SINK_BLOCK", block_pairs()}});
+        const uint frontier = options_.capacity != 0 ? 2 * reserve : 2 * reserve + frontier_nodes();
+        return kernel(tree, "collide/group_groups.cl", "group_pairs",
+                      {{"GROUP_SIZE", group_size_},
+                       {"FRONTIER", frontier},
+                       {"RESERVE", reserve},
+                       {"LOOSE", device().tuned(group_loose)}},
+                      Optimise::on_gpus);
     }
 
     cl::Kernel wide_kernel(const DeviceTree& tree) const
@@ -38,7 +41,7 @@ private:
         const uint reserve = (tree.most_levels() << tree.child_bits()) + 1;
         const uint frontier = options_.capacity != 0 ? 2 * reserve : 2 * reserve + 4 * group_size_;
         return kernel(tree, "collide/group_wide_groups.cl", "group_pairs",
-                      {{"GROUP_SIZE", group_size_}, {"FRONTIER", frontier}, {"RESERVE", reserve}, {"LOOSE", loose}},
+                      {{"GROUP_SIZE", group_size_}, {"FRONTIER", frontier}, {"RESERVE", reserve}, {"LOOSE", device().tuned(group_loose)}},
                       Optimise::on_gpus);
     }
 };

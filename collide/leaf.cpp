@@ -18,7 +18,7 @@ private:
         return by_groups() ? kernel(tree, "collide/leaf_groups.cl", "leaf_pairs",
                                      {{"GROUP_SIZE", group_size_}})
                             : kernel(tree, "collide/leaf_chunks.cl", "leaf_pairs",
-                                     {{"SINK_BLOCK", block_pairs}});
+                                     {{"SINK_BLOCK", block_pairs()}});
     }
 };
 

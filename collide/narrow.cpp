@@ -8,20 +8,13 @@
 
 #include "collide/exact_adjacent.h"
 #include "collide/narrow_counters.h"
+#include "collide/parameters.h"
 #include "collide/sharing.h"
 #include "geometry/bits.h"
 #include "geometry/error.h"
 
 namespace bvhbench {
 namespace {
-
-constexpr uint group_size = 128;
-
-/// Groups a compute unit: as many as make its lanes full twice, on what has most of them. The turns see to the rest.
-constexpr std::size_t groups_a_unit = 32;
-
-/// Pairs that a work-item of the form for few cores collects before it passes them on, of each kind.
-constexpr uint block_pairs = 512;
 
 bool has_doubles(const Device& device)
 {
@@ -66,12 +59,17 @@ NarrowPhase::NarrowPhase(Programs& programs, const NarrowOptions& options)
     , has_doubles_(has_doubles(programs.device()) && !options.without_doubles)
     , chunks_(chunk_count(programs.device()))
 {
+    const Device& device = programs.device();
+    if (by_groups())
+        group_size_ = device.tuned(narrow_group_size);
+    else
+        block_pairs_ = device.tuned(narrow_block_pairs);
     const Define adjacent = {"KEEP_ADJACENT", options.keep_adjacent ? 1u : 0u};
     const Define doubles = {"WITH_DOUBLES", has_doubles_ ? 1u : 0u};
     filter_ = by_groups() ? programs.kernel("collide/narrow_groups.cl", "filter_pairs",
-                                            {{"GROUP_SIZE", group_size}, adjacent, doubles})
+                                            {{"GROUP_SIZE", group_size_}, adjacent, doubles})
                           : programs.kernel("collide/narrow_chunks.cl", "filter_pairs",
-                                            {{"SINK_BLOCK", block_pairs}, adjacent, doubles});
+                                            {{"SINK_BLOCK", block_pairs_}, adjacent, doubles});
     if (has_doubles_)
         exact_ = programs.kernel("collide/narrow_exact.cl", "decide_exactly", {adjacent});
 }
@@ -88,7 +86,7 @@ void NarrowPhase::take_all(Arena& arena)
 {
     counters_ = arena.take<uint>(NARROW_COUNTERS, Use::scratch);
     unsure_ = arena.take<Pair>(room_.unsure, Use::scratch);
-    blocks_ = arena.take<Pair>(by_groups() ? 1 : 2 * block_pairs * chunks_, Use::scratch);
+    blocks_ = arena.take<Pair>(by_groups() ? 1 : 2 * block_pairs_ * chunks_, Use::scratch);
     contacts_ = arena.take<Pair>(room_.contacts, Use::scratch);
 }
 
@@ -101,14 +99,20 @@ void NarrowPhase::take_memory()
     take_all(*arena_);
 }
 
+/// No more than make every compute unit's lanes full. The kernels' turns see to the rest.
+std::size_t NarrowPhase::group_count(std::size_t candidates) const
+{
+    const Device& device = programs_.device();
+    const std::size_t most = device.tuned(narrow_groups_per_unit) *
+                             std::size_t{device.cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()};
+    return std::clamp<std::size_t>(divided_up(static_cast<uint>(candidates), group_size_), 1, most);
+}
+
 void NarrowPhase::query(const Input& input, const Buffer<Pair>& candidates,
                         const Buffer<uint>& candidate_counters, Queue& queue)
 {
     assert(arena_ && "reserve first");
-    const std::size_t units = programs_.device().cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
-    const std::size_t groups = std::clamp<std::size_t>(
-        divided_up(static_cast<uint>(candidates.size()), group_size), 1, units * groups_a_unit);
-    const std::size_t items = by_groups() ? groups * group_size : chunks_;
+    const std::size_t items = by_groups() ? group_count(candidates.size()) * group_size_ : chunks_;
     const auto contact_room = static_cast<uint>(contacts_.size());
     const auto unsure_room = static_cast<uint>(unsure_.size());
 
@@ -119,14 +123,14 @@ void NarrowPhase::query(const Input& input, const Buffer<Pair>& candidates,
                   unsure_room, counters_);
     if (!by_groups())
         filter_.setArg(10, blocks_.cl());
-    queue.launch(filter_, items, by_groups() ? group_size : 1, 0);
+    queue.launch(filter_, items, by_groups() ? group_size_ : 1, 0);
     if (!has_doubles_) {
         decide_on_host(input, queue);
         return;
     }
     set_arguments(exact_, input.device_points, input.device_faces, unsure_, unsure_room, contacts_,
                   contact_room, counters_);
-    queue.launch(exact_, items, by_groups() ? group_size : 1, 0);
+    queue.launch(exact_, items, by_groups() ? group_size_ : 1, 0);
 }
 
 void NarrowPhase::decide_on_host(const Input& input, Queue& queue)

@@ -81,6 +81,7 @@ private:
     };
 
     bool by_groups() const { return form_ == KernelForm::groups; }
+    std::size_t group_count(std::size_t candidates) const;
     void take_all(Arena& arena);
     void take_memory();
     void decide_on_host(const Input& input, Queue& queue);
@@ -90,6 +91,8 @@ private:
     KernelForm form_;
     bool has_doubles_;
     std::size_t chunks_;
+    uint group_size_ = 1;
+    uint block_pairs_ = 0;  ///< of each kind, that a work-item of the form for few cores collects
     Room room_;
     std::optional<Arena> arena_;
     cl::Kernel filter_;

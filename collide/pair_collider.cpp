@@ -15,12 +15,15 @@ namespace {
 /// What a group of `group` keeps in local memory grows with its size: this many fit into 48 KB.
 constexpr std::size_t most_group_size = 256;
 
-uint chosen_group_size(const Device& device, unsigned asked, unsigned usual)
+uint chosen_group_size(const Device& device, KernelForm form, unsigned asked,
+                       const Parameter& usual)
 {
     const std::size_t most = std::min<std::size_t>(
         most_group_size, std::bit_floor(device.cl.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>()));
+    if (asked == 0 && chosen_form(device, form) == KernelForm::chunks)
+        return 1;  // groups of the form for few cores are of one work-item
     if (asked == 0)
-        return static_cast<uint>(std::min<std::size_t>(usual, most));
+        return static_cast<uint>(std::min<std::size_t>(device.tuned(usual), most));
     if (!std::has_single_bit(asked) || asked > most)
         throw BadUsage("a collider's group size is a power of two up to " + std::to_string(most) +
                        " on " + device.name() + ", not " + std::to_string(asked));
@@ -30,9 +33,9 @@ uint chosen_group_size(const Device& device, unsigned asked, unsigned usual)
 }  // namespace
 
 PairCollider::PairCollider(Programs& programs, const ColliderCard& card,
-                           const ColliderOptions& options, unsigned usual_group_size)
+                           const ColliderOptions& options, const Parameter& group_size)
     : options_(options)
-    , group_size_(chosen_group_size(programs.device(), options.group_size, usual_group_size))
+    , group_size_(chosen_group_size(programs.device(), options.form, options.group_size, group_size))
     , chunks_(chunk_count(programs.device()))
     , programs_(programs)
     , card_(card)

@@ -14,7 +14,7 @@ class PairCollider : public Collider {
 public:
     /// Throws BadUsage for a group size that the device does not have.
     PairCollider(Programs& programs, const ColliderCard& card, const ColliderOptions& options,
-                 unsigned usual_group_size);
+                 const Parameter& group_size);
 
     ColliderCard card() const final { return card_; }
     Footprint reserved() const final { return arena_ ? arena_->used() : Footprint{}; }

@@ -6,24 +6,17 @@
 #include "geometry/bits.h"
 
 namespace bvhbench {
-namespace {
-
-constexpr uint usual_group_size = 64;
-constexpr uint chunk_task_leaves =
-    64;  // of a task for a work-item: few enough for all to end together
-
-}  // namespace
 
 WalkCollider::WalkCollider(Programs& programs, const ColliderCard& card,
                            const ColliderOptions& options)
-    : DeviceCollider(programs, card, options, usual_group_size)
+    : DeviceCollider(programs, card, options, walk_group_size)
 {}
 
 WalkCollider::Shape WalkCollider::shape() const
 {
     if (by_groups())
         return {group_size_, group_size_, group_size_};
-    return {chunk_task_leaves, 0, 1};
+    return {device().tuned(walk_task_leaves), 0, 1};
 }
 
 void WalkCollider::compile(const DeviceTree& tree)
@@ -51,7 +44,7 @@ void WalkCollider::plan(Arena& arena, const DeviceTree&)
     own_ = arena.take<QueryTask>(own_list_.size(), Use::scratch);
     between_ = arena.take<QueryTask>(std::max<std::size_t>(1, most_between_), Use::scratch);
     if (shape().items_a_task == 0)
-        blocks_ = arena.take<Pair>(block_pairs * chunks_, Use::scratch);
+        blocks_ = arena.take<Pair>(block_pairs() * chunks_, Use::scratch);
 }
 
 void WalkCollider::prepare(const DeviceTree&, const cl::CommandQueue& queue)

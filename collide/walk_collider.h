@@ -5,14 +5,15 @@
 #pragma once
 
 #include "collide/device_collider.h"
+#include "collide/parameters.h"
 #include "collide/task.h"
 
 namespace bvhbench {
 
 class WalkCollider : public DeviceCollider {
 protected:
-    /// Pairs that a work-item of the form for few cores collects before it passes them on: half of its fastest cache.
-    static constexpr uint block_pairs = 512;
+    /// Pairs that a work-item of the form for few cores collects before it passes them on.
+    uint block_pairs() const { return device().tuned(walk_block_pairs); }
 
     WalkCollider(Programs& programs, const ColliderCard& card, const ColliderOptions& options);
 

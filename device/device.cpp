@@ -107,6 +107,21 @@ void Device::require_memory(std::size_t bytes) const
                           std::to_string(limit));
 }
 
+void Device::require_group(std::string_view what, std::size_t group_size,
+                           std::size_t local_bytes) const
+{
+    const std::size_t most = cl.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>();
+    if (group_size > most)
+        throw Unavailable(std::string(what) + " needs groups of " + std::to_string(group_size) +
+                          " work-items, and " + name() + " has them up to " +
+                          std::to_string(most));
+    const std::size_t local = cl.getInfo<CL_DEVICE_LOCAL_MEM_SIZE>();
+    if (local_bytes > local)
+        throw Unavailable(std::string(what) + " needs " + std::to_string(local_bytes) +
+                          " bytes of local memory, and a group has " + std::to_string(local) +
+                          " on " + name());
+}
+
 std::vector<std::string> device_names()
 {
     std::vector<std::string> names;
@@ -119,7 +134,9 @@ Device open_device(std::string_view words, Sources sources)
 {
     const std::vector<Found> devices = all_devices();
     if (const Found* found = choose(devices, words))
-        return {found->device, cl::Context(found->device), std::move(sources)};
+        return {.cl = found->device,
+                .context = cl::Context(found->device),
+                .sources = std::move(sources)};
 
     std::string known;
     for (std::size_t i = 0; i < devices.size(); ++i)

@@ -7,6 +7,7 @@
 
 #include "device/cl.h"
 #include "device/sources.h"
+#include "device/tuning.h"
 
 namespace bvhbench {
 
@@ -18,6 +19,13 @@ struct Device {
     cl::Device cl;
     cl::Context context;
     Sources sources;
+    Tuning tuning = {};  ///< set before anything is made for the device; none where nobody sets it
+
+    /// What `parameter` is on this device.
+    uint tuned(const Parameter& parameter) const { return tuning.value(parameter, is_cpu()); }
+
+    /// Throws Unavailable, in one sentence that begins with `what`, if the device cannot give a group so much.
+    void require_group(std::string_view what, std::size_t group_size, std::size_t local_bytes) const;
 
     std::string name() const { return cl.getInfo<CL_DEVICE_NAME>(); }
     std::string platform() const;

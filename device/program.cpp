@@ -47,7 +47,12 @@ cl::Kernel Programs::compiled(const std::string& text, std::string_view path, co
     auto found = programs_.find(key);
     if (found == programs_.end())
         found = programs_.emplace(key, build(path, text, options)).first;
-    return {found->second, name};
+    const cl::Kernel kernel(found->second, name);
+    device_.require_group(
+        std::string(path) + ": " + name,
+        kernel.getWorkGroupInfo<CL_KERNEL_COMPILE_WORK_GROUP_SIZE>(device_.cl)[0],
+        kernel.getWorkGroupInfo<CL_KERNEL_LOCAL_MEM_SIZE>(device_.cl));
+    return kernel;
 }
 
 cl::Program Programs::build(std::string_view path, const std::string& text,

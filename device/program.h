@@ -42,7 +42,8 @@ public:
     const Device& device() const { return device_; }
 
     /// The kernel `name` of the file `path`, built with `defines`. A new kernel object at every call, so that
-    /// arguments set by one owner never reach another. Throws BuildFailure.
+    /// arguments set by one owner never reach another. Throws BuildFailure, and Unavailable where the device cannot
+    /// give a group what the kernel says it needs.
     cl::Kernel kernel(std::string_view path, const char* name,
                       std::initializer_list<Define> defines = {},
                       Optimise optimise = Optimise::freely);

@@ -19,6 +19,8 @@ void Queue::begin(std::string_view stage)
     stages_.back().stage = stage;
 }
 
+void Queue::declare(std::int64_t moved_bytes) { stages_.back().moved_bytes += moved_bytes; }
+
 cl::Event& Queue::record(std::int64_t moved_bytes)
 {
     assert(!stages_.empty() && "name the stage before its first launch");

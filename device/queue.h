@@ -40,6 +40,9 @@ public:
     void launch(const cl::Kernel& kernel, std::size_t global, std::size_t local,
                 std::int64_t moved_bytes);
 
+    /// Bytes besides, that the launches of the stage begun must read and write, and that are no single launch's.
+    void declare(std::int64_t moved_bytes);
+
     /// Enqueue `bytes` of zeros at the front of `memory`. Timed like a launch.
     void clear(const cl::Buffer& memory, std::size_t bytes);
 

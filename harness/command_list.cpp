@@ -9,6 +9,7 @@
 #include "harness/provenance.h"
 #include "harness/session.h"
 #include "harness/table.h"
+#include "harness/tuning_file.h"
 
 namespace bvhbench {
 namespace {
@@ -72,6 +73,23 @@ std::string experiments()
     return table.text();
 }
 
+/// What parameters are on the device, and where that comes from.
+std::string tuning(const CommonOptions& common)
+{
+    const Device device = open_device_of(common);
+    Table table = lines(6);
+    for (const Parameter* parameter : tuning_parameters()) {
+        std::string candidates;
+        for (const uint value : parameter->candidates)
+            candidates += (candidates.empty() ? "" : " ") + std::to_string(value);
+        table.row({std::string(parameter->name), std::to_string(device.tuned(*parameter)),
+                   device.tuning.has(*parameter) ? device.tuning.origin() : "default",
+                   "of " + candidates, parameter->stage.empty() ? "all stages" : std::string(parameter->stage),
+                   std::string(parameter->meaning)});
+    }
+    return table.text();
+}
+
 /// What the program branches on or reports, of every device.
 std::string devices()
 {
@@ -104,6 +122,7 @@ int list(const ListCommand& command, const Options& options)
                   : command.what == "colliders" ? colliders()
                   : command.what == "orders"    ? orders()
                   : command.what == "skips"     ? skips()
+                  : command.what == "tuning"    ? tuning(options.common)
                   : command.what == "scenes"    ? scenes(options.common)
                   : command.what == "devices"   ? devices()
                                                 : experiments());

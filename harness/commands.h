@@ -15,6 +15,7 @@ int run(const RunCommand& command, const Options& options);
 int reproduce(const ReproduceCommand& command, const Options& options);
 int check(const CheckCommand& command, const Options& options);
 int show(const ShowCommand& command, const Options& options);
+int tune(const TuneCommand& command, const Options& options);
 
 /// The command that `options` hold.
 int execute(const Options& options);

@@ -21,6 +21,7 @@ struct Executor {
     int operator()(const ReproduceCommand& command) const { return reproduce(command, options); }
     int operator()(const CheckCommand& command) const { return check(command, options); }
     int operator()(const ShowCommand& command) const { return show(command, options); }
+    int operator()(const TuneCommand& command) const { return tune(command, options); }
 };
 
 }  // namespace

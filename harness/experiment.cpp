@@ -19,7 +19,7 @@ namespace {
 constexpr std::string_view names[] = {"table1", "table4",  "fig8",  "fig13",    "peers", "quality",
                                       "orders", "scaling", "refit", "equality", "smoke", "table2",
                                       "table3", "pairs",   "rebuild", "libraries", "agreement",
-                                      "native", "wide"};
+                                      "native", "wide", "roofline"};
 
 constexpr std::int64_t most_sizes = 1 << 24;
 
@@ -130,10 +130,10 @@ Experiment experiment_of(const Json& json, bool quick)
     check_name(experiment.name);
     experiment.question = json.contains("question") ? text_at(json, "question") : "";
     experiment.paper = json.contains("paper") ? text_at(json, "paper") : "";
-    if (collides) {
+    if (collides)
         experiment.collisions = collisions_of(json, experiment.name, quick);
+    if (collides && !json.contains("builders"))
         return experiment;
-    }
     read_size(json, experiment);
     if (json.contains("stages"))
         experiment.start = start_of(json["stages"]);
@@ -142,7 +142,13 @@ Experiment experiment_of(const Json& json, bool quick)
     if (json.contains("quality"))
         experiment.quality = truth_at(json, "quality");
     if (json.contains("quick")) {
-        refuse_unknown_keys(json["quick"], {"scenes", "builders", "samples", "warm_up"}, "'quick'");
+        if (collides)
+            refuse_unknown_keys(json["quick"],
+                                {"scenes", "builders", "pipelines", "samples", "warm_up"},
+                                "'quick'");
+        else
+            refuse_unknown_keys(json["quick"], {"scenes", "builders", "samples", "warm_up"},
+                                "'quick'");
         Experiment quicker = experiment;
         read_size(json["quick"], quicker);
         if (quick)

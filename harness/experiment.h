@@ -30,6 +30,8 @@ namespace bvhbench {
 ///      "pipelines": [{"builder": "oibvh-multi", "collider": {"name": "bvtt", "jump": 2}, "adjacent": "drop",
 ///                     "narrow": "exact"}, ...]}
 ///
+/// One that has both lists makes cells of either kind over the same scenes, which then are texts.
+///
 /// `quick` replaces `scenes`, `builders`, `samples` or `warm_up` for --quick. In a scene with sizes, the key
 /// in braces takes a list of numbers or an object of: `from` and `to` (every number), `powers_of_two_from`
 /// and `powers_of_two_to`, `around_powers_of_two_to` (one below, at and above each power of two up to it).
@@ -46,7 +48,7 @@ struct Experiment {
     bool may_stand_in = true;
     /// Whether end-point overlap is wanted too, the one measure of a tree that takes long.
     bool quality = false;
-    /// Of an experiment with pipelines, which has none of the other lists: a task a scene.
+    /// Of an experiment with pipelines: a task a scene. The other lists may be empty then.
     std::vector<CollideTask> collisions;
     int samples = 30;
     int warm_up = 3;

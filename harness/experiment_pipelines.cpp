@@ -105,7 +105,8 @@ std::vector<CollideTask> collisions_of(const Json& json, const std::string& expe
 {
     const Json none = Json::object();
     const Json& quicker = quick && json.contains("quick") ? json["quick"] : none;
-    refuse_unknown_keys(quicker, {"scenes", "pipelines", "samples", "warm_up"}, "'quick'");
+    if (!json.contains("builders"))
+        refuse_unknown_keys(quicker, {"scenes", "pipelines", "samples", "warm_up"}, "'quick'");
     const auto of = [&](const char* key) -> const Json& {
         return quicker.contains(key) ? quicker : json;
     };

@@ -60,9 +60,9 @@ void add_list(CLI::App& app, ListCommand& list)
     CLI::App* command = app.add_subcommand("list", "What there is, a line each");
     command
         ->add_option("WHAT", list.what,
-                     "builders, colliders, orders, skips, scenes, devices or experiments")
+                     "builders, colliders, orders, skips, tuning, scenes, devices or experiments")
         ->required()
-        ->check(one_of({"builders", "colliders", "orders", "skips", "scenes", "devices", "experiments"}));
+        ->check(one_of({"builders", "colliders", "orders", "skips", "tuning", "scenes", "devices", "experiments"}));
 }
 
 void add_build(CLI::App& app, BuildCommand& build, std::string& leaves)
@@ -128,7 +128,7 @@ void add_collide(CLI::App& app, CollideCommand& collide, std::string& leaves, st
     command->add_option("--jump", collide.collider.jump,
                         "levels a step of a traversal descends; 0: the collider's choice");
     command->add_option("--start-level", collide.collider.start_level,
-                        "the level a traversal starts on; 0: the root");
+                        "the level a traversal starts on; 0: likewise");
     command->add_option("--group-size", collide.collider.group_size,
                         "work-items in a group, a power of two; 0: the collider's choice");
     command->add_option("--no-skip", no_skip,
@@ -185,11 +185,42 @@ void add_show(CLI::App& app, ShowCommand& show)
     command->add_option("FILE", show.file, "a result file")->required();
 }
 
+void add_tune(CLI::App& app, TuneCommand& tune, std::string& leaves, std::string& adjacent)
+{
+    CLI::App* command = app.add_subcommand(
+        "tune", "Search what numbers suit the device, check each answer, and write a tuning file");
+    command->add_option("TARGET", tune.target,
+                        "sort, a name of `list builders` or of `list colliders`; default: sort, "
+                        "oibvh-multi, leaf, group and bvtt in turn");
+    command->add_option("--scene", tune.scene, "a scene, data set or mesh file")->required();
+    tune.builder.name = "oibvh-multi";
+    command->add_option("--builder", tune.builder.name, "whose trees a collider is tuned over")
+        ->capture_default_str();
+    command->add_option("--order", tune.builder.order, "a name of `list orders`")
+        ->capture_default_str();
+    command->add_option("--leaves", leaves, "mesh or sorted: where leaf boxes are kept")
+        ->check(one_of({"mesh", "sorted"}));
+    command->add_option("--adjacent", adjacent, "keep or drop pairs that share a vertex index")
+        ->capture_default_str()
+        ->check(one_of({"keep", "drop"}));
+    command->add_option("--narrow", tune.collider.narrow, "none or exact: whether to tune it too")
+        ->capture_default_str()
+        ->check(one_of({"none", "exact"}));
+    command->add_option("--samples", tune.samples, "timed runs a value and turn")
+        ->check(CLI::Range(3, most_samples));
+    command->add_flag("--quick", tune.quick, "one round, and fewer samples");
+    command->add_option("--out", tune.out,
+                        "the tuning file; default: the device's in --tuning, else in results/tuning");
+}
+
 void add_common(CLI::App& app, CommonOptions& common)
 {
     app.add_option("--device", common.device, "words of its name, or its index in `list devices`");
     app.add_option("--kernels", common.kernels, "a source tree to read kernels from");
     app.add_option("--data", common.data, "the folder of data sets; default: BVHBENCH_DATA");
+    app.add_option("--tuning", common.tuning,
+                   "a folder to read tuned values from, '' for none; default: BVHBENCH_TUNING, else "
+                   "those in the program");
     app.add_flag("--verbose", common.verbose, "say on stderr what is being used");
     app.set_version_flag("--version", std::string("bvhbench ") + build_info.version);
     app.require_subcommand(0, 1);
@@ -223,6 +254,7 @@ Options parse_options(int argc, const char* const* argv)
     ReproduceCommand reproduce;
     CheckCommand check;
     ShowCommand show;
+    TuneCommand tune;
     std::string leaves = "mesh";
     std::string adjacent = "keep";
     std::string pairs_of = "all";
@@ -235,6 +267,7 @@ Options parse_options(int argc, const char* const* argv)
     add_reproduce(app, reproduce);
     add_check(app, check);
     add_show(app, show);
+    add_tune(app, tune, leaves, adjacent);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -246,7 +279,7 @@ Options parse_options(int argc, const char* const* argv)
     }
     if (app.get_subcommands().empty())
         throw BadUsage(
-            "name a command: list, build, collide, run, reproduce, check or show; `bvhbench "
+            "name a command: list, build, collide, run, reproduce, check, show or tune; `bvhbench "
             "--help` "
             "says what they do");
     check_power_of_two("--group-size", build.builder.group_size);
@@ -254,8 +287,9 @@ Options parse_options(int argc, const char* const* argv)
     for (const NodeCosts& costs : {build.costs, run.costs, reproduce.costs})
         check_costs(costs);
     check_power_of_two("--group-size", collide.collider.group_size);
-    build.builder.sorted_leaves = collide.builder.sorted_leaves = leaves == "sorted";
-    collide.collider.keep_adjacent = adjacent == "keep";
+    build.builder.sorted_leaves = collide.builder.sorted_leaves = tune.builder.sorted_leaves =
+        leaves == "sorted";
+    collide.collider.keep_adjacent = tune.collider.keep_adjacent = adjacent == "keep";
     collide.collider.among = among_called(pairs_of);
     collide.collider.rules_off = skip_rules_called(no_skip);
     const std::string chosen = app.get_subcommands().front()->get_name();
@@ -271,6 +305,8 @@ Options parse_options(int argc, const char* const* argv)
         options.command = reproduce;
     else if (chosen == "check")
         options.command = check;
+    else if (chosen == "tune")
+        options.command = tune;
     else
         options.command = show;
     return options;

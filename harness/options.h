@@ -3,6 +3,7 @@
 // The command line, understood: what main hands on.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -17,6 +18,7 @@ struct CommonOptions {
     std::string device;   ///< words or an index; empty: the first CPU, else the first device
     std::string kernels;  ///< a source tree to read kernels from; empty: those in the program
     std::string data;     ///< the folder of data sets; empty: BVHBENCH_DATA
+    std::optional<std::string> tuning;  ///< the folder of tuned values; empty: none; not given: BVHBENCH_TUNING
     bool verbose = false;
 };
 
@@ -25,7 +27,7 @@ struct PrintCommand {
     std::string text;
 };
 struct ListCommand {
-    std::string what;  ///< builders, colliders, orders, skips, scenes, devices or experiments
+    std::string what;  ///< builders, colliders, orders, skips, tuning, scenes, devices or experiments
 };
 struct BuildCommand {
     BuilderChoice builder;
@@ -72,9 +74,18 @@ struct CheckCommand {
 struct ShowCommand {
     std::string file;
 };
+struct TuneCommand {
+    std::string target;  ///< sort, a builder or a collider; empty: the usual ones
+    std::string scene;
+    BuilderChoice builder;    ///< of a collider's trees; its options are a builder's own too
+    ColliderChoice collider;  ///< a collider's options
+    std::string out;          ///< tuning file; empty: the device's
+    int samples = 0;          ///< 0: as many as suit
+    bool quick = false;
+};
 
 using Command = std::variant<PrintCommand, ListCommand, BuildCommand, CollideCommand, RunCommand,
-                             ReproduceCommand, CheckCommand, ShowCommand>;
+                             ReproduceCommand, CheckCommand, ShowCommand, TuneCommand>;
 
 struct Options {
     CommonOptions common;

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "geometry/error.h"
+#include "harness/query_bytes.h"
 
 namespace bvhbench {
 
@@ -165,6 +166,24 @@ void Pipeline::settle(const Input& input)
         enqueue(input);
         session_.queue().finish();
     } while (!complete());
+    corner_bytes_ =
+        narrow_ && queries() ? corner_bytes(collider_->pairs(session_.queue()), input) : 0;
+}
+
+/// How much is written, and how much of it read again, is known only now.
+void Pipeline::declare_found(std::vector<StageTime>& stages) const
+{
+    if (!queries())
+        return;
+    const Queue& queue = session_.queue();
+    const auto bytes = [](std::uint64_t pairs) {
+        return static_cast<std::int64_t>(pairs * sizeof(Pair));
+    };
+    const std::int64_t pairs = bytes(collider_->counts(queue).pairs);
+    add_moved_bytes(stages, "broad", pairs);
+    if (narrow_)
+        add_moved_bytes(stages, "narrow",
+                        pairs + bytes(narrow_->counts(queue).contacts) + corner_bytes_);
 }
 
 std::vector<StageTime> Pipeline::once(const Input& input)
@@ -173,6 +192,7 @@ std::vector<StageTime> Pipeline::once(const Input& input)
     std::vector<StageTime> stages = session_.queue().finish();
     if (!complete())
         throw Unavailable("a query found more than the one before it over the same triangles");
+    declare_found(stages);
     return stages;
 }
 

@@ -68,6 +68,7 @@ private:
     void enqueue(const Input& input);
     void enqueue_query(const Input& input);
     bool complete();
+    void declare_found(std::vector<StageTime>& stages) const;
 
     Session& session_;
     BuilderChoice choice_;  ///< a builder may keep looking at its words
@@ -80,6 +81,7 @@ private:
     std::optional<NarrowPhase> narrow_;
     std::optional<NearTriangles> near_;  ///< if the rule may apply
     std::optional<Entering> entering_;   ///< if it does; else everything enters
+    std::int64_t corner_bytes_ = 0;      ///< of the triangles in the pairs that the frame settled with
 };
 
 }  // namespace bvhbench

@@ -140,6 +140,9 @@ RunFacts run_facts(const Device& device, std::vector<std::string> command)
     run.arch = build_info.arch;
     run.kernels = device.sources.origin();
     run.device = device_facts(device);
+    run.tuning_from = device.tuning.origin();
+    for (const auto& [name, value] : device.tuning.values())
+        run.tuning[std::string(name)] = value;
     run.libraries = {{"assimp", BVHBENCH_ASSIMP_VERSION},
                      {"benchmark", BVHBENCH_BENCHMARK_VERSION},
                      {"nlohmann_json", BVHBENCH_JSON_VERSION},

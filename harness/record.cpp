@@ -141,6 +141,9 @@ std::string run_text(const RunFacts& run)
         json["copy_rate_bytes_per_s"] = run.copy_rate_bytes_per_s;
         json["copy_rate_buffer_bytes"] = run.copy_rate_buffer_bytes;
     }
+    if (std::isfinite(run.launch_cost_ns) && run.launch_cost_ns > 0)
+        json["launch_cost_ns"] = run.launch_cost_ns;
+    json["tuning"] = {{"from", run.tuning_from}, {"values", run.tuning}};
     json["compile_ns"] = run.compile_ns;
     json["node_costs"] = {{"inner", run.costs.inner}, {"triangle", run.costs.triangle}};
     return dumped(json);
@@ -181,7 +184,7 @@ std::string cell_text(const Cell& cell)
 
 std::string document_text(const std::string& run, const std::vector<std::string>& cells)
 {
-    std::string text = "{\"format\": \"1.4\",\n\"run\": " + run + ",\n\"cells\": [";
+    std::string text = "{\"format\": \"1.5\",\n\"run\": " + run + ",\n\"cells\": [";
     for (std::size_t i = 0; i < cells.size(); ++i)
         text += (i == 0 ? "\n" : ",\n") + cells[i];
     return text + "\n]}\n";

@@ -92,6 +92,9 @@ struct RunFacts {
     std::map<std::string, std::string> libraries;  ///< name to version
     double copy_rate_bytes_per_s = 0;              ///< 0: not measured
     std::int64_t copy_rate_buffer_bytes = 0;
+    double launch_cost_ns = 0;  ///< 0: not measured
+    std::string tuning_from = "none";         ///< the file of the values below
+    std::map<std::string, uint> tuning;       ///< parameter to value, where it is not the default
     std::int64_t compile_ns = 0;
     NodeCosts costs;  ///< in the counters sah_cost and epo
 };

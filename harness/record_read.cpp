@@ -189,6 +189,10 @@ RunFacts run_of(const Json& json)
     run.libraries = get<std::map<std::string, std::string>>(json, "libraries");
     run.copy_rate_bytes_per_s = get<double>(json, "copy_rate_bytes_per_s");
     run.copy_rate_buffer_bytes = get<std::int64_t>(json, "copy_rate_buffer_bytes");
+    run.launch_cost_ns = get<double>(json, "launch_cost_ns");
+    const Json tuning = json.value("tuning", Json::object());
+    run.tuning_from = tuning.value("from", "none");
+    run.tuning = tuning.value("values", std::map<std::string, uint>{});
     run.compile_ns = get<std::int64_t>(json, "compile_ns");
     if (json.contains("node_costs"))  // before format 1.2 there were only the usual ones
         run.costs = {.inner = json["node_costs"].at("inner").get<double>(),

@@ -14,12 +14,6 @@ namespace {
 
 using enum Table::Align;
 
-bool has_times(const Cell& cell)
-{
-    return cell.status == Cell::Status::measured && cell.check.verdict != Check::Verdict::differs &&
-           !cell.samples.empty();
-}
-
 std::string rate_text(double bytes, double ns)
 {
     return bytes > 0 && ns > 0 ? fixed(bytes / ns, 1) : "";  // bytes a nanosecond are GB/s
@@ -105,6 +99,12 @@ std::vector<std::string> line_of(const Cell& cell, double copy_rate)
 }
 
 }  // namespace
+
+bool has_times(const Cell& cell)
+{
+    return cell.status == Cell::Status::measured && cell.check.verdict != Check::Verdict::differs &&
+           !cell.samples.empty();
+}
 
 std::vector<double> stage_times_ns(const Cell& cell, std::string_view stage)
 {
@@ -270,6 +270,14 @@ std::string run_report(const RunFacts& run)
                        run.device.driver + '\n';
     text += "program: " + run.version + ", commit " + run.commit +
             (run.dirty ? " with changes" : "") + ", " + run.build_type + '\n';
+    if (run.launch_cost_ns > 0)
+        text += "launch cost: " + duration_text(run.launch_cost_ns) + '\n';
+    if (!run.tuning.empty()) {
+        text += "tuned by " + run.tuning_from + ':';
+        for (const auto& [name, value] : run.tuning)
+            text += ' ' + name + '=' + std::to_string(value);
+        text += '\n';
+    }
     if (run.copy_rate_bytes_per_s > 0)
         text += "copy rate: " + fixed(run.copy_rate_bytes_per_s * 1e-9, 1) +
                 " GB/s, read plus written\n";

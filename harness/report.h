@@ -31,6 +31,9 @@ double moved_bytes(const Cell& cell);
 /// "8.1 %" of the copy rate that `bytes` in `ns` are; blank if one of them is not known.
 std::string copy_share_text(double bytes, double ns, double copy_rate_bytes_per_s);
 
+/// Whether its stages have times that may be printed: measured, and not wrong.
+bool has_times(const Cell& cell);
+
 /// "agrees", "differs", "not checked", "skipped" or "failed".
 std::string verdict_text(const Cell& cell);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "device/copy_rate.h"
+#include "device/launch_cost.h"
 #include "geometry/error.h"
 #include "harness/check.h"
 #include "harness/failure.h"
@@ -68,6 +69,7 @@ RunFacts measured_facts(Session& session, std::vector<std::string> command, cons
         const CopyRate rate = measure_copy_rate(session.programs(), session.queue());
         facts.copy_rate_bytes_per_s = rate.bytes_per_s;
         facts.copy_rate_buffer_bytes = static_cast<std::int64_t>(rate.buffer_bytes);
+        facts.launch_cost_ns = measure_launch_cost(session.programs(), session.queue()).ns;
     });
     if (!failure.empty())
         session.renew_queue();  // a device without room for the copy can still build small trees

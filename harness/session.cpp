@@ -7,6 +7,7 @@
 
 #include "geometry/error.h"
 #include "harness/pocl_cache.h"
+#include "harness/tuning_file.h"
 
 namespace bvhbench {
 
@@ -21,22 +22,30 @@ SceneLibrary scene_library(const CommonOptions& common)
 Device open_device_of(const CommonOptions& common)
 {
     prepare_pocl_cache();
-    if (common.kernels.empty())
-        return open_device(common.device);
-    if (!std::filesystem::is_directory(common.kernels))
+    if (!common.kernels.empty() && !std::filesystem::is_directory(common.kernels))
         throw Unavailable("--kernels: there is no folder '" + common.kernels + "'");
-    return open_device(common.device, Sources::tree(common.kernels));
+    Device device = common.kernels.empty()
+                        ? open_device(common.device)
+                        : open_device(common.device, Sources::tree(common.kernels));
+    const auto [file, origin] = tuning_file_for(device, tuning_folder(common.tuning));
+    device.tuning = tuning_of(file, device, origin);
+    return device;
 }
 
-Session::Session(const CommonOptions& common)
-    : device_(open_device_of(common))
+Session::Session(Device device, SceneLibrary library)
+    : device_(std::move(device))
     , programs_(device_)
     , queue_(std::make_unique<Queue>(device_))
-    , library_(scene_library(common))
+    , library_(std::move(library))
+{}
+
+Session::Session(const CommonOptions& common)
+    : Session(open_device_of(common), scene_library(common))
 {
     if (common.verbose)
         std::cerr << "device: " << device_.platform() << '/' << device_.name()
-                  << "\nkernels: " << device_.sources.origin() << '\n';
+                  << "\nkernels: " << device_.sources.origin()
+                  << "\ntuning: " << device_.tuning.origin() << '\n';
 }
 
 void Session::renew_queue() { queue_ = std::make_unique<Queue>(device_); }

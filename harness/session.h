@@ -19,6 +19,9 @@ public:
     /// Opens the device. Throws Unavailable if there is none.
     explicit Session(const CommonOptions& common);
 
+    /// The same of a device that is open, its programs compiled anew: for one that is tuned otherwise.
+    Session(Device device, SceneLibrary library);
+
     const Device& device() const { return device_; }
     Programs& programs() { return programs_; }
     Queue& queue() { return *queue_; }
@@ -58,7 +61,7 @@ private:
 /// Where scenes are read from: --data, else BVHBENCH_DATA.
 SceneLibrary scene_library(const CommonOptions& common);
 
-/// The device --device asks for, with kernels from --kernels. Throws Unavailable.
+/// The device --device asks for, with kernels from --kernels and tuned as --tuning says. Throws Unavailable.
 Device open_device_of(const CommonOptions& common);
 
 }  // namespace bvhbench

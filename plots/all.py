@@ -21,6 +21,7 @@ import figure
 import frames
 import pareto_orders
 import results
+import roofline
 import scaling
 import style
 import table1
@@ -37,6 +38,7 @@ FIGURES: dict[str, figure.Draw] = {
     "quality": pareto_orders.draw,
     "orders": pareto_orders.draw,
     "scaling": scaling.draw,
+    "roofline": roofline.draw,
 }
 
 # The same of experiments over whole frames.

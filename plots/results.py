@@ -107,6 +107,11 @@ class Run:
         return self.facts.get("copy_rate_bytes_per_s")
 
     @property
+    def launch_cost_s(self) -> float:
+        """Of a launch that has nothing to do; before format 1.5 it was not measured, and counts as nothing."""
+        return self.facts.get("launch_cost_ns", 0) * 1e-9
+
+    @property
     def builds(self) -> list[Cell]:
         """What figures of builders are made of: a refit's times and trees are no build's."""
         return [cell for cell in self.cells if cell.operation == "build"]

@@ -5,6 +5,7 @@
 #include <bit>
 #include <string>
 
+#include "builders/parameters.h"
 #include "geometry/error.h"
 
 namespace bvhbench {
@@ -42,7 +43,7 @@ Cut smallest_group_with_fewest_launches(uint leaf_level, uint items, uint most)
 Cut subtrees_of_items(const Device& device, uint leaf_level)
 {
     const uint cores = device.cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
-    const uint split = ceil_log2(8 * cores);
+    const uint split = ceil_log2(device.tuned(implicit_subtrees_per_core) * cores);
     return {KernelForm::chunks, 1, 1,
             std::clamp(leaf_level > split ? leaf_level - split : 0u, 10u, 16u)};
 }
@@ -67,7 +68,10 @@ void require_power_of_two(const char* what, uint value, uint most, const Device&
 
 Cut choose_cut(const Device& device, const BuildOptions& options, Meeting meeting, uint leaves)
 {
-    const uint items = options.items == 0 ? 1 : options.items;
+    const bool is_tuned = !device.is_cpu() && options.group_size == 0;
+    const uint items = options.items != 0 ? options.items
+                       : is_tuned         ? device.tuned(implicit_items)
+                                          : 1;
     require_power_of_two("the number of items a work-item", items, 8, device);
     const uint most = most_group_size(device, items);
     if (options.group_size != 0) {  // the paper's groups are asked for by their size, on a CPU too
@@ -76,8 +80,13 @@ Cut choose_cut(const Device& device, const BuildOptions& options, Meeting meetin
     }
     if (device.is_cpu())
         return subtrees_of_items(device, implicit_leaf_level(leaves));
-    if (meeting == Meeting::by_handoff)
+    if (meeting == Meeting::by_handoff) {
+        if (const uint tuned = device.tuned(implicit_handoff_group_size); tuned != 0)
+            return groups_of(std::min(tuned, most), items);
         return groups_of_one_launch(implicit_leaf_level(leaves), options.items, most);
+    }
+    if (const uint tuned = device.tuned(implicit_group_size); tuned != 0)
+        return groups_of(std::min(tuned, most), items);
     return smallest_group_with_fewest_launches(implicit_leaf_level(leaves), items, most);
 }
 

@@ -14,14 +14,17 @@ constexpr auto path = "builders/stages/bounds.cl";
 /// Groups that keep every compute unit busy; more would only leave more partials to join.
 std::size_t most_groups(const Device& device)
 {
-    return 8 * std::size_t{device.cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()};
+    return device.tuned(bounds_groups_per_unit) *
+           std::size_t{device.cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()};
 }
 
 }  // namespace
 
 BoundsStage::BoundsStage(Programs& programs, KernelForm form, uint group_size)
     : form_(chosen_form(programs.device(), form))
-    , group_size_(group_size)
+    , group_size_(group_size != 0 || form_ == KernelForm::chunks
+                      ? std::max(1u, group_size)
+                      : programs.device().tuned(bounds_group_size))
     , groups_meet_(form_ == KernelForm::groups && programs.device().lets_groups_meet())
     , most_partials_(form_ == KernelForm::groups ? most_groups(programs.device())
                                                  : chunk_count(programs.device()))

@@ -12,8 +12,9 @@ namespace bvhbench {
 /// The stage `bounds`: triangles to leaf boxes in mesh order, and the bounds of them all, in one pass.
 class BoundsStage {
 public:
+    /// `group_size` 0: as the device is tuned.
     explicit BoundsStage(Programs& programs, KernelForm form = KernelForm::of_device,
-                         uint group_size = 256);
+                         uint group_size = 0);
 
     /// Take the buffers for `primitives` triangles. The boxes are what `boxes` says, the rest is scratch.
     void plan(Arena& arena, std::size_t primitives, Use boxes);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "builders/parameters.h"
 #include "geometry/bits.h"
 
 namespace bvhbench {
@@ -11,17 +12,13 @@ namespace {
 /// Of a pass that counts in local memory: few large groups, so that few counts are added up in the end.
 constexpr uint local_group_size = 1024;
 constexpr uint local_groups_per_unit = 1;
-constexpr uint local_leaves = 4;  // a work-item looks at, at a time
-/// Of one that counts in global memory.
-constexpr uint pass_group_size = 128;
-constexpr uint pass_leaves = 3;
+
 constexpr uint halve_group_size = 256;
 constexpr uint halve_slabs = 4096;
 constexpr uint local_slabs = 8192;  // 32 KiB a group
 /// Of halving many small nodes, whose groups should be many at a time.
 constexpr uint small_halve_group_size = 128;
 constexpr uint small_halve_slabs = 1024;
-constexpr uint chunk_levels = 3;  // halved by fewer work-items than there are cores, level by level
 
 std::int64_t bytes(std::size_t size) { return static_cast<std::int64_t>(size); }
 
@@ -38,19 +35,23 @@ CellMedians::CellMedians(Programs& programs, MedianShape shape)
     shape_.form =
         chosen_form(programs.device(), shape.form, local_slabs * sizeof(uint), local_group_size);
     if (shape_.form == KernelForm::chunks) {
+        chunk_levels_ = programs.device().tuned(cells_chunk_levels);
         halve_ = programs.kernel("builders/stages/cells_chunks.cl", "halve_nodes");
         return;
     }
+    local_leaves_ = programs.device().tuned(cells_local_leaves);
+    pass_group_size_ = programs.device().tuned(cells_pass_group_size);
+    pass_leaves_ = programs.device().tuned(cells_pass_leaves);
     const auto local = [&](const char* name) {
         return programs.kernel("builders/stages/cells_groups.cl", name,
                                {{"GROUP_SIZE", local_group_size},
-                                {"LEAVES", local_leaves},
+                                {"LEAVES", local_leaves_},
                                 {"LOCAL_SLABS", local_slabs}});
     };
     const auto global = [&](const char* name) {
         return programs.kernel(
             "builders/stages/cells_groups.cl", name,
-            {{"GROUP_SIZE", pass_group_size}, {"LEAVES", pass_leaves}, {"LOCAL_SLABS", 0}});
+            {{"GROUP_SIZE", pass_group_size_}, {"LEAVES", pass_leaves_}, {"LOCAL_SLABS", 0}});
     };
     clear_ = global("clear_all");
     first_pass_ = local("first_pass");
@@ -116,15 +117,15 @@ void CellMedians::in_groups(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bou
 {
     const auto count = static_cast<uint>(size_);
     const std::size_t many =
-        std::size_t{divided_up(count, pass_group_size * pass_leaves)} * pass_group_size;
+        std::size_t{divided_up(count, pass_group_size_ * pass_leaves_)} * pass_group_size_;
     const std::size_t few =
         std::size_t{std::min(units_ * local_groups_per_unit,
-                             divided_up(count, local_group_size * local_leaves))} *
+                             divided_up(count, local_group_size * local_leaves_))} *
         local_group_size;
 
     set_arguments(clear_, counts_, static_cast<uint>(counts_.size()), waiting_,
                   static_cast<uint>(waiting_.size()), placed_, static_cast<uint>(placed_.size()));
-    queue.launch(clear_, std::min(many, std::size_t{units_} * pass_group_size), pass_group_size,
+    queue.launch(clear_, std::min(many, std::size_t{units_} * pass_group_size_), pass_group_size_,
                  bytes(counts_.bytes() + waiting_.bytes() + placed_.bytes()));
     set_arguments(first_pass_, boxes, bounds, centres_, cells_, cuts_, counts_, count,
                   root_height_);
@@ -135,13 +136,13 @@ void CellMedians::in_groups(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bou
         cl::Kernel& pass = is_local ? local_pass_ : pass_;
         set_arguments(pass, centres_, nodes_, cuts_, counts_, waiting_, lists_, count, root_height_,
                       level);
-        queue.launch(pass, is_local ? few : many, is_local ? local_group_size : pass_group_size,
+        queue.launch(pass, is_local ? few : many, is_local ? local_group_size : pass_group_size_,
                      bytes(16 * size_));
         enqueue_halve(ids, level, queue);
     }
     set_arguments(last_pass_, centres_, nodes_, cuts_, placed_, waiting_, lists_, ids, count,
                   root_height_, levels_);
-    queue.launch(last_pass_, many, pass_group_size, bytes(12 * size_));
+    queue.launch(last_pass_, many, pass_group_size_, bytes(12 * size_));
     enqueue_halve(ids, levels_, queue);
 }
 
@@ -163,7 +164,7 @@ void CellMedians::in_chunks(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bou
                             const Buffer<uint>& ids, Queue& queue)
 {
     for (uint level = 0; level < levels_; ++level) {
-        const bool is_last = level + 1 == levels_ || level >= chunk_levels;
+        const bool is_last = level + 1 == levels_ || level >= chunk_levels_;
         const uint bottom = is_last ? shape_.block_height + 1 : root_height_ - level;
         set_arguments(halve_, boxes, bounds, ids, lists_, cells_, static_cast<uint>(size_),
                       root_height_, level, bottom);

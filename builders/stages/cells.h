@@ -43,6 +43,10 @@ private:
 
     MedianShape shape_;
     uint units_;
+    uint local_leaves_ = 0;     ///< a work-item looks at, at a time, in a pass that counts in local memory
+    uint pass_group_size_ = 0;  ///< of one that counts in global memory
+    uint pass_leaves_ = 0;
+    uint chunk_levels_ = 0;  ///< halved by fewer work-items than there are cores, level by level
     std::size_t size_ = 0;
     uint root_height_ = 0;
     uint levels_ = 0;  ///< above the blocks

@@ -9,12 +9,12 @@ namespace bvhbench {
 namespace {
 
 constexpr auto path = "builders/stages/codes.cl";
-constexpr uint group_size = 256;
 
 }  // namespace
 
 CodesStage::CodesStage(Programs& programs, const OrderEntry& order)
     : words_(code_words(order.code_bits))
+    , group_size_(programs.device().tuned(codes_group_size))
     , kernel_(programs.kernel(path, order.kernel))
     , objects_kernel_(programs.kernel(path, (std::string(order.kernel) + "_objects").c_str()))
     , runs_kernel_(programs.kernel(path, (std::string(order.kernel) + "_runs").c_str()))
@@ -53,8 +53,8 @@ void CodesStage::launch(cl::Kernel& kernel, const Buffer<Aabb>& boxes, const Buf
     queue.begin("codes");
     if (boxes.size() == 0)
         return;
-    const uint groups = divided_up(static_cast<uint>(boxes.size()), group_size);
-    queue.launch(kernel, std::size_t{groups} * group_size, group_size,
+    const uint groups = divided_up(static_cast<uint>(boxes.size()), group_size_);
+    queue.launch(kernel, std::size_t{groups} * group_size_, group_size_,
                  static_cast<std::int64_t>(boxes.bytes() + codes.bytes()));
 }
 

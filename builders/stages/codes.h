@@ -36,6 +36,7 @@ private:
                 Queue& queue);
 
     unsigned words_;
+    uint group_size_;
     cl::Kernel kernel_, objects_kernel_, runs_kernel_;
 };
 

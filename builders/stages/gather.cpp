@@ -10,13 +10,15 @@ namespace bvhbench {
 
 GatherStage::GatherStage(Programs& programs, KernelForm form, uint group_size)
     : form_(chosen_form(programs.device(), form))
-    , group_size_(group_size)
+    , group_size_(group_size != 0 || form_ == KernelForm::chunks
+                      ? std::max(1u, group_size)
+                      : programs.device().tuned(gather_group_size))
     , chunks_(chunk_count(programs.device()))
 {
     const bool groups = form_ == KernelForm::groups;
     const auto kernel = [&](const char* of_groups, const char* of_chunks) {
         return programs.kernel("builders/stages/gather.cl", groups ? of_groups : of_chunks,
-                               {{"GROUP_SIZE", group_size}});
+                               {{"GROUP_SIZE", group_size_}});
     };
     kernel_ = kernel("gather_groups", "gather_chunks");
     objects_kernel_ = kernel("gather_objects_groups", "gather_objects_chunks");

@@ -12,8 +12,9 @@ namespace bvhbench {
 /// The stage `gather`: boxes in the order of ids, at any place of an array. Owns no memory.
 class GatherStage {
 public:
+    /// `group_size` 0: as the device is tuned.
     explicit GatherStage(Programs& programs, KernelForm form = KernelForm::of_device,
-                         uint group_size = 256);
+                         uint group_size = 0);
 
     /// Enqueue sorted[first + k] = boxes[ids[k]] for every id. Other elements of `sorted` stay. Does not wait.
     void enqueue(const Buffer<Aabb>& boxes, const Buffer<uint>& ids, const Buffer<Aabb>& sorted,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "builders/parameters.h"
 #include "device/device.h"
 
 namespace bvhbench {
@@ -32,7 +33,8 @@ inline KernelForm chosen_form(const Device& device, KernelForm form, std::size_t
 /// Work-items for the form `chunks`: some a core, so that a core that was interrupted is not waited for.
 inline std::size_t chunk_count(const Device& device)
 {
-    return 4 * std::size_t{device.cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()};
+    return device.tuned(chunks_per_core) *
+           std::size_t{device.cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()};
 }
 
 }  // namespace bvhbench

@@ -54,13 +54,13 @@ struct LeafOrder::Stages {
         : order(entry), bounds(on, chosen), number(on), programs(on), form(chosen)
     {
         if (entry.medians == Medians::everywhere) {
-            cells.emplace(programs, MedianShape{.form = form});
+            cells.emplace(programs, median_shape(programs.device(), form));
         } else {
             codes.emplace(programs, entry);
-            sort.emplace(programs, entry.code_bits, SortShape{.form = form});
+            sort.emplace(programs, entry.code_bits, sort_shape(programs.device(), form));
         }
         if (entry.medians != Medians::nowhere)
-            blocks.emplace(programs, MedianShape{.form = form});
+            blocks.emplace(programs, median_shape(programs.device(), form));
     }
 
     /// The line begins with what sorts for as many objects. Codes keep their words: what does not fit is dropped.
@@ -77,7 +77,7 @@ struct LeafOrder::Stages {
         const uint object_bits = ceil_log2(static_cast<uint>(objects));
         const uint kept = std::min(order.code_bits, most - object_bits);
         several.emplace(Several{ObjectBounds(programs, form),
-                                RadixSort(programs, kept + object_bits, SortShape{.form = form}),
+                                RadixSort(programs, kept + object_bits, sort_shape(programs.device(), form)),
                                 order.code_bits - kept, kept,
                                 ObjectRuns(programs.device(), form)});
     }

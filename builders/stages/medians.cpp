@@ -13,6 +13,14 @@ constexpr std::size_t block_bytes =
 
 }  // namespace
 
+MedianShape median_shape(const Device& device, KernelForm form)
+{
+    MedianShape shape{.form = form};
+    if (chosen_form(device, form) == KernelForm::groups)
+        shape.group_size = device.tuned(medians_group_size);
+    return shape;
+}
+
 BlockMedians::BlockMedians(Programs& programs, MedianShape shape) : shape_(shape)
 {
     shape_.form = chosen_form(programs.device(), shape.form, block_bytes, shape.group_size);

@@ -14,13 +14,16 @@ namespace bvhbench {
 /// log2 of the leaves that a group orders in local memory.
 constexpr uint median_block_height = 10;
 
-/// How medians are cut up. Other values than these are for tests and tuning.
+/// How medians are cut up. `median_shape` says how on a device; other values are for tests.
 struct MedianShape {
     KernelForm form = KernelForm::of_device;
     uint block_height = median_block_height;
     /// Groups only: work-items in a group, a power of two from 32, at most 2^block_height.
     uint group_size = 256;
 };
+
+/// As the device is tuned.
+MedianShape median_shape(const Device& device, KernelForm form = KernelForm::of_device);
 
 /// Puts every aligned block of 2^block_height leaves into the order of exact median splits.
 ///

@@ -17,6 +17,22 @@ std::int64_t bytes(std::size_t words) { return static_cast<std::int64_t>(words *
 
 }  // namespace
 
+SortShape sort_shape(const Device& device, KernelForm form)
+{
+    SortShape shape{.form = chosen_form(device, form)};
+    if (shape.form == KernelForm::chunks) {
+        shape.chunk_digit_bits = device.tuned(sort_chunk_digit_bits);
+    } else if (device.lets_groups_wait()) {
+        shape.sweep_group_size = device.tuned(sweep_group_size);
+        shape.sweep_keys_per_item = device.tuned(sweep_keys_per_item);
+        shape.at_once = device.tuned(sort_at_once) != 0;
+    } else {
+        shape.group_size = device.tuned(sort_group_size);
+        shape.keys_per_item = device.tuned(sort_keys_per_item);
+    }
+    return shape;
+}
+
 RadixSort::RadixSort(Programs& programs, unsigned code_bits, SortShape shape)
     : shape_(shape), code_bits_(code_bits), chunks_(chunk_count(programs.device()))
 {

@@ -12,7 +12,7 @@
 
 namespace bvhbench {
 
-/// How the sort is cut up. The defaults are what was fastest; other values are for tests and tuning.
+/// How the sort is cut up. `sort_shape` says how on a device; other values are for tests.
 struct SortShape {
     KernelForm form = KernelForm::of_device;
     /// Groups only: work-items in a group, a power of two from 16 to 256.
@@ -28,6 +28,9 @@ struct SortShape {
     /// Groups that wait only: whether few pairs are sorted in one launch. Not measured on a GPU yet, hence not the default.
     bool at_once = false;
 };
+
+/// As the device is tuned.
+SortShape sort_shape(const Device& device, KernelForm form = KernelForm::of_device);
 
 /// The stage `sort`: a stable radix sort of (code, id) pairs, least significant digit first, by only the bits
 /// that codes have. Ids start as 0, 1, 2, …, so equal codes keep the order they came in.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "builders/parameters.h"
 #include "builders/stages/codes.h"
 #include "geometry/bits.h"
 
@@ -12,7 +13,6 @@ namespace {
 
 constexpr auto path = "builders/stages/sweep.cl";
 constexpr uint digits = 256, most_passes = 8;    // as in sweep.cl
-constexpr std::size_t counting_groups_each = 2;  // a compute unit
 constexpr uint last_epoch = (1u << 31) - 1;      // STATE_EPOCH_SHIFT of look_back.clh
 
 }  // namespace
@@ -84,7 +84,8 @@ void DigitSweeps::enqueue(const std::array<Buffer<uint>, 2>& codes, const Buffer
     const std::size_t code_bytes = id_bytes * code_words(code_bits_);
 
     set_arguments(count_, codes[0], counters, count, code_bits_, unsorted, unless.build);
-    queue.launch(count_, std::min<std::size_t>(tiles, counting_groups_each * units_) * group_size_,
+    const std::size_t counting = units_ * programs_.device().tuned(sweep_counting_groups_per_unit);
+    queue.launch(count_, std::min<std::size_t>(tiles, counting) * group_size_,
                  group_size_, static_cast<std::int64_t>(code_bytes));
     for (uint pass = 0; pass < passes_; ++pass) {
         const bool to_result = (passes_ - pass) % 2 == 1;

@@ -72,9 +72,9 @@ def cell(experiment: str, scene: dict, builder: str, noise: random.Random) -> di
             "check": {"verdict": "agrees", "against": "contract"}}
 
 
-def write(name: str, cells: list[dict], minor: int = 3) -> None:
+def write(name: str, cells: list[dict], minor: int = 3, more: dict | None = None) -> None:
     lines = ",\n".join(json.dumps(entry) for entry in cells)
-    text = f'{{"format": "1.{minor}",\n"run": {json.dumps(RUN)},\n"cells": [\n{lines}\n]}}\n'
+    text = f'{{"format": "1.{minor}",\n"run": {json.dumps(RUN | (more or {}))},\n"cells": [\n{lines}\n]}}\n'
     (pathlib.Path(__file__).parent / name).write_text(text, encoding="utf-8")
 
 
@@ -100,6 +100,20 @@ def main() -> None:
         triangles, builder = entry["scene"]["triangles"], entry["builder"]["name"]
         entry["samples"] = [whole_sample(order, builder, triangles, noise) for order in range(5)]
     write("scaling.json", scaling)
+    write_roofline(sweep[::2])
+
+
+def write_roofline(scenes: list[dict]) -> None:
+    """Builds and frames over the same scenes. Of a query more bytes are declared than of a stage that builds."""
+    noise = random.Random(5)
+    cells = [cell("roofline", scene, builder, noise) for scene in scenes
+             for builder in ("perfect", "oibvh-single", "oibvh-multi", "apetrei-fused")]
+    for entry in cells:
+        triangles, builder = entry["scene"]["triangles"], entry["builder"]["name"]
+        entry["samples"] = [whole_sample(order, builder, triangles, noise) for order in range(5)]
+    cells += [frame_cell("roofline", scene["name"], 0, pipeline, noise) for scene in scenes
+              for pipeline in ("leaf", "group", "bvtt", "grid")]
+    write("roofline.json", cells, 5, {"launch_cost_ns": 3800.0, "tuning": {"from": "none", "values": {}}})
 
 
 def valued(experiment: str, scene: dict, builder: str, order: str, cost: float, noise: random.Random) -> dict:

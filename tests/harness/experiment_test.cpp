@@ -27,13 +27,38 @@ TEST(Experiment, OfEveryNameInThisProgramIsValid)
             const Experiment experiment = find_experiment(std::string(name), quick);
             EXPECT_EQ(experiment.name, name);
             EXPECT_FALSE(experiment.question.empty());
-            EXPECT_EQ(experiment.scenes.empty(), !experiment.collisions.empty());
-            EXPECT_EQ(experiment.builders.empty(), !experiment.collisions.empty());
+            EXPECT_EQ(experiment.scenes.empty(), experiment.builders.empty());
+            EXPECT_FALSE(experiment.builders.empty() && experiment.collisions.empty());
             for (const CollideTask& task : experiment.collisions) {
                 EXPECT_EQ(task.experiment, name);
                 EXPECT_FALSE(task.pipelines.empty());
             }
         }
+}
+
+TEST(Experiment, MayHaveBuildersAndPipelinesOverTheSameScenes)
+{
+    const std::string_view text = R"({
+        "experiment": "mine", "scenes": ["soup:9", "soup:10"], "builders": ["perfect", "karras"],
+        "pipelines": [{"builder": "perfect", "collider": "leaf"}], "samples": 7,
+        "quick": {"samples": 2, "scenes": ["soup:1"], "builders": ["perfect"]}})";
+    const Experiment whole = parse_experiment(text, "x.json", false);
+    EXPECT_EQ(whole.scenes, (std::vector<std::string>{"soup:9", "soup:10"}));
+    EXPECT_EQ(whole.builders.size(), 2u);
+    ASSERT_EQ(whole.collisions.size(), 2u);
+    EXPECT_EQ(whole.collisions[1].scene, "soup:10");
+    EXPECT_EQ(whole.samples, 7);
+    EXPECT_EQ(whole.collisions[0].samples, 7);
+    const Experiment quick = parse_experiment(text, "x.json", true);
+    EXPECT_EQ(quick.builders.size(), 1u);
+    EXPECT_EQ(quick.scenes, (std::vector<std::string>{"soup:1"}));
+    ASSERT_EQ(quick.collisions.size(), 1u);
+    EXPECT_EQ(quick.collisions[0].samples, 2);
+    EXPECT_THROW(parse_experiment(R"({"experiment": "mine", "builders": ["perfect"],
+        "scenes": [{"scene": "soup:9", "frames": "0:"}],
+        "pipelines": [{"builder": "perfect", "collider": "leaf"}]})", "x.json", false),
+                 BadUsage)
+        << "scenes of both are texts";
 }
 
 TEST(Experiment, OfWholeFramesReadsEveryKey)

@@ -140,7 +140,7 @@ TEST(Options, ThatAreNotUnderstoodAreAnsweredInOneSentence)
     }
     EXPECT_NE(
         refusal({"list", "colours"})
-            .find("there is no 'colours'; there are: builders, colliders, orders, skips, scenes, devices"),
+            .find("there is no 'colours'; there are: builders, colliders, orders, skips, tuning, scenes, devices"),
         std::string::npos);
 }
 

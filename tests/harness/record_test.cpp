@@ -112,6 +112,19 @@ TEST(Record, ReadsBackWhatItWrote)
     EXPECT_EQ(document.cells[2].samples[0].stages[0].elapsed_ns(), 1234);
 }
 
+TEST(Record, ReadsBackWhatALaunchCostsAndWhatTheDeviceWasTunedTo)
+{
+    RunFacts run = fake_run();
+    run.launch_cost_ns = 3812.5;
+    run.tuning_from = "results/tuning/a-device.json";
+    run.tuning = {{"sort.keys_per_item", 7}, {"walk.task_leaves", 32}};
+    const RunFacts read = read_document(document_text(run_text(run), {}), "test").run;
+    EXPECT_EQ(read.launch_cost_ns, 3812.5);
+    EXPECT_EQ(read.tuning_from, run.tuning_from);
+    EXPECT_EQ(read.tuning, run.tuning);
+    EXPECT_EQ(read_document(document_text(run_text(fake_run()), {}), "test").run.tuning_from, "none");
+}
+
 TEST(Record, TakesACellThatDoesNotSayForABuild)
 {
     std::string text = text_of(fake_run(), {fake_cell()});

@@ -20,6 +20,7 @@ import fig8  # noqa: E402
 import frame_stages  # noqa: E402
 import pipelines  # noqa: E402
 import results  # noqa: E402
+import roofline  # noqa: E402
 import scaling  # noqa: E402
 import style  # noqa: E402
 
@@ -49,7 +50,7 @@ class Scripts(TemporaryFolder):
         self.assertIn("</svg>", svg.read_text(encoding="utf-8"), svg)
 
     def test_all_draws_what_each_draws_byte_for_byte(self) -> None:
-        alone = ("table1", "table2", "table3", "table4", "fig8", "fig13", "scaling")
+        alone = ("table1", "table2", "table3", "table4", "fig8", "fig13", "scaling", "roofline")
         scripts = {name: (f"{name}.py", name) for name in alone}
         scripts |= {f"table2-{name}": (f"{name}.py", "table2") for name in ("fig9", "fig10")}
         scripts |= {name: ("frames.py", name) for name in ("rebuild", "pairs", "libraries")}
@@ -306,6 +307,60 @@ class Scaling(TemporaryFolder):
         self.assertEqual(above.get_label(), cell.builder)
         self.assertAlmostEqual(above.get_ydata()[0], 1e3 * whole)
         self.assertAlmostEqual(below.get_ydata()[0], 1e9 * whole / cell.triangles)
+
+
+class Roofline(TemporaryFolder):
+    def setUp(self) -> None:
+        super().setUp()
+        self.document = json.loads((GOLDEN / "roofline.json").read_text(encoding="utf-8"))
+
+    def drawn(self) -> roofline.plt.Figure:
+        return roofline.draw(results.load(self.written(self.document, "roofline.json")))
+
+    def test_has_a_panel_a_stage_with_a_line_a_builder_or_collider(self) -> None:
+        panels = {axes.get_title("left"): axes for axes in self.drawn().axes}
+        self.assertEqual(list(panels), ["bounds", "codes", "sort", "hierarchy", "broad", "narrow"])
+        self.assertEqual([len(axes.lines) for axes in panels.values()], 6 * [5])  # and the floor itself
+        labels = {line.get_label() for line in panels["broad"].lines[1:]}
+        self.assertEqual(labels, {"leaf over oibvh-multi", "group over oibvh-multi (hilbert30, sorted leaves)",
+                                  "bvtt (jump 2) over oibvh-multi", "grid"})
+
+    def test_divides_by_bytes_at_the_copy_rate_and_launches_at_their_cost(self) -> None:
+        for cell in self.document["cells"]:
+            for sample in cell["samples"]:
+                for stage in sample["stages"]:
+                    stage |= {"launches": 3, "moved_bytes": 24_000_000, "span_ns": 64_200}
+        for axes in self.drawn().axes:  # 24 MB at 2.4 TB/s are 10 microseconds, 3 launches 11.4
+            for line in axes.lines[1:]:
+                for value in line.get_ydata():
+                    self.assertAlmostEqual(value, 64.2 / 21.4)
+
+    def test_files_without_a_launch_cost_have_floors_of_bytes_alone(self) -> None:
+        del self.document["run"]["launch_cost_ns"]
+        run = results.load(self.written(self.document, "roofline.json"))
+        cell = run.of("roofline")[0]
+        self.assertAlmostEqual(roofline.floor_s(run, cell, "bounds"), 36 * cell.triangles / 2.4e12)
+
+    def test_stages_without_bytes_and_runs_without_a_copy_rate_have_none(self) -> None:
+        for cell in self.document["cells"]:
+            for sample in cell["samples"]:
+                for stage in sample["stages"]:
+                    if stage["stage"] in ("broad", "codes"):
+                        stage["moved_bytes"] = 0
+        titles = [axes.get_title("left") for axes in self.drawn().axes]
+        self.assertEqual(titles, ["bounds", "sort", "hierarchy", "narrow"])
+        del self.document["run"]["copy_rate_bytes_per_s"]
+        with self.assertRaisesRegex(results.Refused, "no measured cell of roofline has a stage with a floor"):
+            self.drawn()
+
+    def test_no_collider_looks_like_a_builder(self) -> None:
+        looks = [(look.colour, look.marker) for look in (*style.LOOKS.values(), *roofline.COLLIDERS.values())]
+        self.assertEqual(len(set(looks)), len(looks))
+
+    def test_every_collider_it_may_be_asked_for_has_a_look(self) -> None:
+        self.document["cells"][-1]["collider"]["name"] = "newcomer"
+        with self.assertRaisesRegex(results.Refused, "no look for the collider 'newcomer'"):
+            self.drawn()
 
 
 class Looks(unittest.TestCase):

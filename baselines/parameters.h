@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+//
+// What baselines let a device choose (device/tuning.h), beside builders/parameters.h.
+#pragma once
+
+#include "device/tuning.h"
+
+namespace bvhbench {
+
+inline constexpr Parameter radix_group_size{
+    .name = "radix.group_size",
+    .meaning = "work-items in a group of a radix tree's hierarchy",
+    .stage = "hierarchy",
+    .on_cpu = 256,
+    .elsewhere = 256,
+    .least = 1,
+    .most = 1024,
+    .values = ValueIs::group_size,
+    .candidates = {32, 64, 128, 256, 512}};
+
+/// All of them.
+inline constexpr const Parameter* baseline_parameters[] = {&radix_group_size};
+
+}  // namespace bvhbench

@@ -1,0 +1,161 @@
+#!/usr/bin/env python3
+"""How near each stage is to its floor: time over what copying its bytes and launching its kernels would take.
+
+    plots/roofline.py FILE... --out DIR
+
+A panel a stage, a line a builder, or of the query's stages a collider, against triangles. The floor is the least that a
+stage must read and write at the run's own copy rate, and its launches at the run's own cost of one that has nothing to
+do. Both axes are logarithmic; a line at 1 is a stage that nothing but the memory and the driver holds up, and below
+1 the caches have helped. Builds have one scale, each of the query's stages its own.
+"""
+from __future__ import annotations
+
+import math
+import sys
+from collections.abc import Hashable
+from typing import NamedTuple
+
+import matplotlib.pyplot as plt
+import numpy
+from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
+
+import figure
+import names
+import pipelines
+import results
+import style
+
+BUILD_STAGES = ("bounds", "codes", "sort", "order", "gather", "hierarchy")
+QUERY_STAGES = ("ropes", "broad", "narrow")
+COLUMNS = 4
+
+# Colliders over one tree would all have its builder's colour. Okabe and Ito's here too, and no builder's marker with it.
+COLLIDERS = {"leaf": style.Look("#000000", "*"), "group": style.Look("#E69F00", "P"),
+             "bvtt": style.Look("#009E73", "X"), "front": style.Look("#CC79A7", "H"),
+             "grid": style.Look(pipelines.COLOURS["grid"], "d")}
+
+
+class Line(NamedTuple):
+    """One builder's or collider's ratios in a panel, by triangles."""
+
+    label: str
+    look: style.Look
+    dash: str
+    points: list[tuple[int, results.Quantiles]]
+
+
+def floor_s(run: results.Run, cell: results.Cell, stage: str) -> float | None:
+    """Seconds; none for a stage on the host, or one whose launches declare no bytes."""
+    numbers = cell.samples[0].get(stage, {})
+    if run.copy_rate is None or not numbers.get("launches") or not numbers.get("moved_bytes"):
+        return None
+    return numbers["moved_bytes"] / run.copy_rate + numbers["launches"] * run.launch_cost_s
+
+
+def ratio(run: results.Run, cell: results.Cell, stage: str) -> results.Quantiles | None:
+    """Of the stage's times to its floor."""
+    floor = floor_s(run, cell, stage) if cell.samples else None
+    return results.quantiles(cell.times_s(stage) / floor) if floor else None
+
+
+def points(run: results.Run, cells: list[results.Cell], stage: str) -> list[tuple[int, results.Quantiles]]:
+    found = [(cell.triangles, ratio(run, cell, stage)) for cell in cells]
+    return sorted((point for point in found if point[1] is not None), key=lambda point: point[0])
+
+
+def build_lines(run: results.Run, stage: str) -> list[Line]:
+    cells = run.of("roofline")
+    among = style.in_order(cells)
+    lines = [Line(style.label(series, among), style.look(series[0]), style.VARIANT_LINES[style.variant(series, among)],
+                  points(run, [cell for cell in cells if style.series_of(cell) == series], stage)) for series in among]
+    return [line for line in lines if line.points]
+
+
+def query_lines(run: results.Run, stage: str) -> list[Line]:
+    """By collider; lines of one collider over several trees differ in their dashes."""
+    if not run.has_frames("roofline"):
+        return []
+    groups: dict[Hashable, list[results.Cell]] = {}
+    for cell in run.frames("roofline"):
+        groups.setdefault((cell.collider, cell.collider_options, cell.builder, cell.options), []).append(cell)
+    trees = list(dict.fromkeys((cells[0].builder, cells[0].options) for cells in groups.values()
+                               if cells[0].builder != "none"))
+    lines = []
+    for cells in groups.values():
+        first = cells[0]
+        if first.collider not in COLLIDERS:
+            raise results.Refused(f"plots/roofline.py has no look for the collider '{first.collider}'")
+        alone = len(trees) == 1 or first.builder == "none"
+        label = names.variant(first.collider, dict(first.collider_options)) if alone else first.called
+        dash = 0 if alone else trees.index((first.builder, first.options)) % len(style.VARIANT_LINES)
+        lines.append(Line(label, COLLIDERS[first.collider], style.VARIANT_LINES[dash], points(run, cells, stage)))
+    return [line for line in lines if line.points]
+
+
+def draw_panel(axes: plt.Axes, stage: str, lines: list[Line]) -> None:
+    axes.axhline(1, color="black", linewidth=0.8)
+    for line in lines:
+        sizes = [triangles for triangles, _ in line.points]
+        low, middle, high = ([getattr(quantiles, name) for _, quantiles in line.points]
+                             for name in ("p10", "median", "p90"))
+        axes.fill_between(sizes, low, high, color=line.look.colour, alpha=0.2, linewidth=0)
+        axes.plot(sizes, middle, color=line.look.colour, marker=line.look.marker, markersize=3, linestyle=line.dash,
+                  label=line.label)
+    axes.set_title(stage, loc="left")
+
+
+def dress(panels: list[plt.Axes], sizes: list[int]) -> None:
+    base = 16 if max(sizes) / min(sizes) > 2**10 else 4
+    for axes in panels:
+        axes.set_xscale("log", base=2)
+        axes.set_yscale("log")
+        axes.xaxis.set_major_locator(LogLocator(base=base, numticks=9))
+        axes.xaxis.set_minor_locator(NullLocator())
+        axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"$2^{{{round(math.log2(value))}}}$"))
+        axes.set_xlabel("triangles")
+
+
+def scale(panels: list[plt.Axes]) -> None:
+    """One scale for all, from a little under the floor, or under what is below it, on."""
+    drawn = numpy.concatenate([line.get_ydata() for axes in panels for line in axes.lines])
+    low, high = 0.8 * min(1.0, drawn.min()), 1.25 * drawn.max()
+    for axes in panels:
+        axes.set_ylim(low, high)
+        figure.log_ticks(axes.yaxis, low, high)
+
+
+def draw(run: results.Run) -> plt.Figure:
+    builds = {stage: lines for stage in BUILD_STAGES if (lines := build_lines(run, stage))}
+    queries = {stage: lines for stage in QUERY_STAGES if (lines := query_lines(run, stage))}
+    if not builds and not queries:
+        raise results.Refused(f"{run.path}: no measured cell of roofline has a stage with a floor")
+    stages = builds | queries
+    rows = math.ceil(len(stages) / COLUMNS)
+    drawing, grid = plt.subplots(rows, min(COLUMNS, len(stages)), figsize=(style.PAGE_WIDTH, 0.7 + 1.9 * rows),
+                                 layout="constrained", squeeze=False)
+    panels = list(grid.flat)
+    for axes in panels[len(stages):]:
+        axes.remove()
+    panels = panels[:len(stages)]
+    for axes, (stage, lines) in zip(panels, stages.items()):
+        draw_panel(axes, stage, lines)
+    dress(panels, [size for lines in stages.values() for line in lines for size, _ in line.points])
+    if builds:
+        scale(panels[:len(builds)])
+    for axes in panels[len(builds):]:
+        scale([axes])
+    for row in range(rows):
+        panels[row * COLUMNS].set_ylabel("time over its floor")
+    handles: dict[str, plt.Line2D] = {}
+    for axes in panels:
+        for handle, label in zip(*axes.get_legend_handles_labels()):
+            handles.setdefault(label, handle)
+    height = figure.legend_above(drawing, list(handles.values()), 3)
+    rate = (f"Floor: bytes at {run.copy_rate * 1e-9:,.1f} GB/s, read plus written, and launches at "
+            f"{run.launch_cost_s * 1e6:.2g} µs. Medians; bands: 10th to 90th percentile.")
+    figure.footer(drawing, run, "roofline", (rate,), height)
+    return drawing
+
+
+if __name__ == "__main__":
+    sys.exit(figure.command_line("roofline", __doc__, draw))

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#include "harness/query_bytes.h"
+
+#include <gtest/gtest.h>
+
+namespace bvhbench {
+namespace {
+
+TEST(CornerBytes, CountEachFaceAndPointOnce)
+{
+    const std::vector<Point> points(6);
+    const std::vector<Face> faces = {{0, 1, 2}, {1, 2, 3}, {3, 4, 5}, {0, 0, 0}};
+    Input input;
+    input.points = points;
+    input.faces = faces;
+    const std::vector<Pair> none, pairs = {{0, 1}, {0, 3}, {1, 3}};
+    EXPECT_EQ(corner_bytes(none, input), 0);
+    EXPECT_EQ(corner_bytes(pairs, input),
+              static_cast<std::int64_t>(3 * sizeof(Face) + 4 * sizeof(Point)));
+}
+
+TEST(AddedBytes, GoToTheStageIfItHasLaunches)
+{
+    std::vector<StageTime> stages = {{.stage = "broad", .launches = 2, .moved_bytes = 10},
+                                     {.stage = "broad", .wall_ns = 5},
+                                     {.stage = "narrow", .launches = 1, .moved_bytes = 1}};
+    add_moved_bytes(stages, "broad", 100);
+    EXPECT_EQ(stages[0].moved_bytes, 110);
+    EXPECT_EQ(stages[1].moved_bytes, 0);
+    EXPECT_EQ(stages[2].moved_bytes, 1);
+}
+
+}  // namespace
+}  // namespace bvhbench

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+//
+// What can be tuned is right with every value that its parameters may have, one at a time, and says so if it is not.
+#include "harness/trials.h"
+
+#include <gtest/gtest.h>
+
+#include "builders/parameters.h"
+#include "collide/parameters.h"
+#include "geometry/error.h"
+#include "harness/failure.h"
+
+namespace bvhbench {
+namespace {
+
+struct Tunable {
+    const char* target;
+    const char* builder = "oibvh-multi";
+    const char* order = "morton30";
+    bool sorted_leaves = false;
+    const char* narrow = "none";
+};
+
+class Trials : public testing::TestWithParam<Tunable> {
+protected:
+    TuneTask task() const
+    {
+        TuneTask task{GetParam().target, "torus:1500", {}, {}};
+        task.builder.name = GetParam().builder;
+        task.builder.order = GetParam().order;
+        task.builder.sorted_leaves = GetParam().sorted_leaves;
+        task.collider.narrow = GetParam().narrow;
+        return task;
+    }
+};
+
+TEST_P(Trials, AreRightWithEveryCandidateThatTheDeviceCanDo)
+{
+    Session session(CommonOptions{});
+    TuneTarget target(session, task());
+    const auto first = target.trial({});
+    EXPECT_EQ(first->wrong(), "");
+    int wanted = 0, right = 0;
+    for (const Parameter* parameter : first->asked()) {
+        if (!target.wants(*parameter))
+            continue;
+        ++wanted;
+        for (const uint value : parameter->candidates) {
+            Tuning tuning;
+            tuning.set(*parameter, value);
+            std::string wrong;
+            const std::string impossible = reason_of_failure([&] {
+                const auto trial = target.trial(tuning);
+                wrong = trial->wrong();
+                ASSERT_FALSE(trial->once().empty());
+            });
+            EXPECT_EQ(wrong, "") << parameter->name << " = " << value;
+            right += impossible.empty() ? 1 : 0;
+        }
+    }
+    EXPECT_GT(wanted, 0) << "nothing to tune";
+    EXPECT_GT(right, wanted) << "hardly any value is possible";
+}
+
+INSTANTIATE_TEST_SUITE_P(Targets, Trials,
+                         testing::Values(Tunable{"sort", "oibvh-multi", "morton63"},
+                                         Tunable{"oibvh-multi", "oibvh-multi", "morton30", true},
+                                         Tunable{"oibvh-multi", "oibvh-multi", "kd"},
+                                         Tunable{"group", "apetrei-fused"},
+                                         Tunable{"bvtt", "oibvh-multi", "morton30", true, "exact"},
+                                         Tunable{"front"}, Tunable{"grid", "none"}),
+                         [](const auto& tested) {
+                             std::string name = tested.param.target + std::string("_") +
+                                                tested.param.builder + "_" + tested.param.order;
+                             std::replace(name.begin(), name.end(), '-', '_');
+                             return name;
+                         });
+
+TEST(TuneTarget, IsTheSortABuilderOrACollider)
+{
+    for (const char* target : {"sort", "karras", "grid"})
+        EXPECT_NO_THROW(check_target(target));
+    EXPECT_THROW(check_target("sotr"), BadUsage);
+}
+
+TEST(TuneTarget, LeavesWhatIsNotItsOwnAlone)
+{
+    Session session(CommonOptions{});
+    TuneTarget leaf(session, {"leaf", "soup:10", {.name = "perfect"}, {}});
+    EXPECT_TRUE(leaf.wants(walk_task_leaves));
+    EXPECT_FALSE(leaf.wants(sort_chunk_digit_bits));
+    EXPECT_FALSE(leaf.wants(chunks_per_core));
+    TuneTarget sort(session, {"sort", "soup:10", {}, {}});
+    EXPECT_TRUE(sort.wants(sort_chunk_digit_bits));
+    EXPECT_FALSE(sort.wants(chunks_per_core));
+    TuneTarget builder(session, {"perfect", "soup:10", {}, {}});
+    EXPECT_TRUE(builder.wants(chunks_per_core));
+}
+
+}  // namespace
+}  // namespace bvhbench

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: MIT
+//
+// The search over made-up trials, whose times and answers are known.
+#include "harness/tuner.h"
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+
+#include "geometry/error.h"
+#include "harness/interrupt.h"
+
+namespace bvhbench {
+namespace {
+
+constexpr Parameter keys_parameter{.name = "fake.keys",
+                                   .meaning = "keys",
+                                   .stage = "sort",
+                                   .on_cpu = 4,
+                                   .elsewhere = 4,
+                                   .least = 1,
+                                   .most = 64,
+                                   .candidates = {1, 2, 4, 8, 16}};
+constexpr Parameter items_parameter{.name = "fake.items",
+                                    .meaning = "items",
+                                    .stage = "hierarchy",
+                                    .on_cpu = 1,
+                                    .elsewhere = 1,
+                                    .least = 1,
+                                    .most = 8,
+                                    .candidates = {1, 2, 3}};
+constexpr Parameter aside_parameter{.name = "fake.aside",
+                                    .meaning = "nobody asks",
+                                    .stage = "sort",
+                                    .on_cpu = 1,
+                                    .elsewhere = 1,
+                                    .least = 1,
+                                    .most = 8,
+                                    .candidates = {1, 2, 3}};
+
+/// What a trial takes and leaves for a value of `keys` and of `items`.
+struct World {
+    std::function<std::int64_t(uint keys, uint items)> sort_ns = [](uint, uint) { return 1000; };
+    std::function<std::int64_t(uint keys, uint items)> hierarchy_ns = [](uint, uint) {
+        return 500;
+    };
+    std::function<std::string(uint keys, uint items)> wrong = [](uint, uint) { return ""; };
+    std::function<void(uint keys, uint items)> make = [](uint, uint) {};
+    std::function<void()> run = [] {};
+};
+
+class FakeTrial final : public Trial {
+public:
+    FakeTrial(const World& world, const Tuning& tuning)
+        : world_(world)
+        , tuning_(tuning)
+        , keys_(tuning_.value(keys_parameter, true))
+        , items_(tuning_.value(items_parameter, true))
+    {
+        world_.make(keys_, items_);
+    }
+    std::string wrong() override { return world_.wrong(keys_, items_); }
+    std::vector<StageTime> once() override
+    {
+        world_.run();
+        const std::int64_t jitter = 3 * (runs_++ % 5);  // less than a part in a hundred
+        const std::int64_t sort = world_.sort_ns(keys_, items_) + jitter;
+        return {{"sort", sort, sort, 0, 1, 0},
+                {"hierarchy", world_.hierarchy_ns(keys_, items_),
+                 world_.hierarchy_ns(keys_, items_), 0, 1, 0}};
+    }
+    std::set<const Parameter*> asked() const override { return tuning_.asked(); }
+
+private:
+    const World& world_;
+    Tuning tuning_;
+    uint keys_, items_;
+    int runs_ = 0;
+};
+
+SearchResult searched(const World& world, const Tuning& start = {}, int rounds = 2)
+{
+    SearchResult result;
+    search([&](const Tuning& tuning) { return std::make_unique<FakeTrial>(world, tuning); }, start,
+           [](const Parameter&) { return true; },
+           {.samples = 7, .warm_up = 1, .rounds = rounds, .is_cpu = true},
+           [](const std::string&) {}, result);
+    return result;
+}
+
+const Tried& tried(const SearchResult& result, const Parameter& parameter, uint value)
+{
+    for (const Tried& one : result.tries)
+        if (one.parameter == &parameter && one.value == value)
+            return one;
+    throw std::out_of_range("not tried");
+}
+
+TEST(Search, KeepsTheFastestValueOfEachParameter)
+{
+    World world;
+    world.sort_ns = [](uint keys, uint) { return keys == 8 ? 600 : keys == 2 ? 800 : 1000; };
+    world.hierarchy_ns = [](uint, uint items) { return items == 3 ? 300 : 500; };
+    const SearchResult result = searched(world);
+    EXPECT_EQ(result.best.value(keys_parameter, true), 8u);
+    EXPECT_EQ(result.best.value(items_parameter, true), 3u);
+    EXPECT_EQ(result.kept.size(), 2u);
+    EXPECT_EQ(tried(result, keys_parameter, 8).verdict, Tried::Verdict::better);
+    EXPECT_NEAR(tried(result, keys_parameter, 8).ratio, 0.6, 0.01);
+    EXPECT_EQ(tried(result, keys_parameter, 2).verdict, Tried::Verdict::not_better)
+        << "but not the fastest";
+    EXPECT_EQ(tried(result, keys_parameter, 4).verdict, Tried::Verdict::current);
+    EXPECT_NEAR(result.start_ns, 1500, 20);
+    EXPECT_NEAR(result.best_ns, 900, 20);
+}
+
+TEST(Search, NeverChoosesAWrongAnswerHoweverFast)
+{
+    World world;
+    world.sort_ns = [](uint keys, uint) { return keys == 16 ? 10 : keys == 8 ? 900 : 1000; };
+    world.wrong = [](uint keys, uint) { return keys == 16 ? "box 7 differs" : ""; };
+    const SearchResult result = searched(world);
+    EXPECT_EQ(result.best.value(keys_parameter, true), 8u);
+    EXPECT_EQ(tried(result, keys_parameter, 16).verdict, Tried::Verdict::wrong);
+    EXPECT_EQ(tried(result, keys_parameter, 16).median_ns, 0) << "a wrong answer has no time";
+    EXPECT_NE(search_report(result).find("wrong: box 7 differs"), std::string::npos);
+}
+
+TEST(Search, NeverChoosesWhatIsWrongOnlyAfterItWasTimed)
+{
+    World world;
+    int checks = 0;
+    world.sort_ns = [](uint keys, uint) { return keys == 16 ? 10 : 1000; };
+    world.wrong = [&](uint keys, uint) { return keys == 16 && ++checks % 2 == 0 ? "a race" : ""; };
+    const SearchResult result = searched(world);
+    EXPECT_EQ(result.best.value(keys_parameter, true), 4u);
+    EXPECT_EQ(tried(result, keys_parameter, 16).verdict, Tried::Verdict::wrong);
+}
+
+TEST(Search, PassesOverWhatTheDeviceCannotDo)
+{
+    World world;
+    world.sort_ns = [](uint keys, uint) { return keys == 2 ? 900 : 1000; };
+    world.make = [](uint keys, uint) {
+        if (keys == 16)
+            throw Unavailable("needs 70000 bytes of local memory\nand a log");
+    };
+    const SearchResult result = searched(world);
+    EXPECT_EQ(result.best.value(keys_parameter, true), 2u);
+    EXPECT_EQ(tried(result, keys_parameter, 16).verdict, Tried::Verdict::impossible);
+    EXPECT_EQ(tried(result, keys_parameter, 16).detail, "needs 70000 bytes of local memory");
+}
+
+TEST(Search, LeavesEverythingWhereNothingIsBetterByMoreThanNoise)
+{
+    World world;
+    world.sort_ns = [](uint keys, uint) { return keys == 8 ? 995 : 1000; };
+    const SearchResult result = searched(world);
+    EXPECT_TRUE(result.kept.empty());
+    EXPECT_TRUE(result.best.values().empty());
+    EXPECT_EQ(result.best_ns, 0) << "nothing to compare in the end";
+    EXPECT_EQ(result.searched, (std::set<const Parameter*>{&keys_parameter, &items_parameter}));
+}
+
+TEST(Search, GivesUpWhatMakesTheWholeNoFaster)
+{
+    World world;  // what the sort gains the hierarchy loses
+    world.sort_ns = [](uint keys, uint) { return keys == 8 ? 600 : 1000; };
+    world.hierarchy_ns = [](uint keys, uint) { return keys == 8 ? 900 : 400; };
+    const SearchResult result = searched(world);
+    EXPECT_EQ(tried(result, keys_parameter, 8).verdict, Tried::Verdict::better);
+    EXPECT_TRUE(result.kept.empty());
+    EXPECT_FALSE(result.best.has(keys_parameter));
+    EXPECT_NE(search_report(result).find("not faster, nothing is kept"), std::string::npos);
+}
+
+TEST(Search, GoesThroughAllAgainWhereOneDependsOnAnother)
+{
+    World world;  // more keys pay only with more items, which come first by name
+    world.sort_ns = [](uint keys, uint items) {
+        return keys == 8 ? (items == 2 ? 500 : 700) : 1000;
+    };
+    world.hierarchy_ns = [](uint keys, uint items) { return items == 2 && keys == 8 ? 100 : 500; };
+    EXPECT_EQ(searched(world, {}, 1).best.value(items_parameter, true), 1u);
+    EXPECT_EQ(searched(world, {}, 2).best.value(items_parameter, true), 2u);
+}
+
+TEST(Search, StartsFromDefaultsAndLeavesOtherParametersAsTheyAre)
+{
+    Tuning start;
+    start.set(keys_parameter, 16);
+    start.set(aside_parameter, 3);
+    const SearchResult result = searched({}, start);
+    EXPECT_EQ(tried(result, keys_parameter, 4).verdict, Tried::Verdict::current);
+    EXPECT_FALSE(result.best.has(keys_parameter));
+    EXPECT_EQ(result.best.value(aside_parameter, true), 3u);
+    EXPECT_THROW(tried(result, aside_parameter, 1), std::out_of_range) << "nobody asked for it";
+}
+
+TEST(Search, EndsWhereTheAnswerIsWrongBeforeAnythingIsTuned)
+{
+    World world;
+    world.wrong = [](uint, uint) { return "wrong everywhere"; };
+    EXPECT_THROW(searched(world), Unavailable);
+}
+
+TEST(Search, KeepsWhatWasFoundWhenItIsStopped)
+{
+    World world;
+    world.hierarchy_ns = [](uint, uint items) { return items == 3 ? 300 : 500; };
+    world.make = [](uint keys, uint) {
+        if (keys == 16)  // the second parameter's last candidate
+            std::raise(SIGINT);
+    };
+    SearchResult result;
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
+    EXPECT_EXIT(
+        {
+            remember_interrupts();
+            try {
+                search(
+                    [&](const Tuning& tuning) {
+                        return std::make_unique<FakeTrial>(world, tuning);
+                    },
+                    {}, [](const Parameter&) { return true; },
+                    {.samples = 7, .warm_up = 1, .rounds = 2, .is_cpu = true},
+                    [](const std::string&) {}, result);
+            } catch (const Interrupted&) {
+                std::exit(result.best.value(items_parameter, true) == 3 &&
+                                  result.kept.size() == 1 &&
+                                  result.searched == std::set<const Parameter*>{&items_parameter}
+                              ? 42
+                              : 1);
+            }
+        },
+        testing::ExitedWithCode(42), "");
+}
+
+TEST(IsFaster, WantsMoreThanNoiseAndMoreThanAHundredth)
+{
+    EXPECT_TRUE(is_faster({90, 91, 89, 90}, {100, 101, 99, 100}));
+    EXPECT_FALSE(is_faster({99.5, 99.5, 99.5}, {100, 100, 100}));
+    EXPECT_FALSE(is_faster({60, 90, 120, 95}, {70, 100, 140, 98})) << "they scatter";
+    EXPECT_FALSE(is_faster({100, 101}, {90, 91}));
+}
+
+}  // namespace
+}  // namespace bvhbench
