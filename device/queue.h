@@ -46,7 +46,11 @@ public:
     /// Read the front of `memory` once all before has run. Waits. Timed like a launch.
     void read(const cl::Buffer& memory, std::size_t bytes, void* to);
 
-    /// Run host work as a stage of its own, after everything enqueued before has finished.
+    /// Run host work as part of the stage begun last, which launches nothing, after everything enqueued before has
+    /// finished.
+    void work_on_host(const std::function<void()>& work);
+
+    /// The same as a stage of its own.
     void on_host(std::string_view stage, const std::function<void()>& work);
 
     /// Wait for everything, then return and forget the stages since the last call.

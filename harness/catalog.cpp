@@ -42,6 +42,8 @@ constexpr BuilderEntry catalog[] = {
      make_oibvh_single},
     {"oibvh-multi", "Oi-BVH in several launches, groups meet between them", oi_tree,
      make_oibvh_multi},
+    {"oibvh-host", "Oi-BVH by plain threads on the host, from leaves lined up on the device", oi_tree,
+     make_oibvh_host},
     {"oibvh-reference", "Oi-BVH on one core of the host, slowly: the oracle", oi_tree,
      make_oibvh_reference},
     {"radix-reference", "radix tree on one core of the host, slowly: the oracle", radix_tree,

@@ -13,6 +13,9 @@ std::unique_ptr<Builder> make_oibvh_multi(Programs& programs, const BuildOptions
 /// Algorithm 1 in one launch: above a group's subtree, groups meet through global atomics.
 std::unique_ptr<Builder> make_oibvh_single(Programs& programs, const BuildOptions& options);
 
+/// The same tree, its hierarchy by plain threads of the host: the yardstick for kernels on a CPU.
+std::unique_ptr<Builder> make_oibvh_host(Programs& programs, const BuildOptions& options);
+
 /// The paper, slowly, on one core: the oracle for the kernels.
 std::unique_ptr<Builder> make_oibvh_reference(Programs& programs, const BuildOptions& options);
 

@@ -34,6 +34,7 @@ LOOKS = {
     "lbvh-levels": Look("#CC79A7", "p", "////"),
     "oibvh-single": Look("#56B4E9", "o"),
     "oibvh-multi": Look("#0072B2", "o"),
+    "oibvh-host": Look("#0072B2", "d", "...."),
     "oibvh-reference": Look("#000000", "x"),
     "radix-reference": Look("#000000", "+", "////"),
     "heap-median": Look("#8C510A", "s", "xxxx"),
