@@ -20,7 +20,7 @@ struct StageTime {
     std::int64_t wall_ns = 0;  ///< host clock; set by host stages only
     int launches = 0;
     std::int64_t moved_bytes = 0;  ///< the least its launches must read and write, as they declared
-    std::int64_t start_ns = 0;     ///< device clock, its first start, from that of the first stage on
+    std::int64_t start_ns = 0;  ///< device clock, its first start, from that of the first stage on
 
     /// The one duration to quote: the span on the device, else the host clock.
     std::int64_t elapsed_ns() const { return launches > 0 ? span_ns : wall_ns; }

@@ -22,8 +22,7 @@ public:
 private:
     std::unique_ptr<OrderedBuilder> twin() const override
     {
-        return std::make_unique<KernelBuilder>(programs_, card(), tree_.layout, meeting_,
-                                               options_);
+        return std::make_unique<KernelBuilder>(programs_, card(), tree_.layout, meeting_, options_);
     }
 
     void enqueue_hierarchy(Queue& queue) override { enqueue(whole_, queue); }
@@ -59,7 +58,8 @@ private:
     /// The launches that make the trees of all objects, or of some.
     struct Launches {
         std::vector<Launch> list;
-        std::vector<cl_uint2> subtree_list;  ///< object and position, launch by launch; of several objects only
+        /// Object and position, launch by launch; of several objects only.
+        std::vector<cl_uint2> subtree_list;
         Buffer<cl_uint2> subtrees;
     };
 
@@ -74,7 +74,8 @@ private:
     Cut cut_;
     cl::Kernel from_ids_, from_nodes_;
     Launches whole_, update_;
-    Buffer<uint> arrivals_;  ///< hand-off only: one a node above the first launch's subtrees, or one a slot
+    /// Hand-off only: one a node above the first launch's subtrees, or one a slot.
+    Buffer<uint> arrivals_;
 };
 
 void KernelBuilder::plan_hierarchy(Arena& arena)
@@ -89,8 +90,8 @@ void KernelBuilder::plan_hierarchy(Arena& arena)
     if (handoff() && is_forest())
         above = tree_.nodes.size();
     else if (handoff() && !whole_.list.empty())
-        above = tree_.layout.first_slot(tree_.leaves, whole_.list[0].of_first.entry_level + 1 -
-                                                          whole_.list[0].of_first.levels);
+        above = tree_.layout.first_slot(
+            tree_.leaves, whole_.list[0].of_first.entry_level + 1 - whole_.list[0].of_first.levels);
     arrivals_ = arena.take<uint>(above, Use::scratch);
 }
 
@@ -109,8 +110,8 @@ void KernelBuilder::plan_launches(Launches& launches, std::span<const uint> obje
     for (const SubtreeSchedule& schedule : schedules)
         count = std::max(count, handoff() ? std::min(schedule.count, 1u) : schedule.count);
     for (uint k = 0; k < count; ++k) {
-        Launch launch{static_cast<uint>(launches.subtree_list.size()), 0,
-                      schedules[0].launches[k], 0};
+        Launch launch{static_cast<uint>(launches.subtree_list.size()), 0, schedules[0].launches[k],
+                      0};
         for (std::size_t chosen = 0; chosen < objects.size(); ++chosen) {
             if (k >= schedules[chosen].count)
                 continue;
@@ -125,8 +126,7 @@ void KernelBuilder::plan_launches(Launches& launches, std::span<const uint> obje
     }
 }
 
-void KernelBuilder::begin_update(const cl::CommandQueue& queue,
-                                   std::span<const TreeUpdate> updates)
+void KernelBuilder::begin_update(const cl::CommandQueue& queue, std::span<const TreeUpdate> updates)
 {
     std::vector<uint> objects;
     for (uint object = 0; object < updates.size(); ++object)
@@ -145,8 +145,10 @@ void KernelBuilder::enqueue(const Launches& launches, Queue& queue)
 void KernelBuilder::prepare(const cl::CommandQueue& queue)
 {
     ImplicitBuilder::prepare(queue);
-    const std::string prefix = std::string(is_forest() ? "forest_" : "") +
-                               (handoff() ? "single_" : is_forest() ? "" : "multi_");
+    const std::string prefix =
+        std::string(is_forest() ? "forest_" : "") + (handoff()     ? "single_"
+                                                     : is_forest() ? ""
+                                                                   : "multi_");
     from_ids_ = kernel(prefix + "from_ids");
     from_nodes_ = kernel(prefix + "from_nodes");
     arrivals_.upload(queue, std::vector<uint>(arrivals_.size(), 0u));

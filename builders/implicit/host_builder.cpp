@@ -67,7 +67,8 @@ void HostThreadsBuilder::build(const std::vector<HostLevels>& trees) const
     };
     std::vector<Subtree> subtrees;
     for (const HostLevels& tree : trees)
-        for (uint k = 0; tree.leaves > 1 && k < implicit_used_on(tree.leaves, root_level(tree)); ++k)
+        for (uint k = 0; tree.leaves > 1 && k < implicit_used_on(tree.leaves, root_level(tree));
+             ++k)
             subtrees.push_back({&tree, k});
 
     std::atomic<std::size_t> next{0};

@@ -10,9 +10,10 @@ namespace bvhbench {
 struct HostLevels {
     ImplicitLayout layout;
     uint leaves = 0;
-    Aabb* nodes = nullptr;             ///< by slot
-    const Aabb* leaf_boxes = nullptr;  ///< in mesh order; null if leaves are in `nodes`, in leaf order
-    const uint* ids = nullptr;         ///< triangles in leaf order
+    Aabb* nodes = nullptr;  ///< by slot
+    const Aabb* leaf_boxes =
+        nullptr;                ///< in mesh order; null if leaves are in `nodes`, in leaf order
+    const uint* ids = nullptr;  ///< triangles in leaf order
 
     /// Build from the leaves to the node at `position` of `root_level`, which is above the leaves: all inner nodes
     /// of that subtree, level by level.

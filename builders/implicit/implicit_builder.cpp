@@ -38,10 +38,9 @@ void ImplicitBuilder::plan(Arena& arena, std::span<const uint> sizes)
     leaf_order_.plan(arena, sizes, tree_.sorted_leaves ? Use::scratch : Use::tree, false);
     tree_.leaf_boxes = tree_.sorted_leaves ? Buffer<Aabb>{} : leaf_order_.boxes();
     tree_.ids = leaf_order_.ids();
-    gathered_ = {tree_.nodes,
-                 tree_.layout.first_slot(primitives, implicit_leaf_level(primitives)),
-                 arena.take<uint>(is_forest() && tree_.sorted_leaves ? sizes.size() : 0,
-                                  Use::scratch)};
+    gathered_ = {
+        tree_.nodes, tree_.layout.first_slot(primitives, implicit_leaf_level(primitives)),
+        arena.take<uint>(is_forest() && tree_.sorted_leaves ? sizes.size() : 0, Use::scratch)};
     plan_hierarchy(arena);
 }
 
@@ -51,9 +50,9 @@ void ImplicitBuilder::prepare(const cl::CommandQueue& queue)
     if (gathered_.slots.size() > 0) {
         std::vector<uint> slots;
         for (const ForestObject& object : tree_.objects)
-            slots.push_back(object.nodes - object.first +
-                            tree_.layout.first_slot(object.leaves,
-                                                    implicit_leaf_level(object.leaves)));
+            slots.push_back(
+                object.nodes - object.first +
+                tree_.layout.first_slot(object.leaves, implicit_leaf_level(object.leaves)));
         gathered_.slots.upload(queue, slots);
     }
     if (tree_.sorted_leaves)  // padding that a traversal may read

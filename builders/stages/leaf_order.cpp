@@ -56,7 +56,7 @@ struct LeafOrder::Stages {
         if (entry.medians == Medians::everywhere) {
             cells.emplace(programs, MedianShape{.form = form});
         } else {
-            codes.emplace(programs, entry);
+            codes.emplace(programs, entry, form);
             sort.emplace(programs, entry.code_bits, SortShape{.form = form});
         }
         if (entry.medians != Medians::nowhere)

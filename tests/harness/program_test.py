@@ -79,8 +79,8 @@ def test_exit_codes():
 
 def test_lists_put_the_name_first():
     first = [line.split()[0] for line in expect(0, "list", "builders").splitlines()]
-    assert first[:9] == ["perfect", "karras", "apetrei", "apetrei-fused", "lbvh-levels", "oibvh-single",
-                         "oibvh-multi", "oibvh-reference", "radix-reference"], first
+    assert first[:10] == ["perfect", "karras", "apetrei", "apetrei-fused", "lbvh-levels", "oibvh-single",
+                         "oibvh-multi", "oibvh-host", "oibvh-reference", "radix-reference"], first
     assert expect(0, "list", "orders").startswith("morton30 ")
     expect(0, "list", "scenes", says="\nsoup:")
     assert expect(0, "list", "experiments").startswith("table1 ")
