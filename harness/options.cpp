@@ -190,6 +190,9 @@ void add_common(CLI::App& app, CommonOptions& common)
     app.add_option("--device", common.device, "words of its name, or its index in `list devices`");
     app.add_option("--kernels", common.kernels, "a source tree to read kernels from");
     app.add_option("--data", common.data, "the folder of data sets; default: BVHBENCH_DATA");
+    app.add_option("--memory-limit", common.memory_limit,
+                   "bytes that device and host may each take, as 512M or 2G; default: all there are")
+        ->transform(CLI::AsSizeValue(false));
     app.add_flag("--verbose", common.verbose, "say on stderr what is being used");
     app.set_version_flag("--version", std::string("bvhbench ") + build_info.version);
     app.require_subcommand(0, 1);

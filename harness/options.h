@@ -17,6 +17,7 @@ struct CommonOptions {
     std::string device;   ///< words or an index; empty: the first CPU, else the first device
     std::string kernels;  ///< a source tree to read kernels from; empty: those in the program
     std::string data;     ///< the folder of data sets; empty: BVHBENCH_DATA
+    std::size_t memory_limit = 0;  ///< bytes of the device and of the host each; 0: what there is
     bool verbose = false;
 };
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "harness/session.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
 
+#include "device/host_memory.h"
 #include "geometry/error.h"
 #include "harness/pocl_cache.h"
 
@@ -14,6 +16,7 @@ SceneLibrary scene_library(const CommonOptions& common)
 {
     SceneLibrary library;
     const char* variable = std::getenv("BVHBENCH_DATA");
+    library.host_memory_bytes = common.memory_limit;
     library.data = !common.data.empty() ? common.data : variable != nullptr ? variable : "";
     return library;
 }
@@ -21,15 +24,19 @@ SceneLibrary scene_library(const CommonOptions& common)
 Device open_device_of(const CommonOptions& common)
 {
     prepare_pocl_cache();
-    if (common.kernels.empty())
-        return open_device(common.device);
-    if (!std::filesystem::is_directory(common.kernels))
+    if (!common.kernels.empty() && !std::filesystem::is_directory(common.kernels))
         throw Unavailable("--kernels: there is no folder '" + common.kernels + "'");
-    return open_device(common.device, Sources::tree(common.kernels));
+    Device device = open_device(common.device, common.kernels.empty()
+                                                   ? Sources::preferred()
+                                                   : Sources::tree(common.kernels));
+    if (common.memory_limit > 0)
+        device.memory_limit = common.memory_limit;
+    return device;
 }
 
 Session::Session(const CommonOptions& common)
-    : device_(open_device_of(common))
+    : host_memory_limit_(common.memory_limit)
+    , device_(open_device_of(common))
     , programs_(device_)
     , queue_(std::make_unique<Queue>(device_))
     , library_(scene_library(common))
@@ -37,6 +44,17 @@ Session::Session(const CommonOptions& common)
     if (common.verbose)
         std::cerr << "device: " << device_.platform() << '/' << device_.name()
                   << "\nkernels: " << device_.sources.origin() << '\n';
+}
+
+void Session::require_host_memory(std::string_view what, std::uint64_t bytes) const
+{
+    std::uint64_t given = available_host_memory().value_or(bytes);
+    if (host_memory_limit_ > 0)
+        given = std::min(given, host_memory_limit_);
+    if (bytes > given)
+        throw Unavailable("out of host memory: " + std::string(what) + " takes about " +
+                          std::to_string(bytes) + " bytes, and the host gives " +
+                          std::to_string(given));
 }
 
 void Session::renew_queue() { queue_ = std::make_unique<Queue>(device_); }

@@ -24,6 +24,10 @@ public:
     Queue& queue() { return *queue_; }
     const SceneLibrary& scenes() const { return library_; }
 
+    /// Throws Unavailable if the host has not so many bytes for `what`. Asked before they are needed, as it is of
+    /// the device.
+    void require_host_memory(std::string_view what, std::uint64_t bytes) const;
+
     /// Forget what a failed build left in the queue.
     void renew_queue();
 
@@ -47,6 +51,7 @@ private:
         std::unique_ptr<Builder> builder;
     };
 
+    std::uint64_t host_memory_limit_;
     Device device_;
     Programs programs_;
     std::unique_ptr<Queue> queue_;
