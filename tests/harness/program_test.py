@@ -54,13 +54,14 @@ def test_memory_that_will_not_do_is_told_before_it_is_taken():
     expect(2, *build, "much", says="--memory-limit")
     pathlib.Path("memory.json").write_text(json.dumps({
         "experiment": "memory", "question": "?", "scenes": ["torus:150000", "torus:1000"],
-        "builders": ["oibvh-multi", "sah-binned", "oibvh-single"], "samples": 1, "warm_up": 0}))
-    expect(0, "run", "memory.json", "--memory-limit", "50M", "--out", "memory-out.json", says="6 cells, 5 agree")
+        "builders": ["oibvh-multi", "perfect", "karras", "apetrei", "sah-binned", "oibvh-single"],
+        "samples": 1, "warm_up": 0}))
+    expect(0, "run", "memory.json", "--memory-limit", "48M", "--out", "memory-out.json", says="12 cells, 11 agree")
     cells = {(cell["scene"]["name"], cell["builder"]["name"]): cell for cell in valid("memory-out.json")["cells"]}
-    # There is room for the scene and for one tree of that size, and then for what is small.
-    failed = cells["torus:150000", "oibvh-single"]
+    # There is room beside the scene for some trees, for no more of that size with so much scratch, and for what is small.
+    failed = cells["torus:150000", "apetrei"]
     assert failed["status"] == "failed" and "out of device memory: " in failed["reason"], failed
-    assert " taken, " in failed["reason"] and failed["reason"].endswith(" gives 52428800"), failed
+    assert " taken, " in failed["reason"] and failed["reason"].endswith(" gives 50331648"), failed
     assert all(cell["status"] == "measured" for cell in cells.values() if cell is not failed), cells
 
 
@@ -77,16 +78,19 @@ def kernels_compiled(folder: pathlib.Path, *words: str) -> int:
 
 def test_a_build_compiles_the_kernels_that_it_launches_and_no_others():
     # The copy rate 1, bounds 2, codes 1, the sort 3; and then the tree's own. Each takes PoCL a tenth of a second or so.
-    for most, *words in ((9, "--builder", "oibvh-multi"), (9, "--builder", "oibvh-multi", "--order", "hilbert63"),
-                         (9, "--builder", "oibvh-multi", "--leaves", "sorted"), (7, "--builder", "oibvh-host"),
-                         (8, "--builder", "apetrei-fused"), (8, "--builder", "oibvh-multi", "--order", "kd"),
-                         (1, "--builder", "median-split")):
+    # Their texts are as many programs, of which each costs as much again.
+    for most, texts, *words in ((9, 5, "--builder", "oibvh-multi"),
+                                (9, 5, "--builder", "oibvh-multi", "--order", "hilbert63"),
+                                (9, 6, "--builder", "oibvh-multi", "--leaves", "sorted"),
+                                (7, 4, "--builder", "oibvh-host"), (8, 5, "--builder", "apetrei-fused"),
+                                (8, 6, "--builder", "oibvh-multi", "--order", "kd"),
+                                (1, 1, "--builder", "median-split")):
         folder = pathlib.Path("pocl-" + "-".join(words[1:]))
         folder.mkdir()
         compiled = kernels_compiled(folder, *words)
         assert 1 <= compiled <= most, (words, compiled)
         programs = len(list(folder.rglob("program.bc")))
-        assert 1 <= programs <= 5, (words, programs)
+        assert 1 <= programs <= texts, (words, programs)
 
 
 def test_exit_codes():
