@@ -22,7 +22,7 @@ Buffer<T> copied(const Device& device, const Queue& queue, std::span<const T> va
 Input upload(const Device& device, const Queue& queue, std::span<const Point> points,
              std::span<const Face> faces, std::span<const FaceRange> objects)
 {
-    Input input{points, faces, {}, {}, {}, {}, {}};
+    Input input{points, faces, {}, {}, {}, {}};
     input.device_points = copied(device, queue, points, input.memory);
     input.device_faces = copied(device, queue, faces, input.memory);
     input.objects.assign(objects.begin(), objects.end());

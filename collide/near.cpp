@@ -128,7 +128,7 @@ Input NearTriangles::frame(const Input& whole, const std::vector<uint>& counts,
         queue.cl().enqueueReadBuffer(faces_.cl(), CL_TRUE, 0, total * sizeof(Face), faces.data());
     return {whole.points,        faces,
             whole.device_points, {faces_.cl(), total},
-            std::move(objects),  {owners_.cl(), total}, {}};
+            std::move(objects),  {owners_.cl(), total}};
 }
 
 void NearTriangles::map_back(const DevicePairs& found, Queue& queue)
