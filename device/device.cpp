@@ -90,8 +90,8 @@ MemoryShare Device::take_memory(std::size_t bytes) const
     };
     if (const std::size_t most = cl.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>(); bytes > most)
         refuse("at once", most);
-    const std::size_t all = std::min<std::size_t>(cl.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>(),
-                                                  memory_limit);
+    const std::size_t all =
+        std::min<std::size_t>(cl.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>(), memory_limit);
     if (bytes > all - std::min(all, *taken))
         refuse("at once", all);
     if (const auto available = is_cpu() ? available_host_memory() : std::nullopt;

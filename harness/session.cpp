@@ -26,9 +26,9 @@ Device open_device_of(const CommonOptions& common)
     prepare_pocl_cache();
     if (!common.kernels.empty() && !std::filesystem::is_directory(common.kernels))
         throw Unavailable("--kernels: there is no folder '" + common.kernels + "'");
-    Device device = open_device(common.device, common.kernels.empty()
-                                                   ? Sources::preferred()
-                                                   : Sources::tree(common.kernels));
+    Device device =
+        open_device(common.device,
+                    common.kernels.empty() ? Sources::preferred() : Sources::tree(common.kernels));
     if (common.memory_limit > 0)
         device.memory_limit = common.memory_limit;
     return device;

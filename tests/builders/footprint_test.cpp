@@ -25,8 +25,8 @@ TEST_P(Footprints, AreInProportionToTheMeshPast32Bits)
         GTEST_SKIP() << GetParam().absent;
     for (const char* order : {"morton30", "hilbert63", "kd"})
         for (const bool sorted_leaves : {false, true}) {
-            const auto builder = GetParam().make(
-                session().programs(), {.order = order, .sorted_leaves = sorted_leaves});
+            const auto builder = GetParam().make(session().programs(),
+                                                 {.order = order, .sorted_leaves = sorted_leaves});
             const auto bytes_each = [&](unsigned log2) {
                 return static_cast<double>(builder->footprint(std::size_t{1} << log2).total()) /
                        static_cast<double>(std::size_t{1} << log2);

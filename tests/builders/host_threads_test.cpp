@@ -52,8 +52,7 @@ TEST(HostThreadsStage, IsTimedByTheHostsClockAndLaunchesNothing)
                                many.mesh.faces, many.objects);
     const auto builder = find_builder("oibvh-host").make(session().programs(), {});
     builder->reserve(input.triangle_count());
-    const StageTime hierarchy =
-        session().build_once(*builder, input, Start::from_triangles).back();
+    const StageTime hierarchy = session().build_once(*builder, input, Start::from_triangles).back();
     EXPECT_EQ(hierarchy.stage, "hierarchy");
     EXPECT_EQ(hierarchy.launches, 0);
     EXPECT_GT(hierarchy.wall_ns, 0);
