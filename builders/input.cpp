@@ -7,9 +7,10 @@ namespace bvhbench {
 namespace {
 
 template <class T>
-Buffer<T> copied(const Device& device, const Queue& queue, std::span<const T> values)
+Buffer<T> copied(const Device& device, const Queue& queue, std::span<const T> values,
+                 std::vector<MemoryShare>& memory)
 {
-    device.require_memory(values.size_bytes());
+    memory.push_back(device.take_memory(values.size_bytes()));
     Buffer<T> buffer(cl::Buffer(device.context, CL_MEM_READ_ONLY, values.size_bytes()),
                      values.size());
     buffer.upload(queue.cl(), values);
@@ -21,7 +22,9 @@ Buffer<T> copied(const Device& device, const Queue& queue, std::span<const T> va
 Input upload(const Device& device, const Queue& queue, std::span<const Point> points,
              std::span<const Face> faces, std::span<const FaceRange> objects)
 {
-    Input input{points, faces, copied(device, queue, points), copied(device, queue, faces), {}, {}};
+    Input input{points, faces, {}, {}, {}, {}};
+    input.device_points = copied(device, queue, points, input.memory);
+    input.device_faces = copied(device, queue, faces, input.memory);
     input.objects.assign(objects.begin(), objects.end());
     if (objects.empty())
         input.objects = {{0, static_cast<uint>(faces.size())}};
@@ -30,7 +33,7 @@ Input upload(const Device& device, const Queue& queue, std::span<const Point> po
         for (uint object = 0; object < input.objects.size(); ++object)
             std::fill_n(owners.begin() + input.objects[object].first, input.objects[object].count,
                         object);
-    input.device_owners = copied<uint>(device, queue, owners);
+    input.device_owners = copied<uint>(device, queue, owners, input.memory);
     return input;
 }
 

@@ -19,6 +19,8 @@ struct Input {
     std::vector<FaceRange> objects;  ///< what gets a tree of its own: at least one, together all faces in order
     Buffer<uint> device_owners;      ///< the object of each face; one word if there is one object
 
+    std::vector<MemoryShare> memory = {};  ///< what the buffers take
+
     uint triangle_count() const { return static_cast<uint>(faces.size()); }
 };
 

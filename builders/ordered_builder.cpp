@@ -12,8 +12,9 @@ OrderedBuilder::OrderedBuilder(Programs& programs, const BuilderCard& card,
     , options_(options)
     , leaf_order_(programs, options.order)
     , card_(card)
-    , gather_(programs)
 {
+    if (options.sorted_leaves)
+        gather_.emplace(programs);
     options_.order = find_order(options.order).name;  // outlives the caller's text
 }
 
@@ -141,7 +142,7 @@ const Tree& OrderedBuilder::update_some(const Input& input, Queue& queue)
     tree().queue = &queue;
     leaf_order_.enqueue_update(input, queue);
     if (options_.sorted_leaves)
-        gather_.enqueue(leaf_order_.boxes(), leaf_order_.ids(), leaf_order_.updated(),
+        gather_->enqueue(leaf_order_.boxes(), leaf_order_.ids(), leaf_order_.updated(),
                         gathered_.slots, gathered_.boxes, queue);
     queue.begin(update_ == TreeUpdate::refit ? "refit" : "hierarchy");
     enqueue_update(queue);
@@ -158,10 +159,10 @@ void OrderedBuilder::gather_if_sorted(const Input& input, Queue& queue)
     if (!options_.sorted_leaves)
         return;
     if (gathered_.slots.size() > 0)
-        gather_.enqueue(leaf_order_.boxes(), leaf_order_.ids(), input.device_owners,
+        gather_->enqueue(leaf_order_.boxes(), leaf_order_.ids(), input.device_owners,
                         gathered_.slots, gathered_.boxes, queue);
     else
-        gather_.enqueue(leaf_order_.boxes(), leaf_order_.ids(), gathered_.boxes, gathered_.first,
+        gather_->enqueue(leaf_order_.boxes(), leaf_order_.ids(), gathered_.boxes, gathered_.first,
                         queue);
 }
 

@@ -79,7 +79,7 @@ private:
     const Tree& update_some(const Input& input, Queue& queue);
 
     BuilderCard card_;
-    GatherStage gather_;
+    std::optional<GatherStage> gather_;  ///< with sorted leaves
     std::optional<Arena> arena_, update_arena_;
     std::vector<uint> sizes_;  ///< of the objects that there is memory for
     /// What updates do: the same for all objects, or not.

@@ -23,7 +23,7 @@ ulong code_63(Aabb box, Bounds bounds)
     return code(cell(box, bounds, CELLS_63));
 }
 
-// To add an order, add its line here and its line to stages/codes.cl.
+// To add an order, add its line here and its lines to stages/codes.cl and codes_chunks.cl.
 constexpr OrderEntry catalog[] = {
     {"morton30", "Morton code of the box centre, 10 bits an axis", 30, "morton30",
      code_30<cubic_cell, morton_30>},

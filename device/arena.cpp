@@ -22,7 +22,7 @@ Arena Arena::measuring(const Device& device)
 Arena Arena::reserved(const Device& device, const Footprint& footprint)
 {
     Arena arena(device, footprint.total());
-    device.require_memory(footprint.total());
+    arena.share_ = device.take_memory(footprint.total());
     arena.memory_ =
         cl::Buffer(device.context, CL_MEM_READ_WRITE, std::max<std::size_t>(1, footprint.total()));
     return arena;

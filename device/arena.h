@@ -47,6 +47,7 @@ private:
     Arena(const Device& device, std::size_t capacity);
     cl::Buffer carve(std::size_t bytes, Use use);
 
+    MemoryShare share_;
     cl::Buffer memory_;  ///< null when measuring
     std::size_t alignment_ = 1;
     std::size_t capacity_ = 0;

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
 #include <optional>
 #include <sstream>
 
+#include "device/host_memory.h"
 #include "geometry/error.h"
 
 namespace bvhbench {
@@ -74,19 +74,6 @@ const Found* choose(const std::vector<Found>& devices, std::string_view words)
     return nullptr;
 }
 
-/// Bytes the host can still give, or nothing where the system does not say.
-std::optional<std::size_t> available_host_memory()
-{
-    std::ifstream file("/proc/meminfo");
-    for (std::string key; file >> key;) {
-        std::size_t kib = 0;
-        if (key == "MemAvailable:" && file >> kib)
-            return kib * 1024;
-        file.ignore(256, '\n');
-    }
-    return std::nullopt;
-}
-
 }  // namespace
 
 std::string Device::platform() const
@@ -94,17 +81,27 @@ std::string Device::platform() const
     return cl::Platform(cl.getInfo<CL_DEVICE_PLATFORM>()).getInfo<CL_PLATFORM_NAME>();
 }
 
-void Device::require_memory(std::size_t bytes) const
+MemoryShare Device::take_memory(std::size_t bytes) const
 {
-    std::size_t limit = std::min<std::size_t>(cl.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>(),
-                                              cl.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>());
-    if (is_cpu())
-        if (const auto available = available_host_memory())
-            limit = std::min(limit, *available / 10 * 9);
-    if (bytes > limit)
-        throw Unavailable("out of device memory: " + std::to_string(bytes) +
-                          " bytes are needed at once, " + name() + " gives " +
-                          std::to_string(limit));
+    const auto refuse = [&](const char* how, std::size_t given) {
+        throw Unavailable("out of device memory: " + std::to_string(bytes) + " bytes are needed " +
+                          how + (*taken > 0 ? " beside " + std::to_string(*taken) + " taken" : "") +
+                          ", " + name() + " gives " + std::to_string(given));
+    };
+    if (const std::size_t most = cl.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>(); bytes > most)
+        refuse("at once", most);
+    const std::size_t all =
+        std::min<std::size_t>(cl.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>(), memory_limit);
+    if (bytes > all - std::min(all, *taken))
+        refuse("at once", all);
+    if (const auto available = is_cpu() ? available_host_memory() : std::nullopt;
+        available && bytes > *available)
+        refuse("of the host's", *available);
+    *taken += bytes;
+    return {new std::size_t(bytes), [account = taken](const std::size_t* share) {
+                *account -= *share;
+                delete share;
+            }};
 }
 
 void Device::require_group(std::string_view what, std::size_t group_size,

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+#include <limits>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,6 +13,9 @@
 #include "device/tuning.h"
 
 namespace bvhbench {
+
+/// Bytes of a device's memory that are taken for as long as this, or a copy of it, is there.
+using MemoryShare = std::shared_ptr<const std::size_t>;
 
 /// One OpenCL device with its context and its source of kernel text, owned by main and passed down.
 ///
@@ -27,6 +33,12 @@ struct Device {
     /// Throws Unavailable, in one sentence that begins with `what`, if the device cannot give a group so much.
     void require_group(std::string_view what, std::size_t group_size, std::size_t local_bytes) const;
 
+    /// Bytes that all together may take, if less than the device has.
+    std::size_t memory_limit = std::numeric_limits<std::size_t>::max();
+
+    /// Bytes that are taken: one account, however often a device is copied.
+    std::shared_ptr<std::size_t> taken = std::make_shared<std::size_t>(0);
+
     std::string name() const { return cl.getInfo<CL_DEVICE_NAME>(); }
     std::string platform() const;
 
@@ -39,9 +51,10 @@ struct Device {
     /// Whether a group may also wait for one that has started, while others are not even there.
     bool lets_groups_wait() const { return is_nvidia(); }
 
-    /// Throws Unavailable when one allocation of `bytes` will not fit. Asked before every allocation: PoCL
-    /// never reports that memory ran out, the process is killed instead.
-    void require_memory(std::size_t bytes) const;
+    /// Count one allocation of `bytes` as taken. Throws Unavailable when it will not fit: beside what is taken, into
+    /// one allocation, or, on a CPU, into what the host has left. Asked before every allocation: PoCL never reports
+    /// that memory ran out, the process is killed instead.
+    MemoryShare take_memory(std::size_t bytes) const;
 
 private:
     bool is_nvidia() const

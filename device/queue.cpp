@@ -50,12 +50,18 @@ void Queue::read(const cl::Buffer& memory, std::size_t bytes, void* to)
 
 void Queue::on_host(std::string_view stage, const std::function<void()>& work)
 {
-    using clock = std::chrono::steady_clock;
-    queue_.finish();
     begin(stage);
+    work_on_host(work);
+}
+
+void Queue::work_on_host(const std::function<void()>& work)
+{
+    using clock = std::chrono::steady_clock;
+    assert(!stages_.empty() && stages_.back().launches == 0);
+    queue_.finish();
     const auto start = clock::now();
     work();
-    stages_.back().wall_ns = std::chrono::nanoseconds(clock::now() - start).count();
+    stages_.back().wall_ns += std::chrono::nanoseconds(clock::now() - start).count();
 }
 
 std::vector<StageTime> Queue::finish()

@@ -20,7 +20,7 @@ struct StageTime {
     std::int64_t wall_ns = 0;  ///< host clock; set by host stages only
     int launches = 0;
     std::int64_t moved_bytes = 0;  ///< the least its launches must read and write, as they declared
-    std::int64_t start_ns = 0;     ///< device clock, its first start, from that of the first stage on
+    std::int64_t start_ns = 0;  ///< device clock, its first start, from that of the first stage on
 
     /// The one duration to quote: the span on the device, else the host clock.
     std::int64_t elapsed_ns() const { return launches > 0 ? span_ns : wall_ns; }
@@ -49,7 +49,11 @@ public:
     /// Read the front of `memory` once all before has run. Waits. Timed like a launch.
     void read(const cl::Buffer& memory, std::size_t bytes, void* to);
 
-    /// Run host work as a stage of its own, after everything enqueued before has finished.
+    /// Run host work as part of the stage begun last, which launches nothing, after everything enqueued before has
+    /// finished.
+    void work_on_host(const std::function<void()>& work);
+
+    /// The same as a stage of its own.
     void on_host(std::string_view stage, const std::function<void()>& work);
 
     /// Wait for everything, then return and forget the stages since the last call.

@@ -20,16 +20,9 @@
 
 SHARED_BEGIN
 
-/// `a` and `b` with the bits of `mask` exchanged where `set` is 0; with those of `a` mirrored where it is not.
-/// Returned as the word to flip in `a`; `b` flips it only when exchanged.
-SHARED_FN uint hilbert_flips(uint a, uint b, uint set, uint mask)
-{
-    return (set != 0u ? 0xffffffffu : a ^ b) & mask;
-}
-
 /// Bit k of the result is the parity of the bits of x above k: what turns a Gray code back into a number,
 /// shifted down by one.
-SHARED_FN uint parity_above(uint x)
+SHARED_FN_INLINED uint parity_above(uint x)
 {
     x >>= 1u;
     x ^= x >> 1u;
@@ -39,20 +32,26 @@ SHARED_FN uint parity_above(uint x)
     return x ^ x >> 16u;
 }
 
-/// The cell whose Morton code is the Hilbert code of `cell`, for `bits` bits an axis, 1 to 31.
-/// The curve starts at (0, 0, 0) and ends at the other end of the x axis.
-SHARED_FN Cell hilbert_cell(Cell cell, uint bits)
+/// One step: what the octant of `size`, bit `size` of each axis, does to all smaller bits. Without a branch, so that
+/// it can be taken for many cells at once.
+SHARED_FN_INLINED Cell hilbert_turned(Cell cell, uint size)
 {
-    for (uint bit = 1u << (bits - 1u); bit > 1u; bit >>= 1u) {
-        const uint smaller = bit - 1u;
-        cell.x ^= hilbert_flips(cell.x, cell.x, cell.x & bit, smaller);
-        const uint y_flips = hilbert_flips(cell.x, cell.y, cell.y & bit, smaller);
-        cell.y ^= (cell.y & bit) != 0u ? 0u : y_flips;
-        cell.x ^= y_flips;
-        const uint z_flips = hilbert_flips(cell.x, cell.z, cell.z & bit, smaller);
-        cell.z ^= (cell.z & bit) != 0u ? 0u : z_flips;
-        cell.x ^= z_flips;
-    }
+    const uint smaller = (1u << size) - 1u;
+    const uint x_set = 0u - (cell.x >> size & 1u), y_set = 0u - (cell.y >> size & 1u);
+    const uint z_set = 0u - (cell.z >> size & 1u);
+    cell.x ^= x_set & smaller;
+    const uint y_flips = (cell.x ^ cell.y) & smaller & ~y_set;
+    cell.y ^= y_flips;
+    cell.x ^= y_flips | (y_set & smaller);
+    const uint z_flips = (cell.x ^ cell.z) & smaller & ~z_set;
+    cell.z ^= z_flips;
+    cell.x ^= z_flips | (z_set & smaller);
+    return cell;
+}
+
+/// The cell whose Morton code is the Hilbert code, once all turns are taken: the Gray code of each size undone.
+SHARED_FN_INLINED Cell hilbert_ungrayed(Cell cell)
+{
     cell.y ^= cell.x;
     cell.z ^= cell.y;
     const uint turns = parity_above(cell.z);
@@ -61,6 +60,21 @@ SHARED_FN Cell hilbert_cell(Cell cell, uint bits)
     cell.z ^= turns;
     return cell;
 }
+
+/// The cell whose Morton code is the Hilbert code of `cell`, for `bits` bits an axis, 1 to 31.
+/// The curve starts at (0, 0, 0) and ends at the other end of the x axis.
+SHARED_FN Cell hilbert_cell(Cell cell, uint bits)
+{
+    for (uint size = bits - 1u; size > 0u; --size)
+        cell = hilbert_turned(cell, size);
+    return hilbert_ungrayed(cell);
+}
+
+/// The code of a cell of 10 bits an axis that has taken all turns.
+SHARED_FN_INLINED uint hilbert_turned_30(Cell cell) { return morton_30(hilbert_ungrayed(cell)); }
+
+/// The same of 21 bits an axis.
+SHARED_FN_INLINED ulong hilbert_turned_63(Cell cell) { return morton_63(hilbert_ungrayed(cell)); }
 
 /// The code of a cell of 10 bits an axis.
 SHARED_FN uint hilbert_30(Cell cell) { return morton_30(hilbert_cell(cell, 10u)); }

@@ -48,6 +48,8 @@ constexpr BuilderEntry catalog[] = {
      make_oibvh_wide8},
     {"oibvh-wide8-q8", "the same in bytes, rounded outward on a grid over the node", own_tree,
      make_oibvh_wide8_q8},
+    {"oibvh-host", "Oi-BVH by plain threads on the host, from leaves lined up on the device",
+     oi_tree, make_oibvh_host},
     {"oibvh-reference", "Oi-BVH on one core of the host, slowly: the oracle", oi_tree,
      make_oibvh_reference},
     {"radix-reference", "radix tree on one core of the host, slowly: the oracle", radix_tree,

@@ -29,6 +29,15 @@ std::uint64_t Oracle::tree_hash(std::string_view reference_name, const std::stri
     return hashes_[key] = bvhbench::tree_hash(tree->spelled_out());
 }
 
+std::uint64_t check_bytes(std::uint64_t triangles)
+{
+    // The tree and the reference's, spelled out, two nodes a triangle; what either is spelled out of, boxes of all nodes
+    // and of leaves, and ids; and the reference's codes.
+    constexpr std::uint64_t spelled_out = 2 * sizeof(HostTree::Node);
+    constexpr std::uint64_t kept = 3 * sizeof(Aabb) + sizeof(uint);
+    return triangles * (2 * (spelled_out + kept) + 2 * sizeof(ulong));
+}
+
 Check check_tree(const HostTree& tree, const Input& input, const BuilderChoice& builder,
                  Oracle& oracle)
 {

@@ -26,6 +26,9 @@ private:
     std::map<std::pair<std::string, std::string>, std::uint64_t> hashes_;  ///< by builder, order
 };
 
+/// Bytes of the host that check_tree takes at most, about, of trees over so many triangles.
+std::uint64_t check_bytes(std::uint64_t triangles);
+
 /// The verdict on a tree over the oracle's input: every promise of a builder, then, if the builder's entry
 /// names an oracle, the reference's bits.
 Check check_tree(const HostTree& tree, const Input& input, const BuilderChoice& builder,

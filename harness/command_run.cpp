@@ -14,6 +14,7 @@
 #include "harness/report_quality.h"
 #include "harness/report_refit.h"
 #include "harness/report_roofline.h"
+#include "harness/report_yardstick.h"
 #include "harness/run.h"
 
 namespace bvhbench {
@@ -83,7 +84,7 @@ int run(const RunCommand& command, const Options& options)
               << cells_report(run.document(), is_long(run.document()))
               << frames_table(run.document())
               << refit_report(run.document()) << quality_report(run.document())
-              << roofline_report(run.document())
+              << roofline_report(run.document()) << yardstick_report(run.document())
               << "written: " << out << '\n';
     return run.has_differing_cell() ? 1 : 0;
 }
@@ -119,7 +120,7 @@ int show(const ShowCommand& command, const Options&)
     else
         std::cout << cells_report(document, is_long(document))
                   << frames_table(document) << refit_report(document) << quality_report(document)
-                  << roofline_report(document);
+                  << roofline_report(document) << yardstick_report(document);
     return 0;
 }
 

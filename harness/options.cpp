@@ -221,6 +221,9 @@ void add_common(CLI::App& app, CommonOptions& common)
     app.add_option("--tuning", common.tuning,
                    "a folder to read tuned values from, '' for none; default: BVHBENCH_TUNING, else "
                    "those in the program");
+    app.add_option("--memory-limit", common.memory_limit,
+                   "bytes that device and host may each take, as 512M or 2G; default: all there are")
+        ->transform(CLI::AsSizeValue(false));
     app.add_flag("--verbose", common.verbose, "say on stderr what is being used");
     app.set_version_flag("--version", std::string("bvhbench ") + build_info.version);
     app.require_subcommand(0, 1);

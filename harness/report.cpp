@@ -84,7 +84,7 @@ std::vector<std::string> line_of(const Cell& cell, double copy_rate)
         cell.scene.name + (cell.scene.stand_in_for.empty() ? "" : " *"),
         cell.scene.triangles > 0 ? grouped(cell.scene.triangles) : "", pipeline_text(cell)};
     if (!has_times(cell)) {
-        line.insert(line.end(), {verdict_text(cell), "", "", "", "", ""});
+        line.insert(line.end(), {verdict_text(cell), "", "", "", "", "", ""});
         line.push_back(!cell.reason.empty() ? cell.reason : cell.check.detail);
         return line;
     }
@@ -93,7 +93,8 @@ std::vector<std::string> line_of(const Cell& cell, double copy_rate)
         spread.median > 0 ? static_cast<double>(cell.scene.triangles) * 1e3 / spread.median : 0;
     line.insert(line.end(),
                 {duration_text(spread.median), duration_text(spread.p10), duration_text(spread.p90),
-                 rate > 0 ? fixed(rate, 1) : "", rate_text(moved_bytes(cell), spread.median),
+                 rate > 0 ? fixed(rate, 1) : "", rate > 0 ? fixed(1e3 / rate, 2) : "",
+                 rate_text(moved_bytes(cell), spread.median),
                  copy_share_text(moved_bytes(cell), spread.median, copy_rate), verdict_text(cell)});
     return line;
 }
@@ -193,6 +194,7 @@ std::string cells_report(const Document& document, bool only_notable)
                  {"p10"},
                  {"p90"},
                  {"Mtris/s"},
+                 {"ns/tri"},
                  {"GB/s"},
                  {"% of copy"},
                  {"verdict", left}});
@@ -209,16 +211,22 @@ std::string cells_report(const Document& document, bool only_notable)
         table.row(line_of(cell, document.run.copy_rate_bytes_per_s));
     }
     return (shown > 0 ? table.text() : "") +
-           (has_stand_in ? "* a stand-in: the scene itself is not there\n"
-                         : "") +
+           (has_stand_in ? "* a stand-in: the scene itself is not there\n" : "") +
            grouped(static_cast<std::int64_t>(document.cells.size())) + " cells, " +
            grouped(static_cast<std::int64_t>(agreeing)) + " agree\n";
 }
 
 std::string frames_report(const Document& document)
 {
-    Table table({{"scene", left}, {"frame"}, {"what", left}, {"median"}, {"p10"}, {"p90"}, {"pairs"},
-                 {"contacts"}, {"verdict", left}});
+    Table table({{"scene", left},
+                 {"frame"},
+                 {"what", left},
+                 {"median"},
+                 {"p10"},
+                 {"p90"},
+                 {"pairs"},
+                 {"contacts"},
+                 {"verdict", left}});
     for (const Cell& cell : document.cells) {
         const auto count = [&](const char* counter) {
             const auto at = cell.counters.find(counter);

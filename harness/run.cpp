@@ -196,7 +196,11 @@ Run::Prepared Run::prepare(const Experiment& experiment, const Frames& frames, C
             why_not = std::string(builder.card().name) + " cannot refit";
             return;
         }
-        builder.reserve(frames.now().triangle_count());
+        const std::size_t triangles = frames.now().triangle_count();
+        if (builder.card().runs == BuilderCard::Runs::on_host)
+            session_.require_host_memory("the tree", builder.footprint(triangles).total());
+        session_.require_host_memory("checking the tree", check_bytes(triangles));
+        builder.reserve(triangles);
         if (refits)
             judge_refit(experiment, frames, builder, prepared, oracles.before);
         else

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "harness/session.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
 
+#include "device/host_memory.h"
 #include "geometry/error.h"
 #include "harness/pocl_cache.h"
 #include "harness/tuning_file.h"
@@ -15,6 +17,7 @@ SceneLibrary scene_library(const CommonOptions& common)
 {
     SceneLibrary library;
     const char* variable = std::getenv("BVHBENCH_DATA");
+    library.host_memory_bytes = common.memory_limit;
     library.data = !common.data.empty() ? common.data : variable != nullptr ? variable : "";
     return library;
 }
@@ -24,28 +27,42 @@ Device open_device_of(const CommonOptions& common)
     prepare_pocl_cache();
     if (!common.kernels.empty() && !std::filesystem::is_directory(common.kernels))
         throw Unavailable("--kernels: there is no folder '" + common.kernels + "'");
-    Device device = common.kernels.empty()
-                        ? open_device(common.device)
-                        : open_device(common.device, Sources::tree(common.kernels));
+    Device device =
+        open_device(common.device,
+                    common.kernels.empty() ? Sources::preferred() : Sources::tree(common.kernels));
+    if (common.memory_limit > 0)
+        device.memory_limit = common.memory_limit;
     const auto [file, origin] = tuning_file_for(device, tuning_folder(common.tuning));
     device.tuning = tuning_of(file, device, origin);
     return device;
 }
 
-Session::Session(Device device, SceneLibrary library)
-    : device_(std::move(device))
+Session::Session(Device device, SceneLibrary library, std::uint64_t host_memory_limit)
+    : host_memory_limit_(host_memory_limit)
+    , device_(std::move(device))
     , programs_(device_)
     , queue_(std::make_unique<Queue>(device_))
     , library_(std::move(library))
 {}
 
 Session::Session(const CommonOptions& common)
-    : Session(open_device_of(common), scene_library(common))
+    : Session(open_device_of(common), scene_library(common), common.memory_limit)
 {
     if (common.verbose)
         std::cerr << "device: " << device_.platform() << '/' << device_.name()
                   << "\nkernels: " << device_.sources.origin()
                   << "\ntuning: " << device_.tuning.origin() << '\n';
+}
+
+void Session::require_host_memory(std::string_view what, std::uint64_t bytes) const
+{
+    std::uint64_t given = available_host_memory().value_or(bytes);
+    if (host_memory_limit_ > 0)
+        given = std::min(given, host_memory_limit_);
+    if (bytes > given)
+        throw Unavailable("out of host memory: " + std::string(what) + " takes about " +
+                          std::to_string(bytes) + " bytes, and the host gives " +
+                          std::to_string(given));
 }
 
 void Session::renew_queue() { queue_ = std::make_unique<Queue>(device_); }

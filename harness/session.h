@@ -20,12 +20,17 @@ public:
     explicit Session(const CommonOptions& common);
 
     /// The same of a device that is open, its programs compiled anew: for one that is tuned otherwise.
-    Session(Device device, SceneLibrary library);
+    Session(Device device, SceneLibrary library, std::uint64_t host_memory_limit);
 
     const Device& device() const { return device_; }
     Programs& programs() { return programs_; }
     Queue& queue() { return *queue_; }
     const SceneLibrary& scenes() const { return library_; }
+    std::uint64_t host_memory_limit() const { return host_memory_limit_; }
+
+    /// Throws Unavailable if the host has not so many bytes for `what`. Asked before they are needed, as it is of
+    /// the device.
+    void require_host_memory(std::string_view what, std::uint64_t bytes) const;
 
     /// Forget what a failed build left in the queue.
     void renew_queue();
@@ -50,6 +55,7 @@ private:
         std::unique_ptr<Builder> builder;
     };
 
+    std::uint64_t host_memory_limit_;
     Device device_;
     Programs programs_;
     std::unique_ptr<Queue> queue_;

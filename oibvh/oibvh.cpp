@@ -33,4 +33,12 @@ std::unique_ptr<Builder> make_oibvh_single(Programs& programs, const BuildOption
         oi_layout, Meeting::by_handoff, options);
 }
 
+std::unique_ptr<Builder> make_oibvh_host(Programs& programs, const BuildOptions& options)
+{
+    return make_host_implicit_builder(
+        programs,
+        {"oibvh-host", "Oi-BVH, threads of the host [Chitalu2020]", BuilderCard::Runs::on_host},
+        oi_layout, options);
+}
+
 }  // namespace bvhbench

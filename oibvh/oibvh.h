@@ -18,6 +18,8 @@ std::unique_ptr<Builder> make_oibvh_single(Programs& programs, const BuildOption
 std::unique_ptr<Builder> make_oibvh_wide4(Programs& programs, const BuildOptions& options);
 std::unique_ptr<Builder> make_oibvh_wide8(Programs& programs, const BuildOptions& options);
 std::unique_ptr<Builder> make_oibvh_wide8_q8(Programs& programs, const BuildOptions& options);
+/// The same tree, its hierarchy by plain threads of the host: the yardstick for kernels on a CPU.
+std::unique_ptr<Builder> make_oibvh_host(Programs& programs, const BuildOptions& options);
 
 /// The paper, slowly, on one core: the oracle for the kernels.
 std::unique_ptr<Builder> make_oibvh_reference(Programs& programs, const BuildOptions& options);

@@ -37,6 +37,7 @@ LOOKS = {
     "oibvh-wide4": Look("#0072B2", "d", "...."),
     "oibvh-wide8": Look("#0072B2", "*", "xxxx"),
     "oibvh-wide8-q8": Look("#0072B2", "P", "++++"),
+    "oibvh-host": Look("#0072B2", "h", "oo"),
     "oibvh-reference": Look("#000000", "x"),
     "radix-reference": Look("#000000", "+", "////"),
     "heap-median": Look("#8C510A", "s", "xxxx"),

@@ -41,10 +41,12 @@ uint triangle_count(std::string_view scene, std::string_view number, uint most)
     return static_cast<uint>(*value);
 }
 
-Scene generated(std::string_view text, const Generator& generator, std::string_view number)
+Scene generated(std::string_view text, const Generator& generator, std::string_view number,
+                const SceneLibrary& library)
 {
     const uint count = triangle_count(text, number, generator.most);
-    check_memory(text, std::uint64_t{count} * generator.bytes_a_triangle);
+    check_memory(text, std::uint64_t{count} * generator.bytes_a_triangle,
+                 library.host_memory_bytes);
     Mesh mesh = generator.make(count);
     Scene scene;
     scene.faces = std::move(mesh.faces);
@@ -54,7 +56,8 @@ Scene generated(std::string_view text, const Generator& generator, std::string_v
 }
 
 /// "N" or "N:F", what follows "cloth-ball:".
-Scene moving(std::string_view text, const MovingGenerator& generator, std::string_view rest)
+Scene moving(std::string_view text, const MovingGenerator& generator, std::string_view rest,
+             const SceneLibrary& library)
 {
     const std::size_t colon = rest.find(':');
     const uint count = triangle_count(text, rest.substr(0, colon), generator.most);
@@ -73,7 +76,7 @@ Scene moving(std::string_view text, const MovingGenerator& generator, std::strin
     }
     const std::uint64_t bytes_each =
         generator.bytes_a_triangle + generator.bytes_a_frame * static_cast<std::uint64_t>(frames);
-    check_memory(text, count * bytes_each);
+    check_memory(text, count * bytes_each, library.host_memory_bytes);
     Scene scene = generator.make(count, static_cast<uint>(frames));
     scene.has_meshes = true;
     return scene;
@@ -87,7 +90,7 @@ Scene refinement(std::string_view text, std::string_view rest, const SceneLibrar
         throw BadUsage("scene " + in_quotes(text) + " is not of the form refine:SCENE:N");
     constexpr uint most = 0xffffffffu / 3;  // three half-edges a triangle
     const uint count = triangle_count(text, rest.substr(colon + 1), most);
-    check_memory(text, std::uint64_t{count} * 90);
+    check_memory(text, std::uint64_t{count} * 90, library.host_memory_bytes);
     return refined(load_any(rest.substr(0, colon), library), count);
 }
 
@@ -200,9 +203,9 @@ Scene unfinished(std::string_view text, const SceneLibrary& library)
     if (const ManifestEntry* const entry = manifest_entry(text))
         return from_data_set(*entry, library);
     if (const Generator* const generator = called(head, generators()))
-        return generated(text, *generator, rest);
+        return generated(text, *generator, rest, library);
     if (const MovingGenerator* const generator = called(head, moving_generators()))
-        return moving(text, *generator, rest);
+        return moving(text, *generator, rest, library);
     if (looks_like_path(text))
         return from_path(text, library);
     unknown(text);

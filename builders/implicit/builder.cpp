@@ -4,36 +4,28 @@
 #include <string>
 
 #include "builders/implicit/cut.h"
-#include "builders/implicit/layout.h"
+#include "builders/implicit/implicit_builder.h"
 #include "builders/implicit/schedule.h"
-#include "builders/implicit/tree.h"
-#include "builders/ordered_builder.h"
 
 namespace bvhbench {
 namespace {
 
-class ImplicitBuilder final : public OrderedBuilder {
+class KernelBuilder final : public ImplicitBuilder {
 public:
-    ImplicitBuilder(Programs& programs, const BuilderCard& card, const ImplicitLayout& layout,
-                    Meeting meeting, const BuildOptions& options)
-        : OrderedBuilder(programs, card, options), meeting_(meeting)
+    KernelBuilder(Programs& programs, const BuilderCard& card, const ImplicitLayout& layout,
+                  Meeting meeting, const BuildOptions& options)
+        : ImplicitBuilder(programs, card, layout, options), meeting_(meeting)
     {
         choose_cut(programs.device(), options, meeting, 1);  // refuses bad options now
-        tree_.layout = layout;
-        tree_.sorted_leaves = options.sorted_leaves;
     }
 
 private:
     std::unique_ptr<OrderedBuilder> twin() const override
     {
-        return std::make_unique<ImplicitBuilder>(programs_, card(), tree_.layout, meeting_,
-                                                 options_);
+        return std::make_unique<KernelBuilder>(programs_, card(), tree_.layout, meeting_, options_);
     }
 
     void enqueue_hierarchy(Queue& queue) override { enqueue(whole_, queue); }
-
-    /// The topology of an implicit tree is the order of its leaves, so this is the hierarchy over the old one.
-    void enqueue_refit(Queue& queue) override { enqueue_hierarchy(queue); }
 
     bool can_update_some() const override { return true; }
     void plan_updates(Arena& arena) override
@@ -43,11 +35,8 @@ private:
     void begin_update(const cl::CommandQueue& queue, std::span<const TreeUpdate> updates) override;
     void enqueue_update(Queue& queue) override { enqueue(update_, queue); }
 
-    DeviceTree& tree() override { return tree_; }
-
     bool handoff() const { return meeting_ == Meeting::by_handoff; }
     bool by_groups() const { return cut_.form == KernelForm::groups; }
-    bool is_forest() const { return tree_.objects.size() > 1; }
 
     cl::Kernel kernel(std::string_view name) const
     {
@@ -70,11 +59,12 @@ private:
     /// The launches that make the trees of all objects, or of some.
     struct Launches {
         std::vector<Launch> list;
-        std::vector<cl_uint2> subtree_list;  ///< object and position, launch by launch; of several objects only
+        /// Object and position, launch by launch; of several objects only.
+        std::vector<cl_uint2> subtree_list;
         Buffer<cl_uint2> subtrees;
     };
 
-    void plan(Arena& arena, std::span<const uint> sizes) override;
+    void plan_hierarchy(Arena& arena) override;
     void plan_launches(Launches& launches, std::span<const uint> objects) const;
     void prepare(const cl::CommandQueue& queue) override;
     void enqueue(const Launches& launches, Queue& queue);
@@ -84,55 +74,29 @@ private:
     Meeting meeting_;
     Cut cut_;
     cl::Kernel from_ids_, from_nodes_;
-    ImplicitTree tree_;
     Launches whole_, update_;
-    Buffer<uint> arrivals_;  ///< hand-off only: one a node above the first launch's subtrees, or one a slot
+    /// Hand-off only: one a node above the first launch's subtrees, or one a slot.
+    Buffer<uint> arrivals_;
 };
 
-void ImplicitBuilder::plan(Arena& arena, std::span<const uint> sizes)
+void KernelBuilder::plan_hierarchy(Arena& arena)
 {
-    const uint primitives = std::accumulate(sizes.begin(), sizes.end(), 0u);
-    tree_.leaves = primitives;
-    tree_.most_leaves = *std::max_element(sizes.begin(), sizes.end());
-    tree_.objects.clear();
-    std::size_t slots = 0, padding = 0;
-    uint first = 0;
-    for (const uint size : sizes) {
-        tree_.objects.push_back({first, size, static_cast<uint>(slots), 1});
-        slots += tree_.slots(size);
-        padding += tree_.layout.stored_on(size, implicit_leaf_level(size)) - size;
-        first += size;
-    }
     cut_ = choose_cut(programs_.device(), options_, meeting_, tree_.most_leaves);
-    std::vector<uint> all(sizes.size());
+    std::vector<uint> all(tree_.objects.size());
     std::iota(all.begin(), all.end(), 0u);
     plan_launches(whole_, all);
-
-    tree_.nodes = arena.take<Aabb>(slots, Use::tree);
-    if (!tree_.sorted_leaves)  // what a padded layout stores past the leaves
-        arena.take<Aabb>(padding, Use::tree);
-    arena.take<uint>(padding, Use::tree);
-    tree_.device_objects = arena.take<ForestObject>(sizes.size(), Use::tree);
-
-    leaf_order_.plan(arena, sizes, tree_.sorted_leaves ? Use::scratch : Use::tree, false);
-    tree_.leaf_boxes = tree_.sorted_leaves ? Buffer<Aabb>{} : leaf_order_.boxes();
-    tree_.ids = leaf_order_.ids();
-    gathered_ = {tree_.nodes,
-                 tree_.layout.first_slot(primitives, implicit_leaf_level(primitives)),
-                 arena.take<uint>(is_forest() && tree_.sorted_leaves ? sizes.size() : 0,
-                                  Use::scratch)};
     whole_.subtrees = arena.take<cl_uint2>(whole_.subtree_list.size(), Use::scratch);
 
     std::size_t above = 0;
     if (handoff() && is_forest())
-        above = slots;
+        above = tree_.nodes.size();
     else if (handoff() && !whole_.list.empty())
-        above = tree_.layout.first_slot(primitives, whole_.list[0].of_first.entry_level + 1 -
-                                                        whole_.list[0].of_first.levels);
+        above = tree_.layout.first_slot(
+            tree_.leaves, whole_.list[0].of_first.entry_level + 1 - whole_.list[0].of_first.levels);
     arrivals_ = arena.take<uint>(above, Use::scratch);
 }
 
-void ImplicitBuilder::plan_launches(Launches& launches, std::span<const uint> objects) const
+void KernelBuilder::plan_launches(Launches& launches, std::span<const uint> objects) const
 {
     launches.list.clear();
     launches.subtree_list.clear();
@@ -147,8 +111,8 @@ void ImplicitBuilder::plan_launches(Launches& launches, std::span<const uint> ob
     for (const SubtreeSchedule& schedule : schedules)
         count = std::max(count, handoff() ? std::min(schedule.count, 1u) : schedule.count);
     for (uint k = 0; k < count; ++k) {
-        Launch launch{static_cast<uint>(launches.subtree_list.size()), 0,
-                      schedules[0].launches[k], 0};
+        Launch launch{static_cast<uint>(launches.subtree_list.size()), 0, schedules[0].launches[k],
+                      0};
         for (std::size_t chosen = 0; chosen < objects.size(); ++chosen) {
             if (k >= schedules[chosen].count)
                 continue;
@@ -163,8 +127,7 @@ void ImplicitBuilder::plan_launches(Launches& launches, std::span<const uint> ob
     }
 }
 
-void ImplicitBuilder::begin_update(const cl::CommandQueue& queue,
-                                   std::span<const TreeUpdate> updates)
+void KernelBuilder::begin_update(const cl::CommandQueue& queue, std::span<const TreeUpdate> updates)
 {
     std::vector<uint> objects;
     for (uint object = 0; object < updates.size(); ++object)
@@ -174,34 +137,26 @@ void ImplicitBuilder::begin_update(const cl::CommandQueue& queue,
     update_.subtrees.upload(queue, update_.subtree_list);
 }
 
-void ImplicitBuilder::enqueue(const Launches& launches, Queue& queue)
+void KernelBuilder::enqueue(const Launches& launches, Queue& queue)
 {
     for (uint k = 0; k < launches.list.size(); ++k)
         launch(launches, k, queue);
 }
 
-void ImplicitBuilder::prepare(const cl::CommandQueue& queue)
+void KernelBuilder::prepare(const cl::CommandQueue& queue)
 {
-    const std::string prefix = std::string(is_forest() ? "forest_" : "") +
-                               (handoff() ? "single_" : is_forest() ? "" : "multi_");
+    ImplicitBuilder::prepare(queue);
+    const std::string prefix =
+        std::string(is_forest() ? "forest_" : "") + (handoff()     ? "single_"
+                                                     : is_forest() ? ""
+                                                                   : "multi_");
     from_ids_ = kernel(prefix + "from_ids");
     from_nodes_ = kernel(prefix + "from_nodes");
     arrivals_.upload(queue, std::vector<uint>(arrivals_.size(), 0u));
-    tree_.device_objects.upload(queue, tree_.objects);
     whole_.subtrees.upload(queue, whole_.subtree_list);
-    if (gathered_.slots.size() > 0) {
-        std::vector<uint> slots;
-        for (const ForestObject& object : tree_.objects)
-            slots.push_back(object.nodes - object.first +
-                            tree_.layout.first_slot(object.leaves,
-                                                    implicit_leaf_level(object.leaves)));
-        gathered_.slots.upload(queue, slots);
-    }
-    if (tree_.sorted_leaves)  // padding that a traversal may read
-        tree_.nodes.upload(queue, std::vector<Aabb>(tree_.nodes.size(), empty_box()));
 }
 
-void ImplicitBuilder::launch(const Launches& launches, uint k, Queue& queue)
+void KernelBuilder::launch(const Launches& launches, uint k, Queue& queue)
 {
     const Launch& launch = launches.list[k];
     const bool from_ids = k == 0 && !tree_.sorted_leaves;
@@ -237,7 +192,7 @@ void ImplicitBuilder::launch(const Launches& launches, uint k, Queue& queue)
 }
 
 /// Children read once, nodes written once. A hand-off build does all levels in its first launch.
-std::int64_t ImplicitBuilder::moved_bytes(uint leaves, const SubtreeLaunch& launch) const
+std::int64_t KernelBuilder::moved_bytes(uint leaves, const SubtreeLaunch& launch) const
 {
     const auto stored_on = [&](uint level) { return tree_.layout.stored_on(leaves, level); };
     const bool from_leaves = launch.entry_level + 1 == implicit_leaf_level(leaves);
@@ -257,7 +212,7 @@ std::unique_ptr<Builder> make_implicit_builder(Programs& programs, const Builder
                                                const ImplicitLayout& layout, Meeting meeting,
                                                const BuildOptions& options)
 {
-    return std::make_unique<ImplicitBuilder>(programs, card, layout, meeting, options);
+    return std::make_unique<KernelBuilder>(programs, card, layout, meeting, options);
 }
 
 }  // namespace bvhbench

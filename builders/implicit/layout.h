@@ -40,4 +40,10 @@ std::unique_ptr<Builder> make_implicit_builder(Programs& programs, const Builder
                                                const ImplicitLayout& layout, Meeting meeting,
                                                const BuildOptions& options);
 
+/// The same tree of a layout without padding, its hierarchy made by threads of the host, as many as a CPU device has
+/// cores, from leaves that the device has lined up.
+std::unique_ptr<Builder> make_host_implicit_builder(Programs& programs, const BuilderCard& card,
+                                                    const ImplicitLayout& layout,
+                                                    const BuildOptions& options);
+
 }  // namespace bvhbench

@@ -38,6 +38,10 @@ HostTree ImplicitTree::spelled_out_object(uint object) const
     // Breadth-first without padding: the used nodes of a level follow those of the level above.
     HostTree tree;
     const uint leaf_level = implicit_leaf_level(own_leaves);
+    std::size_t count = 0;
+    for (uint level = 0; level <= leaf_level; ++level)
+        count += implicit_used_on(own_leaves, level);
+    tree.nodes.reserve(count);
     std::size_t below = 0;  // where the next level starts in tree.nodes
     for (uint level = 0; level <= leaf_level; ++level) {
         const uint used = implicit_used_on(own_leaves, level);

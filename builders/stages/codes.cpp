@@ -6,19 +6,24 @@
 #include "geometry/bits.h"
 
 namespace bvhbench {
-namespace {
-
-constexpr auto path = "builders/stages/codes.cl";
-
-}  // namespace
-
-CodesStage::CodesStage(Programs& programs, const OrderEntry& order)
+CodesStage::CodesStage(Programs& programs, const OrderEntry& order, KernelForm form)
     : words_(code_words(order.code_bits))
     , group_size_(programs.device().tuned(codes_group_size))
-    , kernel_(programs.kernel(path, order.kernel))
-    , objects_kernel_(programs.kernel(path, (std::string(order.kernel) + "_objects").c_str()))
-    , runs_kernel_(programs.kernel(path, (std::string(order.kernel) + "_runs").c_str()))
-{}
+    , form_(chosen_form(programs.device(), form))
+    , chunks_(chunk_count(programs.device()))
+{
+    const bool by_groups = form_ == KernelForm::groups;
+    const std::string define = "ORDER_" + std::string(order.kernel);
+    const auto kernel = [&](const char* suffix) {
+        const std::string name = order.kernel + std::string(suffix);
+        return by_groups ? programs.kernel("builders/stages/codes.cl", name.c_str())
+                         : programs.kernel("builders/stages/codes_chunks.cl", name.c_str(),
+                                           {{define, 1}});
+    };
+    kernel_ = kernel("");
+    objects_kernel_ = kernel("_objects");
+    runs_kernel_ = kernel("_runs");
+}
 
 void CodesStage::enqueue(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bounds,
                          const Buffer<uint>& codes, Queue& queue)
@@ -53,8 +58,10 @@ void CodesStage::launch(cl::Kernel& kernel, const Buffer<Aabb>& boxes, const Buf
     queue.begin("codes");
     if (boxes.size() == 0)
         return;
+    const bool by_groups = form_ == KernelForm::groups;
     const uint groups = divided_up(static_cast<uint>(boxes.size()), group_size_);
-    queue.launch(kernel, std::size_t{groups} * group_size_, group_size_,
+    queue.launch(kernel, by_groups ? std::size_t{groups} * group_size_ : chunks_,
+                 by_groups ? group_size_ : 1,
                  static_cast<std::int64_t>(boxes.bytes() + codes.bytes()));
 }
 

@@ -16,7 +16,8 @@ constexpr uint code_words(unsigned code_bits) { return code_bits > 32 ? 2 : 1; }
 /// The stage `codes`: one code a leaf box, by an order of the catalog. Owns no memory.
 class CodesStage {
 public:
-    CodesStage(Programs& programs, const OrderEntry& order);
+    CodesStage(Programs& programs, const OrderEntry& order,
+               KernelForm form = KernelForm::of_device);
 
     /// Enqueue: `codes` gets the codes of all `boxes`, code_words() words each. Does not wait.
     void enqueue(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bounds, const Buffer<uint>& codes,
@@ -24,8 +25,9 @@ public:
 
     /// The same of several objects at once: boxes against the bounds of their owners. A code is an owner, from bit
     /// `object_shift` on, and below it the box's, without its `dropped` lowest bits.
-    void enqueue(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bounds, const Buffer<uint>& owners,
-                 const Buffer<uint>& codes, uint dropped, uint object_shift, Queue& queue);
+    void enqueue(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bounds,
+                 const Buffer<uint>& owners, const Buffer<uint>& codes, uint dropped,
+                 uint object_shift, Queue& queue);
 
     /// The same of the objects that `runs` lines up, at least one: their codes one object behind the other.
     void enqueue(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bounds, const ObjectRuns& runs,
@@ -37,6 +39,8 @@ private:
 
     unsigned words_;
     uint group_size_;
+    KernelForm form_;
+    std::size_t chunks_;
     cl::Kernel kernel_, objects_kernel_, runs_kernel_;
 };
 

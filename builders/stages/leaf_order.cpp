@@ -22,9 +22,9 @@ namespace bvhbench {
 struct LeafOrder::Stages {
     const OrderEntry& order;
     BoundsStage bounds;
-    NumberAll number;
     std::optional<CodesStage> codes;  ///< these two unless the order does without codes
     std::optional<RadixSort> sort;
+    std::optional<NumberAll> number;   ///< with medians anywhere
     std::optional<CellMedians> cells;  ///< with medians everywhere
     std::optional<BlockMedians> blocks;
     Buffer<uint> positions;  ///< what codes are with medians, if anyone reads them
@@ -51,16 +51,18 @@ struct LeafOrder::Stages {
     KernelForm form;
 
     Stages(Programs& on, const OrderEntry& entry, KernelForm chosen)
-        : order(entry), bounds(on, chosen), number(on), programs(on), form(chosen)
+        : order(entry), bounds(on, chosen), programs(on), form(chosen)
     {
         if (entry.medians == Medians::everywhere) {
             cells.emplace(programs, median_shape(programs.device(), form));
         } else {
-            codes.emplace(programs, entry);
+            codes.emplace(programs, entry, form);
             sort.emplace(programs, entry.code_bits, sort_shape(programs.device(), form));
         }
-        if (entry.medians != Medians::nowhere)
+        if (entry.medians != Medians::nowhere) {
             blocks.emplace(programs, median_shape(programs.device(), form));
+            number.emplace(programs);
+        }
     }
 
     /// The line begins with what sorts for as many objects. Codes keep their words: what does not fit is dropped.
@@ -159,7 +161,7 @@ void LeafOrder::Stages::line_up_all(const Input& input, Queue& queue, bool tries
     if (cells)
         cells->enqueue(boxes, bounds.bounds(), ids, queue);
     blocks->enqueue(boxes, ids, queue);
-    number.enqueue(positions, queue);
+    number->enqueue(positions, queue);
 }
 
 void LeafOrder::Stages::line_up_some(Queue& queue)

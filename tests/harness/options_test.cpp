@@ -155,7 +155,7 @@ TEST(Catalog, ListsEachBuilderOnceUnderTheNameOnItsCard)
     }
     EXPECT_TRUE(
         names.starts_with("perfect karras apetrei apetrei-fused lbvh-levels oibvh-single "
-                          "oibvh-multi oibvh-wide4 oibvh-wide8 oibvh-wide8-q8 oibvh-reference "
+                          "oibvh-multi oibvh-wide4 oibvh-wide8 oibvh-wide8-q8 oibvh-host oibvh-reference "
                           "radix-reference "))
         << names;
 }

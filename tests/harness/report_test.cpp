@@ -6,6 +6,7 @@
 #include "harness/report_paper.h"
 #include "harness/report_quality.h"
 #include "harness/report_refit.h"
+#include "harness/report_yardstick.h"
 #include "harness/table.h"
 #include "tests/harness/fakes.h"
 
@@ -109,17 +110,33 @@ TEST(CellsReport, NeverPrintsATimeOfAWrongTree)
     failed.reason = "out of memory";
     const Document document{fake_run(), {fake_cell(), wrong, failed}};
     EXPECT_EQ(cells_report(document),
-              "scene  triangles  builder        median      p10     p90  Mtris/s   GB/s  % of copy"
+              "scene  triangles  builder        median      p10     p90  Mtris/s  ns/tri   GB/s  % of copy"
               "  verdict\n"
-              "bunny    144,046  oibvh-multi    100 us  92.0 us  108 us   1440.5  500.0     50.0 %"
+              "bunny    144,046  oibvh-multi    100 us  92.0 us  108 us   1440.5    0.69  500.0     50.0 %"
               "  agrees\n"
-              "bunny    144,046  oibvh-single  differs                                            "
+              "bunny    144,046  oibvh-single  differs                                                    "
               "  node 3 is lost\n"
-              "bunny    144,046  perfect        failed                                            "
+              "bunny    144,046  perfect        failed                                                    "
               "  out of memory\n"
               "3 cells, 1 agree\n");
     EXPECT_EQ(cell_report(wrong, fake_run()).find("us"), std::string::npos);
     EXPECT_EQ(cells_report({fake_run(), {fake_cell()}}, true), "1 cells, 1 agree\n");
+}
+
+TEST(YardstickReport, HoldsKernelsToThreadsOfTheHostWhereTreesAreEqual)
+{
+    Cell other = fake_cell("karras", 400000);
+    other.check.tree_hash = 0x7fu;
+    Cell wrong = fake_cell("oibvh-single", 900000);
+    wrong.check.verdict = Check::Verdict::differs;
+    const Document document{
+        fake_run(), {fake_cell("oibvh-multi", 125000), fake_cell("oibvh-host"), other, wrong}};
+    EXPECT_EQ(yardstick_report(document),
+              "scene  triangles  builder      hierarchy  oibvh-host  times\n"
+              "bunny    144,046  oibvh-multi     125 us      100 us   1.25\n"
+              "medians of the stage hierarchy, of trees that are equal: at most 1.25 times as long as "
+              "by threads of the host\n");
+    EXPECT_EQ(yardstick_report({fake_run(), {fake_cell("oibvh-multi")}}), "");
 }
 
 TEST(Table1Report, StandsBesideThePaperAndMarksStandIns)
