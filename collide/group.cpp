@@ -21,14 +21,19 @@ private:
         // is as long at most, so that twice as much is enough for any tree, if not for speed.
         const uint reserve = tree.most_levels() + 1;
         const uint frontier = options_.capacity != 0 ? 2 * reserve : 2 * reserve + 6 * group_size_;
-        return by_groups()
-                ? kernel(
-                      tree, "collide/group_groups.cl", "group_pairs",
-                      {{"GROUP_SIZE", group_size_}, {"FRONTIER", frontier}, {"RESERVE", reserve}, {"LOOSE", loose}},
-                      Optimise::on_gpus)
-                : kernel(tree, "collide/group_chunks.cl", "group_pairs",
-                         {{"SINK_BLOCK", block_pairs}});
+        return by_groups() ? kernel(tree, "collide/group_groups.cl", "group_pairs",
+                                    {{"GROUP_SIZE", group_size_},
+                                     {"FRONTIER", frontier},
+                                     {"RESERVE", reserve},
+                                     {"LOOSE", loose}},
+                                    Optimise::on_gpus)
+                           : kernel(tree, "collide/group_chunks.cl", "group_pairs",
+                                    {{"TASK_LEAVES", chunk_task_leaves}});
     }
+
+    // The one of TASKS_BEGUN.
+    uint queue_count(const DeviceTree&) const override { return by_groups() ? 0 : 1; }
+    bool has_blocks() const override { return false; }
 };
 
 }  // namespace

@@ -9,7 +9,6 @@ namespace bvhbench {
 namespace {
 
 constexpr uint usual_group_size = 64;
-constexpr uint chunk_task_leaves = 64;  // of a task for a work-item: few enough for all to end together
 
 }  // namespace
 
@@ -43,7 +42,7 @@ void WalkCollider::plan(Arena& arena, const DeviceTree&)
 {
     own_ = arena.take<QueryTask>(own_list_.size(), Use::scratch);
     between_ = arena.take<QueryTask>(std::max<std::size_t>(1, most_between_), Use::scratch);
-    if (!by_groups())
+    if (!by_groups() && has_blocks())
         blocks_ = arena.take<Pair>(block_pairs * chunks_, Use::scratch);
 }
 
@@ -80,13 +79,12 @@ void WalkCollider::enqueue(const DeviceTree& tree, const Input& input, Queue& qu
     const auto most_between = static_cast<uint>(most_between_);
     if (own_count + most_between == 0)
         return;
-    if (by_groups()) {
+    if (by_groups() || !has_blocks())
         bind(walk_, tree, input, own_, own_count, between_, most_between);
-        queue.launch(walk_, (own_count + most_between_) * group_size_, group_size_, 0);
-    } else {
+    else
         bind(walk_, tree, input, own_, own_count, between_, most_between, blocks_);
-        queue.launch(walk_, chunks_, 1, 0);
-    }
+    queue.launch(walk_, by_groups() ? (own_count + most_between_) * group_size_ : chunks_,
+                 by_groups() ? group_size_ : 1, 0);
 }
 
 }  // namespace bvhbench

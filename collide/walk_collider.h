@@ -14,10 +14,16 @@ protected:
     /// Pairs that a work-item of the form for few cores collects before it passes them on: half of its fastest cache.
     static constexpr uint block_pairs = 512;
 
+    /// Leaves of a task of that form: few enough for all work-items to end together.
+    static constexpr uint chunk_task_leaves = 64;
+
     WalkCollider(Programs& programs, const ColliderCard& card, const ColliderOptions& options);
 
     /// The kernel that finds the pairs of a task in a group, or of a run of tasks in a work-item.
     virtual cl::Kernel walk_kernel(const DeviceTree& tree) const = 0;
+
+    /// Whether its work-items of the form for few cores collect pairs in blocks, which the kernel then takes last.
+    virtual bool has_blocks() const { return true; }
 
 private:
     void compile(const DeviceTree& tree) final;
