@@ -28,7 +28,8 @@ private:
                                      {"LOOSE", loose}},
                                     Optimise::on_gpus)
                            : kernel(tree, "collide/group_chunks.cl", "group_pairs",
-                                    {{"TASK_LEAVES", chunk_task_leaves}});
+                                    {{"TASK_LEAVES", chunk_task_leaves},
+                                     {"SKIP_OVERLAP", skips(skip_overlap) ? 1u : 0u}});
     }
 
     // The one of TASKS_BEGUN.

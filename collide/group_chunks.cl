@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=0 -DTASK_LEAVES=64u
-// check: -include oibvh/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=0 -DTASK_LEAVES=64u
-// check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DTASK_LEAVES=64u
+// check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=0 -DTASK_LEAVES=64u -DSKIP_OVERLAP=1
+// check: -include oibvh/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=0 -DTASK_LEAVES=64u -DSKIP_OVERLAP=1
+// check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DTASK_LEAVES=64u -DSKIP_OVERLAP=1
 //
 // A task's neighbouring leaves as one query, for few cores with wide registers. Their common box walks the tree, and
 // what it meets is lined up; eight of the leaves after the other take the steps of the line that their own common box
@@ -89,8 +89,8 @@ static inline void put_hits(const Line* own, const Line* line, const uint* hits,
 }
 
 /// The pairs of the task's `own_count` leaves with those of a line; both may be the same. How many boxes it tested.
-static inline uint hold_against(const Line* own, const uint own_count, const Line* line,
-                                const uint count, global uint2* pairs, const uint capacity,
+static inline uint hold_against(Line* own, const uint own_count, Line* line, const uint count,
+                                global const Face* faces, global uint2* pairs, const uint capacity,
                                 volatile global uint* counters)
 {
     uchar steps[LINE_STEPS];
@@ -102,8 +102,11 @@ static inline uint hold_against(const Line* own, const uint own_count, const Lin
         found += hits_of(own, begin, end, line, steps, near, hits + found);
         tests += divided_up(count, LANES) - first + near * (end - begin);
     }
-    if (!KEEP_ADJACENT)
+    if (!KEEP_ADJACENT && found != 0u) {
+        set_corners(own, own_count, faces);
+        set_corners(line, count, faces);
         found = without_adjacent(own, line, hits, found);
+    }
     hits[found] = 0u;
     uint pair_count = 0u;
     for (uint h = 0u; h < found; ++h)
@@ -114,6 +117,24 @@ static inline uint hold_against(const Line* own, const uint own_count, const Lin
         put_hits(own, line, hits, pairs + slot, min(pair_count, room));
     }
     return LANES * tests;
+}
+
+/// The task's leaves, or `some`, those that meet `whole`: into `own`, how many, and around them `common`.
+static inline uint line_up(FOREST_PARAMETERS, const QueryTask task, const bool some,
+                           const Aabb whole, Line* own, Aabb* common)
+{
+    uint count = 0u;
+    *common = empty_box();
+    for (uint place = task.first; place < task.first + task.count; ++place) {
+        const Aabb box = leaf_box_of(FOREST, task.own, place);
+        if (some && !overlap(box, whole))
+            continue;
+        own->triangle[count] = leaf_triangle_of(FOREST, task.own, place);
+        set_box(own, count++, box);
+        *common = merged(*common, box);
+    }
+    close_line(own, count);
+    return count;
 }
 
 /// As in leaf_chunks.cl.
@@ -128,23 +149,19 @@ kernel void group_pairs(FOREST_PARAMETERS, global const uint* ropes, global cons
     for (uint k = atomic_inc(counters + TASKS_BEGUN); k < count;
          k = atomic_inc(counters + TASKS_BEGUN)) {
         const QueryTask task = task_of(TASKS, counters, k);
-        Aabb common = empty_box();
-        for (uint leaf = 0u; leaf < task.count; ++leaf) {
-            const Aabb box = leaf_box_of(FOREST, task.own, task.first + leaf);
-            const uint triangle = leaf_triangle_of(FOREST, task.own, task.first + leaf);
-            own.triangle[leaf] = triangle;
-            set_box(&own, leaf, box);
-            common = merged(common, box);
-        }
-        close_line(&own, task.count);
-        set_corners(&own, task.count, faces);
-        if (task.own == task.other)
-            tests += hold_against(&own, task.count, &own, task.count, pairs, capacity, counters);
         PICK_TREE(task.other)
+        const bool is_own = task.own == task.other;
+        const bool some = SKIP_OVERLAP && !is_own;
+        const Aabb whole = tree_box(TREE, tree_root(TREE));
+        Aabb common;
+        const uint near = line_up(FOREST, task, some, whole, &own, &common);
+        tests += some ? task.count : 0u;
+        if (is_own)
+            tests += hold_against(&own, near, &own, near, faces, pairs, capacity, counters);
         begin_walk(TREE, ropes, task, common, &walk);
-        while (has_more(&walk)) {
-            const uint met = fill_line(TREE, ropes, faces, &walk, &line, &tests);
-            tests += hold_against(&own, task.count, &line, met, pairs, capacity, counters);
+        while (near != 0u && has_more(&walk)) {
+            const uint met = fill_line(TREE, ropes, &walk, &line, &tests);
+            tests += hold_against(&own, near, &line, met, faces, pairs, capacity, counters);
         }
     }
     add_wide(counters + BOX_TESTS_COUNT, tests);
