@@ -29,13 +29,23 @@ private:
     uint lanes() const { return has_warps_ ? warp_lanes : 1; }
     uint teams() const { return has_warps_ ? device().tuned(block_teams) : 1; }
 
-    Shape shape() const override { return {block_leaves, lanes(), teams() * lanes()}; }
+    Shape shape() const override
+    {
+        if (by_groups())
+            return {block_leaves, lanes(), teams() * lanes()};
+        return WalkCollider::shape();
+    }
 
     cl::Kernel walk_kernel(const DeviceTree& tree) const override
     {
+        if (!by_groups())  // few cores have no warps: as group
+            return lined_up_kernel(tree);
         return kernel(tree, "collide/block.cl", "block_pairs",
                       {{"TEAMS", teams()}, {"LOOSE", device().tuned(block_loose)}}, Optimise::on_gpus);
     }
+
+    uint queue_count(const DeviceTree&) const override { return by_groups() ? 0 : 1; }
+    bool has_blocks() const override { return false; }
 
     bool has_warps_;
 };

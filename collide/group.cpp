@@ -18,14 +18,13 @@ private:
 
     cl::Kernel walk_kernel(const DeviceTree& tree) const override
     {
-        if (by_groups() && tree.child_bits() > 1)
+        if (!by_groups())
+            return lined_up_kernel(tree);
+        if (tree.child_bits() > 1)
             return wide_kernel(tree);
         // One more than there are levels, for the way down from the last node. The chain that a query starts with
         // is as long at most, so that twice as much is enough for any tree, if not for speed.
         const uint reserve = tree.most_levels() + 1;
-        if (!by_groups())
-            return kernel(tree, "collide/group_chunks.cl", "group_pairs",
-                          {{"SINK_BLOCK", block_pairs()}});
         const uint frontier = options_.capacity != 0 ? 2 * reserve : 2 * reserve + frontier_nodes();
         return kernel(tree, "collide/group_groups.cl", "group_pairs",
                       {{"GROUP_SIZE", group_size_},
@@ -41,9 +40,16 @@ private:
         const uint reserve = (tree.most_levels() << tree.child_bits()) + 1;
         const uint frontier = options_.capacity != 0 ? 2 * reserve : 2 * reserve + 4 * group_size_;
         return kernel(tree, "collide/group_wide_groups.cl", "group_pairs",
-                      {{"GROUP_SIZE", group_size_}, {"FRONTIER", frontier}, {"RESERVE", reserve}, {"LOOSE", device().tuned(group_loose)}},
+                      {{"GROUP_SIZE", group_size_},
+                       {"FRONTIER", frontier},
+                       {"RESERVE", reserve},
+                       {"LOOSE", device().tuned(group_loose)}},
                       Optimise::on_gpus);
     }
+
+    // The one of TASKS_BEGUN.
+    uint queue_count(const DeviceTree&) const override { return by_groups() ? 0 : 1; }
+    bool has_blocks() const override { return false; }
 };
 
 }  // namespace

@@ -1,133 +1,170 @@
 // SPDX-License-Identifier: MIT
-// check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=0 -DSINK_BLOCK=512u
-// check: -include oibvh/wide/wide8_q8_access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=1 -DSINK_BLOCK=512u
-// check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DSINK_BLOCK=512u
+// check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=0 -DTASK_LEAVES=64u -DSKIP_OVERLAP=1
+// check: -include oibvh/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=0 -DTASK_LEAVES=64u -DSKIP_OVERLAP=1
+// check: -include oibvh/wide/wide8_q8_access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=1 -DTASK_LEAVES=64u -DSKIP_OVERLAP=0
+// check: -include oibvh/wide/wide4_access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=1 -DTASK_LEAVES=64u -DSKIP_OVERLAP=0
+// check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DTASK_LEAVES=64u -DSKIP_OVERLAP=1
 //
-// Eight neighbouring leaves as one query, for few cores with wide registers: they walk the tree together, without a
-// stack, over what lies behind them. A node that their common box meets is tested against all eight at once, and goes
-// on being walked if one of them meets it. A wide tree's inner nodes are tested against the common box only, eight of
-// them at once.
-#include "builders/stages/chunk.clh"
-#include "collide/sink_chunks.clh"
-#include "collide/task.clh"
-#if TREE_CHILD_BITS > 1u
-#include "collide/wide_walk.clh"
-#endif
+// A task's neighbouring leaves as one query, for few cores with wide registers. Their common box walks the tree, and
+// what it meets is lined up; eight of the leaves after the other take the steps of the line that their own common box
+// meets, and hold each of their boxes against eight boxes of a step at once.
+//
+//     task's leaves    | block | block | ...            line    | step | step | step | ...
+//     block x line     the steps that meet the block's box
+//     leaf x step      a hit: the lanes that the leaf meets; then those that share no corner with it; then pairs
+//
+// Each of these is a loop without a branch on what was found: entries are written always and counted only if wanted.
+#include "collide/line_walk.clh"
+#include "collide/wanted.clh"
+#include "collide/wide_count.clh"
+#include "geometry/bits.h"
 
-#define LANES 8u
-
-static inline float least(const float8 v)
+/// What leaf `leaf` of the task's meets in a step: lanes in the lowest byte, then the step, then the leaf.
+static inline uint hit_of(const uint leaf, const uint step, const uint lanes)
 {
-    const float4 of_two = fmin(v.lo, v.hi);
-    const float2 of_four = fmin(of_two.lo, of_two.hi);
-    return fmin(of_four.x, of_four.y);
+    return leaf << 16 | step << 8 | lanes;
+}
+static inline uint lanes_of(const uint hit) { return hit & ALL_LANES; }
+static inline uint step_of(const uint hit) { return hit >> 8 & 0xffu; }
+static inline uint leaf_of(const uint hit) { return hit >> 16; }
+
+/// The steps of `line`, from `first` on, that a block meets: into `steps`, how many.
+static inline uint near_steps(const Line* own, const uint begin, const uint end, const Line* line,
+                              const uint first, const uint count, uchar* steps)
+{
+    Aabb common = box_at(own, begin);
+    for (uint k = begin + 1u; k < end; ++k)
+        common = merged(common, box_at(own, k));
+    uint found = 0u;
+    for (uint step = first; step * LANES < count; ++step) {
+        steps[found] = (uchar)step;
+        found += lanes_that_meet(line, step, common) != 0u ? 1u : 0u;
+    }
+    return found;
 }
 
-/// A bit a lane whose box overlaps `box`.
-static inline uint lanes_that_meet(const float8 min_x, const float8 min_y, const float8 min_z,
-                                   const float8 max_x, const float8 max_y, const float8 max_z,
-                                   const Aabb box)
+/// The hits of a block's leaves in these steps; of the task's own line, only with leaves behind each.
+static inline uint hits_of(const Line* own, const uint begin, const uint end, const Line* line,
+                           const uchar* steps, const uint step_count, uint* hits)
 {
-    const int8 meets = (min_x <= box.max_x) & (max_x >= box.min_x) & (min_y <= box.max_y) &
-                       (max_y >= box.min_y) & (min_z <= box.max_z) & (max_z >= box.min_z);
-    const int8 bits = meets & (int8)(1, 2, 4, 8, 16, 32, 64, 128);
-    const int4 of_two = bits.lo | bits.hi;
-    const int2 of_four = of_two.lo | of_two.hi;
-    return (uint)(of_four.x | of_four.y);
-}
-
-/// Pairs of triangle `other` with those of the lanes of `meeting`.
-static inline void put_lanes(global const Face* faces, SINK_PARAMETERS, const uint* own_triangles,
-                             uint meeting, const uint other)
-{
-    for (; meeting != 0u; meeting &= meeting - 1u) {
-        const uint own = own_triangles[31u - clz(meeting & (0u - meeting))];
-        if (is_wanted(faces, own, other))
-            put(SINK_PASSED, pair_of(own, other));
-    }
-}
-
-/// The query of leaves `first` to before `end` of a task, LANES at most. How many boxes it tested.
-static inline uint walk_with(FOREST_PARAMETERS, global const uint* ropes, global const Face* faces,
-                             SINK_PARAMETERS, const QueryTask task, const uint first,
-                             const uint end)
-{
-    const uint count = end - first, all = (1u << count) - 1u;
-    uint own_triangles[LANES];
-    float lanes
-        [6]
-        [LANES];  // those without a leaf hold the first one's box, and are left out of what meets
-    for (uint k = 0u; k < LANES; ++k) {
-        const uint place = first + (k < count ? k : 0u);
-        const Aabb box = leaf_box_of(FOREST, task.own, place);
-        own_triangles[k] = leaf_triangle_of(FOREST, task.own, place);
-        lanes[0][k] = box.min_x, lanes[1][k] = box.min_y, lanes[2][k] = box.min_z;
-        lanes[3][k] = box.max_x, lanes[4][k] = box.max_y, lanes[5][k] = box.max_z;
-    }
-    const float8 min_x = vload8(0, lanes[0]), min_y = vload8(0, lanes[1]);
-    const float8 min_z = vload8(0, lanes[2]), max_x = vload8(0, lanes[3]);
-    const float8 max_y = vload8(0, lanes[4]), max_z = vload8(0, lanes[5]);
-    const Aabb common = {least(min_x),   least(min_y),   least(min_z),
-                         -least(-max_x), -least(-max_y), -least(-max_z)};
-    const bool is_own = task.own == task.other;
-
-    uint tests = is_own ? count * (count - 1u) / 2u : 0u;
-    for (uint k = 1u; is_own && k < count; ++k) {
-        const Aabb box = {lanes[0][k], lanes[1][k], lanes[2][k],
-                          lanes[3][k], lanes[4][k], lanes[5][k]};
-        const uint before = lanes_that_meet(min_x, min_y, min_z, max_x, max_y, max_z, box);
-        put_lanes(faces, SINK_PASSED, own_triangles, before & ((1u << k) - 1u), own_triangles[k]);
-    }
-    PICK_TREE(task.other)
-#if TREE_CHILD_BITS > 1u
-    (void)ropes;
-    const uint behind = is_own ? end : 0u;
-    WideWalk walk;
-    begin_walk(TREE, common, behind, &walk);
-    tests += TREE_CHILDREN;
-    for (uint leaf = next_leaf(TREE, common, behind, &walk, &tests); leaf != TREE_CHILDREN;
-         leaf = next_leaf(TREE, common, behind, &walk, &tests)) {
-        Aabb box;
-        load_found_box(TREE, &walk, leaf, &box);
-        const uint met = lanes_that_meet(min_x, min_y, min_z, max_x, max_y, max_z, box) & all;
-        tests += count;
-        if (met != 0u)
-            put_lanes(faces, SINK_PASSED, own_triangles, met, found_triangle(TREE, &walk, leaf));
-    }
-#else
-    const uint stop = walk_end(TREE, ropes);
-    uint node = first_node(TREE, ropes, task, end - 1u);
-    while (node != stop) {
-        const Aabb box = tree_box(TREE, node);
-        const bool is_leaf = tree_is_leaf(TREE, node);
-        uint met = 0u;
-        ++tests;
-        if (overlap(common, box)) {
-            met = lanes_that_meet(min_x, min_y, min_z, max_x, max_y, max_z, box) & all;
-            tests += count;
+    uint found = 0u;
+    for (uint k = begin; k < end; ++k) {
+        const Aabb box = box_at(own, k);
+        for (uint s = 0u; s < step_count; ++s) {
+            const uint step = steps[s];
+            uint lanes = lanes_that_meet(line, step, box);
+            if (own == line && step == k / LANES)
+                lanes &= (ALL_LANES - 1u) << k % LANES;
+            hits[found] = hit_of(k, step, lanes);
+            found += lanes != 0u ? 1u : 0u;
         }
-        if (met != 0u && is_leaf)
-            put_lanes(faces, SINK_PASSED, own_triangles, met, tree_triangle(TREE, node));
-        node = met != 0u && !is_leaf ? tree_left(TREE, node) : next_node(TREE, ropes, node);
     }
-#endif
-    return tests;
+    return found;
+}
+
+/// Those without lanes that share a corner. In place.
+static inline uint without_adjacent(const Line* own, const Line* line, uint* hits, const uint count)
+{
+    uint found = 0u;
+    for (uint h = 0u; h < count; ++h) {
+        const uint hit = hits[h];
+        const uint kept = hit & ~lanes_that_share(line, step_of(hit), own, leaf_of(hit));
+        hits[found] = kept;
+        found += lanes_of(kept) != 0u ? 1u : 0u;
+    }
+    return found;
+}
+
+/// A pair a lane, as many as there is room for: one loop over all lanes of all hits, behind which stands an empty one.
+static inline void put_hits(const Line* own, const Line* line, const uint* hits,
+                            global uint2* pairs, const uint count)
+{
+    uint h = 0u, lanes = lanes_of(hits[0]);
+    for (uint k = 0u; k < count; ++k) {
+        const uint hit = hits[h], next = lanes_of(hits[h + 1u]);
+        const uint other = step_of(hit) * LANES + lowest_lane(lanes);
+        pairs[k] = pair_of(own->triangle[leaf_of(hit)], line->triangle[other]);
+        lanes &= lanes - 1u;
+        h += lanes == 0u ? 1u : 0u;
+        lanes = lanes == 0u ? next : lanes;
+    }
+}
+
+/// The pairs of the task's `own_count` leaves with those of a line; both may be the same. How many boxes it tested.
+static inline uint hold_against(Line* own, const uint own_count, Line* line, const uint count,
+                                global const Face* faces, global uint2* pairs, const uint capacity,
+                                volatile global uint* counters)
+{
+    uchar steps[LINE_STEPS];
+    uint hits[TASK_LEAVES * LINE_STEPS + 1u];
+    uint tests = 0u, found = 0u;
+    for (uint begin = 0u; begin < own_count; begin += LANES) {
+        const uint end = min(own_count, begin + LANES), first = own == line ? begin / LANES : 0u;
+        const uint near = near_steps(own, begin, end, line, first, count, steps);
+        found += hits_of(own, begin, end, line, steps, near, hits + found);
+        tests += divided_up(count, LANES) - first + near * (end - begin);
+    }
+    if (!KEEP_ADJACENT && found != 0u) {
+        set_corners(own, own_count, faces);
+        set_corners(line, count, faces);
+        found = without_adjacent(own, line, hits, found);
+    }
+    hits[found] = 0u;
+    uint pair_count = 0u;
+    for (uint h = 0u; h < found; ++h)
+        pair_count += (uint)popcount(lanes_of(hits[h]));
+    if (pair_count != 0u) {
+        const uint slot = add_wide(counters + PAIRS_COUNT, pair_count);
+        const uint room = capacity - min(capacity, slot);
+        put_hits(own, line, hits, pairs + slot, min(pair_count, room));
+    }
+    return LANES * tests;
+}
+
+/// The task's leaves, or `some`, those that meet `whole`: into `own`, how many, and around them `common`.
+static inline uint line_up(FOREST_PARAMETERS, const QueryTask task, const bool some,
+                           const Aabb whole, Line* own, Aabb* common)
+{
+    uint count = 0u;
+    *common = empty_box();
+    for (uint place = task.first; place < task.first + task.count; ++place) {
+        const Aabb box = leaf_box_of(FOREST, task.own, place);
+        if (some && !overlap(box, whole))
+            continue;
+        own->triangle[count] = leaf_triangle_of(FOREST, task.own, place);
+        set_box(own, count++, box);
+        *common = merged(*common, box);
+    }
+    close_line(own, count);
+    return count;
 }
 
 /// As in leaf_chunks.cl.
 kernel void group_pairs(FOREST_PARAMETERS, global const uint* ropes, global const Face* faces,
                         global uint2* pairs, const uint capacity, volatile global uint* counters,
-                        TASKS_PARAMETERS, global uint2* blocks)
+                        TASKS_PARAMETERS)
 {
-    const Chunk chunk = own_chunk(task_count(TASKS, counters));
-    uint block_count = 0u;
+    const uint count = task_count(TASKS, counters);
     ulong tests = 0ul;
-    for (uint k = chunk.first; k < chunk.end; ++k) {
+    Line own, line;
+    Walk walk;
+    for (uint k = atomic_inc(counters + TASKS_BEGUN); k < count;
+         k = atomic_inc(counters + TASKS_BEGUN)) {
         const QueryTask task = task_of(TASKS, counters, k);
-        const uint end = task.first + task.count;
-        for (uint place = task.first; place < end; place += LANES)
-            tests += walk_with(FOREST, ropes, faces, SINK, task, place, min(place + LANES, end));
+        PICK_TREE(task.other)
+        const bool is_own = task.own == task.other;
+        const bool some = SKIP_OVERLAP && !is_own;
+        const Aabb whole = tree_box(TREE, tree_root(TREE));
+        Aabb common;
+        const uint near = line_up(FOREST, task, some, whole, &own, &common);
+        tests += some ? task.count : 0u;
+        if (is_own)
+            tests += hold_against(&own, near, &own, near, faces, pairs, capacity, counters);
+        begin_walk(TREE, ropes, task, common, &walk);
+        while (near != 0u && has_more(&walk)) {
+            const uint met = fill_line(TREE, ropes, &walk, &line, &tests);
+            tests += hold_against(&own, near, &line, met, faces, pairs, capacity, counters);
+        }
     }
     add_wide(counters + BOX_TESTS_COUNT, tests);
-    empty_block(SINK);
 }

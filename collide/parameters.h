@@ -23,7 +23,7 @@ inline constexpr Parameter walk_task_leaves{.name = "walk.task_leaves",
                                             .on_cpu = 64,
                                             .elsewhere = 64,
                                             .least = 1,
-                                            .most = 1024,
+                                            .most = 256,
                                             .candidates = {8, 16, 32, 64, 128, 256}};
 inline constexpr Parameter walk_block_pairs{
     .name = "walk.block_pairs",

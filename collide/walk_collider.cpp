@@ -19,6 +19,13 @@ WalkCollider::Shape WalkCollider::shape() const
     return {device().tuned(walk_task_leaves), 0, 1};
 }
 
+cl::Kernel WalkCollider::lined_up_kernel(const DeviceTree& tree) const
+{
+    return kernel(tree, "collide/group_chunks.cl", "group_pairs",
+                  {{"TASK_LEAVES", device().tuned(walk_task_leaves)},
+                   {"SKIP_OVERLAP", skips(skip_overlap) ? 1u : 0u}});
+}
+
 void WalkCollider::compile(const DeviceTree& tree)
 {
     walk_ = walk_kernel(tree);
@@ -43,7 +50,7 @@ void WalkCollider::plan(Arena& arena, const DeviceTree&)
 {
     own_ = arena.take<QueryTask>(own_list_.size(), Use::scratch);
     between_ = arena.take<QueryTask>(std::max<std::size_t>(1, most_between_), Use::scratch);
-    if (shape().items_a_task == 0)
+    if (shape().items_a_task == 0 && has_blocks())
         blocks_ = arena.take<Pair>(block_pairs() * chunks_, Use::scratch);
 }
 
@@ -81,14 +88,13 @@ void WalkCollider::enqueue(const DeviceTree& tree, const Input& input, Queue& qu
     if (own_count + most_between == 0)
         return;
     const auto [leaves, items_a_task, group] = shape();
-    if (items_a_task > 0) {
+    if (items_a_task > 0 || !has_blocks())
         bind(walk_, tree, input, own_, own_count, between_, most_between);
-        const std::size_t items = (own_count + most_between_) * items_a_task;
-        queue.launch(walk_, (items + group - 1) / group * group, group, 0);
-    } else {
+    else
         bind(walk_, tree, input, own_, own_count, between_, most_between, blocks_);
-        queue.launch(walk_, chunks_, group, 0);
-    }
+    const std::size_t items =
+        items_a_task > 0 ? (own_count + most_between_) * items_a_task : chunks_;
+    queue.launch(walk_, (items + group - 1) / group * group, group, 0);
 }
 
 }  // namespace bvhbench

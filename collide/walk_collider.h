@@ -15,6 +15,9 @@ protected:
     /// Pairs that a work-item of the form for few cores collects before it passes them on.
     uint block_pairs() const { return device().tuned(walk_block_pairs); }
 
+    /// Leaves of a task of that form: few enough for all work-items to end together.
+    static constexpr uint chunk_task_leaves = 64;
+
     WalkCollider(Programs& programs, const ColliderCard& card, const ColliderOptions& options);
 
     /// How a launch is cut into tasks.
@@ -30,6 +33,12 @@ protected:
 
     /// The kernel that finds the pairs of tasks.
     virtual cl::Kernel walk_kernel(const DeviceTree& tree) const = 0;
+
+    /// Of the form for few cores, one that several colliders use: without blocks, with a counter of tasks (TASKS_BEGUN).
+    cl::Kernel lined_up_kernel(const DeviceTree& tree) const;
+
+    /// Whether its work-items of the form for few cores collect pairs in blocks, which the kernel then takes last.
+    virtual bool has_blocks() const { return true; }
 
 private:
     void compile(const DeviceTree& tree) final;

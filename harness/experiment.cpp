@@ -18,8 +18,8 @@ namespace {
 constexpr std::string_view names[] = {"table1",    "table4",    "fig8",    "fig13",    "peers",
                                       "quality",   "orders",    "scaling", "refit",    "equality",
                                       "smoke",     "table2",    "table3",  "pairs",    "rebuild",
-                                      "libraries", "agreement", "native",  "yardstick",
-                                      "wide",      "roofline"};
+                                      "libraries", "agreement", "native",  "native-pairs",
+                                      "yardstick", "wide",      "roofline"};
 
 constexpr std::int64_t most_sizes = 1 << 24;
 

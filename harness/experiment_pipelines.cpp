@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "harness/experiment_pipelines.h"
 
+#include "collide/skips.h"
 #include "geometry/error.h"
 
 namespace bvhbench {
@@ -49,6 +50,10 @@ PipelineChoice pipeline_of(const Json& json, const BuilderChoice& builder, const
             throw BadUsage("'adjacent' is keep or drop, not '" + adjacent + "'");
         choice.collider.keep_adjacent = adjacent == "keep";
     }
+    if (json.contains("no_skip")) {
+        const std::string rule = text_at(json, "no_skip");
+        choice.collider.rules_off = skip_rules_called({&rule, 1});
+    }
     if (json.contains("narrow"))
         choice.collider.narrow = text_at(json, "narrow");
     if (choice.collider.narrow != "none" && choice.collider.narrow != "exact")
@@ -59,7 +64,7 @@ PipelineChoice pipeline_of(const Json& json, const BuilderChoice& builder, const
 /// Each of the builders with each of the colliders.
 std::vector<PipelineChoice> pipelines_of(const Json& json)
 {
-    refuse_unknown_keys(json, {"builder", "collider", "pairs_of", "adjacent", "narrow"},
+    refuse_unknown_keys(json, {"builder", "collider", "pairs_of", "adjacent", "narrow", "no_skip"},
                         "a pipeline");
     if (!json.contains("collider"))
         throw BadUsage("a pipeline needs 'collider'");

@@ -63,21 +63,26 @@ std::vector<Frames> frames_of(const Document& document)
     return all;
 }
 
-/// Mean and deviation over frames of their medians, in ms; blank unless every frame was right.
+/// Mean and deviation over frames of their medians, and the mean of the stage `broad`, in ms; blank unless every frame
+/// was right.
 std::vector<std::string> time_columns(const Frames& frames)
 {
     std::vector<double> medians;
+    double broad = 0;
+    const auto share = 1e-6 / static_cast<double>(frames.cells.size());
     for (const Cell* cell : frames.cells) {
         if (verdict_text(*cell) != "agrees" || cell->samples.empty())
-            return {"", ""};
+            return {"", "", ""};
         medians.push_back(spread_of(whole_times_ns(*cell)).median * 1e-6);
+        if (const auto times = stage_times_ns(*cell, "broad"); !times.empty())
+            broad += spread_of(times).median * share;
     }
     double mean = 0, square = 0;
     for (const double ms : medians)
         mean += ms / static_cast<double>(medians.size());
     for (const double ms : medians)
         square += (ms - mean) * (ms - mean) / static_cast<double>(medians.size());
-    return {fixed(mean, 3), fixed(std::sqrt(square), 3)};
+    return {fixed(mean, 3), fixed(std::sqrt(square), 3), fixed(broad, 3)};
 }
 
 void add_paper_rows(Table& table, const Cell& cell, std::string_view name)
@@ -87,7 +92,7 @@ void add_paper_rows(Table& table, const Cell& cell, std::string_view name)
     for (const PaperFrame& row : paper_frames(name))
         if (row.scene == scene)
             table.row({"", "paper: " + row.method, std::to_string(row.frames),
-                       fixed(row.frame_ms, 3), row.stdev_ms > 0 ? fixed(row.stdev_ms, 3) : "",
+                       fixed(row.frame_ms, 3), row.stdev_ms > 0 ? fixed(row.stdev_ms, 3) : "", "",
                        fixed(row.memory_mb, 1), "", "", "", "printed"});
 }
 
@@ -103,6 +108,7 @@ std::string frames_table(const Document& document, std::string_view name)
                  {"frames"},
                  {"ms"},
                  {"±"},
+                 {"broad"},
                  {"MB"},
                  {"pairs"},
                  {"contacts"},

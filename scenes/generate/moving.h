@@ -25,4 +25,7 @@ Scene make_cloth_layers(uint triangles, uint frames);
 Scene make_n_body(uint triangles, uint frames);
 constexpr uint n_body_count = 305;
 
+/// Two spheres turn while one sinks into the other, until a twentieth of each surface is inside.
+Scene make_two_spheres(uint triangles, uint frames);
+
 }  // namespace bvhbench

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "collide/skips.h"
 #include "geometry/error.h"
 #include "harness/scene_range.h"
 
@@ -66,7 +67,7 @@ TEST(Experiment, OfWholeFramesReadsEveryKey)
     const std::string_view text = R"({
         "experiment": "mine", "scenes": ["bunny", {"scene": "torus:9", "frames": "2:5", "between": 3,
                                                    "objects": "components", "pairs_of": "between"}],
-        "pipelines": [{"collider": "brute", "narrow": "exact"},
+        "pipelines": [{"collider": "brute", "narrow": "exact", "no_skip": "near"},
                       {"builder": {"name": "perfect", "leaves": "sorted"}, "adjacent": "drop", "pairs_of": "within",
                        "collider": {"name": "bvtt", "jump": 2, "start_level": 3, "group_size": 64}}],
         "samples": 7, "warm_up": 1, "quick": {"samples": 2, "scenes": ["torus:5"]}})";
@@ -78,7 +79,7 @@ TEST(Experiment, OfWholeFramesReadsEveryKey)
     EXPECT_EQ(tasks[0].warm_up, 1);
     EXPECT_TRUE(tasks[0].may_stand_in);
     EXPECT_EQ(tasks[0].pipelines[0].builder.name, "none");
-    EXPECT_EQ(tasks[0].pipelines[0].collider, (ColliderChoice{.name = "brute", .narrow = "exact"}));
+    EXPECT_EQ(tasks[0].pipelines[0].collider, (ColliderChoice{.name = "brute", .narrow = "exact", .rules_off = skip_near}));
     EXPECT_EQ(tasks[0].pipelines[1].builder,
               (BuilderChoice{.name = "perfect", .sorted_leaves = true}));
     EXPECT_EQ(tasks[0].pipelines[1].collider, (ColliderChoice{.name = "bvtt",
@@ -129,6 +130,9 @@ TEST(Experiment, OfWholeFramesIsRefusedForWhatItDoesNotKnow)
     EXPECT_NE(of(R"("pipelines": [{"collider": "leap"}])").find("no collider is called 'leap'"),
               std::string::npos);
     EXPECT_NE(of(R"("pipelines": [{"collider": "leaf", "narrow": "guess"}])").find("narrow"),
+              std::string::npos);
+    EXPECT_NE(of(R"("pipelines": [{"collider": "leaf", "no_skip": "far"}])")
+                  .find("no rule is called 'far'"),
               std::string::npos);
     EXPECT_NE(of(R"("pipelines": [{"collider": "leaf", "speed": 3}])").find("'speed' is no key"),
               std::string::npos);

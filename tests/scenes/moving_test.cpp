@@ -187,6 +187,27 @@ TEST(ClothFunnel, PushesTheClothThroughTheNeck)
     EXPECT_EQ(motions[3], Motion::unchanged);  // floor
 }
 
+TEST(TwoSpheres, SinkIntoEachOtherAndTurn)
+{
+    const Scene scene = load_scene("two-spheres:4000:4", {});
+    ASSERT_EQ(scene.objects.size(), 2u);
+    EXPECT_EQ(scene.objects[0].face_count, scene.objects[1].face_count);
+    for (std::size_t frame = 1; frame < scene.frames.size(); ++frame)
+        for (const Motion motion : object_motions(scene, frame - 1, frame))
+            EXPECT_EQ(motion, Motion::rigid);
+    const std::size_t second = scene.faces[scene.objects[1].first_face].a;
+    const auto inside = [&](std::size_t frame) {  // of the standing one, what part of the other's points
+        std::size_t count = 0;
+        for (std::size_t k = second; k < scene.frames[frame].size(); ++k) {
+            const Point p = scene.frames[frame][k];
+            count += std::hypot(p.x, p.y, p.z) < 0.5 ? 1 : 0;
+        }
+        return static_cast<double>(count) / static_cast<double>(scene.frames[frame].size() - second);
+    };
+    EXPECT_LT(inside(0), 0.01);
+    EXPECT_NEAR(inside(3), 0.05, 0.01);
+}
+
 TEST(Moving, KeepsItsContent)
 {
     const std::pair<const char*, const char*> hashes[] = {
