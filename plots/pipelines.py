@@ -11,7 +11,7 @@ import results
 import style
 
 # A collider tells the pipelines of a builder apart by hatch; one without a tree has a colour of its own.
-HATCHES = {"leaf": "", "group": "////", "bvtt": "....", "front": "xxxx", "fcl-refit": "////"}
+HATCHES = {"leaf": "", "group": "////", "block": "\\\\\\\\", "bvtt": "....", "front": "xxxx", "fcl-refit": "////"}
 COLOURS = {"grid": "#8C510A", "embree": "#009E73", "fcl": "#F0E442", "fcl-refit": "#F0E442", "brute": "#000000"}
 
 

@@ -260,8 +260,8 @@ INSTANTIATE_TEST_SUITE_P(Few, RadixSortOfFewSizes,
                                          Case{"groups", 63, three_launches(32, 15)},
                                          Case{"sweeps", 30, sweeping(3)},
                                          Case{"sweeps", 63, sweeping(4)},
-                                         Case{"at_once", 30, at_once(80)},
-                                         Case{"at_once", 63, at_once(160)},
+                                         Case{"at_once", 30, at_once(64)},
+                                         Case{"at_once", 63, at_once(128)},
                                          Case{"chunks", 30, {KernelForm::chunks}}),
                          case_name);
 

@@ -14,11 +14,15 @@ namespace {
 
 class ColliderReference : public testing::TestWithParam<std::tuple<ColliderEntry, KernelForm>> {};
 
-PairList pairs_found(const Standing& standing, bool keep_adjacent)
+std::unique_ptr<Collider> made(bool keep_adjacent)
 {
     const auto& [entry, form] = ColliderReference::GetParam();
-    const auto collider =
-        entry.make(session().programs(), {.keep_adjacent = keep_adjacent, .form = form});
+    return entry.make(session().programs(), {.keep_adjacent = keep_adjacent, .form = form});
+}
+
+PairList pairs_found(const Standing& standing, bool keep_adjacent)
+{
+    const auto collider = made(keep_adjacent);
     collider->reserve(standing.tree, standing.input);
     find_pairs(*collider, standing.tree, standing.input, session().queue());
     PairList found(collider->pairs(session().queue()));
@@ -41,6 +45,10 @@ TEST_P(ColliderReference, CountedThePairsThatTheColliderFinds)
         for (const char* builder : {"oibvh-multi", "lbvh-levels"}) {
             SCOPED_TRACE(std::string(name) + ", " + builder);
             const Standing standing({file.points, file.faces}, find_builder(builder).make);
+            if (!takes(*made(true), standing)) {
+                EXPECT_EQ(builder, std::string("lbvh-levels"));
+                continue;
+            }
             const std::size_t apart = reference["aabb_self_nonadj"];
             const std::size_t adjacent = reference["aabb_self_adjacent"];
             EXPECT_EQ(pairs_found(standing, true).size(), apart + adjacent);

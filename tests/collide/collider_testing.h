@@ -73,6 +73,19 @@ inline std::vector<NamedMesh> hard_meshes(std::size_t count)
     return meshes;
 }
 
+/// Whether an index stands in more than one place: only then are there pairs that share one.
+inline bool shares_vertices(const Mesh& mesh)
+{
+    std::vector<bool> named(mesh.points.size());
+    for (const Face& face : mesh.faces)
+        for (const uint index : {face.a, face.b, face.c}) {
+            if (named[index])
+                return true;
+            named[index] = true;
+        }
+    return false;
+}
+
 /// The builders whose trees are in device memory.
 inline std::vector<BuilderEntry> device_builders()
 {
