@@ -24,7 +24,7 @@ std::size_t buffer_bytes(const Device& device)
 CopyRate measure_copy_rate(Programs& programs, Queue& queue)
 {
     const Device& device = programs.device();
-    constexpr int samples = 11;
+    constexpr int samples = 7;
     const std::size_t bytes = buffer_bytes(device);
     const auto count = static_cast<cl_uint>(bytes / sizeof(cl_uint4));
     const std::size_t cores = device.cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
@@ -35,7 +35,7 @@ CopyRate measure_copy_rate(Programs& programs, Queue& queue)
     const Buffer<cl_uint4> from = arena.take<cl_uint4>(count, Use::scratch);
     const Buffer<cl_uint4> to = arena.take<cl_uint4>(count, Use::scratch);
     cl::Kernel copy =
-        programs.kernel("device/copy_rate.cl", device.is_cpu() ? "copy_runs" : "copy_strided");
+        programs.kernel("device/limits.cl", device.is_cpu() ? "copy_runs" : "copy_strided");
     set_arguments(copy, from, to, count);
 
     std::vector<double> rates;

@@ -18,7 +18,7 @@ LaunchCost measure_launch_cost(Programs& programs, Queue& queue)
 
     Arena arena = Arena::reserved(device, {.tree_bytes = 0, .scratch_bytes = sizeof(cl_uint)});
     const Buffer<cl_uint> word = arena.take<cl_uint>(1, Use::scratch);
-    cl::Kernel empty = programs.kernel("device/launch_cost.cl", "launch_empty");
+    cl::Kernel empty = programs.kernel("device/limits.cl", "launch_empty");
     set_arguments(empty, word);
 
     std::vector<double> costs;

@@ -70,7 +70,7 @@ TEST(Sources, NameTheFileThatIsNotThere)
 TEST(Sources, AreEmbeddedInTheProgram)
 {
     EXPECT_EQ(Sources::embedded().origin(), "embedded");
-    EXPECT_NE(Sources::embedded().flatten("device/copy_rate.cl").find("kernel void"),
+    EXPECT_NE(Sources::embedded().flatten("device/limits.cl").find("kernel void"),
               std::string::npos);
 }
 
