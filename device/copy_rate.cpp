@@ -24,7 +24,7 @@ std::size_t buffer_bytes(const Device& device)
 CopyRate measure_copy_rate(Programs& programs, Queue& queue)
 {
     const Device& device = programs.device();
-    constexpr int samples = 7;
+    constexpr int samples = 9;
     const std::size_t bytes = buffer_bytes(device);
     const auto count = static_cast<cl_uint>(bytes / sizeof(cl_uint4));
     const std::size_t cores = device.cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
