@@ -38,13 +38,13 @@
 
 /// What a team knows together.
 typedef struct {
+    uint2 kept[KEPT];  ///< first, so that one too many would be seen in what stands behind
     float2 own[WORDS_PER_BOX * BLOCK];  ///< boxes of the block's leaves, the last repeated
     float2 seen[WORDS_PER_BOX * SEEN];  ///< and of leaves that were met
     uint own_ids[BLOCK];                ///< triangles
     uint seen_ids[SEEN];                ///< labels of leaves, then triangles
     uint stack[STACK];
     uint rows[WIDE_LEVELS], ends[WIDE_LEVELS];  ///< of the other tree's wide levels
-    uint2 kept[KEPT];
 } Team;
 
 #define TEAM_SINK team->kept, lane, faces, pairs, capacity, counters

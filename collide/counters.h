@@ -7,7 +7,7 @@
 #define PAIRS_COUNT 0u      // pairs found, be there room for them or not
 #define BOX_TESTS_COUNT 2u  // boxes tested for overlap
 #define TASKS_COUNT 4u      // tasks between objects, of leaf and group
-#define TASKS_BEGUN 6u    // of group in chunks: tasks that work-items have taken; one word
+#define TASKS_BEGUN 6u      // of group and block on few cores: tasks that work-items have taken; one word
 #define QUEUES_COUNT 6u     // bvtt: entries of each step's queue
 
 // Of front, from QUEUES_COUNT on:

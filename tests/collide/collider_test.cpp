@@ -220,7 +220,7 @@ TEST(Block, FindsTheOraclesPairsWhereItsTreeHasSeveralLevelsOfBlocks)
     for (const std::size_t size : {31u, 32u, 1023u, 1024u, 1025u, 32769u})
         for (const char* order : {"morton30", "kd"}) {
             SCOPED_TRACE(std::to_string(size) + " triangles, " + order);
-            const auto block = find_collider("block").make(session().programs(), {});
+            const auto block = find_collider("block").make(session().programs(), {.form = KernelForm::groups});
             const Scene surface = load_scene("torus:" + std::to_string(size), {});
             const Mesh mesh{surface.frames.front(), surface.faces};
             expect_oracles_pairs(
@@ -232,7 +232,7 @@ TEST(Block, FindsMorePairsThanATeamKeeps)
 {
     // The same triangle 200 times: seven blocks meet each other, more than 256 pairs most times.
     Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, std::vector<Face>(200, Face{0, 1, 2})};
-    const auto block = find_collider("block").make(session().programs(), {});
+    const auto block = find_collider("block").make(session().programs(), {.form = KernelForm::groups});
     const Standing standing(mesh, find_builder("perfect").make);
     expect_oracles_pairs(*block, standing, true);
     EXPECT_EQ(block->counts(session().queue()).pairs, 200u * 199 / 2);

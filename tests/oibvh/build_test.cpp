@@ -13,9 +13,9 @@
 namespace bvhbench {
 namespace {
 
-Mesh soup(uint triangles)
+Mesh soup(uint triangles, uint seed = 0)
 {
-    std::mt19937 random(triangles);
+    std::mt19937 random(triangles + seed);
     const auto next = [&] { return static_cast<float>(random() >> 8) / 16777216.0f; };
     Mesh mesh;
     for (uint k = 0; k < triangles; ++k) {
@@ -102,6 +102,30 @@ TEST(ImplicitBuilders, EqualTheReferenceInEveryWayOnLargerTrees)
     auto builders = builders_of(ways());
     for (const uint triangles : {511u, 512u, 513u, 1000u, 4097u, 33000u})
         ASSERT_NO_FATAL_FAILURE(expect_all_equal(builders, triangles));
+}
+
+/// What a build leaves out stands there from the one before, unless that was of other triangles.
+TEST(ImplicitBuilders, KeepNothingOfTheTreeBefore)
+{
+    auto builders = builders_of(ways());
+    for (const uint triangles : {2u, 65u, 1000u, 5000u}) {
+        const auto reference = make_oibvh_reference(bench().programs, {});
+        reference->reserve(triangles);
+        for (const auto& builder : builders)
+            builder->reserve(triangles);
+        for (uint seed = 0; seed < 3; ++seed) {
+            const Mesh mesh = soup(triangles, 1000003 * seed);
+            const Input input = upload(bench().device, bench().queue, mesh.points, mesh.faces);
+            const std::uint64_t expected =
+                tree_hash(reference->build(input, bench().queue).spelled_out());
+            for (std::size_t i = 0; i < builders.size(); ++i) {
+                SCOPED_TRACE(std::to_string(triangles) + " triangles, way " + std::to_string(i));
+                EXPECT_EQ(tree_hash(builders[i]->build(input, bench().queue).spelled_out()),
+                          expected);
+                bench().queue.finish();
+            }
+        }
+    }
 }
 
 TEST(OiBuilders, EqualTheReferenceForEveryCountTo600)

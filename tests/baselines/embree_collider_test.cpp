@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+//
+// Embree's collider, which keeps up with the frames itself: it is reserved once, and sees points move.
+#include <thread>
+
+#include "tests/baselines/library_colliders.h"
+#include "tests/collide/many_objects.h"
+
+namespace bvhbench {
+namespace {
+
+TEST(EmbreeCollider, FindsTheOraclesPairsOfHardMeshes)
+{
+    if (!is_built(make_embree_collider))
+        GTEST_SKIP() << "built without Embree";
+    for (const bool keep_adjacent : {true, false}) {
+        const auto embree =
+            make_embree_collider(session().programs(), {.keep_adjacent = keep_adjacent});
+        for (const std::size_t size : {1u, 2u, 3u, 9u, 65u, 777u})
+            for (const auto& [name, mesh] : hard_meshes(size)) {
+                SCOPED_TRACE(name + ", " + std::to_string(size) + " triangles");
+                const Input input = uploaded(mesh.points, mesh.faces);
+                embree->reserve(nullptr, input);
+                if (name == "huge")
+                    EXPECT_THROW(found_by(*embree, input), Unavailable);
+                else
+                    EXPECT_EQ(found_by(*embree, input),
+                              touching_pairs(mesh.points, mesh.faces, keep_adjacent));
+            }
+    }
+}
+
+/// Embree takes floats below the normal ones for zeros, and differences of normal ones that are below too.
+TEST(EmbreeCollider, FindsTheOraclesPairsWhereFloatsEnd)
+{
+    if (!is_built(make_embree_collider))
+        GTEST_SKIP() << "built without Embree";
+    const auto embree = make_embree_collider(session().programs(), {});
+    for (const std::size_t size : {1u, 2u, 5u, 65u, 777u})
+        for (const auto& [scale, along] : {std::pair{0x1p-126f, 0x1p-126f},
+                                           {0x1p-125f, -0x1p-126f},
+                                           {0x1p-130f, 0x1p-99f},
+                                           {0x1p-100f, -0x1p-101f},
+                                           {0.0f, 0.0f},
+                                           {0.0f, 1.0f},
+                                           {0x1p-20f, 1e5f}}) {
+            SCOPED_TRACE(std::to_string(size) + " triangles, " + std::to_string(scale * 0x1p120f) +
+                         " at " + std::to_string(along * 0x1p120f));
+            Mesh mesh = hard_inputs().front().make(size);
+            for (Point& point : mesh.points)
+                point = {point.x * scale + along, point.y * scale + along, point.z * scale + along};
+            const Input input = uploaded(mesh.points, mesh.faces);
+            embree->reserve(nullptr, input);
+            EXPECT_EQ(found_by(*embree, input), touching_pairs(mesh.points, mesh.faces, true));
+        }
+}
+
+TEST(EmbreeCollider, FindsTheOraclesPairsOfObjectsThatMove)
+{
+    if (!is_built(make_embree_collider))
+        GTEST_SKIP() << "built without Embree";
+    ManyObjects before({1, 70, 3, 2, 129, 200, 1});
+    before.add({}, 0);
+    // Two objects of one surface, which share vertices.
+    const Mesh surface = hard_meshes(64).at(12).mesh;
+    before.add(surface, 0.5f);
+    const FaceRange whole = before.objects.back();
+    before.objects.back().count /= 2;
+    const uint rest = whole.first + before.objects.back().count;
+    before.objects.push_back({rest, whole.first + whole.count - rest});
+    std::fill(before.owners.begin() + rest, before.owners.end(), before.owners.back() + 1);
+    ManyObjects after = before;
+    after.mesh.points = moved(before.mesh.points);
+
+    for (const Among among : all_kinds)
+        for (const bool keep_adjacent : {true, false}) {
+            SCOPED_TRACE(std::to_string(static_cast<int>(among)) + (keep_adjacent ? " kept" : ""));
+            const auto embree = make_embree_collider(
+                session().programs(), {.among = among, .keep_adjacent = keep_adjacent});
+            EXPECT_FALSE(embree->needs_tree());
+            EXPECT_FALSE(embree->finds_contacts());
+            bool is_reserved = false;
+            for (const ManyObjects* frame : {&before, &after, &before}) {
+                const Input input = uploaded(frame->mesh.points, frame->mesh.faces, frame->objects);
+                if (!std::exchange(is_reserved, true))
+                    embree->reserve(nullptr, input);
+                EXPECT_EQ(found_by(*embree, input), expected_pairs(*frame, among, keep_adjacent));
+            }
+        }
+}
+
+TEST(EmbreeCollider, RefusesAFrameWithCoordinatesItWouldDropTrianglesForAndTakesTheNext)
+{
+    if (!is_built(make_embree_collider))
+        GTEST_SKIP() << "built without Embree";
+    Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1e18f, 0, 0}}, {{0, 1, 2}, {0, 1, 3}}};
+    const auto embree = make_embree_collider(session().programs(), {});
+    const Input input = uploaded(mesh.points, mesh.faces);
+    embree->reserve(nullptr, input);
+    EXPECT_EQ(found_by(*embree, input).size(), 1u);
+    mesh.points.back().x = 1e19f;
+    try {
+        found_by(*embree, input);
+        FAIL();
+    } catch (const Unavailable& refusal) {
+        EXPECT_STREQ(refusal.what(),
+                     "Embree takes no coordinates beyond 1.8e18, and triangle 1 has some");
+    }
+    mesh.points.back().x = 3;
+    EXPECT_EQ(found_by(*embree, input).size(), 1u);
+}
+
+TEST(EmbreeCollider, NamesItsStages)
+{
+    if (!is_built(make_embree_collider))
+        GTEST_SKIP() << "built without Embree";
+    const Mesh mesh = crowded_mesh(100);
+    const Input input = uploaded(mesh.points, mesh.faces);
+    const auto embree = make_embree_collider(session().programs(), {});
+    embree->reserve(nullptr, input);
+    embree->query(nullptr, input, session().queue());
+    const std::vector<StageTime> stages = session().queue().finish();
+    ASSERT_EQ(stages.size(), 2u);
+    EXPECT_EQ(stages[0].stage, "hierarchy");
+    EXPECT_EQ(stages[1].stage, "broad");
+    EXPECT_GT(stages[0].wall_ns, 0);
+}
+
+}  // namespace
+}  // namespace bvhbench

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+//
+// FCL's colliders, which keep up with the frames themselves: each is reserved once, and sees points move.
+#include <random>
+
+#include "tests/baselines/library_colliders.h"
+#include "tests/collide/many_objects.h"
+
+namespace bvhbench {
+namespace {
+
+/// Triangles of a soup, of several objects, that share few or many of its points. In general position: no three of
+/// a triangle's points are with any other's in one plane, so that doubles tell what meets.
+ManyObjects soup(std::size_t point_count, std::size_t face_count, unsigned seed)
+{
+    std::mt19937 random(seed);
+    const auto number = [&](float below) {
+        return below * static_cast<float>(random() >> 8) * 0x1p-24f;
+    };
+    ManyObjects many({});
+    for (std::size_t k = 0; k < point_count; ++k)
+        many.mesh.points.push_back({number(1), number(1), number(1)});
+    const auto vertex = [&] { return static_cast<uint>(random() % point_count); };
+    while (many.mesh.faces.size() < face_count) {
+        const Face face = {vertex(), vertex(), vertex()};
+        if (face.a != face.b && face.b != face.c && face.c != face.a)
+            many.mesh.faces.push_back(face);
+    }
+    uint first = 0;
+    for (const uint count : {1u, 40u, 0u, 3u, static_cast<uint>(face_count) - 44}) {
+        many.objects.push_back({first, count});
+        first += count;
+        many.owners.resize(first, static_cast<uint>(many.objects.size() - 1));
+    }
+    return many;
+}
+
+/// Six times the volume between four points.
+double volume(const Point& a, const Point& b, const Point& c, const Point& d)
+{
+    const double u[] = {double(b.x) - a.x, double(b.y) - a.y, double(b.z) - a.z};
+    const double v[] = {double(c.x) - a.x, double(c.y) - a.y, double(c.z) - a.z};
+    const double w[] = {double(d.x) - a.x, double(d.y) - a.y, double(d.z) - a.z};
+    return u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) +
+           u[2] * (v[0] * w[1] - v[1] * w[0]);
+}
+
+bool is_pierced(const Point (&triangle)[3], const Point& from, const Point& to)
+{
+    const auto& [a, b, c] = triangle;
+    if ((volume(a, b, c, from) > 0) == (volume(a, b, c, to) > 0))
+        return false;
+    const bool side = volume(from, to, a, b) > 0;
+    return side == (volume(from, to, b, c) > 0) && side == (volume(from, to, c, a) > 0);
+}
+
+/// In general position two triangles meet where an edge of one goes through the other.
+bool do_meet(std::span<const Point> points, Face one, Face other)
+{
+    const Point a[] = {points[one.a], points[one.b], points[one.c]};
+    const Point b[] = {points[other.a], points[other.b], points[other.c]};
+    for (std::size_t k = 0; k < 3; ++k)
+        if (is_pierced(a, b[k], b[(k + 1) % 3]) || is_pierced(b, a[k], a[(k + 1) % 3]))
+            return true;
+    return false;
+}
+
+PairList pairs_that_meet(const ManyObjects& many, Among among)
+{
+    const auto& [points, faces] = many.mesh;
+    std::vector<Pair> meet;
+    for (uint a = 0; a < faces.size(); ++a)
+        for (uint b = a + 1; b < faces.size(); ++b)
+            if ((among == Among::all ||
+                 (many.owners[a] != many.owners[b]) == (among == Among::between_objects)) &&
+                !share_a_vertex(faces[a], faces[b]) && do_meet(points, faces[a], faces[b]))
+                meet.push_back({a, b});
+    return PairList(std::move(meet));
+}
+
+class FclCollider : public testing::TestWithParam<bool> {
+protected:
+    static bool is_refit() { return GetParam(); }
+    static std::unique_ptr<Collider> made(const ColliderOptions& options)
+    {
+        const MakeCollider make = is_refit() ? make_fcl_refit_collider : make_fcl_collider;
+        return make(session().programs(), options);
+    }
+
+    void SetUp() override
+    {
+        if (!is_built(make_fcl_collider))
+            GTEST_SKIP() << "built without FCL";
+    }
+};
+
+TEST_P(FclCollider, FindsThePairsThatMeetAsPointsMove)
+{
+    for (const std::size_t point_count : {60u, 900u})
+        for (const Among among : all_kinds) {
+            SCOPED_TRACE(std::to_string(point_count) + " points, " +
+                         std::to_string(static_cast<int>(among)));
+            const auto fcl = made({.among = among, .keep_adjacent = false});
+            EXPECT_TRUE(fcl->finds_contacts());
+            EXPECT_FALSE(fcl->needs_tree());
+            ManyObjects frame = soup(point_count, 300, 1);
+            const Input input = uploaded(frame.mesh.points, frame.mesh.faces, frame.objects);
+            fcl->reserve(nullptr, input);
+            for (unsigned seed = 1; seed <= 3; ++seed) {
+                // The input sees the points as they move.
+                const std::vector<Point> elsewhere = soup(point_count, 300, seed).mesh.points;
+                std::copy(elsewhere.begin(), elsewhere.end(), frame.mesh.points.begin());
+                const PairList expected = pairs_that_meet(frame, among);
+                EXPECT_GT(expected.size(), 100u);
+                EXPECT_EQ(found_by(*fcl, input), expected);
+            }
+        }
+}
+
+TEST_P(FclCollider, FindsNothingOnASingleTriangle)
+{
+    const Mesh mesh = crowded_mesh(1);
+    const Input input = uploaded(mesh.points, mesh.faces);
+    const auto fcl = made({.keep_adjacent = false});
+    fcl->reserve(nullptr, input);
+    EXPECT_EQ(found_by(*fcl, input).size(), 0u);
+}
+
+TEST_P(FclCollider, RefusesToKeepAdjacentPairs)
+{
+    try {
+        made({});
+        FAIL();
+    } catch (const BadUsage& refusal) {
+        EXPECT_TRUE(std::string(refusal.what())
+                        .starts_with(is_refit() ? "fcl-refit cannot keep adjacent triangles"
+                                                : "fcl cannot keep adjacent triangles"))
+            << refusal.what();
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Trees, FclCollider, testing::Bool(),
+                         [](const auto& tested) { return tested.param ? "refit" : "built"; });
+
+}  // namespace
+}  // namespace bvhbench

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+//
+// What the tests of libraries' colliders share: frames whose points move, and what one query of them finds.
+#pragma once
+
+#include "baselines/colliders.h"
+#include "tests/collide/collider_testing.h"
+
+namespace bvhbench {
+
+inline constexpr Among all_kinds[] = {Among::all, Among::between_objects, Among::within_objects};
+
+/// Through a pointer: compilers warn that a function, where it is one, is never null.
+inline bool is_built(MakeCollider make) { return make != nullptr; }
+
+inline Input uploaded(std::span<const Point> points, std::span<const Face> faces,
+                      std::span<const FaceRange> objects = {})
+{
+    return upload(session().device(), session().queue(), points, faces, objects);
+}
+
+/// What one query finds, in order; each pair once.
+inline PairList found_by(Collider& collider, const Input& input)
+{
+    EXPECT_EQ(find_pairs(collider, nullptr, input, session().queue()), 1);
+    const PairList found(collider.pairs(session().queue()));
+    EXPECT_EQ(found.surplus(), 0u);
+    EXPECT_EQ(collider.counts(session().queue()).pairs, found.size());
+    session().queue().finish();
+    return found;
+}
+
+/// Every point elsewhere, objects across others than before.
+inline std::vector<Point> moved(std::vector<Point> points)
+{
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        points[k].x = 0.75f * points[k].x + 0.01f * static_cast<float>(k % 7);
+        points[k].y += 0.01f * static_cast<float>(k % 5);
+    }
+    return points;
+}
+
+}  // namespace bvhbench

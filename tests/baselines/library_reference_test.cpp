@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+//
+// Libraries' colliders against what a separate program counted, and that they are listed where they were not built.
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "geometry/hash.h"
+#include "tests/baselines/library_colliders.h"
+#include "tests/collide/data_set.h"
+#include "tests/collide/many_objects.h"
+
+namespace bvhbench {
+namespace {
+
+/// What a separate program counted on two frames each of a cloth and of 305 balls, with exact arithmetic.
+class LibraryReference : public testing::TestWithParam<const char*> {};
+
+TEST_P(LibraryReference, CountedWhatTheLibraryFinds)
+{
+    const ColliderEntry& entry = find_collider(GetParam());
+    if (entry.make == nullptr)
+        GTEST_SKIP() << entry.absent;
+    const char* data = std::getenv("BVHBENCH_DATA");
+    if (data == nullptr || *data == '\0')
+        GTEST_SKIP() << "BVHBENCH_DATA is not set: nothing is compared with the data sets";
+    for (const char* name : {"unc_cloth_ball", "unc_nbody"}) {
+        const std::filesystem::path folder = std::filesystem::path(data) / "dynamic" / name;
+        std::ifstream in(folder / "meta.json");
+        const nlohmann::json meta = nlohmann::json::parse(in);
+        const DataSetMesh mesh = read_data_set_mesh(folder / "mesh.ply");
+        std::vector<FaceRange> objects;
+        for (const nlohmann::json& object : meta["objects"])
+            objects.push_back({object["face_first"], object["face_count"]});
+        const auto frames = read_frames(folder / "frames.f32", meta["frames"], mesh.points.size());
+        const auto whole =
+            make_collider(GetParam(), session().programs(), {.keep_adjacent = false});
+        const auto between =
+            make_collider(GetParam(), session().programs(),
+                          {.among = Among::between_objects, .keep_adjacent = false});
+        const std::string kind = whole->finds_contacts() ? "exact_" : "aabb_";
+        for (std::size_t k = 0; k < frames.size(); ++k) {
+            SCOPED_TRACE(std::string(name) + ", frame " + std::to_string(k));
+            const nlohmann::json& reference = meta["reference"][k];
+            const Input input = uploaded(frames[k], mesh.faces, objects);
+            if (k == 0) {
+                whole->reserve(nullptr, input);
+                between->reserve(nullptr, input);
+            }
+            const std::size_t pairs_between = reference[kind + "inter"];
+            const std::size_t pairs_within = reference[kind + "self_nonadj"];
+            const PairList found = found_by(*whole, input);
+            EXPECT_EQ(found.size(), pairs_between + pairs_within);
+            EXPECT_EQ(hex(found.hash()), reference[kind + "hash"]);
+            EXPECT_EQ(found_by(*between, input).size(), pairs_between);
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Libraries, LibraryReference, testing::Values("embree", "fcl", "fcl-refit"),
+                         [](const auto& tested) { return test_name(tested.param); });
+
+TEST(LibraryColliders, AreListedAndRefusedWhereTheyWereNotBuilt)
+{
+    for (const char* name : {"embree", "fcl", "fcl-refit"}) {
+        const ColliderEntry& entry = find_collider(name);
+        if (entry.make != nullptr) {
+            EXPECT_EQ(
+                make_collider(name, session().programs(), {.keep_adjacent = false})->card().name,
+                name);
+            continue;
+        }
+        EXPECT_TRUE(entry.absent.starts_with("built without ")) << entry.absent;
+        EXPECT_THROW(make_collider(name, session().programs(), {}), Unavailable);
+    }
+    EXPECT_THROW(make_collider("embre", session().programs(), {}), BadUsage);
+}
+
+}  // namespace
+}  // namespace bvhbench

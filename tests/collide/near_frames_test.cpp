@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+//
+// Whole frames of nothing but triangles that are near another object: the pairs between objects are the oracle's.
+#include "harness/pipeline.h"
+#include "tests/collide/near_objects.h"
+
+namespace bvhbench {
+namespace {
+
+ColliderChoice between(const char* name, unsigned rules_off = 0)
+{
+    ColliderChoice choice;
+    choice.name = name;
+    choice.among = Among::between_objects;
+    choice.keep_adjacent = false;
+    choice.narrow = "exact";
+    choice.rules_off = rules_off;
+    return choice;
+}
+
+bool has_stage(const std::vector<StageTime>& stages, std::string_view name)
+{
+    return std::any_of(stages.begin(), stages.end(),
+                       [&](const StageTime& stage) { return stage.stage == name; });
+}
+
+class NearPipeline : public testing::TestWithParam<BuilderChoice> {};
+
+TEST_P(NearPipeline, FindsWhatIsFoundWithoutTheRule)
+{
+    if (!NearTriangles::may_pay(session().device(), 1))
+        GTEST_SKIP() << "not worth it on this device";
+    for (const NamedObjects& one : all_objects())
+        for (const char* name : {"leaf", "bvtt", "group"}) {
+            SCOPED_TRACE(one.name + ' ' + name);
+            const Input input = uploaded(one.many);
+            Pipeline with(session(), GetParam(), between(name), input);
+            Pipeline without(session(), GetParam(), between(name, skip_near), input);
+            with.settle(input);
+            without.settle(input);
+            const PairList expected = expected_pairs(one.many, Among::between_objects, false);
+            EXPECT_EQ(without.pairs(), expected);
+            EXPECT_FALSE(without.counters().contains("entered_count"));
+            const bool applies =
+                entering(one.many) <= NearTriangles::most_of(one.many.mesh.faces.size());
+            std::map<std::string, double> counters = with.counters();
+            EXPECT_EQ(counters.contains("entered_count"), applies);
+            EXPECT_EQ(counters["entered_count"],
+                      applies ? static_cast<double>(entering(one.many)) : 0);
+            for (int repeat = 0; repeat < 2; ++repeat) {
+                EXPECT_EQ(has_stage(with.once(input), "near"), applies);
+                EXPECT_EQ(with.pairs(), expected);
+                EXPECT_EQ(with.contacts(), without.contacts());
+                EXPECT_EQ(with.counters()["pairs_count"], static_cast<double>(expected.size()));
+                EXPECT_EQ(with.counters()["entered_count"], counters["entered_count"]);
+            }
+        }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Builders, NearPipeline,
+    testing::Values(BuilderChoice{.name = "oibvh-multi"},
+                    BuilderChoice{
+                        .name = "oibvh-multi", .order = "hilbert30", .sorted_leaves = true},
+                    BuilderChoice{.name = "oibvh-single"}, BuilderChoice{.name = "perfect"},
+                    BuilderChoice{.name = "apetrei-fused"}),
+    [](const auto& tested) {
+        return test_name(tested.param.name) + (tested.param.sorted_leaves ? "_sorted" : "");
+    });
+
+/// Two objects that meet, part, lie across each other, and meet again.
+class Frames {
+public:
+    Frames()
+        : many_(row(2, 0.9f))
+        , points_(many_.mesh.points)
+        , input_(upload(session().device(), session().queue(), points_, many_.mesh.faces,
+                        many_.objects))
+        , pipeline_(session(), {.name = "oibvh-multi"}, between("group"), input_)
+    {}
+
+    /// The second object moved along by so many widths. How many triangles entered: all without the rule.
+    double entered_at(float along, Motion motion)
+    {
+        const std::size_t half = points_.size() / 2;
+        for (std::size_t k = 0; k < half; ++k)
+            points_[half + k].x = points_[k].x + along * width(sphere(400));
+        input_.device_points.upload(session().queue().cl(), points_);
+        const std::vector<Motion> motions(2, motion);
+        pipeline_.begin_frame(motions);
+        pipeline_.settle(input_);
+        stages_ = pipeline_.once(input_);
+        const PairList all = touching_pairs(points_, many_.mesh.faces, false);
+        EXPECT_EQ(pipeline_.pairs(), among_objects(all, many_.objects, Among::between_objects));
+        const std::map<std::string, double> counters = pipeline_.counters();
+        return counters.contains("entered_count") ? counters.at("entered_count")
+                                                  : static_cast<double>(many_.mesh.faces.size());
+    }
+
+    TreeUpdate update() const
+    {
+        return count("kept_objects_count") > 0       ? TreeUpdate::keep
+               : count("refitted_objects_count") > 0 ? TreeUpdate::refit
+                                                     : TreeUpdate::rebuild;
+    }
+    bool had(std::string_view stage) const { return has_stage(stages_, stage); }
+    double count(const char* name) const { return pipeline_.counters().at(name); }
+
+private:
+    ManyObjects many_;
+    std::vector<Point> points_;
+    Input input_;
+    Pipeline pipeline_;
+    std::vector<StageTime> stages_;
+};
+
+TEST(NearFrames, TakeInWhatIsNearThen)
+{
+    if (!NearTriangles::may_pay(session().device(), 1))
+        GTEST_SKIP() << "not worth it on this device";
+    Frames frames;
+    const double some = frames.entered_at(0.9f, Motion::deforming);
+    EXPECT_GT(some, 0);
+    EXPECT_LT(some, 400);
+    EXPECT_EQ(frames.entered_at(1.2f, Motion::deforming), 0);
+    EXPECT_FALSE(frames.had("hierarchy"));
+    EXPECT_FALSE(frames.had("broad"));
+    EXPECT_EQ(frames.count("rebuilt_objects_count"), 0);
+    EXPECT_EQ(frames.count("pairs_count"), 0);
+    EXPECT_EQ(frames.count("contacts_count"), 0);
+    EXPECT_EQ(frames.entered_at(0.1f, Motion::deforming), 800);
+    EXPECT_FALSE(frames.had("near"));
+    EXPECT_EQ(frames.entered_at(0.9f, Motion::deforming), some);
+}
+
+TEST(NearFrames, AreKeptWhenNothingMoves)
+{
+    if (!NearTriangles::may_pay(session().device(), 1))
+        GTEST_SKIP() << "not worth it on this device";
+    Frames frames;
+    const double some = frames.entered_at(0.9f, Motion::deforming);
+    EXPECT_EQ(frames.entered_at(0.9f, Motion::unchanged), some);
+    EXPECT_EQ(frames.update(), TreeUpdate::keep);
+    EXPECT_FALSE(frames.had("near"));
+    EXPECT_TRUE(frames.had("broad"));
+    EXPECT_EQ(frames.entered_at(1.2f, Motion::deforming), 0);
+    EXPECT_EQ(frames.entered_at(1.2f, Motion::unchanged), 0);
+    EXPECT_TRUE(frames.had("near"));
+}
+
+/// What is refitted is a tree of all triangles, and a frame of fewer has left none.
+TEST(NearFrames, AreRefittedAsAWholeOnly)
+{
+    if (!NearTriangles::may_pay(session().device(), 1))
+        GTEST_SKIP() << "not worth it on this device";
+    Frames frames;
+    EXPECT_EQ(frames.entered_at(0.1f, Motion::deforming), 800);
+    EXPECT_EQ(frames.entered_at(0.9f, Motion::rigid), 800);
+    EXPECT_EQ(frames.update(), TreeUpdate::refit);
+    EXPECT_LT(frames.entered_at(0.9f, Motion::deforming), 400);
+    EXPECT_LT(frames.entered_at(0.95f, Motion::rigid), 400);
+    EXPECT_EQ(frames.update(), TreeUpdate::rebuild);
+    EXPECT_EQ(frames.entered_at(0.1f, Motion::rigid), 800);
+    EXPECT_EQ(frames.update(), TreeUpdate::rebuild);
+    EXPECT_EQ(frames.entered_at(0.15f, Motion::rigid), 800);
+    EXPECT_EQ(frames.update(), TreeUpdate::refit);
+}
+
+TEST(NearFrames, AreOnlyThoseOfPairsBetweenObjects)
+{
+    const ManyObjects many = row(2, 0.9f);
+    const Input input = uploaded(many);
+    for (const Among among : {Among::all, Among::within_objects}) {
+        ColliderChoice choice = between("leaf");
+        choice.among = among;
+        Pipeline pipeline(session(), {.name = "oibvh-multi"}, choice, input);
+        pipeline.settle(input);
+        EXPECT_FALSE(pipeline.counters().contains("entered_count"));
+        EXPECT_EQ(pipeline.pairs(), expected_pairs(many, among, false));
+    }
+}
+
+TEST(NearFrames, ThatLaterChangeTheirMindAreAnError)
+{
+    if (!NearTriangles::may_pay(session().device(), 1))
+        GTEST_SKIP() << "not worth it on this device";
+    const ManyObjects many = row(2, 0.9f);
+    std::vector<Point> points = many.mesh.points;
+    Input input =
+        upload(session().device(), session().queue(), points, many.mesh.faces, many.objects);
+    Pipeline pipeline(session(), {.name = "oibvh-multi"}, between("leaf"), input);
+    pipeline.settle(input);
+    points.back().x = -100;  // so that its object's box goes round all of the other
+    input.device_points.upload(session().queue().cl(), points);
+    EXPECT_THROW(pipeline.once(input), Unavailable);
+    session().queue().finish();
+}
+
+}  // namespace
+}  // namespace bvhbench

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+//
+// Objects of which some triangles are near another, and which those are by the definition.
+#pragma once
+
+#include "collide/near.h"
+#include "tests/collide/collider_testing.h"
+#include "tests/collide/many_objects.h"
+
+namespace bvhbench {
+
+inline Mesh sphere(std::size_t triangles)
+{
+    const Scene scene = load_scene("sphere:" + std::to_string(triangles), {});
+    return {scene.frames.front(), scene.faces};
+}
+
+inline float width(const Mesh& mesh)
+{
+    Aabb box = empty_box();
+    for (const Face& face : mesh.faces)
+        box = merged(box, face_box(mesh.points, face));
+    return box.max_x - box.min_x;
+}
+
+/// Squares of two triangles in a row, from `first` on. All coordinates are small integers: boxes touch exactly.
+inline Mesh squares(uint first, uint count)
+{
+    Mesh mesh;
+    for (uint k = 0; k < count; ++k) {
+        const auto x = static_cast<float>(first + k);
+        mesh.points.insert(mesh.points.end(), {{x, 0, 0}, {x + 1, 0, 0}, {x + 1, 1, 0}, {x, 1, 0}});
+        mesh.faces.push_back({4 * k, 4 * k + 1, 4 * k + 2});
+        mesh.faces.push_back({4 * k, 4 * k + 2, 4 * k + 3});
+    }
+    return mesh;
+}
+
+inline ManyObjects none() { return ManyObjects(std::vector<std::size_t>{}); }
+
+/// Spheres in a row, so many of their widths apart from one to the next.
+inline ManyObjects row(uint count, float step, std::size_t triangles = 400)
+{
+    const Mesh part = sphere(triangles);
+    ManyObjects many = none();
+    for (uint k = 0; k < count; ++k)
+        many.add(part, static_cast<float>(k) * step * width(part));
+    return many;
+}
+
+inline ManyObjects touching_squares()
+{
+    ManyObjects many = none();
+    many.add(squares(0, 6), 0);
+    many.add(squares(6, 5), 0);
+    many.add(squares(12, 4), 0);  // one square further on
+    return many;
+}
+
+/// Two that meet, with one between them in the line of triangles that is far away and one behind them.
+inline ManyObjects some_far()
+{
+    ManyObjects many = row(1, 0);
+    const Mesh part = sphere(100);
+    many.add(part, 1000);
+    many.add(sphere(500), 0.8f * width(sphere(400)));
+    many.add(part, -1000);
+    return many;
+}
+
+/// A triangle inside a sphere, near its box and no triangle's.
+inline ManyObjects one_inside()
+{
+    ManyObjects many = row(1, 0);
+    many.add({{{0, 0, 0}, {0.01f, 0, 0}, {0, 0.01f, 0}}, {{0, 1, 2}}}, 0);
+    return many;
+}
+
+inline ManyObjects bodies()
+{
+    const Scene scene = load_scene("n-body:6100:3", {});
+    ManyObjects many = none();
+    many.mesh = {scene.frames.front(), scene.faces};
+    for (const SceneObject& object : scene.objects) {
+        many.objects.push_back({object.first_face, object.face_count});
+        many.owners.resize(object.first_face + object.face_count,
+                           static_cast<uint>(many.objects.size() - 1));
+    }
+    return many;
+}
+
+struct NamedObjects {
+    std::string name;
+    ManyObjects many;
+};
+
+inline std::vector<NamedObjects> all_objects()
+{
+    std::vector<NamedObjects> all;
+    all.push_back({"overlapping", row(2, 0.9f)});
+    all.push_back({"apart", row(3, 1.5f)});
+    all.push_back({"some far", some_far()});
+    all.push_back({"touching", touching_squares()});
+    all.push_back({"one inside", one_inside()});
+    all.push_back({"bodies", bodies()});
+    return all;
+}
+
+/// By the definition: of each object, the triangles whose box touches another object's.
+inline std::vector<std::vector<uint>> near_by_definition(const ManyObjects& many)
+{
+    std::vector<Aabb> boxes(many.objects.size(), empty_box());
+    for (std::size_t k = 0; k < many.mesh.faces.size(); ++k)
+        boxes[many.owners[k]] =
+            merged(boxes[many.owners[k]], face_box(many.mesh.points, many.mesh.faces[k]));
+    std::vector<std::vector<uint>> near(many.objects.size());
+    for (uint k = 0; k < many.mesh.faces.size(); ++k) {
+        const Aabb box = face_box(many.mesh.points, many.mesh.faces[k]);
+        for (uint other = 0; other < boxes.size(); ++other)
+            if (other != many.owners[k] && overlap(box, boxes[other])) {
+                near[many.owners[k]].push_back(k);
+                break;
+            }
+    }
+    return near;
+}
+
+inline Input uploaded(const ManyObjects& many)
+{
+    return upload(session().device(), session().queue(), many.mesh.points, many.mesh.faces,
+                  many.objects);
+}
+
+inline std::size_t entering(const ManyObjects& many)
+{
+    std::size_t total = 0;
+    for (const std::vector<uint>& near : near_by_definition(many))
+        total += near.size();
+    return total;
+}
+
+}  // namespace bvhbench
