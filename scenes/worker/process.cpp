@@ -99,8 +99,11 @@ bool drain(int reader, Clock::time_point until, std::string& output)
 {
     std::vector<char> buffer(1 << 20);
     while (true) {
+        const Clock::time_point now = Clock::now();
+        if (now >= until)  // whatever has come in the meantime
+            return false;
         const auto left =
-            std::chrono::duration_cast<std::chrono::milliseconds>(until - Clock::now()).count();
+            std::chrono::duration_cast<std::chrono::milliseconds>(until - now).count();
         pollfd waiting{reader, POLLIN, 0};
         const int ready = poll(&waiting, 1, static_cast<int>(std::clamp<long>(left, 0, 1 << 30)));
         if (ready < 0 && errno == EINTR)
