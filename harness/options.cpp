@@ -13,6 +13,7 @@ namespace {
 
 constexpr int most_samples = 1000000;
 constexpr int most_cost = 1000000;
+constexpr int most_seconds = 1000000;
 
 /// Accepts only `known` words; the answer to another one lists them.
 CLI::Validator one_of(std::vector<std::string> known)
@@ -29,19 +30,19 @@ CLI::Validator one_of(std::vector<std::string> known)
     return {check, "", "one of"};
 }
 
-/// CLI::Range lets NaN pass.
-CLI::Validator a_cost()
+/// A number from 0 to `most`: CLI::Range lets NaN pass.
+CLI::Validator a_number(int most)
 {
-    const auto check = [](const std::string& word) {
+    const auto check = [most](const std::string& word) {
         double value = -1;
         const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
         const bool is_read = error == std::errc() && end == word.data() + word.size();
-        return is_read && value >= 0 && value <= most_cost
+        return is_read && value >= 0 && value <= most
                    ? std::string()
-                   : "must be a number from 0 to " + std::to_string(most_cost) + ", not '" + word +
+                   : "must be a number from 0 to " + std::to_string(most) + ", not '" + word +
                          "'";
     };
-    return {check, "", "a cost"};
+    return {check, "", "a number"};
 }
 
 void add_quality(CLI::App& command, bool& quality, NodeCosts& costs)
@@ -49,10 +50,10 @@ void add_quality(CLI::App& command, bool& quality, NodeCosts& costs)
     command.add_flag("--epo,--quality", quality, "compute end-point overlap, which takes long");
     command.add_option("--sah-inner", costs.inner, "what visiting an inner node costs")
         ->capture_default_str()
-        ->check(a_cost());
+        ->check(a_number(most_cost));
     command.add_option("--sah-triangle", costs.triangle, "what testing a triangle costs")
         ->capture_default_str()
-        ->check(a_cost());
+        ->check(a_number(most_cost));
 }
 
 void add_list(CLI::App& app, ListCommand& list)
@@ -224,6 +225,10 @@ void add_common(CLI::App& app, CommonOptions& common)
     app.add_option("--memory-limit", common.memory_limit,
                    "bytes that device and host may each take, as 512M or 2G; default: all there are")
         ->transform(CLI::AsSizeValue(false));
+    app.add_option("--time-limit", common.time_limit_s,
+                   "seconds that a single build or query may take before it is given up; 0: no end")
+        ->capture_default_str()
+        ->check(a_number(most_seconds));
     app.add_flag("--verbose", common.verbose, "say on stderr what is being used");
     app.set_version_flag("--version", std::string("bvhbench ") + build_info.version);
     app.require_subcommand(0, 1);

@@ -37,8 +37,10 @@ Device open_device_of(const CommonOptions& common)
     return device;
 }
 
-Session::Session(Device device, SceneLibrary library, std::uint64_t host_memory_limit)
-    : host_memory_limit_(host_memory_limit)
+Session::Session(Device device, SceneLibrary library, std::uint64_t host_memory_limit,
+                 double time_limit_s)
+    : watchdog_(time_limit_s)
+    , host_memory_limit_(host_memory_limit)
     , device_(std::move(device))
     , programs_(device_)
     , queue_(std::make_unique<Queue>(device_))
@@ -46,7 +48,8 @@ Session::Session(Device device, SceneLibrary library, std::uint64_t host_memory_
 {}
 
 Session::Session(const CommonOptions& common)
-    : Session(open_device_of(common), scene_library(common), common.memory_limit)
+    : Session(open_device_of(common), scene_library(common), common.memory_limit,
+              common.time_limit_s)
 {
     if (common.verbose)
         std::cerr << "device: " << device_.platform() << '/' << device_.name()
@@ -86,18 +89,22 @@ Builder& Session::builder(const BuilderChoice& choice, Operation operation)
 std::vector<StageTime> Session::build_once(Builder& builder, const Input& input, Start start,
                                            const Tree** tree)
 {
-    const Tree& built = builder.build(input, queue(), start);
-    if (tree != nullptr)
-        *tree = &built;
-    return queue().finish();
+    return watchdog_.watch([&] {
+        const Tree& built = builder.build(input, queue(), start);
+        if (tree != nullptr)
+            *tree = &built;
+        return queue().finish();
+    });
 }
 
 std::vector<StageTime> Session::refit_once(Builder& builder, const Input& input, const Tree** tree)
 {
-    const Tree& refitted = builder.refit(input, queue());
-    if (tree != nullptr)
-        *tree = &refitted;
-    return queue().finish();
+    return watchdog_.watch([&] {
+        const Tree& refitted = builder.refit(input, queue());
+        if (tree != nullptr)
+            *tree = &refitted;
+        return queue().finish();
+    });
 }
 
 }  // namespace bvhbench

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+//
+// The program's commands, run again and again in one process, with another OpenCL call failing each time. The shim is
+// linked in before the loader, so every call of the program goes through it.
+//
+// By default the calls that fail are those that differ in how they were reached: of each way of calls its first, its
+// second and its last. With BVHBENCH_ALL_FAULTS=1 it is every call there is: minutes.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "harness/commands.h"
+#include "harness/result_file.h"
+#include "tests/faults/opencl_shim.h"
+
+namespace bvhbench {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Standard output or error, caught for as long as this is there.
+class Caught {
+public:
+    explicit Caught(std::ostream& stream) : stream_(stream), before_(stream.rdbuf(text_.rdbuf())) {}
+    ~Caught() { stream_.rdbuf(before_); }
+    Caught(const Caught&) = delete;
+    Caught& operator=(const Caught&) = delete;
+    std::string text() const { return text_.str(); }
+
+private:
+    std::ostream& stream_;
+    std::ostringstream text_;
+    std::streambuf* before_;
+};
+
+struct Outcome {
+    int code;
+    std::string out, error;
+};
+
+class Injected : public testing::Test {
+protected:
+    void SetUp() override
+    {
+        folder_ = fs::temp_directory_path() / ("bvhbench-faults-" + std::to_string(getpid()));
+        fs::create_directories(folder_);
+        file_ = folder_ / "r.json";
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+
+    Outcome run(std::vector<std::string> words, shim::Plan plan) const
+    {
+        fs::remove(file_);
+        words.insert(words.begin(), "bvhbench");
+        std::vector<const char*> argv;
+        for (const std::string& word : words)
+            argv.push_back(word.c_str());
+        const Caught out(std::cout);
+        const Caught error(std::cerr);
+        shim::begin(plan);
+        const int code = run_program(static_cast<int>(argv.size()), argv.data());
+        return {code, out.text(), error.text()};
+    }
+
+    Document document() const
+    {
+        std::ifstream file(file_);
+        return read_document(std::string(std::istreambuf_iterator<char>(file), {}), "r");
+    }
+
+    /// Fails every chosen call of the run in turn, alone and with all that follow it.
+    void fail_calls_of(const std::vector<std::string>& words, std::size_t cells);
+
+private:
+    std::vector<long> chosen(const std::vector<std::string>& words) const;
+    void expect_clean(const Outcome& outcome, const shim::Plan& plan, std::size_t cells) const;
+
+protected:
+    fs::path folder_, file_;
+};
+
+std::vector<long> Injected::chosen(const std::vector<std::string>& words) const
+{
+    shim::remember_calls(true);
+    run(words, {});
+    shim::remember_calls(false);
+    std::map<std::uint64_t, std::vector<long>> ways;
+    const std::vector<shim::Call>& calls = shim::remembered();
+    for (std::size_t i = 0; i < calls.size(); ++i)
+        ways[calls[i].stack].push_back(static_cast<long>(i) + 1);
+    std::set<long> picked;
+    if (std::getenv("ONLY")) return {std::atol(std::getenv("ONLY"))};
+    const bool all = std::getenv("BVHBENCH_ALL_FAULTS") != nullptr;
+    for (const auto& [stack, where] : ways)
+        if (all)
+            picked.insert(where.begin(), where.end());
+        else
+            picked.insert({where.front(), where[where.size() > 1 ? 1 : 0], where.back()});
+    std::cout << calls.size() << " calls by " << ways.size() << " ways, " << picked.size()
+              << " of them fail" << std::endl;
+    return {picked.begin(), picked.end()};
+}
+
+void Injected::expect_clean(const Outcome& outcome, const shim::Plan& plan, std::size_t cells) const
+{
+    SCOPED_TRACE("call " + std::to_string(plan.nth) + (plan.from_there_on ? " and all that follow, " : ", ") +
+                 shim::failed_call() + ": " + outcome.error);
+    EXPECT_TRUE(outcome.code == 0 || outcome.code == 3) << outcome.code;
+    if (outcome.code == 3) {
+        EXPECT_EQ(outcome.error.rfind("bvhbench: ", 0), 0u);
+        EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1);
+    }
+    EXPECT_EQ(shim::leaked(), std::vector<std::string>());
+    EXPECT_EQ(shim::misused(), std::vector<std::string>());
+    if (!fs::exists(file_)) {
+        EXPECT_EQ(outcome.code, 3);
+        return;
+    }
+    const Document result = document();
+    EXPECT_LE(result.cells.size(), cells);
+    for (const Cell& cell : result.cells) {
+        if (cell.status == Cell::Status::measured)
+            EXPECT_EQ(cell.check.verdict, Check::Verdict::agrees) << cell.check.detail;
+        else
+            EXPECT_NE(cell.reason, "");
+    }
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1) << "a temporary file was left";
+}
+
+void Injected::fail_calls_of(const std::vector<std::string>& words, std::size_t cells)
+{
+    const Outcome whole = run(words, {});
+    ASSERT_EQ(whole.code, 0) << whole.error;
+    ASSERT_EQ(document().cells.size(), cells);
+    ASSERT_EQ(shim::leaked(), std::vector<std::string>());
+    std::map<int, int> ends;
+    for (const long nth : chosen(words))
+        for (const bool from_there_on : {false, true}) {
+            const shim::Plan plan{nth, from_there_on};
+            if (std::getenv("TRACE")) std::cerr << nth << from_there_on << std::endl;
+            const Outcome outcome = run(words, plan);
+            expect_clean(outcome, plan, cells);
+            ++ends[outcome.code];
+            if (HasFailure() && std::getenv("BVHBENCH_ALL_FAULTS") == nullptr)
+                return;  // one is enough to look at
+        }
+    for (const auto& [code, times] : ends)
+        std::cout << "exit code " << code << ": " << times << " times\n";
+    EXPECT_GT(ends[3], 0);
+    const Outcome again = run(words, {});
+    EXPECT_EQ(again.code, 0) << again.error;
+}
+
+TEST_F(Injected, ABuildEndsCleanlyWhicheverCallFails)
+{
+    fail_calls_of({"build", "--builder", "oibvh-multi", "--scene", "soup:70", "--samples", "1", "--json",
+                   file_.string()},
+                  1);
+}
+
+TEST_F(Injected, ACollisionEndsCleanlyWhicheverCallFails)
+{
+    fail_calls_of({"collide", "--collider", "leaf", "--scene", "n-body:100:2", "--frames", "0:2", "--narrow",
+                   "exact", "--samples", "1", "--json", file_.string()},
+                  2);
+}
+
+}  // namespace
+}  // namespace bvhbench
