@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "harness/pocl_cache.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
 #include <chrono>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <string>
+
+#include "geometry/error.h"
 
 namespace bvhbench {
 namespace {
@@ -40,6 +47,24 @@ void remove_leftovers(const fs::path& folder)
     }
 }
 
+/// PoCL writes there even for kernels that it has, and says of a disk that is full only that nothing was built.
+void require_writable(const fs::path& folder)
+{
+    const fs::path probe = folder / ("tempfile_probe" + std::to_string(getpid()));
+    const int file = open(probe.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+    const std::string text(4096, ' ');
+    const bool is_written =
+        file >= 0 && write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
+    const std::string reason = std::strerror(errno);
+    if (file >= 0) {
+        close(file);
+        unlink(probe.c_str());
+    }
+    if (!is_written)
+        throw Unavailable("the folder for compiled kernels, " + folder.string() +
+                          ", cannot be written: " + reason + "; XDG_CACHE_HOME names another");
+}
+
 }  // namespace
 
 void prepare_pocl_cache()
@@ -51,6 +76,7 @@ void prepare_pocl_cache()
     if (folder.empty() || (fs::create_directories(folder, error), error))
         return;
     fs::permissions(folder, fs::perms::owner_all, error);
+    require_writable(folder);
     setenv("POCL_CACHE_DIR", folder.c_str(), 1);  // empty counts as unset, PoCL aborts on it
     remove_leftovers(folder);
 }

@@ -4,7 +4,9 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <array>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -22,6 +24,11 @@ using namespace std::chrono_literals;
 // A line with the run's id, then lines of a cell, a tab, and why it was given up.
 constexpr const char* variable = "BVHBENCH_GOES_ON";
 constexpr long over = -1;
+
+// Not SIGFPE: PoCL has a handler for that.
+constexpr std::array crashes = {SIGSEGV, SIGBUS, SIGILL, SIGABRT};
+std::array<void (*)(int), crashes.size()> before = {};
+std::atomic<const Watchdog*> watching = nullptr;  // a signal handler has no other way to it
 
 long now_ms()
 {
@@ -45,6 +52,13 @@ void close_on_exec()
 {
     for (int file = 3, most = static_cast<int>(sysconf(_SC_OPEN_MAX)); file < most; ++file)
         fcntl(file, F_SETFD, FD_CLOEXEC);
+}
+
+std::string spelled(double seconds)
+{
+    char text[32];
+    std::snprintf(text, sizeof text, "%g", seconds);
+    return text;
 }
 
 [[noreturn]] void say_and_end(const std::string& sentence)
@@ -75,12 +89,21 @@ Watchdog::Watchdog(double limit_s) : limit_s_(limit_s)
         for (std::string cell, why; std::getline(lines, cell, '\t') && std::getline(lines, why);)
             given_up_[cell] = why;
     }
-    if (limit_s_ > 0)
-        thread_ = std::thread([this] { look(); });
+    if (limit_s_ <= 0)
+        return;
+    thread_ = std::thread([this] { look(); });
+    watching = this;
+    for (std::size_t i = 0; i < crashes.size(); ++i)
+        before[i] = std::signal(crashes[i], crashed);
 }
 
 Watchdog::~Watchdog()
 {
+    if (limit_s_ > 0) {
+        for (std::size_t i = 0; i < crashes.size(); ++i)
+            std::signal(crashes[i], before[i]);
+        watching = nullptr;
+    }
     {
         const std::lock_guard lock(mutex_);
         stops_ = true;
@@ -127,21 +150,32 @@ void Watchdog::look()
     while (!stop_.wait_for(lock, 100ms, [this] { return stops_; })) {
         long until = until_;
         if (until > 0 && now_ms() > until && until_.compare_exchange_strong(until, over))
-            end();
+            end("took longer than " + spelled(limit_s_) +
+                " s and was ended; --time-limit gives a build or query more");
     }
 }
 
-void Watchdog::end() const
+/// Little may be done in a handler of signals, and this does more: whoever crashed may hold the heap. Then the alarm ends
+/// the process, and what is in the file stays.
+void Watchdog::crashed(int signal)
 {
-    char limit[32];
-    std::snprintf(limit, sizeof limit, "%g", limit_s_);
-    const std::string why = std::string("took longer than ") + limit +
-                            " s and was ended; --time-limit gives a build or query more";
+    for (const int each : crashes)
+        std::signal(each, SIG_DFL);
+    alarm(5);
+    sigset_t all;
+    sigfillset(&all);
+    sigprocmask(SIG_UNBLOCK, &all, nullptr);
+    watching.load()->end("crashed (signal " + std::to_string(signal) +
+                         "); damaged kernels in the OpenCL driver's cache can be why");
+}
+
+void Watchdog::end(const std::string& why) const
+{
     if (is_interrupted())
         _exit(130);
     const std::string* const cell = cell_;
     if (cell == nullptr || !keep_)
-        say_and_end("a build or query " + why);
+        say_and_end("what was to be done " + why);
     try {
         keep_();
     } catch (const std::exception& error) {
@@ -152,6 +186,7 @@ void Watchdog::end() const
         text += earlier + '\t' + reason + '\n';
     text += *cell + '\t' + why + '\n';
     setenv(variable, text.c_str(), 1);
+    alarm(0);
     begin_anew();
 }
 

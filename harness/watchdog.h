@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // A kernel that never ends cannot be taken back, by no call of OpenCL 1.2, and a process that has used PoCL cannot be
-// forked. So when a build or a query takes too long, the program begins anew in its own place, by exec: the same
-// process for who started it, with all that hung gone. What it must know of itself goes on in its environment
+// forked. So when a build or a query takes too long, or crashes, the program begins anew in its own place, by exec: the
+// same process for who started it, with all that hung gone. What it must know of itself goes on in its environment
 // (docs/decisions/0012).
 #pragma once
 
@@ -18,11 +18,12 @@ namespace bvhbench {
 
 /// Watches single builds and queries from a thread of its own.
 ///
-/// When one is not over in time: if it is for a cell of a result, finished cells are kept, and the program begins anew,
-/// gives up that cell and does the rest. Else the program ends, with a sentence and exit code 3.
+/// When one is not over in time, or anything crashes: if it is for a cell of a result, finished cells are kept, and the
+/// program begins anew, gives up that cell and does the rest. Else the program ends, with a sentence and exit code 3.
 class Watchdog {
 public:
-    /// 0 seconds: watches nothing. Reads what was left for it in the environment.
+    /// 0 seconds: watches nothing, and a crash is a crash. Reads what was left for it in the environment. One that watches
+    /// is there at a time: signals are the process's.
     explicit Watchdog(double limit_s);
     ~Watchdog();
     Watchdog(const Watchdog&) = delete;
@@ -71,7 +72,8 @@ private:
     };
 
     void look();
-    [[noreturn]] void end() const;
+    static void crashed(int signal);
+    [[noreturn]] void end(const std::string& why) const;
 
     double limit_s_;
     std::string run_id_;
