@@ -68,7 +68,12 @@ void Session::require_host_memory(std::string_view what, std::uint64_t bytes) co
                           std::to_string(given));
 }
 
-void Session::renew_queue() { queue_ = std::make_unique<Queue>(device_); }
+/// In its place: trees that stand were built through it and are read through it.
+void Session::renew_queue()
+{
+    Queue fresh(device_);
+    std::swap(*queue_, fresh);
+}
 
 Builder& Session::builder(const BuilderChoice& choice, Operation operation)
 {

@@ -3,8 +3,8 @@
 // The program's commands, run again and again in one process, with another OpenCL call failing each time. The shim is
 // linked in before the loader, so every call of the program goes through it.
 //
-// By default the calls that fail are those that differ in how they were reached: of each way of calls its first, its
-// second and its last. With BVHBENCH_ALL_FAULTS=1 it is every call there is: minutes.
+// By default the calls that fail are those that differ in how they were reached: of each way of calls its first and its
+// last. With BVHBENCH_ALL_FAULTS=1 it is every call there is: half an hour.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -42,6 +42,8 @@ private:
     std::streambuf* before_;
 };
 
+bool tries_all() { return std::getenv("BVHBENCH_ALL_FAULTS") != nullptr; }
+
 struct Outcome {
     int code;
     std::string out, error;
@@ -60,7 +62,7 @@ protected:
     Outcome run(std::vector<std::string> words, shim::Plan plan) const
     {
         fs::remove(file_);
-        words.insert(words.begin(), "bvhbench");
+        words.insert(words.begin(), {"bvhbench", "--time-limit", "0"});  // a crash is to end the test
         std::vector<const char*> argv;
         for (const std::string& word : words)
             argv.push_back(word.c_str());
@@ -81,14 +83,16 @@ protected:
     void fail_calls_of(const std::vector<std::string>& words, std::size_t cells);
 
 private:
-    std::vector<long> chosen(const std::vector<std::string>& words) const;
+    std::vector<long> chosen(const std::vector<std::string>& words);
     void expect_clean(const Outcome& outcome, const shim::Plan& plan, std::size_t cells) const;
+
+    std::set<std::uint64_t> tried_;  ///< ways of calls, in this test
 
 protected:
     fs::path folder_, file_;
 };
 
-std::vector<long> Injected::chosen(const std::vector<std::string>& words) const
+std::vector<long> Injected::chosen(const std::vector<std::string>& words)
 {
     shim::remember_calls(true);
     run(words, {});
@@ -98,13 +102,11 @@ std::vector<long> Injected::chosen(const std::vector<std::string>& words) const
     for (std::size_t i = 0; i < calls.size(); ++i)
         ways[calls[i].stack].push_back(static_cast<long>(i) + 1);
     std::set<long> picked;
-    if (std::getenv("ONLY")) return {std::atol(std::getenv("ONLY"))};
-    const bool all = std::getenv("BVHBENCH_ALL_FAULTS") != nullptr;
     for (const auto& [stack, where] : ways)
-        if (all)
+        if (tries_all())
             picked.insert(where.begin(), where.end());
-        else
-            picked.insert({where.front(), where[where.size() > 1 ? 1 : 0], where.back()});
+        else if (tried_.insert(stack).second)
+            picked.insert({where.front(), where.back()});
     std::cout << calls.size() << " calls by " << ways.size() << " ways, " << picked.size()
               << " of them fail" << std::endl;
     return {picked.begin(), picked.end()};
@@ -129,7 +131,10 @@ void Injected::expect_clean(const Outcome& outcome, const shim::Plan& plan, std:
     EXPECT_LE(result.cells.size(), cells);
     for (const Cell& cell : result.cells) {
         if (cell.status == Cell::Status::measured)
-            EXPECT_EQ(cell.check.verdict, Check::Verdict::agrees) << cell.check.detail;
+            EXPECT_TRUE(cell.check.verdict == Check::Verdict::agrees ||
+                        (cell.check.verdict == Check::Verdict::not_checked &&
+                         cell.check.detail.find("the reference failed") != std::string::npos))
+                << cell.check.detail;
         else
             EXPECT_NE(cell.reason, "");
     }
@@ -146,11 +151,10 @@ void Injected::fail_calls_of(const std::vector<std::string>& words, std::size_t 
     for (const long nth : chosen(words))
         for (const bool from_there_on : {false, true}) {
             const shim::Plan plan{nth, from_there_on};
-            if (std::getenv("TRACE")) std::cerr << nth << from_there_on << std::endl;
             const Outcome outcome = run(words, plan);
             expect_clean(outcome, plan, cells);
             ++ends[outcome.code];
-            if (HasFailure() && std::getenv("BVHBENCH_ALL_FAULTS") == nullptr)
+            if (HasFailure() && !tries_all())
                 return;  // one is enough to look at
         }
     for (const auto& [code, times] : ends)
@@ -160,18 +164,62 @@ void Injected::fail_calls_of(const std::vector<std::string>& words, std::size_t 
     EXPECT_EQ(again.code, 0) << again.error;
 }
 
+/// With so little memory the copy rate is not measured, which takes longer than all else.
+const std::vector<std::string> without_yardsticks = {"--memory-limit", "16M"};
+
+std::vector<std::string> operator+(std::vector<std::string> words, const std::vector<std::string>& more)
+{
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
 TEST_F(Injected, ABuildEndsCleanlyWhicheverCallFails)
 {
-    fail_calls_of({"build", "--builder", "oibvh-multi", "--scene", "soup:70", "--samples", "1", "--json",
-                   file_.string()},
-                  1);
+    const std::vector<std::string> build = {"build",     "--builder", "oibvh-multi", "--scene",     "soup:70",
+                                            "--samples", "1",         "--json",      file_.string()};
+    for (const bool with_yardsticks : {false, true})  // in a loop, so that what is alike is reached by one way
+        if (with_yardsticks || !tries_all())
+            fail_calls_of(with_yardsticks ? build : build + without_yardsticks, 1);
 }
 
 TEST_F(Injected, ACollisionEndsCleanlyWhicheverCallFails)
 {
-    fail_calls_of({"collide", "--collider", "leaf", "--scene", "n-body:100:2", "--frames", "0:2", "--narrow",
-                   "exact", "--samples", "1", "--json", file_.string()},
-                  2);
+    const std::vector<std::string> collide = {"collide",   "--collider", "leaf",     "--scene", "n-body:100:2",
+                                              "--frames",  "0:2",        "--narrow", "exact",   "--samples",
+                                              "1",         "--json",     file_.string()};
+    fail_calls_of(tries_all() ? collide : collide + without_yardsticks, 2);
+}
+
+TEST_F(Injected, FinishedCellsAreKeptAndTheOthersAreDone)
+{
+    const fs::path plan = folder_.string() + ".plan.json";
+    std::ofstream(plan) << R"({"experiment": "faults", "scenes": ["soup:9", "soup:30"], "samples": 1, "warm_up": 0,
+                               "builders": ["oibvh-multi", "karras", "median-split"]})";
+    const std::vector<std::string> words = std::vector<std::string>{"run", plan.string(), "--out", file_.string()} +
+                                           without_yardsticks;
+    run(words, {});
+    const long calls = shim::calls();
+    std::size_t kept = 0;
+    for (int part = 1; part < 20; ++part) {
+        const shim::Plan one{calls * part / 20, false};
+        const Outcome outcome = run(words, one);
+        SCOPED_TRACE("call " + std::to_string(one.nth) + ", " + shim::failed_call() + ": " + outcome.error);
+        if (outcome.code != 0) {  // before there were cells
+            EXPECT_EQ(outcome.code, 3);
+            EXPECT_EQ(kept, 0u);
+            continue;
+        }
+        const Document result = document();
+        EXPECT_EQ(result.cells.size(), 6u);
+        EXPECT_FALSE(result.run.finished_at.empty());
+        const auto measured = std::count_if(result.cells.begin(), result.cells.end(), [](const Cell& cell) {
+            return cell.status == Cell::Status::measured && cell.check.verdict == Check::Verdict::agrees;
+        });
+        EXPECT_GE(measured, 3);  // at most a scene, when it cannot be uploaded
+        ++kept;
+    }
+    EXPECT_GT(kept, 10u);
+    fs::remove(plan);
 }
 
 }  // namespace
