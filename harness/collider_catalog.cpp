@@ -2,17 +2,12 @@
 #include "harness/collider_catalog.h"
 
 #include "baselines/colliders.h"
+#include "baselines/libraries.h"
 #include "collide/colliders.h"
 #include "geometry/error.h"
 
 namespace bvhbench {
 namespace {
-
-constexpr ColliderEntry of_library(std::string_view name, std::string_view summary,
-                                   MakeCollider make, std::string_view absent)
-{
-    return {name, summary, make, make != nullptr ? "" : absent};
-}
 
 // To add a collider, add its line here. Nothing registers itself.
 constexpr ColliderEntry catalog[] = {
@@ -27,12 +22,11 @@ constexpr ColliderEntry catalog[] = {
      make_front},
     {"grid", "no tree: boxes hashed by the cells they cover, on levels by their size", make_grid},
     {"brute", "sweep and prune on one core of the host, without the tree: the oracle", make_brute},
-    of_library("embree", "Embree's rtcCollide over trees of its own, on all host threads",
-               make_embree_collider, "built without Embree"),
-    of_library("fcl", "triangles that intersect, by FCL, its trees built each time, on a host core",
-               make_fcl_collider, "built without FCL"),
-    of_library("fcl-refit", "the same, its trees refit to moved points", make_fcl_refit_collider,
-               "built without FCL"),
+    {"embree", "Embree's rtcCollide over trees of its own, on all host threads",
+     make_embree_collider, embree_absent},
+    {"fcl", "triangles that intersect, by FCL, its trees built each time, on a host core",
+     make_fcl_collider, fcl_absent},
+    {"fcl-refit", "the same, its trees refit to moved points", make_fcl_refit_collider, fcl_absent},
 };
 
 }  // namespace
