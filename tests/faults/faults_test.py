@@ -74,7 +74,13 @@ def test_killed_at_any_time_it_leaves_a_whole_result_file():
     for number in range(kills):
         path = pathlib.Path(f"killed-{number}/r.json")
         with subprocess.Popen([PROGRAM, "run", plan, "--out", str(path)], stderr=subprocess.DEVNULL) as process:
-            time.sleep(draw.uniform(0.1, 2.0))
+            # A quarter of them at any time from the start on, the others while cells are written.
+            if draw.random() < 0.25:
+                time.sleep(draw.uniform(0, 0.6))
+            else:
+                while not path.exists():
+                    time.sleep(0.01)
+                time.sleep(draw.uniform(0, 1.2))
             process.kill()
             killed = time.time()
             assert process.wait(60) == -signal.SIGKILL
@@ -89,7 +95,7 @@ def test_killed_at_any_time_it_leaves_a_whole_result_file():
             assert cell["builder"]["name"] == ("perfect", "median-split")[place % 2], (place, cell)
         if number % 10 == 0 or kills > 20:
             expect(0, "show", str(path))
-    assert written > kills / 4, f"only {written} of {kills} were killed after the first cell"
+    assert written > kills / 2, f"only {written} of {kills} were killed after the first cell"
     assert oldest < 3, f"a file was {oldest:.1f} s old"  # half a second, and a busy machine's share
     print(f"  killed {kills} times, {written} with cells; the oldest file was {oldest:.2f} s old")
 

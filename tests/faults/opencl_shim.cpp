@@ -34,6 +34,7 @@ struct State {
     long calls = 0;
     std::string failed;
     bool remembers = false;
+    int depth_of_begin = 0;
     std::vector<Call> remembered;
     std::map<void*, Object> objects;
     std::vector<std::string> misused;
@@ -61,12 +62,15 @@ State& state()
     return one;
 }
 
+constexpr int deepest = 64;
+
+/// Of the calls since `begin`: who called that is the same for all.
 std::uint64_t stack_hash()
 {
-    void* frames[24];
-    const int depth = backtrace(frames, 24);
+    void* frames[deepest];
+    const int depth = backtrace(frames, deepest);
     std::uint64_t hash = 1469598103934665603u;
-    for (int i = 1; i < depth; ++i)
+    for (int i = 1; i < depth - state().depth_of_begin; ++i)
         hash = (hash ^ reinterpret_cast<std::uintptr_t>(frames[i])) * 1099511628211u;
     return hash;
 }
@@ -149,6 +153,8 @@ void begin(Plan plan)
     for (const auto& [object, entry] : now.objects)
         for (long i = 0; i < entry.count; ++i)
             entry.release(object);
+    void* frames[deepest];
+    now.depth_of_begin = backtrace(frames, deepest) - 1;
     now.plan = plan;
     now.calls = 0;
     now.failed.clear();
