@@ -165,6 +165,23 @@ void fail(Running& running, Session& session, const std::string& why)
     running.cell.samples.clear();
 }
 
+/// What is known before anything is made: the collider's own, and the oracle's sweep.
+void require_memory(const Session& session, const ColliderChoice& choice, std::size_t triangles)
+{
+    if (const std::size_t bytes = find_collider(choice.name).host_bytes; bytes > 0)
+        session.require_host_memory("collider " + choice.name, bytes * triangles);
+    session.require_host_memory("checking the pairs", sweep_bytes(triangles));
+}
+
+/// What is known once they are counted: those found, and the oracle's.
+void require_memory_for_pairs(const Session& session, const std::map<std::string, double>& counters)
+{
+    for (const char* counted : {"pairs_count", "contacts_count"})
+        if (const auto count = counters.find(counted); count != counters.end())
+            session.require_host_memory(
+                "checking the pairs", 2 * sizeof(Pair) * static_cast<std::size_t>(count->second));
+}
+
 void sample(std::span<Running> all, const CollideTask& task, const Input& input, Session& session,
             int& order, FrameOracle& oracle, Found& found)
 {
@@ -257,6 +274,7 @@ void collide_frames(Session& session, const CollideTask& task, int& order,
                 one.failure = session.watchdog().given_up(one.number);
             if (one.failure.empty())
                 one.failure = reason_of_failure([&] {
+                    require_memory(session, one.cell.collider, input.triangle_count());
                     session.watchdog().watch([&] {
                         if (one.pipeline == nullptr)
                             one.pipeline = std::make_unique<Pipeline>(session, one.cell.builder,
@@ -266,8 +284,10 @@ void collide_frames(Session& session, const CollideTask& task, int& order,
                         one.pipeline->begin_frame(motions);
                         one.pipeline->settle(input);
                     });
+                    std::map<std::string, double> counters = one.pipeline->counters();
+                    require_memory_for_pairs(session, counters);
                     one.cell.check = judge(*one.pipeline, one.cell.collider, oracle, found);
-                    one.cell.counters = one.pipeline->counters();
+                    one.cell.counters = std::move(counters);
                 });
             if (!one.failure.empty())
                 fail(one, session, one.failure);
