@@ -184,7 +184,7 @@ TEST_F(Injected, ABuildEndsCleanlyWhicheverCallFails)
 
 TEST_F(Injected, ACollisionEndsCleanlyWhicheverCallFails)
 {
-    const std::vector<std::string> collide = {"collide",   "--collider", "leaf",     "--scene", "n-body:100:2",
+    const std::vector<std::string> collide = {"collide",   "--collider", "leaf",     "--scene", "bend:soup:60",
                                               "--frames",  "0:2",        "--narrow", "exact",   "--samples",
                                               "1",         "--json",     file_.string()};
     fail_calls_of(collide + without_yardsticks, 2);
