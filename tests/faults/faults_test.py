@@ -55,6 +55,15 @@ def experiment(path: str, **keys) -> str:
     return path
 
 
+def test_a_frame_too_large_for_the_host_is_refused_before_anything_is_taken():
+    collide = ("collide", "--scene", "torus:500000", "--samples", "1")
+    expect(3, *collide, "--collider", "grid", "--memory-limit", "24M",
+           says="out of host memory: checking the pairs takes about 26000000 bytes, and the host gives 25165824")
+    if "built without Embree" not in expect(0, "list", "colliders"):
+        expect(3, *collide, "--collider", "embree", "--memory-limit", "48M",
+               says="out of host memory: collider embree takes about 64000000 bytes, and the host gives 50331648")
+
+
 def test_a_device_that_is_lost_is_one_sentence():
     for call, says in (("1+", "no OpenCL device"), ("40+", "failed: CL_"), ("2000+", "failed: CL_")):
         expect(3, *BUILD, says=says, LD_PRELOAD=str(SHIM), BVHBENCH_FAIL_CALL=call)

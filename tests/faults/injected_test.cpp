@@ -3,8 +3,8 @@
 // The program's commands, run again and again in one process, with another OpenCL call failing each time. The shim is
 // linked in before the loader, so every call of the program goes through it.
 //
-// By default the calls that fail are those that differ in how they were reached: the first of each way of calls, and of
-// every fifth way all that follow with it. With BVHBENCH_ALL_FAULTS=1 it is every call, and each with all that follow.
+// Which calls fail is told by BVHBENCH_FAULTS. "calls": every call, alone and with all that follow. "ways": of each way in
+// which calls are reached the first call, and of every fifth way all that follow with it. By default every third of those.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -42,7 +42,14 @@ private:
     std::streambuf* before_;
 };
 
-bool tries_all() { return std::getenv("BVHBENCH_ALL_FAULTS") != nullptr; }
+enum class Faults { calls, ways, some };
+
+Faults wanted_faults()
+{
+    const char* text = std::getenv("BVHBENCH_FAULTS");
+    const std::string wanted = text != nullptr ? text : "";
+    return wanted == "calls" ? Faults::calls : wanted == "ways" ? Faults::ways : Faults::some;
+}
 
 struct Outcome {
     int code;
@@ -103,8 +110,9 @@ std::vector<long> Injected::chosen(const std::vector<std::string>& words)
         ways[calls[i].stack].push_back(static_cast<long>(i) + 1);
     std::set<long> picked;
     for (const auto& [stack, where] : ways)
-        if (tried_.insert(stack).second)
-            picked.insert(where.begin(), tries_all() ? where.end() : where.begin() + 1);
+        if (tried_.insert(stack).second &&
+            (wanted_faults() != Faults::some || tried_.size() % 3 == 0))
+            picked.insert(where.begin(), wanted_faults() == Faults::calls ? where.end() : where.begin() + 1);
     std::cout << calls.size() << " calls by " << ways.size() << " ways, " << picked.size()
               << " of them fail" << std::endl;
     return {picked.begin(), picked.end()};
@@ -149,13 +157,13 @@ void Injected::fail_calls_of(const std::vector<std::string>& words, std::size_t 
     int number = 0;
     for (const long nth : chosen(words))
         for (const bool from_there_on : {false, true}) {
-            if (from_there_on && !tries_all() && number++ % 5 != 0)
+            if (from_there_on && wanted_faults() != Faults::calls && number++ % 5 != 0)
                 continue;
             const shim::Plan plan{nth, from_there_on};
             const Outcome outcome = run(words, plan);
             expect_clean(outcome, plan, cells);
             ++ends[outcome.code];
-            if (HasFailure() && !tries_all())
+            if (HasFailure() && wanted_faults() == Faults::some)
                 return;  // one is enough to look at
         }
     for (const auto& [code, times] : ends)
