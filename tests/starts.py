@@ -19,7 +19,7 @@ import time
 
 COMMANDS = [("build", "--builder", "oibvh-multi"), ("build", "--builder", "oibvh-single"),
             ("build", "--builder", "apetrei-fused"), ("build", "--builder", "oibvh-multi", "--order", "kd"),
-            ("build", "--builder", "oibvh-multi", "--order", "hilbert30+kd1024"), ("collide",)]
+            ("build", "--builder", "oibvh-multi", "--order", "hilbert30+kd1024"), ("collide", "--collider", "group")]
 
 
 def start(program: str, words: tuple[str, ...], cache: str) -> tuple[float, float]:
