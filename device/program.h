@@ -63,7 +63,7 @@ private:
 
     const Device& device_;
     std::string dialect_;
-    bool declares_builtins_;  ///< whether texts go behind device/builtins.clh
+    bool declares_builtins_;                       ///< whether texts go behind device/builtins.clh
     std::map<std::string, cl::Program> programs_;  ///< by options and text
     std::int64_t compile_ns_ = 0;
 };

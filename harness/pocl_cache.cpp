@@ -21,8 +21,8 @@ namespace fs = std::filesystem;
 /// More than what all programs of one run take.
 constexpr std::uintmax_t needed_bytes = std::uintmax_t{16} << 20;
 
-/// Some 600 programs: twice what all tests compile. To hold all of it to its seals takes a few hundredths of a second.
-constexpr std::uintmax_t most_bytes = std::uintmax_t{128} << 20;
+/// Some 400 programs. To hold all of it to its seals takes 0.06 s, and that at every start.
+constexpr std::uintmax_t most_bytes = std::uintmax_t{32} << 20;
 
 fs::path variable(const char* name)
 {
