@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "harness/cache_seals.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstring>
 #include <fstream>
 #include <map>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
-
-#include "harness/result_file.h"
 
 namespace bvhbench {
 namespace {
@@ -95,12 +96,19 @@ std::string name_of(const fs::path& file, const fs::path& folder)
     return file.lexically_relative(folder).string();
 }
 
+/// Another file that becomes it. Not waited for: lost with the machine's power, it is but compiled again.
 void write_seals(const fs::path& folder, const Seals& seals)
 {
-    std::ostringstream text;
+    const fs::path temporary = folder / ("bvhbench.seals." + std::to_string(getpid()));
+    std::ofstream file(temporary);
     for (const auto& [name, seal] : seals)
-        text << std::hex << seal.sum << ' ' << std::dec << seal.bytes << ' ' << name << '\n';
-    write_atomically(seals_file(folder), text.str());
+        file << std::hex << seal.sum << ' ' << std::dec << seal.bytes << ' ' << name << '\n';
+    file.close();
+    if (!file) {
+        fs::remove(temporary);
+        throw std::runtime_error("no room for seals");
+    }
+    fs::rename(temporary, seals_file(folder));
 }
 
 bool is_as_sealed(const Program& program, const fs::path& folder, const Seals& seals)
