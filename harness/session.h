@@ -9,6 +9,7 @@
 #include "builders/builder.h"
 #include "harness/catalog.h"
 #include "harness/options.h"
+#include "harness/pocl_cache.h"
 #include "scenes/catalog.h"
 
 namespace bvhbench {
@@ -49,12 +50,15 @@ public:
                                       const Tree** tree = nullptr);
 
 private:
+    Session(std::unique_ptr<PoclCache> cache, const CommonOptions& common);
+
     struct Made {
         BuilderChoice choice;
         Operation operation;
         std::unique_ptr<Builder> builder;
     };
 
+    std::unique_ptr<PoclCache> cache_;  ///< outlives all that runs kernels
     std::uint64_t host_memory_limit_;
     Device device_;
     Programs programs_;
@@ -68,6 +72,7 @@ private:
 SceneLibrary scene_library(const CommonOptions& common);
 
 /// The device --device asks for, with kernels from --kernels and tuned as --tuning says. Throws Unavailable.
+/// A PoclCache must be there first.
 Device open_device_of(const CommonOptions& common);
 
 }  // namespace bvhbench
