@@ -111,10 +111,10 @@ inline constexpr Parameter sweep_counting_groups_per_unit{
 
 inline constexpr Parameter sort_at_once{
     .name = "sort.at_once",
-    .meaning = "1: few pairs are sorted in one launch, likewise; 0: in one a pass, as is usual",
+    .meaning = "1: few pairs are sorted in one launch, likewise; 0: in one a pass",
     .stage = "sort",
     .on_cpu = 0,
-    .elsewhere = 0,
+    .elsewhere = 1,
     .least = 0,
     .most = 1,
     .candidates = {0, 1}};
@@ -200,6 +200,17 @@ inline constexpr Parameter implicit_handoff_group_size{
     .most = 1024,
     .values = ValueIs::group_size,
     .candidates = {128, 256, 512, 1024}};
+inline constexpr Parameter implicit_waits{
+    .name = "implicit.waits",
+    .meaning =
+        "likewise, 1: a few groups wait for subtrees' roots, where groups may; 0: the last to "
+        "arrive goes on",
+    .stage = "hierarchy",
+    .on_cpu = 0,
+    .elsewhere = 1,
+    .least = 0,
+    .most = 1,
+    .candidates = {0, 1}};
 inline constexpr Parameter implicit_items{
     .name = "implicit.items",
     .meaning = "nodes of the entry level that a work-item merges in registers",
@@ -223,17 +234,28 @@ inline constexpr Parameter implicit_subtrees_per_core{
 
 /// All of them.
 inline constexpr const Parameter* builder_parameters[] = {
-    &chunks_per_core,        &bounds_group_size,
-    &bounds_groups_per_unit, &codes_group_size,
-    &sort_chunk_digit_bits,  &sort_group_size,
-    &sort_keys_per_item,     &sweep_group_size,
-    &sweep_keys_per_item,    &sweep_counting_groups_per_unit,
+    &chunks_per_core,
+    &bounds_group_size,
+    &bounds_groups_per_unit,
+    &codes_group_size,
+    &sort_chunk_digit_bits,
+    &sort_group_size,
+    &sort_keys_per_item,
+    &sweep_group_size,
+    &sweep_keys_per_item,
+    &sweep_counting_groups_per_unit,
     &sort_at_once,
-    &medians_group_size,     &cells_pass_group_size,
-    &cells_pass_leaves,      &cells_local_leaves,
-    &cells_chunk_levels,     &gather_group_size,
-    &implicit_group_size,    &implicit_handoff_group_size,
-    &implicit_items,         &implicit_subtrees_per_core,
+    &medians_group_size,
+    &cells_pass_group_size,
+    &cells_pass_leaves,
+    &cells_local_leaves,
+    &cells_chunk_levels,
+    &gather_group_size,
+    &implicit_group_size,
+    &implicit_handoff_group_size,
+    &implicit_waits,
+    &implicit_items,
+    &implicit_subtrees_per_core,
 };
 
 }  // namespace bvhbench

@@ -1,4 +1,5 @@
-# add_kernel_checks(): one test per kernel entry point (.cl) and dialect, compiled by clang without a device.
+# add_kernel_checks(): one test per kernel entry point (.cl) and dialect, compiled by clang without a device; and one
+# that it uses no built-in function but those that device/builtins.clh declares.
 #
 # A kernel's compile-time numbers come from the host (-D). For the check they are read from the kernel
 # itself: a line `// check: -DGROUP_SIZE=64u ...` near its top names one set of values; several lines,
@@ -23,6 +24,12 @@ function(add_kernel_checks)
                             -fsyntax-only -Wall -Wextra -Werror ${defines}
                             "-I${PROJECT_SOURCE_DIR}" "${PROJECT_SOURCE_DIR}/${kernel}")
             endforeach()
+            # Behind device/builtins.clh alone, as PoCL 3.1 gets it (device/program.cpp).
+            add_test(NAME kernel.${name}.${variant}.builtins
+                COMMAND ${KERNEL_CLANG} -x cl -cl-std=CL1.2 -cl-no-stdinc -include opencl-c-base.h
+                        -include "${PROJECT_SOURCE_DIR}/device/builtins.clh"
+                        -fsyntax-only -Wall -Wextra -Werror ${defines}
+                        "-I${PROJECT_SOURCE_DIR}" "${PROJECT_SOURCE_DIR}/${kernel}")
             math(EXPR variant "${variant} + 1")
         endforeach()
     endforeach()

@@ -13,10 +13,27 @@ bool can_round_division(const cl::Device& device)
            0;
 }
 
+/// Whether the driver is the one that device/builtins.clh was written for.
+bool is_slow_to_declare(const cl::Device& device)
+{
+    const cl::Platform platform(device.getInfo<CL_DEVICE_PLATFORM>());
+    return platform.getInfo<CL_PLATFORM_VERSION>().find("PoCL 3.1") != std::string::npos;
+}
+
+/// Of the program, whichever source tree kernels are from: one file for all of them.
+const std::string& builtins()
+{
+    static const std::string text = "#line 1 \"device/builtins.clh\"\n" +
+                                    std::string(embedded_kernel("device/builtins.clh").value());
+    return text;
+}
+
 }  // namespace
 
 Programs::Programs(const Device& device, std::string dialect)
-    : device_(device), dialect_(std::move(dialect))
+    : device_(device)
+    , dialect_(std::move(dialect))
+    , declares_builtins_(dialect_ == "CL1.2" && is_slow_to_declare(device.cl))
 {}
 
 cl::Kernel Programs::kernel(std::string_view path, const char* name,
@@ -48,10 +65,9 @@ cl::Kernel Programs::compiled(const std::string& text, std::string_view path, co
     if (found == programs_.end())
         found = programs_.emplace(key, build(path, text, options)).first;
     const cl::Kernel kernel(found->second, name);
-    device_.require_group(
-        std::string(path) + ": " + name,
-        kernel.getWorkGroupInfo<CL_KERNEL_COMPILE_WORK_GROUP_SIZE>(device_.cl)[0],
-        kernel.getWorkGroupInfo<CL_KERNEL_LOCAL_MEM_SIZE>(device_.cl));
+    device_.require_group(std::string(path) + ": " + name,
+                          kernel.getWorkGroupInfo<CL_KERNEL_COMPILE_WORK_GROUP_SIZE>(device_.cl)[0],
+                          kernel.getWorkGroupInfo<CL_KERNEL_LOCAL_MEM_SIZE>(device_.cl));
     return kernel;
 }
 
@@ -60,9 +76,9 @@ cl::Program Programs::build(std::string_view path, const std::string& text,
 {
     using clock = std::chrono::steady_clock;
     const auto start = clock::now();
-    cl::Program program(device_.context, text);
+    cl::Program program;
     try {
-        program.build(device_.cl, options.c_str());
+        program = built(text, options);
     } catch (const cl::BuildError& error) {
         std::string message = std::string(path) + " did not build with " + options;
         for (const auto& [built_for, log] : error.getBuildLog())
@@ -70,6 +86,24 @@ cl::Program Programs::build(std::string_view path, const std::string& text,
         throw BuildFailure(message);
     }
     compile_ns_ += std::chrono::nanoseconds(clock::now() - start).count();
+    return program;
+}
+
+cl::Program Programs::built(const std::string& text, const std::string& options) const
+{
+    if (declares_builtins_) {
+        cl::Program program(device_.context, builtins() + text);
+        try {
+            // The guard of the header that declares all functions: PoCL then finds it included.
+            program.build(device_.cl, (options + " -D _OPENCL_H_").c_str());
+            return program;
+        } catch (
+            const cl::
+                BuildError&) {  // a function that is not in the file, or an error, which is reported below
+        }
+    }
+    cl::Program program(device_.context, text);
+    program.build(device_.cl, options.c_str());
     return program;
 }
 

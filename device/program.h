@@ -59,9 +59,11 @@ private:
     cl::Kernel compiled(const std::string& text, std::string_view path, const char* name,
                         std::span<const Define> defines, Optimise optimise);
     cl::Program build(std::string_view path, const std::string& text, const std::string& options);
+    cl::Program built(const std::string& text, const std::string& options) const;
 
     const Device& device_;
     std::string dialect_;
+    bool declares_builtins_;                       ///< whether texts go behind device/builtins.clh
     std::map<std::string, cl::Program> programs_;  ///< by options and text
     std::int64_t compile_ns_ = 0;
 };

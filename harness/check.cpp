@@ -13,20 +13,39 @@ constexpr std::string_view promises_name = "contract";
 
 }  // namespace
 
-std::uint64_t Oracle::tree_hash(std::string_view reference_name, const std::string& order)
+void Oracle::begin(std::string_view reference, const std::string& order)
 {
-    const std::pair key{std::string(reference_name), order};
-    if (const auto known = hashes_.find(key); known != hashes_.end())
-        return known->second;
+    std::shared_future<std::uint64_t>& hash = hashes_[{std::string(reference), order}];
+    if (!hash.valid())
+        hash = std::async(std::launch::async, [this, name = std::string(reference), order] {
+            return built(name, order);
+        });
+}
+
+void Oracle::wait() const
+{
+    for (const auto& [of, hash] : hashes_)
+        hash.wait();
+}
+
+std::uint64_t Oracle::tree_hash(std::string_view reference, const std::string& order)
+{
+    begin(reference, order);
+    return hashes_[{std::string(reference), order}].get();
+}
+
+/// By a builder of its own, for the cell under test may be the reference itself, in a queue of its own.
+std::uint64_t Oracle::built(std::string_view reference, const std::string& order) const
+{
     BuilderChoice choice;
-    choice.name = reference_name;
+    choice.name = reference;
     choice.order = order;
-    // A builder of its own: the cell under test may be the reference itself.
-    const auto reference = make_builder(choice, session_.programs());
-    reference->reserve(input_.triangle_count());
-    const Tree* tree = nullptr;
-    session_.build_once(*reference, input_, Start::from_triangles, &tree);
-    return hashes_[key] = bvhbench::tree_hash(tree->spelled_out());
+    const auto builder = make_builder(choice, session_.programs());
+    builder->reserve(input_.triangle_count());
+    Queue queue(session_.device());
+    const Tree& tree = builder->build(input_, queue, Start::from_triangles);
+    queue.finish();
+    return bvhbench::tree_hash(tree.spelled_out());
 }
 
 std::uint64_t check_bytes(std::uint64_t triangles)
@@ -43,10 +62,10 @@ Check check_tree(const HostTree& tree, const Input& input, const BuilderChoice& 
 {
     using enum Check::Verdict;
     const std::string_view reference = find_builder(builder.name).oracle;
-    Check check{agrees,
-                std::string(reference.empty() ? promises_name : reference),
-                {},
-                bvhbench::tree_hash(tree)};
+    Check check{agrees, std::string(reference.empty() ? promises_name : reference), {}, {}};
+    if (!reference.empty())
+        oracle.begin(reference, builder.order);
+    check.tree_hash = bvhbench::tree_hash(tree);
     check.detail = broken_promise(tree, input.points, input.faces);
     if (!check.detail.empty()) {
         check.verdict = differs;

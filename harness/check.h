@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <future>
 #include <map>
 #include <string>
 #include <string_view>
@@ -12,18 +13,28 @@
 
 namespace bvhbench {
 
-/// Knows the right trees of one input: those of the reference builders, each built once an order.
+/// Knows the right trees of one input: those of the reference builders, each built once an order, on another core.
+/// References are host builders (harness/catalog.cpp), so nothing of the session is shared with who goes on meanwhile.
 class Oracle {
 public:
     Oracle(Session& session, const Input& input) : session_(session), input_(input) {}
+
+    /// Begin the tree that the builder `reference` leaves, unless it was. Nothing may be timed before wait().
+    void begin(std::string_view reference, const std::string& order);
+
+    /// Until all that was begun is there.
+    void wait() const;
 
     /// Of the tree that the builder `reference` leaves. Throws what it throws.
     std::uint64_t tree_hash(std::string_view reference, const std::string& order);
 
 private:
+    std::uint64_t built(std::string_view reference, const std::string& order) const;
+
     Session& session_;
     const Input& input_;
-    std::map<std::pair<std::string, std::string>, std::uint64_t> hashes_;  ///< by builder, order
+    std::map<std::pair<std::string, std::string>, std::shared_future<std::uint64_t>>
+        hashes_;  ///< by builder, order
 };
 
 /// Bytes of the host that check_tree takes at most, about, of trees over so many triangles.

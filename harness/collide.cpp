@@ -2,6 +2,7 @@
 #include "harness/collide.h"
 
 #include <algorithm>
+#include <future>
 #include <memory>
 #include <optional>
 
@@ -18,21 +19,28 @@
 namespace bvhbench {
 namespace {
 
-/// What a frame's pairs and contacts are, found out when first asked for.
+/// What a frame's pairs and contacts are, found out when first asked for; pairs on another core.
 class FrameOracle {
 public:
     explicit FrameOracle(const Input& input) : input_(input) {}
 
-    const PairList& pairs(const ColliderChoice& choice)
+    /// Begin with the pairs. Nothing may be timed before wait().
+    void begin(const ColliderChoice& choice) { entry(choice); }
+
+    /// Until all that was begun is there.
+    void wait() const
     {
-        return entry(choice).pairs;
+        for (const auto& one : entries_)
+            one->pairs.wait();
     }
+
+    const PairList& pairs(const ColliderChoice& choice) { return entry(choice).pairs.get(); }
 
     const PairList& contacts(const ColliderChoice& choice)
     {
         Entry& found = entry(choice);
         if (!found.contacts)
-            found.contacts = intersecting_pairs(input_.points, input_.faces, found.pairs,
+            found.contacts = intersecting_pairs(input_.points, input_.faces, found.pairs.get(),
                                                 choice.keep_adjacent);
         return *found.contacts;
     }
@@ -41,7 +49,7 @@ private:
     struct Entry {
         Among among;
         bool keep_adjacent;
-        PairList pairs;
+        std::shared_future<PairList> pairs;
         std::optional<PairList> contacts;
     };
 
@@ -50,10 +58,12 @@ private:
         for (const auto& one : entries_)
             if (one->among == choice.among && one->keep_adjacent == choice.keep_adjacent)
                 return *one;
-        const PairList all = touching_pairs(input_.points, input_.faces, choice.keep_adjacent);
+        const auto found = [this, among = choice.among, keep_adjacent = choice.keep_adjacent] {
+            return among_objects(touching_pairs(input_.points, input_.faces, keep_adjacent),
+                                 input_.objects, among);
+        };
         entries_.push_back(std::make_unique<Entry>(
-            Entry{choice.among, choice.keep_adjacent,
-                  among_objects(all, input_.objects, choice.among), {}}));
+            Entry{choice.among, choice.keep_adjacent, std::async(std::launch::async, found), {}}));
         return *entries_.back();
     }
 
@@ -114,8 +124,8 @@ struct Running {
 Scene loaded(const CollideTask& task, const SceneLibrary& library)
 {
     const DataSet* set = task.may_stand_in ? find_data_set(task.scene) : nullptr;
-    Scene scene = set != nullptr ? load_or_stand_in(*set, library)
-                                 : load_scene(task.scene, library);
+    Scene scene =
+        set != nullptr ? load_or_stand_in(*set, library) : load_scene(task.scene, library);
     if (task.objects != ObjectsBy::automatic)
         scene = with_objects(std::move(scene), task.objects);
     return task.between > 0 ? with_frames_between(scene, task.between) : scene;
@@ -246,8 +256,8 @@ void collide_frames(Session& session, const CollideTask& task, int& order,
     for (const SceneObject& object : scene.objects)
         objects.push_back({object.first_face, object.face_count});
 
-    Input input = upload(session.device(), session.queue(), scene.frames[frames.first],
-                         scene.faces, objects);
+    Input input =
+        upload(session.device(), session.queue(), scene.frames[frames.first], scene.faces, objects);
     std::vector<Running> all(task.pipelines.size());
     for (std::size_t frame = frames.first; frame < frames.end; ++frame) {
         throw_if_interrupted();
@@ -257,6 +267,8 @@ void collide_frames(Session& session, const CollideTask& task, int& order,
         if (frame > frames.first)
             motions = object_motions(scene, frame - 1, frame);
         FrameOracle oracle(input);
+        oracle.begin(
+            task.pipelines.front().collider);  // while the first one is compiled and settles
         Found found;
         for (std::size_t k = 0; k < all.size(); ++k) {
             Running& one = all[k];
@@ -292,11 +304,13 @@ void collide_frames(Session& session, const CollideTask& task, int& order,
             if (!one.failure.empty())
                 fail(one, session, one.failure);
         }
+        oracle.wait();  // if none has asked, too
         sample(all, task, input, session, order, oracle, found);
         std::vector<Cell> cells;
         for (Running& one : all)
             cells.push_back(std::move(one.cell));
-        found = {numbered_as_in_file(found.pairs, scene), numbered_as_in_file(found.contacts, scene)};
+        found = {numbered_as_in_file(found.pairs, scene),
+                 numbered_as_in_file(found.contacts, scene)};
         add(std::move(cells), found);
     }
 }

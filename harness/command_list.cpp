@@ -76,6 +76,7 @@ std::string experiments()
 /// What parameters are on the device, and where that comes from.
 std::string tuning(const CommonOptions& common)
 {
+    const PoclCache cache;
     const Device device = open_device_of(common);
     Table table = lines(6);
     for (const Parameter* parameter : tuning_parameters()) {
@@ -93,7 +94,7 @@ std::string tuning(const CommonOptions& common)
 /// What the program branches on or reports, of every device.
 std::string devices()
 {
-    prepare_pocl_cache();
+    const PoclCache cache;
     const std::size_t count = device_names().size();
     if (count == 0)
         throw Unavailable("there is no OpenCL device");

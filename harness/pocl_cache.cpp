@@ -2,21 +2,27 @@
 #include "harness/pocl_cache.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <chrono>
 #include <cstdlib>
-#include <cstring>
-#include <filesystem>
-#include <string>
+#include <fstream>
+#include <iostream>
 
 #include "geometry/error.h"
+#include "harness/cache_seals.h"
 
 namespace bvhbench {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// More than what all programs of one run take.
+constexpr std::uintmax_t needed_bytes = std::uintmax_t{16} << 20;
+
+/// Some 400 programs. To hold all of it to its seals takes 0.06 s, and that at every start.
+constexpr std::uintmax_t most_bytes = std::uintmax_t{32} << 20;
 
 fs::path variable(const char* name)
 {
@@ -24,7 +30,7 @@ fs::path variable(const char* name)
     return value != nullptr ? value : "";
 }
 
-fs::path cache_folder()
+fs::path own_folder()
 {
     if (const fs::path base = variable("XDG_CACHE_HOME"); base.is_absolute())
         return base / "bvhbench" / "pocl";
@@ -47,38 +53,84 @@ void remove_leftovers(const fs::path& folder)
     }
 }
 
-/// PoCL writes there even for kernels that it has, and says of a disk that is full only that nothing was built.
-void require_writable(const fs::path& folder)
-{
-    const fs::path probe = folder / ("tempfile_probe" + std::to_string(getpid()));
-    const int file = open(probe.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
-    const std::string text(4096, ' ');
-    const bool is_written =
-        file >= 0 && write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
-    const std::string reason = std::strerror(errno);
-    if (file >= 0) {
-        close(file);
-        unlink(probe.c_str());
-    }
-    if (!is_written)
-        throw Unavailable("the folder for compiled kernels, " + folder.string() +
-                          ", cannot be written: " + reason + "; XDG_CACHE_HOME names another");
-}
+void tell_pocl(const fs::path& folder) { setenv("POCL_CACHE_DIR", folder.c_str(), 1); }
 
 }  // namespace
 
-void prepare_pocl_cache()
+std::string folder_problem(const fs::path& folder, std::uintmax_t bytes)
 {
-    if (!variable("POCL_CACHE_DIR").empty())
-        return;  // whose folder that is, is not ours to know
-    const fs::path folder = cache_folder();
     std::error_code error;
-    if (folder.empty() || (fs::create_directories(folder, error), error))
-        return;
-    fs::permissions(folder, fs::perms::owner_all, error);
-    require_writable(folder);
-    setenv("POCL_CACHE_DIR", folder.c_str(), 1);  // empty counts as unset, PoCL aborts on it
+    fs::create_directories(folder, error);
+    if (error)
+        return error.message();
+    const fs::space_info space = fs::space(folder, error);
+    if (!error && space.available < bytes)
+        return std::to_string(space.available) + " bytes are free, and " + std::to_string(bytes) +
+               " needed";
+    const fs::path probe = folder / ("probe-" + std::to_string(getpid()));
+    const bool is_written =
+        static_cast<bool>(std::ofstream(probe) << std::string(4096, ' ') << std::flush);
+    fs::remove(probe, error);
+    return is_written ? "" : "no file can be written there";
+}
+
+PoclCache::PoclCache()
+{
+    const fs::path named = variable("POCL_CACHE_DIR"), own = own_folder();
+    const fs::path folder = named.empty() ? own : named;
+    std::string problem =
+        folder.empty() ? "there is no home folder" : folder_problem(folder, needed_bytes);
+    if (problem.empty() && folder == own && !take(folder))
+        problem = "what is broken there cannot be removed";
+    if (problem.empty())
+        tell_pocl(folder);  // empty counts as unset, PoCL aborts on it
+    else
+        take_temporary("they cannot be kept in '" + folder.string() + "': " + problem);
+}
+
+PoclCache::~PoclCache()
+{
+    if (!ours_.empty())
+        seal(ours_);
+    if (lock_ >= 0)
+        close(lock_);
+    std::error_code ignored;
+    if (!temporary_.empty()) {
+        fs::remove_all(temporary_, ignored);
+        unsetenv("POCL_CACHE_DIR");
+    }
+}
+
+/// Look for what is broken unless others use the folder: then they, or those before them, have.
+bool PoclCache::take(const fs::path& folder)
+{
+    std::error_code ignored;
+    fs::permissions(folder, fs::perms::owner_all, ignored);
+    lock_ = open((folder / "bvhbench.lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+    const bool is_alone = lock_ >= 0 && flock(lock_, LOCK_EX | LOCK_NB) == 0;
+    if (is_alone && !remove_broken(folder, most_bytes))
+        return false;
+    if (lock_ >= 0)
+        flock(lock_, LOCK_SH);  // waits for whoever is looking just now
     remove_leftovers(folder);
+    ours_ = folder;
+    return true;
+}
+
+void PoclCache::take_temporary(const std::string& why)
+{
+    std::error_code error;
+    const fs::path base = fs::temp_directory_path(error);
+    std::string problem = error ? error.message() : folder_problem(base, needed_bytes);
+    std::string name = (base / "bvhbench-pocl-XXXXXX").string();
+    if (problem.empty() && mkdtemp(name.data()) == nullptr)
+        problem = "no folder can be made there";
+    if (!problem.empty())
+        throw Unavailable("there is nowhere to put compiled kernels: " + why +
+                          "; nor among temporary files: " + problem);
+    temporary_ = name;
+    tell_pocl(temporary_);
+    std::cerr << "bvhbench: kernels are compiled anew, for " << why << '\n';
 }
 
 }  // namespace bvhbench

@@ -188,6 +188,8 @@ void Run::scene(const Experiment& experiment, const std::string& name,
                 cells.push_back(prepare(experiment, frames, empty,
                                         number + std::to_string(cells.size()), oracles));
         }
+    oracles.now.wait();  // of builders that failed meanwhile, too
+    oracles.before.wait();
     progress.note(experiment.name + ": " + name + ", sampling");
     sample(experiment, frames, cells);
     for (Prepared& cell : cells)
@@ -207,21 +209,26 @@ Run::Prepared Run::prepare(const Experiment& experiment, const Frames& frames, C
     Prepared prepared{std::move(cell), std::move(number)};
     const Watchdog::Hand hand(session_.watchdog(), prepared.number);
     const std::string failure = reason_of_failure([&] {
-        Builder& builder = session_.builder(prepared.cell.builder, prepared.cell.operation);
         const bool refits = prepared.cell.operation == Operation::refit;
+        const std::size_t triangles = frames.now().triangle_count();
+        session_.require_host_memory("checking the tree", check_bytes(triangles));
+        Oracle& oracle = refits ? oracles.before : oracles.now;
+        // While the builder is compiled and builds for the first time.
+        if (const auto reference = find_builder(prepared.cell.builder.name).oracle;
+            !reference.empty())
+            oracle.begin(reference, prepared.cell.builder.order);
+        Builder& builder = session_.builder(prepared.cell.builder, prepared.cell.operation);
         if (refits && !builder.can_refit()) {
             why_not = std::string(builder.card().name) + " cannot refit";
             return;
         }
-        const std::size_t triangles = frames.now().triangle_count();
         if (builder.card().runs == BuilderCard::Runs::on_host)
             session_.require_host_memory("the tree", builder.footprint(triangles).total());
-        session_.require_host_memory("checking the tree", check_bytes(triangles));
         builder.reserve(triangles);
         if (refits)
-            judge_refit(experiment, frames, builder, prepared, oracles.before);
+            judge_refit(experiment, frames, builder, prepared, oracle);
         else
-            judge_build(experiment, frames, builder, prepared, oracles.now);
+            judge_build(experiment, frames, builder, prepared, oracle);
         const Footprint footprint = builder.reserved();
         auto& counters = prepared.cell.counters;
         counters["nodes_count"] = static_cast<double>(prepared.tree->node_count());

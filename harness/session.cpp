@@ -8,7 +8,6 @@
 
 #include "device/host_memory.h"
 #include "geometry/error.h"
-#include "harness/pocl_cache.h"
 #include "harness/tuning_file.h"
 
 namespace bvhbench {
@@ -24,7 +23,6 @@ SceneLibrary scene_library(const CommonOptions& common)
 
 Device open_device_of(const CommonOptions& common)
 {
-    prepare_pocl_cache();
     if (!common.kernels.empty() && !std::filesystem::is_directory(common.kernels))
         throw Unavailable("--kernels: there is no folder '" + common.kernels + "'");
     Device device =
@@ -47,10 +45,14 @@ Session::Session(Device device, SceneLibrary library, std::uint64_t host_memory_
     , library_(std::move(library))
 {}
 
-Session::Session(const CommonOptions& common)
+Session::Session(const CommonOptions& common) : Session(std::make_unique<PoclCache>(), common) {}
+
+/// The cache first: drivers look for it when they are asked for their devices.
+Session::Session(std::unique_ptr<PoclCache> cache, const CommonOptions& common)
     : Session(open_device_of(common), scene_library(common), common.memory_limit,
               common.time_limit_s)
 {
+    cache_ = std::move(cache);
     if (common.verbose)
         std::cerr << "device: " << device_.platform() << '/' << device_.name()
                   << "\nkernels: " << device_.sources.origin()

@@ -9,6 +9,7 @@
 #include "builders/builder.h"
 #include "harness/catalog.h"
 #include "harness/options.h"
+#include "harness/pocl_cache.h"
 #include "harness/watchdog.h"
 #include "scenes/catalog.h"
 
@@ -52,6 +53,8 @@ public:
                                       const Tree** tree = nullptr);
 
 private:
+    Session(std::unique_ptr<PoclCache> cache, const CommonOptions& common);
+
     struct Made {
         BuilderChoice choice;
         Operation operation;
@@ -59,6 +62,7 @@ private:
     };
 
     Watchdog watchdog_;
+    std::unique_ptr<PoclCache> cache_;  ///< outlives all that runs kernels
     std::uint64_t host_memory_limit_;
     Device device_;
     Programs programs_;
@@ -72,6 +76,7 @@ private:
 SceneLibrary scene_library(const CommonOptions& common);
 
 /// The device --device asks for, with kernels from --kernels and tuned as --tuning says. Throws Unavailable.
+/// A PoclCache must be there first.
 Device open_device_of(const CommonOptions& common);
 
 }  // namespace bvhbench

@@ -6,3 +6,5 @@
 #include "oibvh/levels.clh"
 
 #include "builders/implicit/build_groups.clh"
+#include "builders/implicit/build_upward.clh"
+#include "builders/implicit/build_waiting.clh"

@@ -5,7 +5,9 @@
 
 #include "builders/implicit/cut.h"
 #include "builders/implicit/implicit_builder.h"
+#include "builders/implicit/later_subtree.h"
 #include "builders/implicit/schedule.h"
+#include "builders/parameters.h"
 
 namespace bvhbench {
 namespace {
@@ -14,7 +16,7 @@ class KernelBuilder final : public ImplicitBuilder {
 public:
     KernelBuilder(Programs& programs, const BuilderCard& card, const ImplicitLayout& layout,
                   Meeting meeting, const BuildOptions& options)
-        : ImplicitBuilder(programs, card, layout, options), meeting_(meeting)
+        : ImplicitBuilder(programs, card, layout, options), asked_(meeting), meeting_(meeting)
     {
         choose_cut(programs.device(), options, meeting, 1);  // refuses bad options now
     }
@@ -22,7 +24,7 @@ public:
 private:
     std::unique_ptr<OrderedBuilder> twin() const override
     {
-        return std::make_unique<KernelBuilder>(programs_, card(), tree_.layout, meeting_, options_);
+        return std::make_unique<KernelBuilder>(programs_, card(), tree_.layout, asked_, options_);
     }
 
     void enqueue_hierarchy(Queue& queue) override { enqueue(whole_, queue); }
@@ -31,11 +33,13 @@ private:
     void plan_updates(Arena& arena) override
     {
         update_.subtrees = arena.take<cl_uint2>(whole_.subtree_list.size(), Use::scratch);
+        update_.later = arena.take<LaterSubtree>(whole_.later_list.size(), Use::scratch);
     }
     void begin_update(const cl::CommandQueue& queue, std::span<const TreeUpdate> updates) override;
     void enqueue_update(Queue& queue) override { enqueue(update_, queue); }
 
-    bool handoff() const { return meeting_ == Meeting::by_handoff; }
+    bool in_one_launch() const { return meeting_ != Meeting::between_launches; }
+    bool waits() const { return meeting_ == Meeting::by_waiting; }
     bool by_groups() const { return cut_.form == KernelForm::groups; }
 
     cl::Kernel kernel(std::string_view name) const
@@ -46,12 +50,13 @@ private:
         return programs_.kernel(
             tree_.layout.build_groups, text.c_str(),
             {{"GROUP_SIZE", cut_.group_size}, {"ITEMS", cut_.items}, {"LEVELS", cut_.levels}},
-            handoff() ? Optimise::on_gpus : Optimise::freely);  // groups return before a barrier
+            in_one_launch() ? Optimise::on_gpus
+                            : Optimise::freely);  // groups return before a barrier
     }
 
     /// One launch, of all objects: those whose trees are so high take part in it.
     struct Launch {
-        uint first_subtree = 0, subtrees = 0;  ///< of the list
+        uint first_subtree = 0, subtrees = 0;  ///< of the list; later ones are not among them
         SubtreeLaunch of_first;                ///< how the first object's tree takes part
         std::int64_t moved_bytes = 0;
     };
@@ -62,35 +67,91 @@ private:
         /// Object and position, launch by launch; of several objects only.
         std::vector<cl_uint2> subtree_list;
         Buffer<cl_uint2> subtrees;
+        std::vector<LaterSubtree>
+            later_list;  ///< where groups wait: those of all but the first round
+        Buffer<LaterSubtree> later;
     };
 
     void plan_hierarchy(Arena& arena) override;
     void plan_launches(Launches& launches, std::span<const uint> objects) const;
+    bool may_wait() const;
+    void choose_and_plan(Meeting meeting);
     void prepare(const cl::CommandQueue& queue) override;
     void enqueue(const Launches& launches, Queue& queue);
     void launch(const Launches& launches, uint index, Queue& queue);
     std::int64_t moved_bytes(uint leaves, const SubtreeLaunch& launch) const;
 
+    const Meeting asked_;
     Meeting meeting_;
     Cut cut_;
     cl::Kernel from_ids_, from_nodes_;
     Launches whole_, update_;
     /// Hand-off only: one a node above the first launch's subtrees, or one a slot.
     Buffer<uint> arrivals_;
+    Buffer<cl_ulong> posts_;  ///< if groups wait: a box a group
 };
 
-void KernelBuilder::plan_hierarchy(Arena& arena)
+constexpr uint words_per_post = 3;  // NOTHING_POSTED of build_waiting.clh is a word of ones
+
+/// What later rounds build, round by round and object by object; `schedules` are of `objects`.
+std::vector<LaterSubtree> later_subtrees(std::span<const uint> objects,
+                                         std::span<const SubtreeSchedule> schedules)
 {
-    cut_ = choose_cut(programs_.device(), options_, meeting_, tree_.most_leaves);
+    std::vector<LaterSubtree> list;
+    std::vector<uint> below;  // where the roots of the round before begin, by object
+    uint next = 0;
+    for (const SubtreeSchedule& schedule : schedules) {
+        below.push_back(next);
+        next += schedule.count > 0 ? schedule.launches[0].subtrees : 0;
+    }
+    for (uint round = 1; round < SubtreeSchedule{}.launches.size(); ++round)
+        for (std::size_t chosen = 0; chosen < objects.size(); ++chosen) {
+            if (round >= schedules[chosen].count)
+                continue;
+            const uint subtrees = schedules[chosen].launches[round].subtrees;
+            for (uint position = 0; position < subtrees; ++position)
+                list.push_back({below[chosen], round, position, objects[chosen]});
+            below[chosen] = next;
+            next += subtrees;
+        }
+    return list;
+}
+
+/// A CPU takes groups in order, so that whom a group waits for has begun; it is asked to in tests only.
+bool KernelBuilder::may_wait() const
+{
+    const Device& device = programs_.device();
+    return asked_ == Meeting::by_handoff && (device.lets_groups_wait() || device.is_cpu()) &&
+           device.tuned(implicit_waits) != 0;
+}
+
+void KernelBuilder::choose_and_plan(Meeting meeting)
+{
+    cut_ = choose_cut(programs_.device(), options_, meeting, tree_.most_leaves);
+    meeting_ = by_groups() ? meeting : asked_;
     std::vector<uint> all(tree_.objects.size());
     std::iota(all.begin(), all.end(), 0u);
     plan_launches(whole_, all);
+}
+
+void KernelBuilder::plan_hierarchy(Arena& arena)
+{
+    choose_and_plan(may_wait() ? Meeting::by_waiting : asked_);
+    // Those that wait leave at least one unit to those they wait for, in whatever order groups start.
+    const Device& device = programs_.device();
+    if (!device.is_cpu() &&
+        whole_.later_list.size() >= device.cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>())
+        choose_and_plan(asked_);
     whole_.subtrees = arena.take<cl_uint2>(whole_.subtree_list.size(), Use::scratch);
+    whole_.later = arena.take<LaterSubtree>(whole_.later_list.size(), Use::scratch);
+    const std::size_t groups =
+        whole_.list.empty() ? 0 : whole_.list[0].subtrees + whole_.later_list.size();
+    posts_ = arena.take<cl_ulong>(waits() ? words_per_post * groups : 0, Use::scratch);
 
     std::size_t above = 0;
-    if (handoff() && is_forest())
+    if (meeting_ == Meeting::by_handoff && is_forest())
         above = tree_.nodes.size();
-    else if (handoff() && !whole_.list.empty())
+    else if (meeting_ == Meeting::by_handoff && !whole_.list.empty())
         above = tree_.layout.first_slot(
             tree_.leaves, whole_.list[0].of_first.entry_level + 1 - whole_.list[0].of_first.levels);
     arrivals_ = arena.take<uint>(above, Use::scratch);
@@ -109,7 +170,7 @@ void KernelBuilder::plan_launches(Launches& launches, std::span<const uint> obje
     }
     uint count = 0;
     for (const SubtreeSchedule& schedule : schedules)
-        count = std::max(count, handoff() ? std::min(schedule.count, 1u) : schedule.count);
+        count = std::max(count, in_one_launch() ? std::min(schedule.count, 1u) : schedule.count);
     for (uint k = 0; k < count; ++k) {
         Launch launch{static_cast<uint>(launches.subtree_list.size()), 0, schedules[0].launches[k],
                       0};
@@ -125,6 +186,9 @@ void KernelBuilder::plan_launches(Launches& launches, std::span<const uint> obje
         }
         launches.list.push_back(launch);
     }
+    launches.later_list.clear();
+    if (waits())
+        launches.later_list = later_subtrees(objects, schedules);
 }
 
 void KernelBuilder::begin_update(const cl::CommandQueue& queue, std::span<const TreeUpdate> updates)
@@ -135,6 +199,7 @@ void KernelBuilder::begin_update(const cl::CommandQueue& queue, std::span<const 
             objects.push_back(object);
     plan_launches(update_, objects);
     update_.subtrees.upload(queue, update_.subtree_list);
+    update_.later.upload(queue, update_.later_list);
 }
 
 void KernelBuilder::enqueue(const Launches& launches, Queue& queue)
@@ -147,13 +212,16 @@ void KernelBuilder::prepare(const cl::CommandQueue& queue)
 {
     ImplicitBuilder::prepare(queue);
     const std::string prefix =
-        std::string(is_forest() ? "forest_" : "") + (handoff()     ? "single_"
-                                                     : is_forest() ? ""
-                                                                   : "multi_");
+        std::string(is_forest() ? "forest_" : "") + (waits()           ? "waiting_"
+                                                     : in_one_launch() ? "single_"
+                                                     : is_forest()     ? ""
+                                                                       : "multi_");
     from_ids_ = kernel(prefix + "from_ids");
     from_nodes_ = kernel(prefix + "from_nodes");
     arrivals_.upload(queue, std::vector<uint>(arrivals_.size(), 0u));
+    posts_.upload(queue, std::vector<cl_ulong>(posts_.size(), ~cl_ulong{0}));
     whole_.subtrees.upload(queue, whole_.subtree_list);
+    whole_.later.upload(queue, whole_.later_list);
 }
 
 void KernelBuilder::launch(const Launches& launches, uint k, Queue& queue)
@@ -168,12 +236,16 @@ void KernelBuilder::launch(const Launches& launches, uint k, Queue& queue)
         argument(tree_.ids);
     }
     argument(tree_.nodes);
-    if (handoff())
+    if (waits()) {
+        argument(posts_);
+        argument(launches.later);
+    } else if (in_one_launch()) {
         argument(arrivals_);
+    }
     if (is_forest()) {
         argument(tree_.device_objects);
         argument(launches.subtrees);
-        if (!from_ids && !handoff()) {
+        if (!from_ids && !in_one_launch()) {
             argument(launch.first_subtree);
             argument(k);
         }
@@ -187,8 +259,10 @@ void KernelBuilder::launch(const Launches& launches, uint k, Queue& queue)
         if (!by_groups())
             argument(launch.of_first.levels);
     }
-    queue.launch(kernel, std::size_t{launch.subtrees} * cut_.group_size, cut_.group_size,
-                 launch.moved_bytes);
+    if (waits())
+        argument(launch.subtrees);
+    queue.launch(kernel, (launch.subtrees + launches.later_list.size()) * cut_.group_size,
+                 cut_.group_size, launch.moved_bytes);
 }
 
 /// Children read once, nodes written once. A hand-off build does all levels in its first launch.
@@ -198,7 +272,7 @@ std::int64_t KernelBuilder::moved_bytes(uint leaves, const SubtreeLaunch& launch
     const bool from_leaves = launch.entry_level + 1 == implicit_leaf_level(leaves);
     const std::int64_t read_boxes = from_leaves ? leaves : stored_on(launch.entry_level + 1);
     const std::int64_t read_ids = from_leaves && !tree_.sorted_leaves ? leaves : 0;
-    const uint last_level = handoff() ? 0 : launch.entry_level + 1 - launch.levels;
+    const uint last_level = in_one_launch() ? 0 : launch.entry_level + 1 - launch.levels;
     std::int64_t written_boxes = 0;
     for (uint level = last_level; level <= launch.entry_level; ++level)
         written_boxes += stored_on(level);

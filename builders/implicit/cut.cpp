@@ -50,10 +50,11 @@ Cut subtrees_of_items(const Device& device, uint leaf_level)
 }
 
 /// Where groups go on in one launch, their number costs little. On an H200 (µs, hierarchy from ids): 144,046 triangles
-/// take 11.1 in groups of 256 and 12.3 of 512 with two nodes each; 2,880,000 take 59.8 and 56.3.
-Cut groups_of_one_launch(uint leaf_level, uint items, uint most)
+/// take 11.1 in groups of 256 and 12.3 of 512 with two nodes each; 2,880,000 take 59.8 and 56.3. Where few wait, small
+/// groups are best: they make way for others soonest.
+Cut groups_of_one_launch(Meeting meeting, uint leaf_level, uint items, uint most)
 {
-    if (leaf_level <= 18 || items != 0)
+    if (meeting == Meeting::by_waiting || leaf_level <= 18 || items != 0)
         return groups_of(std::min(256u, most), std::max(1u, items));
     return groups_of(std::min(512u, most), 2);
 }
@@ -81,10 +82,10 @@ Cut choose_cut(const Device& device, const BuildOptions& options, Meeting meetin
     }
     if (device.is_cpu())
         return subtrees_of_items(device, implicit_leaf_level(leaves));
-    if (meeting == Meeting::by_handoff) {
+    if (meeting != Meeting::between_launches) {
         if (const uint tuned = device.tuned(implicit_handoff_group_size); tuned != 0)
             return groups_of(std::min(tuned, most), items);
-        return groups_of_one_launch(implicit_leaf_level(leaves), options.items, most);
+        return groups_of_one_launch(meeting, implicit_leaf_level(leaves), options.items, most);
     }
     if (const uint tuned = device.tuned(implicit_group_size); tuned != 0)
         return groups_of(std::min(tuned, most), items);

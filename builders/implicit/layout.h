@@ -33,6 +33,7 @@ constexpr uint implicit_used_on(uint leaves, uint level)
 enum class Meeting {
     between_launches,  ///< several launches, groups never meet inside one (the paper's multi-kernel)
     by_handoff,  ///< one launch, subtrees meet through global atomics (the paper's single-kernel)
+    by_waiting,  ///< one launch, a few groups wait for subtrees; what by_handoff becomes where they may
 };
 
 /// A builder of Algorithm 1 over any such layout, by kernels that suit the kind of device.

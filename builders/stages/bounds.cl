@@ -10,9 +10,6 @@
 
 /// boxes[k] is the box of faces[k], for all `count`; *result the bounds of them all. The groups together take `rounds`
 /// rounds of a group's size each. *arrivals is zero before and after. Unless they `meet`, nobody joins.
-///
-/// A box is 24 bytes: written by its own work-item, each store would touch three times the memory it fills.
-/// So boxes go through local memory and leave as pairs of floats, neighbours by neighbours.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void bounds_groups(
     global const Point* restrict points, global const Face* restrict faces,
     global float2* restrict boxes, global Bounds* partials,
@@ -20,7 +17,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void bounds_group
     const uint rounds, const uint meet)
 {
     local float2 staged[3u * GROUP_SIZE];
-    local Bounds shared_bounds[GROUP_SIZE];
+    local Bounds parts[GROUP_SIZE];
     local uint is_last[1];
     const uint item = (uint)get_local_id(0);
     Bounds bounds = empty_bounds();
@@ -28,20 +25,11 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void bounds_group
     for (uint round = 0u; round < rounds; ++round) {
         const uint start = (round * (uint)get_num_groups(0) + (uint)get_group_id(0)) * GROUP_SIZE;
         const uint here = min(GROUP_SIZE, count - min(count, start));
-        if (item < here) {
-            const Aabb box = box_of_face(points, faces[start + item]);
-            store_local_box(staged, item, box);
-            bounds = grown(bounds, box);
-        }
-        barrier(CLK_LOCAL_MEM_FENCE);
-        for (uint word = item; word < 3u * here; word += GROUP_SIZE)
-            boxes[3ul * start + word] = staged[word];
-        barrier(CLK_LOCAL_MEM_FENCE);
+        bounds = make_boxes(points, faces, boxes, staged, start, here, bounds);
     }
-    shared_bounds[item] = bounds;
-    join_in_group(shared_bounds);
+    bounds = joined_in_group(bounds, parts);
     if (item == 0u) {
-        partials[get_group_id(0)] = shared_bounds[0];
+        partials[get_group_id(0)] = bounds;
         is_last[0] = meet != 0u && arrived_last(arrivals, (uint)get_num_groups(0)) ? 1u : 0u;
     }
     barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
@@ -51,10 +39,9 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void bounds_group
     bounds = empty_bounds();
     for (uint partial = item; partial < to_join; partial += GROUP_SIZE)
         bounds = joined(bounds, partials[partial]);
-    shared_bounds[item] = bounds;
-    join_in_group(shared_bounds);
+    bounds = joined_in_group(bounds, parts);
     if (item == 0u && is_last[0] != 0u) {
-        *result = shared_bounds[0];
+        *result = bounds;
         forget_arrivals(arrivals);
     }
 }
@@ -64,15 +51,14 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void join_groups(
     global const Bounds* restrict partials, global Bounds* restrict result,
     const uint partial_count)
 {
-    local Bounds shared_bounds[GROUP_SIZE];
+    local Bounds parts[GROUP_SIZE];
     const uint item = (uint)get_local_id(0);
     Bounds bounds = empty_bounds();
     for (uint partial = item; partial < partial_count; partial += GROUP_SIZE)
         bounds = joined(bounds, partials[partial]);
-    shared_bounds[item] = bounds;
-    join_in_group(shared_bounds);
+    bounds = joined_in_group(bounds, parts);
     if (item == 0u)
-        *result = shared_bounds[0];
+        *result = bounds;
 }
 
 /// As bounds_groups, each work-item by itself.

@@ -7,14 +7,14 @@
 #include "builders/stages/bounds_parts.clh"
 
 /// boxes[k] is the box of faces[k]; partials[g] the bounds of runs[g], ROUNDS times a group's size
-/// at most. Boxes go through local memory, as in bounds.cl.
+/// at most.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void runs_groups(
     global const Point* restrict points, global const Face* restrict faces,
     global float2* restrict boxes, global Bounds* restrict partials,
     global const uint4* restrict runs)
 {
     local float2 staged[3u * GROUP_SIZE];
-    local Bounds shared_bounds[GROUP_SIZE];
+    local Bounds parts[GROUP_SIZE];
     const uint item = (uint)get_local_id(0);
     const uint4 run = runs[get_group_id(0)];
     Bounds bounds = empty_bounds();
@@ -22,20 +22,11 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void runs_groups(
     for (uint round = 0u; round < ROUNDS; ++round) {
         const uint start = min(run.y, run.x + round * GROUP_SIZE);
         const uint here = min(GROUP_SIZE, run.y - start);
-        if (item < here) {
-            const Aabb box = box_of_face(points, faces[start + item]);
-            store_local_box(staged, item, box);
-            bounds = grown(bounds, box);
-        }
-        barrier(CLK_LOCAL_MEM_FENCE);
-        for (uint word = item; word < 3u * here; word += GROUP_SIZE)
-            boxes[3ul * start + word] = staged[word];
-        barrier(CLK_LOCAL_MEM_FENCE);
+        bounds = make_boxes(points, faces, boxes, staged, start, here, bounds);
     }
-    shared_bounds[item] = bounds;
-    join_in_group(shared_bounds);
+    bounds = joined_in_group(bounds, parts);
     if (item == 0u)
-        partials[get_group_id(0)] = shared_bounds[0];
+        partials[get_group_id(0)] = bounds;
 }
 
 /// A group an object.
@@ -43,16 +34,15 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void join_groups(
     global const Bounds* restrict partials, global Bounds* restrict result,
     global const uint* restrict first_runs, global const uint* restrict objects)
 {
-    local Bounds shared_bounds[GROUP_SIZE];
+    local Bounds parts[GROUP_SIZE];
     const uint item = (uint)get_local_id(0);
     const uint end = first_runs[get_group_id(0) + 1];
     Bounds bounds = empty_bounds();
     for (uint run = first_runs[get_group_id(0)] + item; run < end; run += GROUP_SIZE)
         bounds = joined(bounds, partials[run]);
-    shared_bounds[item] = bounds;
-    join_in_group(shared_bounds);
+    bounds = joined_in_group(bounds, parts);
     if (item == 0u)
-        result[objects[get_group_id(0)]] = shared_bounds[0];
+        result[objects[get_group_id(0)]] = bounds;
 }
 
 /// As runs_groups, a work-item a run.

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "device/queue.h"
 #include "geometry/error.h"
 
 namespace bvhbench {
@@ -105,6 +106,40 @@ TEST(Programs, FailWithTheFileTheLineAndTheOptions)
         EXPECT_NE(message.find("GROUP_SIZE=64u"), std::string::npos) << message;
         EXPECT_NE(message.find("k.cl:3"), std::string::npos) << message;
     }
+}
+
+TEST(Programs, DeclareBuiltInFunctionsThemselvesOnPoclAlone)
+{
+    KernelFolder folder;
+    folder.write("k.cl",
+                 "#ifdef BVHBENCH_DEVICE_BUILTINS_CLH\nkernel void ours() {}\n#else\n"
+                 "kernel void theirs() {}\n#endif\n");
+    const Device device = open_device("", folder.sources());
+    const cl::Platform platform(device.cl.getInfo<CL_DEVICE_PLATFORM>());
+    const bool is_pocl =
+        platform.getInfo<CL_PLATFORM_VERSION>().find("PoCL 3.1") != std::string::npos;
+    Programs one(device), three(device, "CL3.0");
+    EXPECT_NO_THROW(one.kernel("k.cl", is_pocl ? "ours" : "theirs"));
+    EXPECT_NO_THROW(is_pocl ? three.kernel("k.cl", "theirs") : cl::Kernel());
+}
+
+TEST(Programs, BuildWithFunctionsThatAreNotDeclaredToo)
+{
+    KernelFolder folder;
+    folder.write("k.cl",
+                 "kernel void k(global float* out) { out[0] = sqrt(out[0]) + mad24(2, 3, 4); }\n");
+    const Device device = open_device("", folder.sources());
+    Programs programs(device);
+    Queue queue(device);
+    cl::Kernel kernel = programs.kernel("k.cl", "k");
+    Buffer<float> out(cl::Buffer(device.context, CL_MEM_READ_WRITE, sizeof(float)), 1);
+    const float nine = 9;
+    out.upload(queue.cl(), {&nine, 1});
+    set_arguments(kernel, out);
+    queue.begin("k");
+    queue.launch(kernel, 1, 1, 8);
+    queue.finish();
+    EXPECT_EQ(out.download(queue.cl()).front(), 13.0f);
 }
 
 }  // namespace

@@ -3,46 +3,15 @@
 
 Usage: program_test.py <bvhbench> <result schema>
 """
-import array
 import json
 import os
 import pathlib
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 
-try:
-    import jsonschema
-except ImportError:
-    jsonschema = None
-
-PROGRAM, SCHEMA = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
-
-
-def run(*words: str, **environment: str) -> subprocess.CompletedProcess:
-    return subprocess.run([PROGRAM, *words], capture_output=True, text=True, timeout=300,
-                          env={**os.environ, **environment})
-
-
-def expect(code: int, *words: str, says: str = "", **environment: str) -> str:
-    """The program's standard output; an error is one line on stderr that contains `says`."""
-    done = run(*words, **environment)
-    assert done.returncode == code, (words, done)
-    assert says in (done.stderr if code else done.stdout), (words, done)
-    if code in (2, 3):
-        assert done.stderr.startswith("bvhbench: ") and done.stderr.count("\n") == 1, done.stderr
-    return done.stdout
-
-
-def valid(path: str) -> dict:
-    text = pathlib.Path(path).read_text()
-    assert "NaN" not in text
-    result = json.loads(text)
-    if jsonschema:
-        jsonschema.validate(result, json.loads(SCHEMA.read_text()))
-    return result
+from program import PROGRAM, expect, main, valid
 
 
 def test_memory_that_will_not_do_is_told_before_it_is_taken():
@@ -64,34 +33,6 @@ def test_memory_that_will_not_do_is_told_before_it_is_taken():
     assert failed["status"] == "failed" and "out of device memory: " in failed["reason"], failed
     assert " taken, " in failed["reason"] and failed["reason"].endswith(" gives 50331648"), failed
     assert all(cell["status"] == "measured" for cell in cells.values() if cell is not failed), cells
-
-
-def kernels_compiled(folder: pathlib.Path, *words: str) -> int:
-    """How many kernels PoCL compiles into an empty cache for a build; a second one must find all of them there."""
-    build = ("build", "--scene", "torus:2000", "--samples", "2", *words)
-    expect(0, *build, says="agrees", POCL_CACHE_DIR=str(folder))
-    compiled = {path.name for path in folder.rglob("*.so")}
-    expect(0, *build, says="agrees", POCL_CACHE_DIR=str(folder))
-    again = {path.name for path in folder.rglob("*.so")}
-    assert again == compiled, again - compiled
-    return len(compiled)
-
-
-def test_a_build_compiles_the_kernels_that_it_launches_and_no_others():
-    # The copy rate 1, an empty launch 1, bounds 2, codes 1, the sort 3; and then the tree's own. Each takes PoCL a tenth of a second or so.
-    # Their texts are as many programs, of which each costs as much again.
-    for most, texts, *words in ((10, 5, "--builder", "oibvh-multi"),
-                                (10, 5, "--builder", "oibvh-multi", "--order", "hilbert63"),
-                                (10, 6, "--builder", "oibvh-multi", "--leaves", "sorted"),
-                                (8, 4, "--builder", "oibvh-host"), (9, 5, "--builder", "apetrei-fused"),
-                                (9, 6, "--builder", "oibvh-multi", "--order", "kd"),
-                                (2, 1, "--builder", "median-split")):
-        folder = pathlib.Path("pocl-" + "-".join(words[1:]))
-        folder.mkdir()
-        compiled = kernels_compiled(folder, *words)
-        assert 1 <= compiled <= most, (words, compiled)
-        programs = len(list(folder.rglob("program.bc")))
-        assert 1 <= programs <= texts, (words, programs)
 
 
 def test_exit_codes():
@@ -151,92 +92,6 @@ def test_build_writes_a_valid_result_and_the_tree():
     assert len(nodes) == cell["counters"]["nodes_count"]
     assert sorted(n["primitive"] for n in nodes if n["primitive"] >= 0) == list(range(300))
     expect(0, "show", "b.json", says="verdict: agrees")
-
-
-def test_collide_writes_a_valid_result_and_the_pairs():
-    common = ("--scene", "sphere:700", "--samples", "3")
-    hashes = set()
-    listed = expect(0, "list", "colliders").splitlines()
-    present = [line.split()[0] for line in listed if "built without" not in line]
-    for collider in [name for name in present if not name.startswith("fcl")]:  # which finds contacts instead
-        for builder in ("oibvh-multi", "karras"):
-            if (builder, collider) == ("karras", "block"):
-                expect(2, "collide", "--builder", builder, "--collider", collider, *common,
-                       says="block needs a binary implicit tree")
-                continue
-            out = expect(0, "collide", "--builder", builder, "--collider", collider, *common, "--json", "c.json",
-                         "--pairs", "p.csv", says="verdict: agrees with brute, pairs ")
-            cell, = valid("c.json")["cells"]
-            assert cell["operation"] == "collide" and cell["collider"]["name"] == collider, cell
-            has_tree = cell["builder"]["name"] != "none"
-            assert has_tree == (collider not in ("grid", "brute", "embree")), cell
-            assert "\nbroad " in out and (not has_tree or "\nhierarchy " in out), out
-            lines = pathlib.Path("p.csv").read_text().splitlines()
-            assert lines[0] == "a,b" and len(lines) == 1 + cell["counters"]["pairs_count"]
-            assert cell["counters"]["pairs_count"] > 700, cell
-            hashes.add(cell["check"]["pairs_hash"])
-            expect(0, "show", "c.json", says=f"{collider} over {builder}" if has_tree else f"{collider} on sphere")
-    assert len(hashes) == 1, hashes
-    expect(0, "collide", "--builder", "perfect", "--collider", "leaf", *common, "--pairs", "p.bin", "--json", "c.json")
-    words = array.array("I", pathlib.Path("p.bin").read_bytes())
-    assert [f"{a},{b}" for a, b in zip(words[::2], words[1::2])] == lines[1:]
-    expect(0, "collide", "--builder", "perfect", "--collider", "leaf", *common, "--adjacent", "drop", "--json", "d.json",
-           says="leaf, adjacent dropped over perfect on sphere:700")
-    dropped, = valid("d.json")["cells"]
-    assert dropped["counters"]["pairs_count"] < len(lines) - 1
-
-
-def test_collide_goes_through_frames_and_objects_to_contacts():
-    common = ("--scene", "n-body:6100:3", "--samples", "2", "--adjacent", "drop", "--narrow", "exact")
-    expect(0, "collide", "--collider", "leaf", *common, "--frames", "1:", "--between", "1", "--json", "b.json")
-    assert [cell["scene"]["frame"] for cell in valid("b.json")["cells"]] == [1, 2, 3, 4]
-    shown = expect(0, "collide", "--collider", "group", *common, "--pairs-of", "between", "--frames", "0:",
-           "--json", "f.json", "--pairs", "p.csv", "--contacts", "k.csv", "--skips", says="skips:")
-    cells = valid("f.json")["cells"]
-    assert {cell["scene"]["frame"] for cell in cells} == {0, 1, 2}, cells
-    assert {cell["scene"]["objects"] for cell in cells} == {305}
-    assert all(cell["check"]["verdict"] == "agrees" for cell in cells), cells
-    last = [cell for cell in cells if cell["scene"]["frame"] == 2]
-    assert len({cell["check"]["contacts_hash"] for cell in last}) == 1
-    assert any(cell["counters"]["refitted_objects_count"] > 1 for cell in last), last
-    assert any(cell["counters"]["rebuilt_objects_count"] > 1 and "rigid" in cell["collider"]["options"]["no_skip"]
-               for cell in last), last
-    for cell in cells:  # in the last frame more than half of the triangles are near
-        near = cell["scene"]["frame"] < 2 and cell["collider"]["options"]["no_skip"] != "near"
-        assert near == ("entered_count" in cell["counters"]), cell
-        assert near == any(stage["stage"] == "near" for stage in cell["samples"][0]["stages"]), cell
-        assert not near or 0 < cell["counters"]["entered_count"] < cell["scene"]["triangles"] / 2, cell
-    rows = [line.split() for line in shown.splitlines() if line.split()[2:3] == ["near"]]
-    assert [int(row[3].replace(",", "")) > 3050 for row in rows] == [True, True, False], shown
-    expect(0, "collide", "--collider", "leaf", *common, "--pairs-of", "between", "--no-skip", "near", "--json", "n.json")
-    whole, = valid("n.json")["cells"]
-    assert whole["collider"]["options"]["no_skip"] == "near" and "entered_count" not in whole["counters"], whole
-    assert whole["check"]["contacts_hash"] == next(cell for cell in cells if cell["scene"]["frame"] == 0)["check"]["contacts_hash"]
-    pairs, contacts = (pathlib.Path(name).read_text().splitlines() for name in ("p.csv", "k.csv"))
-    assert set(contacts[1:]) <= set(pairs[1:]) and len(contacts) - 1 == last[0]["counters"]["contacts_count"]
-    one = expect(0, "collide", "--collider", "leaf", *common, "--objects", "one", "--json", "o.json",
-                 says="verdict: agrees with brute, CGAL")
-    assert "tasks_count" not in one
-    whole, = valid("o.json")["cells"]
-    assert whole["scene"]["objects"] == 1
-    expect(2, "collide", "--collider", "leaf", *common, "--frames", "2:9", says="has frames 0 to 2, not 2 to before 9")
-    expect(2, "collide", "--collider", "leaf", *common, "--no-skip", "lunch", says="there are: unchanged, rigid, ")
-    expect(2, "collide", "--collider", "leaf", "--scene", "soup:9", "--contacts", "k.csv", says="--narrow exact")
-    expect(2, "collide", "--collider", "leaf", "--scene", "soup:9", "--order", "kd", "--objects", "components",
-           says="order kd lines up one object, not 9")
-
-
-def test_collide_numbers_pairs_as_the_file_does_whatever_its_objects_are():
-    corners = [(x, y, z) for z in (0, 1) for x, y in ((0, 0), (4, 0), (4, 4 - z), (0, 4))]
-    faces = [(1, 2, 3), (5, 6, 7), (1, 3, 4), (5, 7, 8)]  # of two squares in turns
-    pathlib.Path("turns.obj").write_text("".join(f"v {x} {y} {0.5 * z * x}\n" for x, y, z in corners)
-                                         + "".join(f"f {a} {b} {c}\n" for a, b, c in faces))
-    for objects in ("one", "components"):
-        expect(0, "collide", "--collider", "leaf", "--scene", "turns.obj", "--objects", objects, "--samples", "1",
-               "--narrow", "exact", "--pairs", f"{objects}.csv", "--contacts", f"{objects}-contacts.csv")
-    for name in (".csv", "-contacts.csv"):
-        one, components = (pathlib.Path(objects + name).read_text() for objects in ("one", "components"))
-        assert one == components and len(one.splitlines()) > 2, (name, one, components)
 
 
 def test_quality_has_no_number_where_it_has_no_value():
@@ -353,71 +208,6 @@ def test_a_stopped_run_keeps_its_finished_cells():
         assert result["cells"] and "finished_at" not in result["run"]
 
 
-def tuned_file(folder: str, **values: int) -> pathlib.Path:
-    """A tuning file of the device there is, in a folder."""
-    device = expect(0, "list", "devices").splitlines()[0].split("  ")[0].split("/", 1)[1]
-    slug = "-".join(filter(None, "".join(c if c.isascii() and c.isalnum() else " " for c in device.lower()).split(" ")))
-    path = pathlib.Path(folder, f"{slug}.json")
-    path.parent.mkdir(exist_ok=True)
-    path.write_text(json.dumps({"format": "tuning 1", "device": device, "values": {
-        name.replace("__", "."): {"value": value} for name, value in values.items()}}))
-    return path
-
-
-def test_tune_searches_checks_and_writes_what_is_then_used():
-    tune = ("tune", "--scene", "torus:2000", "--quick", "--samples", "3", "--out", "tuned/t.json")
-    for target, parameter in (("sort", "sort.chunk_digit_bits"), ("oibvh-multi", "chunks.per_core"),
-                              ("leaf", "walk.task_leaves")):
-        out = expect(0, *tune, target, says=f"tuned: {target} over torus:2000")
-        assert f"\n{parameter} " in out and " current\n" in out, out
-        file = json.loads(pathlib.Path("tuned/t.json").read_text())
-        assert set(file) == {"format", "device", "driver", "values"}, file
-        kept = {line.split()[0] for line in out.splitlines() if line.endswith("better, kept")}
-        assert {name for name in file["values"] if file["values"][name]["target"] == target} <= kept, (file, out)
-    expect(2, *tune, "sotr", says="nothing that could be tuned is called 'sotr'; there are: sort, perfect, ")
-    expect(2, *tune, "median-split", says="there is nothing to tune")
-    expect(2, "tune", "sort", says="--scene is required")
-    expect(2, *tune, "sort", "--samples", "2", says="--samples")
-
-
-def test_tuned_values_are_used_named_and_turned_off():
-    path = tuned_file("mine", sort__chunk_digit_bits=11, chunks__per_core=2)
-    build = ("build", "--builder", "oibvh-multi", "--scene", "soup:3000", "--samples", "1", "--json", "t.json")
-
-    def launches(*words: str, **environment: str) -> tuple[int, dict]:
-        expect(0, *build, *words, says="verdict: agrees", **environment)
-        result = valid("t.json")
-        stages = result["cells"][0]["samples"][0]["stages"]
-        return next(s["launches"] for s in stages if s["stage"] == "sort"), result["run"]["tuning"]
-
-    values = {"chunks.per_core": 2, "sort.chunk_digit_bits": 11}
-    assert launches("--tuning", "mine") == (9, {"from": str(path), "values": values})
-    assert launches(BVHBENCH_TUNING="mine") == (9, {"from": str(path), "values": values})
-    none = (12, {"from": "none", "values": {}})
-    assert launches("--tuning", "", BVHBENCH_TUNING="mine") == none
-    assert launches(BVHBENCH_TUNING="") == none
-    shown = expect(0, "list", "tuning", "--tuning", "mine")
-    row = next(line for line in shown.splitlines() if line.startswith("sort.chunk_digit_bits "))
-    assert row.split()[1:3] == ["11", str(path)], row
-    rest = [line.split()[2] for line in shown.splitlines() if line.split()[0] not in values]
-    assert set(rest) == {"default"} and len(rest) > 30, rest
-    expect(0, *build, "--tuning", "mine", says="tuned by mine/")
-
-
-def test_tuning_files_that_cannot_be_end_with_a_sentence():
-    build = ("build", "--builder", "oibvh-multi", "--scene", "soup:30", "--samples", "1", "--tuning")
-    expect(3, *build, "nowhere", says="tuning: there is no folder 'nowhere'")
-    path = tuned_file("bad", sort__keys_per_item=4)
-    expect(3, *build, "bad", says=f"{path}: sort.keys_per_item must be odd, not 4")
-    expect(3, "tune", "sort", "--scene", "soup:30", "--out", str(path), says="must be odd")
-    tuned_file("bad", sort__speed=1)
-    expect(3, *build, "bad", says="no parameter is called 'sort.speed'")
-    path.write_text("{")
-    expect(3, *build, "bad", says=f"{path}: ")
-    path.write_text(json.dumps({"format": "tuning 1", "device": "another", "values": {"chunks.per_core": {"value": 2}}}))
-    expect(3, *build, "bad", says="its values are of 'another', and the device is '")
-
-
 def test_a_stopped_search_keeps_what_it_has_found():
     with subprocess.Popen([PROGRAM, "tune", "oibvh-multi", "--scene", "torus:20000", "--samples", "2000", "--out",
                            "stopped.json"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
@@ -455,28 +245,5 @@ def test_check_finds_every_promise_kept():
            says="every promise is kept")
 
 
-def test_pocl_keeps_its_cache_with_us():
-    expect(0, "list", "devices", XDG_CACHE_HOME=os.getcwd() + "/cache", POCL_CACHE_DIR="")
-    assert pathlib.Path("cache/bvhbench/pocl").is_dir()
-    left = pathlib.Path("cache/bvhbench/pocl/tempfile_old")
-    left.touch()
-    os.utime(left, (0, 0))
-    expect(0, "list", "devices", XDG_CACHE_HOME=os.getcwd() + "/cache", POCL_CACHE_DIR="")
-    assert not left.exists()
-
-
-def main() -> int:
-    tests = [value for name, value in globals().items() if name.startswith("test_")]
-    with tempfile.TemporaryDirectory() as folder:
-        os.chdir(folder)
-        for test in tests:
-            test()
-            print("passed:", test.__name__.removeprefix("test_").replace("_", " "))
-        os.chdir("/")
-    if not jsonschema:
-        print("not held to the schema: there is no jsonschema for this Python")
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(globals()))

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "baselines/baselines.h"
+#include "builders/parameters.h"
 #include "builders/spell_out.h"
 #include "geometry/error.h"
 #include "oibvh/oibvh.h"
@@ -27,10 +28,22 @@ Mesh soup(uint triangles, uint seed = 0)
     return mesh;
 }
 
+/// Programs of the same device, asked to let groups wait (implicit.waits).
+Programs& waiting_programs()
+{
+    static Programs& waiting = *[] {
+        Device& device = *new Device(bench().device);
+        device.tuning.set(implicit_waits, 1);
+        return new Programs(device);
+    }();
+    return waiting;
+}
+
 struct Way {
     const char* name;
     MakeBuilder make;
     BuildOptions options;
+    bool waits = false;
 };
 
 std::vector<Way> ways()
@@ -42,11 +55,13 @@ std::vector<Way> ways()
             all.push_back({"multi", make_oibvh_multi, options});
             all.push_back({"single", make_oibvh_single, options});
             all.push_back({"perfect", make_perfect, options});
+            all.push_back({"single, waiting", make_oibvh_single, options, true});
         }
     for (const unsigned items : {2u, 4u, 8u}) {
         const BuildOptions options{.group_size = 64, .items = items};
         all.push_back({"multi", make_oibvh_multi, options});
         all.push_back({"single", make_oibvh_single, options});
+        all.push_back({"single, waiting", make_oibvh_single, options, true});
     }
     return all;
 }
@@ -86,7 +101,8 @@ std::vector<std::unique_ptr<Builder>> builders_of(const std::vector<Way>& ways)
 {
     std::vector<std::unique_ptr<Builder>> builders;
     for (const Way& way : ways)
-        builders.push_back(way.make(bench().programs, way.options));
+        builders.push_back(
+            way.make(way.waits ? waiting_programs() : bench().programs, way.options));
     return builders;
 }
 

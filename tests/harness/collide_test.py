@@ -1,0 +1,100 @@
+#!/usr/bin/env python3
+"""Hold `collide` to its pairs, contacts, files and words.
+
+Usage: collide_test.py <bvhbench> <result schema>
+"""
+import array
+import pathlib
+import sys
+
+from program import expect, main, valid
+
+
+def test_collide_writes_a_valid_result_and_the_pairs():
+    common = ("--scene", "sphere:700", "--samples", "3")
+    hashes = set()
+    listed = expect(0, "list", "colliders").splitlines()
+    present = [line.split()[0] for line in listed if "built without" not in line]
+    for collider in [name for name in present if not name.startswith("fcl")]:  # which finds contacts instead
+        for builder in ("oibvh-multi", "karras"):
+            if (builder, collider) == ("karras", "block"):
+                expect(2, "collide", "--builder", builder, "--collider", collider, *common,
+                       says="block needs a binary implicit tree")
+                continue
+            out = expect(0, "collide", "--builder", builder, "--collider", collider, *common, "--json", "c.json",
+                         "--pairs", "p.csv", says="verdict: agrees with brute, pairs ")
+            cell, = valid("c.json")["cells"]
+            assert cell["operation"] == "collide" and cell["collider"]["name"] == collider, cell
+            has_tree = cell["builder"]["name"] != "none"
+            assert has_tree == (collider not in ("grid", "brute", "embree")), cell
+            assert "\nbroad " in out and (not has_tree or "\nhierarchy " in out), out
+            lines = pathlib.Path("p.csv").read_text().splitlines()
+            assert lines[0] == "a,b" and len(lines) == 1 + cell["counters"]["pairs_count"]
+            assert cell["counters"]["pairs_count"] > 700, cell
+            hashes.add(cell["check"]["pairs_hash"])
+            expect(0, "show", "c.json", says=f"{collider} over {builder}" if has_tree else f"{collider} on sphere")
+    assert len(hashes) == 1, hashes
+    expect(0, "collide", "--builder", "perfect", "--collider", "leaf", *common, "--pairs", "p.bin", "--json", "c.json")
+    words = array.array("I", pathlib.Path("p.bin").read_bytes())
+    assert [f"{a},{b}" for a, b in zip(words[::2], words[1::2])] == lines[1:]
+    expect(0, "collide", "--builder", "perfect", "--collider", "leaf", *common, "--adjacent", "drop", "--json", "d.json",
+           says="leaf, adjacent dropped over perfect on sphere:700")
+    dropped, = valid("d.json")["cells"]
+    assert dropped["counters"]["pairs_count"] < len(lines) - 1
+
+
+def test_collide_goes_through_frames_and_objects_to_contacts():
+    common = ("--scene", "n-body:6100:3", "--samples", "2", "--adjacent", "drop", "--narrow", "exact")
+    expect(0, "collide", "--collider", "leaf", *common, "--frames", "1:", "--between", "1", "--json", "b.json")
+    assert [cell["scene"]["frame"] for cell in valid("b.json")["cells"]] == [1, 2, 3, 4]
+    shown = expect(0, "collide", "--collider", "group", *common, "--pairs-of", "between", "--frames", "0:",
+           "--json", "f.json", "--pairs", "p.csv", "--contacts", "k.csv", "--skips", says="skips:")
+    cells = valid("f.json")["cells"]
+    assert {cell["scene"]["frame"] for cell in cells} == {0, 1, 2}, cells
+    assert {cell["scene"]["objects"] for cell in cells} == {305}
+    assert all(cell["check"]["verdict"] == "agrees" for cell in cells), cells
+    last = [cell for cell in cells if cell["scene"]["frame"] == 2]
+    assert len({cell["check"]["contacts_hash"] for cell in last}) == 1
+    assert any(cell["counters"]["refitted_objects_count"] > 1 for cell in last), last
+    assert any(cell["counters"]["rebuilt_objects_count"] > 1 and "rigid" in cell["collider"]["options"]["no_skip"]
+               for cell in last), last
+    for cell in cells:  # in the last frame more than half of the triangles are near
+        near = cell["scene"]["frame"] < 2 and cell["collider"]["options"]["no_skip"] != "near"
+        assert near == ("entered_count" in cell["counters"]), cell
+        assert near == any(stage["stage"] == "near" for stage in cell["samples"][0]["stages"]), cell
+        assert not near or 0 < cell["counters"]["entered_count"] < cell["scene"]["triangles"] / 2, cell
+    rows = [line.split() for line in shown.splitlines() if line.split()[2:3] == ["near"]]
+    assert [int(row[3].replace(",", "")) > 3050 for row in rows] == [True, True, False], shown
+    expect(0, "collide", "--collider", "leaf", *common, "--pairs-of", "between", "--no-skip", "near", "--json", "n.json")
+    whole, = valid("n.json")["cells"]
+    assert whole["collider"]["options"]["no_skip"] == "near" and "entered_count" not in whole["counters"], whole
+    assert whole["check"]["contacts_hash"] == next(cell for cell in cells if cell["scene"]["frame"] == 0)["check"]["contacts_hash"]
+    pairs, contacts = (pathlib.Path(name).read_text().splitlines() for name in ("p.csv", "k.csv"))
+    assert set(contacts[1:]) <= set(pairs[1:]) and len(contacts) - 1 == last[0]["counters"]["contacts_count"]
+    one = expect(0, "collide", "--collider", "leaf", *common, "--objects", "one", "--json", "o.json",
+                 says="verdict: agrees with brute, CGAL")
+    assert "tasks_count" not in one
+    whole, = valid("o.json")["cells"]
+    assert whole["scene"]["objects"] == 1
+    expect(2, "collide", "--collider", "leaf", *common, "--frames", "2:9", says="has frames 0 to 2, not 2 to before 9")
+    expect(2, "collide", "--collider", "leaf", *common, "--no-skip", "lunch", says="there are: unchanged, rigid, ")
+    expect(2, "collide", "--collider", "leaf", "--scene", "soup:9", "--contacts", "k.csv", says="--narrow exact")
+    expect(2, "collide", "--collider", "leaf", "--scene", "soup:9", "--order", "kd", "--objects", "components",
+           says="order kd lines up one object, not 9")
+
+
+def test_collide_numbers_pairs_as_the_file_does_whatever_its_objects_are():
+    corners = [(x, y, z) for z in (0, 1) for x, y in ((0, 0), (4, 0), (4, 4 - z), (0, 4))]
+    faces = [(1, 2, 3), (5, 6, 7), (1, 3, 4), (5, 7, 8)]  # of two squares in turns
+    pathlib.Path("turns.obj").write_text("".join(f"v {x} {y} {0.5 * z * x}\n" for x, y, z in corners)
+                                         + "".join(f"f {a} {b} {c}\n" for a, b, c in faces))
+    for objects in ("one", "components"):
+        expect(0, "collide", "--collider", "leaf", "--scene", "turns.obj", "--objects", objects, "--samples", "1",
+               "--narrow", "exact", "--pairs", f"{objects}.csv", "--contacts", f"{objects}-contacts.csv")
+    for name in (".csv", "-contacts.csv"):
+        one, components = (pathlib.Path(objects + name).read_text() for objects in ("one", "components"))
+        assert one == components and len(one.splitlines()) > 2, (name, one, components)
+
+
+if __name__ == "__main__":
+    sys.exit(main(globals()))

@@ -1,0 +1,128 @@
+#!/usr/bin/env python3
+"""What a start compiles, what a later one finds, and what becomes of it when that is broken or cannot be kept.
+
+Usage: start_test.py <bvhbench> <result schema>
+"""
+import fcntl
+import os
+import pathlib
+import subprocess
+import sys
+
+from program import PROGRAM, expect, main, run
+
+QUICK = ("build", "--builder", "median-split", "--scene", "soup:30", "--samples", "1")  # two kernels of one text
+
+
+def kernels_compiled(folder: pathlib.Path, *words: str) -> int:
+    """How many kernels PoCL compiles into an empty cache for a build; a second one must find all of them there."""
+    build = ("build", "--scene", "torus:2000", "--samples", "2", *words)
+    expect(0, *build, says="agrees", POCL_CACHE_DIR=str(folder))
+    compiled = {path.name for path in folder.rglob("*.so")}
+    expect(0, *build, says="agrees", POCL_CACHE_DIR=str(folder))
+    again = {path.name for path in folder.rglob("*.so")}
+    assert again == compiled, again - compiled
+    return len(compiled)
+
+
+def test_a_build_compiles_the_kernels_that_it_launches_and_no_others():
+    # The copy rate 1, an empty launch 1, bounds 2, codes 1, the sort 3; and then the tree's own. Each takes PoCL a tenth of a second or so.
+    # Their texts are as many programs, of which each costs as much again.
+    for most, texts, *words in ((10, 5, "--builder", "oibvh-multi"),
+                                (10, 5, "--builder", "oibvh-multi", "--order", "hilbert63"),
+                                (10, 6, "--builder", "oibvh-multi", "--leaves", "sorted"),
+                                (8, 4, "--builder", "oibvh-host"), (9, 5, "--builder", "apetrei-fused"),
+                                (9, 6, "--builder", "oibvh-multi", "--order", "kd"),
+                                (2, 1, "--builder", "median-split")):
+        folder = pathlib.Path("pocl-" + "-".join(words[1:]))
+        folder.mkdir()
+        compiled = kernels_compiled(folder, *words)
+        assert 1 <= compiled <= most, (words, compiled)
+        programs = len(list(folder.rglob("program.bc")))
+        assert 1 <= programs <= texts, (words, programs)
+
+
+def test_pocl_keeps_its_cache_with_us():
+    expect(0, "list", "devices", XDG_CACHE_HOME=os.getcwd() + "/cache", POCL_CACHE_DIR="")
+    assert pathlib.Path("cache/bvhbench/pocl").is_dir()
+    left = pathlib.Path("cache/bvhbench/pocl/tempfile_old")
+    left.touch()
+    os.utime(left, (0, 0))
+    expect(0, "list", "devices", XDG_CACHE_HOME=os.getcwd() + "/cache", POCL_CACHE_DIR="")
+    assert not left.exists()
+
+
+def kept_in(folder: str) -> dict[pathlib.Path, tuple[bytes, int]]:
+    """A start that keeps its kernels there, and then each file with its content and when it was made."""
+    expect(0, *QUICK, says="agrees", XDG_CACHE_HOME=os.path.abspath(folder), POCL_CACHE_DIR="")
+    root = pathlib.Path(folder, "bvhbench/pocl")
+    files = {path: (path.read_bytes(), path.stat().st_mtime_ns) for path in root.glob("??/**/*") if path.is_file()}
+    return {path: content for path, content in files.items() if path.name != "last_accessed"}
+
+
+def overwritten(content: bytes) -> bytes:
+    return content[:4000] + bytes(200) + content[4200:]
+
+
+def test_what_is_broken_is_compiled_again():
+    whole = kept_in("broken")
+    assert {path.name for path in whole} == {"program.bc", "copy_runs.so", "launch_empty.so"}, whole
+    assert kept_in("broken") == whole  # nothing was compiled
+    kernel = next(path for path in whole if path.name == "copy_runs.so")
+    program = next(path for path in whole if path.name == "program.bc")
+    for path, broken in ((kernel, kernel.read_bytes()[:5000]), (kernel, b""), (kernel, overwritten(whole[kernel][0])),
+                         (program, program.read_bytes()[:1000]), (program, overwritten(whole[program][0]))):
+        assert broken != whole[path][0]
+        path.write_bytes(broken)
+        mended = kept_in("broken")
+        assert set(mended) == set(whole) and mended[path][0] != broken, (path, len(broken))
+        assert all(mended[each][1] != whole[each][1] for each in whole), "one broken file is the whole program's end"
+        assert kept_in("broken") == mended
+        whole = mended
+    for text in (None, b"", os.urandom(3000)):
+        seals = pathlib.Path("broken/bvhbench/pocl/bvhbench.seals")
+        seals.unlink() if text is None else seals.write_bytes(text)
+        mended = kept_in("broken")
+        assert all(mended[each][1] != whole[each][1] for each in whole), text
+        assert kept_in("broken") == mended
+        whole = mended
+
+
+def test_what_others_are_making_is_left_alone():
+    whole = kept_in("others")
+    making = next(iter(whole)).parent / "making.so"
+    making.write_bytes(b"not sealed yet")
+    with open("others/bvhbench/pocl/bvhbench.lock", "rb") as lock:
+        fcntl.flock(lock, fcntl.LOCK_SH)
+        assert making in kept_in("others")
+    pathlib.Path("others/bvhbench/pocl/bvhbench.seals").write_bytes(b"")  # which it has got a seal in meanwhile
+    assert making not in kept_in("others")
+
+
+def test_several_may_start_at_a_time():
+    environment = {**os.environ, "XDG_CACHE_HOME": os.path.abspath("several"), "POCL_CACHE_DIR": ""}
+    started = [subprocess.Popen([PROGRAM, *QUICK], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                env=environment) for _ in range(3)]
+    for process in started:
+        out, error = process.communicate(timeout=300)
+        assert process.returncode == 0 and "agrees" in out and not error, (process.returncode, out, error)
+    assert kept_in("several") == kept_in("several")
+
+
+def test_kernels_that_cannot_be_kept_are_compiled_all_the_same():
+    pathlib.Path("file").touch()
+    pathlib.Path("temporary").mkdir()
+    for variable, folder in (("XDG_CACHE_HOME", os.path.abspath("file")), ("POCL_CACHE_DIR", os.path.abspath("file")),
+                             ("XDG_CACHE_HOME", "/proc/no"), ("POCL_CACHE_DIR", "/dev/full")):
+        environment = {"POCL_CACHE_DIR": "", variable: folder}
+        done = run(*QUICK, TMPDIR=os.path.abspath("temporary"), **environment)
+        assert done.returncode == 0 and "agrees" in done.stdout, (folder, done)
+        assert done.stderr.startswith("bvhbench: kernels are compiled anew, for they cannot be kept in '" + folder), done
+        assert done.stderr.count("\n") == 1, done.stderr
+        assert not os.listdir("temporary"), os.listdir("temporary")
+    expect(3, *QUICK, says="there is nowhere to put compiled kernels: they cannot be kept in '/proc/no/bvhbench/pocl': ",
+           XDG_CACHE_HOME="/proc/no", POCL_CACHE_DIR="", TMPDIR="/proc/no")
+
+
+if __name__ == "__main__":
+    sys.exit(main(globals()))
