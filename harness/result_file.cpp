@@ -92,7 +92,8 @@ void ResultFile::take_over(const std::string& run_id)
     std::ifstream file(path_, std::ios::binary);
     if (!file.is_open())
         return;  // no cell had been finished
-    Document before = read_document(std::string(std::istreambuf_iterator<char>(file), {}), path_.string());
+    Document before =
+        read_document(std::string(std::istreambuf_iterator<char>(file), {}), path_.string());
     if (before.run.id != run_id)
         return;
     document_ = std::move(before);

@@ -81,7 +81,8 @@ private:
     std::string keeps_;  ///< the run whose cells `keep_` keeps
     std::function<void()> keep_;
     std::atomic<const std::string*> cell_ = nullptr;
-    std::atomic<long> until_ = 0;  ///< steady clock, milliseconds; 0: nothing is watched; -1: it is over
+    std::atomic<long> until_ =
+        0;  ///< steady clock, milliseconds; 0: nothing is watched; -1: it is over
     std::mutex mutex_;
     std::condition_variable stop_;
     bool stops_ = false;

@@ -48,7 +48,10 @@ using float2 = Aabb;
 #define BVHBENCH_GEOMETRY_BOX_WORDS_CLH
 inline Aabb load_box(const float2* boxes, uint i) { return boxes[i]; }
 inline void store_box(float2* boxes, uint i, Aabb box) { boxes[i] = box; }
-constexpr uint first_slot(uint leaves, uint level) { return oi_first_slot(oi_shape(leaves), level); }
+constexpr uint first_slot(uint leaves, uint level)
+{
+    return oi_first_slot(oi_shape(leaves), level);
+}
 constexpr uint stored_on(uint leaves, uint level) { return oi_real_on(oi_shape(leaves), level); }
 
 #define global

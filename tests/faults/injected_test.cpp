@@ -7,8 +7,8 @@
 // which calls are reached the first call, and of every fifth way all that follow with it. By default every eighth of those.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <unistd.h>
+#include <algorithm>
 
 #include <cstdlib>
 #include <filesystem>
@@ -69,7 +69,8 @@ protected:
     Outcome run(std::vector<std::string> words, shim::Plan plan) const
     {
         fs::remove(file_);
-        words.insert(words.begin(), {"bvhbench", "--time-limit", "0"});  // a crash is to end the test
+        words.insert(words.begin(),
+                     {"bvhbench", "--time-limit", "0"});  // a crash is to end the test
         std::vector<const char*> argv;
         for (const std::string& word : words)
             argv.push_back(word.c_str());
@@ -112,7 +113,8 @@ std::vector<long> Injected::chosen(const std::vector<std::string>& words)
     for (const auto& [stack, where] : ways)
         if (tried_.insert(stack).second &&
             (wanted_faults() != Faults::some || tried_.size() % 8 == 0))
-            picked.insert(where.begin(), wanted_faults() == Faults::calls ? where.end() : where.begin() + 1);
+            picked.insert(where.begin(),
+                          wanted_faults() == Faults::calls ? where.end() : where.begin() + 1);
     std::cout << calls.size() << " calls by " << ways.size() << " ways, " << picked.size()
               << " of them fail" << std::endl;
     return {picked.begin(), picked.end()};
@@ -120,8 +122,9 @@ std::vector<long> Injected::chosen(const std::vector<std::string>& words)
 
 void Injected::expect_clean(const Outcome& outcome, const shim::Plan& plan, std::size_t cells) const
 {
-    SCOPED_TRACE("call " + std::to_string(plan.nth) + (plan.from_there_on ? " and all that follow, " : ", ") +
-                 shim::failed_call() + ": " + outcome.error);
+    SCOPED_TRACE("call " + std::to_string(plan.nth) +
+                 (plan.from_there_on ? " and all that follow, " : ", ") + shim::failed_call() +
+                 ": " + outcome.error);
     EXPECT_TRUE(outcome.code == 0 || outcome.code == 3) << outcome.code;
     if (outcome.code == 3) {
         EXPECT_EQ(outcome.error.rfind("bvhbench: ", 0), 0u);
@@ -176,7 +179,8 @@ void Injected::fail_calls_of(const std::vector<std::string>& words, std::size_t 
 /// With so little memory the copy rate is not measured, which takes longer than all else.
 const std::vector<std::string> without_yardsticks = {"--memory-limit", "16M"};
 
-std::vector<std::string> operator+(std::vector<std::string> words, const std::vector<std::string>& more)
+std::vector<std::string> operator+(std::vector<std::string> words,
+                                   const std::vector<std::string>& more)
 {
     words.insert(words.end(), more.begin(), more.end());
     return words;
@@ -184,34 +188,38 @@ std::vector<std::string> operator+(std::vector<std::string> words, const std::ve
 
 TEST_F(Injected, ABuildEndsCleanlyWhicheverCallFails)
 {
-    const std::vector<std::string> build = {"build",     "--builder", "oibvh-multi", "--scene",     "soup:70",
-                                            "--samples", "1",         "--json",      file_.string()};
+    const std::vector<std::string> build = {"build",   "--builder", "oibvh-multi",
+                                            "--scene", "soup:70",   "--samples",
+                                            "1",       "--json",    file_.string()};
     fail_calls_of(build + without_yardsticks, 1);
     fail_calls_of(build, 1);  // what those tried already is not tried again
 }
 
 TEST_F(Injected, ACollisionEndsCleanlyWhicheverCallFails)
 {
-    const std::vector<std::string> collide = {"collide",   "--collider", "leaf",     "--scene", "bend:soup:60",
-                                              "--frames",  "0:2",        "--narrow", "exact",   "--samples",
-                                              "1",         "--json",     file_.string()};
+    const std::vector<std::string> collide = {
+        "collide",  "--collider", "leaf",      "--scene", "bend:soup:60", "--frames",    "0:2",
+        "--narrow", "exact",      "--samples", "1",       "--json",       file_.string()};
     fail_calls_of(collide + without_yardsticks, 2);
 }
 
 TEST_F(Injected, FinishedCellsAreKeptAndTheOthersAreDone)
 {
     const fs::path plan = folder_.string() + ".plan.json";
-    std::ofstream(plan) << R"({"experiment": "faults", "scenes": ["soup:9", "soup:30"], "samples": 1, "warm_up": 0,
+    std::ofstream(plan)
+        << R"({"experiment": "faults", "scenes": ["soup:9", "soup:30"], "samples": 1, "warm_up": 0,
                                "builders": ["oibvh-multi", "karras", "median-split"]})";
-    const std::vector<std::string> words = std::vector<std::string>{"run", plan.string(), "--out", file_.string()} +
-                                           without_yardsticks;
+    const std::vector<std::string> words =
+        std::vector<std::string>{"run", plan.string(), "--out", file_.string()} +
+        without_yardsticks;
     run(words, {});
     const long calls = shim::calls();
     std::size_t kept = 0;
     for (int part = 1; part < 20; ++part) {
         const shim::Plan one{calls * part / 20, false};
         const Outcome outcome = run(words, one);
-        SCOPED_TRACE("call " + std::to_string(one.nth) + ", " + shim::failed_call() + ": " + outcome.error);
+        SCOPED_TRACE("call " + std::to_string(one.nth) + ", " + shim::failed_call() + ": " +
+                     outcome.error);
         if (outcome.code != 0) {  // before there were cells
             EXPECT_EQ(outcome.code, 3);
             EXPECT_EQ(kept, 0u);
@@ -220,9 +228,11 @@ TEST_F(Injected, FinishedCellsAreKeptAndTheOthersAreDone)
         const Document result = document();
         EXPECT_EQ(result.cells.size(), 6u);
         EXPECT_FALSE(result.run.finished_at.empty());
-        const auto measured = std::count_if(result.cells.begin(), result.cells.end(), [](const Cell& cell) {
-            return cell.status == Cell::Status::measured && cell.check.verdict == Check::Verdict::agrees;
-        });
+        const auto measured =
+            std::count_if(result.cells.begin(), result.cells.end(), [](const Cell& cell) {
+                return cell.status == Cell::Status::measured &&
+                       cell.check.verdict == Check::Verdict::agrees;
+            });
         EXPECT_GE(measured, 3);  // at most a scene, when it cannot be uploaded
         ++kept;
     }

@@ -174,7 +174,8 @@ std::vector<std::string> leaked()
     std::vector<std::string> names;
     for (const auto& [object, entry] : state().objects)
         if (entry.count > entry.refused)
-            names.push_back(std::string(entry.made_by) + " + " + std::to_string(entry.count - entry.refused));
+            names.push_back(std::string(entry.made_by) + " + " +
+                            std::to_string(entry.count - entry.refused));
     return names;
 }
 
@@ -210,40 +211,40 @@ namespace shim = bvhbench::shim;
     }
 
 // A call that is enqueued, and makes an event if one is asked for.
-#define ENQUEUE(name, error, parameters, arguments) \
-    extern "C" cl_int name parameters               \
-    {                                               \
-        REAL(name);                                 \
-        if (shim::fails(#name, #error))             \
-            return error;                           \
-        const cl_int status = real arguments;       \
+#define ENQUEUE(name, error, parameters, arguments)   \
+    extern "C" cl_int name parameters                 \
+    {                                                 \
+        REAL(name);                                   \
+        if (shim::fails(#name, #error))               \
+            return error;                             \
+        const cl_int status = real arguments;         \
         if (status == CL_SUCCESS && event != nullptr) \
-            shim::made(*event, #name);              \
-        return status;                              \
+            shim::made(*event, #name);                \
+        return status;                                \
     }
 
 // A release that fails has no effect, like any call that fails: who made the object is not to blame if it stays.
-#define RETAIN_AND_RELEASE(what, type)                            \
-    extern "C" cl_int clRetain##what(type object)                 \
-    {                                                             \
-        REAL(clRetain##what);                                     \
-        if (shim::fails("clRetain" #what, "CL_OUT_OF_RESOURCES")) \
-            return CL_OUT_OF_RESOURCES;                           \
-        shim::retained(object, "clRetain" #what);                 \
-        return real(object);                                      \
-    }                                                             \
-    extern "C" cl_int clRelease##what(type object)                \
-    {                                                             \
-        REAL(clRelease##what);                                    \
+#define RETAIN_AND_RELEASE(what, type)                                                 \
+    extern "C" cl_int clRetain##what(type object)                                      \
+    {                                                                                  \
+        REAL(clRetain##what);                                                          \
+        if (shim::fails("clRetain" #what, "CL_OUT_OF_RESOURCES"))                      \
+            return CL_OUT_OF_RESOURCES;                                                \
+        shim::retained(object, "clRetain" #what);                                      \
+        return real(object);                                                           \
+    }                                                                                  \
+    extern "C" cl_int clRelease##what(type object)                                     \
+    {                                                                                  \
+        REAL(clRelease##what);                                                         \
         const bool is_refused = shim::fails("clRelease" #what, "CL_OUT_OF_RESOURCES"); \
-        const bool is_there = shim::released(object, is_refused, "clRelease" #what); \
-        return is_refused || !is_there ? CL_OUT_OF_RESOURCES : real(object); \
-    }                                                             \
-    template <>                                                   \
-    cl_int bvhbench::shim::release<type>(void* object)            \
-    {                                                             \
-        REAL(clRelease##what);                                    \
-        return real(static_cast<type>(object));                   \
+        const bool is_there = shim::released(object, is_refused, "clRelease" #what);   \
+        return is_refused || !is_there ? CL_OUT_OF_RESOURCES : real(object);           \
+    }                                                                                  \
+    template <>                                                                        \
+    cl_int bvhbench::shim::release<type>(void* object)                                 \
+    {                                                                                  \
+        REAL(clRelease##what);                                                         \
+        return real(static_cast<type>(object));                                        \
     }
 
 RETAIN_AND_RELEASE(CommandQueue, cl_command_queue)
@@ -257,12 +258,14 @@ RETAIN_AND_RELEASE(Program, cl_program)
 STATUS(clRetainDevice, CL_OUT_OF_RESOURCES, (cl_device_id device), (device))
 STATUS(clReleaseDevice, CL_OUT_OF_RESOURCES, (cl_device_id device), (device))
 
-STATUS(clGetPlatformIDs, CL_OUT_OF_HOST_MEMORY, (cl_uint room, cl_platform_id* list, cl_uint* count), (room, list, count))
+STATUS(clGetPlatformIDs, CL_OUT_OF_HOST_MEMORY,
+       (cl_uint room, cl_platform_id* list, cl_uint* count), (room, list, count))
 STATUS(clGetPlatformInfo, CL_OUT_OF_HOST_MEMORY,
        (cl_platform_id platform, cl_platform_info what, size_t room, void* value, size_t* size),
        (platform, what, room, value, size))
 STATUS(clGetDeviceIDs, CL_DEVICE_NOT_FOUND,
-       (cl_platform_id platform, cl_device_type type, cl_uint room, cl_device_id* list, cl_uint* count),
+       (cl_platform_id platform, cl_device_type type, cl_uint room, cl_device_id* list,
+        cl_uint* count),
        (platform, type, room, list, count))
 STATUS(clGetDeviceInfo, CL_OUT_OF_RESOURCES,
        (cl_device_id device, cl_device_info what, size_t room, void* value, size_t* size),
@@ -274,83 +277,96 @@ STATUS(clGetCommandQueueInfo, CL_OUT_OF_RESOURCES,
        (cl_command_queue queue, cl_command_queue_info what, size_t room, void* value, size_t* size),
        (queue, what, room, value, size))
 STATUS(clGetMemObjectInfo, CL_OUT_OF_RESOURCES,
-       (cl_mem memory, cl_mem_info what, size_t room, void* value, size_t* size), (memory, what, room, value, size))
+       (cl_mem memory, cl_mem_info what, size_t room, void* value, size_t* size),
+       (memory, what, room, value, size))
 STATUS(clGetProgramInfo, CL_OUT_OF_RESOURCES,
        (cl_program program, cl_program_info what, size_t room, void* value, size_t* size),
        (program, what, room, value, size))
 STATUS(clGetProgramBuildInfo, CL_OUT_OF_RESOURCES,
-       (cl_program program, cl_device_id device, cl_program_build_info what, size_t room, void* value, size_t* size),
+       (cl_program program, cl_device_id device, cl_program_build_info what, size_t room,
+        void* value, size_t* size),
        (program, device, what, room, value, size))
 STATUS(clGetKernelInfo, CL_OUT_OF_RESOURCES,
-       (cl_kernel kernel, cl_kernel_info what, size_t room, void* value, size_t* size), (kernel, what, room, value, size))
+       (cl_kernel kernel, cl_kernel_info what, size_t room, void* value, size_t* size),
+       (kernel, what, room, value, size))
 STATUS(clGetKernelWorkGroupInfo, CL_OUT_OF_RESOURCES,
-       (cl_kernel kernel, cl_device_id device, cl_kernel_work_group_info what, size_t room, void* value, size_t* size),
+       (cl_kernel kernel, cl_device_id device, cl_kernel_work_group_info what, size_t room,
+        void* value, size_t* size),
        (kernel, device, what, room, value, size))
 STATUS(clGetEventInfo, CL_OUT_OF_RESOURCES,
-       (cl_event event, cl_event_info what, size_t room, void* value, size_t* size), (event, what, room, value, size))
+       (cl_event event, cl_event_info what, size_t room, void* value, size_t* size),
+       (event, what, room, value, size))
 STATUS(clGetEventProfilingInfo, CL_PROFILING_INFO_NOT_AVAILABLE,
-       (cl_event event, cl_profiling_info what, size_t room, void* value, size_t* size), (event, what, room, value, size))
+       (cl_event event, cl_profiling_info what, size_t room, void* value, size_t* size),
+       (event, what, room, value, size))
 STATUS(clBuildProgram, CL_OUT_OF_HOST_MEMORY,
        (cl_program program, cl_uint count, const cl_device_id* devices, const char* options,
         void(CL_CALLBACK* notify)(cl_program, void*), void* data),
        (program, count, devices, options, notify, data))
-STATUS(clSetKernelArg, CL_OUT_OF_RESOURCES, (cl_kernel kernel, cl_uint index, size_t size, const void* value),
+STATUS(clSetKernelArg, CL_OUT_OF_RESOURCES,
+       (cl_kernel kernel, cl_uint index, size_t size, const void* value),
        (kernel, index, size, value))
 STATUS(clFlush, CL_OUT_OF_RESOURCES, (cl_command_queue queue), (queue))
 STATUS(clFinish, CL_OUT_OF_RESOURCES, (cl_command_queue queue), (queue))
-STATUS(clWaitForEvents, CL_EXEC_STATUS_ERROR_FOR_EVENTS_IN_WAIT_LIST, (cl_uint count, const cl_event* events),
-       (count, events))
+STATUS(clWaitForEvents, CL_EXEC_STATUS_ERROR_FOR_EVENTS_IN_WAIT_LIST,
+       (cl_uint count, const cl_event* events), (count, events))
 
 CREATE(cl_context, clCreateContext, CL_DEVICE_NOT_AVAILABLE,
        (const cl_context_properties* properties, cl_uint count, const cl_device_id* devices,
-        void(CL_CALLBACK* notify)(const char*, const void*, size_t, void*), void* data, cl_int* status),
+        void(CL_CALLBACK* notify)(const char*, const void*, size_t, void*), void* data,
+        cl_int* status),
        (properties, count, devices, notify, data, status))
 CREATE(cl_command_queue, clCreateCommandQueue, CL_OUT_OF_HOST_MEMORY,
-       (cl_context context, cl_device_id device, cl_command_queue_properties properties, cl_int* status),
+       (cl_context context, cl_device_id device, cl_command_queue_properties properties,
+        cl_int* status),
        (context, device, properties, status))
 CREATE(cl_mem, clCreateBuffer, CL_MEM_OBJECT_ALLOCATION_FAILURE,
        (cl_context context, cl_mem_flags flags, size_t size, void* host, cl_int* status),
        (context, flags, size, host, status))
 CREATE(cl_mem, clCreateSubBuffer, CL_MEM_OBJECT_ALLOCATION_FAILURE,
-       (cl_mem memory, cl_mem_flags flags, cl_buffer_create_type type, const void* region, cl_int* status),
+       (cl_mem memory, cl_mem_flags flags, cl_buffer_create_type type, const void* region,
+        cl_int* status),
        (memory, flags, type, region, status))
 CREATE(cl_program, clCreateProgramWithSource, CL_OUT_OF_HOST_MEMORY,
-       (cl_context context, cl_uint count, const char** texts, const size_t* lengths, cl_int* status),
+       (cl_context context, cl_uint count, const char** texts, const size_t* lengths,
+        cl_int* status),
        (context, count, texts, lengths, status))
 CREATE(cl_program, clCreateProgramWithBinary, CL_INVALID_BINARY,
        (cl_context context, cl_uint count, const cl_device_id* devices, const size_t* lengths,
         const unsigned char** binaries, cl_int* loaded, cl_int* status),
        (context, count, devices, lengths, binaries, loaded, status))
-CREATE(cl_kernel, clCreateKernel, CL_OUT_OF_RESOURCES, (cl_program program, const char* name, cl_int* status),
-       (program, name, status))
+CREATE(cl_kernel, clCreateKernel, CL_OUT_OF_RESOURCES,
+       (cl_program program, const char* name, cl_int* status), (program, name, status))
 
 ENQUEUE(clEnqueueNDRangeKernel, CL_OUT_OF_RESOURCES,
-        (cl_command_queue queue, cl_kernel kernel, cl_uint dimensions, const size_t* offset, const size_t* global,
-         const size_t* local, cl_uint waits, const cl_event* list, cl_event* event),
+        (cl_command_queue queue, cl_kernel kernel, cl_uint dimensions, const size_t* offset,
+         const size_t* global, const size_t* local, cl_uint waits, const cl_event* list,
+         cl_event* event),
         (queue, kernel, dimensions, offset, global, local, waits, list, event))
 ENQUEUE(clEnqueueReadBuffer, CL_OUT_OF_RESOURCES,
-        (cl_command_queue queue, cl_mem memory, cl_bool waiting, size_t offset, size_t size, void* to, cl_uint waits,
-         const cl_event* list, cl_event* event),
+        (cl_command_queue queue, cl_mem memory, cl_bool waiting, size_t offset, size_t size,
+         void* to, cl_uint waits, const cl_event* list, cl_event* event),
         (queue, memory, waiting, offset, size, to, waits, list, event))
 ENQUEUE(clEnqueueWriteBuffer, CL_MEM_OBJECT_ALLOCATION_FAILURE,
-        (cl_command_queue queue, cl_mem memory, cl_bool waiting, size_t offset, size_t size, const void* from,
-         cl_uint waits, const cl_event* list, cl_event* event),
+        (cl_command_queue queue, cl_mem memory, cl_bool waiting, size_t offset, size_t size,
+         const void* from, cl_uint waits, const cl_event* list, cl_event* event),
         (queue, memory, waiting, offset, size, from, waits, list, event))
 ENQUEUE(clEnqueueCopyBuffer, CL_MEM_OBJECT_ALLOCATION_FAILURE,
-        (cl_command_queue queue, cl_mem from, cl_mem to, size_t from_offset, size_t to_offset, size_t size,
-         cl_uint waits, const cl_event* list, cl_event* event),
+        (cl_command_queue queue, cl_mem from, cl_mem to, size_t from_offset, size_t to_offset,
+         size_t size, cl_uint waits, const cl_event* list, cl_event* event),
         (queue, from, to, from_offset, to_offset, size, waits, list, event))
 ENQUEUE(clEnqueueFillBuffer, CL_MEM_OBJECT_ALLOCATION_FAILURE,
-        (cl_command_queue queue, cl_mem memory, const void* pattern, size_t pattern_size, size_t offset, size_t size,
-         cl_uint waits, const cl_event* list, cl_event* event),
+        (cl_command_queue queue, cl_mem memory, const void* pattern, size_t pattern_size,
+         size_t offset, size_t size, cl_uint waits, const cl_event* list, cl_event* event),
         (queue, memory, pattern, pattern_size, offset, size, waits, list, event))
 ENQUEUE(clEnqueueUnmapMemObject, CL_OUT_OF_RESOURCES,
-        (cl_command_queue queue, cl_mem memory, void* mapped, cl_uint waits, const cl_event* list, cl_event* event),
+        (cl_command_queue queue, cl_mem memory, void* mapped, cl_uint waits, const cl_event* list,
+         cl_event* event),
         (queue, memory, mapped, waits, list, event))
 
-extern "C" void* clEnqueueMapBuffer(cl_command_queue queue, cl_mem memory, cl_bool waiting, cl_map_flags flags,
-                                    size_t offset, size_t size, cl_uint waits, const cl_event* list, cl_event* event,
-                                    cl_int* status)
+extern "C" void* clEnqueueMapBuffer(cl_command_queue queue, cl_mem memory, cl_bool waiting,
+                                    cl_map_flags flags, size_t offset, size_t size, cl_uint waits,
+                                    const cl_event* list, cl_event* event, cl_int* status)
 {
     REAL(clEnqueueMapBuffer);
     if (shim::fails("clEnqueueMapBuffer", "CL_MAP_FAILURE")) {
