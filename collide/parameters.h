@@ -7,9 +7,19 @@
 
 namespace bvhbench {
 
-inline constexpr Parameter walk_group_size{
-    .name = "walk.group_size",
-    .meaning = "work-items in a group of leaf and group, and leaves a query of theirs",
+inline constexpr Parameter leaf_group_size{
+    .name = "leaf.group_size",
+    .meaning = "work-items in a group of leaf",
+    .stage = "broad",
+    .on_cpu = 64,
+    .elsewhere = 256,
+    .least = 1,
+    .most = 256,
+    .values = ValueIs::group_size,
+    .candidates = {32, 64, 128, 256}};
+inline constexpr Parameter group_group_size{
+    .name = "group.group_size",
+    .meaning = "work-items in a group of group, and leaves a query of it",
     .stage = "broad",
     .on_cpu = 64,
     .elsewhere = 64,
@@ -18,7 +28,7 @@ inline constexpr Parameter walk_group_size{
     .values = ValueIs::group_size,
     .candidates = {32, 64, 128, 256}};
 inline constexpr Parameter walk_task_leaves{.name = "walk.task_leaves",
-                                            .meaning = "the same leaves in the form for few cores",
+                                            .meaning = "leaves a query of leaf and group in the form for few cores",
                                             .stage = "broad",
                                             .on_cpu = 64,
                                             .elsewhere = 64,
@@ -189,7 +199,7 @@ inline constexpr Parameter narrow_block_pairs{
 
 /// All of them.
 inline constexpr const Parameter* collider_parameters[] = {
-    &walk_group_size,         &walk_task_leaves,  &walk_block_pairs,  &group_loose,
+    &leaf_group_size,         &group_group_size,  &walk_task_leaves,  &walk_block_pairs,  &group_loose,
     &group_frontier_per_item, &block_teams,       &block_loose,       &bvtt_group_size,   &bvtt_items,        &bvtt_groups_per_unit,
     &bvtt_block_pairs,        &bvtt_jump,         &bvtt_start_level,  &grid_group_size,
     &grid_block_pairs,        &grid_buckets_each, &narrow_group_size, &narrow_groups_per_unit,
