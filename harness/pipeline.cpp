@@ -188,6 +188,7 @@ void Pipeline::declare_found(std::vector<StageTime>& stages) const
 
 std::vector<StageTime> Pipeline::once(const Input& input)
 {
+    session_.give_head_start();
     enqueue(input);
     std::vector<StageTime> stages = session_.queue().finish();
     if (!complete())
