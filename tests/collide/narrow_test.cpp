@@ -4,7 +4,7 @@
 #include <map>
 
 #include "tests/collide/narrow_testing.h"
-#include "tests/collide/pair_classes.h"
+#include "tests/collide/adjacent_pairs.h"
 
 namespace bvhbench {
 namespace {
@@ -40,7 +40,7 @@ TEST_P(Narrow, TellsWhatMeetsInEveryClass)
     NarrowPhase narrow(bench().programs, options(false));
     for (const PairClass& of : pair_classes()) {
         SCOPED_TRACE(of.name);
-        hold_to_reference(narrow, apart_pairs(of, pairs_a_class), false);
+        hold_to_reference(narrow, apart_pairs(of, pairs_a_class, 1), false);
     }
 }
 
@@ -50,7 +50,7 @@ TEST_P(Narrow, TellsWhatMeetsBeyondSharedCornersInEveryClass)
     for (const PairClass& of : pair_classes()) {
         SCOPED_TRACE(of.name);
         hold_to_reference(narrow, adjacent_pairs(of, pairs_a_class), true);
-        hold_to_reference(narrow, apart_pairs(of, 1'000), true);
+        hold_to_reference(narrow, apart_pairs(of, 1'000, 1), true);
     }
 }
 
@@ -70,7 +70,7 @@ TEST_P(Narrow, DropsNothingWhenBuffersBeginWithOneEntry)
     NarrowPhase narrow(bench().programs, tiny);
     for (const PairClass& of : pair_classes()) {
         SCOPED_TRACE(of.name);
-        hold_to_reference(narrow, apart_pairs(of, 3'000), true);
+        hold_to_reference(narrow, apart_pairs(of, 3'000, 1), true);
         hold_to_reference(narrow, adjacent_pairs(of, 3'000), true);
     }
 }
@@ -78,7 +78,7 @@ TEST_P(Narrow, DropsNothingWhenBuffersBeginWithOneEntry)
 TEST_P(Narrow, LooksAtNoMoreThanWasCountedAndNoMoreThanThereIsRoomFor)
 {
     NarrowPhase narrow(bench().programs, options(false));
-    const Mesh mesh = apart_pairs(pair_classes()[5], 2'000);
+    const Mesh mesh = apart_pairs(pair_classes()[5], 2'000, 1);
     narrow.reserve(mesh.faces.size());
     Candidates candidates(mesh, neighbours(mesh));
     for (const std::vector<uint>& counts :
@@ -96,7 +96,7 @@ TEST_P(Narrow, LooksAtNoMoreThanWasCountedAndNoMoreThanThereIsRoomFor)
 TEST_P(Narrow, FindsTheSameEveryTime)
 {
     NarrowPhase narrow(bench().programs, options(false));
-    const Mesh mesh = apart_pairs(pair_classes()[4], 5'000);
+    const Mesh mesh = apart_pairs(pair_classes()[4], 5'000, 1);
     narrow.reserve(mesh.faces.size());
     const Candidates candidates(mesh, neighbours(mesh));
     const PairList first = contacts_found(narrow, candidates);
@@ -131,7 +131,7 @@ TEST(NarrowStages, EachDecideWhatTheyAreFor)
         NarrowPhase narrow(bench().programs, {.form = form});
         for (const PairClass& of : pair_classes()) {
             SCOPED_TRACE(of.name);
-            const Mesh mesh = apart_pairs(of, pairs_a_class);
+            const Mesh mesh = apart_pairs(of, pairs_a_class, 1);
             narrow.reserve(mesh.faces.size());
             const std::size_t found =
                 contacts_found(narrow, Candidates(mesh, neighbours(mesh))).size();
