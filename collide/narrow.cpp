@@ -67,6 +67,7 @@ NarrowPhase::NarrowPhase(Programs& programs, const NarrowOptions& options)
         block_pairs_ = device.tuned(narrow_block_pairs);
     check_narrow(options.method, options.keep_adjacent);
     const NarrowMethod& method = find_narrow_method(options.method);
+    options_.method = method.name;  // words that stay
     if (method.real_bits == 64 && !has_doubles_)
         throw Unavailable(std::string(method.name) + " needs doubles, which the device has not");
     filter_ = compiled_filter(method);
