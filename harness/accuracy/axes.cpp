@@ -3,6 +3,8 @@
 
 #include "geometry/error.h"
 #include "harness/accuracy/axis.h"
+#include "harness/report.h"
+#include "harness/sampler.h"
 
 namespace bvhbench {
 namespace {
@@ -55,6 +57,40 @@ Cell accuracy_cell(std::string axis, std::string method, SceneFacts input)
     cell.accuracy = {.axis = std::move(axis), .method = std::move(method)};
     cell.operation = Operation::accuracy;
     return cell;
+}
+
+void Measured::fail(Session& session, const std::string& why)
+{
+    session.renew_queue();
+    once = nullptr;
+    cell.status = Cell::Status::failed;
+    cell.reason = why;
+    cell.samples.clear();
+}
+
+void take_samples_of(const AxisRun& run, std::span<Measured> cells)
+{
+    constexpr int warm_up = 1;
+    std::vector<Measured*> ready;
+    std::vector<Timed> timed;
+    for (Measured& one : cells)
+        if (one.once) {
+            ready.push_back(&one);
+            timed.push_back({one.cell.accuracy.method, one.once});
+        }
+    std::vector<Taken> taken = take_samples(timed, run.task.samples, warm_up, run.order);
+    for (std::size_t k = 0; k < ready.size(); ++k) {
+        ready[k]->cell.warm_up = warm_up;
+        ready[k]->cell.samples = std::move(taken[k].samples);
+        if (!taken[k].failure.empty())
+            ready[k]->fail(run.session, taken[k].failure);
+    }
+}
+
+std::string why_text(const Cell& cell)
+{
+    const std::string why = cell.reason.empty() ? cell.check.detail : cell.reason;
+    return verdict_text(cell) + (why.empty() ? "" : ": " + why.substr(0, why.find('\n')));
 }
 
 std::vector<const Cell*> cells_of(const Document& document, std::string_view axis)

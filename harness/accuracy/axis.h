@@ -58,6 +58,21 @@ std::string accuracy_report(const Document& document);
 /// A cell that says what is measured: on which axis, of what, by which method.
 Cell accuracy_cell(std::string axis, std::string method, SceneFacts input);
 
+/// A cell on its way to being measured, and what one sample of it is; without, it is finished already.
+struct Measured {
+    Cell cell;
+    std::function<std::vector<StageTime>()> once;
+
+    /// It has no numbers, and why. What it left in the queue is forgotten.
+    void fail(Session& session, const std::string& why);
+};
+
+/// Sample all of them interleaved, after warm_up samples that do not count. One that fails says so.
+void take_samples_of(const AxisRun& run, std::span<Measured> cells);
+
+/// The first line of why a cell has no numbers, or what is wrong with it; for tables.
+std::string why_text(const Cell& cell);
+
 /// The cells of a document that are on an axis and have times, or a reason for having none.
 std::vector<const Cell*> cells_of(const Document& document, std::string_view axis);
 

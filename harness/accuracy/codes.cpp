@@ -5,13 +5,10 @@
 #include "collide/sweep.h"
 #include "harness/accuracy/axes.h"
 #include "harness/accuracy/code_counts.h"
-#include "harness/accuracy/differences.h"
 #include "harness/accuracy/scene_input.h"
 #include "harness/failure.h"
 #include "harness/metrics.h"
-#include "harness/pipeline.h"
 #include "harness/report.h"
-#include "harness/sampler.h"
 #include "harness/table.h"
 
 namespace bvhbench {
@@ -19,42 +16,18 @@ namespace {
 
 using enum Table::Align;
 
-constexpr int warm_up = 1;
-
-void measure_order(const AxisRun& run, const OrderEntry& order, const Input& input,
-                   const PairList& right, Cell& cell)
+void prepare(Session& session, const OrderEntry& order, const Input& input, Measured& one,
+             std::unique_ptr<Pipeline>& pipeline)
 {
-    Session& session = run.session;
-    Pipeline pipeline(session, cell.builder, cell.collider, input);
-    pipeline.begin_frame({});
-    pipeline.settle(input);
-    cell.counters = pipeline.counters();
-    const Quality quality = quality_of(built_tree(session, cell.builder, input));
-    cell.counters.insert(quality.counters.begin(), quality.counters.end());
+    Cell& cell = one.cell;
+    pipeline = settled_pipeline(session, cell, input);
+    Quality quality = quality_of(built_tree(session, cell.builder, input));
+    cell.counters.merge(quality.counters);
     cell.left_out = quality.left_out;
     const CodeCounts codes = code_counts(order, input.points, input.faces);
     cell.counters["duplicates_count"] = static_cast<double>(codes.duplicates);
     cell.counters["longest_run_count"] = static_cast<double>(codes.longest_run);
-
-    const Timed timed = {cell.accuracy.method, [&] { return pipeline.once(input); }};
-    Taken taken = take_samples({&timed, 1}, run.task.samples, warm_up, run.order).front();
-    if (!taken.failure.empty()) {
-        cell.status = Cell::Status::failed;
-        cell.reason = taken.failure;
-        return;
-    }
-    cell.samples = std::move(taken.samples);
-    const PairList found = pipeline.pairs();
-    const Differences wrong = differences(found, right);
-    cell.counters["missed_count"] = static_cast<double>(wrong.missed);
-    cell.counters["false_count"] = static_cast<double>(wrong.false_ones);
-    cell.check = {.verdict = wrong == Differences{} ? Check::Verdict::agrees : Check::Verdict::differs,
-                  .against = "brute",
-                  .detail = {},
-                  .pairs_hash = found.hash()};
-    if (cell.check.verdict == Check::Verdict::differs)
-        cell.check.detail = std::to_string(wrong.missed) + " pairs missed, " +
-                            std::to_string(wrong.false_ones) + " false";
+    one.once = [&input, frame = pipeline.get()] { return frame->once(input); };
 }
 
 std::string count_text(const Cell& cell, const char* counter)
@@ -76,22 +49,27 @@ void measure_codes(const AxisRun& run)
         run, "codes", {"torus:100000", "hairball:100000", "grid:100000", "outlier:sphere:100000:0:1000"},
         [&](const SceneFacts& scene, const Input& input) {
             const PairList right = touching_pairs(input.points, input.faces, true);
+            std::vector<Measured> cells;
+            std::vector<std::unique_ptr<Pipeline>> pipelines;
             for (const OrderEntry& order : order_catalog()) {
                 if (order.code == nullptr || order.medians != Medians::nowhere ||
                     !run.task.wants(scene.name, order.name))
                     continue;
-                Cell cell = accuracy_cell("codes", std::string(order.name), scene);
-                cell.builder = {.name = "oibvh-multi", .order = std::string(order.name)};
-                cell.collider = {.name = "leaf"};
-                cell.warm_up = warm_up;
-                const std::string failure = reason_of_failure(
-                    [&] { measure_order(run, order, input, right, cell); });
-                if (!failure.empty()) {
-                    run.session.renew_queue();
-                    cell.status = Cell::Status::failed;
-                    cell.reason = failure;
-                }
-                run.add(std::move(cell));
+                Measured& one = cells.emplace_back();
+                one.cell = accuracy_cell("codes", std::string(order.name), scene);
+                one.cell.builder = {.name = "oibvh-multi", .order = std::string(order.name)};
+                one.cell.collider = {.name = "leaf"};
+                const std::string failure = reason_of_failure([&] {
+                    prepare(run.session, order, input, one, pipelines.emplace_back());
+                });
+                if (!failure.empty())
+                    one.fail(run.session, failure);
+            }
+            take_samples_of(run, cells);
+            for (std::size_t k = 0; k < cells.size(); ++k) {
+                if (cells[k].once)
+                    judge_pairs(*pipelines[k], right, "brute", cells[k].cell);
+                run.add(std::move(cells[k].cell));
             }
         });
 }
@@ -113,7 +91,7 @@ std::string report_codes(const Document& document)
     for (const Cell* cell : cells) {
         if (!has_times(*cell)) {
             table.row({cell->scene.name, cell->accuracy.method, "", "", "", "", "", "", "", "",
-                       verdict_text(*cell) + ": " + cell->reason + cell->check.detail});
+                       why_text(*cell)});
             continue;
         }
         const auto cost = cell->counters.find("sah_cost");

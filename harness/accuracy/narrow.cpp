@@ -15,64 +15,74 @@
 #include "harness/failure.h"
 #include "harness/interrupt.h"
 #include "harness/query_bytes.h"
-#include "harness/sampler.h"
 #include "scenes/generate/pair_classes.h"
 
 namespace bvhbench {
 namespace {
 
-/// Pairs at once: what bounds the memory of a class, be it as large as it may. About 250 MB on the host.
+/// Pairs at once: what bounds the memory of a class, be it as large as it may.
 constexpr std::size_t most_at_once = 1u << 20;
-constexpr int warm_up = 1;
+/// Bytes of the host a pair: six corners, two faces, and pairs several times over.
+constexpr std::size_t host_bytes_a_pair = 240;
 
-/// A narrow phase and its cell of the class at hand.
-struct Tried {
-    Cell cell;
+/// A narrow phase, and what it has done of the class at hand.
+struct Phase {
     std::unique_ptr<NarrowPhase> narrow;  ///< null if there cannot be one
+    std::vector<Sample> samples;          ///< each the sum of those of the pieces
     Differences wrong;
     NarrowCounts counts;
     std::uint64_t hash = 0;  ///< of the contacts of the piece at hand
-
-    void fail(Session& session, const std::string& why)
-    {
-        session.renew_queue();
-        narrow.reset();
-        cell.status = Cell::Status::failed;
-        cell.reason = why;
-        cell.samples.clear();
-    }
 };
 
 /// Some pairs of a class: on the host and on the device, with the right answer.
 struct Piece {
     Mesh mesh;
+    std::vector<Pair> pairs;
     PairList meeting;
     Input input;
     DevicePairs candidates;
-    std::vector<Pair> pairs;
 
     Piece(Session& session, const PairClass& of, uint count, uint seed)
         : mesh(apart_pairs(of, count, seed))
+        , pairs(pairs_of_neighbours(mesh))
         , meeting(neighbours_that_meet(mesh))
         , input(upload(session.device(), session.queue(), mesh.points, mesh.faces))
         , candidates(room_for_pairs(session.device(), count))
-        , pairs(pairs_of_neighbours(mesh))
     {
         copy_pairs(pairs, candidates, session.queue());
     }
 };
 
-PairList contacts_of(Tried& one, const Piece& piece, Session& session)
+std::vector<StageTime> query_once(NarrowPhase& narrow, const Piece& piece, Session& session)
 {
-    find_contacts(*one.narrow, piece.input, piece.candidates.pairs, piece.candidates.counters,
-                  session.queue());
-    session.queue().finish();
-    return PairList(one.narrow->contacts(session.queue()));
+    narrow.query(piece.input, piece.candidates.pairs, piece.candidates.counters, session.queue());
+    return session.queue().finish();
+}
+
+PairList contacts_of(NarrowPhase& narrow, const Piece& piece, Session& session)
+{
+    do
+        query_once(narrow, piece, session);
+    while (!narrow.complete(session.queue()));
+    return PairList(narrow.contacts(session.queue()));
+}
+
+void judge(Phase& phase, const Piece& piece, Session& session)
+{
+    const PairList found = contacts_of(*phase.narrow, piece, session);
+    phase.hash = found.hash();
+    phase.wrong += differences(found, piece.meeting);
+    const NarrowCounts counts = phase.narrow->counts(session.queue());
+    phase.counts.by_floats += counts.by_floats;
+    phase.counts.by_doubles += counts.by_doubles;
+    phase.counts.exactly += counts.exactly;
 }
 
 /// Samples of a piece are added to those of the pieces before it, one by one.
-void add_samples(std::vector<Sample>& to, std::vector<Sample>&& more)
+void add_samples(std::vector<Sample>& to, std::vector<Sample>&& more, std::int64_t moved_bytes)
 {
+    for (Sample& sample : more)
+        add_moved_bytes(sample.stages, "narrow", moved_bytes);
     if (to.empty()) {
         to = std::move(more);
         return;
@@ -82,157 +92,141 @@ void add_samples(std::vector<Sample>& to, std::vector<Sample>&& more)
         const StageTime& time = more[k].stages.front();
         sum.busy_ns += time.busy_ns;
         sum.span_ns += time.span_ns;
-        sum.wall_ns += time.wall_ns;
         sum.launches += time.launches;
         sum.moved_bytes += time.moved_bytes;
     }
 }
 
-/// Held to the right answer before and after it is timed: a race may strike only sometimes.
-void judge(Tried& one, const Piece& piece, Session& session)
-{
-    const PairList found = contacts_of(one, piece, session);
-    one.hash = found.hash();
-    one.wrong += differences(found, piece.meeting);
-    const NarrowCounts counts = one.narrow->counts(session.queue());
-    one.counts.contacts += counts.contacts;
-    one.counts.by_floats += counts.by_floats;
-    one.counts.by_doubles += counts.by_doubles;
-    one.counts.exactly += counts.exactly;
-}
-
-void judge_again(Tried& one, const Piece& piece, Session& session)
-{
-    const PairList found = contacts_of(one, piece, session);
-    if (found.hash() == one.hash)
-        return;
-    one.cell.check.verdict = Check::Verdict::differs;
-    one.cell.check.detail = "found other contacts the second time";
-}
-
-void measure_piece(const AxisRun& run, std::span<Tried> all, const Piece& piece)
+/// Each is held to the right answer before it is timed, and to that answer after: a race may strike only sometimes.
+void measure_piece(const AxisRun& run, std::span<Measured> cells, std::span<Phase> phases,
+                   const Piece& piece)
 {
     Session& session = run.session;
-    std::vector<Tried*> ready;
-    std::vector<Timed> timed;
-    const std::int64_t corners = corner_bytes(piece.pairs, piece.input);
-    for (Tried& one : all) {
-        if (one.narrow == nullptr)
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+        if (cells[k].cell.status != Cell::Status::measured)
             continue;
+        Phase& phase = phases[k];
         const std::string failure = reason_of_failure([&] {
-            one.narrow->reserve(piece.mesh.faces.size());
-            judge(one, piece, session);
+            phase.narrow->reserve(piece.mesh.faces.size());
+            judge(phase, piece, session);
         });
-        if (!failure.empty()) {
-            one.fail(session, failure);
-            continue;
-        }
-        ready.push_back(&one);
-        timed.push_back({one.cell.accuracy.method, [&, tried = &one] {
-                             tried->narrow->query(piece.input, piece.candidates.pairs,
-                                                  piece.candidates.counters, session.queue());
-                             return session.queue().finish();
-                         }});
-    }
-    std::vector<Taken> taken = take_samples(timed, run.task.samples, warm_up, run.order);
-    for (std::size_t k = 0; k < ready.size(); ++k) {
-        Tried& one = *ready[k];
-        std::string failure = std::move(taken[k].failure);
-        if (failure.empty())
-            failure = reason_of_failure([&] {
-                judge_again(one, piece, session);
-                const auto moved = static_cast<std::int64_t>(
-                    (piece.pairs.size() + one.narrow->counts(session.queue()).contacts) *
-                    sizeof(Pair));
-                for (Sample& sample : taken[k].samples)
-                    add_moved_bytes(sample.stages, "narrow", corners + moved);
-            });
         if (!failure.empty())
-            one.fail(session, failure);
+            cells[k].fail(session, failure);
         else
-            add_samples(one.cell.samples, std::move(taken[k].samples));
+            cells[k].once = [&] { return query_once(*phase.narrow, piece, session); };
+    }
+    take_samples_of(run, cells);
+    const std::int64_t corners = corner_bytes(piece.pairs, piece.input);
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+        if (!cells[k].once)
+            continue;
+        cells[k].once = nullptr;
+        const std::string failure = reason_of_failure([&] {
+            const PairList found = contacts_of(*phases[k].narrow, piece, session);
+            if (found.hash() != phases[k].hash)
+                throw Unavailable("it found other contacts after the samples than before");
+            const std::size_t pairs = piece.pairs.size() + found.size();
+            add_samples(phases[k].samples, std::move(cells[k].cell.samples),
+                        corners + static_cast<std::int64_t>(pairs * sizeof(Pair)));
+        });
+        if (!failure.empty())
+            cells[k].fail(session, failure);
     }
 }
 
-void conclude(Tried& one, std::size_t pairs, std::size_t meeting)
+void conclude(Cell& cell, Phase& phase, std::size_t pairs, std::size_t meeting)
 {
-    if (one.cell.status != Cell::Status::measured)
+    if (cell.status != Cell::Status::measured)
         return;
-    auto& counters = one.cell.counters;
+    cell.samples = std::move(phase.samples);
     const auto put = [&](const char* name, auto value) {
-        counters[name] = static_cast<double>(value);
+        cell.counters[name] = static_cast<double>(value);
     };
     put("pairs_count", pairs);
     put("meeting_count", meeting);
-    put("missed_count", one.wrong.missed);
-    put("false_count", one.wrong.false_ones);
-    put("narrow_float_count", one.counts.by_floats);
-    put("narrow_double_count", one.counts.by_doubles);
-    put("narrow_exact_count", one.counts.exactly);
-    Check& check = one.cell.check;
-    check.against = "CGAL";
-    if (check.verdict == Check::Verdict::differs)
-        return;
-    const bool promises = find_narrow_method(one.cell.accuracy.method).is_exact;
-    check.verdict = !promises                        ? Check::Verdict::counted
-                    : one.wrong == Differences{}     ? Check::Verdict::agrees
-                                                     : Check::Verdict::differs;
-    if (check.verdict == Check::Verdict::differs)
-        check.detail = std::to_string(one.wrong.missed) + " pairs missed, " +
-                       std::to_string(one.wrong.false_ones) + " false";
+    put("missed_count", phase.wrong.missed);
+    put("false_count", phase.wrong.false_ones);
+    put("narrow_float_count", phase.counts.by_floats);
+    put("narrow_double_count", phase.counts.by_doubles);
+    put("narrow_exact_count", phase.counts.exactly);
+    const bool promises = find_narrow_method(cell.accuracy.method).is_exact;
+    cell.check.against = "CGAL";
+    cell.check.verdict = !promises                      ? Check::Verdict::counted
+                         : phase.wrong == Differences{} ? Check::Verdict::agrees
+                                                        : Check::Verdict::differs;
+    if (cell.check.verdict == Check::Verdict::differs)
+        cell.check.detail = std::to_string(phase.wrong.missed) + " pairs missed, " +
+                            std::to_string(phase.wrong.false_ones) + " false";
+}
+
+/// What doubles are needed for is skipped where there are none; what cannot be compiled has failed.
+Phase compiled(Session& session, const NarrowMethod& method, Measured& one)
+{
+    Phase phase;
+    std::string lacking;
+    const std::string failure = reason_of_failure([&] {
+        try {
+            phase.narrow = std::make_unique<NarrowPhase>(session.programs(),
+                                                         NarrowOptions{.method = method.name});
+        } catch (const Unavailable& error) {
+            lacking = error.what();
+        }
+    });
+    if (!failure.empty() || !lacking.empty())
+        one.fail(session, failure + lacking);
+    if (!lacking.empty())
+        one.cell.status = Cell::Status::skipped;
+    return phase;
 }
 
 void measure_class(const AxisRun& run, const PairClass& of, std::size_t pairs)
 {
-    std::vector<Tried> all;
+    std::vector<Measured> cells;
+    std::vector<Phase> phases;
     for (const NarrowMethod& method : narrow_methods()) {
         if (!run.task.wants(of.name, method.name))
             continue;
-        Tried& one = all.emplace_back();
+        Measured& one = cells.emplace_back();
         one.cell = accuracy_cell("narrow", std::string(method.name), {});
         one.cell.accuracy.seed = run.task.seed;
-        one.cell.warm_up = warm_up;
-        const std::string failure = reason_of_failure([&] {
-            one.narrow = std::make_unique<NarrowPhase>(run.session.programs(),
-                                                       NarrowOptions{.method = method.name});
-        });
-        if (!failure.empty()) {
-            one.cell.status = Cell::Status::skipped;
-            one.cell.reason = failure;
-        }
+        phases.push_back(compiled(run.session, method, one));
     }
-    if (all.empty())
-        return;
     Hash hash;
     std::size_t meeting = 0;
-    std::string no_piece;
     uint seed = run.task.seed;
-    for (std::size_t done = 0; done < pairs && no_piece.empty();) {
-        throw_if_interrupted();
-        const std::size_t count = std::min(most_at_once, pairs - done);
-        no_piece = reason_of_failure([&] {
-            run.session.require_host_memory("a class of pairs", 240 * count);
+    const std::string no_piece = reason_of_failure([&] {
+        for (std::size_t done = 0; done < pairs; done += most_at_once) {
+            throw_if_interrupted();
+            const std::size_t count = std::min(most_at_once, pairs - done);
+            run.session.require_host_memory("a class of pairs", host_bytes_a_pair * count);
             const Piece piece(run.session, of, static_cast<uint>(count), seed++);
             hash.values(std::span<const Point>(piece.mesh.points));
             meeting += piece.meeting.size();
-            measure_piece(run, all, piece);
-        });
-        done += count;
-    }
+            measure_piece(run, cells, phases, piece);
+        }
+    });
     const auto many = static_cast<std::int64_t>(pairs);
-    for (Tried& one : all) {
-        SceneFacts& scene = one.cell.scene;
-        scene.name = of.name;
-        scene.triangles = 2 * many;
-        scene.vertices = 6 * many;
-        scene.objects = 1;
-        scene.source = "pairs: " + of.summary;
-        scene.content_hash = hash.get();
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+        Cell& cell = cells[k].cell;
+        cell.scene.name = of.name;
+        cell.scene.triangles = 2 * many;
+        cell.scene.vertices = 6 * many;
+        cell.scene.objects = 1;
+        cell.scene.source = "pairs: " + of.summary;
+        cell.scene.content_hash = hash.get();
         if (!no_piece.empty())
-            one.fail(run.session, no_piece);
-        conclude(one, pairs, meeting);
-        run.add(std::move(one.cell));
+            cells[k].fail(run.session, no_piece);
+        conclude(cell, phases[k], pairs, meeting);
+        run.add(std::move(cell));
     }
+}
+
+bool is_wanted(const AxisTask& task, const PairClass& of)
+{
+    const auto methods = narrow_methods();
+    return std::any_of(methods.begin(), methods.end(), [&](const NarrowMethod& method) {
+        return task.wants(of.name, method.name);
+    });
 }
 
 }  // namespace
@@ -240,15 +234,14 @@ void measure_class(const AxisRun& run, const PairClass& of, std::size_t pairs)
 void measure_narrow(const AxisRun& run)
 {
     if (!has_exact_reference)
-        throw Unavailable("the axis narrow needs CGAL to count errors against; this program is built without it");
+        throw Unavailable("the axis narrow counts errors against CGAL, which this program is built without");
     std::vector<const PairClass*> wanted;
     for (const PairClass& of : pair_classes())
-        for (const NarrowMethod& method : narrow_methods())
-            if (run.task.wants(of.name, method.name) &&
-                (wanted.empty() || wanted.back() != &of))
-                wanted.push_back(&of);
+        if (is_wanted(run.task, of))
+            wanted.push_back(&of);
+    const std::size_t pairs = run.task.pairs;
     for (std::size_t k = 0; k < wanted.size(); ++k) {
-        const std::size_t share = run.task.pairs * (k + 1) / wanted.size() - run.task.pairs * k / wanted.size();
+        const std::size_t share = pairs * (k + 1) / wanted.size() - pairs * k / wanted.size();
         run.progress.note("accuracy, narrow: " + wanted[k]->name);
         measure_class(run, *wanted[k], std::max<std::size_t>(1, share));
     }

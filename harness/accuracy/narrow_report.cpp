@@ -65,7 +65,7 @@ std::string report_narrow(const Document& document)
     for (const Cell* cell : cells) {
         if (cell->status != Cell::Status::measured) {
             table.row({cell->scene.name, cell->accuracy.method, "", "", "", "", "", "", "",
-                       verdict_text(*cell) + ": " + cell->reason});
+                       why_text(*cell)});
             continue;
         }
         const Cell* const beside = yardstick_beside(*cell, cells);

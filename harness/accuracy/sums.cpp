@@ -9,7 +9,6 @@
 #include "harness/accuracy/axes.h"
 #include "harness/accuracy/scene_input.h"
 #include "harness/report.h"
-#include "harness/sampler.h"
 #include "harness/table.h"
 
 namespace bvhbench {
@@ -17,15 +16,13 @@ namespace {
 
 using enum Table::Align;
 
-constexpr int warm_up = 1;
 /// What our own sum may be off by: a few roundings of doubles, however many nodes.
 constexpr double most_of_ours = 1e-14;
 
-Cell cell_of(const AxisRun& run, const SceneFacts& scene, const SumMethod& method,
-             const HostTree& tree, long double right)
+Measured summed(const AxisRun& run, const SceneFacts& scene, const SumMethod& method,
+                const HostTree& tree, long double right)
 {
     Cell cell = accuracy_cell("sums", std::string(method.name), scene);
-    cell.warm_up = warm_up;
     const double cost = method.cost(tree);
     const double error = static_cast<double>(std::fabs((cost - right) / right));
     cell.counters["nodes_count"] = static_cast<double>(tree.nodes.size());
@@ -38,21 +35,13 @@ Cell cell_of(const AxisRun& run, const SceneFacts& scene, const SumMethod& metho
     if (cell.check.verdict == Check::Verdict::differs)
         cell.check.detail = "off by more than a few roundings";
     Queue& queue = run.session.queue();
-    const Timed timed = {cell.accuracy.method, [&] {
-                             queue.on_host("sum", [&] {
-                                 if (method.cost(tree) != cost)
-                                     throw Unavailable("another sum the second time");
-                             });
-                             return queue.finish();
-                         }};
-    Taken taken = take_samples({&timed, 1}, run.task.samples, warm_up, run.order).front();
-    cell.samples = std::move(taken.samples);
-    if (!taken.failure.empty()) {
-        cell.status = Cell::Status::failed;
-        cell.reason = taken.failure;
-        cell.samples.clear();
-    }
-    return cell;
+    return {std::move(cell), [&queue, &method, &tree, cost] {
+                queue.on_host("sum", [&] {
+                    if (method.cost(tree) != cost)
+                        throw Unavailable("another sum the second time");
+                });
+                return queue.finish();
+            }};
 }
 
 std::string error_text(double error)
@@ -73,9 +62,13 @@ void measure_sums(const AxisRun& run)
                        const long double right = cost_in_long_double(tree);
                        if (!(right > 0))
                            throw Unavailable(scene.name + " has no surface area cost: its box has no area");
+                       std::vector<Measured> cells;
                        for (const SumMethod& method : sum_methods())
                            if (run.task.wants(scene.name, method.name))
-                               run.add(cell_of(run, scene, method, tree, right));
+                               cells.push_back(summed(run, scene, method, tree, right));
+                       take_samples_of(run, cells);
+                       for (Measured& one : cells)
+                           run.add(std::move(one.cell));
                    });
 }
 
@@ -92,7 +85,7 @@ std::string report_sums(const Document& document)
     for (const Cell* cell : cells) {
         if (!has_times(*cell)) {
             table.row({cell->scene.name, cell->accuracy.method, "", "", "", "",
-                       verdict_text(*cell) + ": " + cell->reason + cell->check.detail});
+                       why_text(*cell)});
             continue;
         }
         const double nodes = cell->counters.at("nodes_count");
