@@ -139,7 +139,7 @@ def draw_narrow(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
         draw_points(axes, "narrow", points[name])
         axes.set_title(name.replace("_", " "), fontsize=6.5, pad=3, loc="left")
         axes.tick_params(labelsize=6)
-        is_last = number + columns >= len(grid)
+        is_last = number // columns == (len(grid) - 1) // columns
         axes.tick_params(labelbottom=is_last)
         if is_last:
             axes.set_xlabel("ns a pair", fontsize=6.5)
@@ -207,7 +207,7 @@ def draw_codes(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
 
 
 def distance(cell: results.Cell) -> float:
-    """Of "SCENE at 1e3"; 0 sizes is drawn at a tenth of the next."""
+    """Of "SCENE at 1e3", in sizes of the scene."""
     return float(cell.scene.rsplit(" at ", 1)[1])
 
 
@@ -243,7 +243,7 @@ FIGURES = {"narrow": draw_narrow, "sums": draw_sums, "codes": draw_codes, "input
 
 def figures_of(run: results.Run) -> dict[str, Callable[[], plt.Figure]]:
     """Of each axis that a file has cells of, by the name of its picture."""
-    return {f"accuracy-{axis}": lambda axis=axis, draw=draw: draw(run, cells_of(run, axis))
+    return {style.stem(run.path, axis): lambda axis=axis, draw=draw: draw(run, cells_of(run, axis))
             for axis, draw in FIGURES.items() if cells_of(run, axis)}
 
 

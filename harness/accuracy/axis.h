@@ -21,7 +21,8 @@ namespace bvhbench {
 struct AxisTask {
     std::vector<std::string> scenes;  ///< empty: its own
     std::size_t pairs = 1'000'000;    ///< in all, of axes about pairs
-    uint seed = 1;
+    std::size_t pairs_at_once = 1u << 20;  ///< what bounds the memory of a class, be it as large as it may
+    uint seed = 1;                         ///< of the first so many; of the next ones the numbers after it
     int samples = 5;
     CellFilter filter;  ///< on "input/method"
 

@@ -20,8 +20,6 @@
 namespace bvhbench {
 namespace {
 
-/// Pairs at once: what bounds the memory of a class, be it as large as it may.
-constexpr std::size_t most_at_once = 1u << 20;
 /// Bytes of the host a pair: six corners, two faces, and pairs several times over.
 constexpr std::size_t host_bytes_a_pair = 240;
 
@@ -195,9 +193,9 @@ void measure_class(const AxisRun& run, const PairClass& of, std::size_t pairs)
     std::size_t meeting = 0;
     uint seed = run.task.seed;
     const std::string no_piece = reason_of_failure([&] {
-        for (std::size_t done = 0; done < pairs; done += most_at_once) {
+        for (std::size_t done = 0; done < pairs; done += run.task.pairs_at_once) {
             throw_if_interrupted();
-            const std::size_t count = std::min(most_at_once, pairs - done);
+            const std::size_t count = std::min(run.task.pairs_at_once, pairs - done);
             run.session.require_host_memory("a class of pairs", host_bytes_a_pair * count);
             const Piece piece(run.session, of, static_cast<uint>(count), seed++);
             hash.values(std::span<const Point>(piece.mesh.points));
