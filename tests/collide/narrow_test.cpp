@@ -157,6 +157,19 @@ TEST(RoundedNarrow, IsWrongWhereItRounds)
     }
 }
 
+// Few enough for a simulated device that checks every access.
+TEST(RoundedNarrow, LooksAtEachOfFewPairs)
+{
+    const Mesh mesh = apart_pairs(find_pair_class("lattice_3"), 130, 1);
+    const Candidates candidates(mesh, neighbours(mesh));
+    for (const KernelForm form : {KernelForm::groups, KernelForm::chunks})
+        for (const NarrowMethod& method : narrow_methods()) {
+            NarrowPhase narrow(bench().programs, {.method = method.name, .form = form, .capacity = 1});
+            narrow.reserve(mesh.faces.size());
+            EXPECT_GT(contacts_found(narrow, candidates).size(), 30u) << method.name;
+        }
+}
+
 TEST(RoundedNarrow, RefusesCornersThatAreShared)
 {
     EXPECT_THROW(NarrowPhase(bench().programs, {.method = "guigue-f64", .keep_adjacent = true}),
