@@ -6,6 +6,7 @@ Usage: program_test.py <bvhbench> <result schema>
 import json
 import os
 import pathlib
+import shutil
 import signal
 import subprocess
 import sys
@@ -266,6 +267,25 @@ def test_accuracy_counts_the_errors_of_each_narrow_phase():
     expect(2, "accuracy", "--axis", "depth", says="there are: narrow, sums, codes, input")
     expect(2, "accuracy", "--filter", "nothing", "--axis", "sums", "--scene", "soup:9", "--out", "c", says="no cell matches")
     expect(2, "accuracy", "--pairs", "0", says="--pairs")
+
+
+def test_accuracy_finds_a_fault_planted_in_the_exact_narrow_phase():
+    source = SCHEMA.parents[2]
+    for room in ("geometry", "device", "collide"):
+        shutil.copytree(source / room, f"faulty/{room}", ignore=shutil.ignore_patterns("*.cpp"))
+    bound = pathlib.Path("faulty/geometry/orient.h")
+    text = bound.read_text()
+    assert text.count("return 0x1.8p-48 * most.x") == 1
+    bound.write_text(text.replace("return 0x1.8p-48 * most.x", "return 0x1.8p-90 * most.x"))
+    sound, faulty = (("accuracy", "--axis", "narrow", "--pairs", "3000", "--samples", "1", "--filter",
+                      "^same_place/filter", "--kernels", where) for where in (str(source), "faulty"))
+    expect(0, *sound, "--out", "sound", says=" agrees")
+    out = expect(1, *faulty, "--out", "planted", says=" differs")
+    cell, = valid("planted/accuracy-narrow.json")["cells"]
+    assert cell["check"]["verdict"] == "differs" and cell["counters"]["missed_count"] > 100, cell
+    assert "nothing was drawn" in out, out  # no figure of what is wrong, and no time:
+    line, = (line.split() for line in out.splitlines() if line.startswith("same_place"))
+    assert line[-2:] == ["%", "differs"], line
 
 
 def test_collide_counts_what_a_narrow_phase_that_rounds_gets_wrong():
