@@ -84,8 +84,8 @@ cl::Kernel NarrowPhase::compiled_filter(const NarrowMethod& method)
         defines.insert(defines.end(), {{"KEEP_ADJACENT", options_.keep_adjacent ? 1u : 0u},
                                        {"WITH_DOUBLES", has_doubles_ ? 1u : 0u}});
     else
-        defines.insert(defines.end(), {{"ROUNDED_TEST", method.rounded_test},
-                                       {"REAL_BITS", method.real_bits}});
+        defines.insert(defines.end(),
+                       {{"ROUNDED_TEST", method.rounded_test}, {"REAL_BITS", method.real_bits}});
     const char* const verdict =
         method.is_exact ? "collide/verdict.clh" : "collide/rounded_verdict.clh";
     const char* const chunks =

@@ -118,7 +118,8 @@ void judge(const Pipeline& pipeline, Cell& cell, FrameOracle& oracle, Found& fou
         check.contacts_hash = found.contacts.hash();
         if (has_exact_reference) {
             check.against += check.against.empty() ? "CGAL" : ", CGAL";
-            if (choice.narrow == "none" || find_narrow_method(choice.narrow).is_exact)
+            const bool by_collider = pipeline.collider().finds_contacts();
+            if (by_collider || find_narrow_method(choice.narrow).is_exact)
                 hold(found.contacts, oracle.contacts(choice), "contacts", check);
             else
                 count_errors(found.contacts, oracle.contacts(choice), cell);

@@ -34,8 +34,8 @@ int accuracy(const AccuracyCommand& command, const Options& options)
     int order = 0;
     for (const Axis* axis : axes) {
         progress.step("accuracy, " + std::string(axis->name));
-        axis->measure({session, task, order, progress,
-                       [&](Cell&& cell) { results.add(std::move(cell)); }});
+        axis->measure(
+            {session, task, order, progress, [&](Cell&& cell) { results.add(std::move(cell)); }});
     }
     const Document& document = results.document();
     if (document.cells.empty())

@@ -59,9 +59,10 @@ void add_list(CLI::App& app, ListCommand& list)
 {
     CLI::App* command = app.add_subcommand("list", "What there is, a line each");
     command
-        ->add_option("WHAT", list.what,
-                     "builders, colliders, narrow, orders, skips, tuning, scenes, devices, accuracy or "
-                     "experiments")
+        ->add_option(
+            "WHAT", list.what,
+            "builders, colliders, narrow, orders, skips, tuning, scenes, devices, accuracy or "
+            "experiments")
         ->required()
         ->check(one_of({"builders", "colliders", "narrow", "orders", "skips", "tuning", "scenes",
                         "devices", "accuracy", "experiments"}));
@@ -116,9 +117,10 @@ void add_collide(CLI::App& app, CollideCommand& collide, std::string& leaves, st
                      "frames put between each two of the scene's, in a straight line")
         ->check(CLI::Range(0, 1000));
     command
-        ->add_option("--narrow", collide.collider.narrow,
-                     "which pairs intersect: exact, a name of `list narrow`, or none, to stop at their "
-                     "boxes")
+        ->add_option(
+            "--narrow", collide.collider.narrow,
+            "which pairs intersect: exact, a name of `list narrow`, or none, to stop at their "
+            "boxes")
         ->capture_default_str();
     command->add_option("--order", collide.builder.order, "a name of `list orders`")
         ->capture_default_str();

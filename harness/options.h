@@ -28,7 +28,8 @@ struct PrintCommand {
     std::string text;
 };
 struct ListCommand {
-    std::string what;  ///< builders, colliders, narrow, orders, skips, tuning, scenes, devices, accuracy or experiments
+    std::string
+        what;  ///< builders, colliders, narrow, orders, skips, tuning, scenes, devices, accuracy or experiments
 };
 struct BuildCommand {
     BuilderChoice builder;
@@ -86,7 +87,7 @@ struct TuneCommand {
 };
 
 struct AccuracyCommand {
-    std::string axis;  ///< empty: all
+    std::string axis;                 ///< empty: all
     std::vector<std::string> scenes;  ///< empty: each axis's own
     std::size_t pairs = 1'000'000;
     unsigned seed = 1;
@@ -95,9 +96,9 @@ struct AccuracyCommand {
     std::string out = "out";
 };
 
-using Command = std::variant<PrintCommand, ListCommand, BuildCommand, CollideCommand, RunCommand,
-                             ReproduceCommand, CheckCommand, ShowCommand, TuneCommand,
-                             AccuracyCommand>;
+using Command =
+    std::variant<PrintCommand, ListCommand, BuildCommand, CollideCommand, RunCommand,
+                 ReproduceCommand, CheckCommand, ShowCommand, TuneCommand, AccuracyCommand>;
 
 struct Options {
     CommonOptions common;

@@ -116,8 +116,8 @@ AccuracyFacts accuracy_of(const Json& json)
 Check check_of(const Json& json)
 {
     Check check;
-    check.verdict = static_cast<Check::Verdict>(
-        index_of(json.at("verdict").get<std::string>(), {"agrees", "differs", "not_checked", "counted"}));
+    check.verdict = static_cast<Check::Verdict>(index_of(
+        json.at("verdict").get<std::string>(), {"agrees", "differs", "not_checked", "counted"}));
     check.against = get<std::string>(json, "against");
     check.detail = get<std::string>(json, "detail");
     if (json.contains("tree_hash"))

@@ -87,7 +87,8 @@ double cost_as_double(const HostTree& tree)
 constexpr SumMethod catalog[] = {
     {"f32", "areas and one sum in floats", cost_as_double<float, PlainSum<float>>},
     {"f32-pairwise", "the same, sums of sums of two", cost_as_double<float, PairwiseSum<float>>},
-    {"f32-compensated", "the same, what is rounded off kept", cost_as_double<float, CompensatedSumOf<float>>},
+    {"f32-compensated", "the same, what is rounded off kept",
+     cost_as_double<float, CompensatedSumOf<float>>},
     {"f64", "areas and one sum in doubles", cost_as_double<double, PlainSum<double>>},
     {"f64-pairwise", "the same, sums of sums of two", cost_as_double<double, PairwiseSum<double>>},
     {"f64-compensated", "the same, what is rounded off kept: sah_cost",

@@ -13,8 +13,9 @@ namespace bvhbench {
 struct SumMethod {
     std::string_view name;
     std::string_view summary;
-    double (*cost)(const HostTree& tree);  ///< with the usual node costs; of a root that has an area
-    bool is_ours = false;  ///< what the counter sah_cost is made by
+    double (*cost)(
+        const HostTree& tree);  ///< with the usual node costs; of a root that has an area
+    bool is_ours = false;       ///< what the counter sah_cost is made by
 };
 
 /// In the order of tables.

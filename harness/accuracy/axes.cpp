@@ -11,9 +11,11 @@ namespace {
 
 // To add an axis, add its file and its line here.
 constexpr Axis catalog[] = {
-    {"narrow", "which narrow phase is wrong how often, on which pairs of triangles, and what it takes",
+    {"narrow",
+     "which narrow phase is wrong how often, on which pairs of triangles, and what it takes",
      measure_narrow, report_narrow},
-    {"sums", "how far off is the surface area cost, by how areas are summed", measure_sums, report_sums},
+    {"sums", "how far off is the surface area cost, by how areas are summed", measure_sums,
+     report_sums},
     {"codes", "what do more bits a code and cubic cells buy: duplicates, tree, box tests",
      measure_codes, report_codes},
     {"input", "what does rounding vertices from doubles to floats add to the pairs of boxes",

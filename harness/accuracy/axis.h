@@ -21,8 +21,9 @@ namespace bvhbench {
 struct AxisTask {
     std::vector<std::string> scenes;  ///< empty: its own
     std::size_t pairs = 1'000'000;    ///< in all, of axes about pairs
-    std::size_t pairs_at_once = 1u << 20;  ///< what bounds the memory of a class, be it as large as it may
-    uint seed = 1;                         ///< of the first so many; of the next ones the numbers after it
+    std::size_t pairs_at_once =
+        1u << 20;   ///< what bounds the memory of a class, be it as large as it may
+    uint seed = 1;  ///< of the first so many; of the next ones the numbers after it
     int samples = 5;
     CellFilter filter;  ///< on "input/method"
 
@@ -41,7 +42,7 @@ struct AxisRun {
 struct Axis {
     std::string_view name;      ///< the key on the command line and in result files
     std::string_view question;  ///< one line
-    /// Throws BadUsage, Unavailable where there is no reference, and Interrupted.
+    /// Throws BadUsage, Unavailable for scenes that are not there, and Interrupted. Without a reference cells are skipped.
     void (*measure)(const AxisRun& run);
     /// Its cells of a document as a table; empty if there are none.
     std::string (*report)(const Document& document);

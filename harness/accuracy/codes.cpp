@@ -46,7 +46,8 @@ double stage_median(const Cell& cell, std::string_view stage)
 void measure_codes(const AxisRun& run)
 {
     for_each_scene(
-        run, "codes", {"torus:100000", "hairball:100000", "grid:100000", "outlier:sphere:100000:0:1000"},
+        run, "codes",
+        {"torus:100000", "hairball:100000", "grid:100000", "outlier:sphere:100000:0:1000"},
         [&](const SceneFacts& scene, const Input& input) {
             const PairList right = touching_pairs(input.points, input.faces, true);
             std::vector<Measured> cells;
@@ -59,9 +60,8 @@ void measure_codes(const AxisRun& run)
                 one.cell = accuracy_cell("codes", std::string(order.name), scene);
                 one.cell.builder = {.name = "oibvh-multi", .order = std::string(order.name)};
                 one.cell.collider = {.name = "leaf"};
-                const std::string failure = reason_of_failure([&] {
-                    prepare(run.session, order, input, one, pipelines.emplace_back());
-                });
+                const std::string failure = reason_of_failure(
+                    [&] { prepare(run.session, order, input, one, pipelines.emplace_back()); });
                 if (!failure.empty())
                     one.fail(run.session, failure);
             }

@@ -23,7 +23,8 @@ constexpr std::string_view methods[] = {"f32", "f32-recentred"};
 
 std::string name_at(const std::string& scene, double sizes)
 {
-    return scene + " at " + (sizes > 0 ? "1e" + std::to_string(std::lround(std::log10(sizes))) : "0");
+    return scene + " at " +
+           (sizes > 0 ? "1e" + std::to_string(std::lround(std::log10(sizes))) : "0");
 }
 
 /// A scene of floats on the device, and the pipeline over it.
@@ -67,7 +68,8 @@ void measure_input(const AxisRun& run)
                 const std::string failure = reason_of_failure([&] {
                     Session& session = run.session;
                     floats.points = rounded(wide, method == methods[1]);
-                    floats.input = upload(session.device(), session.queue(), floats.points, input.faces);
+                    floats.input =
+                        upload(session.device(), session.queue(), floats.points, input.faces);
                     floats.pipeline = settled_pipeline(session, one.cell, floats.input);
                     one.once = [&floats] { return floats.pipeline->once(floats.input); };
                 });
@@ -99,8 +101,8 @@ std::string report_input(const Document& document)
     const std::vector<const Cell*> cells = cells_of(document, "input");
     for (const Cell* cell : cells) {
         if (!has_times(*cell)) {
-            table.row({cell->scene.name, cell->accuracy.method, "", "", "", "", "",
-                       why_text(*cell)});
+            table.row(
+                {cell->scene.name, cell->accuracy.method, "", "", "", "", "", why_text(*cell)});
             continue;
         }
         const auto count = [&](const char* counter) {

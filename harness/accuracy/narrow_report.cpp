@@ -70,14 +70,15 @@ std::string report_narrow(const Document& document)
         }
         const Cell* const beside = yardstick_beside(*cell, cells);
         const bool timed = has_times(*cell);
-        table.row({cell->scene.name, cell->accuracy.method, count_text(*cell, "pairs_count"),
-                   count_text(*cell, "meeting_count"), count_text(*cell, "missed_count"),
-                   count_text(*cell, "false_count"),
-                   percent_text(cell->counters.at("narrow_exact_count"),
-                                cell->counters.at("pairs_count")),
-                   timed ? fixed(ns_a_pair(*cell), 2) : "",
-                   timed && beside != nullptr ? fixed(ns_a_pair(*cell) / ns_a_pair(*beside), 2) : "",
-                   verdict_text(*cell)});
+        table.row(
+            {cell->scene.name, cell->accuracy.method, count_text(*cell, "pairs_count"),
+             count_text(*cell, "meeting_count"), count_text(*cell, "missed_count"),
+             count_text(*cell, "false_count"),
+             percent_text(cell->counters.at("narrow_exact_count"),
+                          cell->counters.at("pairs_count")),
+             timed ? fixed(ns_a_pair(*cell), 2) : "",
+             timed && beside != nullptr ? fixed(ns_a_pair(*cell) / ns_a_pair(*beside), 2) : "",
+             verdict_text(*cell)});
         Total& total = totals[cell->accuracy.method];
         const auto missed = static_cast<std::int64_t>(cell->counters.at("missed_count"));
         const auto false_ones = static_cast<std::int64_t>(cell->counters.at("false_count"));

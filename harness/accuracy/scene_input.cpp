@@ -50,8 +50,7 @@ void judge_pairs(const Pipeline& pipeline, const PairList& right, const std::str
     const Differences wrong = differences(found, right);
     cell.counters["missed_count"] = static_cast<double>(wrong.missed);
     cell.counters["false_count"] = static_cast<double>(wrong.false_ones);
-    cell.check.verdict =
-        wrong == Differences{} ? Check::Verdict::agrees : Check::Verdict::differs;
+    cell.check.verdict = wrong == Differences{} ? Check::Verdict::agrees : Check::Verdict::differs;
     cell.check.against = against;
     cell.check.pairs_hash = found.hash();
     if (wrong != Differences{})

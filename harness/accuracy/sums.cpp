@@ -55,21 +55,21 @@ std::string error_text(double error)
 
 void measure_sums(const AxisRun& run)
 {
-    for_each_scene(run, "sums", {"torus:100000", "hairball:100000", "torus:1000000"},
-                   [&](const SceneFacts& scene, const Input& input) {
-                       const HostTree tree =
-                           built_tree(run.session, {.name = "oibvh-multi"}, input);
-                       const long double right = cost_in_long_double(tree);
-                       if (!(right > 0))
-                           throw Unavailable(scene.name + " has no surface area cost: its box has no area");
-                       std::vector<Measured> cells;
-                       for (const SumMethod& method : sum_methods())
-                           if (run.task.wants(scene.name, method.name))
-                               cells.push_back(summed(run, scene, method, tree, right));
-                       take_samples_of(run, cells);
-                       for (Measured& one : cells)
-                           run.add(std::move(one.cell));
-                   });
+    for_each_scene(
+        run, "sums", {"torus:100000", "hairball:100000", "torus:1000000"},
+        [&](const SceneFacts& scene, const Input& input) {
+            const HostTree tree = built_tree(run.session, {.name = "oibvh-multi"}, input);
+            const long double right = cost_in_long_double(tree);
+            if (!(right > 0))
+                throw Unavailable(scene.name + " has no surface area cost: its box has no area");
+            std::vector<Measured> cells;
+            for (const SumMethod& method : sum_methods())
+                if (run.task.wants(scene.name, method.name))
+                    cells.push_back(summed(run, scene, method, tree, right));
+            take_samples_of(run, cells);
+            for (Measured& one : cells)
+                run.add(std::move(one.cell));
+        });
 }
 
 std::string report_sums(const Document& document)
@@ -84,8 +84,7 @@ std::string report_sums(const Document& document)
     const std::vector<const Cell*> cells = cells_of(document, "sums");
     for (const Cell* cell : cells) {
         if (!has_times(*cell)) {
-            table.row({cell->scene.name, cell->accuracy.method, "", "", "", "",
-                       why_text(*cell)});
+            table.row({cell->scene.name, cell->accuracy.method, "", "", "", "", why_text(*cell)});
             continue;
         }
         const double nodes = cell->counters.at("nodes_count");

@@ -75,7 +75,8 @@ std::vector<Point> rounded(std::span<const WidePoint> points, bool recentred)
     return floats;
 }
 
-PairList overlapping_pairs_in_doubles(std::span<const WidePoint> points, std::span<const Face> faces)
+PairList overlapping_pairs_in_doubles(std::span<const WidePoint> points,
+                                      std::span<const Face> faces)
 {
     std::vector<WideBox> boxes;
     boxes.reserve(faces.size());

@@ -23,6 +23,7 @@ std::vector<WidePoint> turned_and_moved(std::span<const Point> points, double si
 std::vector<Point> rounded(std::span<const WidePoint> points, bool recentred);
 
 /// The pairs of triangles whose boxes of doubles overlap: the reference. A sweep on one core.
-PairList overlapping_pairs_in_doubles(std::span<const WidePoint> points, std::span<const Face> faces);
+PairList overlapping_pairs_in_doubles(std::span<const WidePoint> points,
+                                      std::span<const Face> faces);
 
 }  // namespace bvhbench

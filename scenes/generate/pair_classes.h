@@ -18,7 +18,10 @@ class Dice {
 public:
     explicit Dice(uint seed) : engine_(seed) {}
     uint below(uint count) { return static_cast<uint>(engine_() % count); }
-    int between(int low, int high) { return low + static_cast<int>(below(static_cast<uint>(high - low + 1))); }
+    int between(int low, int high)
+    {
+        return low + static_cast<int>(below(static_cast<uint>(high - low + 1)));
+    }
     float unit() { return static_cast<float>(engine_() >> 8) * 0x1p-24f; }
     uint word() { return static_cast<uint>(engine_()); }
     Point point()

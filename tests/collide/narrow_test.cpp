@@ -6,8 +6,8 @@
 #include <map>
 
 #include "geometry/error.h"
-#include "tests/collide/narrow_testing.h"
 #include "tests/collide/adjacent_pairs.h"
+#include "tests/collide/narrow_testing.h"
 
 namespace bvhbench {
 namespace {
@@ -164,7 +164,8 @@ TEST(RoundedNarrow, LooksAtEachOfFewPairs)
     const Candidates candidates(mesh, neighbours(mesh));
     for (const KernelForm form : {KernelForm::groups, KernelForm::chunks})
         for (const NarrowMethod& method : narrow_methods()) {
-            NarrowPhase narrow(bench().programs, {.method = method.name, .form = form, .capacity = 1});
+            NarrowPhase narrow(bench().programs,
+                               {.method = method.name, .form = form, .capacity = 1});
             narrow.reserve(mesh.faces.size());
             EXPECT_GT(contacts_found(narrow, candidates).size(), 30u) << method.name;
         }

@@ -51,7 +51,8 @@ TEST(Accuracy, SumsAreThoseOfTheFormula)
     EXPECT_NEAR(static_cast<double>(right), 1.2 + 30.0 / 54, 1e-15);
     for (const SumMethod& method : sum_methods()) {
         const bool in_floats = method.name.starts_with("f32");
-        EXPECT_NEAR(method.cost(small_tree()), 1.2 + 30.0 / 54, in_floats ? 2e-7 : 1e-15) << method.name;
+        EXPECT_NEAR(method.cost(small_tree()), 1.2 + 30.0 / 54, in_floats ? 2e-7 : 1e-15)
+            << method.name;
     }
 }
 
@@ -61,9 +62,10 @@ TEST(Accuracy, SumsOfManyLeavesShowWhatEachWayLoses)
     Random random(3);
     for (int k = 2; k < 300'000; ++k) {
         const float low = random.unit();
-        tree.nodes.push_back({.box = {low, low, low, low + random.unit(), low + 1, low + random.unit()},
-                              .child = {},
-                              .primitive = k});
+        tree.nodes.push_back(
+            {.box = {low, low, low, low + random.unit(), low + 1, low + random.unit()},
+             .child = {},
+             .primitive = k});
     }
     const long double right = cost_in_long_double(tree);
     std::map<std::string_view, double> errors;
@@ -132,7 +134,8 @@ std::map<std::string, Cell> measured(std::string_view axis, const AxisTask& task
     Progress progress(1);
     int order = 0;
     find_axis(axis).measure({session, task, order, progress, [&](Cell&& cell) {
-                                 const std::string key = cell.scene.name + '/' + cell.accuracy.method;
+                                 const std::string key =
+                                     cell.scene.name + '/' + cell.accuracy.method;
                                  cells.emplace(key, std::move(cell));
                              }});
     return cells;
@@ -142,7 +145,8 @@ TEST(Accuracy, OfNarrowPhasesFindsTheErrorsThatAreThere)
 {
     if (!has_exact_reference)
         GTEST_SKIP() << "built without CGAL: nothing is compared";
-    const AxisTask task{.scenes = {}, .pairs = 46'000, .pairs_at_once = 700, .samples = 2, .filter = {}};
+    const AxisTask task{
+        .scenes = {}, .pairs = 46'000, .pairs_at_once = 700, .samples = 2, .filter = {}};
     const auto cells = measured("narrow", task);
     EXPECT_EQ(cells.size(), pair_classes().size() * narrow_methods().size());
     double total = 0;
@@ -150,7 +154,8 @@ TEST(Accuracy, OfNarrowPhasesFindsTheErrorsThatAreThere)
         SCOPED_TRACE(name);
         ASSERT_EQ(cell.status, Cell::Status::measured) << cell.reason;
         ASSERT_EQ(cell.samples.size(), 2u);
-        const double pairs = cell.counters.at("pairs_count"), meeting = cell.counters.at("meeting_count");
+        const double pairs = cell.counters.at("pairs_count"),
+                     meeting = cell.counters.at("meeting_count");
         const Meeting promised = find_pair_class(cell.scene.name).meeting;
         EXPECT_TRUE(promised == Meeting::some || meeting == (promised == Meeting::all ? pairs : 0));
         EXPECT_EQ(cell.counters.at("narrow_float_count") + cell.counters.at("narrow_double_count") +
@@ -179,7 +184,8 @@ TEST(Accuracy, OfNarrowPhasesFindsTheErrorsThatAreThere)
 
 TEST(Accuracy, OfScenesMeasuresWhatIsAsked)
 {
-    const AxisTask task{.scenes = {"soup:700"}, .samples = 2, .filter = std::regex("f64|63|recentred")};
+    const AxisTask task{
+        .scenes = {"soup:700"}, .samples = 2, .filter = std::regex("f64|63|recentred")};
     const auto sums = measured("sums", task);
     EXPECT_EQ(sums.size(), 3u);
     EXPECT_EQ(sums.at("soup:700/f64-compensated").check.verdict, Check::Verdict::agrees);

@@ -136,7 +136,8 @@ TEST(PairClasses, InOnePlaneTouchOverlapOrMissExactly)
         EXPECT_FALSE(parts(six.a, six.b, false) || parts(six.b, six.a, false));
     for (const SixWholes& six : coplanar("coplanar_nested")) {
         const auto holds = [](const Three& out, const Three& in) {
-            return std::all_of(in.begin(), in.end(), [&](Whole p) { return is_strictly_within(out, p); });
+            return std::all_of(in.begin(), in.end(),
+                               [&](Whole p) { return is_strictly_within(out, p); });
         };
         EXPECT_TRUE(holds(six.a, six.b) || holds(six.b, six.a));
     }
@@ -155,7 +156,9 @@ bool stands_on(const Three& a, const Three& b)
         if (heights[c] != 0)
             continue;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const auto seen = [&](Whole p) { return Whole{p[(axis + 1) % 3], p[(axis + 2) % 3], 0}; };
+            const auto seen = [&](Whole p) {
+                return Whole{p[(axis + 1) % 3], p[(axis + 2) % 3], 0};
+            };
             if (is_strictly_within({seen(a[0]), seen(a[1]), seen(a[2])}, seen(b[c])))
                 return true;
         }
@@ -178,7 +181,8 @@ bool cross(const Three& a, std::size_t i, const Three& b, std::size_t j)
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto seen = [&](Whole w) { return Whole{w[(axis + 1) % 3], w[(axis + 2) % 3], 0}; };
         const auto opposite = [&](Whole from, Whole to, Whole one, Whole other) {
-            return turn(seen(from), seen(to), seen(one)) * turn(seen(from), seen(to), seen(other)) < 0;
+            return turn(seen(from), seen(to), seen(one)) * turn(seen(from), seen(to), seen(other)) <
+                   0;
         };
         if (opposite(p, q, r, s) && opposite(r, s, p, q))
             return true;
