@@ -189,7 +189,8 @@ class Frames(TemporaryFolder):
         schema = json.loads((ROOT / "results" / "schema" / "result-1.schema.json").read_text(encoding="utf-8"))
         sample = schema["$defs"]["cell"]["properties"]["samples"]["items"]["properties"]
         stages = sample["stages"]["items"]["properties"]["stage"]["enum"]
-        self.assertEqual(sorted(stage for _, those, _ in frame_stages.PARTS for stage in those), sorted(stages))
+        of_frames = set(stages) - {"sum"}  # which is on an axis of accuracy
+        self.assertEqual(sorted(stage for _, those, _ in frame_stages.PARTS for stage in those), sorted(of_frames))
         for name in ("table2", "libraries", "rebuild"):
             for shown in pipelines.of(results.load(GOLDEN / f"{name}.json"), name).values():
                 for one in shown:
