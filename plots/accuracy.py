@@ -87,7 +87,8 @@ def draw_points(axes: plt.Axes, axis: str, points: list[Point]) -> None:
     for point in points:
         seen = look(axis, point.method)
         axes.plot(point.time, point.error, marker=seen.marker, linestyle="none", markeredgecolor=seen.colour,
-                  markerfacecolor=seen.colour if point in best else "white", clip_on=False, zorder=3)
+                  markerfacecolor=seen.colour if point in best else "white", clip_on=False,
+                  zorder=4 if point in best else 3)
     axes.grid(axis="x")
 
 
