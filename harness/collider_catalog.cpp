@@ -3,6 +3,7 @@
 
 #include "baselines/colliders.h"
 #include "collide/colliders.h"
+#include "collide/narrow_methods.h"
 #include "geometry/error.h"
 
 namespace bvhbench {
@@ -52,9 +53,7 @@ const ColliderEntry& find_collider(std::string_view name)
 
 std::unique_ptr<Collider> make_collider(const ColliderChoice& choice, Programs& programs)
 {
-    if (choice.narrow != "none" && choice.narrow != "exact")
-        throw BadUsage("no narrow phase is called '" + choice.narrow +
-                       "'; there are: none, exact");
+    check_narrow(choice.narrow, choice.keep_adjacent);
     return make_collider(choice.name, programs, choice.options());
 }
 

@@ -30,7 +30,8 @@ struct ColliderChoice {
     std::string name;
     Among among = Among::all;
     bool keep_adjacent = true;
-    std::string narrow = "none";  ///< the narrow phase behind it: none or exact
+    std::string narrow =
+        "none";  ///< the narrow phase behind it: none, exact or another name of narrow_methods.h
     unsigned jump = 0;
     unsigned start_level = 0;
     unsigned group_size = 0;

@@ -59,10 +59,13 @@ void add_list(CLI::App& app, ListCommand& list)
 {
     CLI::App* command = app.add_subcommand("list", "What there is, a line each");
     command
-        ->add_option("WHAT", list.what,
-                     "builders, colliders, orders, skips, tuning, scenes, devices or experiments")
+        ->add_option(
+            "WHAT", list.what,
+            "builders, colliders, narrow, orders, skips, tuning, scenes, devices, accuracy or "
+            "experiments")
         ->required()
-        ->check(one_of({"builders", "colliders", "orders", "skips", "tuning", "scenes", "devices", "experiments"}));
+        ->check(one_of({"builders", "colliders", "narrow", "orders", "skips", "tuning", "scenes",
+                        "devices", "accuracy", "experiments"}));
 }
 
 void add_build(CLI::App& app, BuildCommand& build, std::string& leaves)
@@ -114,10 +117,11 @@ void add_collide(CLI::App& app, CollideCommand& collide, std::string& leaves, st
                      "frames put between each two of the scene's, in a straight line")
         ->check(CLI::Range(0, 1000));
     command
-        ->add_option("--narrow", collide.collider.narrow,
-                     "which pairs intersect: exact, or none, to stop at their boxes")
-        ->capture_default_str()
-        ->check(one_of({"none", "exact"}));
+        ->add_option(
+            "--narrow", collide.collider.narrow,
+            "which pairs intersect: exact, a name of `list narrow`, or none, to stop at their "
+            "boxes")
+        ->capture_default_str();
     command->add_option("--order", collide.builder.order, "a name of `list orders`")
         ->capture_default_str();
     command->add_option("--leaves", leaves, "mesh or sorted: where leaf boxes are kept")
@@ -183,6 +187,29 @@ void add_show(CLI::App& app, ShowCommand& show)
 {
     CLI::App* command = app.add_subcommand("show", "Print a result file as tables");
     command->add_option("FILE", show.file, "a result file")->required();
+}
+
+void add_accuracy(CLI::App& app, AccuracyCommand& accuracy)
+{
+    CLI::App* command = app.add_subcommand(
+        "accuracy", "Measure run time against error, along an axis at a time, print and draw it");
+    command->add_option("--axis", accuracy.axis, "a name of `list accuracy`; default: all in turn");
+    command->add_option("--scene", accuracy.scenes,
+                        "scenes, data sets or mesh files, of axes that are about scenes");
+    command
+        ->add_option("--pairs", accuracy.pairs,
+                     "pairs of triangles in all, of the axis narrow, at least one a class")
+        ->capture_default_str()
+        ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 32));
+    command->add_option("--seed", accuracy.seed, "of what is generated")
+        ->capture_default_str()
+        ->check(CLI::Range(1u, 1000000000u));
+    command->add_option("--filter", accuracy.filter, "only cells whose input/method this matches");
+    command->add_option("--samples", accuracy.samples, "timed runs a cell")
+        ->capture_default_str()
+        ->check(CLI::Range(1, most_samples));
+    command->add_option("--out", accuracy.out, "folder for the result file and figures")
+        ->capture_default_str();
 }
 
 void add_tune(CLI::App& app, TuneCommand& tune, std::string& leaves, std::string& adjacent)
@@ -258,6 +285,7 @@ Options parse_options(int argc, const char* const* argv)
     CheckCommand check;
     ShowCommand show;
     TuneCommand tune;
+    AccuracyCommand accuracy;
     std::string leaves = "mesh";
     std::string adjacent = "keep";
     std::string pairs_of = "all";
@@ -271,6 +299,7 @@ Options parse_options(int argc, const char* const* argv)
     add_check(app, check);
     add_show(app, show);
     add_tune(app, tune, leaves, adjacent);
+    add_accuracy(app, accuracy);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -282,9 +311,8 @@ Options parse_options(int argc, const char* const* argv)
     }
     if (app.get_subcommands().empty())
         throw BadUsage(
-            "name a command: list, build, collide, run, reproduce, check, show or tune; `bvhbench "
-            "--help` "
-            "says what they do");
+            "name a command: list, build, collide, run, reproduce, check, show, tune or accuracy; "
+            "`bvhbench --help` says what they do");
     check_power_of_two("--group-size", build.builder.group_size);
     check_power_of_two("--items", build.builder.items);
     for (const NodeCosts& costs : {build.costs, run.costs, reproduce.costs})
@@ -310,6 +338,8 @@ Options parse_options(int argc, const char* const* argv)
         options.command = check;
     else if (chosen == "tune")
         options.command = tune;
+    else if (chosen == "accuracy")
+        options.command = accuracy;
     else
         options.command = show;
     return options;

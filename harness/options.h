@@ -28,7 +28,8 @@ struct PrintCommand {
     std::string text;
 };
 struct ListCommand {
-    std::string what;  ///< builders, colliders, orders, skips, tuning, scenes, devices or experiments
+    std::string
+        what;  ///< builders, colliders, narrow, orders, skips, tuning, scenes, devices, accuracy or experiments
 };
 struct BuildCommand {
     BuilderChoice builder;
@@ -85,8 +86,19 @@ struct TuneCommand {
     bool quick = false;
 };
 
-using Command = std::variant<PrintCommand, ListCommand, BuildCommand, CollideCommand, RunCommand,
-                             ReproduceCommand, CheckCommand, ShowCommand, TuneCommand>;
+struct AccuracyCommand {
+    std::string axis;                 ///< empty: all
+    std::vector<std::string> scenes;  ///< empty: each axis's own
+    std::size_t pairs = 1'000'000;
+    unsigned seed = 1;
+    std::string filter;  ///< regular expression on "input/method"
+    int samples = 5;
+    std::string out = "out";
+};
+
+using Command =
+    std::variant<PrintCommand, ListCommand, BuildCommand, CollideCommand, RunCommand,
+                 ReproduceCommand, CheckCommand, ShowCommand, TuneCommand, AccuracyCommand>;
 
 struct Options {
     CommonOptions common;

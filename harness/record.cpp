@@ -81,9 +81,17 @@ Json json_of(const ColliderChoice& collider)
               {"no_skip", skip_rules_text(collider.rules_off)}}}};
 }
 
+Json json_of(const AccuracyFacts& accuracy)
+{
+    Json json = {{"axis", accuracy.axis}, {"method", accuracy.method}};
+    if (accuracy.seed > 0)
+        json["seed"] = accuracy.seed;
+    return json;
+}
+
 Json json_of(const Check& check)
 {
-    constexpr std::array verdicts = {"agrees", "differs", "not_checked"};
+    constexpr std::array verdicts = {"agrees", "differs", "not_checked", "counted"};
     Json json = {{"verdict", verdicts[static_cast<std::size_t>(check.verdict)]}};
     put_if(json, "against", check.against);
     put_if(json, "detail", check.detail);
@@ -157,6 +165,8 @@ std::string cell_text(const Cell& cell)
                  {"builder", json_of(cell.builder)}};
     if (!cell.collider.name.empty())
         json["collider"] = json_of(cell.collider);
+    if (!cell.accuracy.axis.empty())
+        json["accuracy"] = json_of(cell.accuracy);
     json["operation"] = operation_name(cell.operation);
     json["status"] = states[static_cast<std::size_t>(cell.status)];
     if (cell.status != Cell::Status::measured) {
@@ -184,7 +194,7 @@ std::string cell_text(const Cell& cell)
 
 std::string document_text(const std::string& run, const std::vector<std::string>& cells)
 {
-    std::string text = "{\"format\": \"1.5\",\n\"run\": " + run + ",\n\"cells\": [";
+    std::string text = "{\"format\": \"1.6\",\n\"run\": " + run + ",\n\"cells\": [";
     for (std::size_t i = 0; i < cells.size(); ++i)
         text += (i == 0 ? "\n" : ",\n") + cells[i];
     return text + "\n]}\n";

@@ -24,9 +24,10 @@ struct Sample {
     std::vector<StageTime> stages;
 };
 
-/// Whether what was measured was also right. A cell that was not checked says so.
+/// Whether what was measured was also right. A cell that was not checked says so; one that promises no right answer
+/// counts how many are wrong.
 struct Check {
-    enum class Verdict { agrees, differs, not_checked } verdict = Verdict::not_checked;
+    enum class Verdict { agrees, differs, not_checked, counted } verdict = Verdict::not_checked;
     std::string against;
     std::string detail;  ///< what differs, or why nothing was checked
     std::optional<std::uint64_t> tree_hash = {};
@@ -48,6 +49,13 @@ struct SceneFacts {
     std::uint64_t content_hash = 0;
 };
 
+/// Which axis of accuracy a cell is on, and by what its answers came about.
+struct AccuracyFacts {
+    std::string axis;  ///< empty: none
+    std::string method;
+    std::int64_t seed = 0;  ///< of what was generated; 0: nothing was
+};
+
 /// Everything known about one builder on one scene.
 struct Cell {
     enum class Status { measured, skipped, failed };
@@ -56,6 +64,7 @@ struct Cell {
     SceneFacts scene;
     BuilderChoice builder;
     ColliderChoice collider;  ///< of an empty name: none
+    AccuracyFacts accuracy;
     Operation operation = Operation::build;
     Status status = Status::measured;
     std::string reason;  ///< why it was skipped or failed

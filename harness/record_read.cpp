@@ -106,11 +106,18 @@ ColliderChoice collider_of(const Json& json)
             .rules_off = rules_of(get<std::string>(options, "no_skip"))};
 }
 
+AccuracyFacts accuracy_of(const Json& json)
+{
+    return {.axis = json.at("axis").get<std::string>(),
+            .method = json.at("method").get<std::string>(),
+            .seed = get<std::int64_t>(json, "seed")};
+}
+
 Check check_of(const Json& json)
 {
     Check check;
-    check.verdict = static_cast<Check::Verdict>(
-        index_of(json.at("verdict").get<std::string>(), {"agrees", "differs", "not_checked"}));
+    check.verdict = static_cast<Check::Verdict>(index_of(
+        json.at("verdict").get<std::string>(), {"agrees", "differs", "not_checked", "counted"}));
     check.against = get<std::string>(json, "against");
     check.detail = get<std::string>(json, "detail");
     if (json.contains("tree_hash"))
@@ -130,9 +137,11 @@ Cell cell_of(const Json& json)
     cell.builder = builder_of(json.at("builder"));
     if (json.contains("collider"))
         cell.collider = collider_of(json["collider"]);
+    if (json.contains("accuracy"))
+        cell.accuracy = accuracy_of(json["accuracy"]);
     cell.operation = static_cast<Operation>(
         index_of(json.value("operation", "build"),
-                 {"build", "refit", "collide"}));  // before 1.2 all were builds
+                 {"build", "refit", "collide", "accuracy"}));  // before 1.2 all were builds
     cell.status = static_cast<Cell::Status>(
         index_of(json.at("status").get<std::string>(), {"measured", "skipped", "failed"}));
     cell.reason = get<std::string>(json, "reason");

@@ -13,6 +13,7 @@ import pathlib
 import sys
 from collections.abc import Iterator
 
+import accuracy
 import fig10
 import fig13
 import fig8
@@ -74,6 +75,9 @@ def main() -> int:
                     if run.of(name):
                         for picture in style.save(draw(run), folder, style.stem(path, name)):
                             print(picture)
+                for name, draw_axis in accuracy.figures_of(run).items():
+                    for picture in style.save(draw_axis(), folder, name):
+                        print(picture)
                 for experiment, figures in FRAME_FIGURES.items():
                     if run.has_frames(experiment):
                         for name, draw in figures.items():

@@ -95,6 +95,26 @@ TEST(Options, OfCollideAreAllUnderstood)
     EXPECT_EQ(collide.pairs, "p.bin");
 }
 
+TEST(Options, OfAccuracyAreAllUnderstood)
+{
+    const auto accuracy = [](std::vector<const char*> words) {
+        words.insert(words.begin(), "accuracy");
+        return std::get<AccuracyCommand>(parsed(words).command);
+    };
+    EXPECT_EQ(accuracy({}).pairs, 1'000'000u);
+    EXPECT_EQ(accuracy({}).axis, "");
+    const AccuracyCommand all =
+        accuracy({"--axis", "sums", "--scene", "a", "b", "--pairs", "10000000", "--seed", "3",
+                  "--filter", "x", "--samples", "9", "--out", "o"});
+    EXPECT_EQ(all.axis, "sums");
+    EXPECT_EQ(all.scenes, (std::vector<std::string>{"a", "b"}));
+    EXPECT_EQ(all.pairs, 10'000'000u);
+    EXPECT_EQ(all.seed, 3u);
+    EXPECT_EQ(all.filter, "x");
+    EXPECT_EQ(all.samples, 9);
+    EXPECT_EQ(all.out, "o");
+}
+
 TEST(Options, InCommonMayStandBeforeOrBehindTheCommand)
 {
     EXPECT_EQ(parsed({"--data", "d", "show", "f"}).common.data, "d");
@@ -140,7 +160,8 @@ TEST(Options, ThatAreNotUnderstoodAreAnsweredInOneSentence)
     }
     EXPECT_NE(
         refusal({"list", "colours"})
-            .find("there is no 'colours'; there are: builders, colliders, orders, skips, tuning, scenes, devices"),
+            .find("there is no 'colours'; there are: builders, colliders, narrow, orders, skips, "
+                  "tuning, scenes, devices, accuracy"),
         std::string::npos);
 }
 

@@ -95,7 +95,11 @@ TEST(Record, ReadsBackWhatItWrote)
     query.operation = Operation::collide;
     query.collider = {"leaf", Among::between_objects, false, "exact", 3, 2, 64};
     query.check = {Check::Verdict::agrees, "brute", "", {}, 0x34u, 0x56u};
-    const std::string text = text_of(run, {fake_cell(), failed, host, query});
+    Cell axis = fake_cell();
+    axis.operation = Operation::accuracy;
+    axis.accuracy = {"narrow", "guigue-f64", 7};
+    axis.check.verdict = Check::Verdict::counted;
+    const std::string text = text_of(run, {fake_cell(), failed, host, query, axis});
 
     const Document document = read_document(text, "x");
     EXPECT_EQ(text_of(document.run, document.cells), text);
@@ -105,6 +109,10 @@ TEST(Record, ReadsBackWhatItWrote)
     EXPECT_EQ(document.cells[2].operation, Operation::refit);
     EXPECT_EQ(document.cells[2].left_out, host.left_out);
     EXPECT_EQ(document.cells[2].leaves_by_depth, host.leaves_by_depth);
+    EXPECT_EQ(document.cells[4].operation, Operation::accuracy);
+    EXPECT_EQ(document.cells[4].accuracy.method, "guigue-f64");
+    EXPECT_EQ(document.cells[4].accuracy.seed, 7);
+    EXPECT_EQ(document.cells[4].check.verdict, Check::Verdict::counted);
     EXPECT_EQ(document.cells[3].operation, Operation::collide);
     EXPECT_EQ(document.cells[3].collider, query.collider);
     EXPECT_EQ(document.cells[3].check.pairs_hash, 0x34u);
