@@ -213,6 +213,16 @@ void add_tune(CLI::App& app, TuneCommand& tune, std::string& leaves, std::string
                         "the tuning file; default: the device's in --tuning, else in results/tuning");
 }
 
+void add_stress(CLI::App& app, StressCommand& stress)
+{
+    CLI::App* command = app.add_subcommand(
+        "stress", "Hold builders, colliders and libraries to what must hold over scenes that are hard on them");
+    command->add_flag("--quick", stress.quick, "smaller scenes and fewer systems");
+    command->add_option("--seed", stress.seed, "of what is random")->capture_default_str();
+    command->add_option("--filter", stress.filter, "only cells whose family/scene/system this matches");
+    command->add_option("--out", stress.out, "write the result file");
+}
+
 void add_common(CLI::App& app, CommonOptions& common)
 {
     app.add_option("--device", common.device, "words of its name, or its index in `list devices`");
@@ -258,6 +268,7 @@ Options parse_options(int argc, const char* const* argv)
     CheckCommand check;
     ShowCommand show;
     TuneCommand tune;
+    StressCommand stress;
     std::string leaves = "mesh";
     std::string adjacent = "keep";
     std::string pairs_of = "all";
@@ -271,6 +282,7 @@ Options parse_options(int argc, const char* const* argv)
     add_check(app, check);
     add_show(app, show);
     add_tune(app, tune, leaves, adjacent);
+    add_stress(app, stress);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -282,7 +294,7 @@ Options parse_options(int argc, const char* const* argv)
     }
     if (app.get_subcommands().empty())
         throw BadUsage(
-            "name a command: list, build, collide, run, reproduce, check, show or tune; `bvhbench "
+            "name a command: list, build, collide, run, reproduce, check, show, tune or stress; `bvhbench "
             "--help` "
             "says what they do");
     check_power_of_two("--group-size", build.builder.group_size);
@@ -310,6 +322,8 @@ Options parse_options(int argc, const char* const* argv)
         options.command = check;
     else if (chosen == "tune")
         options.command = tune;
+    else if (chosen == "stress")
+        options.command = stress;
     else
         options.command = show;
     return options;

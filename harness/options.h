@@ -3,6 +3,7 @@
 // The command line, understood: what main hands on.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <variant>
@@ -85,8 +86,16 @@ struct TuneCommand {
     bool quick = false;
 };
 
+struct StressCommand {
+    bool quick = false;
+    std::uint64_t seed = 1;
+    std::string filter;  ///< regular expression on "family/scene/system"
+    std::string out;     ///< result file to write; may be empty
+};
+
 using Command = std::variant<PrintCommand, ListCommand, BuildCommand, CollideCommand, RunCommand,
-                             ReproduceCommand, CheckCommand, ShowCommand, TuneCommand>;
+                             ReproduceCommand, CheckCommand, ShowCommand, TuneCommand,
+                             StressCommand>;
 
 struct Options {
     CommonOptions common;

@@ -289,4 +289,15 @@ void Run::sample(const Experiment& experiment, const Frames& frames, std::span<P
     }
 }
 
+CellFilter cell_filter(const std::string& text)
+{
+    if (text.empty())
+        return std::nullopt;
+    try {
+        return std::regex(text);
+    } catch (const std::regex_error& error) {
+        throw BadUsage("--filter: '" + text + "' is no regular expression: " + error.what());
+    }
+}
+
 }  // namespace bvhbench

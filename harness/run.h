@@ -17,6 +17,9 @@ class Oracle;
 /// Which cells to run: those whose "scene/builder" it matches; all without one.
 using CellFilter = std::optional<std::regex>;
 
+/// From the text of --filter; none where it is empty. Throws BadUsage for one that is no regular expression.
+CellFilter cell_filter(const std::string& text);
+
 /// What is known of a run when it starts, with the device's copy rate, the yardstick of the run, measured.
 RunFacts measured_facts(Session& session, std::vector<std::string> command,
                         const NodeCosts& costs = {});

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+//
+// Who is put under stress: builders, colliders over their trees, and libraries as their manuals show them.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "harness/check.h"
+#include "harness/session.h"
+#include "harness/stress/judge.h"
+
+namespace bvhbench {
+
+/// The name of a builder's system, and of a pipeline's.
+std::string system_name(const BuilderChoice& builder);
+std::string system_name(const BuilderChoice& builder, const ColliderChoice& collider);
+
+/// A builder over all triangles as one object: every promise of harness/contract.h, and what is about its layout.
+/// A failure is a finding. `repeats` more builds must leave the same tree.
+Findings judge_builder(Session& session, const BuilderChoice& builder, const Input& input,
+                       Oracle& oracle, int repeats);
+
+/// A builder's tree past 2^24 leaves: one build, checked on the host while others build. `check` may be called on any
+/// thread; nothing of the session is used by it.
+struct LateFindings {
+    Findings so_far;
+    std::function<Findings()> check;
+};
+LateFindings build_large(Session& session, const BuilderChoice& builder, const Input& input);
+
+/// A builder and a collider over its trees, or a collider without.
+struct StressPipeline {
+    BuilderChoice builder;
+    ColliderChoice collider;
+    bool is_library = false;
+};
+
+/// Those that can be: every collider over every builder's tree on the device that it takes, in the form of the device
+/// and, where there is a tree to walk, in the other one; or, if `few`, over one tree of each kind.
+std::vector<StressPipeline> stress_pipelines(Session& session, bool few);
+
+/// Runs frames of such a pipeline: two in a row, which must find the same. Throws what pipelines throw.
+PairFinder finder_of(Session& session, const StressPipeline& pipeline);
+
+/// One and the same pipeline, so many frames more than the first: whether it finds the same each time.
+Findings judge_frames(Session& session, const StressPipeline& pipeline, const StressScene& scene, int repeats);
+
+/// Findings over a question; a failure is a finding, and so is a refusal.
+Findings judge_pipeline(Session& session, const StressPipeline& pipeline,
+                        const StressQuestion& question);
+
+}  // namespace bvhbench
