@@ -91,6 +91,11 @@ Finding judge_builds(Session& session, const BuilderChoice& choice, const Input&
 
 std::string system_name(const BuilderChoice& builder) { return builder.name; }
 
+bool builds_on_device(Session& session, const BuilderEntry& entry)
+{
+    return entry.make != nullptr && entry.make(session.programs(), {})->card().runs == BuilderCard::Runs::on_device;
+}
+
 Findings judge_builder(Session& session, const BuilderChoice& choice, const Input& input,
                        Oracle& oracle, int repeats)
 {

@@ -32,6 +32,14 @@ void join(Findings& all, const Findings& more)
             join(at->second, finding);
 }
 
+Findings with_words(std::string_view words, Findings findings)
+{
+    for (auto& [invariant, finding] : findings)
+        if (!finding.detail.empty())
+            finding.detail = std::string(words) + ": " + finding.detail;
+    return findings;
+}
+
 bool is_our_fault(const StressCell& cell)
 {
     return cell.library.empty() &&

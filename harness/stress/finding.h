@@ -50,6 +50,9 @@ using Findings = std::map<Invariant, Finding>;
 void join(Finding& all, const Finding& more);
 void join(Findings& all, const Findings& more);
 
+/// The same findings, with `words` and a colon before what is wrong with them.
+Findings with_words(std::string_view words, Findings findings);
+
 /// A system over a scene.
 struct StressCell {
     enum class Kind { builder, collider, host, library };

@@ -34,7 +34,7 @@ std::vector<Asker> askers()
                               {{.name = "lbvh-levels"}, {}},
                               {{.name = "oibvh-wide4"}, {}}};
     for (const KernelForm form : {KernelForm::groups, KernelForm::chunks})
-        for (const char* name : {"leaf", "group", "block", "bvtt", "front", "grid"}) {
+        for (const char* name : {"group", "block", "bvtt", "front", "grid"}) {
             ColliderChoice collider;
             collider.name = name;
             collider.form = form;
@@ -135,6 +135,35 @@ Findings over_value(Session& session, const StressQuestion& question, const Aske
     return findings;
 }
 
+/// The same sizes as a builder's own option, in which kernels in groups are had on every device.
+void stress_option(Session& session, const StressTask& task, const StressScene& scene, StressCell cell,
+                   const AddStressCell& add)
+{
+    const Input input = upload(session.device(), session.queue(), scene.mesh.points, scene.mesh.faces);
+    Oracle oracle(session, input);
+    const Parameter any{.name = "--group-size",
+                        .meaning = "",
+                        .stage = "",
+                        .least = 1,
+                        .most = 1024,
+                        .values = ValueIs::group_size,
+                        .candidates = {}};
+    for (const BuilderEntry& entry : builder_catalog()) {
+        cell.system = std::string(entry.name) + ' ' + std::string(any.name);
+        if (!builds_on_device(session, entry) || !task.wants(cell))
+            continue;
+        StressCell done = cell;
+        for (const uint value : values_of(any, task.size.quick)) {
+            throw_if_interrupted();
+            join(done.findings,
+                 with_words("at " + std::to_string(value),
+                            judge_builder(session, {.name = std::string(entry.name), .group_size = value},
+                                          input, oracle, 0)));
+        }
+        add(std::move(done));
+    }
+}
+
 }  // namespace
 
 void stress_group_sizes(Session& session, const StressTask& task, const AddStressCell& add)
@@ -174,14 +203,17 @@ void stress_group_sizes(Session& session, const StressTask& task, const AddStres
             continue;  // nobody asks for it on this kind of device
         for (const uint value : values_of(*parameter, task.size.quick)) {
             throw_if_interrupted();
-            Findings findings = over_value(session, *question, *asker, *parameter, value);
-            for (auto& [invariant, finding] : findings)
-                if (!finding.detail.empty())
-                    finding.detail = "at " + std::to_string(value) + ": " + finding.detail;
-            join(cell.findings, findings);
+            join(cell.findings,
+                 with_words("at " + std::to_string(value),
+                            over_value(session, *question, *asker, *parameter, value)));
         }
         add(std::move(cell));
     }
+    StressCell cell;
+    cell.family = "group-sizes";
+    cell.scene = std::to_string(triangles) + " triangles";
+    cell.triangles = triangles;
+    stress_option(session, task, crossed_spheres(triangles, task.size.seed), std::move(cell), add);
 }
 
 }  // namespace bvhbench

@@ -141,10 +141,8 @@ Findings judge_finder(const PairFinder& finder, const StressQuestion& question, 
             [&](Invariant invariant, const Finding& finding) { findings[invariant] = finding; });
 
     const auto add_to = [&](Invariant invariant, std::string_view words) {
-        return [&findings, invariant, words](Invariant, Finding finding) {
-            if (!finding.detail.empty())
-                finding.detail = std::string(words) + ": " + finding.detail;
-            join(findings, {{invariant, std::move(finding)}});
+        return [&findings, invariant, words](Invariant, const Finding& finding) {
+            join(findings, with_words(words, {{invariant, finding}}));
         };
     };
     for (const auto& [variant, expected] : question.variants)

@@ -93,8 +93,7 @@ void stress_large(Session& session, const StressTask& task, const StressFamily& 
     for (const BuilderEntry& entry : builder_catalog()) {
         StressCell cell;
         cell.family = family.name, cell.scene = one.name, cell.system = entry.name;
-        if (entry.make != nullptr && !entry.is_library && task.wants(cell) &&
-            entry.make(session.programs(), {})->card().runs == BuilderCard::Runs::on_device)
+        if (builds_on_device(session, entry) && task.wants(cell))
             builders.push_back({.name = std::string(entry.name)});
     }
     std::vector<StressPipeline> pipelines = stress_pipelines(session, true);

@@ -18,8 +18,7 @@ std::vector<std::string> tree_builders(Session& session, bool few)
         return {"oibvh-multi", "oibvh-wide4", "oibvh-wide8-q8", "karras"};
     std::vector<std::string> names;
     for (const BuilderEntry& entry : builder_catalog())
-        if (entry.make != nullptr &&
-            entry.make(session.programs(), {})->card().runs == BuilderCard::Runs::on_device)
+        if (builds_on_device(session, entry))
             names.emplace_back(entry.name);
     return names;
 }

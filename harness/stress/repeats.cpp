@@ -22,9 +22,7 @@ void stress_repeats(Session& session, const StressTask& task, const AddStressCel
     Oracle oracle(session, input);
     for (const BuilderEntry& entry : builder_catalog()) {
         cell.system = entry.name;
-        const bool is_ours = entry.make != nullptr && !entry.is_library;
-        if (!is_ours || !task.wants(cell) ||
-            entry.make(session.programs(), {})->card().runs != BuilderCard::Runs::on_device)
+        if (!builds_on_device(session, entry) || !task.wants(cell))
             continue;
         throw_if_interrupted();
         StressCell done = cell;

@@ -17,6 +17,9 @@ namespace bvhbench {
 std::string system_name(const BuilderChoice& builder);
 std::string system_name(const BuilderChoice& builder, const ColliderChoice& collider);
 
+/// Whether it is there and its kernels run on the device.
+bool builds_on_device(Session& session, const BuilderEntry& entry);
+
 /// A builder over all triangles as one object: every promise of harness/contract.h, and what is about its layout.
 /// A failure is a finding. `repeats` more builds must leave the same tree.
 Findings judge_builder(Session& session, const BuilderChoice& builder, const Input& input,
