@@ -23,6 +23,7 @@ import pareto_orders
 import results
 import roofline
 import scaling
+import stress
 import style
 import table1
 import table2
@@ -74,6 +75,9 @@ def main() -> int:
                     if run.of(name):
                         for picture in style.save(draw(run), folder, style.stem(path, name)):
                             print(picture)
+                if run.stress:
+                    for picture in style.save(stress.draw(run), folder, style.stem(path, "stress")):
+                        print(picture)
                 for experiment, figures in FRAME_FIGURES.items():
                     if run.has_frames(experiment):
                         for name, draw in figures.items():

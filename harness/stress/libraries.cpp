@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstring>
@@ -94,6 +95,20 @@ bool is_finite(const Mesh& mesh, const Face& face)
     return true;
 }
 
+/// Pairs of which both triangles are among these, in ascending order. Of one without a place anything may be said: what
+/// counts is what becomes of the others.
+PairList among_these(const PairList& pairs, const std::vector<uint>& triangles)
+{
+    const auto is_there = [&](uint triangle) {
+        return std::binary_search(triangles.begin(), triangles.end(), triangle);
+    };
+    std::vector<Pair> chosen;
+    for (const Pair pair : pairs.pairs())
+        if (is_there(pair.a) && is_there(pair.b))
+            chosen.push_back(pair);
+    return PairList(std::move(chosen));
+}
+
 /// The pairs of two objects that lie between them; of one object all.
 PairList expected_of(const PlainLibrary& library, const StressScene& scene)
 {
@@ -179,8 +194,9 @@ Findings judge_library(const PlainLibrary& library, const StressScene& scene, do
         return {};
     Findings findings;
     const std::string failure = reason_of_failure([&] {
-        const PairList found = found_by_library(library, scene, time_limit_s);
         const StressVariant finite = finite_part(scene);
+        const PairList found =
+            among_these(found_by_library(library, scene, time_limit_s), finite.original);
         const PairList expected = in_original_numbers(expected_of(library, finite.scene), finite);
         findings[library.finds_contacts ? Invariant::contacts : Invariant::pairs] =
             judge_pairs(found, expected);

@@ -19,8 +19,8 @@ int library_worker_main(int argc, char** argv);
 /// that it cannot, or has not answered after `time_limit_s`.
 PairList found_by_library(const PlainLibrary& library, const StressScene& scene, double time_limit_s);
 
-/// Held to what is to be found among the triangles that have places: of one that has none nothing may be found. A
-/// failure is a finding.
+/// Held to what is to be found among the triangles that have places, whatever it says of the others. A failure is a
+/// finding.
 Findings judge_library(const PlainLibrary& library, const StressScene& scene, double time_limit_s);
 
 /// The triangles of a scene whose vertices are finite, as a scene of its own, and which they are in the other one.

@@ -40,11 +40,12 @@ struct StressPipeline {
     bool is_library = false;
 };
 
-/// Those that can be: every collider over every builder's tree on the device that it takes, in the form of the device
-/// and, where there is a tree to walk, in the other one; or, if `few`, over one tree of each kind.
+/// Those that can be: every collider over a tree of each way to walk one that it takes (whose trees they are, builders'
+/// own findings tell), and over some in the form of kernels that is not the device's. If `few`, over fewer.
 std::vector<StressPipeline> stress_pipelines(Session& session, bool few);
 
-/// Runs frames of such a pipeline: two in a row, which must find the same. Throws what pipelines throw.
+/// Runs a frame of such a pipeline; if it goes on from frame to frame, a second one, which must find the same. Throws
+/// what pipelines throw.
 PairFinder finder_of(Session& session, const StressPipeline& pipeline);
 
 /// One and the same pipeline, so many frames more than the first: whether it finds the same each time.

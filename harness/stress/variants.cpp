@@ -85,7 +85,7 @@ std::optional<StressVariant> scaled(const StressScene& scene, std::uint64_t seed
     const int first = 1 + static_cast<int>(Random(seed).bits() % 30);
     for (const int exponent : {first, -first, 7, -7, 1, -1})
         if (auto result = changed_exactly(scene, [&](double x) { return std::ldexp(x, exponent); }))
-            return StressVariant{Invariant::moved, "scaled", std::move(*result), as_they_are(scene)};
+            return StressVariant{Invariant::moved, "scaled", std::move(*result)};
     return {};
 }
 
@@ -108,11 +108,13 @@ std::optional<Translation> translated(const StressScene& scene)
     if (!moved)
         return {};
     return Translation{std::move(*snapped),
-                       {Invariant::moved, "translated", std::move(*moved), as_they_are(scene)}};
+                       {Invariant::moved, "translated", std::move(*moved)}};
 }
 
 PairList in_original_numbers(const PairList& pairs, const StressVariant& variant)
 {
+    if (variant.original.empty())
+        return pairs;
     std::vector<Pair> numbered;
     numbered.reserve(pairs.size());
     for (const Pair pair : pairs.pairs())

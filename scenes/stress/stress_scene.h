@@ -20,10 +20,10 @@ struct StressSize {
     bool quick = false;
     std::uint64_t seed = 1;
 
-    uint triangles() const { return quick ? 300 : 20000; }
+    uint triangles() const { return quick ? 300 : 5000; }
 
     /// Where all pairs overlap.
-    uint crowded_triangles() const { return quick ? 120 : 1500; }
+    uint crowded_triangles() const { return quick ? 120 : 500; }
 };
 
 /// Triangles of one or more objects, together all of them in order. Unlike a Scene it may hold what `finished` refuses.

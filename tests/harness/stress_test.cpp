@@ -65,7 +65,9 @@ TEST(StressTree, NoticesAMissingLeafABoxThatIsTooSmallAndOneThatIsTooLarge)
 
     HostTree wrong = right;
     wrong.nodes[1].primitive = wrong.nodes[3].primitive;
+    wrong = refitted(std::move(wrong), mesh.points, mesh.faces);  // so that boxes are right
     EXPECT_EQ(judged(wrong, mesh).at(Invariant::leaves).verdict, broken);
+    EXPECT_EQ(judged(wrong, mesh).at(Invariant::boxes).verdict, holds);
     for (const float direction : {-1e30f, 1e30f}) {
         wrong = right;
         wrong.nodes[2].box.max_x = std::nextafter(wrong.nodes[2].box.max_x, direction);
