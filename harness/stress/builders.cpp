@@ -141,11 +141,11 @@ LateFindings build_large(Session& session, const BuilderChoice& choice, const In
     if (!failure.empty()) {
         session.renew_queue();
         late.so_far = {{Invariant::ends, {broken, 1, 1, 0, failure}}};
-        late.check = [] { return Findings{}; };
+        late.check = [] { return LateFindings::Tree{}; };
         return late;
     }
     late.check = [spelled_out, points = input.points, faces = input.faces] {
-        return judge_tree(*spelled_out, points, faces);
+        return LateFindings::Tree{judge_tree(*spelled_out, points, faces), tree_hash(*spelled_out)};
     };
     return late;
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <deque>
 #include <future>
+#include <map>
 #include <thread>
 
 #include "collide/sweep.h"
@@ -51,20 +52,26 @@ public:
 private:
     struct Waiting {
         StressCell cell;
-        std::future<Findings> findings;
+        std::future<LateFindings::Tree> tree;
     };
 
     void end_first()
     {
         Waiting first = std::move(waiting_.front());
         waiting_.pop_front();
-        join(first.cell.findings, first.findings.get());
+        const LateFindings::Tree tree = first.tree.get();
+        join(first.cell.findings, tree.findings);
+        const std::string oracle(find_builder(first.cell.system).oracle);
+        if (!oracle.empty() && !tree.findings.empty() && hashes_.try_emplace(oracle, tree.hash).first->second != tree.hash)
+            first.cell.findings[Invariant::layout] = {
+                Finding::Verdict::broken, 1, 0, 0, "it is another tree than another builder's, which must leave the same"};
         add_(std::move(first.cell));
     }
 
     const AddStressCell& add_;
     std::size_t most_ = 1;
     std::deque<Waiting> waiting_;
+    std::map<std::string, std::uint64_t> hashes_;  ///< of trees, by the reference's name
 };
 
 /// Pairs without their intersections: of triangles without area there is nothing more to find out at this size.

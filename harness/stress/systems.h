@@ -29,7 +29,11 @@ Findings judge_builder(Session& session, const BuilderChoice& builder, const Inp
 /// thread; nothing of the session is used by it.
 struct LateFindings {
     Findings so_far;
-    std::function<Findings()> check;
+    struct Tree {
+        Findings findings;
+        std::uint64_t hash = 0;  ///< builders with one oracle leave one tree
+    };
+    std::function<Tree()> check;
 };
 LateFindings build_large(Session& session, const BuilderChoice& builder, const Input& input);
 

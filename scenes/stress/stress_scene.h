@@ -23,7 +23,7 @@ struct StressSize {
     uint triangles() const { return quick ? 300 : 5000; }
 
     /// Where all pairs overlap.
-    uint crowded_triangles() const { return quick ? 120 : 500; }
+    uint crowded_triangles() const { return quick ? 120 : 300; }
 };
 
 /// Triangles of one or more objects, together all of them in order. Unlike a Scene it may hold what `finished` refuses.
