@@ -45,9 +45,8 @@ bool depth_first(const HostTree& tree, const Visit& visit)
 }
 
 /// What is wrong with one leaf. Marks its triangle in `seen`.
-Breach broken_leaf(const HostTree::Node& node, std::size_t index,
-                        std::span<const Point> points, std::span<const Face> faces,
-                        std::vector<bool>& seen)
+Breach broken_leaf(const HostTree::Node& node, std::size_t index, std::span<const Point> points,
+                   std::span<const Face> faces, std::vector<bool>& seen)
 {
     const auto triangle = static_cast<std::size_t>(node.primitive);
     if (triangle >= faces.size())
@@ -141,8 +140,8 @@ Breach first_breach(const HostTree& tree, std::span<const Point> points,
     if (!is_tree)
         return {leaves, "a node is reached twice or is not there"};
     if (reached != tree.nodes.size())
-        return {leaves,
-                std::to_string(tree.nodes.size() - reached) + " nodes are not reached from the root"};
+        return {leaves, std::to_string(tree.nodes.size() - reached) +
+                            " nodes are not reached from the root"};
     for (std::size_t triangle = 0; triangle < seen.size(); ++triangle)
         if (!seen[triangle])
             return {leaves, "triangle " + std::to_string(triangle) + " is in no leaf"};

@@ -215,11 +215,13 @@ void add_tune(CLI::App& app, TuneCommand& tune, std::string& leaves, std::string
 
 void add_stress(CLI::App& app, StressCommand& stress)
 {
-    CLI::App* command = app.add_subcommand(
-        "stress", "Hold builders, colliders and libraries to what must hold over scenes that are hard on them");
+    CLI::App* command = app.add_subcommand("stress",
+                                           "Hold builders, colliders and libraries to what must "
+                                           "hold over scenes that are hard on them");
     command->add_flag("--quick", stress.quick, "smaller scenes and fewer systems");
     command->add_option("--seed", stress.seed, "of what is random")->capture_default_str();
-    command->add_option("--filter", stress.filter, "only cells whose family/scene/system this matches");
+    command->add_option("--filter", stress.filter,
+                        "only cells whose family/scene/system this matches");
     command->add_option("--out", stress.out, "write the result file");
 }
 
@@ -294,7 +296,8 @@ Options parse_options(int argc, const char* const* argv)
     }
     if (app.get_subcommands().empty())
         throw BadUsage(
-            "name a command: list, build, collide, run, reproduce, check, show, tune or stress; `bvhbench "
+            "name a command: list, build, collide, run, reproduce, check, show, tune or stress; "
+            "`bvhbench "
             "--help` "
             "says what they do");
     check_power_of_two("--group-size", build.builder.group_size);

@@ -211,7 +211,8 @@ std::string document_text(const std::string& run, const std::vector<std::string>
             text += (i == 0 ? "\n" : ",\n") + all[i];
         return text;
     };
-    std::string text = "{\"format\": \"1.6\",\n\"run\": " + run + ",\n\"cells\": [" + lines(cells) + "\n]";
+    std::string text =
+        "{\"format\": \"1.6\",\n\"run\": " + run + ",\n\"cells\": [" + lines(cells) + "\n]";
     if (!stress.empty())
         text += ",\n\"stress\": [" + lines(stress) + "\n]";
     return text + "}\n";

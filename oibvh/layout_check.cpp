@@ -38,7 +38,8 @@ public:
     void equal(const char* what, std::uint64_t found, std::uint64_t expected)
     {
         if (wrong_.empty() && found != expected)
-            wrong_ = where_ + what + " is " + std::to_string(found) + ", not " + std::to_string(expected);
+            wrong_ = where_ + what + " is " + std::to_string(found) + ", not " +
+                     std::to_string(expected);
     }
     const std::string& wrong() const { return wrong_; }
 
@@ -77,9 +78,12 @@ std::string broken_layout(std::uint64_t leaves, OiShape shape)
     const Level& last = levels.back();
     const std::uint64_t stored = last.first_slot + last.real;
     claims.equal("the number of nodes", oi_node_count(shape), stored);
-    claims.equal("the number of nodes of the perfect tree", oi_perfect_node_count(shape), 2 * last.all - 1);
-    claims.equal("the number of virtual nodes", oi_virtual_node_count(shape), 2 * last.all - 1 - stored);
-    claims.equal("the last leaf's slot", oi_slot(shape, static_cast<uint>(last.first + last.real - 1)), stored - 1);
+    claims.equal("the number of nodes of the perfect tree", oi_perfect_node_count(shape),
+                 2 * last.all - 1);
+    claims.equal("the number of virtual nodes", oi_virtual_node_count(shape),
+                 2 * last.all - 1 - stored);
+    claims.equal("the last leaf's slot",
+                 oi_slot(shape, static_cast<uint>(last.first + last.real - 1)), stored - 1);
     return claims.wrong();
 }
 

@@ -43,7 +43,8 @@ void add(void* data, RTCCollision* collisions, unsigned count)
 void build(const EmbreeHandle<RTCDevice>& device, Object& object)
 {
     object.geometry.reset(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER));
-    rtcSetGeometryUserPrimitiveCount(object.geometry.get(), static_cast<unsigned>(object.faces.size()));
+    rtcSetGeometryUserPrimitiveCount(object.geometry.get(),
+                                     static_cast<unsigned>(object.faces.size()));
     rtcSetGeometryUserData(object.geometry.get(), &object);
     rtcSetGeometryBoundsFunction(object.geometry.get(), tell_box, nullptr);
     rtcSetGeometryBuildQuality(object.geometry.get(), RTC_BUILD_QUALITY_LOW);

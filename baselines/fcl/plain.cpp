@@ -15,12 +15,14 @@ namespace bvhbench {
 namespace {
 
 template <class Volume>
-std::shared_ptr<fcl::BVHModel<Volume>> model_of(std::span<const Point> points, std::span<const Face> faces)
+std::shared_ptr<fcl::BVHModel<Volume>> model_of(std::span<const Point> points,
+                                                std::span<const Face> faces)
 {
     using Number = typename Volume::S;
     std::vector<fcl::Vector3<Number>> vertices;
     for (const Point& p : points)
-        vertices.emplace_back(static_cast<Number>(p.x), static_cast<Number>(p.y), static_cast<Number>(p.z));
+        vertices.emplace_back(static_cast<Number>(p.x), static_cast<Number>(p.y),
+                              static_cast<Number>(p.z));
     std::vector<fcl::Triangle> triangles;
     for (const Face& face : faces)
         triangles.emplace_back(face.a, face.b, face.c);
@@ -49,7 +51,8 @@ std::vector<Pair> find(std::span<const Point> points, std::span<const Face> face
         const auto& contact = result.getContact(k);
         const Pair pair = {first.first + static_cast<uint>(contact.b1),
                            second.first + static_cast<uint>(contact.b2)};
-        const bool is_asked = objects.size() > 1 || pair.a < pair.b;  // of one object both ways are told
+        const bool is_asked =
+            objects.size() > 1 || pair.a < pair.b;  // of one object both ways are told
         if (is_asked && !share_a_vertex(faces[pair.a], faces[pair.b]))
             found.push_back(pair);
     }
@@ -64,7 +67,8 @@ std::vector<Pair> plain_fcl_aabb_double(std::span<const Point> points, std::span
     return find<fcl::AABB<double>>(points, faces, objects);
 }
 
-std::vector<Pair> plain_fcl_obbrss_double(std::span<const Point> points, std::span<const Face> faces,
+std::vector<Pair> plain_fcl_obbrss_double(std::span<const Point> points,
+                                          std::span<const Face> faces,
                                           std::span<const FaceRange> objects)
 {
     return find<fcl::OBBRSS<double>>(points, faces, objects);

@@ -40,7 +40,8 @@ bool has_the_papers_layout(const BuilderEntry& entry)
     return entry.oracle == "oibvh-reference" && entry.name != "perfect";
 }
 
-Finding judge_layout(const BuilderEntry& entry, const Tree& tree, const Builder& builder, uint triangles)
+Finding judge_layout(const BuilderEntry& entry, const Tree& tree, const Builder& builder,
+                     uint triangles)
 {
     Finding finding{holds, tree.node_count()};
     if (builder.footprint(triangles) != builder.reserved())
@@ -66,9 +67,9 @@ Findings judge_one_build(Session& session, const BuilderChoice& choice, const In
     findings[Invariant::layout] =
         judge_layout(find_builder(choice.name), *tree, builder, input.triangle_count());
     const Check check = check_tree(spelled_out, input, choice, oracle);
-    const bool is_wrong_tree =
-        check.verdict == Check::Verdict::differs &&
-        findings[Invariant::leaves].verdict == holds && findings[Invariant::boxes].verdict == holds;
+    const bool is_wrong_tree = check.verdict == Check::Verdict::differs &&
+                               findings[Invariant::leaves].verdict == holds &&
+                               findings[Invariant::boxes].verdict == holds;
     if (is_wrong_tree)
         findings[Invariant::layout] = {broken, tree->node_count(), 0, 0, check.detail};
     return findings;
@@ -93,7 +94,8 @@ std::string system_name(const BuilderChoice& builder) { return builder.name; }
 
 bool builds_on_device(Session& session, const BuilderEntry& entry)
 {
-    return entry.make != nullptr && entry.make(session.programs(), {})->card().runs == BuilderCard::Runs::on_device;
+    return entry.make != nullptr &&
+           entry.make(session.programs(), {})->card().runs == BuilderCard::Runs::on_device;
 }
 
 Findings judge_builder(Session& session, const BuilderChoice& choice, const Input& input,
@@ -111,7 +113,8 @@ Findings judge_builder(Session& session, const BuilderChoice& choice, const Inpu
         findings[Invariant::same] = judge_builds(session, choice, input, repeats);
     });
     if (refused)
-        return {{Invariant::ends, {Finding::Verdict::refused, 1, 0, 0, std::string(entry.may_refuse)}}};
+        return {
+            {Invariant::ends, {Finding::Verdict::refused, 1, 0, 0, std::string(entry.may_refuse)}}};
     if (!failure.empty()) {
         session.renew_queue();
         return {{Invariant::ends, {broken, 1, 1, 0, failure}}};
@@ -135,7 +138,8 @@ LateFindings build_large(Session& session, const BuilderChoice& choice, const In
         const Tree* tree = nullptr;
         const auto stages = session.build_once(*builder, input, Start::from_triangles, &tree);
         late.so_far[Invariant::ends] = judge_launches(launches_of(stages), input.triangle_count());
-        late.so_far[Invariant::layout] = judge_layout(entry, *tree, *builder, input.triangle_count());
+        late.so_far[Invariant::layout] =
+            judge_layout(entry, *tree, *builder, input.triangle_count());
         *spelled_out = tree->spelled_out();
     });
     if (!failure.empty()) {

@@ -13,16 +13,16 @@ namespace bvhbench {
 
 /// What must hold over every scene of finite coordinates. docs/stress.md says each in a paragraph.
 enum class Invariant {
-    ends,      ///< it ends, with an answer
-    leaves,    ///< each triangle is in exactly one leaf
-    boxes,     ///< boxes of leaves are their triangles', those above their children's, bit for bit
-    layout,    ///< nodes and bytes are as many as the layout says, in no other order than the reference's
+    ends,    ///< it ends, with an answer
+    leaves,  ///< each triangle is in exactly one leaf
+    boxes,   ///< boxes of leaves are their triangles', those above their children's, bit for bit
+    layout,  ///< nodes and bytes are as many as the layout says, in no other order than the reference's
     pairs,     ///< the pairs of boxes that overlap, all and no others
     contacts,  ///< the pairs of triangles that intersect, likewise
     agree,     ///< the same after triangles are shuffled, and after objects are swapped
-    moved,     ///< the same after a scale by a power of two, and after a translation that no float is rounded by
-    room,      ///< the same when buffers and queues begin with room for one entry
-    same,      ///< the same, bit for bit, each time
+    moved,  ///< the same after a scale by a power of two, and after a translation that no float is rounded by
+    room,  ///< the same when buffers and queues begin with room for one entry
+    same,  ///< the same, bit for bit, each time
 };
 
 inline constexpr std::array invariant_names = {"ends",     "leaves", "boxes", "layout", "pairs",
@@ -36,9 +36,10 @@ constexpr std::string_view name_of(Invariant invariant)
 struct Finding {
     enum class Verdict { holds, broken, refused } verdict = Verdict::holds;
     std::uint64_t checked = 0;  ///< how many things were looked at: pairs, nodes, runs
-    std::uint64_t wrong = 0;    ///< how many of them were wrong; 0 beside `broken` if it cannot be said
-    std::uint64_t missed = 0;   ///< of those: what is there and was not found
-    std::string detail = {};    ///< what is wrong, or why it was refused
+    std::uint64_t wrong =
+        0;  ///< how many of them were wrong; 0 beside `broken` if it cannot be said
+    std::uint64_t missed = 0;  ///< of those: what is there and was not found
+    std::string detail = {};   ///< what is wrong, or why it was refused
 
     bool operator==(const Finding&) const = default;
 };

@@ -63,7 +63,8 @@ std::vector<const Parameter*> group_sizes()
 
 class Trial {
 public:
-    Trial(Session& session, const StressQuestion& question, const Asker& asker, const Tuning& tuning)
+    Trial(Session& session, const StressQuestion& question, const Asker& asker,
+          const Tuning& tuning)
         : session_(tuned(session.device(), tuning), session.scenes(), session.host_memory_limit())
         , question_(question)
         , asker_(asker)
@@ -130,16 +131,18 @@ Findings over_value(Session& session, const StressQuestion& question, const Aske
         findings = Trial(session, question, asker, tuning).run();
         findings[Invariant::ends] = {Finding::Verdict::holds, 1};
     });
-    if (!failure.empty())  // the device has no such groups, or not the local memory for them: one sentence
+    if (!failure
+             .empty())  // the device has no such groups, or not the local memory for them: one sentence
         return {{Invariant::ends, {Finding::Verdict::refused, 1, 0, 0, failure}}};
     return findings;
 }
 
 /// The same sizes as a builder's own option, in which kernels in groups are had on every device.
-void stress_option(Session& session, const StressTask& task, const StressScene& scene, StressCell cell,
-                   const AddStressCell& add)
+void stress_option(Session& session, const StressTask& task, const StressScene& scene,
+                   StressCell cell, const AddStressCell& add)
 {
-    const Input input = upload(session.device(), session.queue(), scene.mesh.points, scene.mesh.faces);
+    const Input input =
+        upload(session.device(), session.queue(), scene.mesh.points, scene.mesh.faces);
     Oracle oracle(session, input);
     const Parameter any{.name = "--group-size",
                         .meaning = "",
@@ -156,9 +159,10 @@ void stress_option(Session& session, const StressTask& task, const StressScene& 
         for (const uint value : values_of(any, task.size.quick)) {
             throw_if_interrupted();
             join(done.findings,
-                 with_words("at " + std::to_string(value),
-                            judge_builder(session, {.name = std::string(entry.name), .group_size = value},
-                                          input, oracle, 0)));
+                 with_words(
+                     "at " + std::to_string(value),
+                     judge_builder(session, {.name = std::string(entry.name), .group_size = value},
+                                   input, oracle, 0)));
         }
         add(std::move(done));
     }

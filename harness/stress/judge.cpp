@@ -28,8 +28,8 @@ FoundPairs expected_over(const StressScene& scene)
     FoundPairs expected;
     expected.pairs = touching_pairs(scene.mesh.points, scene.mesh.faces, true);
     if (has_exact_reference)
-        expected.contacts = intersecting_pairs(scene.mesh.points, scene.mesh.faces,
-                                               *expected.pairs, true);
+        expected.contacts =
+            intersecting_pairs(scene.mesh.points, scene.mesh.faces, *expected.pairs, true);
     return expected;
 }
 
@@ -62,13 +62,15 @@ std::uint64_t hash_of(const FoundPairs& found)
     return hash.get();
 }
 
-Findings judge_tree(const HostTree& tree, std::span<const Point> points, std::span<const Face> faces)
+Findings judge_tree(const HostTree& tree, std::span<const Point> points,
+                    std::span<const Face> faces)
 {
     const Breach breach = first_breach(tree, points, faces);
     Findings findings = {{Invariant::leaves, {holds, faces.size()}},
                          {Invariant::boxes, {holds, tree.nodes.size()}}};
     if (breach.of != Breach::Of::nothing) {
-        Finding& of = findings[breach.of == Breach::Of::leaves ? Invariant::leaves : Invariant::boxes];
+        Finding& of =
+            findings[breach.of == Breach::Of::leaves ? Invariant::leaves : Invariant::boxes];
         of.verdict = broken;
         of.detail = breach.sentence;
     }
@@ -114,8 +116,8 @@ StressQuestion question_of(StressScene scene, std::uint64_t seed)
     add(swapped(question.scene));
     add(scaled(question.scene, seed));
     if (auto translation = translated(question.scene))
-        question.variants.push_back({std::move(translation->moved),
-                                     expected_over(translation->snapped)});
+        question.variants.push_back(
+            {std::move(translation->moved), expected_over(translation->snapped)});
     return question;
 }
 

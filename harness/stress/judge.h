@@ -15,7 +15,8 @@
 namespace bvhbench {
 
 /// Leaves and boxes of a tree.
-Findings judge_tree(const HostTree& tree, std::span<const Point> points, std::span<const Face> faces);
+Findings judge_tree(const HostTree& tree, std::span<const Point> points,
+                    std::span<const Face> faces);
 
 /// Of a set of pairs: how many are missed, false, or found twice.
 Finding judge_pairs(const PairList& found, const PairList& expected);

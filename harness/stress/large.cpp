@@ -32,7 +32,8 @@ public:
     {
         const std::size_t given = available_host_memory().value_or(0) / 2;
         const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
-        most_ = std::clamp<std::size_t>(given / std::max<std::size_t>(1, check_bytes(triangles)), 1, cores);
+        most_ = std::clamp<std::size_t>(given / std::max<std::size_t>(1, check_bytes(triangles)), 1,
+                                        cores);
     }
 
     void begin(StressCell cell, LateFindings late)
@@ -40,7 +41,8 @@ public:
         if (waiting_.size() == most_)
             end_first();
         cell.findings = std::move(late.so_far);
-        waiting_.push_back({std::move(cell), std::async(std::launch::async, std::move(late.check))});
+        waiting_.push_back(
+            {std::move(cell), std::async(std::launch::async, std::move(late.check))});
     }
 
     void end_all()
@@ -62,9 +64,11 @@ private:
         const LateFindings::Tree tree = first.tree.get();
         join(first.cell.findings, tree.findings);
         const std::string oracle(find_builder(first.cell.system).oracle);
-        if (!oracle.empty() && !tree.findings.empty() && hashes_.try_emplace(oracle, tree.hash).first->second != tree.hash)
+        if (!oracle.empty() && !tree.findings.empty() &&
+            hashes_.try_emplace(oracle, tree.hash).first->second != tree.hash)
             first.cell.findings[Invariant::layout] = {
-                Finding::Verdict::broken, 1, 0, 0, "it is another tree than another builder's, which must leave the same"};
+                Finding::Verdict::broken, 1, 0, 0,
+                "it is another tree than another builder's, which must leave the same"};
         add_(std::move(first.cell));
     }
 
@@ -81,7 +85,8 @@ Findings judge_large_query(Session& session, StressPipeline pipeline, const Stre
     pipeline.collider.narrow = "none";
     Findings findings;
     const std::string failure = reason_of_failure([&] {
-        findings[Invariant::pairs] = judge_pairs(*finder_of(session, pipeline)(scene, 0).pairs, expected);
+        findings[Invariant::pairs] =
+            judge_pairs(*finder_of(session, pipeline)(scene, 0).pairs, expected);
     });
     findings[Invariant::ends] = {Finding::Verdict::holds, 1};
     if (!failure.empty()) {
@@ -116,10 +121,12 @@ void stress_large(Session& session, const StressTask& task, const StressFamily& 
 
     const StressScene scene = one.make();
     std::future<PairList> expected = std::async(std::launch::async, [&] {
-        return pipelines.empty() ? PairList() : touching_pairs(scene.mesh.points, scene.mesh.faces, true);
+        return pipelines.empty() ? PairList()
+                                 : touching_pairs(scene.mesh.points, scene.mesh.faces, true);
     });
     {
-        const Input input = upload(session.device(), session.queue(), scene.mesh.points, scene.mesh.faces);
+        const Input input =
+            upload(session.device(), session.queue(), scene.mesh.points, scene.mesh.faces);
         LateChecks checks(scene.mesh.faces.size(), add);
         for (const BuilderChoice& builder : builders) {
             throw_if_interrupted();

@@ -44,7 +44,8 @@ std::vector<T> taken(std::istream& in)
     std::uint64_t count = 0;
     in.read(reinterpret_cast<char*>(&count), sizeof count);
     std::vector<T> values(in ? count : 0);
-    in.read(reinterpret_cast<char*>(values.data()), static_cast<std::streamsize>(count * sizeof(T)));
+    in.read(reinterpret_cast<char*>(values.data()),
+            static_cast<std::streamsize>(count * sizeof(T)));
     return values;
 }
 
@@ -152,11 +153,13 @@ int library_worker_main(int, char** argv)
     return answer.flush() ? 0 : 1;
 }
 
-PairList found_by_library(const PlainLibrary& library, const StressScene& scene, double time_limit_s)
+PairList found_by_library(const PlainLibrary& library, const StressScene& scene,
+                          double time_limit_s)
 {
     const SceneFile file(scene);
-    const ProcessEnd end = run_process({"/proc/self/exe", std::string(argument), std::string(library.name), file.path()},
-                                       time_limit_s, "BVHBENCH_LIBRARY_WORKER=1");
+    const ProcessEnd end = run_process(
+        {"/proc/self/exe", std::string(argument), std::string(library.name), file.path()},
+        time_limit_s, "BVHBENCH_LIBRARY_WORKER=1");
     if (end.how != ProcessEnd::How::exited || end.code != 0)
         throw Unavailable("it " + spelled(end, time_limit_s));
     if (end.output.starts_with(refusal_mark))

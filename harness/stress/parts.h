@@ -4,8 +4,8 @@
 #pragma once
 
 #include <functional>
-#include <regex>
 #include <optional>
+#include <regex>
 
 #include "harness/stress/systems.h"
 #include "scenes/stress/stress_scene.h"
@@ -22,7 +22,8 @@ struct StressTask {
 
     bool wants(const StressCell& cell) const
     {
-        return !filter || std::regex_search(cell.family + '/' + cell.scene + '/' + cell.system, *filter);
+        return !filter ||
+               std::regex_search(cell.family + '/' + cell.scene + '/' + cell.system, *filter);
     }
 };
 

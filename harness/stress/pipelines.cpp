@@ -15,7 +15,8 @@ namespace {
 using enum Finding::Verdict;
 
 // Binary, wide in floats and in bytes, with pointers.
-constexpr std::string_view some_builders[] = {"oibvh-multi", "oibvh-wide4", "oibvh-wide8-q8", "karras"};
+constexpr std::string_view some_builders[] = {"oibvh-multi", "oibvh-wide4", "oibvh-wide8-q8",
+                                              "karras"};
 
 /// A builder's tree over one triangle.
 const Tree& smallest_tree(Session& session, const BuilderChoice& choice)
@@ -49,7 +50,8 @@ std::vector<std::string> tree_builders(Session& session, bool few)
 
 Input uploaded(Session& session, const StressScene& scene)
 {
-    return upload(session.device(), session.queue(), scene.mesh.points, scene.mesh.faces, scene.objects);
+    return upload(session.device(), session.queue(), scene.mesh.points, scene.mesh.faces,
+                  scene.objects);
 }
 
 FoundPairs found_by(const Pipeline& pipeline)
@@ -145,7 +147,8 @@ PairFinder finder_of(Session& session, const StressPipeline& chosen)
     };
 }
 
-Findings judge_frames(Session& session, const StressPipeline& chosen, const StressScene& scene, int repeats)
+Findings judge_frames(Session& session, const StressPipeline& chosen, const StressScene& scene,
+                      int repeats)
 {
     return guarded(session, chosen, [&] {
         const Input input = uploaded(session, scene);

@@ -18,7 +18,8 @@ void stress_repeats(Session& session, const StressTask& task, const AddStressCel
     cell.scene = std::to_string(repeats) + " times";
     const StressScene scene = crossed_spheres(1000, task.size.seed);
     cell.triangles = static_cast<std::int64_t>(scene.mesh.faces.size());
-    const Input input = upload(session.device(), session.queue(), scene.mesh.points, scene.mesh.faces);
+    const Input input =
+        upload(session.device(), session.queue(), scene.mesh.points, scene.mesh.faces);
     Oracle oracle(session, input);
     for (const BuilderEntry& entry : builder_catalog()) {
         cell.system = entry.name;
@@ -26,7 +27,8 @@ void stress_repeats(Session& session, const StressTask& task, const AddStressCel
             continue;
         throw_if_interrupted();
         StressCell done = cell;
-        done.findings = judge_builder(session, {.name = std::string(entry.name)}, input, oracle, repeats);
+        done.findings =
+            judge_builder(session, {.name = std::string(entry.name)}, input, oracle, repeats);
         add(std::move(done));
     }
     cell.kind = StressCell::Kind::collider;

@@ -28,7 +28,8 @@ std::string text_of(Invariant invariant, const Finding& finding)
     if (invariant == Invariant::pairs || invariant == Invariant::contacts)
         return "-" + grouped(static_cast<std::int64_t>(finding.missed)) + " +" +
                grouped(static_cast<std::int64_t>(finding.wrong - finding.missed));
-    return finding.wrong > 0 ? grouped(static_cast<std::int64_t>(finding.wrong)) + " wrong" : "wrong";
+    return finding.wrong > 0 ? grouped(static_cast<std::int64_t>(finding.wrong)) + " wrong"
+                             : "wrong";
 }
 
 /// Of one system over a scene.
@@ -66,7 +67,8 @@ private:
     int right_ = 0, refused_ = 0, wrong_ = 0;
 };
 
-std::string with_version(const std::string& name, const std::map<std::string, std::string>& versions)
+std::string with_version(const std::string& name,
+                         const std::map<std::string, std::string>& versions)
 {
     const auto version = versions.find(name);
     return version == versions.end() ? name : name + ' ' + version->second;
@@ -80,7 +82,8 @@ std::string scenes_table(const std::vector<StressCell>& cells)
         if (cell.kind == StressCell::Kind::library)
             add_once(libraries, cell.system);
     }
-    std::vector<Table::Column> columns = {{"scene", left}, {"triangles"}, {"ours", left}, {"wrapped libraries", left}};
+    std::vector<Table::Column> columns = {
+        {"scene", left}, {"triangles"}, {"ours", left}, {"wrapped libraries", left}};
     for (const std::string& library : libraries)
         columns.push_back({library, left});
     Table table(columns);
@@ -97,7 +100,8 @@ std::string scenes_table(const std::vector<StressCell>& cells)
             else
                 (cell.library.empty() ? ours : wrapped).add(cell);
         }
-        std::vector<std::string> entries = {row, triangles > 0 ? grouped(triangles) : "", ours.text(), wrapped.text()};
+        std::vector<std::string> entries = {row, triangles > 0 ? grouped(triangles) : "",
+                                            ours.text(), wrapped.text()};
         for (const std::string& library : libraries)
             entries.push_back(by_library[library]);
         table.row(std::move(entries));
@@ -105,7 +109,8 @@ std::string scenes_table(const std::vector<StressCell>& cells)
     return table.text();
 }
 
-std::string systems_table(const std::vector<StressCell>& cells, const std::map<std::string, std::string>& versions)
+std::string systems_table(const std::vector<StressCell>& cells,
+                          const std::map<std::string, std::string>& versions)
 {
     std::vector<Table::Column> columns = {{"system", left}, {"scenes"}};
     for (const char* name : invariant_names)
@@ -138,7 +143,8 @@ std::string systems_table(const std::vector<StressCell>& cells, const std::map<s
 
 }  // namespace
 
-std::string stress_report(const std::vector<StressCell>& cells, const std::map<std::string, std::string>& versions)
+std::string stress_report(const std::vector<StressCell>& cells,
+                          const std::map<std::string, std::string>& versions)
 {
     std::string text = scenes_table(cells) + '\n' + systems_table(cells, versions) + '\n';
     std::size_t ours = 0, wrong = 0;

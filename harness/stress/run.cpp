@@ -31,8 +31,8 @@ std::vector<StressCase> hard_cases(const StressSize& size)
     return cases;
 }
 
-constexpr StressFamily hard_family = {"hard", "those of `check`: equal boxes, equal centres, flat, -0, huge and more",
-                                      hard_cases};
+constexpr StressFamily hard_family = {
+    "hard", "those of `check`: equal boxes, equal centres, flat, -0, huge and more", hard_cases};
 
 bool is_all_finite(const StressScene& scene)
 {
@@ -42,8 +42,8 @@ bool is_all_finite(const StressScene& scene)
 /// All systems over one scene.
 class SceneStress {
 public:
-    SceneStress(Session& session, const StressTask& task, const std::vector<StressPipeline>& pipelines,
-                const AddStressCell& add)
+    SceneStress(Session& session, const StressTask& task,
+                const std::vector<StressPipeline>& pipelines, const AddStressCell& add)
         : session_(session), task_(task), pipelines_(pipelines), add_(add)
     {}
 
@@ -98,14 +98,16 @@ private:
     {
         std::optional<StressQuestion> question, apart;
         for (const StressPipeline& pipeline : pipelines_) {
-            if (!begins(system_name(pipeline.builder, pipeline.collider), StressCell::Kind::collider,
+            if (!begins(system_name(pipeline.builder, pipeline.collider),
+                        StressCell::Kind::collider,
                         pipeline.is_library ? library_of(pipeline.collider.name) : ""))
                 continue;
             if (!question)
                 question = question_of(scene, task_.size.seed);
             if (!pipeline.collider.keep_adjacent && !apart)
                 apart = without_adjacent(*question);
-            done(judge_pipeline(session_, pipeline, pipeline.collider.keep_adjacent ? *question : *apart));
+            done(judge_pipeline(session_, pipeline,
+                                pipeline.collider.keep_adjacent ? *question : *apart));
         }
     }
 
@@ -135,7 +137,8 @@ private:
             cell.library = library.library;
             if (!task_.wants(cell) || is_interrupted())
                 continue;
-            cell.findings = judge_library(library, scene, task_.size.quick ? quick_limit_s : full_limit_s);
+            cell.findings =
+                judge_library(library, scene, task_.size.quick ? quick_limit_s : full_limit_s);
             cells.push_back(std::move(cell));
         }
         return cells;

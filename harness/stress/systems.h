@@ -53,7 +53,8 @@ std::vector<StressPipeline> stress_pipelines(Session& session, bool few);
 PairFinder finder_of(Session& session, const StressPipeline& pipeline);
 
 /// One and the same pipeline, so many frames more than the first: whether it finds the same each time.
-Findings judge_frames(Session& session, const StressPipeline& pipeline, const StressScene& scene, int repeats);
+Findings judge_frames(Session& session, const StressPipeline& pipeline, const StressScene& scene,
+                      int repeats);
 
 /// Findings over a question; a failure is a finding, and so is a refusal.
 Findings judge_pipeline(Session& session, const StressPipeline& pipeline,

@@ -96,7 +96,7 @@ std::optional<Translation> translated(const StressScene& scene)
         return {};
     int exponent = 0;
     std::frexp(largest, &exponent);
-    const double by = std::ldexp(1.0, exponent + 3);     // sums are below twice that,
+    const double by = std::ldexp(1.0, exponent + 3);         // sums are below twice that,
     const double grid = std::ldexp(1.0, exponent + 4 - 24);  // where floats are so far apart
     if (grid < 0x1p-149)
         return {};
@@ -107,8 +107,7 @@ std::optional<Translation> translated(const StressScene& scene)
     auto moved = changed_exactly(*snapped, [by](double x) { return x + by; });
     if (!moved)
         return {};
-    return Translation{std::move(*snapped),
-                       {Invariant::moved, "translated", std::move(*moved)}};
+    return Translation{std::move(*snapped), {Invariant::moved, "translated", std::move(*moved)}};
 }
 
 PairList in_original_numbers(const PairList& pairs, const StressVariant& variant)

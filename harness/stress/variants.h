@@ -17,7 +17,8 @@ struct StressVariant {
     Invariant of;  ///< agree or moved
     std::string_view name;
     StressScene scene;
-    std::vector<uint> original = {};  ///< by this scene's triangle, the other one's; empty: the same
+    std::vector<uint> original =
+        {};  ///< by this scene's triangle, the other one's; empty: the same
 };
 
 /// Objects stay in their order, triangles of each are shuffled.

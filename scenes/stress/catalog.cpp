@@ -12,7 +12,8 @@ namespace {
 constexpr StressFamily families[] = {
     {"translate", "two spheres far from the origin: 1 to 1e12 units", translated_cases},
     {"scale", "two spheres from denormals to 1e30", scaled_cases},
-    {"degenerate", "triangles that are segments or points, alone and among others", degenerate_cases},
+    {"degenerate", "triangles that are segments or points, alone and among others",
+     degenerate_cases},
     {"needles", "triangles a million times as long as wide", needle_cases},
     {"coplanar", "sheets in one plane, and stacks of them hardly apart", coplanar_cases},
     {"coincident", "a mesh twice, and a mesh with each triangle several times", coincident_cases},

@@ -47,7 +47,8 @@ std::vector<StressCase> large_cases(const StressSize& size)
     std::vector<StressCase> cases;
     if (!size.quick)
         for (const uint triangles : {(1u << 24) - 1, (1u << 24) + 1})
-            cases.push_back({std::to_string(triangles), [=] { return single(rows(triangles)); }, true});
+            cases.push_back(
+                {std::to_string(triangles), [=] { return single(rows(triangles)); }, true});
     return cases;
 }
 

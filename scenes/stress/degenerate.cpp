@@ -78,7 +78,9 @@ std::vector<StressCase> degenerate_cases(const StressSize& size)
     return {{"collinear", [size] { return single(collinear(size.triangles())); }},
             {"lattice", [size] { return single(lattice(size.triangles(), size.seed)); }},
             {"collinear, two objects",
-             [size] { return together(collinear(size.triangles() / 2), collinear(size.triangles() / 3)); }},
+             [size] {
+                 return together(collinear(size.triangles() / 2), collinear(size.triangles() / 3));
+             }},
             {"one point", [size] {
                  Mesh mesh = with_corners_of(size.crowded_triangles());
                  for (Point& p : mesh.points)
@@ -90,8 +92,14 @@ std::vector<StressCase> degenerate_cases(const StressSize& size)
 std::vector<StressCase> needle_cases(const StressSize& size)
 {
     const uint half = (size.quick ? size.triangles() : 4000) / 2;
-    return {{"1e-3", [=] { return together(needles(half, size.seed, 3e-4f), needles(half, size.seed + 1, 3e-4f)); }},
-            {"1e-6", [=] { return together(needles(half, size.seed, 3e-7f), needles(half, size.seed + 1, 3e-7f)); }}};
+    return {
+        {"1e-3",
+         [=] {
+             return together(needles(half, size.seed, 3e-4f), needles(half, size.seed + 1, 3e-4f));
+         }},
+        {"1e-6", [=] {
+             return together(needles(half, size.seed, 3e-7f), needles(half, size.seed + 1, 3e-7f));
+         }}};
 }
 
 }  // namespace bvhbench

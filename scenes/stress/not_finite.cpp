@@ -26,9 +26,18 @@ StressScene with(const StressSize& size, std::initializer_list<Point> places)
 
 std::vector<StressCase> not_finite_cases(const StressSize& size)
 {
-    return {{"one NaN", [=] { return with(size, {{nan, nan, nan}}); }},
-            {"one NaN coordinate", [=] { return with(size, {{0, nan, 0}}); }},
-            {"one infinite", [=] { return with(size, {{infinity, infinity, infinity}}); }},
+    return {{"one NaN",
+             [=] {
+                 return with(size, {{nan, nan, nan}});
+             }},
+            {"one NaN coordinate",
+             [=] {
+                 return with(size, {{0, nan, 0}});
+             }},
+            {"one infinite",
+             [=] {
+                 return with(size, {{infinity, infinity, infinity}});
+             }},
             {"infinite both ways", [=] {
                  return with(size, {{infinity, 0, 0}, {-infinity, 0, 0}, {0, infinity, -infinity}});
              }}};

@@ -36,7 +36,8 @@ struct StressScene {
 struct StressCase {
     std::string name;  ///< within its family, as "1e6"
     std::function<StressScene()> make;
-    bool is_large = false;  ///< past 2^24 triangles: only builders, and what is checked of them in parallel
+    bool is_large =
+        false;  ///< past 2^24 triangles: only builders, and what is checked of them in parallel
 };
 
 struct StressFamily {

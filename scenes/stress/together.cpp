@@ -88,7 +88,8 @@ std::vector<StressCase> far_triangle_cases(const StressSize& size)
 {
     std::vector<StressCase> cases;
     for (const auto& [name, diameters] : {std::pair{"10", 10.0}, {"1e3", 1e3}, {"1e6", 1e6}})
-        cases.push_back({name, [size, far = diameters] { return with_far_triangle(size.triangles(), far); }});
+        cases.push_back(
+            {name, [size, far = diameters] { return with_far_triangle(size.triangles(), far); }});
     return cases;
 }
 

@@ -98,7 +98,8 @@ TEST(Options, OfCollideAreAllUnderstood)
 TEST(Options, OfStressAreAllUnderstood)
 {
     const auto stress = std::get<StressCommand>(
-        parsed({"stress", "--quick", "--seed", "7", "--filter", "^scale/", "--out", "s.json"}).command);
+        parsed({"stress", "--quick", "--seed", "7", "--filter", "^scale/", "--out", "s.json"})
+            .command);
     EXPECT_TRUE(stress.quick);
     EXPECT_EQ(stress.seed, 7u);
     EXPECT_EQ(stress.filter, "^scale/");
@@ -114,7 +115,8 @@ TEST(Options, InCommonMayStandBeforeOrBehindTheCommand)
 
 TEST(Options, ThatAskForHelpOnlyPrint)
 {
-    for (const char* command : {"list", "build", "collide", "run", "reproduce", "check", "show", "stress"}) {
+    for (const char* command :
+         {"list", "build", "collide", "run", "reproduce", "check", "show", "stress"}) {
         const auto text = std::get<PrintCommand>(parsed({command, "--help"}).command).text;
         EXPECT_NE(text.find("Usage: bvhbench " + std::string(command)), std::string::npos) << text;
     }

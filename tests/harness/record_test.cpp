@@ -133,7 +133,8 @@ TEST(Record, ReadsBackWhatStressFound)
     cell.findings = {{Invariant::ends, {Finding::Verdict::holds, 1}},
                      {Invariant::pairs, {Finding::Verdict::broken, 747, 748, 747, "747 missed"}}};
     StressCell ours;
-    ours.family = "layout", ours.scene = "all", ours.system = "layout.h", ours.kind = StressCell::Kind::host;
+    ours.family = "layout", ours.scene = "all", ours.system = "layout.h",
+    ours.kind = StressCell::Kind::host;
     ours.findings = {{Invariant::layout, {Finding::Verdict::refused, 0, 0, 0, "none"}}};
     const std::string text =
         document_text(run_text(fake_run()), {}, {cell_text(cell), cell_text(ours)});

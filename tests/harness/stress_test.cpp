@@ -29,7 +29,8 @@ FoundPairs right_answer(const StressScene& scene)
     FoundPairs found;
     found.pairs = touching_pairs(scene.mesh.points, scene.mesh.faces, true);
     if (has_exact_reference)
-        found.contacts = intersecting_pairs(scene.mesh.points, scene.mesh.faces, *found.pairs, true);
+        found.contacts =
+            intersecting_pairs(scene.mesh.points, scene.mesh.faces, *found.pairs, true);
     return found;
 }
 
@@ -99,8 +100,8 @@ TEST(StressFinder, IsRightIfTheAnswersAre)
     const StressQuestion question = question_of(spheres(), 3);
     EXPECT_EQ(question.variants.size(), 4u);  // shuffled, swapped, scaled, translated
     EXPECT_GT(question.expected.pairs->size(), 500u);
-    const Findings findings =
-        judge_finder([](const StressScene& scene, std::size_t) { return right_answer(scene); }, question, 2);
+    const Findings findings = judge_finder(
+        [](const StressScene& scene, std::size_t) { return right_answer(scene); }, question, 2);
     EXPECT_EQ(findings.size(), has_exact_reference ? 6u : 5u);
     for (const auto& [invariant, finding] : findings)
         EXPECT_EQ(finding.verdict, holds) << name_of(invariant) << ": " << finding.detail;
@@ -179,7 +180,8 @@ TEST(StressVariants, AreTheSameScenesInOtherWords)
             // The oracle is put to its own test: it has no tree, but it sorts.
             for (const StressQuestion question = question_of(scene, 5);
                  const auto& [variant, expected] : question.variants)
-                EXPECT_EQ(in_original_numbers(*right_answer(variant.scene).pairs, variant), *expected.pairs)
+                EXPECT_EQ(in_original_numbers(*right_answer(variant.scene).pairs, variant),
+                          *expected.pairs)
                     << variant.name;
         }
     }
@@ -197,7 +199,8 @@ TEST(StressVariants, LeaveOutAScaleOrTranslationThatWouldRound)
     for (std::size_t k = 0; k < translation->snapped.mesh.points.size(); ++k) {
         const double before = translation->snapped.mesh.points[k].x;
         const double after = translation->moved.scene.mesh.points[k].x;
-        EXPECT_EQ(after - before, 16.0) << "spheres of a unit or so reach to 2, and are moved by eight times that";
+        EXPECT_EQ(after - before, 16.0)
+            << "spheres of a unit or so reach to 2, and are moved by eight times that";
     }
 }
 
@@ -231,7 +234,8 @@ TEST(StressReport, TellsOursFromTheLibraries)
     ours.kind = StressCell::Kind::collider;
     ours.findings = {{Invariant::pairs, {holds, 10}}};
     StressCell theirs = ours;
-    theirs.system = "rtcCollide", theirs.kind = StressCell::Kind::library, theirs.library = "Embree";
+    theirs.system = "rtcCollide", theirs.kind = StressCell::Kind::library,
+    theirs.library = "Embree";
     theirs.findings = {{Invariant::pairs, judge_pairs(PairList(), PairList({{0, 1}, {0, 2}}))}};
     EXPECT_FALSE(is_our_fault(theirs));
     std::string text = stress_report({ours, theirs}, {{"Embree", "3.13.5"}});
@@ -241,7 +245,8 @@ TEST(StressReport, TellsOursFromTheLibraries)
     ours.findings[Invariant::room] = {broken, 10, 1, 1, "1 missed, 0 false, 0 twice, of 10"};
     EXPECT_TRUE(is_our_fault(ours));
     text = stress_report({ours, theirs}, {});
-    for (const char* words : {"WRONG scale: 1e20, leaf over karras, room: 1 missed", "1 cells of ours, 1 wrong"})
+    for (const char* words :
+         {"WRONG scale: 1e20, leaf over karras, room: 1 missed", "1 cells of ours, 1 wrong"})
         EXPECT_NE(text.find(words), text.npos) << words << '\n' << text;
 }
 

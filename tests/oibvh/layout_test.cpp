@@ -97,10 +97,7 @@ TEST(OiLayout, RealNodesHaveARealLeftChildAndAtMostOneALevelHasNoRightOne)
 
 class OiLayoutAt : public testing::TestWithParam<uint> {};
 
-TEST_P(OiLayoutAt, AgreesWithSixtyFourBitArithmetic)
-{
-    EXPECT_EQ(broken_layout(GetParam()), "");
-}
+TEST_P(OiLayoutAt, AgreesWithSixtyFourBitArithmetic) { EXPECT_EQ(broken_layout(GetParam()), ""); }
 
 TEST_P(OiLayoutAt, IsHeldToItsNumbers)
 {
