@@ -34,7 +34,7 @@ std::vector<Asker> askers()
                               {{.name = "lbvh-levels"}, {}},
                               {{.name = "oibvh-wide4"}, {}}};
     for (const KernelForm form : {KernelForm::groups, KernelForm::chunks})
-        for (const char* name : {"group", "block", "bvtt", "front", "grid"}) {
+        for (const char* name : {"leaf", "group", "block", "bvtt", "front", "grid"}) {
             ColliderChoice collider;
             collider.name = name;
             collider.form = form;
