@@ -7,13 +7,17 @@
 
 namespace bvhbench {
 
+/// Work-items that a group has at the least: one each for what is counted at the end of a turn, and for the children of
+/// the widest node.
+inline constexpr uint smallest_group = 8;
+
 inline constexpr Parameter leaf_group_size{
     .name = "leaf.group_size",
     .meaning = "work-items in a group of leaf",
     .stage = "broad",
     .on_cpu = 64,
     .elsewhere = 256,
-    .least = 1,
+    .least = smallest_group,
     .most = 256,
     .values = ValueIs::group_size,
     .candidates = {32, 64, 128, 256}};
@@ -23,7 +27,7 @@ inline constexpr Parameter group_group_size{
     .stage = "broad",
     .on_cpu = 64,
     .elsewhere = 64,
-    .least = 1,
+    .least = smallest_group,
     .most = 256,
     .values = ValueIs::group_size,
     .candidates = {32, 64, 128, 256}};
@@ -90,7 +94,7 @@ inline constexpr Parameter bvtt_group_size{.name = "bvtt.group_size",
                                            .stage = "broad",
                                            .on_cpu = 128,
                                            .elsewhere = 128,
-                                           .least = 1,
+                                           .least = smallest_group,
                                            .most = 256,
                                            .values = ValueIs::group_size,
                                            .candidates = {32, 64, 128, 256}};
@@ -145,7 +149,7 @@ inline constexpr Parameter grid_group_size{
     .stage = "broad",
     .on_cpu = 64,
     .elsewhere = 64,
-    .least = 1,
+    .least = smallest_group,
     .most = 256,
     .values = ValueIs::group_size,
     .candidates = {32, 64, 128, 256}};
@@ -174,7 +178,7 @@ inline constexpr Parameter narrow_group_size{.name = "narrow.group_size",
                                              .stage = "narrow",
                                              .on_cpu = 128,
                                              .elsewhere = 128,
-                                             .least = 1,
+                                             .least = smallest_group,
                                              .most = 256,
                                              .values = ValueIs::group_size,
                                              .candidates = {32, 64, 128, 256}};

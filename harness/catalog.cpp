@@ -20,12 +20,13 @@ constexpr BuilderEntry of_embree(std::string_view name, std::string_view summary
             own_tree,
             make,
             make != nullptr ? "" : "built without Embree",
-            "Embree takes no coordinates beyond 1.8e18"};
+            "Embree takes no coordinates beyond 1.8e18",
+            true};
 }
 
 constexpr BuilderEntry of_fcl(std::string_view name, std::string_view summary, MakeBuilder make)
 {
-    return {name, summary, own_tree, make, make != nullptr ? "" : "built without FCL"};
+    return {name, summary, own_tree, make, make != nullptr ? "" : "built without FCL", {}, true};
 }
 
 // To add a builder, add its line here. Nothing registers itself.

@@ -12,7 +12,7 @@ namespace {
 constexpr ColliderEntry of_library(std::string_view name, std::string_view summary,
                                    MakeCollider make, std::string_view absent)
 {
-    return {name, summary, make, make != nullptr ? "" : absent};
+    return {name, summary, make, make != nullptr ? "" : absent, true};
 }
 
 // To add a collider, add its line here. Nothing registers itself.

@@ -17,6 +17,7 @@ struct ColliderEntry {
     std::string_view summary;      ///< one line
     MakeCollider make;             ///< nullptr when this binary was built without it
     std::string_view absent = {};  ///< then: why, as in "built without Embree"
+    bool is_library = false;       ///< the work is done by somebody else's code
 };
 
 /// Every collider, in the order tables list them.
@@ -36,6 +37,9 @@ struct ColliderChoice {
     unsigned start_level = 0;
     unsigned group_size = 0;
     unsigned rules_off = 0;  ///< of collide/skips.h
+    // What only tests and `stress` choose: no result file tells them.
+    KernelForm form = KernelForm::of_device;
+    std::size_t capacity = 0;
 
     bool operator==(const ColliderChoice&) const = default;
     ColliderOptions options() const
@@ -45,7 +49,9 @@ struct ColliderChoice {
                 .jump = jump,
                 .start_level = start_level,
                 .rules_off = rules_off,
-                .group_size = group_size};
+                .group_size = group_size,
+                .form = form,
+                .capacity = capacity};
     }
 };
 

@@ -17,6 +17,7 @@
 #include "harness/report_roofline.h"
 #include "harness/report_yardstick.h"
 #include "harness/run.h"
+#include "harness/stress/report.h"
 
 namespace bvhbench {
 namespace {
@@ -107,6 +108,8 @@ int show(const ShowCommand& command, const Options&)
     std::cout << run_report(document.run);
     if (const std::string axes = accuracy_report(document); !axes.empty())
         std::cout << axes;
+    else if (!document.stress.empty())
+        std::cout << stress_report(document.stress, document.run.libraries);
     else if (document.cells.size() == 1)
         std::cout << cell_report(document.cells.front(), document.run);
     else

@@ -8,6 +8,7 @@
 #include "harness/commands.h"
 #include "harness/failure.h"
 #include "harness/interrupt.h"
+#include "harness/stress/libraries.h"
 #include "scenes/mesh_worker.h"
 
 namespace {
@@ -23,9 +24,11 @@ int failed(const std::exception& error, int code)
 int main(int argc, char** argv)
 {
     using namespace bvhbench;
-    // Files from outside are read by a process of their own: this program again, under a flag of its own.
+    // Files from outside are read, and libraries put under stress, by a process of their own: this program again.
     if (is_mesh_worker(argc, argv))
         return mesh_worker_main(argc, argv);
+    if (is_library_worker(argc, argv))
+        return library_worker_main(argc, argv);
     try {
         remember_interrupts();
         return execute(parse_options(argc, argv));

@@ -240,6 +240,18 @@ void add_tune(CLI::App& app, TuneCommand& tune, std::string& leaves, std::string
                         "the tuning file; default: the device's in --tuning, else in results/tuning");
 }
 
+void add_stress(CLI::App& app, StressCommand& stress)
+{
+    CLI::App* command = app.add_subcommand("stress",
+                                           "Hold builders, colliders and libraries to what must "
+                                           "hold over scenes that are hard on them");
+    command->add_flag("--quick", stress.quick, "smaller scenes and fewer systems");
+    command->add_option("--seed", stress.seed, "of what is random")->capture_default_str();
+    command->add_option("--filter", stress.filter,
+                        "only cells whose family/scene/system this matches");
+    command->add_option("--out", stress.out, "write the result file");
+}
+
 void add_common(CLI::App& app, CommonOptions& common)
 {
     app.add_option("--device", common.device, "words of its name, or its index in `list devices`");
@@ -286,6 +298,7 @@ Options parse_options(int argc, const char* const* argv)
     ShowCommand show;
     TuneCommand tune;
     AccuracyCommand accuracy;
+    StressCommand stress;
     std::string leaves = "mesh";
     std::string adjacent = "keep";
     std::string pairs_of = "all";
@@ -300,6 +313,7 @@ Options parse_options(int argc, const char* const* argv)
     add_show(app, show);
     add_tune(app, tune, leaves, adjacent);
     add_accuracy(app, accuracy);
+    add_stress(app, stress);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -311,7 +325,7 @@ Options parse_options(int argc, const char* const* argv)
     }
     if (app.get_subcommands().empty())
         throw BadUsage(
-            "name a command: list, build, collide, run, reproduce, check, show, tune or accuracy; "
+            "name a command: list, build, collide, run, reproduce, check, show, tune, accuracy or stress; "
             "`bvhbench --help` says what they do");
     check_power_of_two("--group-size", build.builder.group_size);
     check_power_of_two("--items", build.builder.items);
@@ -340,6 +354,8 @@ Options parse_options(int argc, const char* const* argv)
         options.command = tune;
     else if (chosen == "accuracy")
         options.command = accuracy;
+    else if (chosen == "stress")
+        options.command = stress;
     else
         options.command = show;
     return options;

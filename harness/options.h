@@ -3,6 +3,7 @@
 // The command line, understood: what main hands on.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <variant>
@@ -96,9 +97,16 @@ struct AccuracyCommand {
     std::string out = "out";
 };
 
-using Command =
-    std::variant<PrintCommand, ListCommand, BuildCommand, CollideCommand, RunCommand,
-                 ReproduceCommand, CheckCommand, ShowCommand, TuneCommand, AccuracyCommand>;
+struct StressCommand {
+    bool quick = false;
+    std::uint64_t seed = 1;
+    std::string filter;  ///< regular expression on "family/scene/system"
+    std::string out;     ///< result file to write; may be empty
+};
+
+using Command = std::variant<PrintCommand, ListCommand, BuildCommand, CollideCommand, RunCommand,
+                             ReproduceCommand, CheckCommand, ShowCommand, TuneCommand,
+                             AccuracyCommand, StressCommand>;
 
 struct Options {
     CommonOptions common;

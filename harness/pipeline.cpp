@@ -22,7 +22,8 @@ Pipeline::Pipeline(Session& session, const BuilderChoice& builder, const Collide
     reserve_for(input);
     if (collider.narrow != "none" && !collider_->finds_contacts()) {
         narrow_.emplace(session.programs(), NarrowOptions{.method = collider.narrow,
-                                                          .keep_adjacent = collider.keep_adjacent});
+                                                          .keep_adjacent = collider.keep_adjacent,
+                                                          .form = collider.form});
         narrow_->reserve(input.triangle_count());
     }
     if (skips(skip_near) && collider.among == Among::between_objects && input.objects.size() > 1 &&

@@ -14,6 +14,7 @@
 #include "harness/catalog.h"
 #include "harness/collider_catalog.h"
 #include "harness/node_costs.h"
+#include "harness/stress/finding.h"
 #include "scenes/scene.h"
 
 namespace bvhbench {
@@ -112,14 +113,17 @@ struct RunFacts {
 struct Document {
     RunFacts run;
     std::vector<Cell> cells;
+    std::vector<StressCell> stress = {};
 };
 
 /// JSON of a run and of a cell, each on one line. A number that is not finite is left out.
 std::string run_text(const RunFacts& run);
 std::string cell_text(const Cell& cell);
+std::string cell_text(const StressCell& cell);
 
 /// The text of a file from its parts' texts: a cell a line, so that files can be compared.
-std::string document_text(const std::string& run, const std::vector<std::string>& cells);
+std::string document_text(const std::string& run, const std::vector<std::string>& cells,
+                          const std::vector<std::string>& stress = {});
 
 /// Read the text of a result file. Throws Unavailable, naming `origin`, when it is none of format 1.
 Document read_document(const std::string& text, const std::string& origin);

@@ -156,6 +156,36 @@ Cell cell_of(const Json& json)
     return cell;
 }
 
+template <std::size_t N>
+std::size_t index_of(const std::string& word, const std::array<const char*, N>& words)
+{
+    for (std::size_t index = 0; index < N; ++index)
+        if (word == words[index])
+            return index;
+    throw std::invalid_argument("'" + word + "' is not a word it may hold");
+}
+
+StressCell stress_cell_of(const Json& json)
+{
+    StressCell cell;
+    cell.family = json.at("family").get<std::string>();
+    cell.scene = json.at("scene").get<std::string>();
+    cell.triangles = get<std::int64_t>(json, "triangles");
+    cell.system = json.at("system").get<std::string>();
+    cell.kind = static_cast<StressCell::Kind>(
+        index_of(json.at("kind").get<std::string>(), stress_kind_names));
+    cell.library = get<std::string>(json, "library");
+    for (const auto& [name, finding] : json.at("findings").items())
+        cell.findings[static_cast<Invariant>(index_of(name, invariant_names))] = {
+            .verdict = static_cast<Finding::Verdict>(
+                index_of(finding.at("verdict").get<std::string>(), stress_verdict_names)),
+            .checked = get<std::uint64_t>(finding, "checked"),
+            .wrong = get<std::uint64_t>(finding, "wrong"),
+            .missed = get<std::uint64_t>(finding, "missed"),
+            .detail = get<std::string>(finding, "detail")};
+    return cell;
+}
+
 DeviceFacts device_of(const Json& json)
 {
     return {.name = json.at("name").get<std::string>(),
@@ -221,6 +251,8 @@ Document read_document(const std::string& text, const std::string& origin)
         Document document{run_of(json.at("run")), {}};
         for (const Json& cell : json.at("cells"))
             document.cells.push_back(cell_of(cell));
+        for (const Json& cell : json.value("stress", Json::array()))  // since 1.6
+            document.stress.push_back(stress_cell_of(cell));
         return document;
     } catch (const Json::exception& error) {
         throw Unavailable(origin + " is no result file: " + error.what());

@@ -26,6 +26,7 @@ public:
     ResultFile& operator=(const ResultFile&) = delete;
 
     void add(Cell cell);
+    void add(StressCell cell);
 
     /// Set the end of the run, and write.
     void finish(std::int64_t compile_ns);
@@ -33,11 +34,13 @@ public:
     const Document& document() const { return document_; }
 
 private:
+    void write_if_due();
     void write();
 
     std::filesystem::path path_;
     Document document_;
     std::vector<std::string> cell_texts_;  ///< each cell is turned into text once
+    std::vector<std::string> stress_texts_;
     std::chrono::steady_clock::time_point written_at_;
     bool is_written_ = true;
 };

@@ -24,6 +24,7 @@ import pareto_orders
 import results
 import roofline
 import scaling
+import stress
 import style
 import table1
 import table2
@@ -77,6 +78,9 @@ def main() -> int:
                             print(picture)
                 for name, draw_axis in accuracy.figures_of(run).items():
                     for picture in style.save(draw_axis(), folder, name):
+                        print(picture)
+                if run.stress:
+                    for picture in style.save(stress.draw(run), folder, style.stem(path, "stress")):
                         print(picture)
                 for experiment, figures in FRAME_FIGURES.items():
                     if run.has_frames(experiment):

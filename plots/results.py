@@ -98,6 +98,7 @@ class Run:
     facts: dict[str, Any]
     cells: list[Cell]
     without_numbers: list[dict[str, Any]]
+    stress: list[dict[str, Any]]  # what `bvhbench stress` found, as in the file; empty before format 1.6
 
     @property
     def device(self) -> str:
@@ -170,8 +171,9 @@ class Run:
         build = "" if program["build_type"] == "Release" else f", {program['build_type']} build"
         counts = sorted({len(cell.samples) for cell in self.cells})
         samples = "–".join(str(count) for count in dict.fromkeys((counts[0], counts[-1]))) if counts else "0"
+        each = "" if self.stress else f"; {samples} sample{'' if samples == '1' else 's'} a cell"
         return (f"{self.device}, driver {device['driver']}, {device['opencl_c']}; "
-                f"commit {program['commit'][:10]}{state}{build}; {samples} sample{'' if samples == '1' else 's'} a cell")
+                f"commit {program['commit'][:10]}{state}{build}{each}")
 
 
 def quantiles(values: numpy.ndarray) -> Quantiles:
@@ -199,7 +201,8 @@ def load(path: pathlib.Path) -> Run:
         raise Refused(f"{path}: format {document['format']}, while this reader knows {MAJOR}.x")
     measured = [cell for cell in document["cells"] if cell["status"] == "measured"]
     without = [cell for cell in document["cells"] if cell["status"] != "measured"]
-    return Run(path, document["run"], [cell_of(path, cell) for cell in measured], without)
+    return Run(path, document["run"], [cell_of(path, cell) for cell in measured], without,
+               document.get("stress", []))
 
 
 def called(cell: dict[str, Any]) -> str:

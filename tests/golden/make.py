@@ -72,9 +72,12 @@ def cell(experiment: str, scene: dict, builder: str, noise: random.Random) -> di
             "check": {"verdict": "agrees", "against": "contract"}}
 
 
-def write(name: str, cells: list[dict], minor: int = 3, more: dict | None = None) -> None:
-    lines = ",\n".join(json.dumps(entry) for entry in cells)
-    text = f'{{"format": "1.{minor}",\n"run": {json.dumps(RUN | (more or {}))},\n"cells": [\n{lines}\n]}}\n'
+def write(name: str, cells: list[dict], minor: int = 3, more: dict | None = None, stress: list[dict] | None = None) -> None:
+    def lines(entries: list[dict]) -> str:
+        return ",\n".join(json.dumps(entry) for entry in entries)
+
+    found = f',\n"stress": [\n{lines(stress)}\n]' if stress else ""
+    text = f'{{"format": "1.{minor}",\n"run": {json.dumps(RUN | (more or {}))},\n"cells": [\n{lines(cells)}\n]{found}}}\n'
     (pathlib.Path(__file__).parent / name).write_text(text, encoding="utf-8")
 
 
@@ -93,6 +96,7 @@ def main() -> None:
                         for builder in BUILDERS if not builder.startswith("embree")])
     write_quality()
     write_frames()
+    write_stress()
     noise = random.Random(3)
     scaling = [cell("scaling", scene, builder, noise) for scene in sweep
                for builder in ("perfect", "oibvh-single", "oibvh-multi", "apetrei-fused")]
@@ -300,6 +304,27 @@ def write_frames() -> None:
                               ("leaf", "group", "bvtt")), 4)
     write("libraries.json", cells("libraries", {"unc_cloth_ball": 1},
                                   ("group", "leaf", "all work", "embree", "fcl", "fcl-refit")), 4)
+
+
+def write_stress() -> None:
+    """What stress finds: systems that are right, one that refuses, and libraries that miss, add and crash."""
+    def finding(verdict: str = "holds", missed: int = 0, false: int = 0) -> dict:
+        detail = {"detail": f"{missed} missed, {false} false"} if verdict != "holds" else {}
+        return {"verdict": verdict, "checked": 1000, "wrong": missed + false, "missed": missed, **detail}
+
+    scenes = [("translate", "1e6"), ("scale", "1e20"), ("coincident", "a sphere twice"), ("not-finite", "one NaN")]
+    systems = [("oibvh-multi", "builder", "", {"leaves": finding(), "boxes": finding()}),
+               ("leaf over karras", "collider", "", {"pairs": finding(), "moved": finding()}),
+               ("bvtt over oibvh-multi, groups", "collider", "", {"pairs": finding(), "room": finding()}),
+               ("embree", "collider", "Embree", {"ends": finding("refused")}),
+               ("rtcCollide", "library", "Embree", {"pairs": finding("broken", 3139)}),
+               ("FCL OBBRSS float", "library", "FCL", {"contacts": finding("broken", 12, 1345)}),
+               ("FCL AABB double", "library", "FCL", {"ends": {**finding("broken"), "detail": "it crashed (signal 11)"}})]
+    cells = [{"family": family, "scene": scene, "triangles": 20000, "system": system, "kind": kind,
+              **({"library": library} if library else {}), "findings": findings}
+             for family, scene in scenes for system, kind, library, findings in systems
+             if family != "not-finite" or kind == "library"]
+    write("stress.json", [], 6, {"libraries": {"Embree": "3.13.5", "FCL": "0.7.0"}}, cells)
 
 
 if __name__ == "__main__":

@@ -115,6 +115,18 @@ TEST(Options, OfAccuracyAreAllUnderstood)
     EXPECT_EQ(all.out, "o");
 }
 
+TEST(Options, OfStressAreAllUnderstood)
+{
+    const auto stress = std::get<StressCommand>(
+        parsed({"stress", "--quick", "--seed", "7", "--filter", "^scale/", "--out", "s.json"})
+            .command);
+    EXPECT_TRUE(stress.quick);
+    EXPECT_EQ(stress.seed, 7u);
+    EXPECT_EQ(stress.filter, "^scale/");
+    EXPECT_EQ(stress.out, "s.json");
+    EXPECT_EQ(std::get<StressCommand>(parsed({"stress"}).command).seed, 1u);
+}
+
 TEST(Options, InCommonMayStandBeforeOrBehindTheCommand)
 {
     EXPECT_EQ(parsed({"--data", "d", "show", "f"}).common.data, "d");
@@ -123,7 +135,8 @@ TEST(Options, InCommonMayStandBeforeOrBehindTheCommand)
 
 TEST(Options, ThatAskForHelpOnlyPrint)
 {
-    for (const char* command : {"list", "build", "collide", "run", "reproduce", "check", "show"}) {
+    for (const char* command :
+         {"list", "build", "collide", "run", "reproduce", "check", "show", "stress"}) {
         const auto text = std::get<PrintCommand>(parsed({command, "--help"}).command).text;
         EXPECT_NE(text.find("Usage: bvhbench " + std::string(command)), std::string::npos) << text;
     }
@@ -137,6 +150,8 @@ TEST(Options, ThatAreNotUnderstoodAreAnsweredInOneSentence)
              {"paint"},
              {"list"},
              {"list", "colours"},
+             {"stress", "--seed", "x"},
+             {"stress", "scale"},
              {"build"},
              {"build", "--builder", "perfect"},
              {"build", "--builder", "perfect", "--scene", "s", "--samples", "0"},

@@ -133,6 +133,26 @@ TEST(Record, ReadsBackWhatALaunchCostsAndWhatTheDeviceWasTunedTo)
     EXPECT_EQ(read_document(document_text(run_text(fake_run()), {}), "test").run.tuning_from, "none");
 }
 
+TEST(Record, ReadsBackWhatStressFound)
+{
+    StressCell cell;
+    cell.family = "scale", cell.scene = "1e20", cell.triangles = 300;
+    cell.system = "rtcCollide", cell.kind = StressCell::Kind::library, cell.library = "Embree";
+    cell.findings = {{Invariant::ends, {Finding::Verdict::holds, 1}},
+                     {Invariant::pairs, {Finding::Verdict::broken, 747, 748, 747, "747 missed"}}};
+    StressCell ours;
+    ours.family = "layout", ours.scene = "all", ours.system = "layout.h",
+    ours.kind = StressCell::Kind::host;
+    ours.findings = {{Invariant::layout, {Finding::Verdict::refused, 0, 0, 0, "none"}}};
+    const std::string text =
+        document_text(run_text(fake_run()), {}, {cell_text(cell), cell_text(ours)});
+    EXPECT_EQ(read_document(text, "a").stress, (std::vector{cell, ours}));
+    EXPECT_TRUE(read_document(document_text(run_text(fake_run()), {}), "a").stress.empty());
+    std::string other = text;
+    other.replace(other.find("layout\":{"), 6, "colour");
+    EXPECT_THROW(read_document(other, "a"), Unavailable);
+}
+
 TEST(Record, TakesACellThatDoesNotSayForABuild)
 {
     std::string text = text_of(fake_run(), {fake_cell()});
