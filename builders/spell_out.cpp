@@ -10,6 +10,8 @@
 namespace bvhbench {
 namespace {
 
+using enum Breach::Of;
+
 bool same_bits(const Aabb& a, const Aabb& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
 std::string node_text(std::size_t index) { return "node " + std::to_string(index); }
@@ -42,39 +44,38 @@ bool depth_first(const HostTree& tree, const Visit& visit)
     return true;
 }
 
-/// What is wrong with one leaf, empty if nothing. Marks its triangle in `seen`.
-std::string broken_leaf(const HostTree::Node& node, std::size_t index,
-                        std::span<const Point> points, std::span<const Face> faces,
-                        std::vector<bool>& seen)
+/// What is wrong with one leaf. Marks its triangle in `seen`.
+Breach broken_leaf(const HostTree::Node& node, std::size_t index, std::span<const Point> points,
+                   std::span<const Face> faces, std::vector<bool>& seen)
 {
     const auto triangle = static_cast<std::size_t>(node.primitive);
     if (triangle >= faces.size())
-        return node_text(index) + " holds triangle " + std::to_string(node.primitive) + " of " +
-               std::to_string(faces.size());
+        return {leaves, node_text(index) + " holds triangle " + std::to_string(node.primitive) +
+                            " of " + std::to_string(faces.size())};
     if (seen[triangle])
-        return "triangle " + std::to_string(triangle) + " is in two leaves";
+        return {leaves, "triangle " + std::to_string(triangle) + " is in two leaves"};
     seen[triangle] = true;
     if (!same_bits(node.box, face_box(points, faces[triangle])))
-        return "the box of leaf " + node_text(index) + " is not that of its triangle " +
-               std::to_string(triangle);
+        return {boxes, "the box of leaf " + node_text(index) + " is not that of its triangle " +
+                           std::to_string(triangle)};
     return {};
 }
 
-std::string broken_inner(const HostTree& tree, const HostTree::Node& node, std::size_t index)
+Breach broken_inner(const HostTree& tree, const HostTree::Node& node, std::size_t index)
 {
     Aabb box = empty_box();
     for (const int child : node.child)
         if (child != HostTree::none) {
             if (!is_node(tree, child))
-                return node_text(index) + " has a child that is no node";
+                return {leaves, node_text(index) + " has a child that is no node"};
             box = merged(box, tree.nodes[static_cast<std::size_t>(child)].box);
         }
     if (node.child[0] == HostTree::none)
-        return "inner " + node_text(index) + " has no left child";
+        return {leaves, "inner " + node_text(index) + " has no left child"};
     if (tree.is_tight && !same_bits(node.box, box))
-        return "the box of " + node_text(index) + " is not the union of its children's";
+        return {boxes, "the box of " + node_text(index) + " is not the union of its children's"};
     if (!same_bits(node.box, merged(node.box, box)))
-        return "the box of " + node_text(index) + " does not contain its children's";
+        return {boxes, "the box of " + node_text(index) + " does not contain its children's"};
     return {};
 }
 
@@ -121,29 +122,36 @@ HostTree refitted(HostTree tree, std::span<const Point> points, std::span<const 
     return tree;
 }
 
-std::string broken_promise(const HostTree& tree, std::span<const Point> points,
-                           std::span<const Face> faces)
+Breach first_breach(const HostTree& tree, std::span<const Point> points,
+                    std::span<const Face> faces)
 {
-    std::string wrong;
+    Breach breach;
     std::size_t reached = 0;
     std::vector<bool> seen(faces.size(), false);
     const bool is_tree = depth_first(tree, [&](const HostTree::Node& node, std::size_t index) {
         ++reached;
-        if (!wrong.empty())
+        if (breach.of != nothing)
             return;
-        wrong = node.primitive != HostTree::none ? broken_leaf(node, index, points, faces, seen)
-                                                 : broken_inner(tree, node, index);
+        breach = node.primitive != HostTree::none ? broken_leaf(node, index, points, faces, seen)
+                                                  : broken_inner(tree, node, index);
     });
-    if (!wrong.empty())
-        return wrong;
+    if (breach.of != nothing)
+        return breach;
     if (!is_tree)
-        return "a node is reached twice or is not there";
+        return {leaves, "a node is reached twice or is not there"};
     if (reached != tree.nodes.size())
-        return std::to_string(tree.nodes.size() - reached) + " nodes are not reached from the root";
+        return {leaves, std::to_string(tree.nodes.size() - reached) +
+                            " nodes are not reached from the root"};
     for (std::size_t triangle = 0; triangle < seen.size(); ++triangle)
         if (!seen[triangle])
-            return "triangle " + std::to_string(triangle) + " is in no leaf";
+            return {leaves, "triangle " + std::to_string(triangle) + " is in no leaf"};
     return {};
+}
+
+std::string broken_promise(const HostTree& tree, std::span<const Point> points,
+                           std::span<const Face> faces)
+{
+    return first_breach(tree, points, faces).sentence;
 }
 
 }  // namespace bvhbench

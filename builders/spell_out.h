@@ -21,11 +21,21 @@ HostTree refitted(HostTree tree, std::span<const Point> points, std::span<const 
 /// node by node.
 bool same_refit(const HostTree& found, const HostTree& expected);
 
-/// The first promise of every builder that `tree` breaks over these triangles, as a sentence; empty if none.
+/// A promise that a tree breaks, and how, as a sentence.
+struct Breach {
+    enum class Of { nothing, leaves, boxes } of = Of::nothing;  ///< of its leaves: or of its nodes
+    std::string sentence;
+};
+
+/// The first promise of every builder that `tree` breaks over these triangles; of nothing if it keeps them.
 ///
 /// Each triangle is in exactly one leaf, each leaf's box is its triangle's box, each inner node's box is the
 /// union of its children's, bit for bit, or contains them where the tree does not say that it is tight; every node is
 /// reached once from the root.
+Breach first_breach(const HostTree& tree, std::span<const Point> points,
+                    std::span<const Face> faces);
+
+/// Its sentence, empty if there is none.
 std::string broken_promise(const HostTree& tree, std::span<const Point> points,
                            std::span<const Face> faces);
 

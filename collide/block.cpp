@@ -13,7 +13,7 @@ class Block final : public WalkCollider {
 public:
     Block(Programs& programs, const ColliderOptions& options)
         : WalkCollider(programs, {"block", "Blocks of leaves against blocks [Chitalu2020, Eq. 12]"},
-                       options)
+                       options, group_group_size)
         , has_warps_(programs.device().lets_groups_wait())
     {}
 

@@ -17,10 +17,7 @@
 #define BVHBENCH_COLLIDE_DOUBLE_FILTER_H
 
 #include "collide/exact_contact.h"
-
-#define VERDICT_APART 0u
-#define VERDICT_MEET 1u
-#define VERDICT_UNSURE 2u
+#include "collide/verdicts.h"
 
 #if HAS_DOUBLES
 SHARED_BEGIN

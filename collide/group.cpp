@@ -9,7 +9,8 @@ class Group final : public WalkCollider {
 public:
     Group(Programs& programs, const ColliderOptions& options)
         : WalkCollider(programs,
-                       {"group", "Neighbouring leaves as one query [Chitalu2020, Eq. 12]"}, options)
+                       {"group", "Neighbouring leaves as one query [Chitalu2020, Eq. 12]"}, options,
+                       group_group_size)
     {}
 
 private:

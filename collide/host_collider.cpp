@@ -7,22 +7,29 @@
 
 namespace bvhbench {
 
-DevicePairs HostCollider::device_pairs(Queue& queue)
+DevicePairs room_for_pairs(const Device& device, std::size_t count)
 {
     const auto buffer = [&](std::size_t bytes) {
-        return cl::Buffer(device_.context, CL_MEM_READ_WRITE, bytes);
+        return cl::Buffer(device.context, CL_MEM_READ_WRITE, bytes);
     };
-    if (copied_.pairs.size() < std::max<std::size_t>(1, found_.size())) {
-        const std::size_t room = found_.size() + found_.size() / 8 + 1;
-        copied_.pairs = {buffer(room * sizeof(Pair)), room};
-        copied_.counters = {buffer(QUEUES_COUNT * sizeof(uint)), QUEUES_COUNT};
-    }
-    queue.on_host("copy", [&] {
-        std::vector<uint> counters(QUEUES_COUNT, 0u);
-        counters[PAIRS_COUNT] = static_cast<uint>(found_.size());
-        copied_.counters.upload(queue.cl(), counters);
-        copied_.pairs.upload(queue.cl(), found_);
-    });
+    const std::size_t room = std::max<std::size_t>(1, count);
+    return {.pairs = {buffer(room * sizeof(Pair)), room},
+            .counters = {buffer(QUEUES_COUNT * sizeof(uint)), QUEUES_COUNT}};
+}
+
+void copy_pairs(std::span<const Pair> found, DevicePairs& to, const Queue& queue)
+{
+    std::vector<uint> counters(QUEUES_COUNT, 0u);
+    counters[PAIRS_COUNT] = static_cast<uint>(found.size());
+    to.counters.upload(queue.cl(), counters);
+    to.pairs.upload(queue.cl(), found);
+}
+
+DevicePairs HostCollider::device_pairs(Queue& queue)
+{
+    if (copied_.pairs.size() < std::max<std::size_t>(1, found_.size()))
+        copied_ = room_for_pairs(device_, found_.size() + found_.size() / 8 + 1);
+    queue.on_host("copy", [&] { copy_pairs(found_, copied_, queue); });
     return copied_;
 }
 

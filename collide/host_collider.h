@@ -3,9 +3,17 @@
 // What colliders on the host share: the pairs they found, there and on their way to the device.
 #pragma once
 
+#include <span>
+
 #include "collide/collider.h"
 
 namespace bvhbench {
+
+/// Room on the device for so many pairs, as a query would leave them.
+DevicePairs room_for_pairs(const Device& device, std::size_t count);
+
+/// Put `found` where there is room for them. Waits.
+void copy_pairs(std::span<const Pair> found, DevicePairs& to, const Queue& queue);
 
 class HostCollider : public Collider {
 public:

@@ -9,7 +9,7 @@ class Leaf final : public WalkCollider {
 public:
     Leaf(Programs& programs, const ColliderOptions& options)
         : WalkCollider(programs, {"leaf", "Leaf against tree, without a stack [Prokopenko2024]"},
-                       options)
+                       options, leaf_group_size)
     {}
 
 private:

@@ -57,6 +57,7 @@ NarrowPhase::NarrowPhase(Programs& programs, const NarrowOptions& options)
     , options_(options)
     , form_(chosen_form(programs.device(), options.form))
     , has_doubles_(has_doubles(programs.device()) && !options.without_doubles)
+    , is_exact_(find_narrow_method(options.method).is_exact)
     , chunks_(chunk_count(programs.device()))
 {
     const Device& device = programs.device();
@@ -64,21 +65,40 @@ NarrowPhase::NarrowPhase(Programs& programs, const NarrowOptions& options)
         group_size_ = device.tuned(narrow_group_size);
     else
         block_pairs_ = device.tuned(narrow_block_pairs);
-    const Define adjacent = {"KEEP_ADJACENT", options.keep_adjacent ? 1u : 0u};
-    const Define doubles = {"WITH_DOUBLES", has_doubles_ ? 1u : 0u};
-    filter_ = by_groups() ? programs.kernel("collide/narrow_groups.cl", "filter_pairs",
-                                            {{"GROUP_SIZE", group_size_}, adjacent, doubles})
-                          : programs.kernel("collide/narrow_chunks.cl", "filter_pairs",
-                                            {{"SINK_BLOCK", block_pairs_}, adjacent, doubles});
-    if (has_doubles_)
-        exact_ = programs.kernel("collide/narrow_exact.cl", "decide_exactly", {adjacent});
+    check_narrow(options.method, options.keep_adjacent);
+    const NarrowMethod& method = find_narrow_method(options.method);
+    options_.method = method.name;  // words that stay
+    if (method.real_bits == 64 && !has_doubles_)
+        throw Unavailable(std::string(method.name) + " needs doubles, which the device has not");
+    filter_ = compiled_filter(method);
+    if (is_exact_ && has_doubles_)
+        exact_ = programs.kernel("collide/narrow_exact.cl", "decide_exactly",
+                                 {{"KEEP_ADJACENT", options.keep_adjacent ? 1u : 0u}});
+}
+
+cl::Kernel NarrowPhase::compiled_filter(const NarrowMethod& method)
+{
+    std::vector<Define> defines = {by_groups() ? Define{"GROUP_SIZE", group_size_}
+                                               : Define{"SINK_BLOCK", block_pairs_}};
+    if (method.is_exact)
+        defines.insert(defines.end(), {{"KEEP_ADJACENT", options_.keep_adjacent ? 1u : 0u},
+                                       {"WITH_DOUBLES", has_doubles_ ? 1u : 0u}});
+    else
+        defines.insert(defines.end(),
+                       {{"ROUNDED_TEST", method.rounded_test}, {"REAL_BITS", method.real_bits}});
+    const char* const verdict =
+        method.is_exact ? "collide/verdict.clh" : "collide/rounded_verdict.clh";
+    const char* const chunks =
+        method.is_exact ? "collide/narrow_chunks.cl" : "collide/rounded_chunks.cl";
+    return programs_.kernel(verdict, by_groups() ? "collide/narrow_groups.cl" : chunks,
+                            "filter_pairs", defines);
 }
 
 void NarrowPhase::reserve(std::size_t triangles)
 {
     const std::size_t guess = std::max<std::size_t>(1024, triangles);
     room_.contacts = options_.capacity != 0 ? options_.capacity : guess;
-    room_.unsure = options_.capacity != 0 ? options_.capacity : guess;
+    room_.unsure = !is_exact_ ? 1 : options_.capacity != 0 ? options_.capacity : guess;
     take_memory();
 }
 
@@ -124,6 +144,8 @@ void NarrowPhase::query(const Input& input, const Buffer<Pair>& candidates,
     if (!by_groups())
         filter_.setArg(10, blocks_.cl());
     queue.launch(filter_, items, by_groups() ? group_size_ : 1, 0);
+    if (!is_exact_)
+        return;
     if (!has_doubles_) {
         decide_on_host(input, queue);
         return;

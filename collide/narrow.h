@@ -9,6 +9,7 @@
 
 #include "builders/input.h"
 #include "builders/stages/kernel_form.h"
+#include "collide/narrow_methods.h"
 #include "collide/pairs.h"
 #include "device/arena.h"
 #include "device/program.h"
@@ -17,6 +18,8 @@
 namespace bvhbench {
 
 struct NarrowOptions {
+    /// Of collide/narrow_methods.h. One that rounds may be wrong, and is for measuring how often.
+    std::string_view method = "exact";
     /// Whether pairs that share a vertex index are wanted, and then only if they meet beyond what they share.
     /// Without, candidates normally have none; those they have are left out.
     bool keep_adjacent = false;
@@ -38,7 +41,7 @@ struct NarrowCounts {
 };
 
 /// Decides for each candidate whether its triangles intersect, exactly for the coordinates as stored, all of which
-/// must be finite.
+/// must be finite; by a method that rounds, as it may happen to come out.
 ///
 /// Triangles are closed sets: touching is intersecting. One without area is the segment or point that it is. Two
 /// that share vertices by index touch by construction, and count only if they have more in common than the vertex or
@@ -49,6 +52,7 @@ struct NarrowCounts {
 /// collider, nothing is dropped in silence: a query is repeated until it is `complete`.
 class NarrowPhase {
 public:
+    /// Throws BadUsage as check_narrow does, and Unavailable for doubles that the device has not.
     NarrowPhase(Programs& programs, const NarrowOptions& options);
 
     /// Take memory for about as many contacts as there are triangles. Never timed. Throws Unavailable.
@@ -81,6 +85,7 @@ private:
     };
 
     bool by_groups() const { return form_ == KernelForm::groups; }
+    cl::Kernel compiled_filter(const NarrowMethod& method);
     std::size_t group_count(std::size_t candidates) const;
     void take_all(Arena& arena);
     void take_memory();
@@ -90,6 +95,7 @@ private:
     NarrowOptions options_;
     KernelForm form_;
     bool has_doubles_;
+    bool is_exact_;
     std::size_t chunks_;
     uint group_size_ = 1;
     uint block_pairs_ = 0;  ///< of each kind, that a work-item of the form for few cores collects

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
-// check: -DGROUP_SIZE=128u -DKEEP_ADJACENT=0 -DWITH_DOUBLES=1
-// check: -DGROUP_SIZE=128u -DKEEP_ADJACENT=1 -DWITH_DOUBLES=1
-// check: -DGROUP_SIZE=128u -DKEEP_ADJACENT=0 -DWITH_DOUBLES=0 -Xclang -cl-ext=-cl_khr_fp64,-__opencl_c_fp64
+// check: -include collide/verdict.clh -DGROUP_SIZE=128u -DKEEP_ADJACENT=0 -DWITH_DOUBLES=1
+// check: -include collide/verdict.clh -DGROUP_SIZE=128u -DKEEP_ADJACENT=1 -DWITH_DOUBLES=1
+// check: -include collide/verdict.clh -DGROUP_SIZE=128u -DKEEP_ADJACENT=0 -DWITH_DOUBLES=0 -Xclang -cl-ext=-cl_khr_fp64,-__opencl_c_fp64
+// check: -include collide/rounded_verdict.clh -DGROUP_SIZE=128u -DROUNDED_TEST=1 -DREAL_BITS=32
+// check: -include collide/rounded_verdict.clh -DGROUP_SIZE=128u -DROUNDED_TEST=2 -DREAL_BITS=32 -Xclang -cl-ext=-cl_khr_fp64,-__opencl_c_fp64
+// check: -include collide/rounded_verdict.clh -DGROUP_SIZE=128u -DROUNDED_TEST=2 -DREAL_BITS=64
 //
-// Candidates in groups: one a work-item a turn. What a group keeps of a turn it lines up in local memory, contacts from
+// Compiled behind the header that says what a candidate is. Candidates in groups: one a work-item a turn. What a group keeps of a turn it lines up in local memory, contacts from
 // the front and unsure ones from the back, and writes out with one atomic each.
-#include "collide/verdict.clh"
+#include "collide/narrow_counters.h"
 #include "collide/wide_count.clh"
 
 /// Write `count` of `kept`, from `first` on in steps of `by`, to `out` from `slot` on, as far as there is room.

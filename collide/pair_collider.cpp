@@ -24,9 +24,10 @@ uint chosen_group_size(const Device& device, KernelForm form, unsigned asked,
         return 1;  // groups of the form for few cores are of one work-item
     if (asked == 0)
         return static_cast<uint>(std::min<std::size_t>(device.tuned(usual), most));
-    if (!std::has_single_bit(asked) || asked > most)
-        throw BadUsage("a collider's group size is a power of two up to " + std::to_string(most) +
-                       " on " + device.name() + ", not " + std::to_string(asked));
+    if (!std::has_single_bit(asked) || asked > most || asked < usual.least)
+        throw BadUsage("a collider's group size is a power of two from " +
+                       std::to_string(usual.least) + " up to " + std::to_string(most) + " on " +
+                       device.name() + ", not " + std::to_string(asked));
     return asked;
 }
 
@@ -35,7 +36,8 @@ uint chosen_group_size(const Device& device, KernelForm form, unsigned asked,
 PairCollider::PairCollider(Programs& programs, const ColliderCard& card,
                            const ColliderOptions& options, const Parameter& group_size)
     : options_(options)
-    , group_size_(chosen_group_size(programs.device(), options.form, options.group_size, group_size))
+    , group_size_(
+          chosen_group_size(programs.device(), options.form, options.group_size, group_size))
     , chunks_(chunk_count(programs.device()))
     , programs_(programs)
     , card_(card)

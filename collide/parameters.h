@@ -7,18 +7,32 @@
 
 namespace bvhbench {
 
-inline constexpr Parameter walk_group_size{
-    .name = "walk.group_size",
-    .meaning = "work-items in a group of leaf and group, and leaves a query of theirs",
+/// Work-items that a group has at the least: one each for what is counted at the end of a turn, and for the children of
+/// the widest node.
+inline constexpr uint smallest_group = 8;
+
+inline constexpr Parameter leaf_group_size{
+    .name = "leaf.group_size",
+    .meaning = "work-items in a group of leaf",
+    .stage = "broad",
+    .on_cpu = 64,
+    .elsewhere = 256,
+    .least = smallest_group,
+    .most = 256,
+    .values = ValueIs::group_size,
+    .candidates = {32, 64, 128, 256}};
+inline constexpr Parameter group_group_size{
+    .name = "group.group_size",
+    .meaning = "work-items in a group of group, and leaves a query of it",
     .stage = "broad",
     .on_cpu = 64,
     .elsewhere = 64,
-    .least = 1,
+    .least = smallest_group,
     .most = 256,
     .values = ValueIs::group_size,
     .candidates = {32, 64, 128, 256}};
 inline constexpr Parameter walk_task_leaves{.name = "walk.task_leaves",
-                                            .meaning = "the same leaves in the form for few cores",
+                                            .meaning = "leaves a query of leaf and group in the form for few cores",
                                             .stage = "broad",
                                             .on_cpu = 64,
                                             .elsewhere = 64,
@@ -80,7 +94,7 @@ inline constexpr Parameter bvtt_group_size{.name = "bvtt.group_size",
                                            .stage = "broad",
                                            .on_cpu = 128,
                                            .elsewhere = 128,
-                                           .least = 1,
+                                           .least = smallest_group,
                                            .most = 256,
                                            .values = ValueIs::group_size,
                                            .candidates = {32, 64, 128, 256}};
@@ -135,7 +149,7 @@ inline constexpr Parameter grid_group_size{
     .stage = "broad",
     .on_cpu = 64,
     .elsewhere = 64,
-    .least = 1,
+    .least = smallest_group,
     .most = 256,
     .values = ValueIs::group_size,
     .candidates = {32, 64, 128, 256}};
@@ -164,7 +178,7 @@ inline constexpr Parameter narrow_group_size{.name = "narrow.group_size",
                                              .stage = "narrow",
                                              .on_cpu = 128,
                                              .elsewhere = 128,
-                                             .least = 1,
+                                             .least = smallest_group,
                                              .most = 256,
                                              .values = ValueIs::group_size,
                                              .candidates = {32, 64, 128, 256}};
@@ -189,7 +203,7 @@ inline constexpr Parameter narrow_block_pairs{
 
 /// All of them.
 inline constexpr const Parameter* collider_parameters[] = {
-    &walk_group_size,         &walk_task_leaves,  &walk_block_pairs,  &group_loose,
+    &leaf_group_size,         &group_group_size,  &walk_task_leaves,  &walk_block_pairs,  &group_loose,
     &group_frontier_per_item, &block_teams,       &block_loose,       &bvtt_group_size,   &bvtt_items,        &bvtt_groups_per_unit,
     &bvtt_block_pairs,        &bvtt_jump,         &bvtt_start_level,  &grid_group_size,
     &grid_block_pairs,        &grid_buckets_each, &narrow_group_size, &narrow_groups_per_unit,

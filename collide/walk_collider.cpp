@@ -8,8 +8,8 @@
 namespace bvhbench {
 
 WalkCollider::WalkCollider(Programs& programs, const ColliderCard& card,
-                           const ColliderOptions& options)
-    : DeviceCollider(programs, card, options, walk_group_size)
+                           const ColliderOptions& options, const Parameter& group_size)
+    : DeviceCollider(programs, card, options, group_size)
 {}
 
 WalkCollider::Shape WalkCollider::shape() const

@@ -15,10 +15,9 @@ protected:
     /// Pairs that a work-item of the form for few cores collects before it passes them on.
     uint block_pairs() const { return device().tuned(walk_block_pairs); }
 
-    /// Leaves of a task of that form: few enough for all work-items to end together.
-    static constexpr uint chunk_task_leaves = 64;
-
-    WalkCollider(Programs& programs, const ColliderCard& card, const ColliderOptions& options);
+    /// `group_size` is what the device chooses if options do not.
+    WalkCollider(Programs& programs, const ColliderCard& card, const ColliderOptions& options,
+                 const Parameter& group_size);
 
     /// How a launch is cut into tasks.
     struct Shape {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "device/arena.h"
+#include "device/head_start.h"
 
 namespace bvhbench {
 
@@ -21,10 +22,12 @@ LaunchCost measure_launch_cost(Programs& programs, Queue& queue)
     cl::Kernel empty = programs.kernel("device/limits.cl", "launch_empty");
     set_arguments(empty, word);
 
+    HeadStart head_start(programs, queue);
     std::vector<double> costs;
     queue.begin("clear");
     queue.clear(word.cl(), word.bytes());
     for (int i = 0; i <= samples; ++i) {
+        head_start.give(queue);
         queue.begin("launch");
         for (int k = 0; k < launches; ++k)
             queue.launch(empty, units * local, local, 0);

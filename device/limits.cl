@@ -27,3 +27,13 @@ kernel void launch_empty(global uint* word)
     if (word[0] == 1u)
         word[0] = 2u;
 }
+
+/// Takes its time: `rounds` steps, each of which needs the one before. `word` holds 0 before and after.
+kernel void keep_busy(global uint* word, const uint rounds)
+{
+    uint x = word[0];
+    for (uint round = 0u; round < rounds; ++round)
+        x = (x ^ round) * 1664525u + 1013904223u;
+    if (x == 1u)  // the compiler cannot know, so it cannot leave the steps out
+        word[0] = 0u;
+}

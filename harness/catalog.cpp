@@ -21,12 +21,13 @@ constexpr BuilderEntry of_embree(std::string_view name, std::string_view summary
             own_tree,
             make,
             embree_absent,
-            "Embree takes no coordinates beyond 1.8e18"};
+            "Embree takes no coordinates beyond 1.8e18",
+            true};
 }
 
 constexpr BuilderEntry of_fcl(std::string_view name, std::string_view summary, MakeBuilder make)
 {
-    return {name, summary, own_tree, make, fcl_absent};
+    return {name, summary, own_tree, make, fcl_absent, {}, true};
 }
 
 // To add a builder, add its line here. Nothing registers itself.

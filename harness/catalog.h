@@ -21,6 +21,7 @@ struct BuilderEntry {
     /// Set if the builder may throw Unavailable for some meshes, for the reason given here. It then does so
     /// instead of leaving a wrong tree, and never for an ordinary mesh.
     std::string_view may_refuse = {};
+    bool is_library = false;  ///< the work is done by somebody else's code
 };
 
 /// Every builder, in the order tables list them.
@@ -29,8 +30,9 @@ std::span<const BuilderEntry> builder_catalog();
 /// By name. Throws BadUsage with the known names when there is none.
 const BuilderEntry& find_builder(std::string_view name);
 
-/// What is timed: a whole build, new boxes for a tree that stands, or a build and a query of its tree.
-enum class Operation { build, refit, collide };
+/// What is timed: a whole build, new boxes for a tree that stands, a build and a query of its tree, or what an axis of
+/// accuracy counts the errors of.
+enum class Operation { build, refit, collide, accuracy };
 
 /// The word for it in experiments and result files.
 constexpr std::string_view operation_name(Operation operation)
@@ -40,6 +42,8 @@ constexpr std::string_view operation_name(Operation operation)
             return "refit";
         case Operation::collide:
             return "collide";
+        case Operation::accuracy:
+            return "accuracy";
         default:
             return "build";
     }

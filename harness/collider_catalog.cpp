@@ -4,6 +4,7 @@
 #include "baselines/colliders.h"
 #include "baselines/libraries.h"
 #include "collide/colliders.h"
+#include "collide/narrow_methods.h"
 #include "geometry/error.h"
 
 namespace bvhbench {
@@ -29,11 +30,11 @@ constexpr ColliderEntry catalog[] = {
     {"grid", "no tree: boxes hashed by the cells they cover, on levels by their size", make_grid},
     {"brute", "sweep and prune on one core of the host, without the tree: the oracle", make_brute},
     {"embree", "Embree's rtcCollide over trees of its own, on all host threads",
-     make_embree_collider, embree_absent, embree_bytes},
+     make_embree_collider, embree_absent, embree_bytes, true},
     {"fcl", "triangles that intersect, by FCL, its trees built each time, on a host core",
-     make_fcl_collider, fcl_absent, fcl_bytes},
+     make_fcl_collider, fcl_absent, fcl_bytes, true},
     {"fcl-refit", "the same, its trees refit to moved points", make_fcl_refit_collider, fcl_absent,
-     fcl_bytes},
+     fcl_bytes, true},
 };
 
 }  // namespace
@@ -53,9 +54,7 @@ const ColliderEntry& find_collider(std::string_view name)
 
 std::unique_ptr<Collider> make_collider(const ColliderChoice& choice, Programs& programs)
 {
-    if (choice.narrow != "none" && choice.narrow != "exact")
-        throw BadUsage("no narrow phase is called '" + choice.narrow +
-                       "'; there are: none, exact");
+    check_narrow(choice.narrow, choice.keep_adjacent);
     return make_collider(choice.name, programs, choice.options());
 }
 

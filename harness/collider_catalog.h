@@ -18,6 +18,7 @@ struct ColliderEntry {
     MakeCollider make;             ///< nullptr when this binary was built without it
     std::string_view absent = {};  ///< then: why, as in "built without Embree"
     std::size_t host_bytes = 0;    ///< a triangle's, about, of what a library takes on the host
+    bool is_library = false;       ///< the work is done by somebody else's code
 };
 
 /// Every collider, in the order tables list them.
@@ -31,11 +32,15 @@ struct ColliderChoice {
     std::string name;
     Among among = Among::all;
     bool keep_adjacent = true;
-    std::string narrow = "none";  ///< the narrow phase behind it: none or exact
+    std::string narrow =
+        "none";  ///< the narrow phase behind it: none, exact or another name of narrow_methods.h
     unsigned jump = 0;
     unsigned start_level = 0;
     unsigned group_size = 0;
     unsigned rules_off = 0;  ///< of collide/skips.h
+    // What only tests and `stress` choose: no result file tells them.
+    KernelForm form = KernelForm::of_device;
+    std::size_t capacity = 0;
 
     bool operator==(const ColliderChoice&) const = default;
     ColliderOptions options() const
@@ -45,7 +50,9 @@ struct ColliderChoice {
                 .jump = jump,
                 .start_level = start_level,
                 .rules_off = rules_off,
-                .group_size = group_size};
+                .group_size = group_size,
+                .form = form,
+                .capacity = capacity};
     }
 };
 

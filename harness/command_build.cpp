@@ -50,7 +50,7 @@ int build(const BuildCommand& command, const Options& options)
     std::cout << run_report(run.document().run) << cell_report(cell, run.document().run);
     if (!command.dump.empty())
         dump(session, command);
-    return run.has_differing_cell() ? 1 : 0;
+    return has_differing_cell(run.document()) ? 1 : 0;
 }
 
 }  // namespace bvhbench

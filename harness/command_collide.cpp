@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "builders/orders.h"
+#include "collide/narrow_methods.h"
 #include "geometry/error.h"
 #include "harness/collide.h"
 #include "harness/commands.h"
@@ -21,6 +22,7 @@ CollideTask task_of(const CollideCommand& command)
     find_builder(command.builder.name);
     find_order(command.builder.order);
     find_collider(command.collider.name);
+    check_narrow(command.collider.narrow, command.collider.keep_adjacent);
     for (const std::string& path : {command.pairs, command.contacts})
         if (!path.empty())
             check_pairs_path(path);
@@ -80,12 +82,7 @@ int collide(const CollideCommand& command, const Options& options)
         [](const Cell& cell) { return cell.status == Cell::Status::failed; });
     if (failed != document.cells.end())
         throw Unavailable(failed->reason);
-    return std::any_of(document.cells.begin(), document.cells.end(),
-                       [](const Cell& cell) {
-                           return cell.check.verdict == Check::Verdict::differs;
-                       })
-               ? 1
-               : 0;
+    return has_differing_cell(document) ? 1 : 0;
 }
 
 }  // namespace bvhbench

@@ -2,7 +2,9 @@
 #include <iostream>
 
 #include "builders/orders.h"
+#include "collide/narrow_methods.h"
 #include "geometry/error.h"
+#include "harness/accuracy/axis.h"
 #include "harness/commands.h"
 #include "harness/experiment.h"
 #include "harness/pocl_cache.h"
@@ -34,6 +36,22 @@ std::string colliders()
     for (const ColliderEntry& entry : collider_catalog())
         table.row({std::string(entry.name),
                    std::string(entry.make != nullptr ? entry.summary : entry.absent)});
+    return table.text();
+}
+
+std::string narrow()
+{
+    Table table = lines(2);
+    for (const NarrowMethod& method : narrow_methods())
+        table.row({std::string(method.name), std::string(method.summary)});
+    return table.text();
+}
+
+std::string accuracy()
+{
+    Table table = lines(2);
+    for (const Axis& axis : accuracy_axes())
+        table.row({std::string(axis.name), std::string(axis.question)});
     return table.text();
 }
 
@@ -122,6 +140,8 @@ int list(const ListCommand& command, const Options& options)
     std::cout << (command.what == "builders"    ? builders()
                   : command.what == "colliders" ? colliders()
                   : command.what == "orders"    ? orders()
+                  : command.what == "narrow"    ? narrow()
+                  : command.what == "accuracy"  ? accuracy()
                   : command.what == "skips"     ? skips()
                   : command.what == "tuning"    ? tuning(options.common)
                   : command.what == "scenes"    ? scenes(options.common)

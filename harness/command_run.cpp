@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "geometry/error.h"
+#include "harness/accuracy/axis.h"
 #include "harness/commands.h"
 #include "harness/plot.h"
 #include "harness/report.h"
@@ -16,6 +17,7 @@
 #include "harness/report_roofline.h"
 #include "harness/report_yardstick.h"
 #include "harness/run.h"
+#include "harness/stress/report.h"
 
 namespace bvhbench {
 namespace {
@@ -30,17 +32,6 @@ bool is_long(const Document& document)
            std::any_of(document.cells.begin(), document.cells.end(), [](const Cell& cell) {
                return cell.operation == Operation::collide;
            });
-}
-
-CellFilter filter_of(const std::string& text)
-{
-    if (text.empty())
-        return std::nullopt;
-    try {
-        return std::regex(text);
-    } catch (const std::regex_error& error) {
-        throw BadUsage("--filter: '" + text + "' is no regular expression: " + error.what());
-    }
 }
 
 /// Figs. 9 and 10 show other sides of what Table 2 measures.
@@ -70,7 +61,7 @@ int run(const RunCommand& command, const Options& options)
             task.samples = command.samples;
     }
     experiment.quality = experiment.quality || command.quality;
-    const CellFilter filter = filter_of(command.filter);
+    const CellFilter filter = cell_filter(command.filter);
     const std::string out = command.out.empty() ? experiment.name + ".json" : command.out;
 
     Session session(options.common);
@@ -86,7 +77,7 @@ int run(const RunCommand& command, const Options& options)
               << refit_report(run.document()) << quality_report(run.document())
               << roofline_report(run.document()) << yardstick_report(run.document())
               << "written: " << out << '\n';
-    return run.has_differing_cell() ? 1 : 0;
+    return has_differing_cell(run.document()) ? 1 : 0;
 }
 
 int reproduce(const ReproduceCommand& command, const Options& options)
@@ -104,7 +95,7 @@ int reproduce(const ReproduceCommand& command, const Options& options)
     std::cout << run_report(run.document().run) << paper_report(command.what, run.document())
               << "written: " << file.string() << '\n';
     std::cout << draw(command.what + ".py", file, folder) << '\n';
-    return run.has_differing_cell() ? 1 : 0;
+    return has_differing_cell(run.document()) ? 1 : 0;
 }
 
 int show(const ShowCommand& command, const Options&)
@@ -115,7 +106,11 @@ int show(const ShowCommand& command, const Options&)
         throw Unavailable("the result file '" + command.file + "' cannot be read");
     const Document document = read_document(text, command.file);
     std::cout << run_report(document.run);
-    if (document.cells.size() == 1)
+    if (const std::string axes = accuracy_report(document); !axes.empty())
+        std::cout << axes;
+    else if (!document.stress.empty())
+        std::cout << stress_report(document.stress, document.run.libraries);
+    else if (document.cells.size() == 1)
         std::cout << cell_report(document.cells.front(), document.run);
     else
         std::cout << cells_report(document, is_long(document))

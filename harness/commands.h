@@ -16,6 +16,8 @@ int reproduce(const ReproduceCommand& command, const Options& options);
 int check(const CheckCommand& command, const Options& options);
 int show(const ShowCommand& command, const Options& options);
 int tune(const TuneCommand& command, const Options& options);
+int accuracy(const AccuracyCommand& command, const Options& options);
+int stress(const StressCommand& command, const Options& options);
 
 /// The command that `options` hold.
 int execute(const Options& options);

@@ -25,6 +25,8 @@ struct Executor {
     int operator()(const CheckCommand& command) const { return check(command, options); }
     int operator()(const ShowCommand& command) const { return show(command, options); }
     int operator()(const TuneCommand& command) const { return tune(command, options); }
+    int operator()(const AccuracyCommand& command) const { return accuracy(command, options); }
+    int operator()(const StressCommand& command) const { return stress(command, options); }
 };
 
 int failed(const std::exception& error, int code)

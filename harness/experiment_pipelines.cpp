@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "harness/experiment_pipelines.h"
 
+#include "collide/narrow_methods.h"
 #include "collide/skips.h"
 #include "geometry/error.h"
 
@@ -56,8 +57,7 @@ PipelineChoice pipeline_of(const Json& json, const BuilderChoice& builder, const
     }
     if (json.contains("narrow"))
         choice.collider.narrow = text_at(json, "narrow");
-    if (choice.collider.narrow != "none" && choice.collider.narrow != "exact")
-        throw BadUsage("'narrow' is none or exact, not '" + choice.collider.narrow + "'");
+    check_narrow(choice.collider.narrow, choice.collider.keep_adjacent);
     return choice;
 }
 

@@ -14,7 +14,7 @@ namespace bvhbench {
 ///
 ///     collider    a name, or an object of name, jump, start_level, group_size
 ///     builder     as in other experiments; without, the collider wants no tree
-///     pairs_of    all, between or within, unless the scene says which; adjacent: keep or drop; narrow: none, exact
+///     pairs_of    all, between or within, unless the scene says which; adjacent: keep or drop; narrow: none, exact or a name of `list narrow`
 ///     no_skip     a rule of collide/skips.h that is not used, or "all"
 ///
 /// Lists of colliders and builders mean each with each.

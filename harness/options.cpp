@@ -60,10 +60,13 @@ void add_list(CLI::App& app, ListCommand& list)
 {
     CLI::App* command = app.add_subcommand("list", "What there is, a line each");
     command
-        ->add_option("WHAT", list.what,
-                     "builders, colliders, orders, skips, tuning, scenes, devices or experiments")
+        ->add_option(
+            "WHAT", list.what,
+            "builders, colliders, narrow, orders, skips, tuning, scenes, devices, accuracy or "
+            "experiments")
         ->required()
-        ->check(one_of({"builders", "colliders", "orders", "skips", "tuning", "scenes", "devices", "experiments"}));
+        ->check(one_of({"builders", "colliders", "narrow", "orders", "skips", "tuning", "scenes",
+                        "devices", "accuracy", "experiments"}));
 }
 
 void add_build(CLI::App& app, BuildCommand& build, std::string& leaves)
@@ -115,10 +118,11 @@ void add_collide(CLI::App& app, CollideCommand& collide, std::string& leaves, st
                      "frames put between each two of the scene's, in a straight line")
         ->check(CLI::Range(0, 1000));
     command
-        ->add_option("--narrow", collide.collider.narrow,
-                     "which pairs intersect: exact, or none, to stop at their boxes")
-        ->capture_default_str()
-        ->check(one_of({"none", "exact"}));
+        ->add_option(
+            "--narrow", collide.collider.narrow,
+            "which pairs intersect: exact, a name of `list narrow`, or none, to stop at their "
+            "boxes")
+        ->capture_default_str();
     command->add_option("--order", collide.builder.order, "a name of `list orders`")
         ->capture_default_str();
     command->add_option("--leaves", leaves, "mesh or sorted: where leaf boxes are kept")
@@ -186,6 +190,29 @@ void add_show(CLI::App& app, ShowCommand& show)
     command->add_option("FILE", show.file, "a result file")->required();
 }
 
+void add_accuracy(CLI::App& app, AccuracyCommand& accuracy)
+{
+    CLI::App* command = app.add_subcommand(
+        "accuracy", "Measure run time against error, along an axis at a time, print and draw it");
+    command->add_option("--axis", accuracy.axis, "a name of `list accuracy`; default: all in turn");
+    command->add_option("--scene", accuracy.scenes,
+                        "scenes, data sets or mesh files, of axes that are about scenes");
+    command
+        ->add_option("--pairs", accuracy.pairs,
+                     "pairs of triangles in all, of the axis narrow, at least one a class")
+        ->capture_default_str()
+        ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 32));
+    command->add_option("--seed", accuracy.seed, "of what is generated")
+        ->capture_default_str()
+        ->check(CLI::Range(1u, 1000000000u));
+    command->add_option("--filter", accuracy.filter, "only cells whose input/method this matches");
+    command->add_option("--samples", accuracy.samples, "timed runs a cell")
+        ->capture_default_str()
+        ->check(CLI::Range(1, most_samples));
+    command->add_option("--out", accuracy.out, "folder for the result file and figures")
+        ->capture_default_str();
+}
+
 void add_tune(CLI::App& app, TuneCommand& tune, std::string& leaves, std::string& adjacent)
 {
     CLI::App* command = app.add_subcommand(
@@ -212,6 +239,18 @@ void add_tune(CLI::App& app, TuneCommand& tune, std::string& leaves, std::string
     command->add_flag("--quick", tune.quick, "one round, and fewer samples");
     command->add_option("--out", tune.out,
                         "the tuning file; default: the device's in --tuning, else in results/tuning");
+}
+
+void add_stress(CLI::App& app, StressCommand& stress)
+{
+    CLI::App* command = app.add_subcommand("stress",
+                                           "Hold builders, colliders and libraries to what must "
+                                           "hold over scenes that are hard on them");
+    command->add_flag("--quick", stress.quick, "smaller scenes and fewer systems");
+    command->add_option("--seed", stress.seed, "of what is random")->capture_default_str();
+    command->add_option("--filter", stress.filter,
+                        "only cells whose family/scene/system this matches");
+    command->add_option("--out", stress.out, "write the result file");
 }
 
 void add_common(CLI::App& app, CommonOptions& common)
@@ -263,6 +302,8 @@ Options parse_options(int argc, const char* const* argv)
     CheckCommand check;
     ShowCommand show;
     TuneCommand tune;
+    AccuracyCommand accuracy;
+    StressCommand stress;
     std::string leaves = "mesh";
     std::string adjacent = "keep";
     std::string pairs_of = "all";
@@ -276,6 +317,8 @@ Options parse_options(int argc, const char* const* argv)
     add_check(app, check);
     add_show(app, show);
     add_tune(app, tune, leaves, adjacent);
+    add_accuracy(app, accuracy);
+    add_stress(app, stress);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -287,9 +330,8 @@ Options parse_options(int argc, const char* const* argv)
     }
     if (app.get_subcommands().empty())
         throw BadUsage(
-            "name a command: list, build, collide, run, reproduce, check, show or tune; `bvhbench "
-            "--help` "
-            "says what they do");
+            "name a command: list, build, collide, run, reproduce, check, show, tune, accuracy or stress; "
+            "`bvhbench --help` says what they do");
     check_power_of_two("--group-size", build.builder.group_size);
     check_power_of_two("--items", build.builder.items);
     for (const NodeCosts& costs : {build.costs, run.costs, reproduce.costs})
@@ -315,6 +357,10 @@ Options parse_options(int argc, const char* const* argv)
         options.command = check;
     else if (chosen == "tune")
         options.command = tune;
+    else if (chosen == "accuracy")
+        options.command = accuracy;
+    else if (chosen == "stress")
+        options.command = stress;
     else
         options.command = show;
     return options;

@@ -3,6 +3,7 @@
 // The command line, understood: what main hands on.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <variant>
@@ -29,7 +30,8 @@ struct PrintCommand {
     std::string text;
 };
 struct ListCommand {
-    std::string what;  ///< builders, colliders, orders, skips, tuning, scenes, devices or experiments
+    std::string
+        what;  ///< builders, colliders, narrow, orders, skips, tuning, scenes, devices, accuracy or experiments
 };
 struct BuildCommand {
     BuilderChoice builder;
@@ -86,8 +88,26 @@ struct TuneCommand {
     bool quick = false;
 };
 
+struct AccuracyCommand {
+    std::string axis;                 ///< empty: all
+    std::vector<std::string> scenes;  ///< empty: each axis's own
+    std::size_t pairs = 1'000'000;
+    unsigned seed = 1;
+    std::string filter;  ///< regular expression on "input/method"
+    int samples = 5;
+    std::string out = "out";
+};
+
+struct StressCommand {
+    bool quick = false;
+    std::uint64_t seed = 1;
+    std::string filter;  ///< regular expression on "family/scene/system"
+    std::string out;     ///< result file to write; may be empty
+};
+
 using Command = std::variant<PrintCommand, ListCommand, BuildCommand, CollideCommand, RunCommand,
-                             ReproduceCommand, CheckCommand, ShowCommand, TuneCommand>;
+                             ReproduceCommand, CheckCommand, ShowCommand, TuneCommand,
+                             AccuracyCommand, StressCommand>;
 
 struct Options {
     CommonOptions common;

@@ -21,7 +21,9 @@ Pipeline::Pipeline(Session& session, const BuilderChoice& builder, const Collide
         builder_ = make_builder(choice_, session.programs());
     reserve_for(input);
     if (collider.narrow != "none" && !collider_->finds_contacts()) {
-        narrow_.emplace(session.programs(), NarrowOptions{.keep_adjacent = collider.keep_adjacent});
+        narrow_.emplace(session.programs(), NarrowOptions{.method = collider.narrow,
+                                                          .keep_adjacent = collider.keep_adjacent,
+                                                          .form = collider.form});
         narrow_->reserve(input.triangle_count());
     }
     if (skips(skip_near) && collider.among == Among::between_objects && input.objects.size() > 1 &&
@@ -188,6 +190,7 @@ void Pipeline::declare_found(std::vector<StageTime>& stages) const
 
 std::vector<StageTime> Pipeline::once(const Input& input)
 {
+    session_.give_head_start();
     enqueue(input);
     std::vector<StageTime> stages = session_.queue().finish();
     if (!complete())

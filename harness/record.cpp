@@ -81,9 +81,17 @@ Json json_of(const ColliderChoice& collider)
               {"no_skip", skip_rules_text(collider.rules_off)}}}};
 }
 
+Json json_of(const AccuracyFacts& accuracy)
+{
+    Json json = {{"axis", accuracy.axis}, {"method", accuracy.method}};
+    if (accuracy.seed > 0)
+        json["seed"] = accuracy.seed;
+    return json;
+}
+
 Json json_of(const Check& check)
 {
-    constexpr std::array verdicts = {"agrees", "differs", "not_checked"};
+    constexpr std::array verdicts = {"agrees", "differs", "not_checked", "counted"};
     Json json = {{"verdict", verdicts[static_cast<std::size_t>(check.verdict)]}};
     put_if(json, "against", check.against);
     put_if(json, "detail", check.detail);
@@ -157,6 +165,8 @@ std::string cell_text(const Cell& cell)
                  {"builder", json_of(cell.builder)}};
     if (!cell.collider.name.empty())
         json["collider"] = json_of(cell.collider);
+    if (!cell.accuracy.axis.empty())
+        json["accuracy"] = json_of(cell.accuracy);
     json["operation"] = operation_name(cell.operation);
     json["status"] = states[static_cast<std::size_t>(cell.status)];
     if (cell.status != Cell::Status::measured) {
@@ -182,12 +192,40 @@ std::string cell_text(const Cell& cell)
     return dumped(json);
 }
 
-std::string document_text(const std::string& run, const std::vector<std::string>& cells)
+std::string cell_text(const StressCell& cell)
 {
-    std::string text = "{\"format\": \"1.5\",\n\"run\": " + run + ",\n\"cells\": [";
-    for (std::size_t i = 0; i < cells.size(); ++i)
-        text += (i == 0 ? "\n" : ",\n") + cells[i];
-    return text + "\n]}\n";
+    Json json = {{"family", cell.family}, {"scene", cell.scene}};
+    if (cell.triangles > 0)
+        json["triangles"] = cell.triangles;
+    json["system"] = cell.system;
+    json["kind"] = stress_kind_names[static_cast<std::size_t>(cell.kind)];
+    put_if(json, "library", cell.library);
+    json["findings"] = Json::object();
+    for (const auto& [invariant, finding] : cell.findings) {
+        Json& entry = json["findings"][std::string(name_of(invariant))];
+        entry = {{"verdict", stress_verdict_names[static_cast<std::size_t>(finding.verdict)]},
+                 {"checked", finding.checked},
+                 {"wrong", finding.wrong},
+                 {"missed", finding.missed}};
+        put_if(entry, "detail", finding.detail);
+    }
+    return dumped(json);
+}
+
+std::string document_text(const std::string& run, const std::vector<std::string>& cells,
+                          const std::vector<std::string>& stress)
+{
+    const auto lines = [](const std::vector<std::string>& all) {
+        std::string text;
+        for (std::size_t i = 0; i < all.size(); ++i)
+            text += (i == 0 ? "\n" : ",\n") + all[i];
+        return text;
+    };
+    std::string text =
+        "{\"format\": \"1.6\",\n\"run\": " + run + ",\n\"cells\": [" + lines(cells) + "\n]";
+    if (!stress.empty())
+        text += ",\n\"stress\": [" + lines(stress) + "\n]";
+    return text + "}\n";
 }
 
 }  // namespace bvhbench

@@ -14,6 +14,7 @@
 #include "harness/catalog.h"
 #include "harness/collider_catalog.h"
 #include "harness/node_costs.h"
+#include "harness/stress/finding.h"
 #include "scenes/scene.h"
 
 namespace bvhbench {
@@ -24,9 +25,10 @@ struct Sample {
     std::vector<StageTime> stages;
 };
 
-/// Whether what was measured was also right. A cell that was not checked says so.
+/// Whether what was measured was also right. A cell that was not checked says so; one that promises no right answer
+/// counts how many are wrong.
 struct Check {
-    enum class Verdict { agrees, differs, not_checked } verdict = Verdict::not_checked;
+    enum class Verdict { agrees, differs, not_checked, counted } verdict = Verdict::not_checked;
     std::string against;
     std::string detail;  ///< what differs, or why nothing was checked
     std::optional<std::uint64_t> tree_hash = {};
@@ -48,6 +50,13 @@ struct SceneFacts {
     std::uint64_t content_hash = 0;
 };
 
+/// Which axis of accuracy a cell is on, and by what its answers came about.
+struct AccuracyFacts {
+    std::string axis;  ///< empty: none
+    std::string method;
+    std::int64_t seed = 0;  ///< of what was generated; 0: nothing was
+};
+
 /// Everything known about one builder on one scene.
 struct Cell {
     enum class Status { measured, skipped, failed };
@@ -56,6 +65,7 @@ struct Cell {
     SceneFacts scene;
     BuilderChoice builder;
     ColliderChoice collider;  ///< of an empty name: none
+    AccuracyFacts accuracy;
     Operation operation = Operation::build;
     Status status = Status::measured;
     std::string reason;  ///< why it was skipped or failed
@@ -103,14 +113,17 @@ struct RunFacts {
 struct Document {
     RunFacts run;
     std::vector<Cell> cells;
+    std::vector<StressCell> stress = {};
 };
 
 /// JSON of a run and of a cell, each on one line. A number that is not finite is left out.
 std::string run_text(const RunFacts& run);
 std::string cell_text(const Cell& cell);
+std::string cell_text(const StressCell& cell);
 
 /// The text of a file from its parts' texts: a cell a line, so that files can be compared.
-std::string document_text(const std::string& run, const std::vector<std::string>& cells);
+std::string document_text(const std::string& run, const std::vector<std::string>& cells,
+                          const std::vector<std::string>& stress = {});
 
 /// Read the text of a result file. Throws Unavailable, naming `origin`, when it is none of format 1.
 Document read_document(const std::string& text, const std::string& origin);

@@ -106,11 +106,18 @@ ColliderChoice collider_of(const Json& json)
             .rules_off = rules_of(get<std::string>(options, "no_skip"))};
 }
 
+AccuracyFacts accuracy_of(const Json& json)
+{
+    return {.axis = json.at("axis").get<std::string>(),
+            .method = json.at("method").get<std::string>(),
+            .seed = get<std::int64_t>(json, "seed")};
+}
+
 Check check_of(const Json& json)
 {
     Check check;
-    check.verdict = static_cast<Check::Verdict>(
-        index_of(json.at("verdict").get<std::string>(), {"agrees", "differs", "not_checked"}));
+    check.verdict = static_cast<Check::Verdict>(index_of(
+        json.at("verdict").get<std::string>(), {"agrees", "differs", "not_checked", "counted"}));
     check.against = get<std::string>(json, "against");
     check.detail = get<std::string>(json, "detail");
     if (json.contains("tree_hash"))
@@ -130,9 +137,11 @@ Cell cell_of(const Json& json)
     cell.builder = builder_of(json.at("builder"));
     if (json.contains("collider"))
         cell.collider = collider_of(json["collider"]);
+    if (json.contains("accuracy"))
+        cell.accuracy = accuracy_of(json["accuracy"]);
     cell.operation = static_cast<Operation>(
         index_of(json.value("operation", "build"),
-                 {"build", "refit", "collide"}));  // before 1.2 all were builds
+                 {"build", "refit", "collide", "accuracy"}));  // before 1.2 all were builds
     cell.status = static_cast<Cell::Status>(
         index_of(json.at("status").get<std::string>(), {"measured", "skipped", "failed"}));
     cell.reason = get<std::string>(json, "reason");
@@ -144,6 +153,36 @@ Cell cell_of(const Json& json)
     cell.leaves_by_depth = json.value("leaves_by_depth", std::vector<std::int64_t>{});
     if (json.contains("check"))
         cell.check = check_of(json["check"]);
+    return cell;
+}
+
+template <std::size_t N>
+std::size_t index_of(const std::string& word, const std::array<const char*, N>& words)
+{
+    for (std::size_t index = 0; index < N; ++index)
+        if (word == words[index])
+            return index;
+    throw std::invalid_argument("'" + word + "' is not a word it may hold");
+}
+
+StressCell stress_cell_of(const Json& json)
+{
+    StressCell cell;
+    cell.family = json.at("family").get<std::string>();
+    cell.scene = json.at("scene").get<std::string>();
+    cell.triangles = get<std::int64_t>(json, "triangles");
+    cell.system = json.at("system").get<std::string>();
+    cell.kind = static_cast<StressCell::Kind>(
+        index_of(json.at("kind").get<std::string>(), stress_kind_names));
+    cell.library = get<std::string>(json, "library");
+    for (const auto& [name, finding] : json.at("findings").items())
+        cell.findings[static_cast<Invariant>(index_of(name, invariant_names))] = {
+            .verdict = static_cast<Finding::Verdict>(
+                index_of(finding.at("verdict").get<std::string>(), stress_verdict_names)),
+            .checked = get<std::uint64_t>(finding, "checked"),
+            .wrong = get<std::uint64_t>(finding, "wrong"),
+            .missed = get<std::uint64_t>(finding, "missed"),
+            .detail = get<std::string>(finding, "detail")};
     return cell;
 }
 
@@ -212,6 +251,8 @@ Document read_document(const std::string& text, const std::string& origin)
         Document document{run_of(json.at("run")), {}};
         for (const Json& cell : json.at("cells"))
             document.cells.push_back(cell_of(cell));
+        for (const Json& cell : json.value("stress", Json::array()))  // since 1.6
+            document.stress.push_back(stress_cell_of(cell));
         return document;
     } catch (const Json::exception& error) {
         throw Unavailable(origin + " is no result file: " + error.what());

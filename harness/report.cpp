@@ -161,6 +161,8 @@ std::string verdict_text(const Cell& cell)
             return "agrees";
         case Check::Verdict::differs:
             return "differs";
+        case Check::Verdict::counted:
+            return "counted";
         default:
             return "not checked";
     }

@@ -34,7 +34,7 @@ std::string copy_share_text(double bytes, double ns, double copy_rate_bytes_per_
 /// Whether its stages have times that may be printed: measured, and not wrong.
 bool has_times(const Cell& cell);
 
-/// "agrees", "differs", "not checked", "skipped" or "failed".
+/// "agrees", "differs", "counted", "not checked", "skipped" or "failed".
 std::string verdict_text(const Cell& cell);
 
 /// One cell in full: its stages as a table, its counters and its verdict.

@@ -7,6 +7,8 @@ namespace bvhbench {
 
 std::string pipeline_text(const Cell& cell)
 {
+    if (cell.operation == Operation::accuracy)
+        return cell.accuracy.axis + ", " + cell.accuracy.method;
     if (cell.operation == Operation::collide)
         return variant_text(cell.collider) +
                (cell.builder.name == "none" ? "" : " over " + variant_text(cell.builder));

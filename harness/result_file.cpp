@@ -141,9 +141,21 @@ ResultFile::~ResultFile()
 
 void ResultFile::add(Cell cell)
 {
-    using namespace std::chrono_literals;
     cell_texts_.push_back(cell_text(cell));
     document_.cells.push_back(std::move(cell));
+    write_if_due();
+}
+
+void ResultFile::add(StressCell cell)
+{
+    stress_texts_.push_back(cell_text(cell));
+    document_.stress.push_back(std::move(cell));
+    write_if_due();
+}
+
+void ResultFile::write_if_due()
+{
+    using namespace std::chrono_literals;
     is_written_ = false;
     if (std::chrono::steady_clock::now() - written_at_ >= 500ms)
         write();
@@ -159,7 +171,7 @@ void ResultFile::finish(std::int64_t compile_ns)
 void ResultFile::write()
 {
     if (!path_.empty())
-        write_atomically(path_, document_text(run_text(document_.run), cell_texts_));
+        write_atomically(path_, document_text(run_text(document_.run), cell_texts_, stress_texts_));
     written_at_ = std::chrono::steady_clock::now();
     is_written_ = true;
 }

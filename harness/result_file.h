@@ -27,6 +27,7 @@ public:
     ResultFile& operator=(const ResultFile&) = delete;
 
     void add(Cell cell);
+    void add(StressCell cell);
 
     /// Whether the next `count` cells are there from before, in a run that goes on. If some are missing the others go as
     /// well, to be made anew.
@@ -45,6 +46,7 @@ public:
 
 private:
     void take_over(const std::string& run_id);
+    void write_if_due();
     void write();
 
     std::filesystem::path path_;
@@ -52,6 +54,7 @@ private:
     std::vector<std::string> cell_texts_;  ///< each cell is turned into text once
     std::size_t passed_ = 0;               ///< cells that are done, of those from before
     bool goes_on_ = false;                 ///< whether cells behind them are from before too
+    std::vector<std::string> stress_texts_;
     std::chrono::steady_clock::time_point written_at_;
     bool is_written_ = true;
 };

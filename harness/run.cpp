@@ -99,10 +99,20 @@ Run::Run(Session& session, std::filesystem::path out, std::vector<std::string> c
     session.watchdog().keep_by(document().run.id, [this] { results_.keep(); });
 }
 
-bool Run::has_differing_cell() const
+CellFilter cell_filter(const std::string& text)
 {
-    const auto& cells = document().cells;
-    return std::any_of(cells.begin(), cells.end(), [](const Cell& cell) {
+    if (text.empty())
+        return std::nullopt;
+    try {
+        return std::regex(text);
+    } catch (const std::regex_error& error) {
+        throw BadUsage("--filter: '" + text + "' is no regular expression: " + error.what());
+    }
+}
+
+bool has_differing_cell(const Document& document)
+{
+    return std::any_of(document.cells.begin(), document.cells.end(), [](const Cell& cell) {
         return cell.status == Cell::Status::measured &&
                cell.check.verdict == Check::Verdict::differs;
     });

@@ -17,6 +17,12 @@ class Oracle;
 /// Which cells to run: those whose "scene/builder" it matches; all without one.
 using CellFilter = std::optional<std::regex>;
 
+/// What --filter says; none if it is empty. Throws BadUsage if it is no regular expression.
+CellFilter cell_filter(const std::string& text);
+
+/// Whether a cell of it is wrong.
+bool has_differing_cell(const Document& document);
+
 /// What is known of a run when it starts, with the device's copy rate, the yardstick of the run, measured.
 RunFacts measured_facts(Session& session, std::vector<std::string> command,
                         const NodeCosts& costs = {});
@@ -37,9 +43,6 @@ public:
     void finish() { results_.finish(session_.programs().compile_ns()); }
 
     const Document& document() const { return results_.document(); }
-
-    /// Whether a cell gave a wrong tree.
-    bool has_differing_cell() const;
 
 private:
     struct Prepared;

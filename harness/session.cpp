@@ -93,10 +93,18 @@ Builder& Session::builder(const BuilderChoice& choice, Operation operation)
     return *builders_.back().builder;
 }
 
+void Session::give_head_start()
+{
+    if (!head_start_)
+        head_start_.emplace(programs_, queue());
+    head_start_->give(queue());
+}
+
 std::vector<StageTime> Session::build_once(Builder& builder, const Input& input, Start start,
                                            const Tree** tree)
 {
     return watchdog_.watch([&] {
+        give_head_start();
         const Tree& built = builder.build(input, queue(), start);
         if (tree != nullptr)
             *tree = &built;
@@ -107,6 +115,7 @@ std::vector<StageTime> Session::build_once(Builder& builder, const Input& input,
 std::vector<StageTime> Session::refit_once(Builder& builder, const Input& input, const Tree** tree)
 {
     return watchdog_.watch([&] {
+        give_head_start();
         const Tree& refitted = builder.refit(input, queue());
         if (tree != nullptr)
             *tree = &refitted;

@@ -3,10 +3,12 @@
 
 #include <list>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "builders/builder.h"
+#include "device/head_start.h"
 #include "harness/catalog.h"
 #include "harness/options.h"
 #include "harness/pocl_cache.h"
@@ -44,6 +46,9 @@ public:
     /// Throws as make_builder does.
     Builder& builder(const BuilderChoice& choice, Operation operation = Operation::build);
 
+    /// Before work that is timed is enqueued (device/head_start.h).
+    void give_head_start();
+
     /// One whole build, waited for and watched. Throws what the builder throws.
     std::vector<StageTime> build_once(Builder& builder, const Input& input, Start start,
                                       const Tree** tree = nullptr);
@@ -67,6 +72,7 @@ private:
     Device device_;
     Programs programs_;
     std::unique_ptr<Queue> queue_;
+    std::optional<HeadStart> head_start_;  ///< made when first asked for
     SceneLibrary library_;
     /// A list, so that choices stay where they are: builders may keep looking at their words.
     std::list<Made> builders_;

@@ -13,6 +13,7 @@ import pathlib
 import sys
 from collections.abc import Iterator
 
+import accuracy
 import fig10
 import fig13
 import fig8
@@ -23,6 +24,7 @@ import pareto_orders
 import results
 import roofline
 import scaling
+import stress
 import style
 import table1
 import table2
@@ -74,6 +76,12 @@ def main() -> int:
                     if run.of(name):
                         for picture in style.save(draw(run), folder, style.stem(path, name)):
                             print(picture)
+                for name, draw_axis in accuracy.figures_of(run).items():
+                    for picture in style.save(draw_axis(), folder, name):
+                        print(picture)
+                if run.stress:
+                    for picture in style.save(stress.draw(run), folder, style.stem(path, "stress")):
+                        print(picture)
                 for experiment, figures in FRAME_FIGURES.items():
                     if run.has_frames(experiment):
                         for name, draw in figures.items():

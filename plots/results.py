@@ -41,15 +41,16 @@ class Cell:
     outlier: dict[str, Any] | None  # which triangle of which scene was moved, and how far
     builder: str
     options: tuple[tuple[str, str], ...]
-    operation: str  # what was timed: build, refit or collide
+    operation: str  # what was timed: build, refit, collide or, along an axis, accuracy
     frame: int  # of the scene, from 0
     collider: str | None  # what queried the tree; its builder is "none" if it wants no tree
     collider_options: tuple[tuple[str, str], ...]
-    checked: bool
+    checked: bool  # held to an answer that is right, be it that errors are counted
     counters: dict[str, float]
     samples: list[dict[str, dict[str, Any]]]  # per sample: stage name to its numbers
     left_out: dict[str, str]  # a counter that has no value, and why
     leaves_by_depth: list[int]  # from the root's level on; empty before format 1.3
+    accuracy: dict[str, Any]  # on which axis, by which method, of which seed; empty if on none
 
     def times_s(self, stage: str) -> numpy.ndarray:
         """Seconds per sample: first start to last end on the device's clock, else the host's clock."""
@@ -97,6 +98,7 @@ class Run:
     facts: dict[str, Any]
     cells: list[Cell]
     without_numbers: list[dict[str, Any]]
+    stress: list[dict[str, Any]]  # what `bvhbench stress` found, as in the file; empty before format 1.6
 
     @property
     def device(self) -> str:
@@ -169,8 +171,9 @@ class Run:
         build = "" if program["build_type"] == "Release" else f", {program['build_type']} build"
         counts = sorted({len(cell.samples) for cell in self.cells})
         samples = "–".join(str(count) for count in dict.fromkeys((counts[0], counts[-1]))) if counts else "0"
+        each = "" if self.stress else f"; {samples} sample{'' if samples == '1' else 's'} a cell"
         return (f"{self.device}, driver {device['driver']}, {device['opencl_c']}; "
-                f"commit {program['commit'][:10]}{state}{build}; {samples} sample{'' if samples == '1' else 's'} a cell")
+                f"commit {program['commit'][:10]}{state}{build}{each}")
 
 
 def quantiles(values: numpy.ndarray) -> Quantiles:
@@ -198,7 +201,8 @@ def load(path: pathlib.Path) -> Run:
         raise Refused(f"{path}: format {document['format']}, while this reader knows {MAJOR}.x")
     measured = [cell for cell in document["cells"] if cell["status"] == "measured"]
     without = [cell for cell in document["cells"] if cell["status"] != "measured"]
-    return Run(path, document["run"], [cell_of(path, cell) for cell in measured], without)
+    return Run(path, document["run"], [cell_of(path, cell) for cell in measured], without,
+               document.get("stress", []))
 
 
 def called(cell: dict[str, Any]) -> str:
@@ -220,8 +224,8 @@ def cell_of(path: pathlib.Path, cell: dict[str, Any]) -> Cell:
     samples = [{entry["stage"]: entry for entry in sample["stages"]} for sample in cell["samples"]]
     return Cell(cell["experiment"], scene["name"], scene.get("triangles", 0), scene.get("stand_in_for"), scene.get("outlier"),
                 builder["name"], options, cell.get("operation", "build"), scene.get("frame", 0), collider.get("name"), collider_options,
-                cell["check"]["verdict"] == "agrees", cell["counters"],
-                samples, cell.get("left_out", {}), cell.get("leaves_by_depth", []))
+                cell["check"]["verdict"] in ("agrees", "counted"), cell["counters"],
+                samples, cell.get("left_out", {}), cell.get("leaves_by_depth", []), cell.get("accuracy", {}))
 
 
 def printed(name: str) -> dict[str, Any]:

@@ -31,7 +31,7 @@ COLUMNS = 4
 
 # Colliders over one tree would all have its builder's colour. Okabe and Ito's here too, and no builder's marker with it.
 COLLIDERS = {"leaf": style.Look("#000000", "*"), "group": style.Look("#E69F00", "P"),
-             "bvtt": style.Look("#009E73", "X"), "front": style.Look("#CC79A7", "H"),
+             "bvtt": style.Look("#009E73", "X"), "front": style.Look("#CC79A7", "H"), "block": style.Look("#56B4E9", "P"),
              "grid": style.Look(pipelines.COLOURS["grid"], "d")}
 
 

@@ -80,6 +80,17 @@ class Schema(unittest.TestCase):
         stage.update(original)
         self.assertFalse(list(self.validator.iter_errors(self.document)))
 
+    def test_refuses_errors_that_are_not_counted(self) -> None:
+        accuracy = read(ROOT / "tests" / "golden" / "accuracy.json")
+        self.document = accuracy | {"cells": accuracy["cells"][1:2]}
+        self.assertFalse(list(self.validator.iter_errors(self.document)))
+        cell = self.document["cells"][0]
+        missed = cell["counters"].pop("missed_count")
+        self.assertTrue(list(self.validator.iter_errors(self.document)))
+        cell["counters"]["missed_count"] = missed
+        del cell["accuracy"]
+        self.assert_refused("'accuracy' is a required property")
+
     def test_refuses_another_major_format(self) -> None:
         self.document["format"] = "2.0"
         self.assert_refused("does not match")

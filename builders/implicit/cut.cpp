@@ -70,7 +70,8 @@ void require_power_of_two(const char* what, uint value, uint most, const Device&
 
 Cut choose_cut(const Device& device, const BuildOptions& options, Meeting meeting, uint leaves)
 {
-    const bool is_tuned = !device.is_cpu() && options.group_size == 0;
+    // Where groups wait, more nodes a work-item were never better.
+    const bool is_tuned = !device.is_cpu() && options.group_size == 0 && meeting != Meeting::by_waiting;
     const uint items = options.items != 0 ? options.items
                        : is_tuned         ? device.tuned(implicit_items)
                                           : 1;

@@ -185,15 +185,16 @@ TEST(Colliders, TakeEveryGroupSizeThatTheySayTheyDo)
 {
     const Standing standing(crowded_mesh(600), find_builder("karras").make);
     const Standing wide(crowded_mesh(600), find_builder("oibvh-wide8").make);
-    for (const char* name : {"leaf", "bvtt", "group"})
-        for (const unsigned group_size : {16u, 256u}) {
+    for (const char* name : {"leaf", "bvtt", "group", "front"})
+        for (const unsigned group_size : {8u, 16u, 256u}) {
             SCOPED_TRACE(std::string(name) + ", groups of " + std::to_string(group_size));
             const auto collider = find_collider(name).make(
                 session().programs(), {.group_size = group_size, .form = KernelForm::groups});
             expect_oracles_pairs(*collider, standing, true);
             expect_oracles_pairs(*collider, wide, true);
         }
-    for (const unsigned group_size : {48u, 512u})
+    // Groups of 4 would not take a node of 8 children, ever, and groups of 1 count two things with one work-item.
+    for (const unsigned group_size : {1u, 2u, 4u, 48u, 512u})
         EXPECT_THROW(find_collider("leaf").make(session().programs(), {.group_size = group_size}),
                      BadUsage);
 }

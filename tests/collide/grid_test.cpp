@@ -112,7 +112,7 @@ TEST_P(GridCollider, DropsNothingWhenBuffersBeginWithOneEntry)
 
 TEST_P(GridCollider, TakesEveryGroupSizeThatItSaysItDoes)
 {
-    for (const unsigned group_size : {16u, 256u})
+    for (const unsigned group_size : {8u, 16u, 256u})
         expect_oracles_pairs_of({{"many sizes", mesh_of_many_sizes(1000)}},
                                 {.group_size = group_size});
 }

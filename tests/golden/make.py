@@ -72,9 +72,12 @@ def cell(experiment: str, scene: dict, builder: str, noise: random.Random) -> di
             "check": {"verdict": "agrees", "against": "contract"}}
 
 
-def write(name: str, cells: list[dict], minor: int = 3, more: dict | None = None) -> None:
-    lines = ",\n".join(json.dumps(entry) for entry in cells)
-    text = f'{{"format": "1.{minor}",\n"run": {json.dumps(RUN | (more or {}))},\n"cells": [\n{lines}\n]}}\n'
+def write(name: str, cells: list[dict], minor: int = 3, more: dict | None = None, stress: list[dict] | None = None) -> None:
+    def lines(entries: list[dict]) -> str:
+        return ",\n".join(json.dumps(entry) for entry in entries)
+
+    found = f',\n"stress": [\n{lines(stress)}\n]' if stress else ""
+    text = f'{{"format": "1.{minor}",\n"run": {json.dumps(RUN | (more or {}))},\n"cells": [\n{lines(cells)}\n]{found}}}\n'
     (pathlib.Path(__file__).parent / name).write_text(text, encoding="utf-8")
 
 
@@ -93,6 +96,7 @@ def main() -> None:
                         for builder in BUILDERS if not builder.startswith("embree")])
     write_quality()
     write_frames()
+    write_stress()
     noise = random.Random(3)
     scaling = [cell("scaling", scene, builder, noise) for scene in sweep
                for builder in ("perfect", "oibvh-single", "oibvh-multi", "apetrei-fused")]
@@ -101,6 +105,7 @@ def main() -> None:
         entry["samples"] = [whole_sample(order, builder, triangles, noise) for order in range(5)]
     write("scaling.json", scaling)
     write_roofline(sweep[::2])
+    write_accuracy()
 
 
 def write_roofline(scenes: list[dict]) -> None:
@@ -114,6 +119,55 @@ def write_roofline(scenes: list[dict]) -> None:
     cells += [frame_cell("roofline", scene["name"], 0, pipeline, noise) for scene in scenes
               for pipeline in ("leaf", "group", "bvtt", "grid")]
     write("roofline.json", cells, 5, {"launch_cost_ns": 3800.0, "tuning": {"from": "none", "values": {}}})
+
+
+def accuracy_cell(axis: str, name: str, method: str, counters: dict, stages: list[dict], **more: object) -> dict:
+    facts = {"axis": axis, "method": method} | ({"seed": 1} if axis == "narrow" else {})
+    return {"experiment": "accuracy", "scene": {"name": name, "triangles": 100000}, "builder": {"name": "none"},
+            "accuracy": facts, "operation": "accuracy", "status": "measured", "warm_up": 1,
+            "samples": [{"order": order, "stages": stages} for order in range(3)], "counters": counters,
+            "check": {"verdict": "counted", "against": "an oracle"}} | more
+
+
+def on_device(stage: str, span: float) -> dict:
+    return {"stage": stage, "launches": 1, "busy_ns": int(0.9 * span), "span_ns": int(span), "moved_bytes": 1000}
+
+
+def write_accuracy() -> None:
+    """A few inputs of each axis; the exact method is slow where it is needed, and never wrong."""
+    noise = random.Random(7)
+    right = {"check": {"verdict": "agrees", "against": "an oracle"}}
+    cells = []
+    for name, share in (("generic", 0.0), ("same_place", 0.2), ("scaled_1e-16", 0.6)):
+        for method, ns, part in (("filter-f64+exact", 20 if share < 0.1 else 300, 0), ("guigue-f64", 50, 0.5),
+                                 ("guigue-f32", 45, 0.9), ("moller-f32", 40, 1)):
+            counters = {"pairs_count": 50000, "meeting_count": 20000, "missed_count": int(20000 * share * part),
+                        "false_count": int(100 * share * part), "narrow_float_count": 50000,
+                        "narrow_double_count": 0, "narrow_exact_count": 0}
+            cells.append(accuracy_cell("narrow", name, method, counters,
+                                       [on_device("narrow", 50000 * ns * noise.uniform(0.9, 1.1))],
+                                       **(right if part == 0 else {})))
+    for name in ("torus:100000", "hairball:100000"):
+        for method, ns, error in (("f32", 3, 3e-6), ("f32-pairwise", 3.2, 1e-7), ("f32-compensated", 6, 5e-8),
+                                  ("f64", 3.1, 1e-14), ("f64-pairwise", 3.3, 0.0), ("f64-compensated", 6.2, 1e-16)):
+            counters = {"nodes_count": 200006, "sah_cost": 150.5, "relative_error": error}
+            cells.append(accuracy_cell("sums", name, method, counters,
+                                       [{"stage": "sum", "wall_ns": int(200006 * ns)}]))
+    for method in (f"{curve}{bits}{axis}" for axis in ("", "-axis") for curve in ("morton", "hilbert") for bits in (30, 63)):
+        cost = noise.uniform(100, 150)
+        counters = {"sah_cost": cost, "box_tests_count": int(40000 * cost), "duplicates_count": 500, "longest_run_count": 2,
+                    "pairs_count": 600000, "missed_count": 0, "false_count": 0}
+        stages = [on_device("codes", 1e5), on_device("sort", noise.uniform(1e6, 3e6)), on_device("broad", 5e7)]
+        cells.append(accuracy_cell("codes", "torus:100000", method, counters, stages, **right))
+    for sizes, more in (("0", 0), ("1e3", 100), ("1e6", 900000)):
+        for method in ("f32", "f32-recentred"):
+            false = more if method == "f32" else 0
+            counters = {"right_pairs_count": 100000, "pairs_count": 100000 + false, "missed_count": 0, "false_count": false}
+            cells.append(accuracy_cell("input", f"torus:20000 at {sizes}", method, counters,
+                                       [on_device("broad", 1e7 + 20 * false)]))
+    cells.append(accuracy_cell("narrow", "generic", "guigue-f64", {}, []))
+    without_numbers(cells[-1], "skipped", "guigue-f64 needs doubles, which the device has not")
+    write("accuracy.json", cells, 6)
 
 
 def valued(experiment: str, scene: dict, builder: str, order: str, cost: float, noise: random.Random) -> dict:
@@ -250,6 +304,27 @@ def write_frames() -> None:
                               ("leaf", "group", "bvtt")), 4)
     write("libraries.json", cells("libraries", {"unc_cloth_ball": 1},
                                   ("group", "leaf", "all work", "embree", "fcl", "fcl-refit")), 4)
+
+
+def write_stress() -> None:
+    """What stress finds: systems that are right, one that refuses, and libraries that miss, add and crash."""
+    def finding(verdict: str = "holds", missed: int = 0, false: int = 0) -> dict:
+        detail = {"detail": f"{missed} missed, {false} false"} if verdict != "holds" else {}
+        return {"verdict": verdict, "checked": 1000, "wrong": missed + false, "missed": missed, **detail}
+
+    scenes = [("translate", "1e6"), ("scale", "1e20"), ("coincident", "a sphere twice"), ("not-finite", "one NaN")]
+    systems = [("oibvh-multi", "builder", "", {"leaves": finding(), "boxes": finding()}),
+               ("leaf over karras", "collider", "", {"pairs": finding(), "moved": finding()}),
+               ("bvtt over oibvh-multi, groups", "collider", "", {"pairs": finding(), "room": finding()}),
+               ("embree", "collider", "Embree", {"ends": finding("refused")}),
+               ("rtcCollide", "library", "Embree", {"pairs": finding("broken", 3139)}),
+               ("FCL OBBRSS float", "library", "FCL", {"contacts": finding("broken", 12, 1345)}),
+               ("FCL AABB double", "library", "FCL", {"ends": {**finding("broken"), "detail": "it crashed (signal 11)"}})]
+    cells = [{"family": family, "scene": scene, "triangles": 20000, "system": system, "kind": kind,
+              **({"library": library} if library else {}), "findings": findings}
+             for family, scene in scenes for system, kind, library, findings in systems
+             if family != "not-finite" or kind == "library"]
+    write("stress.json", [], 6, {"libraries": {"Embree": "3.13.5", "FCL": "0.7.0"}}, cells)
 
 
 if __name__ == "__main__":

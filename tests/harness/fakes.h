@@ -43,7 +43,12 @@ inline Cell fake_cell(std::string builder = "oibvh-multi", std::int64_t hierarch
 {
     Cell cell;
     cell.experiment = "table1";
-    cell.scene = {"bunny", 144046, 72027, 1, 0, "bunny.ply", "", {}, "", 0xab54a98ceb1f0au};
+    cell.scene.name = "bunny";
+    cell.scene.triangles = 144046;
+    cell.scene.vertices = 72027;
+    cell.scene.objects = 1;
+    cell.scene.source = "bunny.ply";
+    cell.scene.content_hash = 0xab54a98ceb1f0au;
     cell.builder.name = std::move(builder);
     cell.warm_up = 1;
     int order = 7;

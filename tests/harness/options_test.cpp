@@ -95,6 +95,38 @@ TEST(Options, OfCollideAreAllUnderstood)
     EXPECT_EQ(collide.pairs, "p.bin");
 }
 
+TEST(Options, OfAccuracyAreAllUnderstood)
+{
+    const auto accuracy = [](std::vector<const char*> words) {
+        words.insert(words.begin(), "accuracy");
+        return std::get<AccuracyCommand>(parsed(words).command);
+    };
+    EXPECT_EQ(accuracy({}).pairs, 1'000'000u);
+    EXPECT_EQ(accuracy({}).axis, "");
+    const AccuracyCommand all =
+        accuracy({"--axis", "sums", "--scene", "a", "b", "--pairs", "10000000", "--seed", "3",
+                  "--filter", "x", "--samples", "9", "--out", "o"});
+    EXPECT_EQ(all.axis, "sums");
+    EXPECT_EQ(all.scenes, (std::vector<std::string>{"a", "b"}));
+    EXPECT_EQ(all.pairs, 10'000'000u);
+    EXPECT_EQ(all.seed, 3u);
+    EXPECT_EQ(all.filter, "x");
+    EXPECT_EQ(all.samples, 9);
+    EXPECT_EQ(all.out, "o");
+}
+
+TEST(Options, OfStressAreAllUnderstood)
+{
+    const auto stress = std::get<StressCommand>(
+        parsed({"stress", "--quick", "--seed", "7", "--filter", "^scale/", "--out", "s.json"})
+            .command);
+    EXPECT_TRUE(stress.quick);
+    EXPECT_EQ(stress.seed, 7u);
+    EXPECT_EQ(stress.filter, "^scale/");
+    EXPECT_EQ(stress.out, "s.json");
+    EXPECT_EQ(std::get<StressCommand>(parsed({"stress"}).command).seed, 1u);
+}
+
 TEST(Options, InCommonMayStandBeforeOrBehindTheCommand)
 {
     EXPECT_EQ(parsed({"--data", "d", "show", "f"}).common.data, "d");
@@ -103,7 +135,8 @@ TEST(Options, InCommonMayStandBeforeOrBehindTheCommand)
 
 TEST(Options, ThatAskForHelpOnlyPrint)
 {
-    for (const char* command : {"list", "build", "collide", "run", "reproduce", "check", "show"}) {
+    for (const char* command :
+         {"list", "build", "collide", "run", "reproduce", "check", "show", "stress"}) {
         const auto text = std::get<PrintCommand>(parsed({command, "--help"}).command).text;
         EXPECT_NE(text.find("Usage: bvhbench " + std::string(command)), std::string::npos) << text;
     }
@@ -117,6 +150,8 @@ TEST(Options, ThatAreNotUnderstoodAreAnsweredInOneSentence)
              {"paint"},
              {"list"},
              {"list", "colours"},
+             {"stress", "--seed", "x"},
+             {"stress", "scale"},
              {"build"},
              {"build", "--builder", "perfect"},
              {"build", "--builder", "perfect", "--scene", "s", "--samples", "0"},
@@ -140,7 +175,8 @@ TEST(Options, ThatAreNotUnderstoodAreAnsweredInOneSentence)
     }
     EXPECT_NE(
         refusal({"list", "colours"})
-            .find("there is no 'colours'; there are: builders, colliders, orders, skips, tuning, scenes, devices"),
+            .find("there is no 'colours'; there are: builders, colliders, narrow, orders, skips, "
+                  "tuning, scenes, devices, accuracy"),
         std::string::npos);
 }
 

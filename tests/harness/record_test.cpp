@@ -95,7 +95,11 @@ TEST(Record, ReadsBackWhatItWrote)
     query.operation = Operation::collide;
     query.collider = {"leaf", Among::between_objects, false, "exact", 3, 2, 64};
     query.check = {Check::Verdict::agrees, "brute", "", {}, 0x34u, 0x56u};
-    const std::string text = text_of(run, {fake_cell(), failed, host, query});
+    Cell axis = fake_cell();
+    axis.operation = Operation::accuracy;
+    axis.accuracy = {"narrow", "guigue-f64", 7};
+    axis.check.verdict = Check::Verdict::counted;
+    const std::string text = text_of(run, {fake_cell(), failed, host, query, axis});
 
     const Document document = read_document(text, "x");
     EXPECT_EQ(text_of(document.run, document.cells), text);
@@ -105,6 +109,10 @@ TEST(Record, ReadsBackWhatItWrote)
     EXPECT_EQ(document.cells[2].operation, Operation::refit);
     EXPECT_EQ(document.cells[2].left_out, host.left_out);
     EXPECT_EQ(document.cells[2].leaves_by_depth, host.leaves_by_depth);
+    EXPECT_EQ(document.cells[4].operation, Operation::accuracy);
+    EXPECT_EQ(document.cells[4].accuracy.method, "guigue-f64");
+    EXPECT_EQ(document.cells[4].accuracy.seed, 7);
+    EXPECT_EQ(document.cells[4].check.verdict, Check::Verdict::counted);
     EXPECT_EQ(document.cells[3].operation, Operation::collide);
     EXPECT_EQ(document.cells[3].collider, query.collider);
     EXPECT_EQ(document.cells[3].check.pairs_hash, 0x34u);
@@ -123,6 +131,26 @@ TEST(Record, ReadsBackWhatALaunchCostsAndWhatTheDeviceWasTunedTo)
     EXPECT_EQ(read.tuning_from, run.tuning_from);
     EXPECT_EQ(read.tuning, run.tuning);
     EXPECT_EQ(read_document(document_text(run_text(fake_run()), {}), "test").run.tuning_from, "none");
+}
+
+TEST(Record, ReadsBackWhatStressFound)
+{
+    StressCell cell;
+    cell.family = "scale", cell.scene = "1e20", cell.triangles = 300;
+    cell.system = "rtcCollide", cell.kind = StressCell::Kind::library, cell.library = "Embree";
+    cell.findings = {{Invariant::ends, {Finding::Verdict::holds, 1}},
+                     {Invariant::pairs, {Finding::Verdict::broken, 747, 748, 747, "747 missed"}}};
+    StressCell ours;
+    ours.family = "layout", ours.scene = "all", ours.system = "layout.h",
+    ours.kind = StressCell::Kind::host;
+    ours.findings = {{Invariant::layout, {Finding::Verdict::refused, 0, 0, 0, "none"}}};
+    const std::string text =
+        document_text(run_text(fake_run()), {}, {cell_text(cell), cell_text(ours)});
+    EXPECT_EQ(read_document(text, "a").stress, (std::vector{cell, ours}));
+    EXPECT_TRUE(read_document(document_text(run_text(fake_run()), {}), "a").stress.empty());
+    std::string other = text;
+    other.replace(other.find("layout\":{"), 6, "colour");
+    EXPECT_THROW(read_document(other, "a"), Unavailable);
 }
 
 TEST(Record, TakesACellThatDoesNotSayForABuild)

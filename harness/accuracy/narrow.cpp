@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: MIT
+//
+// The axis narrow: narrow phases over classes of pairs of triangles, against CGAL's exact predicates.
+#include <algorithm>
+
+#include "collide/exact_reference.h"
+#include "collide/host_collider.h"
+#include "collide/narrow.h"
+#include "geometry/error.h"
+#include "geometry/hash.h"
+#include "harness/accuracy/axes.h"
+#include "harness/accuracy/axis.h"
+#include "harness/accuracy/differences.h"
+#include "harness/accuracy/narrow_truth.h"
+#include "harness/failure.h"
+#include "harness/interrupt.h"
+#include "harness/query_bytes.h"
+#include "scenes/generate/pair_classes.h"
+
+namespace bvhbench {
+namespace {
+
+/// Bytes of the host a pair: six corners, two faces, and pairs several times over.
+constexpr std::size_t host_bytes_a_pair = 240;
+
+/// A narrow phase, and what it has done of the class at hand.
+struct Phase {
+    std::unique_ptr<NarrowPhase> narrow;  ///< null if there cannot be one
+    std::vector<Sample> samples;          ///< each the sum of those of the pieces
+    Differences wrong;
+    NarrowCounts counts;
+    std::uint64_t hash = 0;  ///< of the contacts of the piece at hand
+};
+
+/// Some pairs of a class: on the host and on the device, with the right answer.
+struct Piece {
+    Mesh mesh;
+    std::vector<Pair> pairs;
+    PairList meeting;
+    Input input;
+    DevicePairs candidates;
+
+    Piece(Session& session, const PairClass& of, uint count, uint seed)
+        : mesh(apart_pairs(of, count, seed))
+        , pairs(pairs_of_neighbours(mesh))
+        , meeting(neighbours_that_meet(mesh))
+        , input(upload(session.device(), session.queue(), mesh.points, mesh.faces))
+        , candidates(room_for_pairs(session.device(), count))
+    {
+        copy_pairs(pairs, candidates, session.queue());
+    }
+};
+
+std::vector<StageTime> query_once(NarrowPhase& narrow, const Piece& piece, Session& session)
+{
+    narrow.query(piece.input, piece.candidates.pairs, piece.candidates.counters, session.queue());
+    return session.queue().finish();
+}
+
+PairList contacts_of(NarrowPhase& narrow, const Piece& piece, Session& session)
+{
+    do
+        query_once(narrow, piece, session);
+    while (!narrow.complete(session.queue()));
+    return PairList(narrow.contacts(session.queue()));
+}
+
+void judge(Phase& phase, const Piece& piece, Session& session)
+{
+    const PairList found = contacts_of(*phase.narrow, piece, session);
+    phase.hash = found.hash();
+    phase.wrong += differences(found, piece.meeting);
+    const NarrowCounts counts = phase.narrow->counts(session.queue());
+    phase.counts.by_floats += counts.by_floats;
+    phase.counts.by_doubles += counts.by_doubles;
+    phase.counts.exactly += counts.exactly;
+}
+
+/// Samples of a piece are added to those of the pieces before it, one by one.
+void add_samples(std::vector<Sample>& to, std::vector<Sample>&& more, std::int64_t moved_bytes)
+{
+    for (Sample& sample : more)
+        add_moved_bytes(sample.stages, "narrow", moved_bytes);
+    if (to.empty()) {
+        to = std::move(more);
+        return;
+    }
+    for (std::size_t k = 0; k < std::min(to.size(), more.size()); ++k) {
+        StageTime& sum = to[k].stages.front();
+        const StageTime& time = more[k].stages.front();
+        sum.busy_ns += time.busy_ns;
+        sum.span_ns += time.span_ns;
+        sum.launches += time.launches;
+        sum.moved_bytes += time.moved_bytes;
+    }
+}
+
+/// Each is held to the right answer before it is timed, and to that answer after: a race may strike only sometimes.
+void measure_piece(const AxisRun& run, std::span<Measured> cells, std::span<Phase> phases,
+                   const Piece& piece)
+{
+    Session& session = run.session;
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+        if (cells[k].cell.status != Cell::Status::measured)
+            continue;
+        Phase& phase = phases[k];
+        const std::string failure = reason_of_failure([&] {
+            phase.narrow->reserve(piece.mesh.faces.size());
+            judge(phase, piece, session);
+        });
+        if (!failure.empty())
+            cells[k].fail(session, failure);
+        else
+            cells[k].once = [&] { return query_once(*phase.narrow, piece, session); };
+    }
+    take_samples_of(run, cells);
+    const std::int64_t corners = corner_bytes(piece.pairs, piece.input);
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+        if (!cells[k].once)
+            continue;
+        cells[k].once = nullptr;
+        const std::string failure = reason_of_failure([&] {
+            const PairList found = contacts_of(*phases[k].narrow, piece, session);
+            if (found.hash() != phases[k].hash)
+                throw Unavailable("it found other contacts after the samples than before");
+            const std::size_t pairs = piece.pairs.size() + found.size();
+            add_samples(phases[k].samples, std::move(cells[k].cell.samples),
+                        corners + static_cast<std::int64_t>(pairs * sizeof(Pair)));
+        });
+        if (!failure.empty())
+            cells[k].fail(session, failure);
+    }
+}
+
+void conclude(Cell& cell, Phase& phase, std::size_t pairs, std::size_t meeting)
+{
+    if (cell.status != Cell::Status::measured)
+        return;
+    cell.samples = std::move(phase.samples);
+    const auto put = [&](const char* name, auto value) {
+        cell.counters[name] = static_cast<double>(value);
+    };
+    put("pairs_count", pairs);
+    put("meeting_count", meeting);
+    put("missed_count", phase.wrong.missed);
+    put("false_count", phase.wrong.false_ones);
+    put("narrow_float_count", phase.counts.by_floats);
+    put("narrow_double_count", phase.counts.by_doubles);
+    put("narrow_exact_count", phase.counts.exactly);
+    const bool promises = find_narrow_method(cell.accuracy.method).is_exact;
+    cell.check.against = "CGAL";
+    cell.check.verdict = !promises                      ? Check::Verdict::counted
+                         : phase.wrong == Differences{} ? Check::Verdict::agrees
+                                                        : Check::Verdict::differs;
+    if (cell.check.verdict == Check::Verdict::differs)
+        cell.check.detail = std::to_string(phase.wrong.missed) + " pairs missed, " +
+                            std::to_string(phase.wrong.false_ones) + " false";
+}
+
+/// What doubles are needed for is skipped where there are none, and all of it where there is no reference; what cannot be
+/// compiled has failed.
+Phase compiled(Session& session, const NarrowMethod& method, Measured& one)
+{
+    Phase phase;
+    std::string lacking =
+        has_exact_reference ? "" : "built without CGAL, which errors are counted against";
+    const std::string failure = reason_of_failure([&] {
+        if (!lacking.empty())
+            return;
+        try {
+            phase.narrow = std::make_unique<NarrowPhase>(session.programs(),
+                                                         NarrowOptions{.method = method.name});
+        } catch (const Unavailable& error) {
+            lacking = error.what();
+        }
+    });
+    if (!failure.empty() || !lacking.empty())
+        one.fail(session, failure + lacking);
+    if (!lacking.empty())
+        one.cell.status = Cell::Status::skipped;
+    return phase;
+}
+
+void measure_class(const AxisRun& run, const PairClass& of, std::size_t pairs)
+{
+    std::vector<Measured> cells;
+    std::vector<Phase> phases;
+    for (const NarrowMethod& method : narrow_methods()) {
+        if (!run.task.wants(of.name, method.name))
+            continue;
+        Measured& one = cells.emplace_back();
+        one.cell = accuracy_cell("narrow", std::string(method.name), {});
+        one.cell.accuracy.seed = run.task.seed;
+        phases.push_back(compiled(run.session, method, one));
+    }
+    Hash hash;
+    std::size_t meeting = 0;
+    uint seed = run.task.seed;
+    const std::string no_piece = reason_of_failure([&] {
+        for (std::size_t done = 0; has_exact_reference && done < pairs;
+             done += run.task.pairs_at_once) {
+            throw_if_interrupted();
+            const std::size_t count = std::min(run.task.pairs_at_once, pairs - done);
+            run.session.require_host_memory("a class of pairs", host_bytes_a_pair * count);
+            const Piece piece(run.session, of, static_cast<uint>(count), seed++);
+            hash.values(std::span<const Point>(piece.mesh.points));
+            meeting += piece.meeting.size();
+            measure_piece(run, cells, phases, piece);
+        }
+    });
+    const auto many = static_cast<std::int64_t>(pairs);
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+        Cell& cell = cells[k].cell;
+        cell.scene.name = of.name;
+        cell.scene.triangles = 2 * many;
+        cell.scene.vertices = 6 * many;
+        cell.scene.objects = 1;
+        cell.scene.source = "pairs: " + of.summary;
+        cell.scene.content_hash = hash.get();
+        if (!no_piece.empty())
+            cells[k].fail(run.session, no_piece);
+        conclude(cell, phases[k], pairs, meeting);
+        run.add(std::move(cell));
+    }
+}
+
+bool is_wanted(const AxisTask& task, const PairClass& of)
+{
+    const auto methods = narrow_methods();
+    return std::any_of(methods.begin(), methods.end(), [&](const NarrowMethod& method) {
+        return task.wants(of.name, method.name);
+    });
+}
+
+}  // namespace
+
+void measure_narrow(const AxisRun& run)
+{
+    std::vector<const PairClass*> wanted;
+    for (const PairClass& of : pair_classes())
+        if (is_wanted(run.task, of))
+            wanted.push_back(&of);
+    const std::size_t pairs = run.task.pairs;
+    for (std::size_t k = 0; k < wanted.size(); ++k) {
+        const std::size_t share = pairs * (k + 1) / wanted.size() - pairs * k / wanted.size();
+        run.progress.note("accuracy, narrow: " + wanted[k]->name);
+        measure_class(run, *wanted[k], std::max<std::size_t>(1, share));
+    }
+}
+
+}  // namespace bvhbench

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "harness/accuracy/scene_input.h"
+
+#include "harness/accuracy/differences.h"
+#include "harness/check.h"
+#include "harness/interrupt.h"
+
+namespace bvhbench {
+
+void for_each_scene(const AxisRun& run, std::string_view axis,
+                    std::initializer_list<const char*> own,
+                    const std::function<void(const SceneFacts& facts, const Input& input)>& measure)
+{
+    std::vector<std::string> scenes = run.task.scenes;
+    if (scenes.empty())
+        scenes.assign(own.begin(), own.end());
+    for (const std::string& scene : scenes) {
+        throw_if_interrupted();
+        run.progress.note("accuracy, " + std::string(axis) + ": " + scene);
+        Frames frames;
+        frames.load(Experiment{}, scene, run.session.scenes());
+        frames.upload(run.session);
+        measure(frames.facts(), frames.now());
+    }
+}
+
+HostTree built_tree(Session& session, const BuilderChoice& choice, const Input& input)
+{
+    Builder& builder = session.builder(choice);
+    session.require_host_memory("a tree", check_bytes(input.triangle_count()));
+    builder.reserve(input.triangle_count());
+    const Tree* tree = nullptr;
+    session.build_once(builder, input, Start::from_triangles, &tree);
+    return tree->spelled_out();
+}
+
+std::unique_ptr<Pipeline> settled_pipeline(Session& session, Cell& cell, const Input& input)
+{
+    auto pipeline = std::make_unique<Pipeline>(session, cell.builder, cell.collider, input);
+    pipeline->begin_frame({});
+    pipeline->settle(input);
+    cell.counters = pipeline->counters();
+    return pipeline;
+}
+
+void judge_pairs(const Pipeline& pipeline, const PairList& right, const std::string& against,
+                 Cell& cell)
+{
+    const PairList found = pipeline.pairs();
+    const Differences wrong = differences(found, right);
+    cell.counters["missed_count"] = static_cast<double>(wrong.missed);
+    cell.counters["false_count"] = static_cast<double>(wrong.false_ones);
+    cell.check.verdict = wrong == Differences{} ? Check::Verdict::agrees : Check::Verdict::differs;
+    cell.check.against = against;
+    cell.check.pairs_hash = found.hash();
+    if (wrong != Differences{})
+        cell.check.detail = std::to_string(wrong.missed) + " pairs missed, " +
+                            std::to_string(wrong.false_ones) + " false";
+}
+
+}  // namespace bvhbench

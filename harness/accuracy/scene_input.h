@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <initializer_list>
+#include <memory>
+#include <string>
+
+#include "harness/accuracy/axis.h"
+#include "harness/frames.h"
+#include "harness/pipeline.h"
+
+namespace bvhbench {
+
+/// Call `measure` for each scene asked for, or for those of the axis, with its first frame on the device. Throws what
+/// loading a scene does.
+void for_each_scene(
+    const AxisRun& run, std::string_view axis, std::initializer_list<const char*> own,
+    const std::function<void(const SceneFacts& facts, const Input& input)>& measure);
+
+/// The first frame as one object's tree by a builder, spelled out.
+HostTree built_tree(Session& session, const BuilderChoice& builder, const Input& input);
+
+/// The pipeline of a cell's builder and collider, ready to be sampled over `input`. Its counters are then the cell's.
+std::unique_ptr<Pipeline> settled_pipeline(Session& session, Cell& cell, const Input& input);
+
+/// Hold the pairs that it found last to the right ones: the cell's verdict, and its counters of what is missed and false.
+void judge_pairs(const Pipeline& pipeline, const PairList& right, const std::string& against,
+                 Cell& cell);
+
+}  // namespace bvhbench

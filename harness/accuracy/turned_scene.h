@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+//
+// Scenes whose vertices are doubles, as simulations have them: a scene of floats, turned by an angle and moved far off,
+// with what comes of it computed in doubles and taken as given.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "collide/pairs.h"
+#include "geometry/mesh.h"
+
+namespace bvhbench {
+
+struct WidePoint {
+    double x, y, z;
+};
+
+/// `points`, turned and then moved along all axes by `sizes` times the longest side of their box.
+std::vector<WidePoint> turned_and_moved(std::span<const Point> points, double sizes);
+
+/// Rounded to floats, to nearest. `recentred`: after the middle of their box, in doubles, was taken off.
+std::vector<Point> rounded(std::span<const WidePoint> points, bool recentred);
+
+/// The pairs of triangles whose boxes of doubles overlap: the reference. A sweep on one core.
+PairList overlapping_pairs_in_doubles(std::span<const WidePoint> points,
+                                      std::span<const Face> faces);
+
+}  // namespace bvhbench

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <iterator>
+#include <set>
+
+#include "builders/device_tree.h"
+#include "geometry/error.h"
+#include "harness/failure.h"
+#include "harness/pipeline.h"
+#include "harness/stress/systems.h"
+
+namespace bvhbench {
+namespace {
+
+using enum Finding::Verdict;
+
+// Binary, wide in floats and in bytes, with pointers.
+constexpr std::string_view some_builders[] = {"oibvh-multi", "oibvh-wide4", "oibvh-wide8-q8",
+                                              "karras"};
+
+/// A builder's tree over one triangle.
+const Tree& smallest_tree(Session& session, const BuilderChoice& choice)
+{
+    static const Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+    const Input input = upload(session.device(), session.queue(), mesh.points, mesh.faces);
+    Builder& builder = session.builder(choice);
+    builder.reserve(1);
+    const Tree* tree = nullptr;
+    session.build_once(builder, input, Start::from_triangles, &tree);
+    return *tree;
+}
+
+/// One builder for each way to walk a tree on the device: those above, and the first with any other header.
+std::vector<std::string> tree_builders(Session& session, bool few)
+{
+    std::vector<std::string> names(std::begin(some_builders), std::end(some_builders));
+    if (few)
+        return names;
+    std::set<std::string_view> headers;
+    const auto is_new = [&](const std::string& name) {
+        const auto* tree = dynamic_cast<const DeviceTree*>(&smallest_tree(session, {.name = name}));
+        return tree != nullptr && headers.insert(tree->access_header()).second;
+    };
+    std::for_each(names.begin(), names.end(), is_new);
+    for (const BuilderEntry& entry : builder_catalog())
+        if (builds_on_device(session, entry) && is_new(std::string(entry.name)))
+            names.emplace_back(entry.name);
+    return names;
+}
+
+Input uploaded(Session& session, const StressScene& scene)
+{
+    return upload(session.device(), session.queue(), scene.mesh.points, scene.mesh.faces,
+                  scene.objects);
+}
+
+FoundPairs found_by(const Pipeline& pipeline)
+{
+    FoundPairs found;
+    if (pipeline.has_pairs())
+        found.pairs = pipeline.pairs();
+    if (pipeline.has_contacts())
+        found.contacts = pipeline.contacts();
+    return found;
+}
+
+/// `judge`, with what stops it as a finding.
+template <class Judge>
+Findings guarded(Session& session, const StressPipeline& chosen, const Judge& judge)
+{
+    Findings findings;
+    const std::string failure = reason_of_failure([&] {
+        findings = judge();
+        findings[Invariant::ends] = {holds, 1};
+    });
+    if (!failure.empty()) {
+        session.renew_queue();
+        // A library's collider says what it does not take; of ours nobody asks for what they refuse.
+        findings = {{Invariant::ends, {chosen.is_library ? refused : broken, 1, 0, 0, failure}}};
+    }
+    return findings;
+}
+
+}  // namespace
+
+std::string system_name(const BuilderChoice& builder, const ColliderChoice& collider)
+{
+    std::string name = collider.name;
+    if (!builder.name.empty())
+        name += " over " + builder.name;
+    if (collider.form != KernelForm::of_device)
+        name += collider.form == KernelForm::groups ? ", groups" : ", chunks";
+    return name;
+}
+
+std::vector<StressPipeline> stress_pipelines(Session& session, bool few)
+{
+    const KernelForm other = session.device().is_cpu() ? KernelForm::groups : KernelForm::chunks;
+    std::vector<StressPipeline> pipelines;
+    for (const ColliderEntry& entry : collider_catalog()) {
+        if (entry.make == nullptr)
+            continue;
+        ColliderChoice choice;
+        choice.name = entry.name;
+        choice.narrow = "exact";
+        choice.keep_adjacent = false;  // as libraries
+        const auto collider = make_collider(choice, session.programs());
+        choice.keep_adjacent = !collider->finds_contacts();
+        if (!collider->needs_tree()) {
+            pipelines.push_back({{.name = ""}, choice, entry.is_library});
+            continue;
+        }
+        std::vector<StressPipeline> over;
+        for (const std::string& name : tree_builders(session, few)) {
+            const BuilderChoice builder{.name = name};
+            if (collider->refusal(smallest_tree(session, builder)).empty())
+                over.push_back({builder, choice, false});
+        }
+        pipelines.insert(pipelines.end(), over.begin(), over.end());
+        over.resize(std::min(over.size(), few ? 1 : std::size(some_builders)));
+        for (StressPipeline& one : over) {
+            one.collider.form = other;
+            pipelines.push_back(one);
+        }
+    }
+    return pipelines;
+}
+
+PairFinder finder_of(Session& session, const StressPipeline& chosen)
+{
+    return [&session, chosen](const StressScene& scene, std::size_t capacity) {
+        const Input input = uploaded(session, scene);
+        ColliderChoice collider = chosen.collider;
+        collider.capacity = capacity;
+        Pipeline pipeline(session, chosen.builder, collider, input);
+        pipeline.begin_frame({});
+        pipeline.settle(input);
+        FoundPairs first = found_by(pipeline);
+        if (!pipeline.collider().keeps_tree())
+            return first;
+        pipeline.begin_frame({});
+        pipeline.settle(input);
+        FoundPairs second = found_by(pipeline);
+        if (first != second)
+            throw Unavailable("two frames in a row over the same points found different pairs");
+        return second;
+    };
+}
+
+Findings judge_frames(Session& session, const StressPipeline& chosen, const StressScene& scene,
+                      int repeats)
+{
+    return guarded(session, chosen, [&] {
+        const Input input = uploaded(session, scene);
+        Pipeline pipeline(session, chosen.builder, chosen.collider, input);
+        std::vector<std::uint64_t> hashes;
+        for (int frame = 0; frame <= repeats; ++frame) {
+            pipeline.begin_frame({});
+            pipeline.settle(input);
+            hashes.push_back(hash_of(found_by(pipeline)));
+        }
+        return Findings{{Invariant::same, judge_repeats(hashes)}};
+    });
+}
+
+Findings judge_pipeline(Session& session, const StressPipeline& chosen,
+                        const StressQuestion& question)
+{
+    return guarded(session, chosen,
+                   [&] { return judge_finder(finder_of(session, chosen), question, 0); });
+}
+
+}  // namespace bvhbench

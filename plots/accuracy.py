@@ -1,0 +1,259 @@
+#!/usr/bin/env python3
+"""Run time against error, a figure an axis of accuracy.
+
+    plots/accuracy.py FILE... --out DIR
+
+narrow: a panel a class of pairs of triangles, a point a narrow phase. sums: a panel a scene, a point a way to add areas
+up. codes: a panel a scene and measure, a point an order. input: how many pairs of boxes, and what a frame takes, by how
+far from the origin the scene is. Left and down is better everywhere; the grey line joins what no other method is as
+good as in both time and error (the Pareto front), and those points are filled.
+"""
+from __future__ import annotations
+
+import math
+import pathlib
+import sys
+from collections.abc import Callable
+from typing import NamedTuple
+
+import matplotlib.pyplot as plt
+from matplotlib.lines import Line2D
+from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
+
+import figure
+import results
+import style
+from style import Look
+
+NARROW_COLUMNS = 6
+SCENE_COLUMNS = 4
+
+# In the order of legends; colours as in style.py. To add a method, add its line here.
+METHODS = {
+    "narrow": {"filter-f64+exact": Look("#0072B2", "o"), "guigue-f64": Look("#E69F00", "^"),
+               "guigue-f32": Look("#D55E00", "v"), "moller-f32": Look("#CC79A7", "s")},
+    "sums": {"f32": Look("#D55E00", "v"), "f32-pairwise": Look("#E69F00", "s"), "f32-compensated": Look("#CC79A7", "D"),
+             "f64": Look("#0072B2", "^"), "f64-pairwise": Look("#56B4E9", "s"), "f64-compensated": Look("#009E73", "o")},
+    "codes": {"morton30": Look("#0072B2", "o"), "morton63": Look("#0072B2", "s"),
+              "morton30-axis": Look("#56B4E9", "o"), "morton63-axis": Look("#56B4E9", "s"),
+              "hilbert30": Look("#009E73", "o"), "hilbert63": Look("#009E73", "s"),
+              "hilbert30-axis": Look("#E69F00", "o"), "hilbert63-axis": Look("#E69F00", "s")},
+    "input": {"f32": Look("#D55E00", "v"), "f32-recentred": Look("#0072B2", "o")},
+}
+
+
+class Point(NamedTuple):
+    time: float
+    error: float
+    method: str
+
+
+def look(axis: str, method: str) -> Look:
+    if method not in METHODS[axis]:
+        raise results.Refused(f"plots/accuracy.py has no look for the method '{method}' of {axis}: add a line to METHODS")
+    return METHODS[axis][method]
+
+
+def cells_of(run: results.Run, axis: str) -> list[results.Cell]:
+    return [cell for cell in run.cells if cell.accuracy.get("axis") == axis and cell.samples]
+
+
+def by_input(cells: list[results.Cell]) -> dict[str, list[results.Cell]]:
+    return {name: [cell for cell in cells if cell.scene == name] for name in dict.fromkeys(cell.scene for cell in cells)}
+
+
+def median_s(cell: results.Cell, stages: tuple[str, ...] | None = None) -> float:
+    times = cell.frame_times_s() if stages is None else sum(cell.times_s(stage) for stage in stages)
+    return results.quantiles(times).median
+
+
+def wrong(cell: results.Cell) -> float:
+    """The share of pairs that were missed or false."""
+    return (cell.counters["missed_count"] + cell.counters["false_count"]) / cell.counters["pairs_count"]
+
+
+def front(points: list[Point]) -> list[Point]:
+    """Those that no other is as fast as and as good as, one of them more so; by time."""
+    kept: list[Point] = []
+    for point in sorted(points):
+        if not kept or point.error < kept[-1].error:
+            kept.append(point)
+    return kept
+
+
+def draw_points(axes: plt.Axes, axis: str, points: list[Point]) -> None:
+    best = front(points)
+    axes.plot([point.time for point in best], [point.error for point in best], color="#888888", linewidth=0.8, zorder=1)
+    for point in points:
+        seen = look(axis, point.method)
+        axes.plot(point.time, point.error, marker=seen.marker, linestyle="none", markeredgecolor=seen.colour,
+                  markerfacecolor=seen.colour if point in best else "white", clip_on=False,
+                  zorder=4 if point in best else 3)
+    axes.grid(axis="x")
+
+
+def log_times(axes: plt.Axes, times: list[float]) -> None:
+    low, high = min(times) / 1.3, max(times) * 1.3
+    axes.set(xscale="log", xlim=(low, high))
+    figure.log_ticks(axes.xaxis, low, high)
+
+
+def from_zero(axes: plt.Axes, least: float, most: float, text: Callable[[float], str], ticks: int) -> None:
+    """Logarithmic from the decade of the least error that is none, and below it one step to 0."""
+    first, last = math.floor(math.log10(least)), math.ceil(math.log10(most))
+    axes.set_yscale("symlog", linthresh=10.0**first, linscale=0.5)
+    step = max(1, math.ceil((last - first) / ticks))
+    places = [0.0, *(10.0**power for power in range(last, first - 1, -step))]
+    axes.yaxis.set_major_locator(FixedLocator(places))
+    axes.yaxis.set_minor_locator(NullLocator())
+    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: "0" if value == 0 else text(value)))
+    axes.set_ylim(0, 10.0**last * 1.3)
+
+
+def legend(drawing: plt.Figure, axis: str, cells: list[results.Cell], columns: int) -> float:
+    there = {cell.accuracy["method"] for cell in cells}
+    handles = [Line2D([], [], color=seen.colour, marker=seen.marker, linestyle="none", label=name)
+               for name, seen in METHODS[axis].items() if name in there]
+    return figure.legend_above(drawing, handles, columns)
+
+
+def panels(count: int, columns: int, height: float, **shared: object) -> tuple[plt.Figure, list[plt.Axes], int]:
+    columns = min(columns, count)
+    rows = math.ceil(count / columns)
+    drawing, grid = plt.subplots(rows, columns, figsize=(style.PAGE_WIDTH, 1.1 + height * rows), squeeze=False,
+                                 layout="constrained", **shared)
+    for axes in list(grid.flat)[count:]:
+        axes.remove()
+    return drawing, list(grid.flat)[:count], columns
+
+
+def draw_narrow(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
+    inputs = by_input(cells)
+    drawing, grid, columns = panels(len(inputs), NARROW_COLUMNS, 1.12, sharex=True, sharey=True)
+    points = {name: [Point(1e9 * median_s(cell) / cell.counters["pairs_count"], 100 * wrong(cell), cell.accuracy["method"])
+                     for cell in group] for name, group in inputs.items()}
+    everything = [point for group in points.values() for point in group]
+    log_times(grid[0], [point.time for point in everything])
+    least = min((point.error for point in everything if point.error > 0), default=1e-3)
+    from_zero(grid[0], least, 100, lambda value: f"{value:g} %", 4)
+    for number, (axes, name) in enumerate(zip(grid, inputs)):
+        draw_points(axes, "narrow", points[name])
+        axes.set_title(name.replace("_", " "), fontsize=6.5, pad=3, loc="left")
+        axes.tick_params(labelsize=6)
+        is_last = number // columns == (len(grid) - 1) // columns
+        axes.tick_params(labelbottom=is_last)
+        if is_last:
+            axes.set_xlabel("ns a pair", fontsize=6.5)
+        if number % columns == 0:
+            axes.set_ylabel("wrong", fontsize=6.5)
+    height = legend(drawing, "narrow", cells, 4)
+    seeds = sorted({cell.accuracy["seed"] for cell in cells})
+    pairs = sum(int(group[0].counters["pairs_count"]) for group in inputs.values())
+    figure.footer(drawing, run, "accuracy", (
+        f"{pairs:,} pairs of triangles, seed {', '.join(map(str, seeds))}. Wrong: missed or false, of the class's pairs, "
+        "against CGAL's exact predicates on the coordinates as stored.", "Down and left is better. Filled, joined: no other "
+        "is as good in both. Times: medians."), height)
+    return drawing
+
+
+def draw_sums(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
+    inputs = by_input(cells)
+    drawing, grid, columns = panels(len(inputs), SCENE_COLUMNS, 2.0, sharey=True)
+    errors = [cell.counters["relative_error"] for cell in cells]
+    from_zero(grid[0], min((error for error in errors if error > 0), default=1e-17), max(*errors, 1e-16),
+              lambda value: f"1e{round(math.log10(value))}", 6)
+    for number, (axes, (name, group)) in enumerate(zip(grid, inputs.items())):
+        points = [Point(1e9 * median_s(cell) / cell.counters["nodes_count"], cell.counters["relative_error"],
+                        cell.accuracy["method"]) for cell in group]
+        log_times(axes, [point.time for point in points])
+        draw_points(axes, "sums", points)
+        axes.set_title(name, loc="left")
+        axes.set_xlabel("ns a node")
+        if number % columns == 0:
+            axes.set_ylabel("relative error")
+    figure.footer(drawing, run, "accuracy", (
+        "Surface area cost of the tree of oibvh-multi, on one core of the host, against long double. Down and left is "
+        "better. Filled, joined: no other is as good in both. Times: medians.",), legend(drawing, "sums", cells, 6))
+    return drawing
+
+
+def draw_codes(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
+    cells = [cell for cell in cells if "sah_cost" in cell.counters]
+    inputs = by_input(cells)
+    if not inputs:
+        raise results.Refused(f"{run.path}: no tree of the axis codes has a surface area cost")
+    measures = {"sah_cost": "surface area cost", "box_tests_count": "box tests of a query, M"}
+    drawing, grid = plt.subplots(len(measures), len(inputs), figsize=(style.PAGE_WIDTH, 4.8), squeeze=False,
+                                 layout="constrained")
+    for column, (name, group) in enumerate(inputs.items()):
+        for row, measure in enumerate(measures):
+            scale = 1e-6 if measure == "box_tests_count" else 1
+            points = [Point(1e3 * median_s(cell, ("codes", "sort")), scale * cell.counters[measure],
+                            cell.accuracy["method"]) for cell in group]
+            axes = grid[row][column]
+            log_times(axes, [point.time for point in points])
+            draw_points(axes, "codes", points)
+            axes.set_ylim(0, 1.1 * max(point.error for point in points))
+            if row == 0:
+                axes.set_title(name, loc="left", fontsize=6.5)
+            else:
+                axes.set_xlabel("codes and sort, ms")
+            if column == 0:
+                axes.set_ylabel(measures[measure])
+    figure.footer(drawing, run, "accuracy", (
+        "Trees of oibvh-multi, queried by leaf; every query's pairs are those of the sweep. Circles: 30 bits a code, squares: "
+        "63; -axis: cells stretched to the scene. Filled, joined: no other is as good in both. Times: medians.",
+        run.costs_remark()), legend(drawing, "codes", cells, 4))
+    return drawing
+
+
+def distance(cell: results.Cell) -> float:
+    """Of "SCENE at 1e3", in sizes of the scene."""
+    return float(cell.scene.rsplit(" at ", 1)[1])
+
+
+def draw_input(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
+    scenes = list(dict.fromkeys(cell.scene.rsplit(" at ", 1)[0] for cell in cells))
+    drawing, grid = plt.subplots(2, len(scenes), figsize=(style.PAGE_WIDTH, 4.0), squeeze=False, layout="constrained",
+                                 sharex=True)
+    for column, scene in enumerate(scenes):
+        for method, seen in METHODS["input"].items():
+            group = sorted((cell for cell in cells if cell.scene.rsplit(" at ", 1)[0] == scene
+                            and cell.accuracy["method"] == method), key=distance)
+            for row, value in enumerate((lambda cell: cell.counters["pairs_count"] / cell.counters["right_pairs_count"],
+                                         lambda cell: 1e3 * median_s(cell))):
+                axes = grid[row][column]
+                axes.plot([distance(cell) for cell in group], [value(cell) for cell in group], color=seen.colour,
+                          marker=seen.marker, label=method)
+                axes.set_xscale("symlog", linthresh=100, linscale=0.5)
+                axes.set_yscale("log")
+        for axes, name in zip(grid[:, column], ("pairs, for each right one", "frame, ms")):
+            figure.log_ticks(axes.yaxis, *axes.get_ylim())
+            if column == 0:
+                axes.set_ylabel(name)
+        grid[0][column].set_title(scene, loc="left")
+        grid[1][column].set_xlabel("distance from the origin, in sizes of the scene")
+    figure.footer(drawing, run, "accuracy", (
+        "Vertices are doubles, rounded to floats as they are or after the middle of their box was taken off. Pairs of boxes "
+        "against those of doubles: rounding misses none. Times: medians.",), legend(drawing, "input", cells, 2))
+    return drawing
+
+
+FIGURES = {"narrow": draw_narrow, "sums": draw_sums, "codes": draw_codes, "input": draw_input}
+
+
+def figures_of(run: results.Run) -> dict[str, Callable[[], plt.Figure]]:
+    """Of each axis that a file has cells of, by the name of its picture."""
+    return {style.stem(run.path, axis): lambda axis=axis, draw=draw: draw(run, cells_of(run, axis))
+            for axis, draw in FIGURES.items() if cells_of(run, axis)}
+
+
+def draw_all(path: pathlib.Path, folder: pathlib.Path) -> list[pathlib.Path]:
+    found = figures_of(results.load(path))
+    if not found:
+        raise results.Refused(f"{path}: no measured cell of an axis of accuracy")
+    return [picture for name, draw in found.items() for picture in style.save(draw(), folder, name)]
+
+
+if __name__ == "__main__":
+    sys.exit(figure.draw_from(__doc__, draw_all))

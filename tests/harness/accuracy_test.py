@@ -1,0 +1,72 @@
+#!/usr/bin/env python3
+"""Hold `accuracy`, and `collide` by narrow phases that round, to their counts of errors.
+
+Usage: accuracy_test.py <bvhbench> <result schema>
+"""
+import pathlib
+import shutil
+import sys
+
+from program import SCHEMA, expect, main, valid
+
+
+def test_accuracy_counts_the_errors_of_each_narrow_phase():
+    assert [line.split()[0] for line in expect(0, "list", "accuracy").splitlines()] == ["narrow", "sums", "codes", "input"]
+    methods = [line.split()[0] for line in expect(0, "list", "narrow").splitlines()]
+    assert methods[0] == "filter-f64+exact" and len(methods) == 4, methods
+    out = expect(0, "accuracy", "--axis", "narrow", "--pairs", "60000", "--samples", "2", "--seed", "5", "--out", "a",
+                 says="filter-f64+exact: 0 missed and 0 false of 60,000 pairs")
+    assert "\nseed 5\n" in out, out
+    cells = valid("a/accuracy-narrow.json")["cells"]
+    assert len({cell["scene"]["name"] for cell in cells}) >= 20 and len(cells) % 4 == 0
+    assert {cell["accuracy"]["seed"] for cell in cells} == {5}
+    wrong = {}
+    for cell in cells:
+        counters, method = cell["counters"], cell["accuracy"]["method"]
+        assert cell["check"]["verdict"] == ("agrees" if method == methods[0] else "counted"), cell
+        assert len(cell["samples"]) == 2 and all(isinstance(counters[key], int) for key in counters), cell
+        wrong[method] = wrong.get(method, 0) + counters["missed_count"] + counters["false_count"]
+    assert wrong.pop(methods[0]) == 0 and min(wrong.values()) > 500, wrong
+    assert pathlib.Path("a/accuracy-narrow.png").exists() or "nothing was drawn" in out
+    assert expect(0, "show", "a/accuracy-narrow.json").count(" agrees\n") == len(cells) // 4
+    expect(0, "accuracy", "--scene", "soup:300", "--samples", "1", "--filter", "generic/guigue|soup.*/(f64|morton30)$",
+           "--out", "b", says="guigue-f64: 0 missed")
+    axes = [cell["accuracy"]["axis"] for cell in valid("b/accuracy.json")["cells"]]
+    assert axes == ["narrow", "narrow", "sums", "codes"], axes
+    expect(2, "accuracy", "--axis", "depth", says="there are: narrow, sums, codes, input")
+    expect(2, "accuracy", "--filter", "nothing", "--axis", "sums", "--scene", "soup:9", "--out", "c", says="no cell matches")
+    expect(2, "accuracy", "--pairs", "0", says="--pairs")
+
+
+def test_accuracy_finds_a_fault_planted_in_the_exact_narrow_phase():
+    source = SCHEMA.parents[2]
+    for room in ("geometry", "device", "collide"):
+        shutil.copytree(source / room, f"faulty/{room}", ignore=shutil.ignore_patterns("*.cpp"))
+    bound = pathlib.Path("faulty/geometry/orient.h")
+    text = bound.read_text()
+    assert text.count("return 0x1.8p-48 * most.x") == 1
+    bound.write_text(text.replace("return 0x1.8p-48 * most.x", "return 0x1.8p-90 * most.x"))
+    sound, faulty = (("accuracy", "--axis", "narrow", "--pairs", "3000", "--samples", "1", "--filter",
+                      "^same_place/filter", "--kernels", where) for where in (str(source), "faulty"))
+    expect(0, *sound, "--out", "sound", says=" agrees")
+    out = expect(1, *faulty, "--out", "planted")
+    cell, = valid("planted/accuracy-narrow.json")["cells"]
+    assert cell["check"]["verdict"] == "differs" and cell["counters"]["missed_count"] > 100, cell
+    assert "nothing was drawn" in out, out  # no figure of what is wrong, and no time:
+    line, = (line.split() for line in out.splitlines() if line.startswith("same_place"))
+    assert line[-2:] == ["%", "differs"], line
+
+
+def test_collide_counts_what_a_narrow_phase_that_rounds_gets_wrong():
+    common = ("collide", "--collider", "leaf", "--scene", "two-spheres:3000", "--samples", "1")
+    expect(0, *common, "--adjacent", "drop", "--narrow", "guigue-f64", "--json", "g.json", says="contacts missed")
+    cell, = valid("g.json")["cells"]
+    assert cell["check"]["verdict"] == "counted" and cell["collider"]["options"]["narrow"] == "guigue-f64", cell
+    assert {"missed_count", "false_count"} <= set(cell["counters"])
+    expect(0, *common, "--adjacent", "drop", "--narrow", "filter-f64+exact", says="verdict: agrees with brute, CGAL")
+    expect(2, *common, "--narrow", "guigue-f64", says="it needs --adjacent drop")
+    expect(2, *common, "--narrow", "guess", says="there are: exact, filter-f64+exact")
+
+
+if __name__ == "__main__":
+    sys.exit(main(globals()))

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: MIT
+//
+// What `stress` must notice: a tree, a pair, a repetition that is not what it should be, put there by hand. And that
+// scenes and variants are what they say.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "builders/spell_out.h"
+#include "collide/exact_reference.h"
+#include "collide/sweep.h"
+#include "harness/stress/judge.h"
+#include "harness/stress/libraries.h"
+#include "harness/stress/parts.h"
+#include "harness/stress/report.h"
+
+namespace bvhbench {
+namespace {
+
+using enum Finding::Verdict;
+
+const StressSize small{.quick = true, .seed = 7};
+
+StressScene spheres() { return crossed_spheres(120, 7); }
+
+/// What a system that is right finds over any scene.
+FoundPairs right_answer(const StressScene& scene)
+{
+    FoundPairs found;
+    found.pairs = touching_pairs(scene.mesh.points, scene.mesh.faces, true);
+    if (has_exact_reference)
+        found.contacts =
+            intersecting_pairs(scene.mesh.points, scene.mesh.faces, *found.pairs, true);
+    return found;
+}
+
+/// Without its last pair.
+PairList shortened(const PairList& pairs)
+{
+    return PairList({pairs.pairs().begin(), pairs.pairs().end() - 1});
+}
+
+HostTree tree_over(const Mesh& mesh)
+{
+    HostTree tree;  // a chain: leaf k hangs on inner node k
+    const std::size_t leaves = mesh.faces.size();
+    tree.nodes.resize(2 * leaves - 1);
+    for (std::size_t k = 0; k + 1 < leaves; ++k)
+        tree.nodes[2 * k].child = {static_cast<int>(2 * k + 1), static_cast<int>(2 * k + 2)};
+    for (std::size_t k = 0; k < leaves; ++k)
+        tree.nodes[k + 1 < leaves ? 2 * k + 1 : 2 * k].primitive = static_cast<int>(k);
+    return refitted(std::move(tree), mesh.points, mesh.faces);
+}
+
+Findings judged(const HostTree& tree, const Mesh& mesh)
+{
+    return judge_tree(tree, mesh.points, mesh.faces);
+}
+
+TEST(StressTree, NoticesAMissingLeafABoxThatIsTooSmallAndOneThatIsTooLarge)
+{
+    const Mesh mesh = spheres().mesh;
+    const HostTree right = tree_over(mesh);
+    EXPECT_EQ(judged(right, mesh).at(Invariant::leaves).verdict, holds);
+    EXPECT_EQ(judged(right, mesh).at(Invariant::boxes).verdict, holds);
+
+    HostTree wrong = right;
+    wrong.nodes[1].primitive = wrong.nodes[3].primitive;
+    wrong = refitted(std::move(wrong), mesh.points, mesh.faces);  // so that boxes are right
+    EXPECT_EQ(judged(wrong, mesh).at(Invariant::leaves).verdict, broken);
+    EXPECT_EQ(judged(wrong, mesh).at(Invariant::boxes).verdict, holds);
+    for (const float direction : {-1e30f, 1e30f}) {
+        wrong = right;
+        wrong.nodes[2].box.max_x = std::nextafter(wrong.nodes[2].box.max_x, direction);
+        const Findings findings = judged(wrong, mesh);
+        EXPECT_EQ(findings.at(Invariant::boxes).verdict, broken);
+        EXPECT_EQ(findings.at(Invariant::leaves).verdict, holds);
+        EXPECT_NE(findings.at(Invariant::boxes).detail, "");
+    }
+}
+
+TEST(StressPairs, CountsWhatIsMissedFalseAndTwice)
+{
+    const PairList expected({{0, 1}, {1, 2}, {2, 3}, {3, 4}});
+    EXPECT_EQ(judge_pairs(expected, expected), (Finding{holds, 4, 0, 0, ""}));
+    const Finding finding = judge_pairs(PairList({{0, 1}, {1, 0}, {1, 2}, {0, 9}}), expected);
+    EXPECT_EQ(finding, (Finding{broken, 4, 4, 2, "2 missed, 1 false, 1 twice, of 4"}));
+}
+
+TEST(StressRepeats, NoticesOneHashThatIsAnother)
+{
+    const std::uint64_t same[] = {5, 5, 5}, other[] = {5, 5, 6};
+    EXPECT_EQ(judge_repeats(same).verdict, holds);
+    EXPECT_EQ(judge_repeats(other).verdict, broken);
+    EXPECT_EQ(judge_repeats(other).wrong, 1u);
+}
+
+TEST(StressFinder, IsRightIfTheAnswersAre)
+{
+    const StressQuestion question = question_of(spheres(), 3);
+    EXPECT_EQ(question.variants.size(), 4u);  // shuffled, swapped, scaled, translated
+    EXPECT_GT(question.expected.pairs->size(), 500u);
+    const Findings findings = judge_finder(
+        [](const StressScene& scene, std::size_t) { return right_answer(scene); }, question, 2);
+    EXPECT_EQ(findings.size(), has_exact_reference ? 6u : 5u);
+    for (const auto& [invariant, finding] : findings)
+        EXPECT_EQ(finding.verdict, holds) << name_of(invariant) << ": " << finding.detail;
+}
+
+TEST(StressFinder, NoticesAPairThatIsDroppedInAnyOfItsRuns)
+{
+    const StressQuestion question = question_of(spheres(), 3);
+    const Invariant by_run[] = {Invariant::pairs, Invariant::agree, Invariant::agree,
+                                Invariant::moved, Invariant::moved, Invariant::room};
+    for (std::size_t wrong = 0; wrong < std::size(by_run); ++wrong) {
+        std::size_t run = 0;
+        const Findings findings = judge_finder(
+            [&](const StressScene& scene, std::size_t) {
+                FoundPairs found = right_answer(scene);
+                if (run++ == wrong)
+                    found.pairs = shortened(*found.pairs);
+                return found;
+            },
+            question, 0);
+        for (const auto& [invariant, finding] : findings) {
+            EXPECT_EQ(finding.verdict, invariant == by_run[wrong] ? broken : holds) << wrong;
+            EXPECT_EQ(finding.missed, invariant == by_run[wrong] ? 1u : 0u) << wrong;
+        }
+    }
+}
+
+TEST(StressFinder, NoticesAContactThatIsFalse)
+{
+    if (!has_exact_reference)
+        GTEST_SKIP() << "built without CGAL";
+    const StressQuestion question = question_of(spheres(), 3);
+    const Findings findings = judge_finder(
+        [&](const StressScene& scene, std::size_t) {
+            FoundPairs found = right_answer(scene);
+            found.contacts = found.pairs;
+            return found;
+        },
+        question, 0);
+    EXPECT_EQ(findings.at(Invariant::contacts).verdict, broken);
+    EXPECT_EQ(findings.at(Invariant::contacts).missed, 0u);
+    EXPECT_EQ(findings.at(Invariant::pairs).verdict, holds);
+}
+
+TEST(StressFinder, NoticesAnAnswerThatIsAnotherTheNextTime)
+{
+    const StressQuestion question{spheres(), right_answer(spheres()), {}};
+    int run = 0;
+    const Findings findings = judge_finder(
+        [&](const StressScene& scene, std::size_t) {
+            FoundPairs found = right_answer(scene);
+            if (++run == 4)
+                found.pairs = shortened(*found.pairs);
+            return found;
+        },
+        question, 3);
+    EXPECT_EQ(findings.at(Invariant::pairs).verdict, holds);
+    EXPECT_EQ(findings.at(Invariant::same).verdict, broken);
+    EXPECT_EQ(findings.at(Invariant::same).wrong, 1u);
+}
+
+TEST(StressVariants, AreTheSameScenesInOtherWords)
+{
+    for (const StressFamily& family : stress_families()) {
+        if (family.name == "not-finite")
+            continue;
+        for (const StressCase& one : family.cases(small)) {
+            SCOPED_TRACE(std::string(family.name) + ", " + one.name);
+            const StressScene scene = one.make();
+            std::size_t covered = 0;
+            for (const FaceRange& range : scene.objects) {
+                EXPECT_EQ(range.first, covered);
+                covered += range.count;
+            }
+            EXPECT_EQ(covered, scene.mesh.faces.size());
+            // The oracle is put to its own test: it has no tree, but it sorts.
+            for (const StressQuestion question = question_of(scene, 5);
+                 const auto& [variant, expected] : question.variants)
+                EXPECT_EQ(in_original_numbers(*right_answer(variant.scene).pairs, variant),
+                          *expected.pairs)
+                    << variant.name;
+        }
+    }
+}
+
+TEST(StressVariants, LeaveOutAScaleOrTranslationThatWouldRound)
+{
+    StressScene scene = spheres();
+    scene.mesh.points.front() = {3e38f, 0x1.000002p-126f, 0};  // neither up nor down
+    EXPECT_FALSE(scaled(scene, 1));
+    EXPECT_FALSE(translated(scene));
+    EXPECT_TRUE(scaled(spheres(), 1));
+    const auto translation = translated(spheres());
+    ASSERT_TRUE(translation);
+    for (std::size_t k = 0; k < translation->snapped.mesh.points.size(); ++k) {
+        const double before = translation->snapped.mesh.points[k].x;
+        const double after = translation->moved.scene.mesh.points[k].x;
+        EXPECT_EQ(after - before, 16.0)
+            << "spheres of a unit or so reach to 2, and are moved by eight times that";
+    }
+}
+
+TEST(StressLibraries, FinitePartLeavesOutTrianglesWithoutAPlace)
+{
+    for (const StressCase& one : not_finite_cases(small)) {
+        const StressScene scene = one.make();
+        const StressVariant finite = finite_part(scene);
+        EXPECT_LT(finite.original.size(), scene.mesh.faces.size()) << one.name;
+        EXPECT_GT(finite.original.size(), scene.mesh.faces.size() / 2) << one.name;
+        EXPECT_EQ(finite.scene.objects.size(), scene.objects.size());
+        for (std::size_t k = 0; k < finite.original.size(); ++k)
+            EXPECT_EQ(finite.scene.mesh.faces[k].b, scene.mesh.faces[finite.original[k]].b);
+    }
+}
+
+TEST(StressLayout, HoldsAndCountsWhatItLookedAt)
+{
+    std::vector<StressCell> cells;
+    stress_layout({small, {}}, [&](StressCell&& cell) { cells.push_back(std::move(cell)); });
+    ASSERT_EQ(cells.size(), 1u);
+    const Finding& finding = cells.front().findings.at(Invariant::layout);
+    EXPECT_EQ(finding.verdict, holds) << finding.detail;
+    EXPECT_GT(finding.checked, 20000u);
+}
+
+TEST(StressReport, TellsOursFromTheLibraries)
+{
+    StressCell ours;
+    ours.family = "scale", ours.scene = "1e20", ours.system = "leaf over karras";
+    ours.kind = StressCell::Kind::collider;
+    ours.findings = {{Invariant::pairs, {holds, 10}}};
+    StressCell theirs = ours;
+    theirs.system = "rtcCollide", theirs.kind = StressCell::Kind::library,
+    theirs.library = "Embree";
+    theirs.findings = {{Invariant::pairs, judge_pairs(PairList(), PairList({{0, 1}, {0, 2}}))}};
+    EXPECT_FALSE(is_our_fault(theirs));
+    std::string text = stress_report({ours, theirs}, {{"Embree", "3.13.5"}});
+    for (const char* words : {"-2 +0", "Embree 3.13.5", "1 cells of ours, all right"})
+        EXPECT_NE(text.find(words), text.npos) << words << '\n' << text;
+
+    ours.findings[Invariant::room] = {broken, 10, 1, 1, "1 missed, 0 false, 0 twice, of 10"};
+    EXPECT_TRUE(is_our_fault(ours));
+    text = stress_report({ours, theirs}, {});
+    for (const char* words :
+         {"WRONG scale: 1e20, leaf over karras, room: 1 missed", "1 cells of ours, 1 wrong"})
+        EXPECT_NE(text.find(words), text.npos) << words << '\n' << text;
+}
+
+TEST(StressFindings, JoinedKeepTheWorseVerdict)
+{
+    Findings all = {{Invariant::ends, {holds, 1}}};
+    join(all, {{Invariant::ends, {refused, 1, 0, 0, "too large"}}, {Invariant::room, {holds, 3}}});
+    EXPECT_EQ(all[Invariant::ends], (Finding{refused, 2, 0, 0, "too large"}));
+    join(all, {{Invariant::ends, {broken, 1, 1, 0, "lost"}}});
+    join(all, {{Invariant::ends, {holds, 1}}});
+    EXPECT_EQ(all[Invariant::ends], (Finding{broken, 4, 1, 0, "lost"}));
+    EXPECT_EQ(all[Invariant::room], (Finding{holds, 3}));
+}
+
+}  // namespace
+}  // namespace bvhbench

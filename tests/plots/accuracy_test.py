@@ -1,0 +1,88 @@
+#!/usr/bin/env python3
+"""The figures of accuracy show every method, mark the best, and refuse what is wrong.
+
+Usage: accuracy_test.py <source root>
+"""
+import json
+import pathlib
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
+GOLDEN = ROOT / "tests" / "golden" / "accuracy.json"
+sys.path.insert(0, str(ROOT / "plots"))
+
+import accuracy  # noqa: E402
+import results  # noqa: E402
+import style  # noqa: E402
+from accuracy import Point  # noqa: E402
+
+
+class Front(unittest.TestCase):
+    def test_keeps_what_no_other_is_as_good_as(self) -> None:
+        points = [Point(3, 0, "a"), Point(1, 5, "b"), Point(2, 5, "c"), Point(4, 0, "d"), Point(2.5, 1, "e")]
+        self.assertEqual([point.method for point in accuracy.front(points)], ["b", "e", "a"])
+
+
+class Figures(unittest.TestCase):
+    def setUp(self) -> None:
+        style.set_up()
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.folder = pathlib.Path(holder.name)
+        self.document = json.loads(GOLDEN.read_text(encoding="utf-8"))
+
+    def run_of(self, cells: list[dict]) -> results.Run:
+        path = self.folder / "accuracy.json"
+        path.write_text(json.dumps(self.document | {"cells": cells}), encoding="utf-8")
+        return results.load(path)
+
+    def axis(self, name: str) -> list[dict]:
+        return [cell for cell in self.document["cells"] if cell["accuracy"]["axis"] == name]
+
+    def drawn(self, name: str) -> accuracy.plt.Figure:
+        figures = accuracy.figures_of(self.run_of(self.axis(name)))
+        self.assertEqual(list(figures), [f"accuracy-{name}"])
+        drawing = figures[f"accuracy-{name}"]()
+        drawing.draw_without_rendering()
+        return drawing
+
+    def test_of_narrow_phases_have_a_panel_a_class_and_a_point_a_method(self) -> None:
+        drawing = self.drawn("narrow")
+        self.assertEqual([axes.get_title(loc="left") for axes in drawing.axes], ["generic", "same place", "scaled 1e-16"])
+        for axes in drawing.axes:
+            self.assertEqual(len(axes.lines), 1 + 4)  # the front, and a point a method
+            low, high = axes.get_ylim()
+            for line in axes.lines:
+                self.assertTrue(all(low <= y <= high for y in line.get_ydata()))
+        filled = [line.get_color() for line in drawing.axes[0].lines[1:] if line.get_markerfacecolor() != "white"]
+        self.assertEqual(len(filled), 1)  # where none errs, the fastest
+        self.assertIn("150,000 pairs of triangles, seed 1", drawing.texts[0].get_text())
+        self.assertIn("guigue-f64 needs doubles", drawing.texts[0].get_text())
+
+    def test_of_sums_codes_and_input_show_all_that_was_measured(self) -> None:
+        self.assertEqual([len(axes.lines) for axes in self.drawn("sums").axes], [7, 7])
+        self.assertEqual([len(axes.lines) for axes in self.drawn("codes").axes], [9, 9])
+        pairs, frame = self.drawn("input").axes
+        self.assertEqual([list(line.get_xdata()) for line in pairs.lines], 2 * [[0, 1e3, 1e6]])
+        self.assertEqual([max(line.get_ydata()) for line in pairs.lines], [10, 1])
+        self.assertEqual(len(frame.lines), 2)
+
+    def test_refuse_an_exact_method_that_was_wrong_and_a_method_without_a_look(self) -> None:
+        cells = self.axis("narrow")
+        cells[0]["check"]["verdict"] = "differs"
+        with self.assertRaises(results.Refused):
+            self.run_of(cells)
+        cells[0]["check"]["verdict"] = "agrees"
+        cells[1]["accuracy"]["method"] = "guess"
+        with self.assertRaisesRegex(results.Refused, "no look for the method 'guess'"):
+            accuracy.figures_of(self.run_of(cells))["accuracy-narrow"]()
+
+    def test_of_a_file_without_any_are_refused(self) -> None:
+        with self.assertRaisesRegex(results.Refused, "no measured cell of an axis"):
+            accuracy.draw_all(ROOT / "tests" / "golden" / "table1.json", self.folder)
+
+
+if __name__ == "__main__":
+    unittest.main()
