@@ -75,6 +75,7 @@ public:
 
     std::vector<StageTime> once() override
     {
+        session_.give_head_start();
         codes_.enqueue(bounds_.boxes(), bounds_.bounds(), sort_.unsorted_codes(), session_.queue());
         sort_.enqueue(session_.queue());
         std::vector<StageTime> stages = session_.queue().finish();

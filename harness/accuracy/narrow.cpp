@@ -53,6 +53,7 @@ struct Piece {
 
 std::vector<StageTime> query_once(NarrowPhase& narrow, const Piece& piece, Session& session)
 {
+    session.give_head_start();
     narrow.query(piece.input, piece.candidates.pairs, piece.candidates.counters, session.queue());
     return session.queue().finish();
 }
