@@ -2,7 +2,7 @@
 #include "scenes/ground_truth.h"
 
 #include <algorithm>
-#include <array>
+#include <cassert>
 #include <functional>
 
 #include "geometry/error.h"
@@ -99,8 +99,9 @@ std::size_t only_step(const Scene& scene)
 
 }  // namespace
 
-std::optional<GroundTruth> ground_truth_of(const Scene& scene)
+std::optional<GroundTruth> ground_truth_of(const Scene& scene, const SweptParts& edges)
 {
+    assert(scene.file_faces.empty());
     if (scene.folder.empty())
         return std::nullopt;
     const std::optional<StepFacts> said = step_facts(scene, scene.folder / "meta.json");
@@ -113,18 +114,25 @@ std::optional<GroundTruth> ground_truth_of(const Scene& scene)
                       .edge_edge = {},
                       .swept_vertex_face = facts.swept_vf,
                       .swept_edge_edge = facts.swept_ee};
+
     const std::size_t vertices = scene.frames.front().size();
     PairLines of_vertices(vf, {{"vertex", vertices}, {"face", scene.faces.size()}});
-    of_vertices.read([&](std::span<const uint> n) { truth.vertex_face.push_back({n[0], n[1]}); });
+    of_vertices.read([&](std::span<const uint> n) {
+        truth.vertex_face.push_back({n[0], static_cast<uint>(vertices) + n[1]});
+    });
     of_vertices.expect("pairs", facts.vf_listed, of_vertices.listed());
     of_vertices.expect("pairs that collide", facts.vf_true, of_vertices.colliding());
 
     PairLines of_edges(ee, std::vector(4, PairLines::Column{"vertex", vertices}));
+    const auto edge = [&](uint a, uint b) {
+        const std::optional<uint> place = place_of_edge(edges, a, b);
+        if (!place)
+            of_edges.refuse("there is no edge from " + std::to_string(a) + " to " +
+                            std::to_string(b));
+        return *place;
+    };
     of_edges.read([&](std::span<const uint> n) {
-        if (n[0] == n[1] || n[2] == n[3])
-            of_edges.refuse("an edge from a vertex to itself");
-        truth.edge_edge.push_back({{std::min(n[0], n[1]), std::max(n[0], n[1])},
-                                   {std::min(n[2], n[3]), std::max(n[2], n[3])}});
+        truth.edge_edge.push_back({edge(n[0], n[1]), edge(n[2], n[3])});
     });
     of_edges.expect("pairs", facts.ee_listed, of_edges.listed());
     of_edges.expect("pairs that collide", facts.ee_true, of_edges.colliding());

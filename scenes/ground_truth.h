@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <optional>
 
-#include "scenes/scene.h"
+#include "scenes/swept_parts.h"
 
 namespace bvhbench {
 
@@ -14,22 +15,18 @@ namespace bvhbench {
 ///     gt_ee.csv   a0,a1,b0,b1,collides        two edges by their vertices
 ///     meta.json   ccd: from_frame, to_frame (labels), vf_listed, ee_listed, vf_true, ee_true, swept_vf, swept_ee
 struct GroundTruth {
-    struct VertexFace {
-        uint vertex, face;
-    };
-    struct EdgeEdge {
-        uint a[2], b[2];  ///< vertices; the smaller one first
-    };
+    using Pairs = std::vector<std::array<uint, 2>>;
+
     std::size_t from_frame = 0;  ///< the step is from it to the next
-    std::vector<VertexFace> vertex_face;
-    std::vector<EdgeEdge> edge_edge;
+    Pairs vertex_face;           ///< by places in vertices_and_faces, in the order of the file
+    Pairs edge_edge;             ///< by places in unique_edges
     /// How many pairs of swept boxes overlap and share no vertex, as who made the data counted them.
     std::optional<std::uint64_t> swept_vertex_face, swept_edge_edge;
 };
 
-/// The ground truth of the folder that the scene's frames were read from; nothing where there is none. What meta.json
-/// says of it is held to what is listed. Throws Unavailable, in one sentence, naming file and line, for what is not
-/// understood or names what the scene does not have.
-std::optional<GroundTruth> ground_truth_of(const Scene& scene);
+/// The ground truth of the folder that the scene's frames were read from, with the triangles in the order of the file;
+/// nothing where there is none. `edges` are its unique_edges. What meta.json says is held to what is listed. Throws
+/// Unavailable, in one sentence, naming file and line, for what is not understood or names what the scene does not have.
+std::optional<GroundTruth> ground_truth_of(const Scene& scene, const SweptParts& edges);
 
 }  // namespace bvhbench

@@ -35,4 +35,17 @@ SweptParts unique_edges(const Scene& scene)
     return parts;
 }
 
+std::optional<uint> place_of_edge(const SweptParts& unique_edges, uint a, uint b)
+{
+    const auto key = [](const Face& edge) { return std::pair(edge.b, edge.a); };
+    const std::pair<uint, uint> wanted(std::max(a, b), std::min(a, b));
+    const std::vector<Face>& edges = unique_edges.faces;
+    const auto found = std::lower_bound(
+        edges.begin(), edges.end(), wanted,
+        [&](const Face& edge, const std::pair<uint, uint>& other) { return key(edge) < other; });
+    if (found == edges.end() || key(*found) != wanted)
+        return std::nullopt;
+    return static_cast<uint>(found - edges.begin());
+}
+
 }  // namespace bvhbench

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
+
 #include "scenes/scene.h"
 
 namespace bvhbench {
@@ -18,5 +20,8 @@ SweptParts vertices_and_faces(const Scene& scene);
 /// Each edge of the faces once, by its larger vertex and then by its smaller one, the smaller one named first; of a face
 /// that names a vertex twice not that side. They are one object: edge-edge pairs are those within.
 SweptParts unique_edges(const Scene& scene);
+
+/// Where the edge between two vertices is among them; nothing if there is none.
+std::optional<uint> place_of_edge(const SweptParts& unique_edges, uint a, uint b);
 
 }  // namespace bvhbench
