@@ -26,15 +26,16 @@ Scene moving_scene(std::vector<Face> faces, std::vector<Point> from, std::vector
     return finished(std::move(scene));
 }
 
-/// Triangles in a cube, of which some name the same vertices, each vertex going its own way.
+/// A strip of triangles that wanders about, so that neighbours share vertices, each vertex going its own way.
 Scene random_motion(uint triangles, float way)
 {
     std::mt19937 random(7);
     const auto uniform = [&] { return std::uniform_real_distribution<float>(-1, 1)(random); };
     const uint vertices = triangles;
     std::vector<Point> from, to;
+    Point p = {0, 0, 0};
     for (uint k = 0; k < vertices; ++k) {
-        const Point p = {uniform(), uniform(), uniform()};
+        p = {p.x + 0.1f * uniform(), p.y + 0.1f * uniform(), p.z + 0.1f * uniform()};
         from.push_back(p);
         to.push_back({p.x + way * uniform(), p.y + way * uniform(), p.z + way * uniform()});
     }
@@ -132,7 +133,7 @@ TEST(SweptBoxes, HoldEveryFrameInBetween)
     }
 }
 
-/// Builders of one text make swept boxes alike, so that a few stand for all: each family, and one on the host.
+/// A builder of implicit trees and one of radix trees: the others make the same boxes, as the test of all of them says.
 class SweptPairs : public testing::TestWithParam<const char*> {};
 
 TEST_P(SweptPairs, AreThoseOfTheSweepByEveryCollider)
@@ -168,7 +169,7 @@ TEST_P(SweptPairs, AreThoseOfTheSweepByEveryCollider)
 }
 
 INSTANTIATE_TEST_SUITE_P(Builders, SweptPairs,
-                         testing::Values("oibvh-single", "karras", "oibvh-wide8-q8"),
+                         testing::Values("oibvh-single", "karras"),
                          [](const auto& instance) { return test_name(instance.param); });
 
 TEST(SweptPairs, AreThoseOfTheSweepWithoutATree)
@@ -223,8 +224,10 @@ TEST(SweptBoxes, HaveNoNarrowPhase)
     ColliderChoice narrow = {.name = "leaf", .keep_adjacent = false};
     narrow.narrow = "exact";
     EXPECT_THROW(pairs_by({.name = "oibvh-multi"}, narrow, input), BadUsage);
-    if (find_collider("fcl").make != nullptr)
-        EXPECT_THROW(pairs_by({.name = "none"}, {.name = "fcl", .keep_adjacent = false}, input), BadUsage);
+    if (find_collider("fcl").make != nullptr) {
+        const ColliderChoice fcl = {.name = "fcl", .keep_adjacent = false};
+        EXPECT_THROW(pairs_by({.name = "none"}, fcl, input), BadUsage);
+    }
 }
 
 /// All steps of a scene, and what the cells say.
