@@ -6,6 +6,7 @@
 #include "harness/accuracy/axis.h"
 #include "harness/collide.h"
 #include "harness/report_swept.h"
+#include "scenes/catalog.h"
 #include "scenes/manifest.h"
 
 namespace bvhbench {
@@ -21,14 +22,17 @@ constexpr struct {
 
 struct SceneOfAxis {
     std::string name;
-    std::string in_place_of;  ///< empty: it is what was asked for
+    std::string in_place_of;  ///< of what is not there; else empty
 };
 
+/// Those asked for, bent for a second frame if they have one, or the axis's own.
 std::vector<SceneOfAxis> scenes_of(const AxisRun& run)
 {
     std::vector<SceneOfAxis> scenes;
-    for (const std::string& scene : run.task.scenes)
-        scenes.push_back({scene, {}});
+    for (const std::string& scene : run.task.scenes) {
+        const bool stands = load_scene(scene, run.session.scenes()).frames.size() < 2;
+        scenes.push_back({stands ? "bend:" + scene : scene, {}});
+    }
     if (!scenes.empty())
         return scenes;
     for (const auto& [name, generated] : own_scenes) {
