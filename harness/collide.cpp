@@ -79,14 +79,17 @@ FrameRange frame_range(const std::string& text)
 }
 
 void collide_frames(Session& session, const CollideTask& task, int& order,
-                    const std::function<void(std::vector<Cell>&&, const Found&)>& add)
+                    const std::function<void(std::vector<Cell>&&, const Found&)>& add,
+                    const std::function<bool(std::size_t cells)>& passes)
 {
     if (task.swept) {
-        collide_swept(session, task, order, add);
+        collide_swept(session, task, order, add, passes);
         return;
     }
     const Scene scene = scene_of(task, session.scenes());
     const FrameRange frames = frames_of(task, scene.frames.size(), "frames");
+    if (passes && passes((frames.end - frames.first) * task.pipelines.size()))
+        return;
     std::vector<FaceRange> objects;
     for (const SceneObject& object : scene.objects)
         objects.push_back({object.first_face, object.face_count});
@@ -100,7 +103,9 @@ void collide_frames(Session& session, const CollideTask& task, int& order,
         throw_if_interrupted();
         input.points = scene.frames[frame];
         input.device_points.upload(session.queue().cl(), input.points);
-        FrameOfPipelines now{.input = input, .scene = facts_of(task, scene, frame)};
+        FrameOfPipelines now{.input = input,
+                             .number = task.number + '/' + std::to_string(frame),
+                             .scene = facts_of(task, scene, frame)};
         if (frame > frames.first)
             now.motions = object_motions(scene, frame - 1, frame);
         Found found;

@@ -146,6 +146,23 @@ void fail(Running& running, Session& session, const std::string& why)
     running.cell.samples.clear();
 }
 
+/// What is known before anything is made: the collider's own, and the oracle's sweep.
+void require_memory(const Session& session, const ColliderChoice& choice, std::size_t triangles)
+{
+    if (const std::size_t bytes = find_collider(choice.name).host_bytes; bytes > 0)
+        session.require_host_memory("collider " + choice.name, bytes * triangles);
+    session.require_host_memory("checking the pairs", sweep_bytes(triangles));
+}
+
+/// What is known once they are counted: those found, and the oracle's.
+void require_memory_for_pairs(const Session& session, const std::map<std::string, double>& counters)
+{
+    for (const char* counted : {"pairs_count", "contacts_count"})
+        if (const auto count = counters.find(counted); count != counters.end())
+            session.require_host_memory(
+                "checking the pairs", 2 * sizeof(Pair) * static_cast<std::size_t>(count->second));
+}
+
 void sample(std::span<Running> all, const CollideTask& task, const FrameOfPipelines& frame,
             Session& session, int& order, FrameOracle& oracle, Found& found)
 {
@@ -156,8 +173,11 @@ void sample(std::span<Running> all, const CollideTask& task, const FrameOfPipeli
         if (!one.failure.empty() || one.cell.check.verdict == Check::Verdict::differs)
             continue;
         ready.push_back(&one);
-        timed.push_back(
-            {one.cell.collider.name, [&one, &input] { return one.pipeline->once(input); }});
+        timed.push_back({one.cell.collider.name, [&] {
+                             const Watchdog::Hand hand(session.watchdog(), one.number);
+                             return session.watchdog().watch(
+                                 [&] { return one.pipeline->once(input); });
+                         }});
     }
     std::vector<Taken> taken = take_samples(timed, task.samples, task.warm_up, order);
     for (std::size_t k = 0; k < ready.size(); ++k) {
@@ -202,18 +222,28 @@ std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span
 {
     FrameOracle oracle(frame.input);
     oracle.begin(all.front().choice.collider);  // while the first one is compiled and settles
-    for (Running& one : all) {
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        Running& one = all[k];
         one.cell = empty_cell(task, one.choice, frame);
+        one.number = frame.number + '/' + std::to_string(k);
+        const Watchdog::Hand hand(session.watchdog(), one.number);
+        if (one.failure.empty())
+            one.failure = session.watchdog().given_up(one.number);
         if (one.failure.empty())
             one.failure = reason_of_failure([&] {
-                if (one.pipeline == nullptr)
-                    one.pipeline = std::make_unique<Pipeline>(session, one.cell.builder,
-                                                              one.cell.collider, frame.input);
-                if (!one.pipeline->collider().needs_tree())
-                    one.cell.builder = {.name = "none"};
-                one.pipeline->begin_frame(frame.motions);
-                one.pipeline->settle(frame.input);
-                one.cell.counters = one.pipeline->counters();
+                require_memory(session, one.cell.collider, frame.input.triangle_count());
+                session.watchdog().watch([&] {
+                    if (one.pipeline == nullptr)
+                        one.pipeline = std::make_unique<Pipeline>(session, one.cell.builder,
+                                                                  one.cell.collider, frame.input);
+                    if (!one.pipeline->collider().needs_tree())
+                        one.cell.builder = {.name = "none"};
+                    one.pipeline->begin_frame(frame.motions);
+                    one.pipeline->settle(frame.input);
+                });
+                std::map<std::string, double> counters = one.pipeline->counters();
+                require_memory_for_pairs(session, counters);
+                one.cell.counters = std::move(counters);
                 judge(*one.pipeline, one.cell, oracle, frame, found);
             });
         if (!one.failure.empty())

@@ -20,11 +20,13 @@ struct Running {
     Cell cell = {};
     std::unique_ptr<Pipeline> pipeline = nullptr;
     std::string failure = {};  ///< why there is none, or none any more
+    std::string number = {};   ///< which of the run's cells it is
 };
 
 /// A frame that pipelines are run over.
 struct FrameOfPipelines {
     const Input& input;
+    std::string number;  ///< which of the run's frames it is
     SceneFacts scene;
     SweptFacts swept = {};
     std::vector<Motion> motions = {};  ///< since the frame before, if that is known

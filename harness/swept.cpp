@@ -98,7 +98,8 @@ void check_swept(const CollideTask& task)
 }
 
 void collide_swept(Session& session, const CollideTask& task, int& order,
-                   const std::function<void(std::vector<Cell>&&, const Found&)>& add)
+                   const std::function<void(std::vector<Cell>&&, const Found&)>& add,
+                   const std::function<bool(std::size_t cells)>& passes)
 {
     check_swept(task);
     const Scene scene = scene_of(task, session.scenes());
@@ -109,9 +110,12 @@ void collide_swept(Session& session, const CollideTask& task, int& order,
 
     Question questions[] = {{"vertex-face", Among::between_objects, vertices_and_faces(scene)},
                             {"edge-edge", Among::within_objects, unique_edges(scene)}};
-    const std::optional<GroundTruth> truth = ground_truth_of(scene, questions[1].parts);
     for (Question& question : questions)
         question.ask(task);
+    const std::size_t cells_a_step = questions[0].running.size() + questions[1].running.size();
+    if (passes && passes((steps.end - steps.first) * cells_a_step))
+        return;
+    const std::optional<GroundTruth> truth = ground_truth_of(scene, questions[1].parts);
     Input& first = questions[0].input;
     first = upload(session.device(), session.queue(), scene.frames[steps.first],
                    questions[0].parts.faces, questions[0].parts.objects);
@@ -134,7 +138,9 @@ void collide_swept(Session& session, const CollideTask& task, int& order,
                 question.listed = of_edges ? truth->edge_edge : truth->vertex_face;
                 question.counted = of_edges ? truth->swept_edge_edge : truth->swept_vertex_face;
             }
-            FrameOfPipelines now{.input = question.input, .scene = facts_of(task, scene, step)};
+            FrameOfPipelines now{.input = question.input,
+                                 .number = task.number + '/' + std::to_string(step) + '/' + question.name,
+                                 .scene = facts_of(task, scene, step)};
             now.swept = {.pairs = question.name,
                          .to_frame = static_cast<std::int64_t>(step + 1),
                          .primitives = question.input.triangle_count()};

@@ -18,7 +18,8 @@ namespace bvhbench {
 ///
 /// Throws BadUsage for what has no meaning with swept boxes, and Unavailable for a scene of one frame.
 void collide_swept(Session& session, const CollideTask& task, int& order,
-                   const std::function<void(std::vector<Cell>&&, const Found&)>& add);
+                   const std::function<void(std::vector<Cell>&&, const Found&)>& add,
+                   const std::function<bool(std::size_t cells)>& passes);
 
 /// What has no meaning with swept boxes, before anything is loaded. Throws BadUsage.
 void check_swept(const CollideTask& task);
