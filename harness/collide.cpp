@@ -39,9 +39,9 @@ FrameRange frames_of(const CollideTask& task, std::size_t there, const char* wha
 {
     const FrameRange range{task.frames.first, task.frames.end == 0 ? there : task.frames.end};
     if (range.first >= range.end || range.end > there)
-        throw BadUsage("scene '" + task.scene + "' has " + what + " 0 to " + std::to_string(there - 1) +
-                       ", not " + std::to_string(range.first) + " to before " +
-                       std::to_string(range.end));
+        throw BadUsage("scene '" + task.scene + "' has " + what + " 0 to " +
+                       std::to_string(there - 1) + ", not " + std::to_string(range.first) +
+                       " to before " + std::to_string(range.end));
     return range;
 }
 

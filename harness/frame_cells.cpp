@@ -159,8 +159,8 @@ void require_memory_for_pairs(const Session& session, const std::map<std::string
 {
     for (const char* counted : {"pairs_count", "contacts_count"})
         if (const auto count = counters.find(counted); count != counters.end())
-            session.require_host_memory(
-                "checking the pairs", 2 * sizeof(Pair) * static_cast<std::size_t>(count->second));
+            session.require_host_memory("checking the pairs",
+                                        2 * sizeof(Pair) * static_cast<std::size_t>(count->second));
 }
 
 void sample(std::span<Running> all, const CollideTask& task, const FrameOfPipelines& frame,
@@ -196,7 +196,8 @@ void sample(std::span<Running> all, const CollideTask& task, const FrameOfPipeli
 }
 
 /// Of the frame, by the pipeline, and of nothing found yet.
-Cell empty_cell(const CollideTask& task, const PipelineChoice& pipeline, const FrameOfPipelines& frame)
+Cell empty_cell(const CollideTask& task, const PipelineChoice& pipeline,
+                const FrameOfPipelines& frame)
 {
     Cell cell;
     cell.experiment = task.experiment;

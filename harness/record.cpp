@@ -83,9 +83,7 @@ Json json_of(const ColliderChoice& collider)
 
 Json json_of(const SweptFacts& swept)
 {
-    return {{"pairs", swept.pairs},
-            {"to_frame", swept.to_frame},
-            {"primitives", swept.primitives}};
+    return {{"pairs", swept.pairs}, {"to_frame", swept.to_frame}, {"primitives", swept.primitives}};
 }
 
 Json json_of(const AccuracyFacts& accuracy)

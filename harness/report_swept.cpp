@@ -99,10 +99,10 @@ void add_step(Table& table, const std::vector<const Cell*>& cells)
         const Sum sum = numbers_of(*cell);
         both += sum;
         add_row(table,
-                {cell->scene.name + (cell->scene.stand_in_for.empty()
-                                         ? ""
-                                         : " for " + cell->scene.stand_in_for),
-                 std::to_string(cell->scene.frame), cell->swept.pairs, swept_method(cell->builder, cell->collider)},
+                {cell->scene.name +
+                     (cell->scene.stand_in_for.empty() ? "" : " for " + cell->scene.stand_in_for),
+                 std::to_string(cell->scene.frame), cell->swept.pairs,
+                 swept_method(cell->builder, cell->collider)},
                 sum, why(*cell));
     }
     if (cells.size() > 1)

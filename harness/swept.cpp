@@ -55,13 +55,15 @@ void judge_step(const Question& question, const PairList& found, Cell& cell)
         cell.counters["ground_truth_missed"] = static_cast<double>(missed);
         cell.check.against += ", ground truth";
         if (missed > 0)
-            find_wrong(cell.check, std::to_string(missed) + " pairs of the ground truth are missed");
+            find_wrong(cell.check,
+                       std::to_string(missed) + " pairs of the ground truth are missed");
     }
     if (question.counted) {
         cell.counters["reference_pairs_count"] = static_cast<double>(*question.counted);
         cell.check.against += ", meta.json";
         if (found.size() != *question.counted)
-            find_wrong(cell.check, "meta.json counts " + std::to_string(*question.counted) + " pairs");
+            find_wrong(cell.check,
+                       "meta.json counts " + std::to_string(*question.counted) + " pairs");
     }
 }
 
@@ -84,11 +86,14 @@ void go_on(Question (&questions)[2], const Scene& scene, std::size_t frame, cons
 void check_swept(const CollideTask& task)
 {
     if (task.objects != ObjectsBy::automatic)
-        throw BadUsage("swept, objects are the scene's vertices, faces and edges, and nobody chooses them");
+        throw BadUsage(
+            "swept, objects are the scene's vertices, faces and edges, and nobody chooses them");
     for (const PipelineChoice& pipeline : task.pipelines) {
         if (pipeline.collider.narrow != "none")
-            throw BadUsage("swept boxes tell who may meet between two frames, and no narrow phase here tells who does: '" +
-                           pipeline.collider.narrow + "' looks at one moment");
+            throw BadUsage(
+                "swept boxes tell who may meet between two frames, and no narrow phase here tells "
+                "who does: '" +
+                pipeline.collider.narrow + "' looks at one moment");
         if (pipeline.collider.among != Among::within_objects && pipeline.builder.name != "none" &&
             find_order(pipeline.builder.order).medians != Medians::nowhere)
             throw BadUsage("order " + pipeline.builder.order +
@@ -138,9 +143,10 @@ void collide_swept(Session& session, const CollideTask& task, int& order,
                 question.listed = of_edges ? truth->edge_edge : truth->vertex_face;
                 question.counted = of_edges ? truth->swept_edge_edge : truth->swept_vertex_face;
             }
-            FrameOfPipelines now{.input = question.input,
-                                 .number = task.number + '/' + std::to_string(step) + '/' + question.name,
-                                 .scene = facts_of(task, scene, step)};
+            FrameOfPipelines now{
+                .input = question.input,
+                .number = task.number + '/' + std::to_string(step) + '/' + question.name,
+                .scene = facts_of(task, scene, step)};
             now.swept = {.pairs = question.name,
                          .to_frame = static_cast<std::int64_t>(step + 1),
                          .primitives = question.input.triangle_count()};
@@ -148,8 +154,7 @@ void collide_swept(Session& session, const CollideTask& task, int& order,
                 judge_step(question, found.pairs, cell);
             };
             Found found;
-            std::vector<Cell> cells =
-                run_frame(session, task, question.running, now, order, found);
+            std::vector<Cell> cells = run_frame(session, task, question.running, now, order, found);
             add(std::move(cells), found);
         }
     }

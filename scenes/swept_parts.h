@@ -11,7 +11,7 @@ namespace bvhbench {
 /// an edge from a to b is (a, b, b). Their boxes are right, and two that name a common vertex share an index.
 struct SweptParts {
     std::vector<Face> faces;
-    std::vector<FaceRange> objects;  ///< what is held against what: those of one against each other's or their own
+    std::vector<FaceRange> objects;  ///< those of one are held against the other's, or their own
 };
 
 /// All vertices, used or not, and behind them all faces, an object each: vertex-face pairs are those between the two.

@@ -12,7 +12,7 @@
 /// boxes[k] is the box of faces[k], for all `count`; *result the bounds of them all. The groups together take `rounds`
 /// rounds of a group's size each. *arrivals is zero before and after. Unless they `meet`, nobody joins.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void bounds_groups(
-    POINTS_PARAMETERS, global const Face* restrict faces,
+    POINTS_PARAMETERS(restrict), global const Face* restrict faces,
     global float2* restrict boxes, global Bounds* partials,
     global Bounds* restrict result, volatile global Arrivals* restrict arrivals, const uint count,
     const uint rounds, const uint meet)
@@ -63,7 +63,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void join_groups(
 }
 
 /// As bounds_groups, each work-item by itself.
-kernel void bounds_chunks(POINTS_PARAMETERS, global const Face* restrict faces,
+kernel void bounds_chunks(POINTS_PARAMETERS(restrict), global const Face* restrict faces,
                           global Aabb* restrict boxes, global Bounds* restrict partials,
                           const uint count)
 {

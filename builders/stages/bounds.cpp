@@ -28,8 +28,7 @@ BoundsStage::BoundsStage(Programs& programs, KernelForm form, uint group_size)
     , groups_meet_(form_ == KernelForm::groups && programs.device().lets_groups_meet())
     , most_partials_(form_ == KernelForm::groups ? most_groups(programs.device())
                                                  : chunk_count(programs.device()))
-    , boxes_kernel_(programs, path,
-                    form_ == KernelForm::groups ? "bounds_groups" : "bounds_chunks",
+    , boxes_kernel_(programs, path, form_ == KernelForm::groups ? "bounds_groups" : "bounds_chunks",
                     {{"GROUP_SIZE", group_size_}})
     , join_kernel_(programs.kernel(path,
                                    form_ == KernelForm::groups ? "join_groups" : "join_chunks",

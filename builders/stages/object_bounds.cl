@@ -10,7 +10,7 @@
 /// boxes[k] is the box of faces[k]; partials[g] the bounds of runs[g], ROUNDS times a group's size
 /// at most.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void runs_groups(
-    POINTS_PARAMETERS, global const Face* restrict faces,
+    POINTS_PARAMETERS(restrict), global const Face* restrict faces,
     global float2* restrict boxes, global Bounds* restrict partials,
     global const uint4* restrict runs)
 {
@@ -47,7 +47,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void join_groups(
 }
 
 /// As runs_groups, a work-item a run.
-kernel void runs_chunks(POINTS_PARAMETERS, global const Face* restrict faces,
+kernel void runs_chunks(POINTS_PARAMETERS(restrict), global const Face* restrict faces,
                         global Aabb* restrict boxes, global Bounds* restrict partials,
                         global const uint4* restrict runs)
 {

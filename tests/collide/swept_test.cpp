@@ -50,7 +50,8 @@ Scene falling_triangle()
 {
     const std::vector<Point> sheet = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
     std::vector<Point> from = sheet, to = sheet;
-    for (const auto& [x, y] : {std::pair(0.25f, 0.25f), std::pair(0.75f, 0.25f), std::pair(0.25f, 0.75f)}) {
+    for (const auto& [x, y] :
+         {std::pair(0.25f, 0.25f), std::pair(0.75f, 0.25f), std::pair(0.25f, 0.75f)}) {
         from.push_back({x, y, 1});
         to.push_back({x, y, -1});
     }
@@ -59,8 +60,8 @@ Scene falling_triangle()
 
 Input swept_input(const Scene& scene, const SweptParts& parts)
 {
-    Input input = upload(session().device(), session().queue(), scene.frames[0], parts.faces,
-                         parts.objects);
+    Input input =
+        upload(session().device(), session().queue(), scene.frames[0], parts.faces, parts.objects);
     upload_end(input, session().device(), session().queue(), scene.frames[1]);
     return input;
 }
@@ -75,7 +76,8 @@ PairList pairs_by(const BuilderChoice& builder, const ColliderChoice& collider, 
 
 PairList right_pairs(const Input& input, Among among)
 {
-    return among_objects(touching_pairs(leaf_boxes(input), input.faces, false), input.objects, among);
+    return among_objects(touching_pairs(leaf_boxes(input), input.faces, false), input.objects,
+                         among);
 }
 
 TEST(SweptParts, AreVerticesAndFacesAndEachEdgeOnceByItsLargerVertex)
@@ -106,14 +108,17 @@ TEST(SweptBoxes, OfATriangleFallingThroughASheetMeetAsCountedByHand)
 {
     const Scene scene = falling_triangle();
     const SweptParts vf = vertices_and_faces(scene), edges = unique_edges(scene);
-    const ColliderChoice between = {.name = "leaf", .among = Among::between_objects, .keep_adjacent = false};
+    const ColliderChoice between = {
+        .name = "leaf", .among = Among::between_objects, .keep_adjacent = false};
     EXPECT_EQ(pairs_by({.name = "oibvh-multi"}, between, swept_input(scene, vf)),
               PairList({{1, 8}, {3, 7}, {4, 7}, {4, 8}, {5, 7}, {5, 8}, {6, 7}, {6, 8}}));
-    const ColliderChoice within = {.name = "leaf", .among = Among::within_objects, .keep_adjacent = false};
+    const ColliderChoice within = {
+        .name = "leaf", .among = Among::within_objects, .keep_adjacent = false};
     EXPECT_EQ(pairs_by({.name = "oibvh-multi"}, within, swept_input(scene, edges)),
               PairList({{1, 5}, {1, 6}, {1, 7}}));
     // In either frame alone hardly anything meets.
-    const Input first = upload(session().device(), session().queue(), scene.frames[0], vf.faces, vf.objects);
+    const Input first =
+        upload(session().device(), session().queue(), scene.frames[0], vf.faces, vf.objects);
     EXPECT_EQ(pairs_by({.name = "oibvh-multi"}, between, first), PairList({{1, 8}, {3, 7}}));
 }
 
@@ -124,7 +129,8 @@ TEST(SweptBoxes, HoldEveryFrameInBetween)
         const Scene all = with_frames_between(scene, 50);
         ASSERT_EQ(all.frames.size(), 52u);
         for (const Face face : scene.faces) {
-            const Aabb swept = swept_box(face_box(scene.frames[0], face), face_box(scene.frames[1], face));
+            const Aabb swept =
+                swept_box(face_box(scene.frames[0], face), face_box(scene.frames[1], face));
             Aabb around = empty_box();
             for (const auto& points : all.frames)
                 around = merged(around, face_box(points, face));
@@ -149,7 +155,8 @@ TEST_P(SweptPairs, AreThoseOfTheSweepByEveryCollider)
         ASSERT_GT(right.size(), 2 * right_pairs(still, among[k]).size());
         for (const ColliderEntry& collider : box_colliders(true))
             for (const KernelForm form : {KernelForm::groups, KernelForm::chunks}) {
-                SCOPED_TRACE(std::string(collider.name) + " " + std::to_string(static_cast<int>(form)));
+                SCOPED_TRACE(std::string(collider.name) + " " +
+                             std::to_string(static_cast<int>(form)));
                 ColliderChoice choice;
                 choice.name = collider.name;
                 choice.among = among[k];
@@ -168,8 +175,7 @@ TEST_P(SweptPairs, AreThoseOfTheSweepByEveryCollider)
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Builders, SweptPairs,
-                         testing::Values("oibvh-single", "karras"),
+INSTANTIATE_TEST_SUITE_P(Builders, SweptPairs, testing::Values("oibvh-single", "karras"),
                          [](const auto& instance) { return test_name(instance.param); });
 
 TEST(SweptPairs, AreThoseOfTheSweepWithoutATree)
@@ -186,7 +192,8 @@ TEST(SweptPairs, AreThoseOfTheSweepWithoutATree)
         if (collider->needs_tree())
             continue;
         SCOPED_TRACE(entry.name);
-        EXPECT_EQ(pairs_by({.name = "none"}, choice, input), right_pairs(input, Among::between_objects));
+        EXPECT_EQ(pairs_by({.name = "none"}, choice, input),
+                  right_pairs(input, Among::between_objects));
     }
 }
 
@@ -203,14 +210,16 @@ TEST(SweptBoxes, OfAllBuildersAreThoseOfTheReferenceOrAreRefused)
         builder->reserve(edges.faces.size());
         const Tree* tree = nullptr;
         if (entry.name.starts_with("fcl")) {
-            EXPECT_THROW(session().build_once(*builder, input, Start::from_triangles, &tree), BadUsage);
+            EXPECT_THROW(session().build_once(*builder, input, Start::from_triangles, &tree),
+                         BadUsage);
             session().renew_queue();
             continue;
         }
         session().build_once(*builder, input, Start::from_triangles, &tree);
         for (const HostTree::Node& node : tree->spelled_out().nodes)
             if (node.primitive != HostTree::none) {
-                const Aabb right = leaf_box(input, edges.faces[static_cast<std::size_t>(node.primitive)]);
+                const Aabb right =
+                    leaf_box(input, edges.faces[static_cast<std::size_t>(node.primitive)]);
                 EXPECT_EQ(std::memcmp(&node.box, &right, sizeof right), 0);
             }
     }
@@ -240,7 +249,8 @@ std::vector<Cell> cells_of(CollideTask task)
     task.samples = 1;
     task.warm_up = 0;
     collide_frames(session(), task, order, [&](std::vector<Cell>&& some, const Found&) {
-        cells.insert(cells.end(), std::make_move_iterator(some.begin()), std::make_move_iterator(some.end()));
+        cells.insert(cells.end(), std::make_move_iterator(some.begin()),
+                     std::make_move_iterator(some.end()));
     });
     return cells;
 }
@@ -250,9 +260,10 @@ TEST(SweptSteps, OfASequenceAreEachHeldToTheSweep)
 {
     CollideTask task;
     task.scene = "cloth-ball:600:12";
-    task.pipelines = {{{.name = "oibvh-single", .order = "hilbert30"}, {.name = "group"}},
-                      {{.name = "oibvh-multi"}, {.name = "front"}},
-                      {{.name = "oibvh-multi", .order = "kd"}, {.name = "leaf", .among = Among::within_objects}}};
+    task.pipelines = {
+        {{.name = "oibvh-single", .order = "hilbert30"}, {.name = "group"}},
+        {{.name = "oibvh-multi"}, {.name = "front"}},
+        {{.name = "oibvh-multi", .order = "kd"}, {.name = "leaf", .among = Among::within_objects}}};
     const std::vector<Cell> cells = cells_of(task);
     ASSERT_EQ(cells.size(), 11u * 5u);
     std::vector<std::optional<std::uint64_t>> hashes;
@@ -285,7 +296,8 @@ TEST(SweptSteps, OfDataFindTheWholeGroundTruthAndAsManyPairsAsItsAuthorCounted)
         GTEST_SKIP() << "no data folder";
     CollideTask task;
     task.scene = "ipc_armadillo_rollers";
-    task.pipelines = {{{.name = "oibvh-single", .order = "hilbert30", .sorted_leaves = true}, {.name = "group"}}};
+    task.pipelines = {
+        {{.name = "oibvh-single", .order = "hilbert30", .sorted_leaves = true}, {.name = "group"}}};
     const std::vector<Cell> cells = cells_of(task);
     ASSERT_EQ(cells.size(), 2u);
     const double pairs[] = {2032004, 5068352}, listed[] = {4652, 19313};

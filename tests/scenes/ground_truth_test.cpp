@@ -58,7 +58,8 @@ TEST(GroundTruth, IsOfTheStepThatMetaNamesAndIsHeldToItsCounts)
     sequence.file("gt_vf.csv", "0,1,1\n3,2,0\n");
     EXPECT_TRUE(contains(sequence.refusal(), "says between which of its 3 frames"));
     const auto meta = [&](const std::string& more, const std::string& to = "7") {
-        sequence.file("meta.json", R"({"ccd": {"from_frame": "6", "to_frame": ")" + to + '"' + more + "}}");
+        sequence.file("meta.json",
+                      R"({"ccd": {"from_frame": "6", "to_frame": ")" + to + '"' + more + "}}");
     };
     meta(R"(, "vf_listed": 2, "vf_true": 1, "ee_listed": 0, "swept_vf": 10, "swept_ee": 30)");
     const GroundTruth truth = sequence.truth().value();
@@ -68,7 +69,8 @@ TEST(GroundTruth, IsOfTheStepThatMetaNamesAndIsHeldToItsCounts)
     meta(R"(, "vf_listed": 3)");
     EXPECT_EQ(sequence.refusal(), "gt_vf.csv has 2 pairs, and meta.json beside it says 3");
     meta(R"(, "vf_true": 2)");
-    EXPECT_EQ(sequence.refusal(), "gt_vf.csv has 1 pairs that collide, and meta.json beside it says 2");
+    EXPECT_EQ(sequence.refusal(),
+              "gt_vf.csv has 1 pairs that collide, and meta.json beside it says 2");
     meta(R"(, "ee_listed": 1)");
     EXPECT_EQ(sequence.refusal(), "gt_ee.csv has 0 pairs, and meta.json beside it says 1");
     meta("", "5");
@@ -98,9 +100,12 @@ TEST(GroundTruth, RefusesALineThatItDoesNotUnderstandByItsNumber)
     EXPECT_EQ(vf("-1,1,1\n"), "gt_vf.csv line 1: '-1' is no vertex, which are 0 to 3");
     EXPECT_EQ(vf("99999999999999999999,1,1\n"),
               "gt_vf.csv line 1: '99999999999999999999' is no vertex, which are 0 to 3");
-    EXPECT_EQ(vf("vertex,face,collides\n"), "gt_vf.csv line 1: 'vertex' is no vertex, which are 0 to 3");
-    EXPECT_EQ(vf("0,1,2\n"), "gt_vf.csv line 1: '2' is no verdict on a collision, which are 0 to 1");
-    EXPECT_EQ(vf("0,1,1\n0,1,\n"), "gt_vf.csv line 2: '' is no verdict on a collision, which are 0 to 1");
+    EXPECT_EQ(vf("vertex,face,collides\n"),
+              "gt_vf.csv line 1: 'vertex' is no vertex, which are 0 to 3");
+    EXPECT_EQ(vf("0,1,2\n"),
+              "gt_vf.csv line 1: '2' is no verdict on a collision, which are 0 to 1");
+    EXPECT_EQ(vf("0,1,1\n0,1,\n"),
+              "gt_vf.csv line 2: '' is no verdict on a collision, which are 0 to 1");
     vf("");
     sequence.file("gt_ee.csv", "0,1,2,3,1\n0,0,2,3,1\n");
     EXPECT_EQ(sequence.refusal(), "gt_ee.csv line 2: there is no edge from 0 to 0");
