@@ -2,6 +2,7 @@
 #include "builders/input.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace bvhbench {
 namespace {
@@ -17,13 +18,10 @@ Buffer<T> copied(const Device& device, const Queue& queue, std::span<const T> va
     return buffer;
 }
 
-}  // namespace
-
-Input upload(const Device& device, const Queue& queue, std::span<const Point> points,
-             std::span<const Face> faces, std::span<const FaceRange> objects)
+void copy_faces(Input& input, const Device& device, const Queue& queue,
+                std::span<const Face> faces, std::span<const FaceRange> objects)
 {
-    Input input{points, faces, {}, {}, {}, {}};
-    input.device_points = copied(device, queue, points, input.memory);
+    input.faces = faces;
     input.device_faces = copied(device, queue, faces, input.memory);
     input.objects.assign(objects.begin(), objects.end());
     if (objects.empty())
@@ -34,7 +32,42 @@ Input upload(const Device& device, const Queue& queue, std::span<const Point> po
             std::fill_n(owners.begin() + input.objects[object].first, input.objects[object].count,
                         object);
     input.device_owners = copied<uint>(device, queue, owners, input.memory);
+}
+
+}  // namespace
+
+Input upload(const Device& device, const Queue& queue, std::span<const Point> points,
+             std::span<const Face> faces, std::span<const FaceRange> objects)
+{
+    Input input{points, {}, {}, {}, {}, {}};
+    input.device_points = copied(device, queue, points, input.memory);
+    copy_faces(input, device, queue, faces, objects);
     return input;
+}
+
+void upload_end(Input& input, const Device& device, const Queue& queue,
+                std::span<const Point> end_points)
+{
+    assert(end_points.size() == input.points.size());
+    input.end_points = end_points;
+    input.device_end_points = copied(device, queue, end_points, input.memory);
+}
+
+Input upload_over(const Input& input, const Device& device, const Queue& queue,
+                  std::span<const Face> faces, std::span<const FaceRange> objects)
+{
+    Input other = input;
+    copy_faces(other, device, queue, faces, objects);
+    return other;
+}
+
+std::vector<Aabb> leaf_boxes(const Input& input)
+{
+    std::vector<Aabb> boxes;
+    boxes.reserve(input.faces.size());
+    for (const Face face : input.faces)
+        boxes.push_back(leaf_box(input, face));
+    return boxes;
 }
 
 std::vector<uint> object_sizes(const Input& input)

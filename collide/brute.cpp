@@ -18,7 +18,7 @@ public:
     {
         queue.on_host("broad", [&] {
             const PairList all =
-                touching_pairs(input.points, input.faces, options_.keep_adjacent);
+                touching_pairs(leaf_boxes(input), input.faces, options_.keep_adjacent);
             const PairList chosen = among_objects(all, input.objects, options_.among);
             found_.assign(chosen.pairs().begin(), chosen.pairs().end());
         });

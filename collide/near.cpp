@@ -122,7 +122,7 @@ Input NearTriangles::frame(const Input& whole, const std::vector<uint>& counts,
             objects.push_back({total, count});
             total += count;
         }
-    assert(total <= most_of(whole.triangle_count()));
+    assert(total <= most_of(whole.triangle_count()) && !whole.is_swept());
     faces.resize(total);
     if (total > 0)
         queue.cl().enqueueReadBuffer(faces_.cl(), CL_TRUE, 0, total * sizeof(Face), faces.data());

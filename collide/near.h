@@ -48,7 +48,7 @@ public:
     std::vector<uint> find(const Input& input, Queue& queue);
 
     /// The frame of what was found, most_of at most, and the objects that have some. Shares memory with this, so that
-    /// another `find` fills it again, and with `whole`; `faces` is where its copy on the host goes. Waits.
+    /// another `find` fills it again, and with `whole`, which is not swept; `faces` is where its copy on the host goes. Waits.
     Input frame(const Input& whole, const std::vector<uint>& counts, std::vector<Face>& faces,
                 const Queue& queue) const;
 

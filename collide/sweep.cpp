@@ -54,15 +54,17 @@ PairList overlapping_pairs(std::span<const Aabb> boxes)
     return PairList(std::move(found));
 }
 
+PairList touching_pairs(std::span<const Aabb> boxes, std::span<const Face> faces,
+                        bool keep_adjacent)
+{
+    PairList all = overlapping_pairs(boxes);
+    return keep_adjacent ? all : selected(all, {faces, {}}, Relation::apart);
+}
+
 PairList touching_pairs(std::span<const Point> points, std::span<const Face> faces,
                         bool keep_adjacent)
 {
-    std::vector<Aabb> boxes;
-    boxes.reserve(faces.size());
-    for (const Face& face : faces)
-        boxes.push_back(face_box(points, face));
-    PairList all = overlapping_pairs(boxes);
-    return keep_adjacent ? all : selected(all, {faces, {}}, Relation::apart);
+    return touching_pairs(face_boxes(points, faces), faces, keep_adjacent);
 }
 
 }  // namespace bvhbench

@@ -14,7 +14,11 @@ namespace bvhbench {
 /// one test for each pair of boxes that overlap along the axis swept, the longest.
 PairList overlapping_pairs(std::span<const Aabb> boxes);
 
-/// The same of the boxes of triangles; without `keep_adjacent`, only pairs that share no vertex index.
+/// The same; without `keep_adjacent`, only pairs of triangles that share no vertex index.
+PairList touching_pairs(std::span<const Aabb> boxes, std::span<const Face> faces,
+                        bool keep_adjacent);
+
+/// Of the boxes that the triangles have in one frame.
 PairList touching_pairs(std::span<const Point> points, std::span<const Face> faces,
                         bool keep_adjacent);
 

@@ -39,8 +39,13 @@ Programs::Programs(const Device& device, std::string dialect)
 cl::Kernel Programs::kernel(std::string_view path, const char* name,
                             std::initializer_list<Define> defines, Optimise optimise)
 {
-    return compiled(device_.sources.flatten(path), path, name,
-                    std::span(defines.begin(), defines.size()), optimise);
+    return kernel(path, name, std::span(defines.begin(), defines.size()), optimise);
+}
+
+cl::Kernel Programs::kernel(std::string_view path, const char* name,
+                            std::span<const Define> defines, Optimise optimise)
+{
+    return compiled(device_.sources.flatten(path), path, name, defines, optimise);
 }
 
 cl::Kernel Programs::kernel(std::string_view header, std::string_view path, const char* name,

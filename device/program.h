@@ -47,6 +47,8 @@ public:
     cl::Kernel kernel(std::string_view path, const char* name,
                       std::initializer_list<Define> defines = {},
                       Optimise optimise = Optimise::freely);
+    cl::Kernel kernel(std::string_view path, const char* name, std::span<const Define> defines,
+                      Optimise optimise = Optimise::freely);
 
     /// The same of a file that is compiled behind a header it does not name, so that one text serves several.
     cl::Kernel kernel(std::string_view header, std::string_view path, const char* name,

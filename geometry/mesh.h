@@ -28,4 +28,14 @@ inline Aabb face_box(std::span<const Point> points, Face face)
     return triangle_box(points[face.a], points[face.b], points[face.c]);
 }
 
+/// The boxes of all of `faces`.
+inline std::vector<Aabb> face_boxes(std::span<const Point> points, std::span<const Face> faces)
+{
+    std::vector<Aabb> boxes;
+    boxes.reserve(faces.size());
+    for (const Face face : faces)
+        boxes.push_back(face_box(points, face));
+    return boxes;
+}
+
 }  // namespace bvhbench

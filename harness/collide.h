@@ -37,7 +37,8 @@ struct CollideTask {
     bool may_stand_in = false;
     ObjectsBy objects = ObjectsBy::automatic;
     unsigned between = 0;  ///< frames put between each two of the scene's
-    FrameRange frames;
+    bool swept = false;    ///< boxes are around the way from each frame to the next (harness/swept.h)
+    FrameRange frames;     ///< swept: those that ways begin in
     std::vector<PipelineChoice> pipelines;
     int samples = 20;
     int warm_up = 3;
@@ -47,6 +48,14 @@ struct CollideTask {
 struct Found {
     PairList pairs, contacts;
 };
+
+/// The task's scene, with its objects and the frames between. Throws what loading it does.
+Scene scene_of(const CollideTask& task, const SceneLibrary& library);
+
+/// The task's range of so many of them: "frames", or what else it counts. Throws BadUsage.
+FrameRange frames_of(const CollideTask& task, std::size_t there, const char* what);
+
+SceneFacts facts_of(const CollideTask& task, const Scene& scene, std::size_t frame);
 
 /// Every pipeline over every frame, a cell each: checked against the oracles, then sampled, all of a frame
 /// interleaved; each sample is a whole frame from vertices to pairs or contacts. `add` gets the cells of a frame once

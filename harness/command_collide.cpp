@@ -10,8 +10,10 @@
 #include "harness/pairs_file.h"
 #include "harness/report.h"
 #include "harness/report_skips.h"
+#include "harness/report_swept.h"
 #include "harness/result_file.h"
 #include "harness/run.h"
+#include "harness/swept.h"
 
 namespace bvhbench {
 namespace {
@@ -32,6 +34,7 @@ CollideTask task_of(const CollideCommand& command)
     task.objects = objects_by_called(command.objects);
     task.frames = frame_range(command.frames);
     task.between = command.between;
+    task.swept = command.swept;
     task.pipelines = {{command.builder, command.collider}};
     for (const SkipRuleEntry& entry : skip_rules())
         if (command.skips && (command.collider.rules_off & entry.rule) == 0) {
@@ -39,6 +42,11 @@ CollideTask task_of(const CollideCommand& command)
             task.pipelines.back().collider.rules_off |= entry.rule;
         }
     task.samples = command.samples;
+    if (task.swept)
+        check_swept(task);
+    if (task.swept && !command.pairs.empty() && command.collider.among == Among::all)
+        throw BadUsage("--pairs writes one list, and --swept finds two: choose by --pairs-of between, "
+                       "of vertices and faces, or within, of edges");
     return task;
 }
 
@@ -72,6 +80,7 @@ int collide(const CollideCommand& command, const Options& options)
         std::cout << cell_report(document.cells.front(), document.run);
     else
         std::cout << frames_report(document);
+    std::cout << swept_report(document);
     std::cout << skips_report(document);
     if (!command.pairs.empty())
         write_pairs(command.pairs, last.pairs);

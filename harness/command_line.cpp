@@ -114,6 +114,9 @@ void add_collide(CLI::App& app, CollideCommand& collide, std::string& leaves, st
         ->add_option("--between", collide.between,
                      "frames put between each two of the scene's, in a straight line")
         ->check(CLI::Range(0, 1000));
+    command->add_flag("--swept", collide.swept,
+                      "boxes around the way from each frame to the next: vertices against faces, and "
+                      "edges against edges; --pairs-of between or within has one of the two");
     command
         ->add_option(
             "--narrow", collide.collider.narrow,

@@ -15,6 +15,7 @@
 #include "harness/report_quality.h"
 #include "harness/report_refit.h"
 #include "harness/report_roofline.h"
+#include "harness/report_swept.h"
 #include "harness/report_yardstick.h"
 #include "harness/run.h"
 #include "harness/stress/report.h"
@@ -73,7 +74,7 @@ int run(const RunCommand& command, const Options& options)
                        "'");
     std::cout << run_report(run.document().run)
               << cells_report(run.document(), is_long(run.document()))
-              << frames_table(run.document())
+              << frames_table(run.document()) << swept_report(run.document())
               << refit_report(run.document()) << quality_report(run.document())
               << roofline_report(run.document()) << yardstick_report(run.document())
               << "written: " << out << '\n';
@@ -114,7 +115,7 @@ int show(const ShowCommand& command, const Options&)
         std::cout << cell_report(document.cells.front(), document.run);
     else
         std::cout << cells_report(document, is_long(document))
-                  << frames_table(document) << refit_report(document) << quality_report(document)
+                  << frames_table(document) << swept_report(document) << refit_report(document) << quality_report(document)
                   << roofline_report(document) << yardstick_report(document);
     return 0;
 }

@@ -19,7 +19,7 @@ constexpr std::string_view names[] = {"table1",    "table4",    "fig8",    "fig1
                                       "quality",   "orders",    "scaling", "refit",    "equality",
                                       "smoke",     "table2",    "table3",  "pairs",    "rebuild",
                                       "libraries", "agreement", "native",  "native-pairs",
-                                      "yardstick", "wide",      "roofline"};
+                                      "yardstick", "wide",      "roofline", "swept"};
 
 constexpr std::int64_t most_sizes = 1 << 24;
 

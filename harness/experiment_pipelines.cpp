@@ -4,6 +4,7 @@
 #include "collide/narrow_methods.h"
 #include "collide/skips.h"
 #include "geometry/error.h"
+#include "harness/swept.h"
 
 namespace bvhbench {
 namespace {
@@ -91,7 +92,8 @@ CollideTask task_of(const Json& json, const std::vector<PipelineChoice>& pipelin
         task.scene = json.get<std::string>();
         return task;
     }
-    refuse_unknown_keys(json, {"scene", "frames", "between", "objects", "pairs_of"}, "a scene");
+    refuse_unknown_keys(json, {"scene", "frames", "between", "objects", "pairs_of", "swept"},
+                        "a scene");
     task.scene = text_at(json, "scene");
     if (json.contains("frames"))
         task.frames = frame_range(text_at(json, "frames"));
@@ -101,6 +103,13 @@ CollideTask task_of(const Json& json, const std::vector<PipelineChoice>& pipelin
     if (json.contains("pairs_of"))
         for (PipelineChoice& pipeline : task.pipelines)
             pipeline.collider.among = among_called(text_at(json, "pairs_of"));
+    if (json.contains("swept")) {
+        if (!json["swept"].is_boolean())
+            throw BadUsage("'swept' is true or false");
+        task.swept = json["swept"].get<bool>();
+        if (task.swept)
+            check_swept(task);
+    }
     return task;
 }
 

@@ -8,7 +8,7 @@ namespace bvhbench {
 
 /// What an experiment with `pipelines` measures, a task a scene. A scene is text or an object of
 ///
-///     scene, frames ("a:b"), between, objects, pairs_of
+///     scene, frames ("a:b"), between, objects, pairs_of, swept (true: from each frame to the next, harness/swept.h)
 ///
 /// and a pipeline an object of
 ///

@@ -102,6 +102,13 @@ Options parse_options(int argc, const char* const* argv)
     collide.collider.keep_adjacent = tune.collider.keep_adjacent = adjacent == "keep";
     collide.collider.among = among_called(pairs_of);
     collide.collider.rules_off = skip_rules_called(no_skip);
+    if (collide.swept) {
+        if (app.get_subcommands().front()->count("--adjacent") > 0 && adjacent == "keep")
+            throw BadUsage(
+                "--swept leaves out pairs that share a vertex, which touch all the way: there are none "
+                "for --adjacent keep");
+        collide.collider.keep_adjacent = false;
+    }
     const std::string chosen = app.get_subcommands().front()->get_name();
     if (chosen == "list")
         options.command = list;

@@ -49,6 +49,7 @@ struct CollideCommand {
     std::string objects = "auto";
     std::string frames = "0";
     unsigned between = 0;
+    bool swept = false;    ///< boxes are around the way from each frame to the next
     int samples = 20;
     bool skips = false;    ///< whether each rule is measured switched off as well
     std::string json;      ///< result file to write; may be empty

@@ -17,6 +17,11 @@ Pipeline::Pipeline(Session& session, const BuilderChoice& builder, const Collide
     , updates_(input.objects.size(), TreeUpdate::rebuild)
     , collider_(make_collider(collider, session.programs()))
 {
+    if (input.is_swept() && (collider.narrow != "none" || collider_->finds_contacts()))
+        throw BadUsage(std::string("swept boxes tell who may meet between two frames, not who does: ") +
+                       (collider_->finds_contacts() ? "the collider " + collider.name
+                                                    : "a narrow phase, " + collider.narrow + ",") +
+                       " looks at one moment");
     if (collider_->needs_tree())
         builder_ = make_builder(choice_, session.programs());
     reserve_for(input);
@@ -26,8 +31,9 @@ Pipeline::Pipeline(Session& session, const BuilderChoice& builder, const Collide
                                                           .form = collider.form});
         narrow_->reserve(input.triangle_count());
     }
+    // Swept, objects are vertices and the faces that they are corners of: all of them are near.
     if (skips(skip_near) && collider.among == Among::between_objects && input.objects.size() > 1 &&
-        builder_ != nullptr && !collider_->keeps_tree() &&
+        !input.is_swept() && builder_ != nullptr && !collider_->keeps_tree() &&
         NearTriangles::may_pay(session.device(), input.triangle_count())) {
         near_.emplace(session.programs(), NearOptions{});
         near_->reserve(input);

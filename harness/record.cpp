@@ -81,6 +81,11 @@ Json json_of(const ColliderChoice& collider)
               {"no_skip", skip_rules_text(collider.rules_off)}}}};
 }
 
+Json json_of(const SweptFacts& swept)
+{
+    return {{"pairs", swept.pairs}, {"to_frame", swept.to_frame}, {"primitives", swept.primitives}};
+}
+
 Json json_of(const AccuracyFacts& accuracy)
 {
     Json json = {{"axis", accuracy.axis}, {"method", accuracy.method}};
@@ -165,6 +170,8 @@ std::string cell_text(const Cell& cell)
                  {"builder", json_of(cell.builder)}};
     if (!cell.collider.name.empty())
         json["collider"] = json_of(cell.collider);
+    if (!cell.swept.pairs.empty())
+        json["swept"] = json_of(cell.swept);
     if (!cell.accuracy.axis.empty())
         json["accuracy"] = json_of(cell.accuracy);
     json["operation"] = operation_name(cell.operation);
@@ -222,7 +229,7 @@ std::string document_text(const std::string& run, const std::vector<std::string>
         return text;
     };
     std::string text =
-        "{\"format\": \"1.6\",\n\"run\": " + run + ",\n\"cells\": [" + lines(cells) + "\n]";
+        "{\"format\": \"1.7\",\n\"run\": " + run + ",\n\"cells\": [" + lines(cells) + "\n]";
     if (!stress.empty())
         text += ",\n\"stress\": [" + lines(stress) + "\n]";
     return text + "}\n";

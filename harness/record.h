@@ -50,6 +50,13 @@ struct SceneFacts {
     std::uint64_t content_hash = 0;
 };
 
+/// Which pairs a step between two frames was asked for, over boxes swept from one to the other.
+struct SweptFacts {
+    std::string pairs;          ///< vertex-face or edge-edge; empty: boxes are of one frame
+    std::int64_t to_frame = 0;  ///< the scene's `frame` is where the step begins
+    std::int64_t primitives = 0;  ///< vertices and faces, or edges
+};
+
 /// Which axis of accuracy a cell is on, and by what its answers came about.
 struct AccuracyFacts {
     std::string axis;  ///< empty: none
@@ -65,6 +72,7 @@ struct Cell {
     SceneFacts scene;
     BuilderChoice builder;
     ColliderChoice collider;  ///< of an empty name: none
+    SweptFacts swept;
     AccuracyFacts accuracy;
     Operation operation = Operation::build;
     Status status = Status::measured;

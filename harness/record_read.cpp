@@ -106,6 +106,13 @@ ColliderChoice collider_of(const Json& json)
             .rules_off = rules_of(get<std::string>(options, "no_skip"))};
 }
 
+SweptFacts swept_of(const Json& json)
+{
+    return {.pairs = json.at("pairs").get<std::string>(),
+            .to_frame = get<std::int64_t>(json, "to_frame"),
+            .primitives = get<std::int64_t>(json, "primitives")};
+}
+
 AccuracyFacts accuracy_of(const Json& json)
 {
     return {.axis = json.at("axis").get<std::string>(),
@@ -137,6 +144,8 @@ Cell cell_of(const Json& json)
     cell.builder = builder_of(json.at("builder"));
     if (json.contains("collider"))
         cell.collider = collider_of(json["collider"]);
+    if (json.contains("swept"))
+        cell.swept = swept_of(json["swept"]);
     if (json.contains("accuracy"))
         cell.accuracy = accuracy_of(json["accuracy"]);
     cell.operation = static_cast<Operation>(

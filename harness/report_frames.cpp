@@ -53,7 +53,7 @@ std::vector<Frames> frames_of(const Document& document)
 {
     std::vector<Frames> all;
     for (const Cell& cell : document.cells) {
-        if (cell.operation != Operation::collide)
+        if (cell.operation != Operation::collide || !cell.swept.pairs.empty())
             continue;
         const auto found =
             std::find_if(all.begin(), all.end(), [&](const Frames& one) { return one.takes(cell); });

@@ -10,7 +10,8 @@ std::string pipeline_text(const Cell& cell)
     if (cell.operation == Operation::accuracy)
         return cell.accuracy.axis + ", " + cell.accuracy.method;
     if (cell.operation == Operation::collide)
-        return variant_text(cell.collider) +
+        return (cell.swept.pairs.empty() ? "" : cell.swept.pairs + " by ") +
+               variant_text(cell.collider) +
                (cell.builder.name == "none" ? "" : " over " + variant_text(cell.builder));
     return variant_text(cell.builder) + (cell.operation == Operation::refit ? ", refit" : "");
 }

@@ -87,7 +87,7 @@ public:
 private:
     void line_up_leaves(const Input& input)
     {
-        HostLeafOrder leaves = host_leaf_order(input.points, input.faces, order_);
+        HostLeafOrder leaves = host_leaf_order(leaf_boxes(input), order_);
         const uint first = oi_first(tree_.shape.leaf_level);
         for (uint k = 0; k < tree_.shape.leaves; ++k)
             tree_.boxes[oi_slot(tree_.shape, first + k)] = leaves.boxes[leaves.ids[k]];

@@ -5,8 +5,8 @@
 
 narrow: a panel a class of pairs of triangles, a point a narrow phase. sums: a panel a scene, a point a way to add areas
 up. codes: a panel a scene and measure, a point an order. input: how many pairs of boxes, and what a frame takes, by how
-far from the origin the scene is. Left and down is better everywhere; the grey line joins what no other method is as
-good as in both time and error (the Pareto front), and those points are filled.
+far from the origin the scene is. swept: as plots/swept.py. In the others left and down is better; the grey line joins
+what no other method is as good as in both time and error (the Pareto front), and those points are filled.
 """
 from __future__ import annotations
 
@@ -23,6 +23,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 import figure
 import results
 import style
+import swept
 from style import Look
 
 NARROW_COLUMNS = 6
@@ -239,7 +240,11 @@ def draw_input(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
     return drawing
 
 
-FIGURES = {"narrow": draw_narrow, "sums": draw_sums, "codes": draw_codes, "input": draw_input}
+def draw_swept(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
+    return swept.draw_cells(run, cells, "accuracy")
+
+
+FIGURES = {"narrow": draw_narrow, "sums": draw_sums, "codes": draw_codes, "input": draw_input, "swept": draw_swept}
 
 
 def figures_of(run: results.Run) -> dict[str, Callable[[], plt.Figure]]:

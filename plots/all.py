@@ -26,6 +26,7 @@ import roofline
 import scaling
 import stress
 import style
+import swept
 import table1
 import table2
 import table3
@@ -47,6 +48,7 @@ FIGURES: dict[str, figure.Draw] = {
 FRAME_FIGURES: dict[str, dict[str, figure.Draw]] = {
     "table2": {"table2": table2.draw, "fig9": fig9.draw, "fig10": fig10.draw},
     "table3": {"table3": table3.draw},
+    "swept": {"swept": swept.draw},
     **{name: {name: draw} for name, draw in frames.FIGURES.items()},
 }
 

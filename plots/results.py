@@ -51,6 +51,7 @@ class Cell:
     left_out: dict[str, str]  # a counter that has no value, and why
     leaves_by_depth: list[int]  # from the root's level on; empty before format 1.3
     accuracy: dict[str, Any]  # on which axis, by which method, of which seed; empty if on none
+    swept: dict[str, Any]  # which pairs, to which frame, of how many boxes; empty if boxes are of one frame
 
     def times_s(self, stage: str) -> numpy.ndarray:
         """Seconds per sample: first start to last end on the device's clock, else the host's clock."""
@@ -225,7 +226,8 @@ def cell_of(path: pathlib.Path, cell: dict[str, Any]) -> Cell:
     return Cell(cell["experiment"], scene["name"], scene.get("triangles", 0), scene.get("stand_in_for"), scene.get("outlier"),
                 builder["name"], options, cell.get("operation", "build"), scene.get("frame", 0), collider.get("name"), collider_options,
                 cell["check"]["verdict"] in ("agrees", "counted"), cell["counters"],
-                samples, cell.get("left_out", {}), cell.get("leaves_by_depth", []), cell.get("accuracy", {}))
+                samples, cell.get("left_out", {}), cell.get("leaves_by_depth", []), cell.get("accuracy", {}),
+                cell.get("swept", {}))
 
 
 def printed(name: str) -> dict[str, Any]:

@@ -125,6 +125,7 @@ Scene from_path(const std::filesystem::path& path, const SceneLibrary& library)
     Scene scene;
     if (std::filesystem::is_directory(path)) {
         scene = read_sequence(path, limits_of(library));
+        scene.folder = path;
     } else {
         FileMesh file = read_mesh_file(path, limits_of(library));
         scene.faces = std::move(file.mesh.faces);
@@ -189,17 +190,24 @@ const G* called(std::string_view name, std::span<const G> among)
     return nullptr;
 }
 
+/// Of other triangles or frames than the folder that it comes from, if it does.
+Scene made_of_another(Scene scene)
+{
+    scene.folder.clear();
+    return scene;
+}
+
 Scene unfinished(std::string_view text, const SceneLibrary& library)
 {
     const std::size_t colon = std::min(text.find(':'), text.size());
     const std::string_view head = text.substr(0, colon);
     const std::string_view rest = text.substr(std::min(colon + 1, text.size()));
     if (head == "refine")
-        return refinement(text, rest, library);
+        return made_of_another(refinement(text, rest, library));
     if (head == "outlier")
-        return outlier(text, rest, library);
+        return made_of_another(outlier(text, rest, library));
     if (head == "bend")
-        return with_bend(load_any(rest, library));
+        return made_of_another(with_bend(load_any(rest, library)));
     if (const ManifestEntry* const entry = manifest_entry(text))
         return from_data_set(*entry, library);
     if (const Generator* const generator = called(head, generators()))

@@ -48,6 +48,7 @@ Scene with_frames_between(Scene scene, uint between)
     }
     scene.frames = std::move(all);
     scene.frame_labels = std::move(labels);
+    scene.folder.clear();  // whose frames are further apart
     return finished(std::move(scene));
 }
 

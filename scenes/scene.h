@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,7 @@ struct Scene {
     std::vector<uint> file_faces;
     std::string
         source;  ///< "generated", or the file that was read: its path in the data folder if it is there
+    std::filesystem::path folder;  ///< where these frames were read from and more may be said of them, or empty
     std::string
         stand_in_for;  ///< the data set this one replaces because it is not there; else empty
     Outlier outlier;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "scenes/sequence_facts.h"
 
+#include <algorithm>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "geometry/error.h"
@@ -94,8 +96,6 @@ std::vector<std::string> labels(const Json& list)
 
 void take(Scene& scene, const Json& json)
 {
-    if (!json.is_object())
-        throw Fault{"is no JSON object"};
     expect(json, "frames", scene.frames.size());
     expect(json, "vertices", scene.frames.front().size());
     expect(json, "triangles", scene.faces.size());
@@ -111,9 +111,33 @@ void take(Scene& scene, const Json& json)
     }
 }
 
-}  // namespace
+StepFacts step_of(const Scene& scene, const Json& ccd)
+{
+    if (!ccd.is_object())
+        throw Fault{"has a 'ccd' that is no object"};
+    const auto frame = [&](const char* key) {
+        const auto label = ccd.find(key);
+        const auto& all = scene.frame_labels;
+        const auto found = label == ccd.end() || !label->is_string()
+                               ? all.end()
+                               : std::find(all.begin(), all.end(), label->get<std::string>());
+        if (found == all.end())
+            throw Fault{"has a 'ccd' whose '" + std::string(key) + "' is no label of a frame"};
+        return static_cast<std::size_t>(found - all.begin());
+    };
+    const auto count_if = [&](const char* key) {
+        return ccd.contains(key) ? std::optional(count(ccd, key)) : std::nullopt;
+    };
+    StepFacts facts{frame("from_frame"),   count_if("vf_listed"), count_if("vf_true"),
+                    count_if("ee_listed"), count_if("ee_true"),   count_if("swept_vf"),
+                    count_if("swept_ee")};
+    if (frame("to_frame") != facts.from_frame + 1)
+        throw Fault{"has a 'ccd' whose frames do not follow each other"};
+    return facts;
+}
 
-void add_sequence_facts(Scene& scene, const std::filesystem::path& meta)
+/// If there is such a file, `use` gets what it holds.
+void read_facts(const std::filesystem::path& meta, const std::function<void(const Json&)>& use)
 {
     if (!std::filesystem::exists(meta))
         return;
@@ -121,10 +145,29 @@ void add_sequence_facts(Scene& scene, const std::filesystem::path& meta)
     try {
         if (json.is_discarded())
             throw Fault{"is not JSON"};
-        take(scene, json);
+        if (!json.is_object())
+            throw Fault{"is no JSON object"};
+        use(json);
     } catch (const Fault& fault) {
         throw Unavailable(meta.string() + " " + fault.what);
     }
+}
+
+}  // namespace
+
+void add_sequence_facts(Scene& scene, const std::filesystem::path& meta)
+{
+    read_facts(meta, [&](const Json& json) { take(scene, json); });
+}
+
+std::optional<StepFacts> step_facts(const Scene& scene, const std::filesystem::path& meta)
+{
+    std::optional<StepFacts> facts;
+    read_facts(meta, [&](const Json& json) {
+        if (const auto ccd = json.find("ccd"); ccd != json.end())
+            facts = step_of(scene, *ccd);
+    });
+    return facts;
 }
 
 }  // namespace bvhbench

@@ -155,7 +155,7 @@ private:
             const auto [first, count] = objects_[k]->faces;
             Aabb around = empty_box();
             for (std::size_t i = first; i < first + count; ++i) {
-                const Aabb box = face_box(input.points, faces_[i]);
+                const Aabb box = leaf_box(input, faces_[i]);
                 if (!is_in_range(box))
                     return i;
                 boxes_[i] = rounded_outward(box);
@@ -201,8 +201,7 @@ private:
         by_thread_.append_to(found_);
         if (is_rounded_)
             std::erase_if(found_, [&](Pair pair) {
-                return !overlap(face_box(input.points, faces_[pair.a]),
-                                face_box(input.points, faces_[pair.b]));
+                return !overlap(leaf_box(input, faces_[pair.a]), leaf_box(input, faces_[pair.b]));
             });
     }
 

@@ -33,7 +33,7 @@ public:
         if (start == Start::from_triangles)
             queue.on_host("bounds", [&] {
                 for (std::size_t k = 0; k < boxes_.size(); ++k)
-                    boxes_[k] = face_box(input.points, input.faces[k]);
+                    boxes_[k] = leaf_box(input, input.faces[k]);
             });
         method_->accept(boxes_);
         queue.on_host("hierarchy", [&] { method_->build(); });

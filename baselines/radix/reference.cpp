@@ -97,7 +97,7 @@ public:
     {
         if (start == Start::from_triangles)
             queue.on_host("sort",
-                          [&] { leaves_ = host_leaf_order(input.points, input.faces, order_); });
+                          [&] { leaves_ = host_leaf_order(leaf_boxes(input), order_); });
         queue.on_host("hierarchy", [&] { tree_.tree = radix_tree(leaves_); });
         return tree_;
     }

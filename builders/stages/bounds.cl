@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// check: -DGROUP_SIZE=64u
+// check: -DGROUP_SIZE=64u -DSWEPT=0
+// check: -DGROUP_SIZE=64u -DSWEPT=1
 //
 // Triangles to boxes, and in the same pass the bounds of them all. Every group or chunk leaves the bounds of what it saw
 // in `partials`. Who joins those is the last group to finish, where groups may meet (device/handoff.clh), else a launch of
@@ -11,7 +12,7 @@
 /// boxes[k] is the box of faces[k], for all `count`; *result the bounds of them all. The groups together take `rounds`
 /// rounds of a group's size each. *arrivals is zero before and after. Unless they `meet`, nobody joins.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void bounds_groups(
-    global const Point* restrict points, global const Face* restrict faces,
+    POINTS_PARAMETERS(restrict), global const Face* restrict faces,
     global float2* restrict boxes, global Bounds* partials,
     global Bounds* restrict result, volatile global Arrivals* restrict arrivals, const uint count,
     const uint rounds, const uint meet)
@@ -25,7 +26,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void bounds_group
     for (uint round = 0u; round < rounds; ++round) {
         const uint start = (round * (uint)get_num_groups(0) + (uint)get_group_id(0)) * GROUP_SIZE;
         const uint here = min(GROUP_SIZE, count - min(count, start));
-        bounds = make_boxes(points, faces, boxes, staged, start, here, bounds);
+        bounds = make_boxes(POINTS, faces, boxes, staged, start, here, bounds);
     }
     bounds = joined_in_group(bounds, parts);
     if (item == 0u) {
@@ -62,14 +63,14 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void join_groups(
 }
 
 /// As bounds_groups, each work-item by itself.
-kernel void bounds_chunks(global const Point* restrict points, global const Face* restrict faces,
+kernel void bounds_chunks(POINTS_PARAMETERS(restrict), global const Face* restrict faces,
                           global Aabb* restrict boxes, global Bounds* restrict partials,
                           const uint count)
 {
     const Chunk chunk = own_chunk(count);
     Bounds bounds = empty_bounds();
     for (uint k = chunk.first; k < chunk.end; ++k) {
-        const Aabb box = box_of_face(points, faces[k]);
+        const Aabb box = box_of_face(POINTS, faces[k]);
         boxes[k] = box;
         bounds = grown(bounds, box);
     }

@@ -28,13 +28,12 @@ BoundsStage::BoundsStage(Programs& programs, KernelForm form, uint group_size)
     , groups_meet_(form_ == KernelForm::groups && programs.device().lets_groups_meet())
     , most_partials_(form_ == KernelForm::groups ? most_groups(programs.device())
                                                  : chunk_count(programs.device()))
-{
-    const bool groups = form_ == KernelForm::groups;
-    boxes_kernel_ = programs.kernel(path, groups ? "bounds_groups" : "bounds_chunks",
-                                    {{"GROUP_SIZE", group_size_}});
-    join_kernel_ = programs.kernel(path, groups ? "join_groups" : "join_chunks",
-                                   {{"GROUP_SIZE", group_size_}});
-}
+    , boxes_kernel_(programs, path, form_ == KernelForm::groups ? "bounds_groups" : "bounds_chunks",
+                    {{"GROUP_SIZE", group_size_}})
+    , join_kernel_(programs.kernel(path,
+                                   form_ == KernelForm::groups ? "join_groups" : "join_chunks",
+                                   {{"GROUP_SIZE", group_size_}, {"SWEPT", 0}}))
+{}
 
 std::size_t BoundsStage::partial_count(std::size_t primitives) const
 {
@@ -62,19 +61,18 @@ void BoundsStage::enqueue(const Input& input, Queue& queue)
     const uint count = input.triangle_count();
     assert(count > 0 && count == boxes_.size());
     const auto partials = static_cast<uint>(partials_.size());
-    const auto moved = static_cast<std::int64_t>(input.device_points.bytes() +
-                                                 input.device_faces.bytes() + boxes_.bytes());
+    const auto moved = static_cast<std::int64_t>(input.point_bytes() + input.device_faces.bytes() +
+                                                 boxes_.bytes());
 
     queue.begin("bounds");
     if (form_ == KernelForm::groups) {
         const uint rounds = divided_up(count, group_size_ * partials);
-        set_arguments(boxes_kernel_, input.device_points, input.device_faces, boxes_, partials_,
-                      bounds_, arrivals_, count, rounds, groups_meet_ ? 1u : 0u);
-        queue.launch(boxes_kernel_, partials_.size() * group_size_, group_size_, moved);
+        queue.launch(boxes_kernel_.bound(input, input.device_faces, boxes_, partials_, bounds_,
+                                         arrivals_, count, rounds, groups_meet_ ? 1u : 0u),
+                     partials_.size() * group_size_, group_size_, moved);
     } else {
-        set_arguments(boxes_kernel_, input.device_points, input.device_faces, boxes_, partials_,
-                      count);
-        queue.launch(boxes_kernel_, partials_.size(), 1, moved);
+        queue.launch(boxes_kernel_.bound(input, input.device_faces, boxes_, partials_, count),
+                     partials_.size(), 1, moved);
     }
     if (groups_meet_)
         return;

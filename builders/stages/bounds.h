@@ -2,6 +2,7 @@
 #pragma once
 
 #include "builders/input.h"
+#include "builders/stages/box_kernels.h"
 #include "builders/stages/kernel_form.h"
 #include "device/arena.h"
 #include "device/program.h"
@@ -9,7 +10,7 @@
 
 namespace bvhbench {
 
-/// The stage `bounds`: triangles to leaf boxes in mesh order, and the bounds of them all, in one pass.
+/// The stage `bounds`: triangles to leaf boxes in mesh order, swept if the input is, and the bounds of them all, in one pass.
 class BoundsStage {
 public:
     /// `group_size` 0: as the device is tuned.
@@ -35,7 +36,7 @@ private:
     uint group_size_;
     bool groups_meet_;  ///< the last one joins what all have found
     std::size_t most_partials_;
-    cl::Kernel boxes_kernel_;
+    BoxKernels boxes_kernel_;
     cl::Kernel join_kernel_;
     Buffer<Aabb> boxes_;
     Buffer<Bounds> partials_;

@@ -269,14 +269,12 @@ unsigned LeafOrder::code_bits() const
     return stages_->several ? 32 * code_words(own) : own;
 }
 
-HostLeafOrder host_leaf_order(std::span<const Point> points, std::span<const Face> faces,
-                              std::string_view order)
+HostLeafOrder host_leaf_order(std::vector<Aabb> boxes, std::string_view order)
 {
     const OrderEntry& entry = find_order(order);
     HostLeafOrder result;
-    for (const Face& face : faces)
-        result.boxes.push_back(face_box(points, face));
-    result.ids.resize(faces.size());
+    result.boxes = std::move(boxes);
+    result.ids.resize(result.boxes.size());
     std::iota(result.ids.begin(), result.ids.end(), 0u);
     if (entry.medians == Medians::everywhere) {
         host_cell_medians(result.boxes, result.ids, median_block_height);
@@ -292,7 +290,7 @@ HostLeafOrder host_leaf_order(std::span<const Point> points, std::span<const Fac
     }
     if (entry.medians != Medians::nowhere) {
         host_block_medians(result.boxes, result.ids, median_block_height);
-        result.codes.resize(faces.size());
+        result.codes.resize(result.boxes.size());
         std::iota(result.codes.begin(), result.codes.end(), ulong{0});
     }
     return result;

@@ -86,7 +86,6 @@ struct HostLeafOrder {
     std::vector<ulong> codes;  ///< ascending; with medians, positions
     std::vector<uint> ids;     ///< triangle ids in leaf order
 };
-HostLeafOrder host_leaf_order(std::span<const Point> points, std::span<const Face> faces,
-                              std::string_view order);
+HostLeafOrder host_leaf_order(std::vector<Aabb> boxes, std::string_view order);
 
 }  // namespace bvhbench

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// check: -DGROUP_SIZE=64u -DROUNDS=4u
+// check: -DGROUP_SIZE=64u -DROUNDS=4u -DSWEPT=0
+// check: -DGROUP_SIZE=64u -DROUNDS=4u -DSWEPT=1
 //
 // As bounds.cl, of several objects at once: a group or a work-item leaves the bounds of one run of one object's
 // triangles in `partials`, then one an object joins those of its runs: of objects[k], from first_runs[k] on. Runs are
@@ -9,7 +10,7 @@
 /// boxes[k] is the box of faces[k]; partials[g] the bounds of runs[g], ROUNDS times a group's size
 /// at most.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void runs_groups(
-    global const Point* restrict points, global const Face* restrict faces,
+    POINTS_PARAMETERS(restrict), global const Face* restrict faces,
     global float2* restrict boxes, global Bounds* restrict partials,
     global const uint4* restrict runs)
 {
@@ -22,7 +23,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void runs_groups(
     for (uint round = 0u; round < ROUNDS; ++round) {
         const uint start = min(run.y, run.x + round * GROUP_SIZE);
         const uint here = min(GROUP_SIZE, run.y - start);
-        bounds = make_boxes(points, faces, boxes, staged, start, here, bounds);
+        bounds = make_boxes(POINTS, faces, boxes, staged, start, here, bounds);
     }
     bounds = joined_in_group(bounds, parts);
     if (item == 0u)
@@ -46,14 +47,14 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void join_groups(
 }
 
 /// As runs_groups, a work-item a run.
-kernel void runs_chunks(global const Point* restrict points, global const Face* restrict faces,
+kernel void runs_chunks(POINTS_PARAMETERS(restrict), global const Face* restrict faces,
                         global Aabb* restrict boxes, global Bounds* restrict partials,
                         global const uint4* restrict runs)
 {
     const uint4 run = runs[get_global_id(0)];
     Bounds bounds = empty_bounds();
     for (uint k = run.x; k < run.y; ++k) {
-        const Aabb box = box_of_face(points, faces[k]);
+        const Aabb box = box_of_face(POINTS, faces[k]);
         boxes[k] = box;
         bounds = grown(bounds, box);
     }

@@ -9,19 +9,22 @@ namespace {
 
 constexpr auto path = "builders/stages/object_bounds.cl";
 
+bool by_groups(const Device& device, KernelForm form)
+{
+    return chosen_form(device, form) == KernelForm::groups;
+}
+
 }  // namespace
 
 ObjectBounds::ObjectBounds(Programs& programs, KernelForm form, uint group_size)
     : all_(programs.device(), form, group_size)
-{
-    const bool groups = chosen_form(programs.device(), form) == KernelForm::groups;
-    const auto kernel = [&](const char* name) {
-        return programs.kernel(path, name,
-                               {{"GROUP_SIZE", group_size}, {"ROUNDS", ObjectRuns::rounds}});
-    };
-    boxes_kernel_ = kernel(groups ? "runs_groups" : "runs_chunks");
-    join_kernel_ = kernel(groups ? "join_groups" : "join_chunks");
-}
+    , boxes_kernel_(programs, path,
+                    by_groups(programs.device(), form) ? "runs_groups" : "runs_chunks",
+                    {{"GROUP_SIZE", group_size}, {"ROUNDS", ObjectRuns::rounds}})
+    , join_kernel_(programs.kernel(
+          path, by_groups(programs.device(), form) ? "join_groups" : "join_chunks",
+          {{"GROUP_SIZE", group_size}, {"ROUNDS", ObjectRuns::rounds}, {"SWEPT", 0}}))
+{}
 
 void ObjectBounds::plan(Arena& arena, std::span<const uint> sizes, Use boxes)
 {
@@ -39,11 +42,10 @@ void ObjectBounds::enqueue_chosen(const Input& input, const ObjectRuns& chosen, 
     // Of the points those of the chosen objects, of which an equal share is as good a guess as any.
     const double share =
         static_cast<double>(chosen.triangles()) / static_cast<double>(boxes_.size());
-    const auto moved = static_cast<double>(input.device_points.bytes() +
-                                           input.device_faces.bytes() + boxes_.bytes());
-    set_arguments(boxes_kernel_, input.device_points, input.device_faces, boxes_, partials_,
-                  chosen.runs());
-    queue.launch(boxes_kernel_, chosen.count() * chosen.group(), chosen.group(),
+    const auto moved = static_cast<double>(input.point_bytes() + input.device_faces.bytes() +
+                                           boxes_.bytes());
+    queue.launch(boxes_kernel_.bound(input, input.device_faces, boxes_, partials_, chosen.runs()),
+                 chosen.count() * chosen.group(), chosen.group(),
                  static_cast<std::int64_t>(share * moved));
     if (chosen.lined_up_objects() == 0)
         return;

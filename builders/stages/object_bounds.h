@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "builders/input.h"
+#include "builders/stages/box_kernels.h"
 #include "builders/stages/object_runs.h"
 #include "device/arena.h"
 #include "device/program.h"
@@ -12,8 +13,8 @@
 
 namespace bvhbench {
 
-/// The stage `bounds` over several objects: leaf boxes in mesh order, and the bounds of each object's, in one pass
-/// over all objects, or those chosen, however many there are.
+/// The stage `bounds` over several objects: leaf boxes in mesh order, swept if the input is, and the bounds of each
+/// object's, in one pass over all objects, or those chosen, however many there are.
 class ObjectBounds {
 public:
     explicit ObjectBounds(Programs& programs, KernelForm form = KernelForm::of_device,
@@ -46,7 +47,8 @@ private:
     void enqueue_chosen(const Input& input, const ObjectRuns& chosen, Queue& queue);
 
     ObjectRuns all_;
-    cl::Kernel boxes_kernel_, join_kernel_;
+    BoxKernels boxes_kernel_;
+    cl::Kernel join_kernel_;
     Buffer<Aabb> boxes_;
     Buffer<Bounds> partials_;  ///< one a run
     Buffer<Bounds> bounds_;

@@ -23,4 +23,7 @@ std::string report_codes(const Document& document);
 void measure_input(const AxisRun& run);
 std::string report_input(const Document& document);
 
+void measure_swept(const AxisRun& run);
+std::string report_swept(const Document& document);
+
 }  // namespace bvhbench

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "builders/stages/object_bounds.h"
 #include "tests/builders/stage_testing.h"
 
 namespace bvhbench {
@@ -51,6 +52,41 @@ TEST_P(BoundsContract, EqualTheHostsOfEverySize)
         Mesh mesh = all;
         mesh.faces.resize(size);
         expect_equal_to_host(mesh, 16);
+    }
+}
+
+TEST_P(BoundsContract, EqualTheHostsOnTheWayBetweenTwoFrames)
+{
+    const Mesh mesh = random_mesh(1000, [](Point p) { return p; });
+    std::vector<Point> end = mesh.points;
+    for (std::size_t k = 0; k < end.size(); ++k)
+        end[k] = {end[k].y, k % 3 == 0 ? -0.0f : end[k].z + 0.25f, -end[k].x};
+    const std::vector<FaceRange> objects = {{0, 1}, {1, 600}, {601, 399}};
+    Input input = upload(bench().device, bench().queue, mesh.points, mesh.faces, objects);
+    BoundsStage stage(bench().programs, GetParam(), 64);
+    ObjectBounds by_object(bench().programs, GetParam(), 64);
+    reserve([&](Arena& arena) {
+        stage.plan(arena, mesh.faces.size(), Use::tree);
+        by_object.plan(arena, object_sizes(input), Use::tree);
+    });
+    stage.prepare(bench().queue.cl());
+    by_object.prepare(bench().queue.cl());
+    for (const bool swept : {false, true}) {  // one stage makes both
+        SCOPED_TRACE(swept);
+        if (swept)
+            upload_end(input, bench().device, bench().queue, end);
+        stage.enqueue(input, bench().queue);
+        by_object.enqueue(input, bench().queue);
+        bench().queue.finish();
+        const std::vector<Aabb> boxes = leaf_boxes(input);
+        EXPECT_EQ(same_bits(boxes, face_boxes(mesh.points, mesh.faces)), !swept);
+        EXPECT_TRUE(same_bits(stage.boxes().download(bench().queue.cl()), boxes));
+        EXPECT_TRUE(same_bits(by_object.boxes().download(bench().queue.cl()), boxes));
+        EXPECT_TRUE(same_bits(stage.bounds().download(bench().queue.cl()), {host_bounds(boxes)}));
+        std::vector<Bounds> each;
+        for (const FaceRange& object : objects)
+            each.push_back(host_bounds(std::span(boxes).subspan(object.first, object.count)));
+        EXPECT_TRUE(same_bits(by_object.bounds().download(bench().queue.cl()), each));
     }
 }
 

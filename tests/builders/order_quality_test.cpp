@@ -63,7 +63,7 @@ TEST(OrderQuality, HilbertBeatsMortonAndMediansBeatBoth)
 {
     const Mesh mesh = torus(300, 100);
     const auto of_order = [&](const char* name) {
-        const HostLeafOrder order = host_leaf_order(mesh.points, mesh.faces, name);
+        const HostLeafOrder order = host_leaf_order(face_boxes(mesh.points, mesh.faces), name);
         return sah(order.boxes, order.ids);
     };
     const double morton = of_order("morton30");

@@ -87,7 +87,7 @@ protected:
     HostLeafOrder host_order(std::size_t object) const
     {
         const Mesh alone = triangles_at(objects_[object]);
-        return host_leaf_order(alone.points, alone.faces, GetParam().order);
+        return host_leaf_order(face_boxes(alone.points, alone.faces), GetParam().order);
     }
 
     std::vector<uint> host_ids() const

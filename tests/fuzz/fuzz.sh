@@ -17,7 +17,7 @@ mkdir -p "$to"
 flags=(-std=c++20 -O1 -g1 -march=x86-64-v3 -fsanitize=address,undefined -fno-sanitize-recover=undefined -I.
     -DBVHBENCH_HAS_CGAL=1 -DBVHBENCH_HAS_EMBREE=1 -DBVHBENCH_HAS_FCL=1)
 objects=()
-for source in scenes/formats/{obj,off,ply,ply_header,ply_values,stl,text}.cpp scenes/sequence_facts.cpp \
+for source in scenes/formats/{obj,off,ply,ply_header,ply_values,stl,text}.cpp scenes/{ground_truth,sequence_facts}.cpp \
     harness/{experiment,experiment_pipelines,json_keys,record,record_read,tuning_file,options}.cpp; do
     object=$to/${source//\//_}.o
     objects+=("$object")

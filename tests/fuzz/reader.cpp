@@ -11,6 +11,7 @@
 #include "harness/record.h"
 #include "harness/tuning_file.h"
 #include "scenes/formats/formats.h"
+#include "scenes/ground_truth.h"
 #include "scenes/sequence_facts.h"
 
 namespace bvhbench {
@@ -56,6 +57,23 @@ namespace {
     scene.frames.assign(3, std::vector<Point>(4));
     scene.faces.resize(2);
     add_sequence_facts(scene, file);
+    step_facts(scene, file);
+}
+
+/// Of vertices and faces up to an empty line, then of edges.
+[[maybe_unused]] void ground_truth(const std::string& bytes)
+{
+    static const std::filesystem::path folder =
+        std::filesystem::temp_directory_path() / ("fuzz-" + std::to_string(getpid()));
+    std::filesystem::create_directories(folder);
+    const std::size_t end = std::min(bytes.find("\n\n"), bytes.size());
+    std::ofstream(folder / "gt_vf.csv", std::ios::binary) << bytes.substr(0, end);
+    std::ofstream(folder / "gt_ee.csv", std::ios::binary) << bytes.substr(std::min(end + 2, bytes.size()));
+    Scene scene;
+    scene.folder = folder;
+    scene.frames.assign(2, std::vector<Point>(4));
+    scene.faces = {{0, 1, 2}, {0, 2, 3}};
+    ground_truth_of(scene, unique_edges(scene));
 }
 
 }  // namespace

@@ -106,6 +106,7 @@ def main() -> None:
     write("scaling.json", scaling)
     write_roofline(sweep[::2])
     write_accuracy()
+    write_swept()
 
 
 def write_roofline(scenes: list[dict]) -> None:
@@ -165,9 +166,41 @@ def write_accuracy() -> None:
             counters = {"right_pairs_count": 100000, "pairs_count": 100000 + false, "missed_count": 0, "false_count": false}
             cells.append(accuracy_cell("input", f"torus:20000 at {sizes}", method, counters,
                                        [on_device("broad", 1e7 + 20 * false)]))
+    for entry in swept_cells("accuracy", ("group", "grid"), noise):
+        entry |= {"operation": "accuracy", "accuracy": {"axis": "swept", "method": entry["collider"]["name"]}}
+        cells.append(entry)
     cells.append(accuracy_cell("narrow", "generic", "guigue-f64", {}, []))
     without_numbers(cells[-1], "skipped", "guigue-f64 needs doubles, which the device has not")
-    write("accuracy.json", cells, 6)
+    write("accuracy.json", cells, 7)
+
+
+def swept_cells(experiment: str, pipelines: tuple[str, ...], noise: random.Random) -> list[dict]:
+    """Both queries of a step of two scenes, one with a ground truth; of edges there are three times as many pairs."""
+    cells = []
+    for name in ("unc_cloth_ball", "cloth-funnel:18484"):
+        for pairs, among, times in (("vertex-face", "between", 10), ("edge-edge", "within", 30)):
+            for pipeline in pipelines:
+                entry = frame_cell(experiment, name, 0, pipeline, noise)
+                triangles = entry["scene"]["triangles"]
+                entry["collider"]["options"] |= {"pairs_of": among, "narrow": "none"}
+                entry["swept"] = {"pairs": pairs, "to_frame": 1, "primitives": 3 * triangles // 2}
+                entry["counters"] = {"pairs_count": times * triangles, "missed_count": 0, "false_count": 0}
+                entry["check"] = {"verdict": "agrees", "against": "brute", "pairs_hash": f"{times * triangles:016x}"}
+                for sample in entry["samples"]:
+                    sample["stages"] = [stage for stage in sample["stages"] if stage["stage"] != "narrow"]
+                if name == "unc_cloth_ball":
+                    entry["scene"].pop("stand_in_for", None)
+                    entry["counters"] |= {"ground_truth_pairs": triangles // 5, "ground_truth_missed": 0}
+                cells.append(entry)
+    return cells
+
+
+def write_swept() -> None:
+    """One pipeline has edges only."""
+    cells = swept_cells("swept", ("group", "leaf", "grid", "embree", "bvtt"), random.Random(8))
+    cells = [entry for entry in cells
+             if (entry["collider"]["name"], entry["swept"]["pairs"]) != ("bvtt", "vertex-face")]
+    write("swept.json", cells, 7)
 
 
 def valued(experiment: str, scene: dict, builder: str, order: str, cost: float, noise: random.Random) -> dict:

@@ -33,9 +33,23 @@ def test_accuracy_counts_the_errors_of_each_narrow_phase():
            "--out", "b", says="guigue-f64: 0 missed")
     axes = [cell["accuracy"]["axis"] for cell in valid("b/accuracy.json")["cells"]]
     assert axes == ["narrow", "narrow", "sums", "codes"], axes
-    expect(2, "accuracy", "--axis", "depth", says="there are: narrow, sums, codes, input")
+    expect(2, "accuracy", "--axis", "depth", says="there are: narrow, sums, codes, input, swept")
     expect(2, "accuracy", "--filter", "nothing", "--axis", "sums", "--scene", "soup:9", "--out", "c", says="no cell matches")
     expect(2, "accuracy", "--pairs", "0", says="--pairs")
+
+
+def test_accuracy_of_swept_boxes_has_both_queries_of_each_method():
+    out = expect(0, "accuracy", "--axis", "swept", "--scene", "cloth-ball:600:4", "torus:300", "--samples", "1",
+                 "--filter", "/(leaf|grid)", "--out", "d", says="leaf over apetrei-fused")
+    cells = valid("d/accuracy-swept.json")["cells"]
+    assert [(cell["scene"]["name"], cell["swept"]["pairs"], cell["accuracy"]["method"]) for cell in cells] == [
+        (scene, pairs, method) for scene in ("cloth-ball:600:4", "bend:torus:300")
+        for pairs in ("vertex-face", "edge-edge") for method in ("leaf over apetrei-fused", "grid")], cells
+    for cell in cells:
+        assert cell["check"]["verdict"] == "agrees" and cell["check"]["against"] == "brute", cell
+        assert (cell["counters"]["missed_count"], cell["counters"]["false_count"]) == (0, 0), cell
+    assert out.count(" both ") == 4, out
+    assert pathlib.Path("d/accuracy-swept.png").exists() or "nothing was drawn" in out
 
 
 def test_accuracy_finds_a_fault_planted_in_the_exact_narrow_phase():

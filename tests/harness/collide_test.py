@@ -4,6 +4,7 @@
 Usage: collide_test.py <bvhbench> <result schema>
 """
 import array
+import json
 import pathlib
 import sys
 
@@ -94,6 +95,58 @@ def test_collide_numbers_pairs_as_the_file_does_whatever_its_objects_are():
     for name in (".csv", "-contacts.csv"):
         one, components = (pathlib.Path(objects + name).read_text() for objects in ("one", "components"))
         assert one == components and len(one.splitlines()) > 2, (name, one, components)
+
+
+def sheet_and_triangle(z: float) -> str:
+    points = ["0 0 0", "1 0 0", "1 1 0", "0 1 0", f".25 .25 {z}", f".75 .25 {z}", f".25 .75 {z}"]
+    faces = ["1 2 3", "1 3 4", "5 6 7"]
+    return "".join(f"v {point}\n" for point in points) + "".join(f"f {face}\n" for face in faces)
+
+
+def test_collide_finds_pairs_of_swept_boxes_and_holds_them_to_the_folders_ground_truth():
+    folder = pathlib.Path("fall")
+    folder.mkdir()
+    for frame, z in enumerate((1, -1)):
+        (folder / f"{frame}.obj").write_text(sheet_and_triangle(z))
+    swept = ("collide", "--scene", "fall/", "--collider", "leaf", "--samples", "2", "--swept", "--json", "s.json")
+
+    def cells() -> tuple[dict, dict]:
+        vf, ee = valid("s.json")["cells"]
+        assert (vf["swept"], ee["swept"]) == ({"pairs": "vertex-face", "to_frame": 1, "primitives": 10},
+                                              {"pairs": "edge-edge", "to_frame": 1, "primitives": 8})
+        assert (vf["counters"]["pairs_count"], ee["counters"]["pairs_count"]) == (8, 3)
+        return vf, ee
+
+    expect(0, *swept, says="agrees with brute, pairs ")
+    assert all("ground_truth_pairs" not in cell["counters"] for cell in cells())
+    (folder / "gt_vf.csv").write_text("4,0,1\n6,1,0\n")
+    (folder / "gt_ee.csv").write_text("0,2,5,4,1\r\n")
+    shown = expect(0, *swept, says="agrees with brute, ground truth, pairs ")
+    assert " 2 " in shown and "4.0" in shown, shown  # eight pairs for two
+    for cell, listed in zip(cells(), (2, 1)):
+        assert (cell["counters"]["ground_truth_pairs"], cell["counters"]["ground_truth_missed"]) == (listed, 0), cell
+    expect(0, *swept, "--pairs-of", "within", "--pairs", "p.csv")
+    assert pathlib.Path("p.csv").read_text().splitlines() == ["a,b", "1,5", "1,6", "1,7"]
+    assert [cell["swept"]["pairs"] for cell in valid("s.json")["cells"]] == ["edge-edge"]
+
+    # A pair that there is not is missed, and makes the answer wrong; so does another count than the author's.
+    (folder / "gt_vf.csv").write_text("4,0,1\n0,2,1\n")
+    assert "1 pairs of the ground truth are missed" in expect(1, *swept)
+    assert valid("s.json")["cells"][0]["counters"]["ground_truth_missed"] == 1
+    (folder / "gt_vf.csv").unlink()
+    meta = {"frame_labels": [0, 1], "ccd": {"from_frame": "0", "to_frame": "1", "swept_vf": 8, "swept_ee": 4}}
+    (folder / "meta.json").write_text(json.dumps(meta))
+    assert "meta.json counts 4 pairs" in expect(1, *swept)
+    expect(0, *swept, "--pairs-of", "between", says="agrees with brute, meta.json, pairs ")
+
+    for options, sentence in ((("--narrow", "exact"), "'exact' looks at one moment"),
+                              (("--adjacent", "keep"), "there are none for --adjacent keep"),
+                              (("--objects", "one"), "nobody chooses them"),
+                              (("--order", "kd"), "order kd lines up one object"),
+                              (("--pairs", "p.csv"), "choose by --pairs-of")):
+        expect(2, *swept, *options, says=sentence)
+    expect(2, *swept, "--frames", "1", says="has steps 0 to 0, not 1 to before 2")
+    expect(3, "collide", "--scene", "torus:500", "--collider", "leaf", "--swept", says="bend:torus:500 has two")
 
 
 if __name__ == "__main__":

@@ -73,6 +73,7 @@ TEST(Experiment, OfWholeFramesReadsEveryKey)
         "samples": 7, "warm_up": 1, "quick": {"samples": 2, "scenes": ["torus:5"]}})";
     const std::vector<CollideTask> tasks = parse_experiment(text, "x.json", false).collisions;
     ASSERT_EQ(tasks.size(), 2u);
+    EXPECT_FALSE(tasks[0].swept || tasks[1].swept);
     EXPECT_EQ(tasks[0].scene, "bunny");
     EXPECT_EQ(tasks[0].frames, (FrameRange{0, 1}));
     EXPECT_EQ(tasks[0].samples, 7);
@@ -98,6 +99,24 @@ TEST(Experiment, OfWholeFramesReadsEveryKey)
     EXPECT_EQ(quick[0].scene, "torus:5");
     EXPECT_EQ(quick[0].samples, 2);
     EXPECT_EQ(quick[0].warm_up, 1);
+}
+
+TEST(Experiment, OfWholeFramesMayBeOfBoxesSweptFromOneToTheNext)
+{
+    const auto text = [](const std::string& scene, const std::string& pipeline) {
+        return R"({"experiment": "x", "scenes": [{"scene": "n-body", )" + scene +
+               R"(}], "pipelines": [{"builder": {"name": "perfect", "order": "kd"}, "collider": "leaf")" +
+               pipeline + "}]}";
+    };
+    const std::string of_edges = R"(, "pairs_of": "within")";
+    const auto tasks = parse_experiment(text(R"("swept": true)", of_edges), "x.json", false).collisions;
+    EXPECT_TRUE(tasks.at(0).swept);
+    EXPECT_FALSE(parse_experiment(text(R"("swept": false)", ""), "x.json", false).collisions.at(0).swept);
+    EXPECT_NE(refusal(text(R"("swept": 1)", of_edges)).find("'swept' is true or false"), std::string::npos);
+    EXPECT_NE(refusal(text(R"("swept": true)", "")).find("order kd lines up one object"), std::string::npos);
+    EXPECT_NE(refusal(text(R"("swept": true)", of_edges + R"(, "adjacent": "drop", "narrow": "exact")"))
+                  .find("'exact' looks at one moment"),
+              std::string::npos);
 }
 
 TEST(Experiment, OfWholeFramesPairsEachBuilderWithEachCollider)

@@ -95,6 +95,20 @@ TEST(Options, OfCollideAreAllUnderstood)
     EXPECT_EQ(collide.pairs, "p.bin");
 }
 
+TEST(Options, OfSweptBoxesDropPairsThatShareAVertex)
+{
+    const auto swept = [](std::vector<const char*> more) {
+        more.insert(more.begin(), {"collide", "--collider", "leaf", "--scene", "s", "--swept"});
+        return more;
+    };
+    const auto collide = std::get<CollideCommand>(parsed(swept({})).command);
+    EXPECT_TRUE(collide.swept);
+    EXPECT_FALSE(collide.collider.keep_adjacent);
+    parsed(swept({"--adjacent", "drop"}));
+    EXPECT_NE(refusal(swept({"--adjacent", "keep"})).find("--swept leaves out pairs that share a vertex"),
+              std::string::npos);
+}
+
 TEST(Options, OfAccuracyAreAllUnderstood)
 {
     const auto accuracy = [](std::vector<const char*> words) {

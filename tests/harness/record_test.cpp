@@ -99,6 +99,7 @@ TEST(Record, ReadsBackWhatItWrote)
     axis.operation = Operation::accuracy;
     axis.accuracy = {"narrow", "guigue-f64", 7};
     axis.check.verdict = Check::Verdict::counted;
+    query.swept = {"edge-edge", 5, 900};
     const std::string text = text_of(run, {fake_cell(), failed, host, query, axis});
 
     const Document document = read_document(text, "x");
@@ -109,6 +110,9 @@ TEST(Record, ReadsBackWhatItWrote)
     EXPECT_EQ(document.cells[2].operation, Operation::refit);
     EXPECT_EQ(document.cells[2].left_out, host.left_out);
     EXPECT_EQ(document.cells[2].leaves_by_depth, host.leaves_by_depth);
+    EXPECT_EQ(document.cells[3].swept.pairs, "edge-edge");
+    EXPECT_EQ(document.cells[3].swept.to_frame, 5);
+    EXPECT_EQ(document.cells[3].swept.primitives, 900);
     EXPECT_EQ(document.cells[4].operation, Operation::accuracy);
     EXPECT_EQ(document.cells[4].accuracy.method, "guigue-f64");
     EXPECT_EQ(document.cells[4].accuracy.seed, 7);

@@ -23,6 +23,7 @@ import results  # noqa: E402
 import roofline  # noqa: E402
 import scaling  # noqa: E402
 import style  # noqa: E402
+import swept  # noqa: E402
 
 
 class TemporaryFolder(unittest.TestCase):
@@ -50,11 +51,11 @@ class Scripts(TemporaryFolder):
         self.assertIn("</svg>", svg.read_text(encoding="utf-8"), svg)
 
     def test_all_draws_what_each_draws_byte_for_byte(self) -> None:
-        alone = ("table1", "table2", "table3", "table4", "fig8", "fig13", "scaling", "roofline", "stress")
+        alone = ("table1", "table2", "table3", "table4", "fig8", "fig13", "scaling", "roofline", "stress", "swept")
         scripts = {name: (f"{name}.py", name) for name in alone}
         scripts |= {f"table2-{name}": (f"{name}.py", "table2") for name in ("fig9", "fig10")}
         scripts |= {name: ("frames.py", name) for name in ("rebuild", "pairs", "libraries")}
-        scripts |= {f"accuracy-{axis}": ("accuracy.py", "accuracy") for axis in ("narrow", "sums", "codes", "input")}
+        scripts |= {f"accuracy-{axis}": ("accuracy.py", "accuracy") for axis in ("narrow", "sums", "codes", "input", "swept")}
         for picture, (script, file) in scripts.items():
             done = self.run_script(script, GOLDEN / f"{file}.json", "--out", self.folder / "out")
             self.assertEqual((done.returncode, done.stderr), (0, ""))
@@ -363,6 +364,28 @@ class Roofline(TemporaryFolder):
         self.document["cells"][-1]["collider"]["name"] = "newcomer"
         with self.assertRaisesRegex(results.Refused, "no look for the collider 'newcomer'"):
             self.drawn()
+
+
+class Swept(TemporaryFolder):
+    def test_has_a_panel_a_scene_and_two_bars_a_pipeline_of_both_its_queries(self) -> None:
+        run = results.load(GOLDEN / "swept.json")
+        panels = swept.draw(run).axes
+        self.assertEqual([axes.get_title("left") for axes in panels], [
+            "unc_cloth_ball, 1 step: 3.7 M pairs, 100 for each of the ground truth",
+            "funnel* (cloth-funnel:18484), 1 step: 0.7 M pairs"])
+        labels = [label.get_text() for label in panels[0].get_yticklabels()]
+        self.assertEqual(labels[2:], ["grid", "embree", "bvtt (jump 2) over oibvh-multi, edge-edge only"])
+        both = [cell for cell in run.cells if cell.scene == "unc_cloth_ball" and cell.collider == "grid"]
+        self.assertEqual([cell.swept["pairs"] for cell in both], ["vertex-face", "edge-edge"])
+        seconds = sum(results.quantiles(cell.frame_times_s()).median for cell in both)
+        queries, whole = panels[0].patches[4:6]
+        self.assertAlmostEqual(whole.get_width(), 1e-6 * 40 * 92230 / seconds)
+        self.assertGreater(queries.get_width(), whole.get_width())
+
+    def test_frames_that_are_not_swept_make_no_picture(self) -> None:
+        for cell in self.document["cells"]:
+            cell.pop("swept", None)
+        self.assertEqual(self.run_script("swept.py", self.written(self.document), "--out", self.folder).returncode, 1)
 
 
 class Looks(unittest.TestCase):

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+//
+// The axis swept: pairs of boxes around the way between two frames, by several pipelines, against the sweep, pairs that
+// are known to collide on the way, and counts of who made the data.
+#include "harness/accuracy/axes.h"
+#include "harness/accuracy/axis.h"
+#include "harness/collide.h"
+#include "harness/report_swept.h"
+#include "scenes/catalog.h"
+#include "scenes/manifest.h"
+
+namespace bvhbench {
+namespace {
+
+/// Sequences with a ground truth, and what is generated where they are not there.
+constexpr struct {
+    const char* name;
+    const char* generated;
+} own_scenes[] = {{"unc_cloth_ball", "cloth-ball:20000:20"},
+                  {"ipc_armadillo_rollers", "cloth-funnel:10000:20"},
+                  {"unc_nbody", "n-body:20000:20"}};
+
+struct SceneOfAxis {
+    std::string name;
+    std::string in_place_of;  ///< of what is not there; else empty
+};
+
+/// Those asked for, bent for a second frame if they have one, or the axis's own.
+std::vector<SceneOfAxis> scenes_of(const AxisRun& run)
+{
+    std::vector<SceneOfAxis> scenes;
+    for (const std::string& scene : run.task.scenes) {
+        const bool stands = load_scene(scene, run.session.scenes()).frames.size() < 2;
+        scenes.push_back({stands ? "bend:" + scene : scene, {}});
+    }
+    if (!scenes.empty())
+        return scenes;
+    for (const auto& [name, generated] : own_scenes) {
+        if (!located(*manifest_entry(name), run.session.scenes().data).empty()) {
+            scenes.push_back({name, {}});
+            continue;
+        }
+        run.progress.note("accuracy, swept: " + std::string(name) + " is not there, " + generated +
+                          " in its place");
+        scenes.push_back({generated, name});
+    }
+    return scenes;
+}
+
+std::vector<PipelineChoice> pipelines()
+{
+    const BuilderChoice oi = {.name = "oibvh-single"};
+    const BuilderChoice lined_up = {
+        .name = "oibvh-single", .order = "hilbert30", .sorted_leaves = true};
+    std::vector<PipelineChoice> all = {{lined_up, {.name = "group"}},
+                                       {lined_up, {.name = "block"}},
+                                       {oi, {.name = "bvtt"}},
+                                       {{.name = "apetrei-fused"}, {.name = "leaf"}},
+                                       {{.name = "none"}, {.name = "grid"}}};
+    if (find_collider("embree").make != nullptr)
+        all.push_back({{.name = "none"}, {.name = "embree"}});
+    return all;
+}
+
+}  // namespace
+
+void measure_swept(const AxisRun& run)
+{
+    for (const auto& [scene, in_place_of] : scenes_of(run)) {
+        CollideTask task{.experiment = "accuracy",
+                         .scene = scene,
+                         .may_stand_in = true,
+                         .swept = true,
+                         .frames = {},
+                         .pipelines = pipelines(),
+                         .samples = run.task.samples,
+                         .warm_up = 1};
+        std::erase_if(task.pipelines, [&](const PipelineChoice& one) {
+            return !run.task.wants(task.scene, swept_method(one.builder, one.collider));
+        });
+        if (task.pipelines.empty())
+            continue;
+        run.progress.note("accuracy, swept: " + scene);
+        const std::string& missing = in_place_of;
+        collide_frames(run.session, task, run.order, [&](std::vector<Cell>&& cells, const Found&) {
+            for (Cell& cell : cells) {
+                cell.operation = Operation::accuracy;
+                if (!missing.empty())
+                    cell.scene.stand_in_for = missing;
+                cell.accuracy = {.axis = "swept",
+                                 .method = swept_method(cell.builder, cell.collider)};
+                run.add(std::move(cell));
+            }
+        });
+    }
+}
+
+std::string report_swept(const Document& document)
+{
+    return swept_report(document, Operation::accuracy);
+}
+
+}  // namespace bvhbench

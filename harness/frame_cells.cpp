@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: MIT
+#include "harness/frame_cells.h"
+
+#include <algorithm>
+#include <future>
+#include <memory>
+#include <optional>
+
+#include "collide/exact_reference.h"
+#include "collide/narrow_methods.h"
+#include "collide/sweep.h"
+#include "geometry/hash.h"
+#include "harness/accuracy/differences.h"
+#include "harness/failure.h"
+#include "harness/sampler.h"
+
+namespace bvhbench {
+namespace {
+
+/// What a frame's pairs and contacts are, found out when first asked for; pairs on another core.
+class FrameOracle {
+public:
+    explicit FrameOracle(const Input& input) : input_(input) {}
+
+    /// Begin with the pairs. Nothing may be timed before wait().
+    void begin(const ColliderChoice& choice) { entry(choice); }
+
+    /// Until all that was begun is there.
+    void wait() const
+    {
+        for (const auto& one : entries_)
+            one->pairs.wait();
+    }
+
+    const PairList& pairs(const ColliderChoice& choice) { return entry(choice).pairs.get(); }
+
+    const PairList& contacts(const ColliderChoice& choice)
+    {
+        Entry& found = entry(choice);
+        if (!found.contacts)
+            found.contacts = intersecting_pairs(input_.points, input_.faces, found.pairs.get(),
+                                                choice.keep_adjacent);
+        return *found.contacts;
+    }
+
+private:
+    struct Entry {
+        Among among;
+        bool keep_adjacent;
+        std::shared_future<PairList> pairs;
+        std::optional<PairList> contacts;
+    };
+
+    Entry& entry(const ColliderChoice& choice)
+    {
+        for (const auto& one : entries_)
+            if (one->among == choice.among && one->keep_adjacent == choice.keep_adjacent)
+                return *one;
+        const auto found = [this, among = choice.among, keep_adjacent = choice.keep_adjacent] {
+            return among_objects(touching_pairs(leaf_boxes(input_), input_.faces, keep_adjacent),
+                                 input_.objects, among);
+        };
+        entries_.push_back(std::make_unique<Entry>(
+            Entry{choice.among, choice.keep_adjacent, std::async(std::launch::async, found), {}}));
+        return *entries_.back();
+    }
+
+    const Input& input_;
+    std::vector<std::unique_ptr<Entry>> entries_;
+};
+
+/// Hold a list to the oracle's. What differs is added to the check.
+void hold(const PairList& found, const PairList& expected, const std::string& what, Check& check)
+{
+    std::string detail;
+    if (found.surplus() > 0)
+        detail = std::to_string(found.surplus()) + ' ' + what + " were found twice";
+    else if (found != expected)
+        detail = "the oracle has " + std::to_string(expected.size()) + ' ' + what +
+                 " of the hash " + hex(expected.hash());
+    if (detail.empty())
+        return;
+    find_wrong(check, detail);
+}
+
+/// How many are wrong, to the cell's counters.
+Differences counted_errors(const PairList& found, const PairList& expected, Cell& cell)
+{
+    const Differences wrong = differences(found, expected);
+    cell.counters["missed_count"] = static_cast<double>(wrong.missed);
+    cell.counters["false_count"] = static_cast<double>(wrong.false_ones);
+    return wrong;
+}
+
+/// Of contacts by a narrow phase that promises none to be right.
+void count_errors(const PairList& found, const PairList& expected, Cell& cell)
+{
+    const Differences wrong = counted_errors(found, expected, cell);
+    if (cell.check.verdict == Check::Verdict::agrees)
+        cell.check.verdict = Check::Verdict::counted;
+    cell.check.detail += std::to_string(wrong.missed) + " contacts missed, " +
+                         std::to_string(wrong.false_ones) + " false";
+}
+
+/// The verdict on what a pipeline found.
+void judge(const Pipeline& pipeline, Cell& cell, FrameOracle& oracle, const FrameOfPipelines& frame,
+           Found& found)
+{
+    const ColliderChoice& choice = cell.collider;
+    Check& check = cell.check;
+    check = {.verdict = Check::Verdict::agrees, .against = {}, .detail = {}};
+    found = {};
+    if (pipeline.has_pairs()) {
+        found.pairs = pipeline.pairs();
+        check.against = "brute";
+        check.pairs_hash = found.pairs.hash();
+        hold(found.pairs, oracle.pairs(choice), "pairs", check);
+        if (!cell.swept.pairs.empty())
+            counted_errors(found.pairs, oracle.pairs(choice), cell);
+    }
+    if (pipeline.has_contacts()) {
+        found.contacts = pipeline.contacts();
+        check.contacts_hash = found.contacts.hash();
+        if (has_exact_reference) {
+            check.against += check.against.empty() ? "CGAL" : ", CGAL";
+            const bool by_collider = pipeline.collider().finds_contacts();
+            if (by_collider || find_narrow_method(choice.narrow).is_exact)
+                hold(found.contacts, oracle.contacts(choice), "contacts", check);
+            else
+                count_errors(found.contacts, oracle.contacts(choice), cell);
+        } else if (check.verdict == Check::Verdict::agrees) {
+            check.verdict = Check::Verdict::not_checked;
+            check.detail = "contacts: built without CGAL";
+        }
+    }
+    if (frame.judge_more)
+        frame.judge_more(found, cell);
+}
+
+void fail(Running& running, Session& session, const std::string& why)
+{
+    session.renew_queue();
+    running.failure = why;
+    running.cell.status = Cell::Status::failed;
+    running.cell.reason = why;
+    running.cell.samples.clear();
+}
+
+/// What is known before anything is made: the collider's own, and the oracle's sweep.
+void require_memory(const Session& session, const ColliderChoice& choice, std::size_t triangles)
+{
+    if (const std::size_t bytes = find_collider(choice.name).host_bytes; bytes > 0)
+        session.require_host_memory("collider " + choice.name, bytes * triangles);
+    session.require_host_memory("checking the pairs", sweep_bytes(triangles));
+}
+
+/// What is known once they are counted: those found, and the oracle's.
+void require_memory_for_pairs(const Session& session, const std::map<std::string, double>& counters)
+{
+    for (const char* counted : {"pairs_count", "contacts_count"})
+        if (const auto count = counters.find(counted); count != counters.end())
+            session.require_host_memory("checking the pairs",
+                                        2 * sizeof(Pair) * static_cast<std::size_t>(count->second));
+}
+
+void sample(std::span<Running> all, const CollideTask& task, const FrameOfPipelines& frame,
+            Session& session, int& order, FrameOracle& oracle, Found& found)
+{
+    const Input& input = frame.input;
+    std::vector<Timed> timed;
+    std::vector<Running*> ready;
+    for (Running& one : all) {
+        if (!one.failure.empty() || one.cell.check.verdict == Check::Verdict::differs)
+            continue;
+        ready.push_back(&one);
+        timed.push_back({one.cell.collider.name, [&] {
+                             const Watchdog::Hand hand(session.watchdog(), one.number);
+                             return session.watchdog().watch(
+                                 [&] { return one.pipeline->once(input); });
+                         }});
+    }
+    std::vector<Taken> taken = take_samples(timed, task.samples, task.warm_up, order);
+    for (std::size_t k = 0; k < ready.size(); ++k) {
+        Running& one = *ready[k];
+        one.cell.samples = std::move(taken[k].samples);
+        std::string failure = std::move(taken[k].failure);
+        // What the last sample found: another pipeline may have used the same builder's tree since, so once more.
+        if (failure.empty())
+            failure = reason_of_failure([&] {
+                one.pipeline->once(input);
+                judge(*one.pipeline, one.cell, oracle, frame, found);
+            });
+        if (!failure.empty())
+            fail(one, session, failure);
+    }
+}
+
+/// Of the frame, by the pipeline, and of nothing found yet.
+Cell empty_cell(const CollideTask& task, const PipelineChoice& pipeline,
+                const FrameOfPipelines& frame)
+{
+    Cell cell;
+    cell.experiment = task.experiment;
+    cell.scene = frame.scene;
+    cell.swept = frame.swept;
+    cell.builder = pipeline.builder;
+    cell.collider = pipeline.collider;
+    cell.operation = Operation::collide;
+    cell.warm_up = task.warm_up;
+    return cell;
+}
+
+}  // namespace
+
+void find_wrong(Check& check, const std::string& detail)
+{
+    check.verdict = Check::Verdict::differs;
+    check.detail += (check.detail.empty() ? "" : "; ") + detail;
+}
+
+std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span<Running> all,
+                            const FrameOfPipelines& frame, int& order, Found& found)
+{
+    FrameOracle oracle(frame.input);
+    oracle.begin(all.front().choice.collider);  // while the first one is compiled and settles
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        Running& one = all[k];
+        one.cell = empty_cell(task, one.choice, frame);
+        one.number = frame.number + '/' + std::to_string(k);
+        const Watchdog::Hand hand(session.watchdog(), one.number);
+        if (one.failure.empty())
+            one.failure = session.watchdog().given_up(one.number);
+        if (one.failure.empty())
+            one.failure = reason_of_failure([&] {
+                require_memory(session, one.cell.collider, frame.input.triangle_count());
+                session.watchdog().watch([&] {
+                    if (one.pipeline == nullptr)
+                        one.pipeline = std::make_unique<Pipeline>(session, one.cell.builder,
+                                                                  one.cell.collider, frame.input);
+                    if (!one.pipeline->collider().needs_tree())
+                        one.cell.builder = {.name = "none"};
+                    one.pipeline->begin_frame(frame.motions);
+                    one.pipeline->settle(frame.input);
+                });
+                std::map<std::string, double> counters = one.pipeline->counters();
+                require_memory_for_pairs(session, counters);
+                one.cell.counters = std::move(counters);
+                judge(*one.pipeline, one.cell, oracle, frame, found);
+            });
+        if (!one.failure.empty())
+            fail(one, session, one.failure);
+    }
+    oracle.wait();  // if none has asked, too
+    sample(all, task, frame, session, order, oracle, found);
+    std::vector<Cell> cells;
+    for (Running& one : all)
+        cells.push_back(std::move(one.cell));
+    return cells;
+}
+
+}  // namespace bvhbench

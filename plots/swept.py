@@ -1,0 +1,111 @@
+#!/usr/bin/env python3
+"""Pairs of swept boxes a second, by pipeline and sequence.
+
+    plots/swept.py FILE... --out DIR
+
+A panel a sequence, a bar a pipeline: pairs of vertices and faces and of edges, both together, over the time from two
+frames' vertices to written pairs of both. The bar's paler part is what the queries alone would make it. A pipeline that
+has one of the two queries has a bar of that one, and says so.
+"""
+from __future__ import annotations
+
+import sys
+
+import matplotlib.pyplot as plt
+import numpy
+from matplotlib.patches import Patch
+
+import figure
+import pipelines
+import results
+import style
+
+KINDS = ("vertex-face", "edge-edge")
+QUERY = ("ropes", "broad")
+
+
+class Step:
+    """One pipeline over the steps of one scene: its cells of either kind."""
+
+    def __init__(self, cells: list[results.Cell]) -> None:
+        self.cells = cells
+        self.first = cells[0]
+        self.kinds = [kind for kind in KINDS if any(cell.swept["pairs"] == kind for cell in cells)]
+
+    def total(self, counter: str) -> float:
+        return sum(cell.counters.get(counter, 0) for cell in self.cells)
+
+    def seconds(self) -> float:
+        return sum(results.quantiles(cell.frame_times_s()).median for cell in self.cells)
+
+    def query_seconds(self) -> float:
+        return sum(float(numpy.median(sum(cell.times_s(stage) for stage in QUERY if stage in cell.samples[0])))
+                   for cell in self.cells)
+
+    @property
+    def label(self) -> str:
+        return self.first.called + ("" if len(self.kinds) == len(KINDS) else f", {self.kinds[0]} only")
+
+
+def steps_of(cells: list[results.Cell]) -> dict[str, list[Step]]:
+    """Of each scene, in the file's order."""
+    grouped: dict[str, dict[tuple, list[results.Cell]]] = {}
+    for cell in cells:
+        options = tuple(option for option in cell.collider_options if option[0] != "pairs_of")
+        key = (cell.collider, options, cell.builder, cell.options)
+        grouped.setdefault(cell.scene, {}).setdefault(key, []).append(cell)
+    return {scene: [Step(group) for group in groups.values()] for scene, groups in grouped.items()}
+
+
+def title(steps: list[Step]) -> str:
+    """What is asked and answered: the same for all pipelines that have both queries."""
+    first = max(steps, key=lambda step: len(step.kinds))
+    cell = first.first
+    name = f"{cell.stand_in_for}* ({cell.scene})" if pipelines.stands_in(cell) else cell.scene
+    frames = len({one.frame for one in first.cells})
+    text = f"{name}, {frames} step{'' if frames == 1 else 's'}: {first.total('pairs_count') * 1e-6:,.1f} M pairs"
+    truth = first.total("ground_truth_pairs")
+    return text + (f", {first.total('pairs_count') / truth:,.0f} for each of the ground truth" if truth else "")
+
+
+def draw_cells(run: results.Run, cells: list[results.Cell], experiment: str) -> plt.Figure:
+    scenes = steps_of(cells)
+    rows = [len(steps) for steps in scenes.values()]
+    drawing, grid = plt.subplots(len(scenes), 1, figsize=(style.PAGE_WIDTH, 1.2 + 0.5 * len(rows) + 0.19 * sum(rows)),
+                                 squeeze=False, layout="constrained", height_ratios=[count + 1.5 for count in rows])
+    for axes, steps in zip(grid[:, 0], scenes.values()):
+        for row, step in enumerate(steps):
+            bar = pipelines.Pipeline(step.first.scene, step.cells)
+            pairs = step.total("pairs_count") * 1e-6
+            whole, query = pairs / step.seconds(), pairs / step.query_seconds()
+            axes.barh(row, query, height=0.72, color=bar.colour, alpha=0.35, linewidth=0)
+            axes.barh(row, whole, height=0.72, color=bar.colour, hatch=bar.hatch, edgecolor=pipelines.ink(bar.colour),
+                      linewidth=0)
+            axes.text(max(whole, query), row, f" {whole:,.{0 if whole >= 100 else 1}f}", va="center", fontsize=style.SMALL)
+        axes.set_yticks(range(len(steps)), [step.label for step in steps], fontsize=style.SMALL)
+        axes.set_ylim(len(steps) - 0.4, -0.6)
+        axes.set_title(title(steps), loc="left")
+        axes.margins(x=0.08)
+        axes.grid(axis="x")
+        axes.grid(visible=False, axis="y")
+        axes.tick_params(axis="y", length=0)
+    grid[-1, 0].set_xlabel("million pairs a second")
+    handles = [Patch(color="#555555", label="from two frames' vertices to pairs"),
+               Patch(color="#555555", alpha=0.35, label="by the queries alone, trees given")]
+    missed = sum(cell.counters.get("ground_truth_missed", 0) for cell in cells)
+    truth = any("ground_truth_pairs" in cell.counters for cell in cells)
+    starred = any(pipelines.stands_in(steps[0].first) for steps in scenes.values())
+    said = ["Pairs whose boxes, around the way from one frame to the next, overlap, and that share no vertex; the sweep's "
+            "in every cell." + (f" Of the ground truth {missed:,.0f} are missed." if truth else "")]
+    if starred:
+        said.append("* was not there: the scene in brackets stands in.")
+    figure.footer(drawing, run, experiment, tuple(said), figure.legend_above(drawing, handles, 2))
+    return drawing
+
+
+def draw(run: results.Run) -> plt.Figure:
+    return draw_cells(run, [cell for cell in run.frames("swept") if cell.swept], "swept")
+
+
+if __name__ == "__main__":
+    sys.exit(figure.command_line("swept", __doc__, draw))

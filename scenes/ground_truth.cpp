@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#include "scenes/ground_truth.h"
+
+#include <algorithm>
+#include <cassert>
+#include <functional>
+
+#include "geometry/error.h"
+#include "scenes/formats/text.h"
+#include "scenes/mesh_file.h"
+#include "scenes/sequence_facts.h"
+
+namespace bvhbench {
+namespace {
+
+/// A file of lines of whole numbers from 0, apart by commas, the last of which is 0 or 1.
+class PairLines {
+public:
+    /// Numbers before the last and what each counts up to.
+    struct Column {
+        const char* of;
+        std::size_t end;
+    };
+
+    PairLines(const std::filesystem::path& path, std::vector<Column> columns)
+        : path_(path), columns_(std::move(columns))
+    {}
+
+    std::uint64_t listed() const { return listed_; }
+    std::uint64_t colliding() const { return colliding_; }
+
+    /// `add` gets the numbers of each line. A file that is not there has none.
+    void read(const std::function<void(std::span<const uint>)>& add)
+    {
+        if (!std::filesystem::exists(path_))
+            return;
+        const std::string bytes = file_bytes(path_);
+        Lines lines(bytes);
+        std::vector<uint> numbers(columns_.size());
+        while (const auto line = lines.next()) {
+            line_ = lines.number();
+            parse(*line, numbers);
+            add(numbers);
+        }
+    }
+
+    /// Hold a count of meta.json to what was found.
+    void expect(const char* what, std::optional<std::uint64_t> said, std::uint64_t found) const
+    {
+        if (said && *said != found)
+            throw Unavailable(path_.string() + " has " + std::to_string(found) + ' ' + what +
+                              ", and meta.json beside it says " + std::to_string(*said));
+    }
+
+    [[noreturn]] void refuse(const std::string& why) const
+    {
+        throw Unavailable(path_.string() + " line " + std::to_string(line_) + ": " + why);
+    }
+
+private:
+    void parse(std::string_view line, std::vector<uint>& numbers)
+    {
+        const auto fields = 1 + static_cast<std::size_t>(std::count(line.begin(), line.end(), ','));
+        if (fields != columns_.size() + 1)
+            refuse("there are " + std::to_string(fields) + " numbers where " +
+                   std::to_string(columns_.size() + 1) + " go: " + in_quotes(line));
+        const auto next = [&](const char* of, std::size_t end) {
+            const std::size_t comma = std::min(line.find(','), line.size());
+            const std::string_view word = line.substr(0, comma);
+            line.remove_prefix(std::min(comma + 1, line.size()));
+            const auto number = parse_integer(word);
+            if (!number || *number < 0 || static_cast<std::uint64_t>(*number) >= end)
+                refuse(in_quotes(word) + " is no " + of + ", which are 0 to " +
+                       std::to_string(end - 1));
+            return static_cast<uint>(*number);
+        };
+        for (std::size_t k = 0; k < columns_.size(); ++k)
+            numbers[k] = next(columns_[k].of, columns_[k].end);
+        ++listed_;
+        colliding_ += next("verdict on a collision", 2);
+    }
+
+    std::filesystem::path path_;
+    std::vector<Column> columns_;
+    std::size_t line_ = 0;
+    std::uint64_t listed_ = 0, colliding_ = 0;
+};
+
+/// As many steps as frames but one; a folder that says no more than its lists is about its only step.
+std::size_t only_step(const Scene& scene)
+{
+    if (scene.frames.size() != 2)
+        throw Unavailable(scene.folder.string() +
+                          " lists pairs that collide, and no 'ccd' in meta.json says between which "
+                          "of its " +
+                          std::to_string(scene.frames.size()) + " frames");
+    return 0;
+}
+
+}  // namespace
+
+std::optional<GroundTruth> ground_truth_of(const Scene& scene, const SweptParts& edges)
+{
+    assert(scene.file_faces.empty());
+    if (scene.folder.empty())
+        return std::nullopt;
+    const std::optional<StepFacts> said = step_facts(scene, scene.folder / "meta.json");
+    const std::filesystem::path vf = scene.folder / "gt_vf.csv", ee = scene.folder / "gt_ee.csv";
+    if (!said && !std::filesystem::exists(vf) && !std::filesystem::exists(ee))
+        return std::nullopt;
+    const StepFacts facts = said.value_or(StepFacts{});
+    GroundTruth truth{.from_frame = said ? said->from_frame : only_step(scene),
+                      .vertex_face = {},
+                      .edge_edge = {},
+                      .swept_vertex_face = facts.swept_vf,
+                      .swept_edge_edge = facts.swept_ee};
+
+    const std::size_t vertices = scene.frames.front().size();
+    PairLines of_vertices(vf, {{"vertex", vertices}, {"face", scene.faces.size()}});
+    of_vertices.read([&](std::span<const uint> n) {
+        truth.vertex_face.push_back({n[0], static_cast<uint>(vertices) + n[1]});
+    });
+    of_vertices.expect("pairs", facts.vf_listed, of_vertices.listed());
+    of_vertices.expect("pairs that collide", facts.vf_true, of_vertices.colliding());
+
+    PairLines of_edges(ee, std::vector(4, PairLines::Column{"vertex", vertices}));
+    const auto edge = [&](uint a, uint b) {
+        const std::optional<uint> place = place_of_edge(edges, a, b);
+        if (!place)
+            of_edges.refuse("there is no edge from " + std::to_string(a) + " to " +
+                            std::to_string(b));
+        return *place;
+    };
+    of_edges.read([&](std::span<const uint> n) {
+        truth.edge_edge.push_back({edge(n[0], n[1]), edge(n[2], n[3])});
+    });
+    of_edges.expect("pairs", facts.ee_listed, of_edges.listed());
+    of_edges.expect("pairs that collide", facts.ee_true, of_edges.colliding());
+    return truth;
+}
+
+}  // namespace bvhbench

@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: MIT
+//
+// Boxes around the way between two frames: they hold every frame in between, every builder makes them, and every collider
+// finds the sweep's pairs of them.
+#include <cstdlib>
+#include <random>
+
+#include "harness/collide.h"
+#include "harness/pipeline.h"
+#include "harness/swept.h"
+#include "scenes/finish.h"
+#include "scenes/frames_between.h"
+#include "scenes/swept_parts.h"
+#include "tests/collide/collider_testing.h"
+
+namespace bvhbench {
+namespace {
+
+Scene moving_scene(std::vector<Face> faces, std::vector<Point> from, std::vector<Point> to)
+{
+    Scene scene;
+    scene.name = "moving";
+    scene.source = "generated";
+    scene.faces = std::move(faces);
+    scene.frames = {std::move(from), std::move(to)};
+    return finished(std::move(scene));
+}
+
+/// A strip of triangles that wanders about, so that neighbours share vertices, each vertex going its own way.
+Scene random_motion(uint triangles, float way)
+{
+    std::mt19937 random(7);
+    const auto uniform = [&] { return std::uniform_real_distribution<float>(-1, 1)(random); };
+    const uint vertices = triangles;
+    std::vector<Point> from, to;
+    Point p = {0, 0, 0};
+    for (uint k = 0; k < vertices; ++k) {
+        p = {p.x + 0.1f * uniform(), p.y + 0.1f * uniform(), p.z + 0.1f * uniform()};
+        from.push_back(p);
+        to.push_back({p.x + way * uniform(), p.y + way * uniform(), p.z + way * uniform()});
+    }
+    std::vector<Face> faces;
+    for (uint k = 0; k < triangles; ++k)
+        faces.push_back({k, (k + 1) % vertices, (k + 2) % vertices});
+    return moving_scene(std::move(faces), std::move(from), std::move(to));
+}
+
+/// A square sheet of two triangles at rest, and a triangle that falls through it: v4 to v6, above and then below.
+Scene falling_triangle()
+{
+    const std::vector<Point> sheet = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    std::vector<Point> from = sheet, to = sheet;
+    for (const auto& [x, y] :
+         {std::pair(0.25f, 0.25f), std::pair(0.75f, 0.25f), std::pair(0.25f, 0.75f)}) {
+        from.push_back({x, y, 1});
+        to.push_back({x, y, -1});
+    }
+    return moving_scene({{0, 1, 2}, {0, 2, 3}, {4, 5, 6}}, std::move(from), std::move(to));
+}
+
+Input swept_input(const Scene& scene, const SweptParts& parts)
+{
+    Input input =
+        upload(session().device(), session().queue(), scene.frames[0], parts.faces, parts.objects);
+    upload_end(input, session().device(), session().queue(), scene.frames[1]);
+    return input;
+}
+
+PairList pairs_by(const BuilderChoice& builder, const ColliderChoice& collider, const Input& input)
+{
+    Pipeline pipeline(session(), builder, collider, input);
+    pipeline.begin_frame({});
+    pipeline.settle(input);
+    return pipeline.pairs();
+}
+
+PairList right_pairs(const Input& input, Among among)
+{
+    return among_objects(touching_pairs(leaf_boxes(input), input.faces, false), input.objects,
+                         among);
+}
+
+TEST(SweptParts, AreVerticesAndFacesAndEachEdgeOnceByItsLargerVertex)
+{
+    const Scene scene = falling_triangle();
+    const SweptParts vf = vertices_and_faces(scene), edges = unique_edges(scene);
+    EXPECT_EQ(vf.objects, (std::vector<FaceRange>{{0, 7}, {7, 3}}));
+    EXPECT_EQ(vf.faces[5].a, 5u);
+    EXPECT_EQ(vf.faces[5].c, 5u);
+    EXPECT_EQ(vf.faces[9].b, 5u);
+    const std::pair<uint, uint> expected[] = {{0, 1}, {0, 2}, {1, 2}, {0, 3},
+                                              {2, 3}, {4, 5}, {4, 6}, {5, 6}};
+    ASSERT_EQ(edges.faces.size(), std::size(expected));
+    for (uint k = 0; k < edges.faces.size(); ++k) {
+        const auto [a, b] = expected[k];
+        EXPECT_EQ(edges.faces[k].a, a);
+        EXPECT_EQ(edges.faces[k].b, b);
+        EXPECT_EQ(edges.faces[k].c, b);
+        EXPECT_EQ(place_of_edge(edges, b, a), k);
+    }
+    EXPECT_EQ(place_of_edge(edges, 1, 3), std::nullopt);
+    EXPECT_EQ(place_of_edge(edges, 5, 5), std::nullopt);
+}
+
+// Counted by hand: each vertex of the falling triangle passes through the boxes of both of the sheet's, and each corner of
+// the sheet that is on one of its triangles alone touches the other's box. Its diagonal is crossed by three edges.
+TEST(SweptBoxes, OfATriangleFallingThroughASheetMeetAsCountedByHand)
+{
+    const Scene scene = falling_triangle();
+    const SweptParts vf = vertices_and_faces(scene), edges = unique_edges(scene);
+    const ColliderChoice between = {
+        .name = "leaf", .among = Among::between_objects, .keep_adjacent = false};
+    EXPECT_EQ(pairs_by({.name = "oibvh-multi"}, between, swept_input(scene, vf)),
+              PairList({{1, 8}, {3, 7}, {4, 7}, {4, 8}, {5, 7}, {5, 8}, {6, 7}, {6, 8}}));
+    const ColliderChoice within = {
+        .name = "leaf", .among = Among::within_objects, .keep_adjacent = false};
+    EXPECT_EQ(pairs_by({.name = "oibvh-multi"}, within, swept_input(scene, edges)),
+              PairList({{1, 5}, {1, 6}, {1, 7}}));
+    // In either frame alone hardly anything meets.
+    const Input first =
+        upload(session().device(), session().queue(), scene.frames[0], vf.faces, vf.objects);
+    EXPECT_EQ(pairs_by({.name = "oibvh-multi"}, between, first), PairList({{1, 8}, {3, 7}}));
+}
+
+TEST(SweptBoxes, HoldEveryFrameInBetween)
+{
+    for (const float way : {0.0f, 1e-7f, 0.1f, 3.0f, 1e6f, 1e30f}) {
+        const Scene scene = random_motion(200, way);
+        const Scene all = with_frames_between(scene, 50);
+        ASSERT_EQ(all.frames.size(), 52u);
+        for (const Face face : scene.faces) {
+            const Aabb swept =
+                swept_box(face_box(scene.frames[0], face), face_box(scene.frames[1], face));
+            Aabb around = empty_box();
+            for (const auto& points : all.frames)
+                around = merged(around, face_box(points, face));
+            EXPECT_EQ(std::memcmp(&swept, &around, sizeof swept), 0) << way;
+        }
+    }
+}
+
+/// A builder of implicit trees and one of radix trees: the others make the same boxes, as the test of all of them says.
+class SweptPairs : public testing::TestWithParam<const char*> {};
+
+TEST_P(SweptPairs, AreThoseOfTheSweepByEveryCollider)
+{
+    const Scene scene = random_motion(300, 0.2f);
+    const SweptParts parts[] = {vertices_and_faces(scene), unique_edges(scene)};
+    const Among among[] = {Among::between_objects, Among::within_objects};
+    for (const int k : {0, 1}) {
+        const Input input = swept_input(scene, parts[k]);
+        const PairList right = right_pairs(input, among[k]);
+        const Input still = upload(session().device(), session().queue(), scene.frames[0],
+                                   parts[k].faces, parts[k].objects);
+        ASSERT_GT(right.size(), 2 * right_pairs(still, among[k]).size());
+        for (const ColliderEntry& collider : box_colliders(true))
+            for (const KernelForm form : {KernelForm::groups, KernelForm::chunks}) {
+                SCOPED_TRACE(std::string(collider.name) + " " +
+                             std::to_string(static_cast<int>(form)));
+                ColliderChoice choice;
+                choice.name = collider.name;
+                choice.among = among[k];
+                choice.keep_adjacent = false;
+                choice.form = form;
+                const BuilderChoice builder = {.name = GetParam()};
+                const auto one = make_collider(choice, session().programs());
+                const auto trees = make_builder(builder, session().programs());
+                const Tree* tree = nullptr;
+                trees->reserve_objects(object_sizes(input));
+                session().build_once(*trees, input, Start::from_triangles, &tree);
+                if (!one->refusal(*tree).empty())
+                    continue;
+                EXPECT_EQ(pairs_by(builder, choice, input), right);
+            }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Builders, SweptPairs, testing::Values("oibvh-single", "karras"),
+                         [](const auto& instance) { return test_name(instance.param); });
+
+TEST(SweptPairs, AreThoseOfTheSweepWithoutATree)
+{
+    const Scene scene = random_motion(300, 0.2f);
+    const SweptParts parts = vertices_and_faces(scene);
+    const Input input = swept_input(scene, parts);
+    for (const ColliderEntry& entry : box_colliders(false)) {
+        ColliderChoice choice;
+        choice.name = entry.name;
+        choice.among = Among::between_objects;
+        choice.keep_adjacent = false;
+        const auto collider = make_collider(choice, session().programs());
+        if (collider->needs_tree())
+            continue;
+        SCOPED_TRACE(entry.name);
+        EXPECT_EQ(pairs_by({.name = "none"}, choice, input),
+                  right_pairs(input, Among::between_objects));
+    }
+}
+
+TEST(SweptBoxes, OfAllBuildersAreThoseOfTheReferenceOrAreRefused)
+{
+    const Scene scene = random_motion(150, 0.5f);
+    const SweptParts edges = unique_edges(scene);
+    const Input input = swept_input(scene, edges);
+    for (const BuilderEntry& entry : builder_catalog()) {
+        if (entry.make == nullptr)
+            continue;
+        SCOPED_TRACE(entry.name);
+        const auto builder = make_builder({.name = std::string(entry.name)}, session().programs());
+        builder->reserve(edges.faces.size());
+        const Tree* tree = nullptr;
+        if (entry.name.starts_with("fcl")) {
+            EXPECT_THROW(session().build_once(*builder, input, Start::from_triangles, &tree),
+                         BadUsage);
+            session().renew_queue();
+            continue;
+        }
+        session().build_once(*builder, input, Start::from_triangles, &tree);
+        for (const HostTree::Node& node : tree->spelled_out().nodes)
+            if (node.primitive != HostTree::none) {
+                const Aabb right =
+                    leaf_box(input, edges.faces[static_cast<std::size_t>(node.primitive)]);
+                EXPECT_EQ(std::memcmp(&node.box, &right, sizeof right), 0);
+            }
+    }
+}
+
+TEST(SweptBoxes, HaveNoNarrowPhase)
+{
+    const Scene scene = falling_triangle();
+    const SweptParts edges = unique_edges(scene);
+    const Input input = swept_input(scene, edges);
+    ColliderChoice narrow = {.name = "leaf", .keep_adjacent = false};
+    narrow.narrow = "exact";
+    EXPECT_THROW(pairs_by({.name = "oibvh-multi"}, narrow, input), BadUsage);
+    if (find_collider("fcl").make != nullptr) {
+        const ColliderChoice fcl = {.name = "fcl", .keep_adjacent = false};
+        EXPECT_THROW(pairs_by({.name = "none"}, fcl, input), BadUsage);
+    }
+}
+
+/// All steps of a scene, and what the cells say.
+std::vector<Cell> cells_of(CollideTask task)
+{
+    std::vector<Cell> cells;
+    int order = 0;
+    task.swept = true;
+    task.frames = {0, 0};
+    task.samples = 1;
+    task.warm_up = 0;
+    collide_frames(session(), task, order, [&](std::vector<Cell>&& some, const Found&) {
+        cells.insert(cells.end(), std::make_move_iterator(some.begin()),
+                     std::make_move_iterator(some.end()));
+    });
+    return cells;
+}
+
+// Steps share buffers, which change places from one to the next; a front goes on over them.
+TEST(SweptSteps, OfASequenceAreEachHeldToTheSweep)
+{
+    CollideTask task;
+    task.scene = "cloth-ball:600:12";
+    task.pipelines = {
+        {{.name = "oibvh-single", .order = "hilbert30"}, {.name = "group"}},
+        {{.name = "oibvh-multi"}, {.name = "front"}},
+        {{.name = "oibvh-multi", .order = "kd"}, {.name = "leaf", .among = Among::within_objects}}};
+    const std::vector<Cell> cells = cells_of(task);
+    ASSERT_EQ(cells.size(), 11u * 5u);
+    std::vector<std::optional<std::uint64_t>> hashes;
+    for (const Cell& cell : cells) {
+        EXPECT_EQ(cell.check.verdict, Check::Verdict::agrees) << cell.check.detail << cell.reason;
+        EXPECT_EQ(cell.swept.to_frame, cell.scene.frame + 1);
+        EXPECT_EQ(cell.counters.at("missed_count"), 0);
+        hashes.push_back(cell.check.pairs_hash);
+    }
+    EXPECT_NE(hashes.front(), hashes[hashes.size() - 5]);
+}
+
+TEST(SweptSteps, RefuseWhatHasNoMeaningForThem)
+{
+    CollideTask task;
+    task.scene = "cloth-ball:600:2";
+    task.pipelines = {{{.name = "oibvh-multi", .order = "kd"}, {.name = "leaf"}}};
+    EXPECT_THROW(cells_of(task), BadUsage);
+    task.pipelines = {{{.name = "oibvh-multi"}, {.name = "leaf"}}};
+    task.objects = ObjectsBy::components;
+    EXPECT_THROW(cells_of(task), BadUsage);
+    task.objects = ObjectsBy::automatic;
+    task.scene = "torus:600";
+    EXPECT_THROW(cells_of(task), Unavailable);
+}
+
+TEST(SweptSteps, OfDataFindTheWholeGroundTruthAndAsManyPairsAsItsAuthorCounted)
+{
+    if (const char* folder = std::getenv("BVHBENCH_DATA"); folder == nullptr || *folder == '\0')
+        GTEST_SKIP() << "no data folder";
+    CollideTask task;
+    task.scene = "ipc_armadillo_rollers";
+    task.pipelines = {
+        {{.name = "oibvh-single", .order = "hilbert30", .sorted_leaves = true}, {.name = "group"}}};
+    const std::vector<Cell> cells = cells_of(task);
+    ASSERT_EQ(cells.size(), 2u);
+    const double pairs[] = {2032004, 5068352}, listed[] = {4652, 19313};
+    for (const std::size_t k : {0, 1}) {
+        EXPECT_EQ(cells[k].check.verdict, Check::Verdict::agrees) << cells[k].check.detail;
+        EXPECT_EQ(cells[k].check.against, "brute, ground truth, meta.json");
+        EXPECT_EQ(cells[k].counters.at("pairs_count"), pairs[k]);
+        EXPECT_EQ(cells[k].counters.at("reference_pairs_count"), pairs[k]);
+        EXPECT_EQ(cells[k].counters.at("ground_truth_pairs"), listed[k]);
+        EXPECT_EQ(cells[k].counters.at("ground_truth_missed"), 0);
+    }
+}
+
+}  // namespace
+}  // namespace bvhbench
