@@ -22,12 +22,9 @@ Json json_of(const StageTime& time)
 {
     if (time.wall_ns > 0)  // else a device's, even if it had nothing to launch: one leaf is a tree
         return {{"stage", time.stage}, {"wall_ns", time.wall_ns}};
-    return {{"stage", time.stage},
-            {"launches", time.launches},
-            {"busy_ns", time.busy_ns},
-            {"span_ns", time.span_ns},
-            {"moved_bytes", time.moved_bytes},
-            {"start_ns", time.start_ns}};
+    return {
+        {"stage", time.stage},     {"launches", time.launches},       {"busy_ns", time.busy_ns},
+        {"span_ns", time.span_ns}, {"moved_bytes", time.moved_bytes}, {"start_ns", time.start_ns}};
 }
 
 Json json_of(const Sample& sample)
@@ -60,12 +57,13 @@ Json json_of(const SceneFacts& scene)
 
 Json json_of(const BuilderChoice& builder)
 {
-    return {{"name", builder.name},
-            {"options",
-             {{"order", builder.order},
-              {"group_size", builder.group_size},
-              {"items", builder.items},
-              {"leaves", builder.sorted_leaves ? "sorted" : "mesh"}}}};
+    Json options = {{"order", builder.order},
+                    {"group_size", builder.group_size},
+                    {"items", builder.items},
+                    {"leaves", builder.sorted_leaves ? "sorted" : "mesh"}};
+    if (builder.grid == GridOver::scene)
+        options["grid"] = "scene";
+    return {{"name", builder.name}, {"options", std::move(options)}};
 }
 
 Json json_of(const ColliderChoice& collider)

@@ -78,6 +78,7 @@ BuilderChoice builder_of(const Json& json)
     const Json options = json.value("options", Json::object());
     return {.name = json.at("name").get<std::string>(),
             .order = options.value("order", "morton30"),
+            .grid = options.value("grid", "object") == "scene" ? GridOver::scene : GridOver::object,
             .group_size = get<unsigned>(options, "group_size"),
             .items = get<unsigned>(options, "items"),
             .sorted_leaves = options.value("leaves", "mesh") == "sorted"};
