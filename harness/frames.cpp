@@ -36,6 +36,7 @@ SceneFacts Frames::facts() const
             .source = scene_.source,
             .stand_in_for = scene_.stand_in_for,
             .outlier = scene_.outlier,
+            .rounding = scene_.rounding,
             .bend_of = scene_.bend_of,
             .content_hash = scene_.content_hash};
 }

@@ -49,6 +49,13 @@ Json json_of(const SceneFacts& scene)
             json["outlier"] = {{"of", scene.outlier.of},
                                {"triangle", scene.outlier.triangle},
                                {"diameters", scene.outlier.diameters}};
+        if (const Rounding& rounding = scene.rounding; rounding.how)
+            json["doubles"] = {
+                {"how", doubles_name(*rounding.how)},
+                {"offset", {rounding.offset.x, rounding.offset.y, rounding.offset.z}},
+                {"scale_log2", rounding.scale_log2},
+                {"rounded_count", rounding.rounded_count},
+                {"largest_error", rounding.largest_error}};
         put_if(json, "bend_of", scene.bend_of);
         json["content_hash"] = hex(scene.content_hash);
     }
@@ -220,7 +227,7 @@ std::string document_text(const std::string& run, const std::vector<std::string>
         return text;
     };
     std::string text =
-        "{\"format\": \"1.6\",\n\"run\": " + run + ",\n\"cells\": [" + lines(cells) + "\n]";
+        "{\"format\": \"1.7\",\n\"run\": " + run + ",\n\"cells\": [" + lines(cells) + "\n]";
     if (!stress.empty())
         text += ",\n\"stress\": [" + lines(stress) + "\n]";
     return text + "}\n";

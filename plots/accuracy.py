@@ -18,7 +18,7 @@ from typing import NamedTuple
 
 import matplotlib.pyplot as plt
 from matplotlib.lines import Line2D
-from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
+from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullLocator
 
 import figure
 import results
@@ -209,21 +209,24 @@ def cheapest(costs: list[Cost], most: float) -> list[tuple[float, Cost]]:
 
 
 def draw_break_even(axes: plt.Axes, costs: list[Cost], most: float) -> None:
-    """How many times as long as the fastest each takes for a build and k queries; where the fastest changes is marked."""
-    best = cheapest(costs, most)
+    """How many times as long as the fastest implicit tree each takes for a build and k queries; where another one becomes
+    the fastest is marked."""
+    implicit = [cost for cost in costs if cost.method != "radix"] or costs
+    best = cheapest(implicit, most)
     counts = sorted({most ** (step / 60) for step in range(61)} | {queries for queries, _ in best})
-    least = [min(cost.of(queries) for cost in costs) for queries in counts]
+    least = [min(cost.of(queries) for cost in implicit) for queries in counts]
     for cost in costs:
         seen = look("codes", cost.method)
-        is_best = any(cost is other for _, other in best)
+        is_best = cost.method == "radix" or any(cost is other for _, other in best)
         axes.plot(counts, [cost.of(queries) / low for queries, low in zip(counts, least)], color=seen.colour,
                   linewidth=1.4 if is_best else 0.5, zorder=3 if is_best else 2)
     for number, (queries, cost) in enumerate(best):
         seen = look("codes", cost.method)
         axes.plot(queries, 1, marker=seen.marker, color=seen.colour, linestyle="none", clip_on=False, zorder=4)
         if number > 0:
-            axes.annotate(f"{queries:.3g}", (queries, 1), xytext=(0, 5), textcoords="offset points", ha="center", fontsize=6)
-    axes.set(xscale="log", xlim=(1, most), ylim=(1, 2))
+            axes.axvline(queries, ymax=0.5, color=seen.colour, linewidth=0.5, linestyle=":", zorder=1)
+            axes.text(queries, 0.04 + 0.13 * (number % 2), f" {queries:.3g}", fontsize=6)
+    axes.set(xscale="log", xlim=(1, most), ylim=(0, 2))
     figure.log_ticks(axes.xaxis, 1, most)
 
 
@@ -240,17 +243,18 @@ def draw_codes(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
         draw_break_even(grid[-1][column], costs, MOST_QUERIES)
         grid[-1][column].set_xlabel("queries of one build")
         if column == 0:
-            grid[-1][column].set_ylabel("times the fastest")
+            grid[-1][column].set_ylabel("build and queries")
         for row, measure in enumerate(measures):
             scale = 1e-6 if measure == "box_tests_count" else 1
             points = [Point(1e3 * build_s(cell), scale * cell.counters[measure], cell.accuracy["method"])
                       for cell in group]
             axes = grid[row][column]
             log_times(axes, [point.time for point in points])
+            axes.xaxis.set_major_locator(LogLocator(subs=(1.0,) if len(inputs) > 3 else (1.0, 2.0, 5.0)))
             draw_points(axes, "codes", points)
             axes.set_ylim(0, 1.1 * max(point.error for point in points))
             if row == 0:
-                axes.set_title(name, loc="left", fontsize=6.5)
+                axes.set_title(name if len(name) < 20 else name.replace(":", ":\n", 1), loc="left", fontsize=6.5)
             else:
                 axes.set_xlabel("build, ms")
             if column == 0:
@@ -258,7 +262,7 @@ def draw_codes(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
     figure.footer(drawing, run, "accuracy", (
         "Trees of oibvh-multi, and the radix tree of apetrei-fused, queried by leaf; every query's pairs are those of the "
         "sweep. -axis: cells stretched to the box, -scene: one grid over all objects. Filled, joined: no other is as good in "
-        "both.", "Below: marked is from how many queries on another order is the fastest. Times: medians.",
+        "both.", "Below: times as long as the fastest but for radix; marked is from how many queries on that is another. Times: medians.",
         run.costs_remark()), legend(drawing, "codes", cells, 5))
     return drawing
 

@@ -126,13 +126,13 @@ TEST(Accuracy, RoundingAddsPairsFarOffAndTakesNoneAway)
     for (const double sizes : {0.0, 1e5, 1e7}) {
         const std::vector<WidePoint> wide = turned_and_moved(mesh.points, sizes);
         const PairList right = overlapping_pairs_in_doubles(wide, mesh.faces);
-        const auto wrong = [&](bool recentred) {
-            return differences(touching_pairs(rounded(wide, recentred), mesh.faces, true), right);
+        const auto wrong = [&](Doubles how) {
+            return differences(touching_pairs(rounded(wide, how), mesh.faces, true), right);
         };
-        EXPECT_EQ(wrong(false).missed, 0u);
-        EXPECT_EQ(wrong(true).missed, 0u);
-        EXPECT_LE(wrong(true).false_ones, right.size() / 1000);
-        added_last = wrong(false).false_ones;
+        EXPECT_EQ(wrong(Doubles::as_is).missed, 0u);
+        EXPECT_EQ(wrong(Doubles::recentred).missed, 0u);
+        EXPECT_LE(wrong(Doubles::recentred).false_ones, right.size() / 1000);
+        added_last = wrong(Doubles::as_is).false_ones;
     }
     EXPECT_GT(added_last, 100u);
 }
