@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "builders/input.h"
+#include "builders/orders.h"
 #include "builders/tree.h"
 #include "builders/update.h"
 #include "device/arena.h"
@@ -27,6 +28,7 @@ struct BuilderCard {
 /// How to build. One struct for all builders: what a builder has no use for it ignores.
 struct BuildOptions {
     std::string_view order = "morton30";  ///< a name of order_catalog(): how leaves are lined up
+    GridOver grid = GridOver::object;     ///< what codes are measured against, of several objects
     /// Work-items in a group, a power of two; 0 leaves the choice to the builder, by kind of device.
     unsigned group_size = 0;
     /// Nodes that a work-item merges in registers before its group shares them, a power of two; 0 as above.

@@ -10,7 +10,7 @@ OrderedBuilder::OrderedBuilder(Programs& programs, const BuilderCard& card,
                                const BuildOptions& options)
     : programs_(programs)
     , options_(options)
-    , leaf_order_(programs, options.order)
+    , leaf_order_(programs, options.order, KernelForm::of_device, options.grid)
     , card_(card)
 {
     if (options.sorted_leaves)
@@ -143,7 +143,7 @@ const Tree& OrderedBuilder::update_some(const Input& input, Queue& queue)
     leaf_order_.enqueue_update(input, queue);
     if (options_.sorted_leaves)
         gather_->enqueue(leaf_order_.boxes(), leaf_order_.ids(), leaf_order_.updated(),
-                        gathered_.slots, gathered_.boxes, queue);
+                         gathered_.slots, gathered_.boxes, queue);
     queue.begin(update_ == TreeUpdate::refit ? "refit" : "hierarchy");
     enqueue_update(queue);
     return tree();
@@ -160,10 +160,10 @@ void OrderedBuilder::gather_if_sorted(const Input& input, Queue& queue)
         return;
     if (gathered_.slots.size() > 0)
         gather_->enqueue(leaf_order_.boxes(), leaf_order_.ids(), input.device_owners,
-                        gathered_.slots, gathered_.boxes, queue);
+                         gathered_.slots, gathered_.boxes, queue);
     else
         gather_->enqueue(leaf_order_.boxes(), leaf_order_.ids(), gathered_.boxes, gathered_.first,
-                        queue);
+                         queue);
 }
 
 }  // namespace bvhbench

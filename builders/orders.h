@@ -15,6 +15,12 @@ enum class Medians {
     everywhere,  ///< all leaves: nothing to sort, no codes
 };
 
+/// What the grid of codes is laid over, where there are several objects.
+enum class GridOver {
+    object,  ///< each object, a grid of its own
+    scene,   ///< all objects together
+};
+
 /// A way to line up leaves: a code a box, sorted ascending, ties in the triangles' own order; then medians.
 struct OrderEntry {
     std::string_view name;     ///< "morton30": the key on the command line and in result files

@@ -73,11 +73,15 @@ SHARED_FN Cell hilbert_cell(Cell cell, uint bits)
 /// The code of a cell of 10 bits an axis that has taken all turns.
 SHARED_FN_INLINED uint hilbert_turned_30(Cell cell) { return morton_30(hilbert_ungrayed(cell)); }
 
-/// The same of 21 bits an axis.
+/// The same of 16 and of 21 bits an axis.
+SHARED_FN_INLINED ulong hilbert_turned_48(Cell cell) { return morton_48(hilbert_ungrayed(cell)); }
 SHARED_FN_INLINED ulong hilbert_turned_63(Cell cell) { return morton_63(hilbert_ungrayed(cell)); }
 
 /// The code of a cell of 10 bits an axis.
 SHARED_FN uint hilbert_30(Cell cell) { return morton_30(hilbert_cell(cell, 10u)); }
+
+/// The code of a cell of 16 bits an axis.
+SHARED_FN ulong hilbert_48(Cell cell) { return morton_48(hilbert_cell(cell, 16u)); }
 
 /// The code of a cell of 21 bits an axis.
 SHARED_FN ulong hilbert_63(Cell cell) { return morton_63(hilbert_cell(cell, 21u)); }
@@ -87,6 +91,7 @@ SHARED_END
 #ifndef __OPENCL_C_VERSION__
 static_assert(bvhbench::hilbert_30({0, 0, 0}) == 0);
 static_assert(bvhbench::hilbert_30({1023, 0, 0}) == 0x3fffffff);
+static_assert(bvhbench::hilbert_48({0xffff, 0, 0}) == 0xffffffffffff);
 static_assert(bvhbench::hilbert_63({0x1fffff, 0, 0}) == 0x7fffffffffffffff);
 #endif
 #endif

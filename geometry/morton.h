@@ -2,7 +2,7 @@
 //
 // Morton codes: the bits of a cell's three numbers, interleaved.
 //
-//     code = ... x1 y1 z1 x0 y0 z0        10 bits an axis in a uint, 21 in a ulong
+//     code = ... x1 y1 z1 x0 y0 z0        10 bits an axis in a uint, 16 or 21 in a ulong
 #ifndef BVHBENCH_GEOMETRY_MORTON_H
 #define BVHBENCH_GEOMETRY_MORTON_H
 
@@ -11,7 +11,8 @@
 SHARED_BEGIN
 
 #define CELLS_30 1024.0f     // 10 bits an axis: all that a uint holds with as many an axis
-#define CELLS_63 2097152.0f  // 21 bits an axis: likewise a ulong
+#define CELLS_48 65536.0f    // 16 bits an axis: six passes of a sort by bytes, where 21 take eight
+#define CELLS_63 2097152.0f  // 21 bits an axis: all that a ulong holds
 
 /// The low 10 bits of x, two zeros before each.
 SHARED_FN uint spread_10(uint x)
@@ -45,6 +46,9 @@ SHARED_FN ulong morton_63(Cell cell)
 {
     return spread_21(cell.x) << 2u | spread_21(cell.y) << 1u | spread_21(cell.z);
 }
+
+/// The code of a cell of 16 bits an axis: that of 21 with nothing in its upper bits.
+SHARED_FN ulong morton_48(Cell cell) { return morton_63(cell); }
 
 SHARED_END
 

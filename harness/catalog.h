@@ -53,6 +53,7 @@ constexpr std::string_view operation_name(Operation operation)
 struct BuilderChoice {
     std::string name;
     std::string order = "morton30";
+    GridOver grid = GridOver::object;
     unsigned group_size = 0;
     unsigned items = 0;
     bool sorted_leaves = false;
@@ -61,6 +62,7 @@ struct BuilderChoice {
     BuildOptions options() const
     {
         return {.order = order,
+                .grid = grid,
                 .group_size = group_size,
                 .items = items,
                 .sorted_leaves = sorted_leaves};

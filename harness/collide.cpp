@@ -55,6 +55,7 @@ SceneFacts facts_of(const CollideTask& task, const Scene& scene, std::size_t fra
             .source = scene.source,
             .stand_in_for = scene.stand_in_for,
             .outlier = scene.outlier,
+            .rounding = scene.rounding,
             .bend_of = scene.bend_of,
             .content_hash = scene.content_hash};
 }

@@ -90,10 +90,10 @@ void add_build(CLI::App& app, BuildCommand& build, std::string& leaves)
 void add_collide(CLI::App& app, CollideCommand& collide, std::string& leaves, std::string& adjacent,
                  std::string& pairs_of, std::vector<std::string>& no_skip)
 {
-    CLI::App* command = app.add_subcommand(
-        "collide",
-        "Find the pairs of triangles that overlap or intersect, frame by frame, check them and time "
-        "the stages");
+    CLI::App* command = app.add_subcommand("collide",
+                                           "Find the pairs of triangles that overlap or intersect, "
+                                           "frame by frame, check them and time "
+                                           "the stages");
     collide.builder.name = "oibvh-multi";
     command->add_option("--builder", collide.builder.name, "a name of `list builders`")
         ->capture_default_str();
@@ -125,6 +125,11 @@ void add_collide(CLI::App& app, CollideCommand& collide, std::string& leaves, st
         ->capture_default_str();
     command->add_option("--order", collide.builder.order, "a name of `list orders`")
         ->capture_default_str();
+    command
+        ->add_option("--grid", collide.builder.grid,
+                     "object or scene: what codes are measured against, of several objects")
+        ->transform(CLI::CheckedTransformer(std::map<std::string, GridOver>{
+            {"object", GridOver::object}, {"scene", GridOver::scene}}));
     command->add_option("--leaves", leaves, "mesh or sorted: where leaf boxes are kept")
         ->check(one_of({"mesh", "sorted"}));
     command->add_option("--adjacent", adjacent, "keep or drop pairs that share a vertex index")
@@ -136,8 +141,9 @@ void add_collide(CLI::App& app, CollideCommand& collide, std::string& leaves, st
                         "the level a traversal starts on; 0: likewise");
     command->add_option("--group-size", collide.collider.group_size,
                         "work-items in a group, a power of two; 0: the collider's choice");
-    command->add_option("--no-skip", no_skip,
-                        "a rule of `list skips` that is not used, or all: work is done that need not be");
+    command->add_option(
+        "--no-skip", no_skip,
+        "a rule of `list skips` that is not used, or all: work is done that need not be");
     command->add_flag("--skips", collide.skips,
                       "measure each rule switched off as well, and what it saves");
     command->add_option("--samples", collide.samples, "timed builds and queries")
@@ -237,8 +243,9 @@ void add_tune(CLI::App& app, TuneCommand& tune, std::string& leaves, std::string
     command->add_option("--samples", tune.samples, "timed runs a value and turn")
         ->check(CLI::Range(3, most_samples));
     command->add_flag("--quick", tune.quick, "one round, and fewer samples");
-    command->add_option("--out", tune.out,
-                        "the tuning file; default: the device's in --tuning, else in results/tuning");
+    command->add_option(
+        "--out", tune.out,
+        "the tuning file; default: the device's in --tuning, else in results/tuning");
 }
 
 void add_stress(CLI::App& app, StressCommand& stress)

@@ -15,11 +15,11 @@ namespace bvhbench {
 namespace {
 
 // To add an experiment, add its file to experiments/ and its name here.
-constexpr std::string_view names[] = {"table1",    "table4",    "fig8",    "fig13",    "peers",
-                                      "quality",   "orders",    "scaling", "refit",    "equality",
-                                      "smoke",     "table2",    "table3",  "pairs",    "rebuild",
-                                      "libraries", "agreement", "native",  "native-pairs",
-                                      "yardstick", "wide",      "roofline", "swept"};
+constexpr std::string_view names[] = {
+    "table1",       "table4",    "fig8",    "fig13",     "peers",     "quality",
+    "orders",       "scaling",   "refit",   "equality",  "smoke",     "table2",
+    "table3",       "pairs",     "rebuild", "libraries", "agreement", "native",
+    "native-pairs", "yardstick", "wide",    "roofline",  "swept"};
 
 constexpr std::int64_t most_sizes = 1 << 24;
 
@@ -117,10 +117,11 @@ void check_name(const std::string& name)
 
 Experiment experiment_of(const Json& json, bool quick)
 {
-    refuse_unknown_keys(json,
-                        {"experiment", "question", "paper", "scenes", "builders", "operations",
-                         "pipelines", "stages", "samples", "warm_up", "quality", "quick"},
-                        "an experiment");
+    refuse_unknown_keys(
+        json,
+        {"experiment", "question", "paper", "scenes", "builders", "operations", "pipelines",
+         "stages", "samples", "warm_up", "quality", "doubles", "quick"},
+        "an experiment");
     const bool collides = json.contains("pipelines");
     for (const char* key : {"experiment", "scenes", collides ? "pipelines" : "builders"})
         if (!json.contains(key))
@@ -130,6 +131,8 @@ Experiment experiment_of(const Json& json, bool quick)
     check_name(experiment.name);
     experiment.question = json.contains("question") ? text_at(json, "question") : "";
     experiment.paper = json.contains("paper") ? text_at(json, "paper") : "";
+    if (json.contains("doubles"))
+        experiment.doubles = doubles_called(text_at(json, "doubles"));
     if (collides)
         experiment.collisions = collisions_of(json, experiment.name, quick);
     if (collides && !json.contains("builders"))

@@ -32,6 +32,9 @@ namespace bvhbench {
 ///
 /// One that has both lists makes cells of either kind over the same scenes, which then are texts.
 ///
+/// `"doubles": "as-is"` rounds coordinates that floats cannot hold as they are, whatever the command line says; so does
+/// `"recentred"` (scenes/doubles.h).
+///
 /// `quick` replaces `scenes`, `builders`, `samples` or `warm_up` for --quick. In a scene with sizes, the key
 /// in braces takes a list of numbers or an object of: `from` and `to` (every number), `powers_of_two_from`
 /// and `powers_of_two_to`, `around_powers_of_two_to` (one below, at and above each power of two up to it).
@@ -46,6 +49,8 @@ struct Experiment {
     Start start = Start::from_triangles;
     /// Whether a data set that is not there is replaced by its stand-in; without, its cells are skipped.
     bool may_stand_in = true;
+    /// What becomes of coordinates that floats cannot hold: key `doubles`, a doubles_name; none: as the command line says.
+    std::optional<Doubles> doubles;
     /// Whether end-point overlap is wanted too, the one measure of a tree that takes long.
     bool quality = false;
     /// Of an experiment with pipelines: a task a scene. The other lists may be empty then.

@@ -36,15 +36,20 @@ SceneFacts Frames::facts() const
             .source = scene_.source,
             .stand_in_for = scene_.stand_in_for,
             .outlier = scene_.outlier,
+            .rounding = scene_.rounding,
             .bend_of = scene_.bend_of,
             .content_hash = scene_.content_hash};
 }
 
-void Frames::upload(Session& session)
+void Frames::upload(Session& session, bool by_objects)
 {
+    std::vector<FaceRange> objects;
+    if (by_objects)
+        for (const SceneObject& object : scene_.objects)
+            objects.push_back({object.first_face, object.face_count});
     const auto on_device = [&](std::size_t frame) {
         return bvhbench::upload(session.device(), session.queue(), scene_.frames[frame],
-                                scene_.faces);
+                                scene_.faces, objects);
     };
     now_ = on_device(frame_);
     if (frame_ > 0)

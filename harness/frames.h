@@ -18,8 +18,9 @@ public:
 
     SceneFacts facts() const;
 
-    /// Copy to the device. Waits. The frames stay where they are from now on.
-    void upload(Session& session);
+    /// Copy to the device, as one object or, `by_objects`, as those that the scene names. Waits. The frames stay where
+    /// they are from now on.
+    void upload(Session& session, bool by_objects = false);
 
     const Input& now() const { return now_; }  ///< what trees must be over in the end
     const Input& before() const

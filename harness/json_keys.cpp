@@ -16,7 +16,8 @@ std::string joined(std::span<const std::string_view> words)
     return text;
 }
 
-void refuse_unknown_keys(const Json& json, std::initializer_list<std::string_view> known, const std::string& where)
+void refuse_unknown_keys(const Json& json, std::initializer_list<std::string_view> known,
+                         const std::string& where)
 {
     if (!json.is_object())
         throw BadUsage(where + " must be an object");
@@ -65,10 +66,17 @@ BuilderChoice builder_choice(const Json& json)
     if (json.is_string()) {
         choice.name = json.get<std::string>();
     } else {
-        refuse_unknown_keys(json, {"name", "order", "group_size", "items", "leaves"}, "a builder");
+        refuse_unknown_keys(json, {"name", "order", "grid", "group_size", "items", "leaves"},
+                            "a builder");
         choice.name = text_at(json, "name");
         if (json.contains("order"))
             choice.order = text_at(json, "order");
+        if (json.contains("grid")) {
+            const std::string grid = text_at(json, "grid");
+            if (grid != "object" && grid != "scene")
+                throw BadUsage("'grid' is object or scene, not '" + grid + "'");
+            choice.grid = grid == "scene" ? GridOver::scene : GridOver::object;
+        }
         if (json.contains("group_size"))
             choice.group_size =
                 static_cast<unsigned>(whole_number(json["group_size"], "group_size", 0, 1 << 16));

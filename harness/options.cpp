@@ -18,11 +18,17 @@ void add_common(CLI::App& app, CommonOptions& common)
     app.add_option("--device", common.device, "words of its name, or its index in `list devices`");
     app.add_option("--kernels", common.kernels, "a source tree to read kernels from");
     app.add_option("--data", common.data, "the folder of data sets; default: BVHBENCH_DATA");
-    app.add_option("--tuning", common.tuning,
-                   "a folder to read tuned values from, '' for none; default: BVHBENCH_TUNING, else "
-                   "those in the program");
-    app.add_option("--memory-limit", common.memory_limit,
-                   "bytes that device and host may each take, as 512M or 2G; default: all there are")
+    app.add_option(
+           "--doubles", common.doubles,
+           "recentred or as-is: how coordinates of a file that floats cannot hold are rounded")
+        ->capture_default_str();
+    app.add_option(
+        "--tuning", common.tuning,
+        "a folder to read tuned values from, '' for none; default: BVHBENCH_TUNING, else "
+        "those in the program");
+    app.add_option(
+           "--memory-limit", common.memory_limit,
+           "bytes that device and host may each take, as 512M or 2G; default: all there are")
         ->transform(CLI::AsSizeValue(false));
     app.add_option("--time-limit", common.time_limit_s,
                    "seconds that a single build or query may take before it is given up; 0: no end")
@@ -90,7 +96,8 @@ Options parse_options(int argc, const char* const* argv)
     }
     if (app.get_subcommands().empty())
         throw BadUsage(
-            "name a command: list, build, collide, run, reproduce, check, show, tune, accuracy or stress; "
+            "name a command: list, build, collide, run, reproduce, check, show, tune, accuracy or "
+            "stress; "
             "`bvhbench --help` says what they do");
     check_power_of_two("--group-size", build.builder.group_size);
     check_power_of_two("--items", build.builder.items);

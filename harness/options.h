@@ -19,7 +19,10 @@ struct CommonOptions {
     std::string device;   ///< words or an index; empty: the first CPU, else the first device
     std::string kernels;  ///< a source tree to read kernels from; empty: those in the program
     std::string data;     ///< the folder of data sets; empty: BVHBENCH_DATA
-    std::optional<std::string> tuning;  ///< the folder of tuned values; empty: none; not given: BVHBENCH_TUNING
+    std::string doubles =
+        "recentred";  ///< what becomes of coordinates that floats cannot hold: doubles_name
+    std::optional<std::string>
+        tuning;  ///< the folder of tuned values; empty: none; not given: BVHBENCH_TUNING
     std::size_t memory_limit = 0;  ///< bytes of the device and of the host each; 0: what there is
     double time_limit_s = 600;     ///< of a single build or query; 0: none
     bool verbose = false;

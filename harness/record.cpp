@@ -22,12 +22,9 @@ Json json_of(const StageTime& time)
 {
     if (time.wall_ns > 0)  // else a device's, even if it had nothing to launch: one leaf is a tree
         return {{"stage", time.stage}, {"wall_ns", time.wall_ns}};
-    return {{"stage", time.stage},
-            {"launches", time.launches},
-            {"busy_ns", time.busy_ns},
-            {"span_ns", time.span_ns},
-            {"moved_bytes", time.moved_bytes},
-            {"start_ns", time.start_ns}};
+    return {
+        {"stage", time.stage},     {"launches", time.launches},       {"busy_ns", time.busy_ns},
+        {"span_ns", time.span_ns}, {"moved_bytes", time.moved_bytes}, {"start_ns", time.start_ns}};
 }
 
 Json json_of(const Sample& sample)
@@ -52,6 +49,13 @@ Json json_of(const SceneFacts& scene)
             json["outlier"] = {{"of", scene.outlier.of},
                                {"triangle", scene.outlier.triangle},
                                {"diameters", scene.outlier.diameters}};
+        if (const Rounding& rounding = scene.rounding; rounding.how)
+            json["doubles"] = {
+                {"how", doubles_name(*rounding.how)},
+                {"offset", {rounding.offset.x, rounding.offset.y, rounding.offset.z}},
+                {"scale_log2", rounding.scale_log2},
+                {"rounded_count", rounding.rounded_count},
+                {"largest_error", rounding.largest_error}};
         put_if(json, "bend_of", scene.bend_of);
         json["content_hash"] = hex(scene.content_hash);
     }
@@ -60,12 +64,13 @@ Json json_of(const SceneFacts& scene)
 
 Json json_of(const BuilderChoice& builder)
 {
-    return {{"name", builder.name},
-            {"options",
-             {{"order", builder.order},
-              {"group_size", builder.group_size},
-              {"items", builder.items},
-              {"leaves", builder.sorted_leaves ? "sorted" : "mesh"}}}};
+    Json options = {{"order", builder.order},
+                    {"group_size", builder.group_size},
+                    {"items", builder.items},
+                    {"leaves", builder.sorted_leaves ? "sorted" : "mesh"}};
+    if (builder.grid == GridOver::scene)
+        options["grid"] = "scene";
+    return {{"name", builder.name}, {"options", std::move(options)}};
 }
 
 Json json_of(const ColliderChoice& collider)

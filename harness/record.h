@@ -46,6 +46,7 @@ struct SceneFacts {
     std::string source;
     std::string stand_in_for;
     Outlier outlier;  ///< of an empty name: no triangle was moved
+    Rounding rounding;
     std::string bend_of;
     std::uint64_t content_hash = 0;
 };

@@ -59,6 +59,18 @@ Outlier outlier_of(const Json& json)
             .diameters = get<double>(json, "diameters")};
 }
 
+Rounding rounding_of(const Json& json)
+{
+    if (json.empty())
+        return {};
+    const Json& offset = json.at("offset");
+    return {.how = doubles_called(json.at("how").get<std::string>()),
+            .offset = {offset.at(0), offset.at(1), offset.at(2)},
+            .scale_log2 = get<int>(json, "scale_log2"),
+            .rounded_count = get<std::uint64_t>(json, "rounded_count"),
+            .largest_error = get<double>(json, "largest_error")};
+}
+
 SceneFacts scene_of(const Json& json)
 {
     return {.name = json.at("name").get<std::string>(),
@@ -69,6 +81,7 @@ SceneFacts scene_of(const Json& json)
             .source = get<std::string>(json, "source"),
             .stand_in_for = get<std::string>(json, "stand_in_for"),
             .outlier = outlier_of(json.value("outlier", Json::object())),
+            .rounding = rounding_of(json.value("doubles", Json::object())),
             .bend_of = get<std::string>(json, "bend_of"),
             .content_hash = hash_of(get<std::string>(json, "content_hash"))};
 }
@@ -78,6 +91,7 @@ BuilderChoice builder_of(const Json& json)
     const Json options = json.value("options", Json::object());
     return {.name = json.at("name").get<std::string>(),
             .order = options.value("order", "morton30"),
+            .grid = options.value("grid", "object") == "scene" ? GridOver::scene : GridOver::object,
             .group_size = get<unsigned>(options, "group_size"),
             .items = get<unsigned>(options, "items"),
             .sorted_leaves = options.value("leaves", "mesh") == "sorted"};

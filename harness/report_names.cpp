@@ -22,6 +22,8 @@ std::string variant_text(const BuilderChoice& builder)
     std::string text = builder.name;
     if (builder.order != usual.order)
         text += ", " + builder.order;
+    if (builder.grid != usual.grid)
+        text += ", grid over the scene";
     if (builder.group_size != usual.group_size)
         text += ", groups of " + std::to_string(builder.group_size);
     if (builder.items != usual.items)

@@ -120,6 +120,7 @@ bool has_differing_cell(const Document& document)
 
 void Run::experiment(const Experiment& experiment, const CellFilter& filter)
 {
+    session_.read_doubles(experiment.doubles);
     Progress progress(experiment.scenes.size() + experiment.collisions.size());
     for (const CollideTask& task : experiment.collisions)
         collisions(task, filter, progress);

@@ -18,6 +18,8 @@ SceneLibrary scene_library(const CommonOptions& common)
     const char* variable = std::getenv("BVHBENCH_DATA");
     library.host_memory_bytes = common.memory_limit;
     library.data = !common.data.empty() ? common.data : variable != nullptr ? variable : "";
+    library.doubles = doubles_called(common.doubles);
+    library.tell = [](const std::string& line) { std::cerr << line << '\n'; };
     return library;
 }
 

@@ -32,6 +32,12 @@ public:
     Queue& queue() { return *queue_; }
     const SceneLibrary& scenes() const { return library_; }
     Watchdog& watchdog() { return watchdog_; }
+
+    /// What becomes from here on of coordinates that floats cannot hold; none: what the command line said.
+    void read_doubles(std::optional<Doubles> how)
+    {
+        library_.doubles = how.value_or(doubles_asked_);
+    }
     std::uint64_t host_memory_limit() const { return host_memory_limit_; }
 
     /// Throws Unavailable if the host has not so many bytes for `what`. Asked before they are needed, as it is of
@@ -74,6 +80,7 @@ private:
     std::unique_ptr<Queue> queue_;
     std::optional<HeadStart> head_start_;  ///< made when first asked for
     SceneLibrary library_;
+    Doubles doubles_asked_ = library_.doubles;
     /// A list, so that choices stay where they are: builders may keep looking at their words.
     std::list<Made> builders_;
 };

@@ -4,9 +4,10 @@
     plots/accuracy.py FILE... --out DIR
 
 narrow: a panel a class of pairs of triangles, a point a narrow phase. sums: a panel a scene, a point a way to add areas
-up. codes: a panel a scene and measure, a point an order. input: how many pairs of boxes, and what a frame takes, by how
-far from the origin the scene is. swept: as plots/swept.py. In the others left and down is better; the grey line joins
-what no other method is as good as in both time and error (the Pareto front), and those points are filled.
+up. codes: a panel a scene and measure, a point an order, and which is the fastest of build and k queries. input: how
+many pairs of boxes, and what a frame takes, by how far from the origin the scene is. swept: as plots/swept.py. In the
+others left and down is better; the grey line joins what no other method is as good as in both time and error (the Pareto
+front), and those points are filled.
 """
 from __future__ import annotations
 
@@ -18,7 +19,7 @@ from typing import NamedTuple
 
 import matplotlib.pyplot as plt
 from matplotlib.lines import Line2D
-from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
+from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullLocator
 
 import figure
 import results
@@ -28,6 +29,7 @@ from style import Look
 
 NARROW_COLUMNS = 6
 SCENE_COLUMNS = 4
+MOST_QUERIES = 1000
 
 # In the order of legends; colours as in style.py. To add a method, add its line here.
 METHODS = {
@@ -35,10 +37,12 @@ METHODS = {
                "guigue-f32": Look("#D55E00", "v"), "moller-f32": Look("#CC79A7", "s")},
     "sums": {"f32": Look("#D55E00", "v"), "f32-pairwise": Look("#E69F00", "s"), "f32-compensated": Look("#CC79A7", "D"),
              "f64": Look("#0072B2", "^"), "f64-pairwise": Look("#56B4E9", "s"), "f64-compensated": Look("#009E73", "o")},
-    "codes": {"morton30": Look("#0072B2", "o"), "morton63": Look("#0072B2", "s"),
-              "morton30-axis": Look("#56B4E9", "o"), "morton63-axis": Look("#56B4E9", "s"),
-              "hilbert30": Look("#009E73", "o"), "hilbert63": Look("#009E73", "s"),
-              "hilbert30-axis": Look("#E69F00", "o"), "hilbert63-axis": Look("#E69F00", "s")},
+    "codes": {f"{curve}{bits}{axis}{grid}": Look(colour, marker)
+              for curve, axis, colour in (("morton", "", "#0072B2"), ("morton", "-axis", "#56B4E9"),
+                                          ("hilbert", "", "#009E73"), ("hilbert", "-axis", "#E69F00"))
+              for grid, markers in (("", "oDs"), ("-scene", "v<^"))
+              for bits, marker in zip((30, 48, 63), markers)}
+             | {"kd": Look("#CC79A7", "*"), "radix": Look("#000000", "P")},
     "input": {"f32": Look("#D55E00", "v"), "f32-recentred": Look("#0072B2", "o")},
 }
 
@@ -66,6 +70,11 @@ def by_input(cells: list[results.Cell]) -> dict[str, list[results.Cell]]:
 def median_s(cell: results.Cell, stages: tuple[str, ...] | None = None) -> float:
     times = cell.frame_times_s() if stages is None else sum(cell.times_s(stage) for stage in stages)
     return results.quantiles(times).median
+
+
+def build_s(cell: results.Cell) -> float:
+    """Of all stages before the query."""
+    return results.quantiles(cell.frame_times_s() - cell.times_s("broad")).median
 
 
 def wrong(cell: results.Cell) -> float:
@@ -178,33 +187,85 @@ def draw_sums(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
     return drawing
 
 
+class Cost(NamedTuple):
+    build: float
+    query: float
+    method: str
+
+    def of(self, queries: float) -> float:
+        return self.build + queries * self.query
+
+
+def cheapest(costs: list[Cost], most: float) -> list[tuple[float, Cost]]:
+    """From which number of queries on, 1 at the least, a build and so many queries take least by whom."""
+    best = min(costs, key=lambda cost: (cost.of(1), cost.query))
+    found = [(1.0, best)]
+    while True:
+        # Where those that query sooner than the best one catch up with it.
+        crossings = [((cost.build - best.build) / (best.query - cost.query), cost.query, cost)
+                     for cost in costs if cost.query < best.query]
+        if not crossings or min(crossings)[0] > most:
+            return found
+        queries, _, best = min(crossings)
+        found.append((queries, best))
+
+
+def draw_break_even(axes: plt.Axes, costs: list[Cost], most: float) -> None:
+    """How many times as long as the fastest implicit tree each takes for a build and k queries; where another one becomes
+    the fastest is marked."""
+    implicit = [cost for cost in costs if cost.method != "radix"] or costs
+    best = cheapest(implicit, most)
+    counts = sorted({most ** (step / 60) for step in range(61)} | {queries for queries, _ in best})
+    least = [min(cost.of(queries) for cost in implicit) for queries in counts]
+    for cost in costs:
+        seen = look("codes", cost.method)
+        is_best = cost.method == "radix" or any(cost is other for _, other in best)
+        axes.plot(counts, [cost.of(queries) / low for queries, low in zip(counts, least)], color=seen.colour,
+                  linewidth=1.4 if is_best else 0.5, zorder=3 if is_best else 2)
+    for number, (queries, cost) in enumerate(best):
+        seen = look("codes", cost.method)
+        axes.plot(queries, 1, marker=seen.marker, color=seen.colour, linestyle="none", clip_on=False, zorder=4)
+        if number > 0:
+            axes.axvline(queries, ymax=0.5, color=seen.colour, linewidth=0.5, linestyle=":", zorder=1)
+            axes.text(queries, 0.04 + 0.13 * (number % 2), f" {queries:.3g}", fontsize=6)
+    axes.set(xscale="log", xlim=(1, most), ylim=(0, 2))
+    figure.log_ticks(axes.xaxis, 1, most)
+
+
 def draw_codes(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
     cells = [cell for cell in cells if "sah_cost" in cell.counters]
     inputs = by_input(cells)
     if not inputs:
         raise results.Refused(f"{run.path}: no tree of the axis codes has a surface area cost")
     measures = {"sah_cost": "surface area cost", "box_tests_count": "box tests of a query, M"}
-    drawing, grid = plt.subplots(len(measures), len(inputs), figsize=(style.PAGE_WIDTH, 4.8), squeeze=False,
+    drawing, grid = plt.subplots(len(measures) + 1, len(inputs), figsize=(style.PAGE_WIDTH, 7.0), squeeze=False,
                                  layout="constrained")
     for column, (name, group) in enumerate(inputs.items()):
+        costs = [Cost(build_s(cell), median_s(cell, ("broad",)), cell.accuracy["method"]) for cell in group]
+        draw_break_even(grid[-1][column], costs, MOST_QUERIES)
+        grid[-1][column].set_xlabel("queries of one build")
+        if column == 0:
+            grid[-1][column].set_ylabel("build and queries")
         for row, measure in enumerate(measures):
             scale = 1e-6 if measure == "box_tests_count" else 1
-            points = [Point(1e3 * median_s(cell, ("codes", "sort")), scale * cell.counters[measure],
-                            cell.accuracy["method"]) for cell in group]
+            points = [Point(1e3 * build_s(cell), scale * cell.counters[measure], cell.accuracy["method"])
+                      for cell in group]
             axes = grid[row][column]
             log_times(axes, [point.time for point in points])
+            axes.xaxis.set_major_locator(LogLocator(subs=(1.0,) if len(inputs) > 3 else (1.0, 2.0, 5.0)))
             draw_points(axes, "codes", points)
             axes.set_ylim(0, 1.1 * max(point.error for point in points))
             if row == 0:
-                axes.set_title(name, loc="left", fontsize=6.5)
+                axes.set_title(name if len(name) < 20 else name.replace(":", ":\n", 1), loc="left", fontsize=6.5)
             else:
-                axes.set_xlabel("codes and sort, ms")
+                axes.set_xlabel("build, ms")
             if column == 0:
                 axes.set_ylabel(measures[measure])
     figure.footer(drawing, run, "accuracy", (
-        "Trees of oibvh-multi, queried by leaf; every query's pairs are those of the sweep. Circles: 30 bits a code, squares: "
-        "63; -axis: cells stretched to the scene. Filled, joined: no other is as good in both. Times: medians.",
-        run.costs_remark()), legend(drawing, "codes", cells, 4))
+        "Trees of oibvh-multi, and the radix tree of apetrei-fused, queried by leaf; every query's pairs are those of the "
+        "sweep. -axis: cells stretched to the box, -scene: one grid over all objects. Filled, joined: no other is as good in "
+        "both.", "Below: times as long as the fastest but for radix; marked is from how many queries on that is another. Times: medians.",
+        run.costs_remark()), legend(drawing, "codes", cells, 5))
     return drawing
 
 

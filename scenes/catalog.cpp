@@ -124,7 +124,7 @@ Scene from_path(const std::filesystem::path& path, const SceneLibrary& library)
 {
     Scene scene;
     if (std::filesystem::is_directory(path)) {
-        scene = read_sequence(path, limits_of(library));
+        scene = read_sequence(path, limits_of(library), library.doubles);
         scene.folder = path;
     } else {
         FileMesh file = read_mesh_file(path, limits_of(library));
@@ -132,6 +132,8 @@ Scene from_path(const std::filesystem::path& path, const SceneLibrary& library)
         scene.objects = std::move(file.objects);
         scene.has_meshes = !scene.objects.empty();
         scene.frames.push_back(std::move(file.mesh.points));
+        if (!file.floats_hold)
+            scene.rounding = round_frames({&file.wide, 1}, library.doubles, scene.frames);
     }
     scene.source = path_in_library(path, library);
     return scene;
@@ -231,7 +233,10 @@ Scene load_any(std::string_view text, const SceneLibrary& library)
 Scene load_scene(std::string_view text, const SceneLibrary& library)
 {
     try {
-        return load_any(text, library);
+        Scene scene = load_any(text, library);
+        if (scene.rounding.how && library.tell)
+            library.tell("scene " + in_quotes(text) + ": " + rounding_text(scene.rounding));
+        return scene;
     } catch (const std::bad_alloc&) {
         throw Unavailable("there is not enough memory for scene " + in_quotes(text));
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,10 +13,13 @@ namespace bvhbench {
 
 /// Where scenes come from and what reading one may cost.
 struct SceneLibrary {
-    std::filesystem::path data;          ///< --data, else BVHBENCH_DATA, else empty
-    std::size_t memory_limit_bytes = 0;  ///< for the process that reads a file; 0: a default
-    std::uint64_t host_memory_bytes = 0;  ///< that a scene may take; 0: all that the machine has
-    double time_limit_s = 0;             ///< likewise
+    std::filesystem::path data;            ///< --data, else BVHBENCH_DATA, else empty
+    std::size_t memory_limit_bytes = 0;    ///< for the process that reads a file; 0: a default
+    std::uint64_t host_memory_bytes = 0;   ///< that a scene may take; 0: all that the machine has
+    double time_limit_s = 0;               ///< likewise
+    Doubles doubles = Doubles::recentred;  ///< what becomes of coordinates that floats cannot hold
+    /// Told, in one line, what became of them; may be empty.
+    std::function<void(const std::string& line)> tell = {};
 };
 
 /// The scene `text` asks for: a generator with its size ("torus:2880000"), one of

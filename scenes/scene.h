@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geometry/mesh.h"
+#include "scenes/doubles.h"
 
 namespace bvhbench {
 
@@ -45,6 +46,7 @@ struct Scene {
     std::string
         stand_in_for;  ///< the data set this one replaces because it is not there; else empty
     Outlier outlier;
+    Rounding rounding;    ///< of coordinates that floats could not hold
     std::string bend_of;  ///< the scene that this one gives a second frame, bent; else empty
     std::uint64_t content_hash = 0;  ///< of faces, objects and all frames; not of names
 

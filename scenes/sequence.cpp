@@ -68,15 +68,33 @@ bool same(const std::vector<Face>& a, const std::vector<Face>& b)
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Face)) == 0;
 }
 
-Scene read_numbered(const std::filesystem::path& folder, const WorkerLimits& limits)
+/// As the files have them. Read once more: few sequences are in doubles, and those that are not need no room for any.
+std::vector<std::vector<WidePoint>> wide_frames(const std::vector<NumberedFile>& files,
+                                                const WorkerLimits& limits)
+{
+    std::vector<std::vector<WidePoint>> frames;
+    for (const auto& [number, path] : files) {
+        FileMesh file = read_mesh_file(path, limits);
+        if (!file.has_doubles || file.wide.empty())
+            for (const Point& point : file.mesh.points)
+                file.wide.push_back({point.x, point.y, point.z});
+        frames.push_back(std::move(file.wide));
+    }
+    return frames;
+}
+
+Scene read_numbered(const std::filesystem::path& folder, const WorkerLimits& limits,
+                    Doubles doubles)
 {
     const std::vector<NumberedFile> files = numbered_files(folder);
     if (files.empty())
         throw Unavailable(folder.string() +
                           " has neither mesh.ply and frames.f32 nor numbered mesh files");
     Scene scene;
+    bool floats_hold = true;
     for (const auto& [number, path] : files) {
         FileMesh file = read_mesh_file(path, limits);
+        floats_hold = floats_hold && file.floats_hold;
         if (scene.frames.empty()) {
             scene.faces = std::move(file.mesh.faces);
             scene.objects = std::move(file.objects);
@@ -87,6 +105,8 @@ Scene read_numbered(const std::filesystem::path& folder, const WorkerLimits& lim
         scene.frames.push_back(std::move(file.mesh.points));
         scene.frame_labels.push_back(std::to_string(number));
     }
+    if (!floats_hold)
+        scene.rounding = round_frames(wide_frames(files, limits), doubles, scene.frames);
     scene.has_meshes = !scene.objects.empty();
     if (scene.objects.empty())
         scene.objects = connected_parts(scene.faces, scene.frames[0].size());
@@ -95,10 +115,11 @@ Scene read_numbered(const std::filesystem::path& folder, const WorkerLimits& lim
 
 }  // namespace
 
-Scene read_sequence(const std::filesystem::path& folder, const WorkerLimits& limits)
+Scene read_sequence(const std::filesystem::path& folder, const WorkerLimits& limits,
+                    Doubles doubles)
 {
     if (!std::filesystem::exists(folder / "mesh.ply"))
-        return read_numbered(folder, limits);
+        return read_numbered(folder, limits, doubles);
     FileMesh file = read_mesh_file(folder / "mesh.ply", limits);
     Scene scene;
     scene.frames = read_frames(folder / "frames.f32", file.mesh.points.size());

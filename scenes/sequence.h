@@ -14,7 +14,10 @@ namespace bvhbench {
 /// or mesh files whose names differ in a number, one a frame, in the order of those numbers. Where these
 /// name no objects, connected parts are objects, if each is a run of triangles.
 ///
+/// Where floats cannot hold what any of those files says, all frames are rounded alike, as `doubles` says.
+///
 /// Throws Unavailable. The caller names the result and makes it `finished`.
-Scene read_sequence(const std::filesystem::path& folder, const WorkerLimits& limits);
+Scene read_sequence(const std::filesystem::path& folder, const WorkerLimits& limits,
+                    Doubles doubles);
 
 }  // namespace bvhbench

@@ -3,9 +3,14 @@
 
 #include <string>
 
-#include "geometry/bits.h"
-
 namespace bvhbench {
+namespace {
+
+/// How far the bounds of two neighbouring objects are from each other: 0 if there is one for all.
+uint apart(const Buffer<Bounds>& bounds) { return bounds.size() > 1 ? 1 : 0; }
+
+}  // namespace
+
 CodesStage::CodesStage(Programs& programs, const OrderEntry& order, KernelForm form)
     : words_(code_words(order.code_bits))
     , group_size_(programs.device().tuned(codes_group_size))
@@ -37,7 +42,7 @@ void CodesStage::enqueue(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bounds
                          uint object_shift, Queue& queue)
 {
     set_arguments(objects_kernel_, boxes, bounds, owners, codes, static_cast<uint>(boxes.size()),
-                  dropped, object_shift);
+                  dropped, object_shift, apart(bounds));
     launch(objects_kernel_, boxes, codes, queue);
 }
 
@@ -46,7 +51,8 @@ void CodesStage::enqueue(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bounds
                          uint object_shift, Queue& queue)
 {
     queue.begin("codes");
-    set_arguments(runs_kernel_, boxes, bounds, runs.runs(), codes, dropped, object_shift);
+    set_arguments(runs_kernel_, boxes, bounds, runs.runs(), codes, dropped, object_shift,
+                  apart(bounds));
     queue.launch(runs_kernel_, runs.lined_up_count() * runs.group(), runs.group(),
                  static_cast<std::int64_t>(runs.lined_up_triangles() *
                                            (sizeof(Aabb) + words_ * sizeof(uint))));

@@ -1,17 +1,27 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+
 #include "builders/orders.h"
 #include "builders/stages/object_runs.h"
 #include "device/arena.h"
 #include "device/program.h"
 #include "device/queue.h"
+#include "geometry/bits.h"
 #include "geometry/bounds.h"
 
 namespace bvhbench {
 
 /// 32-bit words a code takes in device memory: one, or two with the low word first.
 constexpr uint code_words(unsigned code_bits) { return code_bits > 32 ? 2 : 1; }
+
+/// Bits of a code that are kept below the number of one of so many objects: as many as its words have room for.
+constexpr uint kept_code_bits(unsigned code_bits, std::size_t objects)
+{
+    const uint object_bits = ceil_log2(static_cast<uint>(objects));
+    return std::min(code_bits, 32 * code_words(code_bits) - object_bits);
+}
 
 /// The stage `codes`: one code a leaf box, by an order of the catalog. Owns no memory.
 class CodesStage {
@@ -23,8 +33,9 @@ public:
     void enqueue(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bounds, const Buffer<uint>& codes,
                  Queue& queue);
 
-    /// The same of several objects at once: boxes against the bounds of their owners. A code is an owner, from bit
-    /// `object_shift` on, and below it the box's, without its `dropped` lowest bits.
+    /// The same of several objects at once: boxes against the bounds of their owners, or, where `bounds` is of one, all
+    /// against those. A code is an owner, from bit `object_shift` on, and below it the box's, without its `dropped`
+    /// lowest bits.
     void enqueue(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bounds,
                  const Buffer<uint>& owners, const Buffer<uint>& codes, uint dropped,
                  uint object_shift, Queue& queue);

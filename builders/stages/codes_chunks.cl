@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 // check: -DORDER_morton30=1u
+// check: -DORDER_morton48=1u
 // check: -DORDER_morton63=1u
 // check: -DORDER_hilbert30=1u
+// check: -DORDER_hilbert48=1u
 // check: -DORDER_hilbert63=1u
 // check: -DORDER_morton30_axis=1u
+// check: -DORDER_morton48_axis=1u
 // check: -DORDER_morton63_axis=1u
 // check: -DORDER_hilbert30_axis=1u
+// check: -DORDER_hilbert48_axis=1u
 // check: -DORDER_hilbert63_axis=1u
 //
 // As codes.cl for devices with a few fast cores: a work-item takes a run of boxes, a block at a time.
@@ -65,25 +69,26 @@
     kernel void name##_objects(global const float* restrict boxes,                                 \
                                global const Bounds* restrict all_bounds,                           \
                                global const uint* restrict owners, global Code* restrict codes,    \
-                               const uint count, const uint dropped, const uint object_shift)      \
+                               const uint count, const uint dropped, const uint object_shift,      \
+                               const uint bounds_apart)                                            \
     {                                                                                              \
         const Chunk chunk = own_chunk(count);                                                      \
         for (uint k = chunk.first, lanes; k < chunk.end; k += lanes) {                             \
             const uint owner = owners[k], most = min(BLOCK, chunk.end - k);                        \
             for (lanes = 1u; lanes < most && owners[k + lanes] == owner;)                          \
                 ++lanes;                                                                           \
-            block_##name(boxes + FLOATS_PER_BOX * k, all_bounds[owner], codes + k, lanes,          \
-                         (Code)owner << object_shift, dropped);                                    \
+            block_##name(boxes + FLOATS_PER_BOX * k, all_bounds[bounds_apart * owner], codes + k,  \
+                         lanes, (Code)owner << object_shift, dropped);                             \
         }                                                                                          \
     }                                                                                              \
                                                                                                    \
     kernel void name##_runs(global const float* restrict boxes,                                    \
                             global const Bounds* restrict all_bounds,                              \
                             global const uint4* restrict runs, global Code* restrict codes,        \
-                            const uint dropped, const uint object_shift)                           \
+                            const uint dropped, const uint object_shift, const uint bounds_apart)  \
     {                                                                                              \
         const uint4 run = runs[get_global_id(0)];                                                  \
-        const Bounds bounds = all_bounds[run.z];                                                   \
+        const Bounds bounds = all_bounds[bounds_apart * run.z];                                    \
         for (uint k = run.x; k < run.y; k += BLOCK)                                                \
             block_##name(boxes + FLOATS_PER_BOX * k, bounds, codes + (k - run.w),                  \
                          min(BLOCK, run.y - k), (Code)run.z << object_shift, dropped);             \
@@ -93,18 +98,26 @@
 #define NO_TURN(cell, size) (cell)
 #if defined(ORDER_morton30)
 ORDER(morton30, uint, cubic_cell, CELLS_30, 1u, NO_TURN, morton_30)
+#elif defined(ORDER_morton48)
+ORDER(morton48, ulong, cubic_cell, CELLS_48, 1u, NO_TURN, morton_48)
 #elif defined(ORDER_morton63)
 ORDER(morton63, ulong, cubic_cell, CELLS_63, 1u, NO_TURN, morton_63)
 #elif defined(ORDER_hilbert30)
 ORDER(hilbert30, uint, cubic_cell, CELLS_30, 10u, hilbert_turned, hilbert_turned_30)
+#elif defined(ORDER_hilbert48)
+ORDER(hilbert48, ulong, cubic_cell, CELLS_48, 16u, hilbert_turned, hilbert_turned_48)
 #elif defined(ORDER_hilbert63)
 ORDER(hilbert63, ulong, cubic_cell, CELLS_63, 21u, hilbert_turned, hilbert_turned_63)
 #elif defined(ORDER_morton30_axis)
 ORDER(morton30_axis, uint, stretched_cell, CELLS_30, 1u, NO_TURN, morton_30)
+#elif defined(ORDER_morton48_axis)
+ORDER(morton48_axis, ulong, stretched_cell, CELLS_48, 1u, NO_TURN, morton_48)
 #elif defined(ORDER_morton63_axis)
 ORDER(morton63_axis, ulong, stretched_cell, CELLS_63, 1u, NO_TURN, morton_63)
 #elif defined(ORDER_hilbert30_axis)
 ORDER(hilbert30_axis, uint, stretched_cell, CELLS_30, 10u, hilbert_turned, hilbert_turned_30)
+#elif defined(ORDER_hilbert48_axis)
+ORDER(hilbert48_axis, ulong, stretched_cell, CELLS_48, 16u, hilbert_turned, hilbert_turned_48)
 #elif defined(ORDER_hilbert63_axis)
 ORDER(hilbert63_axis, ulong, stretched_cell, CELLS_63, 21u, hilbert_turned, hilbert_turned_63)
 #endif

@@ -44,14 +44,15 @@ struct LeafOrder::Stages {
     bool reads_codes = false;
 
     /// What updates do.
-    bool is_whole = true;      ///< all objects are lined up
+    bool is_whole = true;  ///< all objects are lined up
     bool tries_order = false;
-    bool lines_up = true;      ///< any at all
+    bool lines_up = true;  ///< any at all
     Programs& programs;
     KernelForm form;
+    GridOver grid;
 
-    Stages(Programs& on, const OrderEntry& entry, KernelForm chosen)
-        : order(entry), bounds(on, chosen), programs(on), form(chosen)
+    Stages(Programs& on, const OrderEntry& entry, KernelForm chosen, GridOver over)
+        : order(entry), bounds(on, chosen), programs(on), form(chosen), grid(over)
     {
         if (entry.medians == Medians::everywhere) {
             cells.emplace(programs, median_shape(programs.device(), form));
@@ -72,16 +73,14 @@ struct LeafOrder::Stages {
         if (objects == 1)
             return;
         if (order.medians != Medians::nowhere)
-            throw BadUsage("order " + std::string(order.name) +
-                           " lines up one object, not " + std::to_string(objects) +
-                           "; orders without medians take any number");
-        const uint most = 32 * code_words(order.code_bits);
+            throw BadUsage("order " + std::string(order.name) + " lines up one object, not " +
+                           std::to_string(objects) + "; orders without medians take any number");
         const uint object_bits = ceil_log2(static_cast<uint>(objects));
-        const uint kept = std::min(order.code_bits, most - object_bits);
-        several.emplace(Several{ObjectBounds(programs, form),
-                                RadixSort(programs, kept + object_bits, sort_shape(programs.device(), form)),
-                                order.code_bits - kept, kept,
-                                ObjectRuns(programs.device(), form)});
+        const uint kept = kept_code_bits(order.code_bits, objects);
+        several.emplace(
+            Several{ObjectBounds(programs, form),
+                    RadixSort(programs, kept + object_bits, sort_shape(programs.device(), form)),
+                    order.code_bits - kept, kept, ObjectRuns(programs.device(), form)});
     }
 
     /// What follows the boxes, of all objects.
@@ -89,11 +88,17 @@ struct LeafOrder::Stages {
     /// The same of those that are updated.
     void line_up_some(Queue& queue);
 
+    /// Of several objects: what their boxes' codes are measured against.
+    const Buffer<Bounds>& grid_bounds() const
+    {
+        return grid == GridOver::scene ? several->bounds.bounds_of_all() : several->bounds.bounds();
+    }
+
     RadixSort& sorting() { return several ? several->sort : *sort; }
 };
 
-LeafOrder::LeafOrder(Programs& programs, std::string_view order, KernelForm form)
-    : stages_(std::make_unique<Stages>(programs, find_order(order), form))
+LeafOrder::LeafOrder(Programs& programs, std::string_view order, KernelForm form, GridOver grid)
+    : stages_(std::make_unique<Stages>(programs, find_order(order), form, grid))
 {}
 
 LeafOrder::~LeafOrder() = default;
@@ -106,7 +111,7 @@ void LeafOrder::plan(Arena& arena, std::span<const uint> sizes, Use boxes, bool 
     stages.sizes.assign(sizes.begin(), sizes.end());
     stages.reads_codes = reads_codes;
     if (stages.several)
-        stages.several->bounds.plan(arena, sizes, boxes);
+        stages.several->bounds.plan(arena, sizes, boxes, stages.grid == GridOver::scene);
     else
         stages.bounds.plan(arena, primitives, boxes);
     if (stages.sort) {
@@ -142,15 +147,15 @@ void LeafOrder::enqueue(const Input& input, Queue& queue)
 void LeafOrder::Stages::line_up_all(const Input& input, Queue& queue, bool tries)
 {
     if (several)
-        codes->enqueue(several->bounds.boxes(), several->bounds.bounds(), input.device_owners,
+        codes->enqueue(several->bounds.boxes(), grid_bounds(), input.device_owners,
                        several->sort.unsorted_codes(), several->dropped, several->object_shift,
                        queue);
     else if (codes)
         codes->enqueue(bounds.boxes(), bounds.bounds(), sort->unsorted_codes(), queue);
     if (sort) {
         RadixSort& all = sorting();
-        all.enqueue(queue, tries ? standing->enqueue_try(all.unsorted_codes(), queue)
-                                 : SortUnlessIdle{});
+        all.enqueue(queue,
+                    tries ? standing->enqueue_try(all.unsorted_codes(), queue) : SortUnlessIdle{});
         if (tries && reads_codes)
             standing->enqueue_codes(all.unsorted_codes(), all.codes(), all.other_codes(), queue);
     }
@@ -168,8 +173,8 @@ void LeafOrder::Stages::line_up_some(Queue& queue)
 {
     const ObjectRuns& runs = several->updated;
     const Buffer<uint>& unsorted = several->sort.unsorted_codes();
-    codes->enqueue(several->bounds.boxes(), several->bounds.bounds(), runs, unsorted,
-                   several->dropped, several->object_shift, queue);
+    codes->enqueue(several->bounds.boxes(), grid_bounds(), runs, unsorted, several->dropped,
+                   several->object_shift, queue);
     const SortUnlessIdle unless =
         tries_order ? standing->enqueue_try(unsorted, queue) : SortUnlessIdle{};
     several->sort.enqueue_aside(queue, runs.lined_up_triangles(), unless);

@@ -29,7 +29,8 @@ namespace bvhbench {
 class LeafOrder {
 public:
     /// Throws BadUsage if no order is called `order`.
-    LeafOrder(Programs& programs, std::string_view order, KernelForm form = KernelForm::of_device);
+    LeafOrder(Programs& programs, std::string_view order, KernelForm form = KernelForm::of_device,
+              GridOver grid = GridOver::object);
     ~LeafOrder();
 
     /// Take every buffer the stages need for objects of so many triangles each. The sorted ids are tree memory;

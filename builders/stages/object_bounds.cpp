@@ -26,12 +26,25 @@ ObjectBounds::ObjectBounds(Programs& programs, KernelForm form, uint group_size)
           {{"GROUP_SIZE", group_size}, {"ROUNDS", ObjectRuns::rounds}, {"SWEPT", 0}}))
 {}
 
-void ObjectBounds::plan(Arena& arena, std::span<const uint> sizes, Use boxes)
+void ObjectBounds::plan(Arena& arena, std::span<const uint> sizes, Use boxes, bool of_all)
 {
     boxes_ = arena.take<Aabb>(std::accumulate(sizes.begin(), sizes.end(), std::size_t{0}), boxes);
     all_.plan(arena, sizes);
     partials_ = arena.take<Bounds>(all_.runs().size(), Use::scratch);
     bounds_ = arena.take<Bounds>(sizes.size(), Use::scratch);
+    bounds_of_all_ = arena.take<Bounds>(of_all ? 1 : 0, Use::scratch);
+    all_objects_ = arena.take<uint>(of_all ? 2 : 0, Use::scratch);
+    one_ = arena.take<uint>(of_all ? 1 : 0, Use::scratch);
+}
+
+void ObjectBounds::prepare(const cl::CommandQueue& queue)
+{
+    all_.choose_all(queue);
+    if (bounds_of_all_.size() == 0)
+        return;
+    const uint ends[] = {0, static_cast<uint>(bounds_.size())}, place = 0;
+    all_objects_.upload(queue, ends);
+    one_.upload(queue, {&place, 1});
 }
 
 void ObjectBounds::enqueue_chosen(const Input& input, const ObjectRuns& chosen, Queue& queue)
@@ -53,6 +66,11 @@ void ObjectBounds::enqueue_chosen(const Input& input, const ObjectRuns& chosen, 
     queue.launch(join_kernel_, chosen.lined_up_objects() * chosen.group(), chosen.group(),
                  static_cast<std::int64_t>((chosen.lined_up_count() + chosen.lined_up_objects()) *
                                            sizeof(Bounds)));
+    if (bounds_of_all_.size() == 0)
+        return;
+    set_arguments(join_kernel_, bounds_, bounds_of_all_, all_objects_, one_);
+    queue.launch(join_kernel_, chosen.group(), chosen.group(),
+                 static_cast<std::int64_t>(bounds_.bytes() + bounds_of_all_.bytes()));
 }
 
 }  // namespace bvhbench

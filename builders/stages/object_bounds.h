@@ -20,11 +20,12 @@ public:
     explicit ObjectBounds(Programs& programs, KernelForm form = KernelForm::of_device,
                           uint group_size = 256);
 
-    /// Take the buffers for objects of so many triangles each, none of them empty.
-    void plan(Arena& arena, std::span<const uint> sizes, Use boxes);
+    /// Take the buffers for objects of so many triangles each, none of them empty. With `of_all`, the bounds of all
+    /// objects together are made as well.
+    void plan(Arena& arena, std::span<const uint> sizes, Use boxes, bool of_all = false);
 
     /// Write down which triangles are whose. Waits.
-    void prepare(const cl::CommandQueue& queue) { all_.choose_all(queue); }
+    void prepare(const cl::CommandQueue& queue);
 
     /// Enqueue for an input of objects as planned, as a stage called so. Does not wait.
     void enqueue(const Input& input, Queue& queue, std::string_view stage = "bounds")
@@ -42,6 +43,8 @@ public:
 
     const Buffer<Aabb>& boxes() const { return boxes_; }      ///< one a triangle, in mesh order
     const Buffer<Bounds>& bounds() const { return bounds_; }  ///< one an object
+    /// Of all objects, each as it was when it was lined up last; empty unless planned.
+    const Buffer<Bounds>& bounds_of_all() const { return bounds_of_all_; }
 
 private:
     void enqueue_chosen(const Input& input, const ObjectRuns& chosen, Queue& queue);
@@ -52,6 +55,9 @@ private:
     Buffer<Aabb> boxes_;
     Buffer<Bounds> partials_;  ///< one a run
     Buffer<Bounds> bounds_;
+    Buffer<Bounds> bounds_of_all_;
+    Buffer<uint> all_objects_;  ///< from 0 to their number, as a run of `bounds_`
+    Buffer<uint> one_;          ///< the one place in `bounds_of_all_`
 };
 
 }  // namespace bvhbench

@@ -67,7 +67,8 @@ void measure_input(const AxisRun& run)
                 Rounded& floats = all.emplace_back();
                 const std::string failure = reason_of_failure([&] {
                     Session& session = run.session;
-                    floats.points = rounded(wide, method == methods[1]);
+                    floats.points =
+                        rounded(wide, method == methods[1] ? Doubles::recentred : Doubles::as_is);
                     floats.input =
                         upload(session.device(), session.queue(), floats.points, input.faces);
                     floats.pipeline = settled_pipeline(session, one.cell, floats.input);

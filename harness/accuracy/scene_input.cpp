@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "harness/accuracy/scene_input.h"
 
+#include "builders/device_tree.h"
 #include "harness/accuracy/differences.h"
 #include "harness/check.h"
 #include "harness/interrupt.h"
+#include "harness/metrics.h"
 
 namespace bvhbench {
 
 void for_each_scene(const AxisRun& run, std::string_view axis,
                     std::initializer_list<const char*> own,
-                    const std::function<void(const SceneFacts& facts, const Input& input)>& measure)
+                    const std::function<void(const SceneFacts& facts, const Input& input)>& measure,
+                    bool by_objects)
 {
     std::vector<std::string> scenes = run.task.scenes;
     if (scenes.empty())
@@ -19,7 +22,7 @@ void for_each_scene(const AxisRun& run, std::string_view axis,
         run.progress.note("accuracy, " + std::string(axis) + ": " + scene);
         Frames frames;
         frames.load(Experiment{}, scene, run.session.scenes());
-        frames.upload(run.session);
+        frames.upload(run.session, by_objects);
         measure(frames.facts(), frames.now());
     }
 }
@@ -32,6 +35,25 @@ HostTree built_tree(Session& session, const BuilderChoice& choice, const Input& 
     const Tree* tree = nullptr;
     session.build_once(builder, input, Start::from_triangles, &tree);
     return tree->spelled_out();
+}
+
+std::optional<double> forest_cost(Session& session, const BuilderChoice& choice, const Input& input)
+{
+    Builder& builder = session.builder(choice);
+    builder.reserve_objects(object_sizes(input));
+    const Tree* built = nullptr;
+    session.build_once(builder, input, Start::from_triangles, &built);
+    const auto& forest = dynamic_cast<const DeviceTree&>(*built);
+    double cost = 0, area = 0;
+    for (uint object = 0; object < forest.objects.size(); ++object) {
+        const HostTree tree = forest.spelled_out_object(object);
+        const double root = surface_area(tree.nodes.front().box);
+        if (const auto sums = area_sums(tree)) {
+            cost += root * sums->cost();
+            area += root;
+        }
+    }
+    return area > 0 ? std::optional(cost / area) : std::nullopt;
 }
 
 std::unique_ptr<Pipeline> settled_pipeline(Session& session, Cell& cell, const Input& input)

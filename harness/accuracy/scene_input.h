@@ -4,6 +4,7 @@
 #include <functional>
 #include <initializer_list>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "harness/accuracy/axis.h"
@@ -12,14 +13,20 @@
 
 namespace bvhbench {
 
-/// Call `measure` for each scene asked for, or for those of the axis, with its first frame on the device. Throws what
-/// loading a scene does.
-void for_each_scene(
-    const AxisRun& run, std::string_view axis, std::initializer_list<const char*> own,
-    const std::function<void(const SceneFacts& facts, const Input& input)>& measure);
+/// Call `measure` for each scene asked for, or for those of the axis, with its first frame on the device: as one object,
+/// or, `by_objects`, as those that the scene names. Throws what loading a scene does.
+void for_each_scene(const AxisRun& run, std::string_view axis,
+                    std::initializer_list<const char*> own,
+                    const std::function<void(const SceneFacts& facts, const Input& input)>& measure,
+                    bool by_objects = false);
 
 /// The first frame as one object's tree by a builder, spelled out.
 HostTree built_tree(Session& session, const BuilderChoice& builder, const Input& input);
+
+/// The surface area cost of trees over an input, one an object: the sum of their nodes' costs, of the sum of their roots'
+/// areas. Nothing if no root has any.
+std::optional<double> forest_cost(Session& session, const BuilderChoice& builder,
+                                  const Input& input);
 
 /// The pipeline of a cell's builder and collider, ready to be sampled over `input`. Its counters are then the cell's.
 std::unique_ptr<Pipeline> settled_pipeline(Session& session, Cell& cell, const Input& input);

@@ -59,20 +59,14 @@ std::vector<WidePoint> turned_and_moved(std::span<const Point> points, double si
     return turned;
 }
 
-std::vector<Point> rounded(std::span<const WidePoint> points, bool recentred)
+std::vector<Point> rounded(const std::vector<WidePoint>& points, Doubles how)
 {
-    WidePoint middle = {0, 0, 0};
-    if (recentred && !points.empty()) {
-        const WideBox box = box_of(points);
-        middle = {0.5 * (box.min.x + box.max.x), 0.5 * (box.min.y + box.max.y),
-                  0.5 * (box.min.z + box.max.z)};
-    }
-    std::vector<Point> floats;
-    floats.reserve(points.size());
+    std::vector<std::vector<Point>> frames(1);
     for (const WidePoint p : points)
-        floats.push_back({static_cast<float>(p.x - middle.x), static_cast<float>(p.y - middle.y),
-                          static_cast<float>(p.z - middle.z)});
-    return floats;
+        frames[0].push_back(
+            {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+    round_frames({&points, 1}, how, frames);
+    return std::move(frames[0]);
 }
 
 PairList overlapping_pairs_in_doubles(std::span<const WidePoint> points,

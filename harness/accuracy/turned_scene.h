@@ -9,18 +9,15 @@
 
 #include "collide/pairs.h"
 #include "geometry/mesh.h"
+#include "scenes/doubles.h"
 
 namespace bvhbench {
-
-struct WidePoint {
-    double x, y, z;
-};
 
 /// `points`, turned and then moved along all axes by `sizes` times the longest side of their box.
 std::vector<WidePoint> turned_and_moved(std::span<const Point> points, double sizes);
 
-/// Rounded to floats, to nearest. `recentred`: after the middle of their box, in doubles, was taken off.
-std::vector<Point> rounded(std::span<const WidePoint> points, bool recentred);
+/// Rounded to floats, as a file of them is.
+std::vector<Point> rounded(const std::vector<WidePoint>& points, Doubles how);
 
 /// The pairs of triangles whose boxes of doubles overlap: the reference. A sweep on one core.
 PairList overlapping_pairs_in_doubles(std::span<const WidePoint> points,

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scenes/formats/file_point.h"
 #include "scenes/scene.h"
 
 namespace bvhbench {
@@ -21,6 +22,19 @@ namespace bvhbench {
 struct FileMesh {
     Mesh mesh;
     std::vector<SceneObject> objects;
+    /// The same vertices as the file has them; empty of a file whose numbers are floats, which must say so first.
+    std::vector<WidePoint> wide = {};
+    bool has_doubles = true;
+    /// Whether the floats of `mesh` are all that the file says: a double is one, or a text has no digits that differ.
+    bool floats_hold = true;
+
+    void add(const FilePoint& point)
+    {
+        mesh.points.push_back(point.rounded);
+        if (has_doubles)
+            wide.push_back(point.wide);
+        floats_hold = floats_hold && point.floats_hold;
+    }
 };
 
 /// Wavefront OBJ: v and f lines, relative indices, continued lines; "o" begins an object.

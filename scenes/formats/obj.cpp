@@ -51,7 +51,7 @@ private:
         const auto point = parse_point(words);
         if (!point)
             refuse("a vertex takes three numbers, and there is " + in_quotes(text));
-        file_.mesh.points.push_back(*point);
+        file_.add(*point);
     }
 
     void face(Words words)

@@ -17,14 +17,14 @@ public:
         header();
         const std::size_t vertices = count("vertices");
         const std::size_t faces = count("faces");
-        mesh_.points.reserve(vertices);
+        file_.mesh.points.reserve(vertices);
         for (std::size_t k = 0; k < vertices; ++k)
             vertex(k, vertices);
         for (std::size_t k = 0; k < faces; ++k)
             face(k, faces);
         if (next_line())
             refuse("there is more than the header says: " + in_quotes(words_.rest()));
-        return {std::move(mesh_), {}};
+        return std::move(file_);
     }
 
 private:
@@ -81,7 +81,7 @@ private:
         const auto point = parse_point(words_);
         if (!point)
             refuse("a vertex takes three numbers, and there is " + in_quotes(text));
-        mesh_.points.push_back(*point);
+        file_.add(*point);
     }
 
     void face(std::size_t k, std::size_t faces)
@@ -97,19 +97,19 @@ private:
             const auto index = parse_integer(words_.next());
             if (!index)
                 refuse("a face of " + std::to_string(*size) + " corners is " + in_quotes(text));
-            if (*index < 0 || static_cast<std::uint64_t>(*index) >= mesh_.points.size())
+            if (*index < 0 || static_cast<std::uint64_t>(*index) >= file_.mesh.points.size())
                 refuse("a face names vertex " + std::to_string(*index) + " of " +
-                       std::to_string(mesh_.points.size()));
+                       std::to_string(file_.mesh.points.size()));
             corners_.push_back(static_cast<uint>(*index));
         }
-        add_fan(mesh_.faces, corners_);
+        add_fan(file_.mesh.faces, corners_);
     }
 
     Lines lines_;
     Words words_;
     std::size_t size_;
     const std::string& name_;
-    Mesh mesh_;
+    FileMesh file_;
     std::vector<uint> corners_;
 };
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <limits>
 #include <optional>
 
 #include "geometry/error.h"
@@ -80,33 +79,27 @@ private:
 
     void vertices(const PlyElement& element)
     {
+        file_.has_doubles =
+            std::ranges::any_of(element.properties, [](const PlyProperty& property) {
+                return property.name.size() == 1 && property.type != PlyType::float32;
+            });
         file_.mesh.points.reserve(element.count);
         for (std::uint64_t k = 0; k < element.count; ++k) {
             values_.at(k);
-            Point point{};
+            FileNumber x, y, z;
             for (const PlyProperty& property : element.properties)
                 if (property.is_list || property.name.size() != 1)
                     values_.skip(property);
                 else if (property.name == "x")
-                    point.x = coordinate(property.type);
+                    x = values_.number(property.type);
                 else if (property.name == "y")
-                    point.y = coordinate(property.type);
+                    y = values_.number(property.type);
                 else if (property.name == "z")
-                    point.z = coordinate(property.type);
+                    z = values_.number(property.type);
                 else
                     values_.skip(property);
-            file_.mesh.points.push_back(point);
+            file_.add({x, y, z});
         }
-    }
-
-    /// Beyond float32 is infinity, which is refused later with its vertex.
-    float coordinate(PlyType type)
-    {
-        const double value = values_.number(type);
-        constexpr double largest = std::numeric_limits<float>::max();
-        if (value > largest || value < -largest)
-            return std::numeric_limits<float>::infinity();
-        return static_cast<float>(value);
     }
 
     void faces(const PlyElement& element)

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "geometry/error.h"
 #include "scenes/formats/text.h"
@@ -103,18 +105,23 @@ double PlyValues::binary(PlyType type)
     return value_of(type, ordered);
 }
 
-double PlyValues::number(PlyType type)
+FileNumber PlyValues::number(PlyType type)
 {
-    if (is_integer(type))
-        return static_cast<double>(integer(type));
-    if (format_ == PlyFormat::ascii) {
+    if (format_ == PlyFormat::ascii && !is_integer(type)) {
         const std::string_view text = word();
-        const auto value = parse_float(text);
+        const auto value = parse_number(text);
         if (!value)
             refuse("not a number: " + in_quotes(text));
+        if (type == PlyType::float32)
+            return {value->rounded, value->rounded, true};
         return *value;
     }
-    return binary(type);
+    const double value = is_integer(type) ? static_cast<double>(integer(type)) : binary(type);
+    constexpr double largest = std::numeric_limits<float>::max();
+    if (value > largest || value < -largest)
+        return {value, std::numeric_limits<float>::infinity(), false};
+    const auto rounded = static_cast<float>(value);
+    return {value, rounded, double{rounded} == value || std::isnan(value)};
 }
 
 std::int64_t PlyValues::integer(PlyType type)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "scenes/formats/file_point.h"
 #include "scenes/formats/ply_header.h"
 
 namespace bvhbench {
@@ -17,9 +18,9 @@ public:
     void begin(const PlyElement& element);
     void at(std::uint64_t index) { index_ = index; }
 
-    /// A double holds each of the eight types exactly. Text is rounded to float first where the type is a
-    /// floating-point one: once, to what is kept.
-    double number(PlyType type);
+    /// A double holds each of the eight types exactly. Beyond the floats, the nearest float is infinity, which is refused
+    /// later with its vertex. Of a text whose type is a float, floats hold it, however many digits it has.
+    FileNumber number(PlyType type);
     std::int64_t integer(PlyType type);
     void skip(const PlyProperty& property);
     /// After the last element. Throws if more than white space is left.

@@ -15,13 +15,6 @@ static_assert(std::endian::native == std::endian::little, "binary STL is little-
 constexpr std::size_t binary_header = 84;
 constexpr std::size_t binary_facet = 50;
 
-void add_triangle(Mesh& mesh, const Point (&corners)[3])
-{
-    const auto first = static_cast<uint>(mesh.points.size());
-    mesh.points.insert(mesh.points.end(), std::begin(corners), std::end(corners));
-    mesh.faces.push_back({first, first + 1, first + 2});
-}
-
 std::uint32_t facet_count(std::string_view bytes)
 {
     std::uint32_t count = 0;
@@ -38,7 +31,9 @@ FileMesh read_binary(std::string_view bytes)
     for (std::size_t k = 0; k < facets; ++k) {
         Point corners[3];
         std::memcpy(corners, bytes.data() + binary_header + k * binary_facet + 12, sizeof corners);
-        add_triangle(file.mesh, corners);
+        const auto first = static_cast<uint>(file.mesh.points.size());
+        file.mesh.points.insert(file.mesh.points.end(), std::begin(corners), std::end(corners));
+        file.mesh.faces.push_back({first, first + 1, first + 2});
     }
     return file;
 }
@@ -72,7 +67,7 @@ private:
         else if (word == "endsolid" || word == "ENDSOLID")
             close_solid();
         else if (word == "facet" || word == "FACET")
-            corner_count_ = 0;
+            corners_.clear();
         else if (word == "vertex" || word == "VERTEX")
             corner(words);
         else if (word == "endfacet" || word == "ENDFACET")
@@ -103,25 +98,28 @@ private:
     {
         const std::string_view text = words.rest();
         const auto point = parse_point(words);
-        if (!point || corner_count_ == 3 || !in_solid_)
+        if (!point || corners_.size() == 3 || !in_solid_)
             refuse("a facet takes three vertices of three numbers, and there is " +
                    in_quotes(text));
-        corners_[corner_count_++] = *point;
+        corners_.push_back(*point);
     }
 
     void close_facet()
     {
-        if (corner_count_ != 3)
-            refuse("a facet takes three vertices, and there are " + std::to_string(corner_count_));
-        corner_count_ = 0;
-        add_triangle(file_.mesh, corners_);
+        if (corners_.size() != 3)
+            refuse("a facet takes three vertices, and there are " +
+                   std::to_string(corners_.size()));
+        const auto first = static_cast<uint>(file_.mesh.points.size());
+        for (const FilePoint& corner : corners_)
+            file_.add(corner);
+        file_.mesh.faces.push_back({first, first + 1, first + 2});
+        corners_.clear();
     }
 
     Lines lines_;
     const std::string& name_;
     FileMesh file_;
-    Point corners_[3] = {};
-    std::size_t corner_count_ = 0;
+    std::vector<FilePoint> corners_;
     std::string solid_;
     uint first_face_ = 0;
     bool in_solid_ = false;

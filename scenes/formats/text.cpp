@@ -3,12 +3,24 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <limits>
 
 namespace bvhbench {
 namespace {
 
 bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+
+/// What the last digit of a decimal number counts: 0.01 of "-1.25", 10 of "125e1".
+double last_unit(std::string_view word)
+{
+    const std::size_t e = std::min(word.find_first_of("eE"), word.size());
+    const std::size_t point = std::min(word.find('.'), e);
+    const auto decimals = static_cast<std::int64_t>(e - std::min(point + 1, e));
+    const std::int64_t exponent =
+        e < word.size() ? parse_integer(word.substr(e + 1)).value_or(0) : 0;
+    return std::pow(10.0, static_cast<double>(exponent - decimals));
+}
 
 std::string_view without_plus(std::string_view word)
 {
@@ -61,6 +73,23 @@ std::optional<float> parse_float(std::string_view word)
     return small ? 0.0f : std::numeric_limits<float>::infinity();
 }
 
+std::optional<FileNumber> parse_number(std::string_view word)
+{
+    const std::optional<float> rounded = parse_float(word);
+    if (!rounded)
+        return std::nullopt;
+    word = without_plus(word);
+    FileNumber number{*rounded, *rounded, true};
+    double wide = 0;
+    if (std::from_chars(word.data(), word.data() + word.size(), wide).ec != std::errc{})
+        return number;  // beyond doubles too
+    number.wide = wide;
+    // `wide` is itself rounded: where a tie was printed, the difference may come out larger than half by that.
+    const double allowed = 0.5 * last_unit(word) + 0x1p-53 * std::fabs(wide);
+    number.floats_hold = !(std::fabs(wide - double{*rounded}) > allowed);
+    return number;
+}
+
 std::optional<std::int64_t> parse_integer(std::string_view word)
 {
     word = without_plus(word);
@@ -72,14 +101,14 @@ std::optional<std::int64_t> parse_integer(std::string_view word)
     return value;
 }
 
-std::optional<Point> parse_point(Words& words)
+std::optional<FilePoint> parse_point(Words& words)
 {
-    const auto x = parse_float(words.next());
-    const auto y = parse_float(words.next());
-    const auto z = parse_float(words.next());
+    const auto x = parse_number(words.next());
+    const auto y = parse_number(words.next());
+    const auto z = parse_number(words.next());
     if (!x || !y || !z)
         return std::nullopt;
-    return Point{*x, *y, *z};
+    return FilePoint{*x, *y, *z};
 }
 
 std::string in_quotes(std::string_view word)

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geometry/mesh.h"
+#include "scenes/formats/file_point.h"
 
 namespace bvhbench {
 
@@ -43,11 +44,15 @@ private:
 /// not-a-number parse, too large numbers are infinity, too small ones zero. Nothing if it is no number.
 std::optional<float> parse_float(std::string_view word);
 
+/// The same as a double too. A float is taken to hold it if the two differ by no more than half a unit of the last digit
+/// that is written: whatever was printed from floats, with however many digits, floats then hold.
+std::optional<FileNumber> parse_number(std::string_view word);
+
 /// The whole of `word` as a decimal integer; nothing if it is none or does not fit.
 std::optional<std::int64_t> parse_integer(std::string_view word);
 
 /// Three coordinates from `words`; nothing if there are fewer or one is no number.
-std::optional<Point> parse_point(Words& words);
+std::optional<FilePoint> parse_point(Words& words);
 
 /// `word` in quotes for a message: shortened, with unprintable bytes as '?'.
 std::string in_quotes(std::string_view word);

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
 
+#include "builders/stages/bounds.h"
 #include "geometry/error.h"
 #include "tests/builders/stage_testing.h"
 
@@ -99,6 +101,56 @@ INSTANTIATE_TEST_SUITE_P(
             name, [](char c) { return c == '-' || c == '+'; }, '_');
         return name;
     });
+
+/// Each object's leaves on a grid of its own, or all on the scene's; with many objects the lowest bits are dropped.
+TEST(LeafOrder, OfSeveralObjectsMeasuresCodesAgainstTheGridAskedFor)
+{
+    const auto size = [](uint object) { return 1 + object * 7 % 40; };
+    for (const uint object_count : {3u, 70'000u}) {
+        const bool drops_bits = object_count > 1u << 16;
+        std::vector<FaceRange> objects;
+        std::vector<uint> sizes, owners;
+        for (uint k = 0; k < object_count; ++k) {
+            sizes.push_back(drops_bits ? 1 + k % 2 : size(k));
+            objects.push_back({static_cast<uint>(owners.size()), sizes.back()});
+            owners.insert(owners.end(), sizes.back(), k);
+        }
+        const Mesh mesh = random_mesh(owners.size(), [](Point p) { return p; });
+        std::vector<Aabb> boxes;
+        for (const Face& face : mesh.faces)
+            boxes.push_back(face_box(mesh.points, face));
+        const Bounds whole = host_bounds(boxes);
+        const Input input = upload(bench().device, bench().queue, mesh.points, mesh.faces, objects);
+        const OrderEntry& entry = find_order("hilbert48");
+        const uint dropped = drops_bits ? 1 : 0;  // 17 bits of object, 47 of 48
+        for (const GridOver grid : {GridOver::object, GridOver::scene})
+            for (const KernelForm form : {KernelForm::groups, KernelForm::chunks}) {
+                if (drops_bits && form == KernelForm::groups)
+                    continue;  // seconds on a processor, and arguments are the same
+                SCOPED_TRACE(form_name(form));
+                LeafOrder order(bench().programs, entry.name, form, grid);
+                reserve([&](Arena& arena) { order.plan(arena, sizes, Use::tree, true); });
+                order.prepare(bench().queue.cl());
+                order.enqueue(input, bench().queue);
+                bench().queue.finish();
+                std::vector<ulong> codes;
+                for (uint k = 0; k < owners.size(); ++k) {
+                    const FaceRange own = objects[owners[k]];
+                    const Bounds bounds =
+                        grid == GridOver::scene
+                            ? whole
+                            : host_bounds(std::span(boxes).subspan(own.first, own.count));
+                    codes.push_back(ulong{owners[k]} << (48 - dropped) |
+                                    entry.code(boxes[k], bounds) >> dropped);
+                }
+                std::vector<uint> ids(codes.size());
+                std::iota(ids.begin(), ids.end(), 0u);
+                std::stable_sort(ids.begin(), ids.end(),
+                                 [&](uint a, uint b) { return codes[a] < codes[b]; });
+                EXPECT_EQ(order.ids().download(bench().queue.cl()), ids);
+            }
+    }
+}
 
 TEST(LeafOrder, NamesTheOrdersThereAreWhenAskedForAnother)
 {

@@ -35,6 +35,7 @@ TEST(Morton, CutsTheLongestSideIntoCellsAndGivesTheOthersTheSame)
     EXPECT_EQ(code(point_box(3, 1.5f, 0), bounds), 0b100110u);
     EXPECT_EQ(code(point_box(1024, 512, 0), bounds), code(point_box(1023, 512, 0), bounds));
     EXPECT_EQ(code(point_box(512, 0, 0), bounds), ulong{1} << 29);
+    EXPECT_EQ(find_order("morton48").code(point_box(512, 0, 0), bounds), ulong{1} << 47);
     EXPECT_EQ(find_order("morton63").code(point_box(512, 0, 0), bounds), ulong{1} << 62);
 }
 
@@ -49,6 +50,22 @@ TEST(Orders, TellApartAtBothEndsOfTheFloats)
                       order.code(point_box(0, 0, 0), bounds));
             EXPECT_LT(order.code(point_box(0, 0, 0), bounds),
                       order.code(point_box(side, 0, 0), bounds));
+        }
+}
+
+/// Cells of more bits lie within those of fewer, the last one too, which what lies on the upper end belongs to.
+TEST(Orders, OfMoreBitsGoOnWhereThoseOfFewerEnd)
+{
+    const Bounds bounds = {{-1, -2, -3, 9, 8, 7}, {0, 0, 0, 8, 7, 6}};
+    for (const std::string suffix : {"", "-axis"})
+        for (const Aabb box : {point_box(0, 0, 0), point_box(3.3f, 6.1f, 0.7f),
+                               point_box(7.99f, 0.01f, 5.5f), point_box(8, 7, 6)}) {
+            const auto code = [&](const char* name) {
+                return find_order(name + suffix).code(box, bounds);
+            };
+            EXPECT_EQ(code("morton48") >> 18, code("morton30"));
+            EXPECT_EQ(code("morton63") >> 15, code("morton48"));
+            EXPECT_LT(code("hilbert48"), ulong{1} << 48);
         }
 }
 

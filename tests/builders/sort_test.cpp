@@ -247,7 +247,8 @@ TEST_P(RadixSortOfFewSizes, LeavesAllAloneWhereItIsIdleAndSortsNextTime)
         sort_->enqueue(bench().queue, {last_unsorted, build});
         bench().queue.finish();
         EXPECT_TRUE(same_bits(ids.download(bench().queue.cl()), before));
-        EXPECT_TRUE(same_bits(unsorted.download(bench().queue.cl()), words_of(codes, GetParam().bits)));
+        EXPECT_TRUE(
+            same_bits(unsorted.download(bench().queue.cl()), words_of(codes, GetParam().bits)));
         if (build % 2 == 0)
             expect_equal_to_host(codes);
     }
@@ -255,15 +256,28 @@ TEST_P(RadixSortOfFewSizes, LeavesAllAloneWhereItIsIdleAndSortsNextTime)
 }
 
 // Small enough for an interpreter that checks every access.
-INSTANTIATE_TEST_SUITE_P(Few, RadixSortOfFewSizes,
-                         testing::Values(Case{"groups", 30, three_launches(16, 3)},
-                                         Case{"groups", 63, three_launches(32, 15)},
-                                         Case{"sweeps", 30, sweeping(3)},
-                                         Case{"sweeps", 63, sweeping(4)},
-                                         Case{"at_once", 30, at_once(64)},
-                                         Case{"at_once", 63, at_once(128)},
-                                         Case{"chunks", 30, {KernelForm::chunks}}),
-                         case_name);
+INSTANTIATE_TEST_SUITE_P(
+    Few, RadixSortOfFewSizes,
+    testing::Values(Case{"groups", 30, three_launches(16, 3)},
+                    Case{"groups", 63, three_launches(32, 15)}, Case{"sweeps", 30, sweeping(3)},
+                    Case{"sweeps", 48, sweeping(4)}, Case{"sweeps", 63, sweeping(4)},
+                    Case{"at_once", 30, at_once(64)}, Case{"at_once", 63, at_once(128)},
+                    Case{"chunks", 30, {KernelForm::chunks}}),
+    case_name);
+
+/// A pass of three launches takes a byte.
+TEST(RadixSort, TakesNoMorePassesThanACodeHasBytes)
+{
+    for (const unsigned bits : {30, 47, 48, 49, 63}) {
+        RadixSort sort(bench().programs, bits, three_launches(16, 3));
+        reserve([&](Arena& arena) { sort.plan(arena, 100); });
+        sort.prepare(bench().queue.cl());
+        sort.enqueue(bench().queue);
+        const std::vector<StageTime> stages = bench().queue.finish();
+        ASSERT_EQ(stages.size(), 1u);
+        EXPECT_EQ(stages[0].launches, 3 * ((bits + 7) / 8)) << bits;
+    }
+}
 
 TEST(RadixSort, KeepsOnlyTheSortedIdsAsPartOfTheTree)
 {

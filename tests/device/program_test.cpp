@@ -3,32 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
-
 #include "device/queue.h"
 #include "geometry/error.h"
+#include "tests/device/kernel_folder.h"
 
 namespace bvhbench {
 namespace {
-
-/// A folder of kernel files, removed at the end.
-class KernelFolder {
-public:
-    KernelFolder()
-        : path_(std::filesystem::path(testing::TempDir()) /
-                testing::UnitTest::GetInstance()->current_test_info()->name())
-    {
-        std::filesystem::create_directories(path_);
-    }
-    ~KernelFolder() { std::filesystem::remove_all(path_); }
-
-    void write(const char* name, const char* text) { std::ofstream(path_ / name) << text; }
-    Sources sources() const { return Sources::tree(path_); }
-
-private:
-    std::filesystem::path path_;
-};
 
 TEST(Sources, IncludeEachFileOnceAndKeepItsLines)
 {

@@ -67,6 +67,11 @@ TEST(Hilbert, VisitsEveryOctantBeforeItLeavesIt)
             hilbert_63({corner.x + octant / 4, corner.y + octant / 2 % 2, corner.z + octant % 2}) /
                 8,
             first);
+    const Cell small = {0x1234, 0xfcba, 0x0f0e};
+    for (uint octant = 0; octant < 8; ++octant)
+        EXPECT_EQ(
+            hilbert_48({small.x + octant / 4, small.y + octant / 2 % 2, small.z + octant % 2}) / 8,
+            hilbert_48(small) / 8);
 }
 
 }  // namespace

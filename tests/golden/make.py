@@ -154,7 +154,7 @@ def write_accuracy() -> None:
             counters = {"nodes_count": 200006, "sah_cost": 150.5, "relative_error": error}
             cells.append(accuracy_cell("sums", name, method, counters,
                                        [{"stage": "sum", "wall_ns": int(200006 * ns)}]))
-    for method in (f"{curve}{bits}{axis}" for axis in ("", "-axis") for curve in ("morton", "hilbert") for bits in (30, 63)):
+    for method in (f"{curve}{bits}{axis}" for axis in ("", "-axis") for curve in ("morton", "hilbert") for bits in (30, 48, 63)):
         cost = noise.uniform(100, 150)
         counters = {"sah_cost": cost, "box_tests_count": int(40000 * cost), "duplicates_count": 500, "longest_run_count": 2,
                     "pairs_count": 600000, "missed_count": 0, "false_count": 0}

@@ -89,12 +89,23 @@ TEST(Accuracy, CodesAreCountedAsEqualAsTheyAre)
         points.insert(points.end(), {{x, 0, 0}, {x, 0, 0}, {x, 0, 0}});
         faces.push_back({first, first + 1, first + 2});
     }
-    const CodeCounts few = code_counts(find_order("morton30"), points, faces);
+    const FaceRange all[] = {{0, 6}}, three[] = {{0, 3}, {3, 2}, {5, 1}};
+    const CodeCounts few = code_counts(find_order("morton30"), points, faces, all);
     EXPECT_EQ(few.duplicates, 4u);
     EXPECT_EQ(few.longest_run, 5u);
-    const CodeCounts many = code_counts(find_order("morton63"), points, faces);
-    EXPECT_EQ(many.duplicates, 3u);
-    EXPECT_EQ(many.longest_run, 3u);
+    for (const char* order : {"morton48", "morton63"}) {
+        const CodeCounts many = code_counts(find_order(order), points, faces, all);
+        EXPECT_EQ(many.duplicates, 3u);
+        EXPECT_EQ(many.longest_run, 3u);
+    }
+    // Of three objects, those that are near each other in one of them are told apart by its own grid only.
+    const auto split = [&](GridOver grid) {
+        return code_counts(find_order("morton30"), points, faces, three, grid);
+    };
+    EXPECT_EQ(split(GridOver::object).duplicates, 1u);
+    EXPECT_EQ(split(GridOver::object).longest_run, 2u);
+    EXPECT_EQ(split(GridOver::scene).duplicates, 3u);
+    EXPECT_EQ(split(GridOver::scene).longest_run, 3u);
 }
 
 TEST(Accuracy, BoxesOfDoublesOverlapAsThoseOfTheFloatsTheyAre)
@@ -115,13 +126,13 @@ TEST(Accuracy, RoundingAddsPairsFarOffAndTakesNoneAway)
     for (const double sizes : {0.0, 1e5, 1e7}) {
         const std::vector<WidePoint> wide = turned_and_moved(mesh.points, sizes);
         const PairList right = overlapping_pairs_in_doubles(wide, mesh.faces);
-        const auto wrong = [&](bool recentred) {
-            return differences(touching_pairs(rounded(wide, recentred), mesh.faces, true), right);
+        const auto wrong = [&](Doubles how) {
+            return differences(touching_pairs(rounded(wide, how), mesh.faces, true), right);
         };
-        EXPECT_EQ(wrong(false).missed, 0u);
-        EXPECT_EQ(wrong(true).missed, 0u);
-        EXPECT_LE(wrong(true).false_ones, right.size() / 1000);
-        added_last = wrong(false).false_ones;
+        EXPECT_EQ(wrong(Doubles::as_is).missed, 0u);
+        EXPECT_EQ(wrong(Doubles::recentred).missed, 0u);
+        EXPECT_LE(wrong(Doubles::recentred).false_ones, right.size() / 1000);
+        added_last = wrong(Doubles::as_is).false_ones;
     }
     EXPECT_GT(added_last, 100u);
 }

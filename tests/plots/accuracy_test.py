@@ -16,13 +16,26 @@ sys.path.insert(0, str(ROOT / "plots"))
 import accuracy  # noqa: E402
 import results  # noqa: E402
 import style  # noqa: E402
-from accuracy import Point  # noqa: E402
+from accuracy import Cost, Point  # noqa: E402
 
 
 class Front(unittest.TestCase):
     def test_keeps_what_no_other_is_as_good_as(self) -> None:
         points = [Point(3, 0, "a"), Point(1, 5, "b"), Point(2, 5, "c"), Point(4, 0, "d"), Point(2.5, 1, "e")]
         self.assertEqual([point.method for point in accuracy.front(points)], ["b", "e", "a"])
+
+
+class Cheapest(unittest.TestCase):
+    def test_changes_where_a_better_tree_has_paid_for_its_build(self) -> None:
+        quick, middle, slow = Cost(10, 10, "quick"), Cost(40, 5, "middle"), Cost(100, 2, "slow")
+        useless = Cost(90, 4.9, "useless")
+        best = accuracy.cheapest([useless, slow, middle, quick], 1000)
+        self.assertEqual([(queries, cost.method) for queries, cost in best], [(1, "quick"), (6, "middle"), (20, "slow")])
+        for queries in (1, 5, 7, 19, 21, 900):
+            least = min((quick, middle, slow, useless), key=lambda cost: cost.of(queries))
+            self.assertEqual([cost for start, cost in best if start <= queries][-1], least)
+        self.assertEqual(len(accuracy.cheapest([useless, slow, middle, quick], 10)), 2)
+        self.assertEqual(len(accuracy.cheapest([quick, slow._replace(query=10)], 1000)), 1)
 
 
 class Figures(unittest.TestCase):
@@ -63,7 +76,7 @@ class Figures(unittest.TestCase):
 
     def test_of_sums_codes_and_input_show_all_that_was_measured(self) -> None:
         self.assertEqual([len(axes.lines) for axes in self.drawn("sums").axes], [7, 7])
-        self.assertEqual([len(axes.lines) for axes in self.drawn("codes").axes], [9, 9])
+        self.assertEqual([len(axes.lines) for axes in self.drawn("codes").axes[:2]], [13, 13])
         pairs, frame = self.drawn("input").axes
         self.assertEqual([list(line.get_xdata()) for line in pairs.lines], 2 * [[0, 1e3, 1e6]])
         self.assertEqual([max(line.get_ydata()) for line in pairs.lines], [10, 1])

@@ -167,7 +167,7 @@ const Bad bad_files[] = {
     {"two.obj", "v 0 0 0\nv 1 0 0\nf 1 2\n", "line 3: a face takes three corners, and there are 2"},
     {"comma.obj", "v 0,5 0 0\n", "line 1: a vertex takes three numbers, and there is '0,5 0 0'"},
     {"nan.obj", "v 0 0 0\nv 1 nan 0\nv 1 1 0\nf 1 2 3\n", "a vertex, 1, that is not finite"},
-    {"huge.obj", "v 1e39 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n", "a vertex, 0, that is not finite"},
+    {"huge.obj", "v 1e999 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n", "a vertex, 0, that is not finite"},
     {"wide.obj", std::string("\xff\xfev\0 \0", 6), "is UTF-16 text"},
     {"none.ply", "", "does not end with end_header"},
     {"text.ply", "a shopping list\nmilk\n", "begins with ply, and there is 'a shoppi'"},

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include "scenes/doubles.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string>
+
+#include "geometry/error.h"
+
+namespace bvhbench {
+namespace {
+
+/// The finite ones of all coordinates along an axis.
+struct Extent {
+    double low = std::numeric_limits<double>::max();
+    double high = std::numeric_limits<double>::lowest();
+
+    void grow(double x)
+    {
+        if (!std::isfinite(x))
+            return;
+        low = std::min(low, x);
+        high = std::max(high, x);
+    }
+    // Halved before they are added: no sum overflows.
+    double middle() const { return low <= high ? 0.5 * low + 0.5 * high : 0; }
+    double half() const { return low <= high ? 0.5 * high - 0.5 * low : 0; }
+};
+
+/// 0, if the floats of such a size are normal numbers and one of twice the size is one; else what brings it to about 1.
+int scale_for(double largest)
+{
+    if (largest == 0)
+        return 0;
+    const int exponent = std::ilogb(largest);
+    const bool fits = exponent < 126 && exponent - 23 >= -126;
+    return fits ? 0 : -exponent;
+}
+
+/// To nearest, once moved and scaled.
+float nearest(double x, double offset, int scale_log2)
+{
+    // Of what is beyond the floats C++ leaves the conversion open.
+    constexpr double largest = std::numeric_limits<float>::max();
+    const double moved = std::ldexp(x - offset, scale_log2);
+    if (std::isnan(moved))
+        return NAN;
+    if (std::fabs(moved) > largest)
+        return moved > 0 ? INFINITY : -INFINITY;
+    return static_cast<float>(moved);
+}
+
+/// What became of x, counted.
+float counted(float rounded, double x, double offset, Rounding& rounding)
+{
+    const long double back = std::ldexp(static_cast<long double>(rounded), -rounding.scale_log2);
+    const auto error = static_cast<double>(
+        std::fabs(back + static_cast<long double>(offset) - static_cast<long double>(x)));
+    rounding.rounded_count += error != 0 ? 1 : 0;
+    rounding.largest_error = std::max(rounding.largest_error, error);
+    return rounded;
+}
+
+}  // namespace
+
+std::string_view doubles_name(Doubles how)
+{
+    return how == Doubles::recentred ? "recentred" : "as-is";
+}
+
+Doubles doubles_called(std::string_view name)
+{
+    for (const Doubles how : {Doubles::recentred, Doubles::as_is})
+        if (doubles_name(how) == name)
+            return how;
+    throw BadUsage("doubles are read recentred or as-is, not '" + std::string(name) + "'");
+}
+
+std::string rounding_text(const Rounding& rounding)
+{
+    if (!rounding.how)
+        return "floats hold all coordinates";
+    std::array<char, 300> text{};
+    const WidePoint offset = rounding.offset;
+    if (*rounding.how == Doubles::recentred)
+        std::snprintf(text.data(), text.size(),
+                      "doubles, recentred by (%.17g, %.17g, %.17g)%s and rounded to floats",
+                      offset.x, offset.y, offset.z,
+                      rounding.scale_log2 == 0
+                          ? ""
+                          : (", scaled by 2^" + std::to_string(rounding.scale_log2)).c_str());
+    else
+        std::snprintf(text.data(), text.size(), "doubles, rounded to floats as they are");
+    std::array<char, 100> loss{};
+    std::snprintf(loss.data(), loss.size(), ": %llu coordinates are off, by %.3g at most",
+                  static_cast<unsigned long long>(rounding.rounded_count), rounding.largest_error);
+    return std::string(text.data()) + loss.data();
+}
+
+Rounding round_frames(std::span<const std::vector<WidePoint>> wide, Doubles how,
+                      std::vector<std::vector<Point>>& frames)
+{
+    assert(wide.size() == frames.size());
+    Rounding rounding{.how = how};
+    if (how == Doubles::recentred) {
+        Extent x, y, z;
+        for (const std::vector<WidePoint>& points : wide)
+            for (const WidePoint& point : points) {
+                x.grow(point.x);
+                y.grow(point.y);
+                z.grow(point.z);
+            }
+        rounding.offset = {x.middle(), y.middle(), z.middle()};
+        rounding.scale_log2 = scale_for(std::max({x.half(), y.half(), z.half()}));
+    }
+    const auto made = [&](float as_is, double x, double offset) {
+        const float rounded =
+            how == Doubles::as_is ? as_is : nearest(x, offset, rounding.scale_log2);
+        return counted(rounded, x, offset, rounding);
+    };
+    for (std::size_t frame = 0; frame < wide.size(); ++frame) {
+        assert(wide[frame].size() == frames[frame].size());
+        for (std::size_t k = 0; k < wide[frame].size(); ++k) {
+            const WidePoint& from = wide[frame][k];
+            Point& to = frames[frame][k];
+            to = {made(to.x, from.x, rounding.offset.x), made(to.y, from.y, rounding.offset.y),
+                  made(to.z, from.z, rounding.offset.z)};
+        }
+    }
+    return rounding;
+}
+
+}  // namespace bvhbench

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+//
+// Products are rounded before they are added, on the host and on the device: a fused multiply-add, which rounds once,
+// would give other boxes, codes and signs. Held to products that were stored one by one, through the headers that
+// predicates and costs use.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <random>
+#include <set>
+#include <sstream>
+#include <vector>
+
+#include "device/program.h"
+#include "device/queue.h"
+#include "geometry/orient.h"
+#include "tests/device/kernel_folder.h"
+
+namespace bvhbench {
+namespace {
+
+constexpr std::size_t count = 1000;
+
+/// As the compiler sees it, any number: nothing that follows from it is known before the program runs.
+template <class T>
+T opaque(T x)
+{
+    volatile T stored = x;
+    return stored;
+}
+
+/// x * y, rounded.
+template <class T>
+T product(T x, T y)
+{
+    return opaque(opaque(x) * opaque(y));
+}
+
+struct Operands {
+    std::vector<double> doubles;  ///< six for each result: two vectors
+    std::vector<float> floats;    ///< three: the sides of a box at the origin
+
+    Operands()
+    {
+        std::mt19937 random(1);
+        std::uniform_real_distribution<double> unit(0.5, 1);
+        for (std::size_t k = 0; k < 6 * count; ++k)
+            doubles.push_back(opaque(unit(random)));
+        for (std::size_t k = 0; k < 3 * count; ++k)
+            floats.push_back(opaque(static_cast<float>(unit(random))));
+    }
+    Vector vector(std::size_t k) const { return {doubles[k], doubles[k + 1], doubles[k + 2]}; }
+    Aabb box(std::size_t k) const { return {0, 0, 0, floats[k], floats[k + 1], floats[k + 2]}; }
+};
+
+struct Results {
+    std::vector<double> minors, dots, halves;
+    std::vector<float> surfaces;
+};
+
+/// With every product stored before it is added.
+Results stored_results(const Operands& of)
+{
+    Results results;
+    for (std::size_t k = 0; k < count; ++k) {
+        const Vector a = of.vector(6 * k), b = of.vector(6 * k + 3);
+        results.minors.push_back(opaque(product(a.y, b.z) - product(a.z, b.y)));
+        const double two = opaque(product(a.x, b.x) + product(a.y, b.y));
+        results.dots.push_back(opaque(two + product(a.z, b.z)));
+        const double spread = product(134217729.0, a.x);
+        results.halves.push_back(opaque(spread - opaque(spread - a.x)));
+        const Aabb box = of.box(3 * k);
+        const float xy_yz = opaque(product(box.max_x, box.max_y) + product(box.max_y, box.max_z));
+        results.surfaces.push_back(opaque(xy_yz + product(box.max_z, box.max_x)));
+    }
+    return results;
+}
+
+template <class T>
+std::size_t differing(const std::vector<T>& a, const std::vector<T>& b)
+{
+    std::size_t found = 0;
+    for (std::size_t k = 0; k < a.size(); ++k)
+        found += std::memcmp(&a[k], &b.at(k), sizeof(T)) != 0 ? 1 : 0;
+    return found;
+}
+
+TEST(Contraction, IsOffOnTheHost)
+{
+#ifndef __FMA__
+    GTEST_SKIP() << "built for a processor without fused multiply-adds: nothing could fuse";
+#endif
+    const Operands of;
+    const Results stored = stored_results(of);
+    Results found;
+    for (std::size_t k = 0; k < count; ++k) {
+        const Vector a = of.vector(6 * k), b = of.vector(6 * k + 3);
+        found.minors.push_back(cross_product(a, b).x);
+        found.dots.push_back(dot(a, b));
+        found.halves.push_back(upper_half(a.x));
+        found.surfaces.push_back(half_surface(of.box(3 * k)));
+    }
+    EXPECT_EQ(differing(found.minors, stored.minors), 0u);
+    EXPECT_EQ(differing(found.dots, stored.dots), 0u);
+    EXPECT_EQ(differing(found.halves, stored.halves), 0u);
+    EXPECT_EQ(differing(found.surfaces, stored.surfaces), 0u);
+}
+
+constexpr auto kernel_text = R"(
+#include "geometry/orient.h"
+
+kernel void surfaces(global const float* restrict in, global float* restrict out)
+{
+    const uint k = (uint)get_global_id(0);
+    const Aabb box = {0.0f, 0.0f, 0.0f, in[3u * k], in[3u * k + 1u], in[3u * k + 2u]};
+    out[k] = half_surface(box);
+}
+
+#if HAS_DOUBLES
+kernel void predicates(global const double* restrict in, global double* restrict minors,
+                       global double* restrict dots, global double* restrict halves)
+{
+    const uint k = (uint)get_global_id(0);
+    const Vector a = {in[6u * k], in[6u * k + 1u], in[6u * k + 2u]};
+    const Vector b = {in[6u * k + 3u], in[6u * k + 4u], in[6u * k + 5u]};
+    minors[k] = cross_product(a, b).x;
+    dots[k] = dot(a, b);
+    halves[k] = upper_half(a.x);
+}
+#endif
+)";
+
+/// The program's own headers, and a kernel that is compiled as all are.
+class DeviceContraction : public testing::Test {
+protected:
+    DeviceContraction()
+    {
+        for (const char* name : {"geometry/dialect.h", "geometry/aabb.h", "geometry/triangle.h",
+                                 "geometry/vectors.h", "geometry/exact_sum.h", "geometry/orient.h"})
+            folder_.write(name, embedded_kernel(name).value());
+        folder_.write("contraction.cl", kernel_text);
+    }
+
+    template <class T>
+    Buffer<T> buffer(std::size_t size)
+    {
+        return Buffer<T>(cl::Buffer(device_.context, CL_MEM_READ_WRITE, size * sizeof(T)), size);
+    }
+
+    KernelFolder folder_;
+    Device device_ = open_device("", folder_.sources());
+    Programs programs_{device_};
+    Queue queue_{device_};
+    const Operands of_;
+    const Results stored_ = stored_results(of_);
+};
+
+TEST_F(DeviceContraction, IsOffInFloats)
+{
+    cl::Kernel kernel = programs_.kernel("contraction.cl", "surfaces");
+    auto in = buffer<float>(3 * count), out = buffer<float>(count);
+    in.upload(queue_.cl(), of_.floats);
+    set_arguments(kernel, in, out);
+    queue_.begin("surfaces");
+    queue_.launch(kernel, count, 1, 1);
+    EXPECT_EQ(differing(out.download(queue_.cl()), stored_.surfaces), 0u);
+}
+
+TEST_F(DeviceContraction, IsOffInDoubles)
+{
+    if (device_.cl.getInfo<CL_DEVICE_DOUBLE_FP_CONFIG>() == 0)
+        GTEST_SKIP() << "the device has no doubles";
+    cl::Kernel kernel = programs_.kernel("contraction.cl", "predicates");
+    auto in = buffer<double>(6 * count);
+    auto minors = buffer<double>(count), dots = buffer<double>(count),
+         halves = buffer<double>(count);
+    in.upload(queue_.cl(), of_.doubles);
+    set_arguments(kernel, in, minors, dots, halves);
+    queue_.begin("predicates");
+    queue_.launch(kernel, count, 1, 1);
+    EXPECT_EQ(differing(minors.download(queue_.cl()), stored_.minors), 0u);
+    EXPECT_EQ(differing(dots.download(queue_.cl()), stored_.dots), 0u);
+    EXPECT_EQ(differing(halves.download(queue_.cl()), stored_.halves), 0u);
+}
+
+/// No option that lets a compiler round otherwise: what is asked for besides the dialect and numbers is known by name.
+TEST_F(DeviceContraction, IsNotAskedForByAnOption)
+{
+    folder_.write("nothing.cl", "kernel void nothing() {}\n");
+    const cl::Kernel kernel = programs_.kernel("nothing.cl", "nothing", {{"NUMBER", 1}});
+    const auto program = kernel.getInfo<CL_KERNEL_PROGRAM>();
+    std::istringstream words(program.getBuildInfo<CL_PROGRAM_BUILD_OPTIONS>(device_.cl));
+    const std::set<std::string> known = {
+        "-cl-std=CL1.2", "-cl-opt-disable", "-cl-fp32-correctly-rounded-divide-sqrt", "-D",
+        "NUMBER=1u",     "_OPENCL_H_"};
+    std::string word;
+    std::size_t seen = 0;
+    for (; words >> word; ++seen)
+        EXPECT_EQ(known.count(word), 1u) << word;
+    EXPECT_GE(seen, 3u);
+}
+
+}  // namespace
+}  // namespace bvhbench

@@ -1,0 +1,80 @@
+#!/usr/bin/env python3
+"""Every header compiles alone.
+
+Usage: headers_test.py <source root> <compile_commands.json>
+
+A header that a compiled source of the same name includes before anything else has been compiled alone by the build
+itself: 2 in 3 are. The others are compiled here, without code being made, as the sources of their room are.
+"""
+import concurrent.futures
+import json
+import pathlib
+import re
+import shlex
+import subprocess
+import sys
+import tempfile
+
+ROOMS = ("geometry", "device", "builders", "oibvh", "baselines", "collide", "scenes", "harness")
+FIRST_INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)', re.MULTILINE)
+WITH_VALUE = ("-o", "-MF", "-MT", "-MQ")
+
+
+def arguments(command: dict[str, str]) -> list[str]:
+    """Of a compilation: the compiler and its options, without what is read and written."""
+    words = shlex.split(command["command"])
+    while pathlib.Path(words[0]).name == "ccache":
+        words = words[1:]
+    kept, skipped = [], False
+    for word in words:
+        if not skipped and word not in (*WITH_VALUE, "-c", "-MD", "-MMD", command["file"]):
+            kept.append(word)
+        skipped = word in WITH_VALUE
+    return kept
+
+
+def compiled_alone(root: pathlib.Path, header: str, sources: set[str]) -> bool:
+    source = str(pathlib.Path(header).with_suffix(".cpp"))
+    if source not in sources:
+        return False
+    first = FIRST_INCLUDE.search((root / source).read_text())
+    return first is not None and first.group(1) == header
+
+
+def failure(root: pathlib.Path, header: str, command: dict[str, str], folder: pathlib.Path) -> str:
+    """What the compiler says to a file of nothing but this header, twice: its guard is tried as well."""
+    alone = folder / (header.replace("/", "_") + ".cpp")
+    alone.write_text(2 * f'#include "{header}"\n')
+    result = subprocess.run([*arguments(command), "-fsyntax-only", str(alone)], cwd=command["directory"],
+                            capture_output=True, text=True, check=False)
+    return result.stderr if result.returncode != 0 else ""
+
+
+def main() -> int:
+    root = pathlib.Path(sys.argv[1]).resolve()
+    commands = {}
+    for command in json.loads(pathlib.Path(sys.argv[2]).read_text()):
+        path = pathlib.Path(command["file"])
+        if path.is_relative_to(root):
+            commands[path.relative_to(root).as_posix()] = command
+    headers = [path.relative_to(root).as_posix() for room in ROOMS for path in sorted((root / room).rglob("*.h"))]
+    rest = [header for header in headers if not compiled_alone(root, header, set(commands))]
+    # Those of a room are compiled as its sources are; a room without any, as those of the room that needs all.
+    of_room = {room: next((command for path, command in commands.items() if path.startswith(room + "/")), None)
+               for room in ROOMS}
+    if of_room["harness"] is None or len(headers) < 100:
+        print(f"{len(headers)} headers found, and {len(commands)} compile commands: this test looks in the wrong place")
+        return 1
+    with tempfile.TemporaryDirectory() as name, concurrent.futures.ThreadPoolExecutor(2) as pool:
+        folder = pathlib.Path(name)
+        said = list(pool.map(lambda header: failure(root, header, of_room[header.split("/")[0]] or of_room["harness"],
+                                                    folder), rest))
+    for header, text in zip(rest, said):
+        if text:
+            print(f"{header} does not compile alone:\n{text}")
+    print(f"{len(headers) - len(rest)} headers are the first of their source, {len(rest)} compiled here")
+    return int(any(said))
+
+
+if __name__ == "__main__":
+    sys.exit(main())
