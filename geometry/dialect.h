@@ -46,6 +46,8 @@ constexpr uint popcount(uint x) { return static_cast<uint>(std::popcount(x)); }
 constexpr uint clz(uint x) { return static_cast<uint>(std::countl_zero(x)); }
 constexpr uint as_uint(float x) { return std::bit_cast<uint>(x); }
 constexpr float as_float(uint x) { return std::bit_cast<float>(x); }
+constexpr ulong as_ulong(double x) { return std::bit_cast<ulong>(x); }
+constexpr double as_double(ulong x) { return std::bit_cast<double>(x); }
 
 /// OpenCL's fmin and fmax: of a number and a NaN, the number. Which zero wins between -0 and +0 is open on
 /// every device, so boxes are made from coordinates without -0 (see triangle_box).
@@ -55,6 +57,8 @@ constexpr double fmax(double a, double b) { return a < b || a != a ? b : a; }
 constexpr double fmin(double a, double b) { return b < a || a != a ? b : a; }
 constexpr float fabs(float x) { return x < 0 ? -x : x; }
 constexpr double fabs(double x) { return x < 0 ? -x : x; }
+constexpr double floor(double x) { return __builtin_floor(x); }
+constexpr double ceil(double x) { return __builtin_ceil(x); }
 SHARED_END
 
 #endif

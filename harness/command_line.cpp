@@ -41,6 +41,17 @@ CLI::Validator a_cost()
     return {check, "", "a cost"};
 }
 
+void add_leaves(CLI::App& command, std::string& leaves, std::string& boxes)
+{
+    command
+        .add_option("--leaves", leaves,
+                    "mesh or sorted: where leaf boxes are kept; default: mesh, and sorted for boxes "
+                    "other than f32")
+        ->check(one_of({"mesh", "sorted"}));
+    command.add_option("--boxes", boxes, "what nodes keep their boxes in: a name of `list formats`")
+        ->capture_default_str();
+}
+
 void add_quality(CLI::App& command, bool& quality, NodeCosts& costs)
 {
     command.add_flag("--epo,--quality", quality, "compute end-point overlap, which takes long");
@@ -60,11 +71,11 @@ void add_list(CLI::App& app, ListCommand& list)
     command
         ->add_option(
             "WHAT", list.what,
-            "builders, colliders, narrow, orders, skips, tuning, scenes, devices, accuracy or "
+            "builders, colliders, narrow, orders, formats, skips, tuning, scenes, devices, accuracy or "
             "experiments")
         ->required()
-        ->check(one_of({"builders", "colliders", "narrow", "orders", "skips", "tuning", "scenes",
-                        "devices", "accuracy", "experiments"}));
+        ->check(one_of({"builders", "colliders", "narrow", "orders", "formats", "skips", "tuning",
+                        "scenes", "devices", "accuracy", "experiments"}));
 }
 
 void add_build(CLI::App& app, BuildCommand& build, std::string& leaves)
@@ -78,8 +89,7 @@ void add_build(CLI::App& app, BuildCommand& build, std::string& leaves)
                         "work-items in a group, a power of two; 0: the builder's choice");
     command->add_option("--items", build.builder.items,
                         "nodes a work-item merges in registers, a power of two; 0: likewise");
-    command->add_option("--leaves", leaves, "mesh or sorted: where leaf boxes are kept")
-        ->check(one_of({"mesh", "sorted"}));
+    add_leaves(*command, leaves, build.builder.boxes);
     command->add_option("--samples", build.samples, "timed builds")
         ->capture_default_str()
         ->check(CLI::Range(1, most_samples));
@@ -123,8 +133,7 @@ void add_collide(CLI::App& app, CollideCommand& collide, std::string& leaves, st
         ->capture_default_str();
     command->add_option("--order", collide.builder.order, "a name of `list orders`")
         ->capture_default_str();
-    command->add_option("--leaves", leaves, "mesh or sorted: where leaf boxes are kept")
-        ->check(one_of({"mesh", "sorted"}));
+    add_leaves(*command, leaves, collide.builder.boxes);
     command->add_option("--adjacent", adjacent, "keep or drop pairs that share a vertex index")
         ->capture_default_str()
         ->check(one_of({"keep", "drop"}));
@@ -224,8 +233,7 @@ void add_tune(CLI::App& app, TuneCommand& tune, std::string& leaves, std::string
         ->capture_default_str();
     command->add_option("--order", tune.builder.order, "a name of `list orders`")
         ->capture_default_str();
-    command->add_option("--leaves", leaves, "mesh or sorted: where leaf boxes are kept")
-        ->check(one_of({"mesh", "sorted"}));
+    add_leaves(*command, leaves, tune.builder.boxes);
     command->add_option("--adjacent", adjacent, "keep or drop pairs that share a vertex index")
         ->capture_default_str()
         ->check(one_of({"keep", "drop"}));

@@ -65,7 +65,8 @@ Json json_of(const BuilderChoice& builder)
              {{"order", builder.order},
               {"group_size", builder.group_size},
               {"items", builder.items},
-              {"leaves", builder.sorted_leaves ? "sorted" : "mesh"}}}};
+              {"leaves", builder.sorted_leaves ? "sorted" : "mesh"},
+              {"boxes", builder.boxes}}}};
 }
 
 Json json_of(const ColliderChoice& collider)
@@ -222,7 +223,7 @@ std::string document_text(const std::string& run, const std::vector<std::string>
         return text;
     };
     std::string text =
-        "{\"format\": \"1.6\",\n\"run\": " + run + ",\n\"cells\": [" + lines(cells) + "\n]";
+        "{\"format\": \"1.7\",\n\"run\": " + run + ",\n\"cells\": [" + lines(cells) + "\n]";
     if (!stress.empty())
         text += ",\n\"stress\": [" + lines(stress) + "\n]";
     return text + "}\n";
