@@ -27,13 +27,17 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 /// The largest float that a lower side in this cell may have been made of, or the smallest one of an upper side.
 float end_of_cell(const AxisCells& cells, double cell, bool is_upper)
 {
-    // The cell of a float is exact, so it decides; what the quotient loses to rounding is a step or two.
+    // The product is exact, so it decides; what the quotient loses to rounding is a step or two. The sum is exact up to
+    // 2^53; beyond it the scene is so far off that the difference is.
     const float outward = is_upper ? infinity : -infinity;
+    const double sum = cell + cells.first;
+    const bool is_far = std::abs(cells.first) >= 0x1p52;
     const auto is_outside = [&](float x) {
-        const double exact = static_cast<double>(x) * cells.scale - cells.first;
-        return is_upper ? exact >= cell : exact <= cell;
+        const double product = static_cast<double>(x) * cells.scale;
+        const double difference = is_far ? (product - cells.first) - cell : product - sum;
+        return is_upper ? difference >= 0 : difference <= 0;
     };
-    auto end = static_cast<float>((cell + cells.first) / cells.scale);
+    auto end = static_cast<float>(sum / cells.scale);
     while (!is_outside(end))
         end = std::nextafter(end, outward);
     for (float next = std::nextafter(end, -outward); is_outside(next);
