@@ -41,11 +41,31 @@ typedef struct {
 #define HALF_CELLS 1098974756864.0  // 2047 * 2^29
 
 /// The number of the last cell along an axis; 0 of formats without cells.
-SHARED_FN double last_cell(uint format)
+SHARED_FN_INLINED double last_cell(uint format)
 {
     return format == BOX_U8 ? 254.0 : format == BOX_U16 ? 65534.0
            : format == BOX_F16                          ? 2.0 * HALF_CELLS
                                                         : 0.0;
+}
+
+/// The whole number nearest to `x`, whose bits are 32 at most: beyond 2^51 it is one. Where floor and ceil are a call, as
+/// PoCL's are, lining leaves up took several times as long with them.
+SHARED_FN_INLINED double whole_near(double x)
+{
+    const double shift = 6755399441055744.0;  // 1.5 * 2^52: a double of that size has no bits after the point
+    return fabs(x) < 2251799813685248.0 ? (x + shift) - shift : x;
+}
+
+SHARED_FN_INLINED double whole_below(double x)
+{
+    const double near = whole_near(x);
+    return near > x ? near - 1.0 : near;
+}
+
+SHARED_FN_INLINED double whole_above(double x)
+{
+    const double near = whole_near(x);
+    return near < x ? near + 1.0 : near;
 }
 
 /// `x`, positive, without all but the first 8 of its bits.
@@ -58,19 +78,20 @@ SHARED_FN AxisCells axis_cells(float low, float high, double last)
     AxisCells cells;
     const double length = (double)high - (double)low;
     cells.scale = length > 0.0 ? eight_bits_of((last - 2.0) / length) : 1.0;
-    cells.first = floor((double)low * cells.scale);
+    cells.first = whole_below((double)low * cells.scale);
     return cells;
 }
 
 /// The number of the cell of a lower or an upper side; what is outside the scene is in its last cell.
-SHARED_FN double cell_of(AxisCells cells, float x, bool is_upper, double last)
+SHARED_FN_INLINED double cell_of(AxisCells cells, float x, bool is_upper, double last)
 {
     const double product = (double)x * cells.scale;
-    return fmin(fmax((is_upper ? ceil(product) : floor(product)) - cells.first, 0.0), last);
+    const double cell = (is_upper ? whole_above(product) : whole_below(product)) - cells.first;
+    return cell < 0.0 ? 0.0 : cell > last ? last : cell;
 }
 
 /// The largest half not above `size`, a whole number of smallest halves up to HALF_CELLS, as its bits.
-SHARED_FN uint half_below(double size)
+SHARED_FN_INLINED uint half_below(double size)
 {
     if (size < 2048.0)
         return (uint)size;
@@ -79,14 +100,14 @@ SHARED_FN uint half_below(double size)
 }
 
 /// The smallest half not below it.
-SHARED_FN uint half_above(double size)
+SHARED_FN_INLINED uint half_above(double size)
 {
     const uint below = half_below(size);
     return size < 2048.0 || (as_ulong(size) & 0x3fffffffffful) == 0ul ? below : below + 1u;
 }
 
 /// The half that a cell's number is rounded to, as its place among all halves, 0 being at 32768.
-SHARED_FN uint half_of_cell(double cell, bool is_upper)
+SHARED_FN_INLINED uint half_of_cell(double cell, bool is_upper)
 {
     const double size = cell - HALF_CELLS;
     if (size >= 0.0)
@@ -95,7 +116,7 @@ SHARED_FN uint half_of_cell(double cell, bool is_upper)
 }
 
 /// A side of a box in a format with cells.
-SHARED_FN uint side_in(uint format, AxisCells cells, float x, bool is_upper)
+SHARED_FN_INLINED uint side_in(uint format, AxisCells cells, float x, bool is_upper)
 {
     const double cell = cell_of(cells, x, is_upper, last_cell(format));
     return format == BOX_F16 ? half_of_cell(cell, is_upper) : (uint)cell;

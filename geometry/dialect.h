@@ -57,8 +57,6 @@ constexpr double fmax(double a, double b) { return a < b || a != a ? b : a; }
 constexpr double fmin(double a, double b) { return b < a || a != a ? b : a; }
 constexpr float fabs(float x) { return x < 0 ? -x : x; }
 constexpr double fabs(double x) { return x < 0 ? -x : x; }
-constexpr double floor(double x) { return __builtin_floor(x); }
-constexpr double ceil(double x) { return __builtin_ceil(x); }
 SHARED_END
 
 #endif
