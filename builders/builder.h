@@ -36,6 +36,9 @@ struct BuildOptions {
     /// Copy the leaf boxes into leaf order (one gather, coherent traversals) instead of leaving them in mesh
     /// order behind their sorted ids, as the paper does (Alg. 1, "mesh-order real-leaf array").
     bool sorted_leaves = false;
+    /// A name of box_formats(): what the tree keeps its boxes in. All but f32 want sorted leaves. A builder that has no
+    /// other than f32 refuses them.
+    std::string_view boxes = "f32";
 };
 
 /// Where a build starts. Later starts reuse what the previous build on the same input left in place.

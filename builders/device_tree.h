@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "builders/box_format.h"
 #include "builders/tree.h"
 #include "device/buffer.h"
 #include "device/queue.h"
@@ -37,7 +38,8 @@ namespace bvhbench {
 ///                                  every node has one, tree_number(TREE, node), leaves after inner nodes; the
 ///                                  objects' trees are parts of one, PICK_WHOLE_TREE, and nodes mean the same in all
 ///
-/// and is compiled with SORTED_LEAVES: 1 if leaf boxes are in leaf order, 0 if in mesh order behind ids.
+/// and is compiled with SORTED_LEAVES: 1 if leaf boxes are in leaf order, 0 if in mesh order behind ids; and with
+/// BOX_FORMAT (geometry/box_side.h), unless boxes are floats.
 ///
 /// A wide tree is implicit. Its children are tree_left and those next to it instead of tree_right, and their boxes are
 /// tested together. What is stored of them may be larger than they are, but of boxes that tree_box tells too, a child's
@@ -65,6 +67,7 @@ public:
     }
 
     virtual uint leaf_count() const = 0;  ///< of all objects
+    virtual const BoxFormat& box_format() const { return float_boxes(); }
     virtual bool has_sorted_leaves() const = 0;
 
     virtual std::string_view access_header() const = 0;

@@ -12,10 +12,30 @@ OrderedBuilder::OrderedBuilder(Programs& programs, const BuilderCard& card,
     , options_(options)
     , leaf_order_(programs, options.order, KernelForm::of_device, options.grid)
     , card_(card)
+    , format_(find_box_format(options.boxes))
 {
+    if (format_.number != BOX_F32 && !options.sorted_leaves)
+        throw BadUsage("boxes of " + std::string(format_.name) +
+                       " are made where leaves are lined up, so leaves must be sorted");
     if (options.sorted_leaves)
-        gather_.emplace(programs);
-    options_.order = find_order(options.order).name;  // outlives the caller's text
+        gather_.emplace(programs, KernelForm::of_device, 0, format_);
+    options_.order = find_order(options.order).name;  // outlive the caller's text
+    options_.boxes = format_.name;
+}
+
+void OrderedBuilder::require_floats() const
+{
+    if (format_.number != BOX_F32)
+        throw BadUsage(std::string(card_.name) + " keeps its boxes in its own way, not as " +
+                       std::string(format_.name));
+}
+
+Buffer<SceneCells> OrderedBuilder::plan_cells(Arena& arena)
+{
+    if (!gather_)
+        return {};
+    gather_->plan(arena, leaf_order_.bounds());
+    return gather_->cells();
 }
 
 Footprint OrderedBuilder::footprint(std::size_t primitives) const

@@ -15,7 +15,8 @@ namespace bvhbench {
 /// Memory, the order of the leaves and the stages around the hierarchy, which is left to who derives from it.
 class OrderedBuilder : public Builder {
 public:
-    /// Throws BadUsage if there is no such order.
+    /// Throws BadUsage if there is no such order or format of boxes, and for a format whose boxes are made where leaves
+    /// are lined up, if they are not to be.
     OrderedBuilder(Programs& programs, const BuilderCard& card, const BuildOptions& options);
 
     BuilderCard card() const final { return card_; }
@@ -62,10 +63,19 @@ protected:
 
     /// Where the boxes of sorted leaves go: from `first` on, or, of several objects, from slots[object] on.
     struct Gathered {
-        Buffer<Aabb> boxes;
+        Buffer<std::byte> boxes;  ///< in the format
         uint first = 0;
         Buffer<uint> slots = {};
     };
+
+    /// What the builder's tree keeps its boxes in.
+    const BoxFormat& format() const { return format_; }
+
+    /// Throws BadUsage if that is not floats: for builders whose trees know no others.
+    void require_floats() const;
+
+    /// Take what lining leaves up in the format needs besides, once the leaves' own is taken: the cells it will find.
+    Buffer<SceneCells> plan_cells(Arena& arena);
 
     Programs& programs_;
     BuildOptions options_;
@@ -79,6 +89,7 @@ private:
     const Tree& update_some(const Input& input, Queue& queue);
 
     BuilderCard card_;
+    const BoxFormat& format_;
     std::optional<GatherStage> gather_;  ///< with sorted leaves
     std::optional<Arena> arena_, update_arena_;
     std::vector<uint> sizes_;  ///< of the objects that there is memory for

@@ -45,8 +45,9 @@ bool depth_first(const HostTree& tree, const Visit& visit)
 }
 
 /// What is wrong with one leaf. Marks its triangle in `seen`.
-Breach broken_leaf(const HostTree::Node& node, std::size_t index, std::span<const Point> points,
-                   std::span<const Face> faces, std::vector<bool>& seen)
+Breach broken_leaf(const HostTree& tree, const HostTree::Node& node, std::size_t index,
+                   std::span<const Point> points, std::span<const Face> faces,
+                   std::vector<bool>& seen)
 {
     const auto triangle = static_cast<std::size_t>(node.primitive);
     if (triangle >= faces.size())
@@ -55,8 +56,12 @@ Breach broken_leaf(const HostTree::Node& node, std::size_t index, std::span<cons
     if (seen[triangle])
         return {leaves, "triangle " + std::to_string(triangle) + " is in two leaves"};
     seen[triangle] = true;
-    if (!same_bits(node.box, face_box(points, faces[triangle])))
+    const Aabb box = face_box(points, faces[triangle]);
+    if (!same_bits(node.box, tree.rounding(box)))
         return {boxes, "the box of leaf " + node_text(index) + " is not that of its triangle " +
+                           std::to_string(triangle)};
+    if (!same_bits(node.box, merged(node.box, box)))
+        return {boxes, "the box of leaf " + node_text(index) + " does not contain its triangle " +
                            std::to_string(triangle)};
     return {};
 }
@@ -119,6 +124,16 @@ HostTree refitted(HostTree tree, std::span<const Point> points, std::span<const 
             if (child != HostTree::none)
                 node.box = merged(node.box, tree.nodes[static_cast<std::size_t>(child)].box);
     }
+    const BoxFormat& format = *tree.rounding.format;
+    return rounded_to(std::move(tree), format);
+}
+
+HostTree rounded_to(HostTree tree, const BoxFormat& format)
+{
+    tree.rounding = BoxRounding::of_scene(format, tree.nodes.front().box);
+    if (format.has_cells())
+        for (HostTree::Node& node : tree.nodes)
+            node.box = tree.rounding(node.box);
     return tree;
 }
 
@@ -132,7 +147,7 @@ Breach first_breach(const HostTree& tree, std::span<const Point> points,
         ++reached;
         if (breach.of != nothing)
             return;
-        breach = node.primitive != HostTree::none ? broken_leaf(node, index, points, faces, seen)
+        breach = node.primitive != HostTree::none ? broken_leaf(tree, node, index, points, faces, seen)
                                                   : broken_inner(tree, node, index);
     });
     if (breach.of != nothing)

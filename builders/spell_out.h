@@ -14,7 +14,12 @@ namespace bvhbench {
 /// with the same hash are the same tree, wherever they keep their nodes.
 std::uint64_t tree_hash(const HostTree& tree);
 
-/// The same tree with boxes over moved points, from the leaves up, slowly: the oracle of every refit.
+/// A tree of exact boxes, the only one of its scene, as a builder leaves it that keeps them in `format`. Rounding keeps the
+/// order of sides, so that inner boxes may be rounded like leaves': they are the same unions.
+HostTree rounded_to(HostTree tree, const BoxFormat& format);
+
+/// The same tree with boxes over moved points, from the leaves up, slowly: the oracle of every refit. Boxes are rounded
+/// as they were, into the cells of the scene as it is now.
 HostTree refitted(HostTree tree, std::span<const Point> points, std::span<const Face> faces);
 
 /// Whether a refit left what `refitted` does: the same tree, or, of trees whose boxes are not tight, the same topology,
@@ -29,7 +34,7 @@ struct Breach {
 
 /// The first promise of every builder that `tree` breaks over these triangles; of nothing if it keeps them.
 ///
-/// Each triangle is in exactly one leaf, each leaf's box is its triangle's box, each inner node's box is the
+/// Each triangle is in exactly one leaf, each leaf's box is its triangle's box, as the tree rounds it, each inner node's box is the
 /// union of its children's, bit for bit, or contains them where the tree does not say that it is tight; every node is
 /// reached once from the root.
 Breach first_breach(const HostTree& tree, std::span<const Point> points,

@@ -7,7 +7,7 @@
 #include <initializer_list>
 #include <vector>
 
-#include "geometry/aabb.h"
+#include "builders/box_format.h"
 
 namespace bvhbench {
 
@@ -33,9 +33,12 @@ struct HostTree {
 
     std::vector<Node> nodes;  ///< the root is nodes[0]; children come after their parent
 
-    /// Whether an inner node's box is the union of its children's; if not, as where boxes are rounded outward, it
-    /// contains them. A leaf's box is its triangle's in any case.
+    /// Whether an inner node's box is the union of its children's; if not, as where each node rounds them outward on a
+    /// grid of its own, it contains them.
     bool is_tight = true;
+
+    /// What a leaf's box is to its triangle's: that box, if not said otherwise.
+    BoxRounding rounding;
 };
 
 /// What a builder leaves behind, in whatever layout and memory suits it.

@@ -39,8 +39,8 @@
 /// What a team knows together.
 typedef struct {
     uint2 kept[KEPT];  ///< first, so that one too many would be seen in what stands behind
-    float2 own[WORDS_PER_BOX * BLOCK];  ///< boxes of the block's leaves, the last repeated
-    float2 seen[WORDS_PER_BOX * SEEN];  ///< and of leaves that were met
+    BoxWord own[WORDS_PER_BOX * BLOCK];  ///< boxes of the block's leaves, the last repeated
+    BoxWord seen[WORDS_PER_BOX * SEEN];  ///< and of leaves that were met
     uint own_ids[BLOCK];                ///< triangles
     uint seen_ids[SEEN];                ///< labels of leaves, then triangles
     uint stack[STACK];
@@ -97,7 +97,7 @@ static inline uint meet_seen(TEAM_PARAMETERS, TREE_PARAMETERS, uint kept, const 
 }
 
 /// Whether one of a block's boxes overlaps `box`.
-static inline bool meets_any(local const float2 *boxes, const Aabb box)
+static inline bool meets_any(local const BoxWord *boxes, const Aabb box)
 {
     bool meets = false;
 #pragma unroll 8

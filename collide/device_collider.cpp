@@ -25,6 +25,7 @@ cl::Kernel DeviceCollider::kernel(const DeviceTree& tree, std::string_view path,
                                   std::vector<Define> more, Optimise optimise) const
 {
     more.push_back({"SORTED_LEAVES", tree.has_sorted_leaves() ? 1u : 0u});
+    more.push_back({"BOX_FORMAT", tree.box_format().number});
     more.push_back({"KEEP_ADJACENT", options_.keep_adjacent ? 1u : 0u});
     return programs().kernel(tree.access_header(), path, name, more, optimise);
 }
@@ -80,7 +81,8 @@ std::int64_t DeviceCollider::reads_at_least(const DeviceTree& tree) const
         return 0;
     const std::int64_t leaves = tree.leaf_count();
     const std::int64_t nodes = 2 * leaves - std::ssize(tree.objects);
-    return nodes * std::int64_t{sizeof(Aabb)} + leaves * std::int64_t{sizeof(uint)};
+    return nodes * static_cast<std::int64_t>(tree.box_format().box_bytes()) +
+           leaves * std::int64_t{sizeof(uint)};
 }
 
 QueryCounts DeviceCollider::counts(const Queue& queue) const

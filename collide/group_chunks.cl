@@ -19,14 +19,14 @@
 #include "collide/wide_count.clh"
 #include "geometry/bits.h"
 
-/// What leaf `leaf` of the task's meets in a step: lanes in the lowest byte, then the step, then the leaf.
+/// What leaf `leaf` of the task's, of 256 at most, meets in a step: lanes lowest, then the step, then the leaf.
 static inline uint hit_of(const uint leaf, const uint step, const uint lanes)
 {
-    return leaf << 16 | step << 8 | lanes;
+    return leaf << (LANES + 8u) | step << LANES | lanes;
 }
 static inline uint lanes_of(const uint hit) { return hit & ALL_LANES; }
-static inline uint step_of(const uint hit) { return hit >> 8 & 0xffu; }
-static inline uint leaf_of(const uint hit) { return hit >> 16; }
+static inline uint step_of(const uint hit) { return hit >> LANES & 0xffu; }
+static inline uint leaf_of(const uint hit) { return hit >> (LANES + 8u); }
 
 /// The steps of `line`, from `first` on, that a block meets: into `steps`, how many.
 static inline uint near_steps(const Line* own, const uint begin, const uint end, const Line* line,

@@ -29,7 +29,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void group_pairs(
     SINK_LOCAL
     local uint tests[GROUP_SIZE];
     local float areas[GROUP_SIZE];
-    local float2 own[3 * GROUP_SIZE], seen[3 * GROUP_SIZE], common[3];
+    local BoxWord own[3 * GROUP_SIZE], seen[3 * GROUP_SIZE], common[3];
     local uint own_ids[GROUP_SIZE], seen_ids[GROUP_SIZE], taken[GROUP_SIZE];
     local uint frontier[FRONTIER], met[2 * GROUP_SIZE];
     local uint waiting[2], met_count[2];  // before turn t in [t % 2]

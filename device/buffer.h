@@ -35,6 +35,14 @@ public:
     std::size_t bytes() const { return size_ * sizeof(T); }
     const cl::Buffer& cl() const { return memory_; }
 
+    /// The same memory, holding values of another type.
+    template <class U>
+    Buffer<U> as() const
+    {
+        assert(bytes() % sizeof(U) == 0);
+        return {memory_, bytes() / sizeof(U)};
+    }
+
     /// Write `values` to the front and wait.
     void upload(const cl::CommandQueue& queue, std::span<const T> values)
     {

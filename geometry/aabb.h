@@ -2,33 +2,33 @@
 #ifndef BVHBENCH_GEOMETRY_AABB_H
 #define BVHBENCH_GEOMETRY_AABB_H
 
-#include "geometry/dialect.h"
+#include "geometry/box_side.h"
 
 SHARED_BEGIN
 
-/// Axis-aligned box, closed on all sides. 24 bytes on both sides: no float3, whose size is 16 in OpenCL C.
+/// Axis-aligned box, closed on all sides. 24 bytes on both sides: no float3, whose size is 16 in OpenCL C. In kernels over
+/// trees whose boxes are not floats its sides are what BOX_FORMAT says.
 typedef struct {
-    float min_x, min_y, min_z;
-    float max_x, max_y, max_z;
+    BoxSide min_x, min_y, min_z;
+    BoxSide max_x, max_y, max_z;
 } Aabb;
 
 /// The box that contains nothing: the neutral element of `merged`.
 SHARED_FN Aabb empty_box(void)
 {
-    const float big = 3.402823466e+38f;
-    const Aabb box = {big, big, big, -big, -big, -big};
+    const Aabb box = {MOST_SIDE, MOST_SIDE, MOST_SIDE, LEAST_SIDE, LEAST_SIDE, LEAST_SIDE};
     return box;
 }
 
 /// The smallest box around two boxes.
 SHARED_FN Aabb merged(Aabb a, Aabb b)
 {
-    a.min_x = fmin(a.min_x, b.min_x);
-    a.min_y = fmin(a.min_y, b.min_y);
-    a.min_z = fmin(a.min_z, b.min_z);
-    a.max_x = fmax(a.max_x, b.max_x);
-    a.max_y = fmax(a.max_y, b.max_y);
-    a.max_z = fmax(a.max_z, b.max_z);
+    a.min_x = SIDE_MIN(a.min_x, b.min_x);
+    a.min_y = SIDE_MIN(a.min_y, b.min_y);
+    a.min_z = SIDE_MIN(a.min_z, b.min_z);
+    a.max_x = SIDE_MAX(a.max_x, b.max_x);
+    a.max_y = SIDE_MAX(a.max_y, b.max_y);
+    a.max_z = SIDE_MAX(a.max_z, b.max_z);
     return a;
 }
 
@@ -39,10 +39,26 @@ SHARED_FN bool overlap(Aabb a, Aabb b)
            a.min_z <= b.max_z && b.min_z <= a.max_z;
 }
 
-/// Half the surface of a box.
+#if BOX_FORMAT == BOX_F16
+/// A half, given by its place among all halves, in units of the smallest one.
+SHARED_FN float half_at(BoxSide place)
+{
+    const uint bits = place < 0x8000 ? 0x8000u - place : place - 0x8000u;
+    const uint exponent = max(bits >> 10u, 1u), mantissa = bits - ((exponent - 1u) << 10u);
+    const float size = (float)mantissa * as_float((exponent + 126u) << 23u);
+    return place < 0x8000 ? -size : size;
+}
+#define SIDE_LENGTH(low, high) (half_at(high) - half_at(low))
+#else
+#define SIDE_LENGTH(low, high) ((float)((high) - (low)))
+#endif
+
+/// Half the surface of a box, in whatever its sides count.
 SHARED_FN float half_surface(Aabb box)
 {
-    const float x = box.max_x - box.min_x, y = box.max_y - box.min_y, z = box.max_z - box.min_z;
+    const float x = SIDE_LENGTH(box.min_x, box.max_x);
+    const float y = SIDE_LENGTH(box.min_y, box.max_y);
+    const float z = SIDE_LENGTH(box.min_z, box.max_z);
     return x * y + y * z + z * x;
 }
 

@@ -46,6 +46,8 @@ constexpr uint popcount(uint x) { return static_cast<uint>(std::popcount(x)); }
 constexpr uint clz(uint x) { return static_cast<uint>(std::countl_zero(x)); }
 constexpr uint as_uint(float x) { return std::bit_cast<uint>(x); }
 constexpr float as_float(uint x) { return std::bit_cast<float>(x); }
+constexpr ulong as_ulong(double x) { return std::bit_cast<ulong>(x); }
+constexpr double as_double(ulong x) { return std::bit_cast<double>(x); }
 
 /// OpenCL's fmin and fmax: of a number and a NaN, the number. Which zero wins between -0 and +0 is open on
 /// every device, so boxes are made from coordinates without -0 (see triangle_box).

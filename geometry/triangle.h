@@ -16,6 +16,7 @@ typedef struct {
     uint a, b, c;
 } Face;
 
+#if BOX_FORMAT == BOX_F32
 /// The box of a triangle, without negative zeros.
 ///
 /// -0 and +0 compare equal, so fmin and fmax may return either, and devices differ. Adding +0 turns -0 into
@@ -31,6 +32,7 @@ SHARED_FN Aabb triangle_box(Point a, Point b, Point c)
     box.max_z = fmax(fmax(a.z, b.z), c.z) + 0.0f;
     return box;
 }
+#endif
 
 /// Whether two triangles name a vertex that is the same.
 SHARED_FN bool share_a_vertex(Face a, Face b)

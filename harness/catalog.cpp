@@ -30,9 +30,16 @@ constexpr BuilderEntry of_fcl(std::string_view name, std::string_view summary, M
     return {name, summary, own_tree, make, fcl_absent, {}, true};
 }
 
+constexpr BuilderEntry in_any_format(std::string_view name, std::string_view summary,
+                                     MakeBuilder make)
+{
+    return {name, summary, oi_tree, make, {}, {}, false, true};
+}
+
 // To add a builder, add its line here. Nothing registers itself.
 constexpr BuilderEntry catalog[] = {
-    {"perfect", "perfect implicit tree, padded to a power of two leaves", oi_tree, make_perfect},
+    in_any_format("perfect", "perfect implicit tree, padded to a power of two leaves",
+                  make_perfect),
     {"karras", "radix tree, topology from all nodes at once, then boxes", radix_tree, make_karras},
     {"apetrei", "radix tree bottom-up as printed: ranges and counters in memory", radix_tree,
      make_apetrei},
@@ -40,10 +47,10 @@ constexpr BuilderEntry catalog[] = {
      radix_tree, make_apetrei_fused},
     {"lbvh-levels", "radix tree, a launch a level: topology from the root down, boxes back up",
      radix_tree, make_lbvh_levels},
-    {"oibvh-single", "Oi-BVH in one launch, groups meet through global atomics", oi_tree,
-     make_oibvh_single},
-    {"oibvh-multi", "Oi-BVH in several launches, groups meet between them", oi_tree,
-     make_oibvh_multi},
+    in_any_format("oibvh-single", "Oi-BVH in one launch, groups meet through global atomics",
+                  make_oibvh_single),
+    in_any_format("oibvh-multi", "Oi-BVH in several launches, groups meet between them",
+                  make_oibvh_multi),
     {"oibvh-wide4", "Oi-BVH with 4 children a node, their boxes side by side", own_tree,
      make_oibvh_wide4},
     {"oibvh-wide8", "Oi-BVH with 8 children a node, their boxes side by side", own_tree,
@@ -85,11 +92,26 @@ const BuilderEntry& find_builder(std::string_view name)
     throw BadUsage("no builder is called '" + std::string(name) + "'; there are: " + known);
 }
 
+void check_boxes(const BuilderChoice& choice)
+{
+    const BoxFormat& format = find_box_format(choice.boxes);
+    if (format.number == BOX_F32)
+        return;
+    if (!find_builder(choice.name).takes_formats)
+        throw BadUsage(choice.name + " keeps its boxes in its own way, not as " + choice.boxes +
+                       "; perfect, oibvh-single and oibvh-multi do as they are told");
+    if (!choice.sorted_leaves)
+        throw BadUsage("boxes of " + choice.boxes +
+                       " are made where leaves are lined up, so leaves must be sorted, not left "
+                       "in mesh order");
+}
+
 std::unique_ptr<Builder> make_builder(const BuilderChoice& choice, Programs& programs)
 {
     const BuilderEntry& entry = find_builder(choice.name);
     if (entry.make == nullptr)
         throw Unavailable(std::string(entry.absent));
+    check_boxes(choice);
     return entry.make(programs, choice.options());
 }
 

@@ -22,6 +22,7 @@ struct BuilderEntry {
     /// instead of leaving a wrong tree, and never for an ordinary mesh.
     std::string_view may_refuse = {};
     bool is_library = false;  ///< the work is done by somebody else's code
+    bool takes_formats = false;  ///< whether its tree may keep boxes in any of box_formats()
 };
 
 /// Every builder, in the order tables list them.
@@ -57,6 +58,7 @@ struct BuilderChoice {
     unsigned group_size = 0;
     unsigned items = 0;
     bool sorted_leaves = false;
+    std::string boxes = "f32";
 
     bool operator==(const BuilderChoice&) const = default;
     BuildOptions options() const
@@ -65,11 +67,15 @@ struct BuilderChoice {
                 .grid = grid,
                 .group_size = group_size,
                 .items = items,
-                .sorted_leaves = sorted_leaves};
+                .sorted_leaves = sorted_leaves,
+                .boxes = boxes};
     }
 };
 
-/// Throws BadUsage when no builder is called so, Unavailable when this binary was built without it.
+/// Throws BadUsage if nothing is called so, or if the builder or its leaves do not allow those boxes.
+void check_boxes(const BuilderChoice& choice);
+
+/// Throws BadUsage when no builder is called so or it has not such boxes, Unavailable when this binary was built without it.
 std::unique_ptr<Builder> make_builder(const BuilderChoice& choice, Programs& programs);
 
 }  // namespace bvhbench

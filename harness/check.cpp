@@ -13,12 +13,12 @@ constexpr std::string_view promises_name = "contract";
 
 }  // namespace
 
-void Oracle::begin(std::string_view reference, const std::string& order)
+void Oracle::begin(std::string_view reference, const std::string& order, const std::string& boxes)
 {
-    std::shared_future<std::uint64_t>& hash = hashes_[{std::string(reference), order}];
+    std::shared_future<std::uint64_t>& hash = hashes_[{std::string(reference), order, boxes}];
     if (!hash.valid())
-        hash = std::async(std::launch::async, [this, name = std::string(reference), order] {
-            return built(name, order);
+        hash = std::async(std::launch::async, [this, name = std::string(reference), order, boxes] {
+            return built(name, order, boxes);
         });
 }
 
@@ -28,14 +28,16 @@ void Oracle::wait() const
         hash.wait();
 }
 
-std::uint64_t Oracle::tree_hash(std::string_view reference, const std::string& order)
+std::uint64_t Oracle::tree_hash(std::string_view reference, const std::string& order,
+                                const std::string& boxes)
 {
-    begin(reference, order);
-    return hashes_[{std::string(reference), order}].get();
+    begin(reference, order, boxes);
+    return hashes_[{std::string(reference), order, boxes}].get();
 }
 
 /// By a builder of its own, for the cell under test may be the reference itself, in a queue of its own.
-std::uint64_t Oracle::built(std::string_view reference, const std::string& order) const
+std::uint64_t Oracle::built(std::string_view reference, const std::string& order,
+                            const std::string& boxes) const
 {
     BuilderChoice choice;
     choice.name = reference;
@@ -45,7 +47,7 @@ std::uint64_t Oracle::built(std::string_view reference, const std::string& order
     Queue queue(session_.device());
     const Tree& tree = builder->build(input_, queue, Start::from_triangles);
     queue.finish();
-    return bvhbench::tree_hash(tree.spelled_out());
+    return bvhbench::tree_hash(rounded_to(tree.spelled_out(), find_box_format(boxes)));
 }
 
 std::uint64_t check_bytes(std::uint64_t triangles)
@@ -64,7 +66,7 @@ Check check_tree(const HostTree& tree, const Input& input, const BuilderChoice& 
     const std::string_view reference = find_builder(builder.name).oracle;
     Check check{agrees, std::string(reference.empty() ? promises_name : reference), {}, {}};
     if (!reference.empty())
-        oracle.begin(reference, builder.order);
+        oracle.begin(reference, builder.order, builder.boxes);
     check.tree_hash = bvhbench::tree_hash(tree);
     check.detail = broken_promise(tree, input.points, input.faces);
     if (!check.detail.empty()) {
@@ -75,7 +77,7 @@ Check check_tree(const HostTree& tree, const Input& input, const BuilderChoice& 
         return check;
     std::uint64_t expected = 0;
     const std::string failure =
-        reason_of_failure([&] { expected = oracle.tree_hash(reference, builder.order); });
+        reason_of_failure([&] { expected = oracle.tree_hash(reference, builder.order, builder.boxes); });
     if (!failure.empty()) {
         check.verdict = not_checked;
         check.detail = "the reference failed: " + failure;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <future>
 #include <map>
@@ -19,22 +20,26 @@ class Oracle {
 public:
     Oracle(Session& session, const Input& input) : session_(session), input_(input) {}
 
-    /// Begin the tree that the builder `reference` leaves, unless it was. Nothing may be timed before wait().
-    void begin(std::string_view reference, const std::string& order);
+    /// Begin the tree that the builder `reference` leaves of leaves in that order, its boxes rounded to such a format,
+    /// unless it was. Nothing may be timed before wait().
+    void begin(std::string_view reference, const std::string& order,
+               const std::string& boxes = "f32");
 
     /// Until all that was begun is there.
     void wait() const;
 
-    /// Of the tree that the builder `reference` leaves. Throws what it throws.
-    std::uint64_t tree_hash(std::string_view reference, const std::string& order);
+    /// Of that tree. Throws what its builder throws.
+    std::uint64_t tree_hash(std::string_view reference, const std::string& order,
+                            const std::string& boxes = "f32");
 
 private:
-    std::uint64_t built(std::string_view reference, const std::string& order) const;
+    std::uint64_t built(std::string_view reference, const std::string& order,
+                        const std::string& boxes) const;
 
     Session& session_;
     const Input& input_;
-    std::map<std::pair<std::string, std::string>, std::shared_future<std::uint64_t>>
-        hashes_;  ///< by builder, order
+    std::map<std::array<std::string, 3>, std::shared_future<std::uint64_t>>
+        hashes_;  ///< by builder, order, boxes
 };
 
 /// Bytes of the host that check_tree takes at most, about, of trees over so many triangles.

@@ -31,6 +31,7 @@ int build(const BuildCommand& command, const Options& options)
     // Wrong words are found before anything is opened.
     find_builder(command.builder.name);
     find_order(command.builder.order);
+    check_boxes(command.builder);
 
     Experiment experiment;
     experiment.name = "build";

@@ -23,6 +23,7 @@ CollideTask task_of(const CollideCommand& command)
 {
     find_builder(command.builder.name);
     find_order(command.builder.order);
+    check_boxes(command.builder);
     find_collider(command.collider.name);
     check_narrow(command.collider.narrow, command.collider.keep_adjacent);
     for (const std::string& path : {command.pairs, command.contacts})

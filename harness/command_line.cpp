@@ -26,6 +26,19 @@ CLI::Validator one_of(std::vector<std::string> known)
     return {check, "", "one of"};
 }
 
+void add_leaves(CLI::App& command, std::string& leaves, std::string& boxes)
+{
+    command
+        .add_option(
+            "--leaves", leaves,
+            "mesh or sorted: where leaf boxes are kept; default: mesh, and sorted for boxes "
+            "other than f32")
+        ->check(one_of({"mesh", "sorted"}));
+    command
+        .add_option("--boxes", boxes, "what nodes keep their boxes in: a name of `list formats`")
+        ->capture_default_str();
+}
+
 void add_quality(CLI::App& command, bool& quality, NodeCosts& costs)
 {
     command.add_flag("--epo,--quality", quality, "compute end-point overlap, which takes long");
@@ -47,8 +60,7 @@ CLI::Validator a_number(int most)
         const bool is_read = error == std::errc() && end == word.data() + word.size();
         return is_read && value >= 0 && value <= most
                    ? std::string()
-                   : "must be a number from 0 to " + std::to_string(most) + ", not '" + word +
-                         "'";
+                   : "must be a number from 0 to " + std::to_string(most) + ", not '" + word + "'";
     };
     return {check, "", "a number"};
 }
@@ -57,13 +69,13 @@ void add_list(CLI::App& app, ListCommand& list)
 {
     CLI::App* command = app.add_subcommand("list", "What there is, a line each");
     command
-        ->add_option(
-            "WHAT", list.what,
-            "builders, colliders, narrow, orders, skips, tuning, scenes, devices, accuracy or "
-            "experiments")
+        ->add_option("WHAT", list.what,
+                     "builders, colliders, narrow, orders, formats, skips, tuning, scenes, "
+                     "devices, accuracy or "
+                     "experiments")
         ->required()
-        ->check(one_of({"builders", "colliders", "narrow", "orders", "skips", "tuning", "scenes",
-                        "devices", "accuracy", "experiments"}));
+        ->check(one_of({"builders", "colliders", "narrow", "orders", "formats", "skips", "tuning",
+                        "scenes", "devices", "accuracy", "experiments"}));
 }
 
 void add_build(CLI::App& app, BuildCommand& build, std::string& leaves)
@@ -77,8 +89,7 @@ void add_build(CLI::App& app, BuildCommand& build, std::string& leaves)
                         "work-items in a group, a power of two; 0: the builder's choice");
     command->add_option("--items", build.builder.items,
                         "nodes a work-item merges in registers, a power of two; 0: likewise");
-    command->add_option("--leaves", leaves, "mesh or sorted: where leaf boxes are kept")
-        ->check(one_of({"mesh", "sorted"}));
+    add_leaves(*command, leaves, build.builder.boxes);
     command->add_option("--samples", build.samples, "timed builds")
         ->capture_default_str()
         ->check(CLI::Range(1, most_samples));
@@ -114,9 +125,10 @@ void add_collide(CLI::App& app, CollideCommand& collide, std::string& leaves, st
         ->add_option("--between", collide.between,
                      "frames put between each two of the scene's, in a straight line")
         ->check(CLI::Range(0, 1000));
-    command->add_flag("--swept", collide.swept,
-                      "boxes around the way from each frame to the next: vertices against faces, and "
-                      "edges against edges; --pairs-of between or within has one of the two");
+    command->add_flag(
+        "--swept", collide.swept,
+        "boxes around the way from each frame to the next: vertices against faces, and "
+        "edges against edges; --pairs-of between or within has one of the two");
     command
         ->add_option(
             "--narrow", collide.collider.narrow,
@@ -130,8 +142,7 @@ void add_collide(CLI::App& app, CollideCommand& collide, std::string& leaves, st
                      "object or scene: what codes are measured against, of several objects")
         ->transform(CLI::CheckedTransformer(std::map<std::string, GridOver>{
             {"object", GridOver::object}, {"scene", GridOver::scene}}));
-    command->add_option("--leaves", leaves, "mesh or sorted: where leaf boxes are kept")
-        ->check(one_of({"mesh", "sorted"}));
+    add_leaves(*command, leaves, collide.builder.boxes);
     command->add_option("--adjacent", adjacent, "keep or drop pairs that share a vertex index")
         ->capture_default_str()
         ->check(one_of({"keep", "drop"}));
@@ -232,8 +243,7 @@ void add_tune(CLI::App& app, TuneCommand& tune, std::string& leaves, std::string
         ->capture_default_str();
     command->add_option("--order", tune.builder.order, "a name of `list orders`")
         ->capture_default_str();
-    command->add_option("--leaves", leaves, "mesh or sorted: where leaf boxes are kept")
-        ->check(one_of({"mesh", "sorted"}));
+    add_leaves(*command, leaves, tune.builder.boxes);
     command->add_option("--adjacent", adjacent, "keep or drop pairs that share a vertex index")
         ->capture_default_str()
         ->check(one_of({"keep", "drop"}));

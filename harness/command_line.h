@@ -15,6 +15,7 @@ namespace bvhbench {
 CLI::Validator a_number(int most);
 
 void add_list(CLI::App& app, ListCommand& list);
+/// `leaves` stays empty where nothing is said of them.
 void add_build(CLI::App& app, BuildCommand& build, std::string& leaves);
 void add_collide(CLI::App& app, CollideCommand& collide, std::string& leaves, std::string& adjacent,
                  std::string& pairs_of, std::vector<std::string>& no_skip);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <iostream>
 
+#include "builders/box_format.h"
 #include "builders/orders.h"
 #include "collide/narrow_methods.h"
 #include "geometry/error.h"
@@ -73,6 +74,15 @@ std::string orders()
     return table.text();
 }
 
+std::string formats()
+{
+    Table table = lines(3);
+    for (const BoxFormat& format : box_formats())
+        table.row({std::string(format.name), std::to_string(format.box_bytes()) + " bytes a box",
+                   std::string(format.summary)});
+    return table.text();
+}
+
 std::string scenes(const CommonOptions& common)
 {
     Table table = lines(2);
@@ -140,6 +150,7 @@ int list(const ListCommand& command, const Options& options)
     std::cout << (command.what == "builders"    ? builders()
                   : command.what == "colliders" ? colliders()
                   : command.what == "orders"    ? orders()
+                  : command.what == "formats"   ? formats()
                   : command.what == "narrow"    ? narrow()
                   : command.what == "accuracy"  ? accuracy()
                   : command.what == "skips"     ? skips()

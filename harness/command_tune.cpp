@@ -75,6 +75,7 @@ int tune(const TuneCommand& command, const Options& options)
         check_target(target);
     find_builder(command.builder.name);
     find_order(command.builder.order);
+    check_boxes(command.builder);
 
     Session session(options.common);
     const Device& device = session.device();

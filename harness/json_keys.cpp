@@ -66,8 +66,8 @@ BuilderChoice builder_choice(const Json& json)
     if (json.is_string()) {
         choice.name = json.get<std::string>();
     } else {
-        refuse_unknown_keys(json, {"name", "order", "grid", "group_size", "items", "leaves"},
-                            "a builder");
+        refuse_unknown_keys(
+            json, {"name", "order", "grid", "group_size", "items", "leaves", "boxes"}, "a builder");
         choice.name = text_at(json, "name");
         if (json.contains("order"))
             choice.order = text_at(json, "order");
@@ -82,6 +82,9 @@ BuilderChoice builder_choice(const Json& json)
                 static_cast<unsigned>(whole_number(json["group_size"], "group_size", 0, 1 << 16));
         if (json.contains("items"))
             choice.items = static_cast<unsigned>(whole_number(json["items"], "items", 0, 8));
+        if (json.contains("boxes"))
+            choice.boxes = text_at(json, "boxes");
+        choice.sorted_leaves = choice.boxes != "f32";  // if nothing is said of them
         if (json.contains("leaves")) {
             const std::string leaves = text_at(json, "leaves");
             if (leaves != "mesh" && leaves != "sorted")
@@ -91,6 +94,7 @@ BuilderChoice builder_choice(const Json& json)
     }
     find_builder(choice.name);
     find_order(choice.order);
+    check_boxes(choice);
     return choice;
 }
 

@@ -70,7 +70,7 @@ Options parse_options(int argc, const char* const* argv)
     TuneCommand tune;
     AccuracyCommand accuracy;
     StressCommand stress;
-    std::string leaves = "mesh";
+    std::string leaves;
     std::string adjacent = "keep";
     std::string pairs_of = "all";
     std::vector<std::string> no_skip;
@@ -104,8 +104,8 @@ Options parse_options(int argc, const char* const* argv)
     for (const NodeCosts& costs : {build.costs, run.costs, reproduce.costs})
         check_costs(costs);
     check_power_of_two("--group-size", collide.collider.group_size);
-    build.builder.sorted_leaves = collide.builder.sorted_leaves = tune.builder.sorted_leaves =
-        leaves == "sorted";
+    for (BuilderChoice* builder : {&build.builder, &collide.builder, &tune.builder})
+        builder->sorted_leaves = leaves == "sorted" || (leaves.empty() && builder->boxes != "f32");
     collide.collider.keep_adjacent = tune.collider.keep_adjacent = adjacent == "keep";
     collide.collider.among = among_called(pairs_of);
     collide.collider.rules_off = skip_rules_called(no_skip);

@@ -34,7 +34,7 @@ struct PrintCommand {
 };
 struct ListCommand {
     std::string
-        what;  ///< builders, colliders, narrow, orders, skips, tuning, scenes, devices, accuracy or experiments
+        what;  ///< builders, colliders, narrow, orders, formats, skips, tuning, scenes, devices, accuracy or experiments
 };
 struct BuildCommand {
     BuilderChoice builder;

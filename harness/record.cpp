@@ -67,7 +67,8 @@ Json json_of(const BuilderChoice& builder)
     Json options = {{"order", builder.order},
                     {"group_size", builder.group_size},
                     {"items", builder.items},
-                    {"leaves", builder.sorted_leaves ? "sorted" : "mesh"}};
+                    {"leaves", builder.sorted_leaves ? "sorted" : "mesh"},
+                    {"boxes", builder.boxes}};
     if (builder.grid == GridOver::scene)
         options["grid"] = "scene";
     return {{"name", builder.name}, {"options", std::move(options)}};

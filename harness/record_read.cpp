@@ -94,7 +94,8 @@ BuilderChoice builder_of(const Json& json)
             .grid = options.value("grid", "object") == "scene" ? GridOver::scene : GridOver::object,
             .group_size = get<unsigned>(options, "group_size"),
             .items = get<unsigned>(options, "items"),
-            .sorted_leaves = options.value("leaves", "mesh") == "sorted"};
+            .sorted_leaves = options.value("leaves", "mesh") == "sorted",
+            .boxes = options.value("boxes", "f32")};
 }
 
 /// The rules of "rigid, apart". Names of later formats are passed over.

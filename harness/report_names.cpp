@@ -28,7 +28,9 @@ std::string variant_text(const BuilderChoice& builder)
         text += ", groups of " + std::to_string(builder.group_size);
     if (builder.items != usual.items)
         text += ", " + std::to_string(builder.items) + " items";
-    if (builder.sorted_leaves)
+    if (builder.boxes != usual.boxes)  // which says that leaves are sorted
+        text += ", " + builder.boxes + " boxes";
+    else if (builder.sorted_leaves)
         text += ", sorted leaves";
     return text;
 }

@@ -227,7 +227,8 @@ Run::Prepared Run::prepare(const Experiment& experiment, const Frames& frames, C
         // While the builder is compiled and builds for the first time.
         if (const auto reference = find_builder(prepared.cell.builder.name).oracle;
             !reference.empty())
-            oracle.begin(reference, prepared.cell.builder.order);
+            oracle.begin(reference, prepared.cell.builder.order,
+                         prepared.cell.builder.boxes);
         Builder& builder = session_.builder(prepared.cell.builder, prepared.cell.operation);
         if (refits && !builder.can_refit()) {
             why_not = std::string(builder.card().name) + " cannot refit";

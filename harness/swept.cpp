@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "harness/swept.h"
+#include "builders/box_format.h"
 
 #include <algorithm>
 #include <utility>
@@ -61,7 +62,8 @@ void judge_step(const Question& question, const PairList& found, Cell& cell)
     if (question.counted) {
         cell.counters["reference_pairs_count"] = static_cast<double>(*question.counted);
         cell.check.against += ", meta.json";
-        if (found.size() != *question.counted)
+        const bool may_be_more = find_box_format(cell.builder.boxes).has_cells();
+        if (may_be_more ? found.size() < *question.counted : found.size() != *question.counted)
             find_wrong(cell.check,
                        "meta.json counts " + std::to_string(*question.counted) + " pairs");
     }

@@ -5,7 +5,7 @@
 
 narrow: a panel a class of pairs of triangles, a point a narrow phase. sums: a panel a scene, a point a way to add areas
 up. codes: a panel a scene and measure, a point an order, and which is the fastest of build and k queries. input: how
-many pairs of boxes, and what a frame takes, by how far from the origin the scene is. swept: as plots/swept.py. In the
+many pairs of boxes, and what a frame takes, by how far from the origin the scene is. boxes: a panel a scene, a point a format, larger the more bytes a box takes. swept: as plots/swept.py. In the
 others left and down is better; the grey line joins what no other method is as good as in both time and error (the Pareto
 front), and those points are filled.
 """
@@ -44,6 +44,8 @@ METHODS = {
               for bits, marker in zip((30, 48, 63), markers)}
              | {"kd": Look("#CC79A7", "*"), "radix": Look("#000000", "P")},
     "input": {"f32": Look("#D55E00", "v"), "f32-recentred": Look("#0072B2", "o")},
+    "boxes": {"f32": Look("#0072B2", "o"), "f64": Look("#56B4E9", "o"), "f16": Look("#CC79A7", "o"),
+              "u16": Look("#009E73", "o"), "u8": Look("#D55E00", "o"), "u8-node-local": Look("#E69F00", "s")},
 }
 
 
@@ -305,7 +307,38 @@ def draw_swept(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
     return swept.draw_cells(run, cells, "accuracy")
 
 
-FIGURES = {"narrow": draw_narrow, "sums": draw_sums, "codes": draw_codes, "input": draw_input, "swept": draw_swept}
+def inflation(cell: results.Cell) -> float:
+    """False pairs for each right one."""
+    return cell.counters["false_count"] / max(1, cell.counters["right_pairs_count"])
+
+
+def draw_boxes(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
+    inputs = by_input(cells)
+    drawing, grid, columns = panels(len(inputs), 3, 2.6, sharey=True)
+    inflations = [inflation(cell) for cell in cells]
+    from_zero(grid[0], min((value for value in inflations if value > 0), default=1e-3), max(*inflations, 1e-3),
+              lambda value: f"{value:g}", 6)
+    for number, (axes, (name, group)) in enumerate(zip(grid, inputs.items())):
+        points = [Point(1e3 * median_s(cell, ("broad",)), inflation(cell), cell.accuracy["method"]) for cell in group]
+        low, high = min(point.time for point in points), max(point.time for point in points)
+        axes.set_xlim(low - 0.15 * (high - low) - 0.05 * high, high + 0.3 * (high - low) + 0.05 * high)
+        draw_points(axes, "boxes", points)
+        for line, cell in zip(axes.lines[1:], group):  # behind the front, as points were drawn
+            line.set_markersize(2.2 * math.sqrt(cell.counters["node_bytes"]))
+            axes.annotate(cell.accuracy["method"], line.get_xydata()[0], xytext=(7, 7), textcoords="offset points",
+                          fontsize=6, color="#444444")
+        axes.set_title(name, loc="left")
+        axes.set_xlabel("query, ms")
+        if number % columns == 0:
+            axes.set_ylabel("false pairs, for each right one")
+    figure.footer(drawing, run, "accuracy", (
+        "Areas of points: bytes a box, 6 of u8 to 48 of f64. Rounded outward, boxes miss no pair.", "Left and down is better. Filled, joined: no other is as good in both. Times: medians."),
+        legend(drawing, "boxes", cells, 6))
+    return drawing
+
+
+FIGURES = {"narrow": draw_narrow, "sums": draw_sums, "codes": draw_codes, "input": draw_input, "boxes": draw_boxes,
+           "swept": draw_swept}
 
 
 def figures_of(run: results.Run) -> dict[str, Callable[[], plt.Figure]]:

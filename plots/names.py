@@ -6,7 +6,7 @@ from collections.abc import Mapping
 # An option's usual value and how another one is said, in the order in which they are.
 OPTIONS = {"no_skip": ("", "without {}"), "jump": ("0", "jump {}"), "start_level": ("0", "from level {}"),
            "order": ("morton30", "{}"), "grid": ("object", "grid over the {}"), "group_size": ("0", "groups of {}"), "items": ("0", "{} items"),
-           "leaves": ("mesh", "{} leaves")}
+           "leaves": ("mesh", "{} leaves"), "boxes": ("f32", "{} boxes")}
 
 
 def variant(name: str, options: Mapping[str, object]) -> str:

@@ -96,6 +96,7 @@ public:
                  const BuildOptions& options)
         : OrderedBuilder(programs, card, options), make_(make)
     {
+        require_floats();
         tree_.leaves.sorted = options.sorted_leaves;
         tree_.hierarchy = make({programs, RadixLaunch(programs.device(), options),
                                 leaf_order_.code_bits(), options.sorted_leaves});
@@ -120,7 +121,7 @@ private:
             leaves.sorted ? arena.take<Aabb>(primitives, Use::tree) : leaf_order_.boxes();
         leaves.ids = leaf_order_.ids();
         leaves.codes = leaf_order_.codes();
-        gathered_ = {leaves.boxes, 0};
+        gathered_ = {leaves.boxes.as<std::byte>(), 0};
         tree_.hierarchy->plan(arena, leaves);
     }
 

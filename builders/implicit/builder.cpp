@@ -18,7 +18,7 @@ public:
                   Meeting meeting, const BuildOptions& options)
         : ImplicitBuilder(programs, card, layout, options), asked_(meeting), meeting_(meeting)
     {
-        choose_cut(programs.device(), options, meeting, 1);  // refuses bad options now
+        choose_cut(programs.device(), options, meeting, 1, format().box_bytes());  // refuses bad options now
     }
 
 private:
@@ -29,7 +29,8 @@ private:
 
     void enqueue_hierarchy(Queue& queue) override { enqueue(whole_, queue); }
 
-    bool can_update_some() const override { return true; }
+    /// Where boxes are rounded into cells, those of one object are cells of all: who moves may move all of them.
+    bool can_update_some() const override { return !tree_.format->has_cells(); }
     void plan_updates(Arena& arena) override
     {
         update_.subtrees = arena.take<cl_uint2>(whole_.subtree_list.size(), Use::scratch);
@@ -45,11 +46,15 @@ private:
     cl::Kernel kernel(std::string_view name) const
     {
         const std::string text(name);
+        const Define boxes{"BOX_FORMAT", tree_.format->number};
         if (!by_groups())
-            return programs_.kernel(tree_.layout.build_items, text.c_str());
+            return programs_.kernel(tree_.layout.build_items, text.c_str(), {boxes});
         return programs_.kernel(
             tree_.layout.build_groups, text.c_str(),
-            {{"GROUP_SIZE", cut_.group_size}, {"ITEMS", cut_.items}, {"LEVELS", cut_.levels}},
+            {boxes,
+             {"GROUP_SIZE", cut_.group_size},
+             {"ITEMS", cut_.items},
+             {"LEVELS", cut_.levels}},
             in_one_launch() ? Optimise::on_gpus
                             : Optimise::freely);  // groups return before a barrier
     }
@@ -91,7 +96,8 @@ private:
     Buffer<cl_ulong> posts_;  ///< if groups wait: a box a group
 };
 
-constexpr uint words_per_post = 3;  // NOTHING_POSTED of build_waiting.clh is a word of ones
+/// POSTS_A_BOX of build_waiting.clh, where nothing posted is a word of ones.
+std::size_t words_per_post(const BoxFormat& format) { return format.number == BOX_F64 ? 6 : 3; }
 
 /// What later rounds build, round by round and object by object; `schedules` are of `objects`.
 std::vector<LaterSubtree> later_subtrees(std::span<const uint> objects,
@@ -127,7 +133,8 @@ bool KernelBuilder::may_wait() const
 
 void KernelBuilder::choose_and_plan(Meeting meeting)
 {
-    cut_ = choose_cut(programs_.device(), options_, meeting, tree_.most_leaves);
+    cut_ = choose_cut(programs_.device(), options_, meeting, tree_.most_leaves,
+                      tree_.format->box_bytes());
     meeting_ = by_groups() ? meeting : asked_;
     std::vector<uint> all(tree_.objects.size());
     std::iota(all.begin(), all.end(), 0u);
@@ -146,11 +153,11 @@ void KernelBuilder::plan_hierarchy(Arena& arena)
     whole_.later = arena.take<LaterSubtree>(whole_.later_list.size(), Use::scratch);
     const std::size_t groups =
         whole_.list.empty() ? 0 : whole_.list[0].subtrees + whole_.later_list.size();
-    posts_ = arena.take<cl_ulong>(waits() ? words_per_post * groups : 0, Use::scratch);
+    posts_ = arena.take<cl_ulong>(waits() ? words_per_post(*tree_.format) * groups : 0, Use::scratch);
 
     std::size_t above = 0;
     if (meeting_ == Meeting::by_handoff && is_forest())
-        above = tree_.nodes.size();
+        above = tree_.slot_count;
     else if (meeting_ == Meeting::by_handoff && !whole_.list.empty())
         above = tree_.layout.first_slot(
             tree_.leaves, whole_.list[0].of_first.entry_level + 1 - whole_.list[0].of_first.levels);
@@ -276,7 +283,7 @@ std::int64_t KernelBuilder::moved_bytes(uint leaves, const SubtreeLaunch& launch
     std::int64_t written_boxes = 0;
     for (uint level = last_level; level <= launch.entry_level; ++level)
         written_boxes += stored_on(level);
-    return (read_boxes + written_boxes) * std::int64_t{sizeof(Aabb)} +
+    return (read_boxes + written_boxes) * static_cast<std::int64_t>(tree_.format->box_bytes()) +
            read_ids * std::int64_t{sizeof(uint)};
 }
 

@@ -12,10 +12,10 @@ namespace bvhbench {
 namespace {
 
 /// A group keeps two boxes a work-item in local memory, or its entry level if that is more.
-uint most_group_size(const Device& device, uint items)
+uint most_group_size(const Device& device, uint items, std::size_t box_bytes)
 {
     const std::size_t room =
-        device.cl.getInfo<CL_DEVICE_LOCAL_MEM_SIZE>() / (std::max(2u, items) * sizeof(Aabb));
+        device.cl.getInfo<CL_DEVICE_LOCAL_MEM_SIZE>() / (std::max(2u, items) * box_bytes);
     return static_cast<uint>(std::bit_floor(std::min<std::size_t>(
         {room, device.cl.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>(), std::size_t{1024}})));
 }
@@ -68,7 +68,8 @@ void require_power_of_two(const char* what, uint value, uint most, const Device&
 
 }  // namespace
 
-Cut choose_cut(const Device& device, const BuildOptions& options, Meeting meeting, uint leaves)
+Cut choose_cut(const Device& device, const BuildOptions& options, Meeting meeting, uint leaves,
+               std::size_t box_bytes)
 {
     // Where groups wait, more nodes a work-item were never better.
     const bool is_tuned = !device.is_cpu() && options.group_size == 0 && meeting != Meeting::by_waiting;
@@ -76,7 +77,7 @@ Cut choose_cut(const Device& device, const BuildOptions& options, Meeting meetin
                        : is_tuned         ? device.tuned(implicit_items)
                                           : 1;
     require_power_of_two("the number of items a work-item", items, 8, device);
-    const uint most = most_group_size(device, items);
+    const uint most = most_group_size(device, items, box_bytes);
     if (options.group_size != 0) {  // the paper's groups are asked for by their size, on a CPU too
         require_power_of_two("a group size", options.group_size, most, device);
         return groups_of(options.group_size, items);

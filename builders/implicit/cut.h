@@ -4,6 +4,7 @@
 #include "builders/builder.h"
 #include "builders/implicit/layout.h"
 #include "builders/stages/kernel_form.h"
+#include "geometry/aabb.h"
 
 namespace bvhbench {
 
@@ -16,8 +17,9 @@ struct Cut {
     uint levels = 1;  ///< levels a launch builds at most
 };
 
-/// The cut for a tree of `leaves` on `device`: what `options` asks for, else what was measured to be fastest
+/// The cut for a tree of `leaves` and boxes of so many bytes on `device`: what `options` asks for, else what was measured to be fastest
 /// on that kind of device. Throws BadUsage for a group the device does not have.
-Cut choose_cut(const Device& device, const BuildOptions& options, Meeting meeting, uint leaves);
+Cut choose_cut(const Device& device, const BuildOptions& options, Meeting meeting, uint leaves,
+               std::size_t box_bytes = sizeof(Aabb));
 
 }  // namespace bvhbench

@@ -25,7 +25,9 @@ public:
         , threads_(programs.device().is_cpu()
                        ? programs.device().cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()
                        : std::max(1u, std::thread::hardware_concurrency()))
-    {}
+    {
+        require_floats();
+    }
 
 private:
     std::unique_ptr<OrderedBuilder> twin() const override
@@ -37,7 +39,7 @@ private:
 
     void enqueue_hierarchy(Queue& queue) override
     {
-        const Mapped nodes(queue.cl(), tree_.nodes, CL_MAP_READ | CL_MAP_WRITE);
+        const Mapped nodes(queue.cl(), tree_.nodes.as<Aabb>(), CL_MAP_READ | CL_MAP_WRITE);
         const Mapped leaf_boxes(queue.cl(), tree_.leaf_boxes, CL_MAP_READ);
         const Mapped ids(queue.cl(), tree_.ids, CL_MAP_READ);
         std::vector<HostLevels> trees;

@@ -12,6 +12,7 @@ ImplicitBuilder::ImplicitBuilder(Programs& programs, const BuilderCard& card,
 {
     tree_.layout = layout;
     tree_.sorted_leaves = options.sorted_leaves;
+    tree_.format = &format();
 }
 
 void ImplicitBuilder::plan(Arena& arena, std::span<const uint> sizes)
@@ -29,13 +30,15 @@ void ImplicitBuilder::plan(Arena& arena, std::span<const uint> sizes)
         first += size;
     }
 
-    tree_.nodes = arena.take<Aabb>(slots, Use::tree);
+    tree_.slot_count = slots;
+    tree_.nodes = arena.take<std::byte>(slots * tree_.format->box_bytes(), Use::tree);
     if (!tree_.sorted_leaves)  // what a padded layout stores past the leaves
         arena.take<Aabb>(padding, Use::tree);
     arena.take<uint>(padding, Use::tree);
     tree_.device_objects = arena.take<ForestObject>(sizes.size(), Use::tree);
 
     leaf_order_.plan(arena, sizes, tree_.sorted_leaves ? Use::scratch : Use::tree, false);
+    tree_.cells = plan_cells(arena);
     tree_.leaf_boxes = tree_.sorted_leaves ? Buffer<Aabb>{} : leaf_order_.boxes();
     tree_.ids = leaf_order_.ids();
     gathered_ = {
@@ -56,7 +59,7 @@ void ImplicitBuilder::prepare(const cl::CommandQueue& queue)
         gathered_.slots.upload(queue, slots);
     }
     if (tree_.sorted_leaves)  // padding that a traversal may read
-        tree_.nodes.upload(queue, std::vector<Aabb>(tree_.nodes.size(), empty_box()));
+        tree_.nodes.upload(queue, stored_empty_boxes(*tree_.format, tree_.slot_count));
 }
 
 }  // namespace bvhbench

@@ -23,13 +23,23 @@ std::size_t ImplicitTree::node_count() const
     return count;
 }
 
+BoxRounding ImplicitTree::rounding() const
+{
+    return {format, format->has_cells() ? cells.download(queue->cl()).front() : SceneCells{}};
+}
+
 HostTree ImplicitTree::spelled_out_object(uint object) const
 {
     const ForestObject& own = objects.at(object);
     const uint own_leaves = own.leaves;
-    const std::vector<Aabb> all_boxes = nodes.download(queue->cl());
+    const std::vector<std::byte> all_boxes = nodes.download(queue->cl());
     const std::vector<uint> all_primitives = ids.download(queue->cl());
-    const std::span<const Aabb> boxes = std::span(all_boxes).subspan(own.nodes);
+    const BoxRounding own_rounding = rounding();
+    const std::size_t box_bytes = format->box_bytes();
+    const auto box_in = [&](std::size_t slot) {
+        return own_rounding.read(
+            std::span(all_boxes).subspan((own.nodes + slot) * box_bytes, box_bytes));
+    };
     const std::span<const uint> primitives =
         std::span(all_primitives).subspan(own.first, own_leaves);
     const std::vector<Aabb> mesh_order =
@@ -37,6 +47,7 @@ HostTree ImplicitTree::spelled_out_object(uint object) const
 
     // Breadth-first without padding: the used nodes of a level follow those of the level above.
     HostTree tree;
+    tree.rounding = own_rounding;
     const uint leaf_level = implicit_leaf_level(own_leaves);
     std::size_t count = 0;
     for (uint level = 0; level <= leaf_level; ++level)
@@ -50,11 +61,11 @@ HostTree ImplicitTree::spelled_out_object(uint object) const
             HostTree::Node& node = tree.nodes.emplace_back();
             if (level == leaf_level) {
                 node.primitive = static_cast<int>(primitives[p]);
-                node.box = sorted_leaves ? boxes[layout.first_slot(own_leaves, level) + p]
+                node.box = sorted_leaves ? box_in(layout.first_slot(own_leaves, level) + p)
                                          : mesh_order.at(primitives[p]);
                 continue;
             }
-            node.box = boxes[layout.first_slot(own_leaves, level) + p];
+            node.box = box_in(layout.first_slot(own_leaves, level) + p);
             const std::size_t child = below + std::size_t{2} * p;
             node.child[0] = static_cast<int>(child);
             if (2 * p + 1 < implicit_used_on(own_leaves, level + 1))

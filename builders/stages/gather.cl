@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: MIT
 // check: -DGROUP_SIZE=64u
+// check: -DGROUP_SIZE=64u -DBOX_FORMAT=1u
+// check: -DGROUP_SIZE=64u -DBOX_FORMAT=2u
+// check: -DGROUP_SIZE=64u -DBOX_FORMAT=4u
 //
-// sorted[first + k] becomes boxes[ids[k]], for all k below `count`. Boxes are seen as three pairs of floats. Of
+// sorted[first + k] becomes boxes[ids[k]], for all k below `count`. Boxes are seen as three pairs of sides. Of
 // several objects, `first` is the owner's slot, modulo 2^32: its own leaves do not begin at k = 0.
+//
+// Boxes are floats; those lined up are in the format that trees keep (BOX_FORMAT), and this is the one place where they
+// are rounded. `cells` is what scene_cells.cl has found; of formats without cells nobody reads it.
 #include "builders/stages/chunk.clh"
-#include "geometry/aabb.h"
+#include "builders/stages/stored_box.clh"
 
 /// A group fills GROUP_SIZE boxes, and neighbours in it neighbouring pairs of floats: the memory sees whole
 /// lines written, which a work-item writing its own 24 bytes would not give it.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void gather_groups(
     global const float2* restrict boxes, global const uint* restrict ids,
-    global float2* restrict sorted, const uint first, const uint count)
+    global BoxWord* restrict sorted, const uint first, const uint count CELLS_PARAMETER)
 {
     const uint start = (uint)get_group_id(0) * GROUP_SIZE;
     const uint words = 3u * min(GROUP_SIZE, count - start);
@@ -19,24 +25,25 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void gather_group
         const uint word = round * GROUP_SIZE + (uint)get_local_id(0);
         if (word < words)
             sorted[3ul * ((ulong)first + start) + word] =
-                boxes[3ul * ids[start + word / 3u] + word % 3u];
+                STORED_WORD(boxes[3ul * ids[start + word / 3u] + word % 3u], word % 3u);
     }
 }
 
 /// The same, each work-item by itself.
-kernel void gather_chunks(global const Aabb* restrict boxes, global const uint* restrict ids,
-                          global Aabb* restrict sorted, const uint first, const uint count)
+kernel void gather_chunks(global const float2* restrict boxes, global const uint* restrict ids,
+                          global BoxWord* restrict sorted, const uint first,
+                          const uint count CELLS_PARAMETER)
 {
     const Chunk chunk = own_chunk(count);
     for (uint k = chunk.first; k < chunk.end; ++k)
-        sorted[(ulong)first + k] = boxes[ids[k]];
+        gather_box(boxes, ids[k], sorted, (ulong)first + k CELLS_PASSED);
 }
 
 /// As gather_groups, of several objects.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void gather_objects_groups(
     global const float2* restrict boxes, global const uint* restrict ids,
     global const uint* restrict owners, global const uint* restrict slots,
-    global float2* restrict sorted, const uint count)
+    global BoxWord* restrict sorted, const uint count CELLS_PARAMETER)
 {
     const uint start = (uint)get_group_id(0) * GROUP_SIZE;
     const uint words = 3u * min(GROUP_SIZE, count - start);
@@ -46,41 +53,43 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void gather_objec
         if (word < words) {
             const uint id = ids[start + word / 3u];
             const uint slot = slots[owners[id]] + start + word / 3u;
-            sorted[3ul * slot + word % 3u] = boxes[3ul * id + word % 3u];
+            sorted[3ul * slot + word % 3u] =
+                STORED_WORD(boxes[3ul * id + word % 3u], word % 3u);
         }
     }
 }
 
 /// As gather_chunks, of several objects.
-kernel void gather_objects_chunks(global const Aabb* restrict boxes, global const uint* restrict ids,
+kernel void gather_objects_chunks(global const float2* restrict boxes, global const uint* restrict ids,
                                   global const uint* restrict owners,
-                                  global const uint* restrict slots, global Aabb* restrict sorted,
-                                  const uint count)
+                                  global const uint* restrict slots, global BoxWord* restrict sorted,
+                                  const uint count CELLS_PARAMETER)
 {
     const Chunk chunk = own_chunk(count);
     for (uint k = chunk.first; k < chunk.end; ++k)
-        sorted[slots[owners[ids[k]]] + k] = boxes[ids[k]];
+        gather_box(boxes, ids[k], sorted, slots[owners[ids[k]]] + k CELLS_PASSED);
 }
 
 /// As gather_objects_groups, of some of the objects: a group fills a run (ObjectRun).
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void gather_runs_groups(
     global const float2* restrict boxes, global const uint* restrict ids,
     global const uint4* restrict runs, global const uint* restrict slots,
-    global float2* restrict sorted)
+    global BoxWord* restrict sorted CELLS_PARAMETER)
 {
     const uint4 run = runs[get_group_id(0)];
     const uint slot = slots[run.z] + run.x;
     const uint words = 3u * (run.y - run.x);
     for (uint word = (uint)get_local_id(0); word < words; word += GROUP_SIZE)
-        sorted[3ul * slot + word] = boxes[3ul * ids[run.x + word / 3u] + word % 3u];
+        sorted[3ul * slot + word] =
+            STORED_WORD(boxes[3ul * ids[run.x + word / 3u] + word % 3u], word % 3u);
 }
 
 /// The same, each work-item a run.
-kernel void gather_runs_chunks(global const Aabb* restrict boxes, global const uint* restrict ids,
+kernel void gather_runs_chunks(global const float2* restrict boxes, global const uint* restrict ids,
                                global const uint4* restrict runs, global const uint* restrict slots,
-                               global Aabb* restrict sorted)
+                               global BoxWord* restrict sorted CELLS_PARAMETER)
 {
     const uint4 run = runs[get_global_id(0)];
     for (uint k = run.x; k < run.y; ++k)
-        sorted[slots[run.z] + k] = boxes[ids[k]];
+        gather_box(boxes, ids[k], sorted, slots[run.z] + k CELLS_PASSED);
 }

@@ -23,6 +23,8 @@ std::string report_codes(const Document& document);
 void measure_input(const AxisRun& run);
 std::string report_input(const Document& document);
 
+void measure_boxes(const AxisRun& run);
+std::string report_boxes(const Document& document);
 void measure_swept(const AxisRun& run);
 std::string report_swept(const Document& document);
 

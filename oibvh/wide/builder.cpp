@@ -25,6 +25,7 @@ public:
                 const BuildOptions& options)
         : OrderedBuilder(programs, card, without_idle_gather(options, format))
     {
+        require_floats();
         tree_.format = format;
         tree_.sorted_leaves = options_.sorted_leaves;
         choose(1);  // refuses bad options now
@@ -126,7 +127,7 @@ void WideBuilder::plan(Arena& arena, std::span<const uint> sizes)
     tree_.leaf_boxes = shows_boxes ? leaf_order_.boxes() : Buffer<Aabb>{};
     if (tree_.sorted_leaves) {
         tree_.leaf_boxes = arena.take<Aabb>(tree_.leaves, Use::tree);
-        gathered_ = {tree_.leaf_boxes, 0,
+        gathered_ = {tree_.leaf_boxes.as<std::byte>(), 0,
                      arena.take<uint>(sizes.size() > 1 ? sizes.size() : 0, Use::scratch)};
     }
     whole_.subtrees = arena.take<cl_uint2>(whole_.subtree_list.size(), Use::scratch);

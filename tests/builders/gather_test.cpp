@@ -41,7 +41,7 @@ TEST_P(GatherContract, FillsItsPlaceInTheOrderOfTheIdsAndNothingElse)
         device_boxes.upload(queue, boxes);
         device_ids.upload(queue, ids);
         sorted.upload(queue, expected);
-        gather.enqueue(device_boxes, device_ids, sorted, before, bench().queue);
+        gather.enqueue(device_boxes, device_ids, sorted.as<std::byte>(), before, bench().queue);
         bench().queue.finish();
 
         for (uint k = 0; k < size; ++k)
@@ -86,7 +86,8 @@ TEST_P(GatherContract, FillsThePlacesOfChosenObjectsAndNoOthers)
         sorted.upload(queue, std::vector<Aabb>(expected.size(), empty_box()));
         expected.assign(expected.size(), empty_box());
         runs.choose(queue, {}, chosen);
-        gather.enqueue(device_boxes, device_ids, runs, device_slots, sorted, bench().queue);
+        gather.enqueue(device_boxes, device_ids, runs, device_slots, sorted.as<std::byte>(),
+                   bench().queue);
         bench().queue.finish();
         for (const uint object : chosen)
             for (uint k = 0; k < sizes[object]; ++k)

@@ -7,7 +7,6 @@
 #include <random>
 
 #include "builders/device_tree.h"
-#include "builders/parameters.h"
 #include "builders/spell_out.h"
 #include "tests/collide/collider_testing.h"
 #include "tests/collide/many_objects.h"
@@ -23,17 +22,6 @@ struct Case {
     BuildOptions options;
     bool waits = false;  ///< whether groups of a single launch wait for others (implicit.waits)
 };
-
-/// A session whose device is asked to let groups wait.
-Session& waiting_session()
-{
-    static Session& waiting = *[] {
-        Device device = session().device();
-        device.tuning.set(implicit_waits, 1);
-        return new Session(std::move(device), session().scenes(), session().host_memory_limit());
-    }();
-    return waiting;
-}
 
 std::vector<Case> all_cases()
 {

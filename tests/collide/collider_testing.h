@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "builders/parameters.h"
 #include "collide/sweep.h"
 #include "geometry/error.h"
 #include "harness/catalog.h"
@@ -23,6 +24,17 @@ inline Session& session()
 {
     static Session session{CommonOptions{}};
     return session;
+}
+
+/// A session whose device is asked to let groups wait.
+inline Session& waiting_session()
+{
+    static Session& waiting = *[] {
+        Device device = session().device();
+        device.tuning.set(implicit_waits, 1);
+        return new Session(std::move(device), session().scenes(), session().host_memory_limit());
+    }();
+    return waiting;
 }
 
 struct NamedMesh {

@@ -15,23 +15,6 @@ bool same_bits(const Aabb& a, const Aabb& b) { return std::memcmp(&a, &b, sizeof
 
 const std::vector<std::size_t> few_sizes = {1, 70, 3, 2, 129, 200, 1};
 
-/// Trees of many objects on the device.
-struct StandingForest {
-    Input input;
-    std::unique_ptr<Builder> builder;
-    const Tree* tree = nullptr;
-
-    StandingForest(const ManyObjects& many, MakeBuilder make, const BuildOptions& options = {})
-        : input(upload(session().device(), session().queue(), many.mesh.points, many.mesh.faces,
-                       many.objects))
-        , builder(make(session().programs(), options))
-    {
-        builder->reserve_objects(object_sizes(input));
-        session().build_once(*builder, input, Start::from_triangles, &tree);
-    }
-    const DeviceTree& device_tree() const { return dynamic_cast<const DeviceTree&>(*tree); }
-};
-
 void expect_pairs(Collider& collider, const StandingForest& standing, const PairList& expected)
 {
     collider.reserve(standing.tree, standing.input);

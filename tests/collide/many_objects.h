@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "builders/device_tree.h"
 #include "collide/relation.h"
 #include "tests/collide/collider_testing.h"
 
@@ -34,6 +35,23 @@ struct ManyObjects {
             mesh.faces.push_back({face.a + base, face.b + base, face.c + base});
         owners.resize(mesh.faces.size(), static_cast<uint>(objects.size() - 1));
     }
+};
+
+/// Trees of many objects on the device.
+struct StandingForest {
+    Input input;
+    std::unique_ptr<Builder> builder;
+    const Tree* tree = nullptr;
+
+    StandingForest(const ManyObjects& many, MakeBuilder make, const BuildOptions& options = {})
+        : input(upload(session().device(), session().queue(), many.mesh.points, many.mesh.faces,
+                       many.objects))
+        , builder(make(session().programs(), options))
+    {
+        builder->reserve_objects(object_sizes(input));
+        session().build_once(*builder, input, Start::from_triangles, &tree);
+    }
+    const DeviceTree& device_tree() const { return dynamic_cast<const DeviceTree&>(*tree); }
 };
 
 inline PairList expected_pairs(const ManyObjects& many, Among among, bool keep_adjacent)

@@ -166,6 +166,13 @@ def write_accuracy() -> None:
             counters = {"right_pairs_count": 100000, "pairs_count": 100000 + false, "missed_count": 0, "false_count": false}
             cells.append(accuracy_cell("input", f"torus:20000 at {sizes}", method, counters,
                                        [on_device("broad", 1e7 + 20 * false)]))
+    for name, pairs in (("torus:100000", 40000), ("hairball:100000", 400000)):
+        for method, node_bytes, ms, share in (("f32", 24, 6.5, 0), ("f64", 48, 9, 0), ("f16", 12, 3.8, 0.4),
+                                              ("u16", 12, 3.5, 0.1), ("u8", 6, 8, 15), ("u8-node-local", 8, 11, 0)):
+            counters = {"right_pairs_count": pairs, "pairs_count": int(pairs * (1 + share)), "missed_count": 0,
+                        "false_count": int(pairs * share), "node_bytes": node_bytes}
+            cells.append(accuracy_cell("boxes", name, method, counters, [on_device("broad", 1e6 * ms)],
+                                       **({} if share else right)))
     for entry in swept_cells("accuracy", ("group", "grid"), noise):
         entry |= {"operation": "accuracy", "accuracy": {"axis": "swept", "method": entry["collider"]["name"]}}
         cells.append(entry)

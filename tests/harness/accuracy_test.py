@@ -11,7 +11,7 @@ from program import SCHEMA, expect, main, valid
 
 
 def test_accuracy_counts_the_errors_of_each_narrow_phase():
-    assert [line.split()[0] for line in expect(0, "list", "accuracy").splitlines()] == ["narrow", "sums", "codes", "input"]
+    assert [line.split()[0] for line in expect(0, "list", "accuracy").splitlines()] == ["narrow", "sums", "codes", "input", "boxes"]
     methods = [line.split()[0] for line in expect(0, "list", "narrow").splitlines()]
     assert methods[0] == "filter-f64+exact" and len(methods) == 4, methods
     out = expect(0, "accuracy", "--axis", "narrow", "--pairs", "60000", "--samples", "2", "--seed", "5", "--out", "a",
@@ -32,8 +32,8 @@ def test_accuracy_counts_the_errors_of_each_narrow_phase():
     expect(0, "accuracy", "--scene", "soup:300", "--samples", "1", "--filter", "generic/guigue|soup.*/(f64|morton30)$",
            "--out", "b", says="guigue-f64: 0 missed")
     axes = [cell["accuracy"]["axis"] for cell in valid("b/accuracy.json")["cells"]]
-    assert axes == ["narrow", "narrow", "sums", "codes"], axes
-    expect(2, "accuracy", "--axis", "depth", says="there are: narrow, sums, codes, input, swept")
+    assert axes == ["narrow", "narrow", "sums", "codes", "boxes"], axes
+    expect(2, "accuracy", "--axis", "depth", says="there are: narrow, sums, codes, input, boxes, swept")
     expect(2, "accuracy", "--filter", "nothing", "--axis", "sums", "--scene", "soup:9", "--out", "c", says="no cell matches")
     expect(2, "accuracy", "--pairs", "0", says="--pairs")
 
@@ -52,14 +52,53 @@ def test_accuracy_of_swept_boxes_has_both_queries_of_each_method():
     assert pathlib.Path("d/accuracy-swept.png").exists() or "nothing was drawn" in out
 
 
+def plant(folder, rooms, header, text, fault):
+    """A copy of the kernels of some rooms with a fault in one of their headers."""
+    for room in rooms:
+        shutil.copytree(SCHEMA.parents[2] / room, f"{folder}/{room}", ignore=shutil.ignore_patterns("*.cpp"))
+    path = pathlib.Path(folder) / header
+    assert path.read_text().count(text) == 1
+    path.write_text(path.read_text().replace(text, fault))
+
+
+def test_accuracy_counts_what_formats_of_boxes_add_and_finds_what_they_lose():
+    formats = [line.split()[0] for line in expect(0, "list", "formats").splitlines()]
+    axis = ("accuracy", "--axis", "boxes", "--scene", "torus:1500", "--samples", "1")
+    expect(0, *axis, "--out", "formats", says="torus:1500")
+    cells = {cell["accuracy"]["method"]: cell for cell in valid("formats/accuracy-boxes.json")["cells"]}
+    assert list(cells) == [*formats, "u8-node-local"]
+    false = {method: cell["counters"]["false_count"] for method, cell in cells.items()}
+    assert all(cell["counters"]["missed_count"] == 0 for cell in cells.values()), cells
+    assert false["f32"] == false["f64"] == false["u8-node-local"] == 0 < false["u16"] < false["u8"], false
+    for method, cell in cells.items():
+        assert cell["check"]["verdict"] == ("counted" if false[method] else "agrees"), cell
+        assert cell["check"]["contacts_hash"] == cells["f32"]["check"]["contacts_hash"], cell
+    plant("inward", ("geometry", "device", "builders", "oibvh", "collide"), "geometry/box_format.h",
+          "(is_upper ? whole_above(product) : whole_below(product))",
+          "(is_upper ? whole_below(product) : whole_above(product))")
+    expect(1, *axis, "--filter", "/u8$", "--kernels", "inward", "--out", "inward-out", says=" differs")
+    cell, = valid("inward-out/accuracy-boxes.json")["cells"]
+    assert cell["check"]["verdict"] == "differs" and cell["counters"]["missed_count"] > 100, cell
+
+
+def test_collide_judges_rounded_boxes_by_what_they_miss():
+    command = ("collide", "--collider", "group", "--scene", "torus:1500", "--samples", "1", "--adjacent", "drop")
+    expect(0, *command, "--boxes", "u8", "--narrow", "none", "--json", "rounded.json", says="0 pairs missed")
+    cell, = valid("rounded.json")["cells"]
+    assert cell["builder"]["options"]["boxes"] == "u8" and cell["builder"]["options"]["leaves"] == "sorted", cell
+    assert cell["check"]["verdict"] == "counted" and cell["counters"]["false_pairs_count"] > 0, cell
+    expect(0, *command, "--boxes", "u8", "--json", "decided.json", says="verdict: agrees with brute, CGAL")
+    expect(0, *command, "--boxes", "f64", "--narrow", "none", says="verdict: agrees with brute")
+    expect(2, *command, "--boxes", "u7", says="there are: f32, f64, f16, u16, u8")
+    expect(2, *command, "--boxes", "u8", "--leaves", "mesh", says="leaves must be sorted")
+    expect(2, *command, "--boxes", "u8", "--builder", "karras", says="karras keeps its boxes in its own way")
+    expect(1, *command, "--boxes", "u8", "--narrow", "none", "--kernels", "inward", says="verdict: differs")
+
+
 def test_accuracy_finds_a_fault_planted_in_the_exact_narrow_phase():
     source = SCHEMA.parents[2]
-    for room in ("geometry", "device", "collide"):
-        shutil.copytree(source / room, f"faulty/{room}", ignore=shutil.ignore_patterns("*.cpp"))
-    bound = pathlib.Path("faulty/geometry/orient.h")
-    text = bound.read_text()
-    assert text.count("return 0x1.8p-48 * most.x") == 1
-    bound.write_text(text.replace("return 0x1.8p-48 * most.x", "return 0x1.8p-90 * most.x"))
+    plant("faulty", ("geometry", "device", "collide"), "geometry/orient.h", "return 0x1.8p-48 * most.x",
+          "return 0x1.8p-90 * most.x")
     sound, faulty = (("accuracy", "--axis", "narrow", "--pairs", "3000", "--samples", "1", "--filter",
                       "^same_place/filter", "--kernels", where) for where in (str(source), "faulty"))
     expect(0, *sound, "--out", "sound", says=" agrees")

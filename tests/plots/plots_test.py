@@ -55,7 +55,7 @@ class Scripts(TemporaryFolder):
         scripts = {name: (f"{name}.py", name) for name in alone}
         scripts |= {f"table2-{name}": (f"{name}.py", "table2") for name in ("fig9", "fig10")}
         scripts |= {name: ("frames.py", name) for name in ("rebuild", "pairs", "libraries")}
-        scripts |= {f"accuracy-{axis}": ("accuracy.py", "accuracy") for axis in ("narrow", "sums", "codes", "input", "swept")}
+        scripts |= {f"accuracy-{axis}": ("accuracy.py", "accuracy") for axis in ("narrow", "sums", "codes", "input", "boxes", "swept")}
         for script, file in dict.fromkeys(scripts.values()):  # one may draw several pictures
             done = self.run_script(script, GOLDEN / f"{file}.json", "--out", self.folder / "out")
             self.assertEqual((done.returncode, done.stderr), (0, ""))

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// check: -DGROUP_SIZE=64u -DCELLS_OF=3u
+// check: -DGROUP_SIZE=1u -DCELLS_OF=2u
+//
+// The cells that a scene is cut into in the format of boxes that CELLS_OF names, from the bounds of its objects: one
+// object's or all of them together, so that boxes of different trees can be compared. A kernel of its own, of one group.
+#include "builders/stages/bounds_parts.clh"
+#include "geometry/box_format.h"
+
+__attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void find_cells(
+    global const Bounds* restrict bounds, const uint object_count, global SceneCells* restrict cells)
+{
+    local Bounds parts[GROUP_SIZE];
+    const uint item = (uint)get_local_id(0);
+    Bounds all = empty_bounds();
+    for (uint object = item; object < object_count; object += GROUP_SIZE)
+        all = joined(all, bounds[object]);
+    all = joined_in_group(all, parts);
+    if (item != 0u)
+        return;
+    const double last = last_cell(CELLS_OF);
+    cells->x = axis_cells(all.scene.min_x, all.scene.max_x, last);
+    cells->y = axis_cells(all.scene.min_y, all.scene.max_y, last);
+    cells->z = axis_cells(all.scene.min_z, all.scene.max_z, last);
+}

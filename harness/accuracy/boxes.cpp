@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+//
+// The axis boxes: what fewer bytes a box cost in false pairs and save in time, of trees in one layout, built, queried and
+// followed by the exact narrow phase alike. Rounded outward, boxes may add pairs and must take none away.
+#include "builders/box_format.h"
+#include "collide/exact_reference.h"
+#include "collide/sweep.h"
+#include "harness/accuracy/axes.h"
+#include "harness/accuracy/scene_input.h"
+#include "harness/failure.h"
+#include "harness/report.h"
+#include "harness/table.h"
+
+namespace bvhbench {
+namespace {
+
+using enum Table::Align;
+
+/// Boxes as points of a grid of each node's own: another layout, a rival of the same order.
+constexpr std::string_view node_local = "u8-node-local";
+constexpr double node_local_bytes = 8;  // a child's 6 and its share of the grid
+
+std::vector<std::string_view> methods()
+{
+    std::vector<std::string_view> all;
+    for (const BoxFormat& format : box_formats())
+        all.push_back(format.name);
+    all.push_back(node_local);
+    return all;
+}
+
+/// The same for all methods, but for what a layout cannot do: the collider that is fastest on the kind of device.
+void choose_pipeline(std::string_view method, bool is_cpu, Cell& cell)
+{
+    const bool is_wide = method == node_local;
+    cell.builder = {.name = is_wide ? "oibvh-wide8-q8" : "oibvh-single",
+                    .order = "hilbert30",
+                    .sorted_leaves = true,
+                    .boxes = is_wide ? "f32" : std::string(method)};
+    cell.collider = {.name = is_cpu || is_wide ? "group" : "block",
+                     .keep_adjacent = false,
+                     .narrow = "exact"};
+}
+
+struct Right {
+    PairList pairs, contacts;
+};
+
+Right right_answers(const Input& input)
+{
+    Right right;
+    right.pairs = touching_pairs(input.points, input.faces, false);
+    if (has_exact_reference)
+        right.contacts = intersecting_pairs(input.points, input.faces, right.pairs, false);
+    return right;
+}
+
+/// Pairs may be more than the right ones; contacts are decided exactly and may not.
+void judge(const Pipeline& pipeline, const Right& right, Cell& cell)
+{
+    judge_pairs(pipeline, right.pairs, has_exact_reference ? "brute, CGAL" : "brute", cell);
+    Check& check = cell.check;
+    if (cell.counters["missed_count"] == 0 && check.verdict == Check::Verdict::differs) {
+        check.verdict = Check::Verdict::counted;
+        check.detail.clear();
+    }
+    const PairList contacts = pipeline.contacts();
+    check.contacts_hash = contacts.hash();
+    if (!has_exact_reference || contacts == right.contacts)
+        return;
+    check.verdict = Check::Verdict::differs;
+    check.detail = "the oracle has " + std::to_string(right.contacts.size()) + " contacts, not " +
+                   std::to_string(contacts.size());
+}
+
+double counter(const Cell& cell, const char* name)
+{
+    const auto at = cell.counters.find(name);
+    return at == cell.counters.end() ? 0 : at->second;
+}
+
+std::string stage_text(const Cell& cell, std::string_view stage)
+{
+    return duration_text(spread_of(stage_times_ns(cell, stage)).median);
+}
+
+}  // namespace
+
+void measure_boxes(const AxisRun& run)
+{
+    for_each_scene(
+        run, "boxes", {"torus:100000", "hairball:100000", "cloth-ball:92230"},
+        [&](const SceneFacts& scene, const Input& input) {
+            const Right right = right_answers(input);
+            std::vector<Measured> cells;
+            std::vector<std::unique_ptr<Pipeline>> pipelines;
+            for (const std::string_view method : methods()) {
+                if (!run.task.wants(scene.name, method))
+                    continue;
+                Measured& one = cells.emplace_back();
+                one.cell = accuracy_cell("boxes", std::string(method), scene);
+                choose_pipeline(method, run.session.device().is_cpu(), one.cell);
+                const std::string failure = reason_of_failure([&] {
+                    auto& pipeline =
+                        pipelines.emplace_back(settled_pipeline(run.session, one.cell, input));
+                    one.cell.counters["node_bytes"] =
+                        method == node_local
+                            ? node_local_bytes
+                            : static_cast<double>(find_box_format(method).box_bytes());
+                    one.once = [&input, frame = pipeline.get()] { return frame->once(input); };
+                });
+                if (!failure.empty()) {
+                    pipelines.resize(cells.size());
+                    one.fail(run.session, failure);
+                }
+            }
+            take_samples_of(run, cells);
+            for (std::size_t k = 0; k < cells.size(); ++k) {
+                if (cells[k].once) {
+                    cells[k].cell.counters["right_pairs_count"] =
+                        static_cast<double>(right.pairs.size());
+                    judge(*pipelines[k], right, cells[k].cell);
+                }
+                run.add(std::move(cells[k].cell));
+            }
+        });
+}
+
+std::string report_boxes(const Document& document)
+{
+    Table table({{"scene", left},
+                 {"boxes", left},
+                 {"bytes a box"},
+                 {"gather"},
+                 {"hierarchy"},
+                 {"query"},
+                 {"narrow"},
+                 {"frame"},
+                 {"box tests"},
+                 {"missed"},
+                 {"false"},
+                 {"times as many"},
+                 {"verdict", left}});
+    const std::vector<const Cell*> cells = cells_of(document, "boxes");
+    for (const Cell* cell : cells) {
+        if (!has_times(*cell)) {
+            table.row({cell->scene.name, cell->accuracy.method, "", "", "", "", "", "", "", "", "",
+                       "", why_text(*cell)});
+            continue;
+        }
+        const auto count = [&](const char* name) {
+            return grouped(static_cast<std::int64_t>(counter(*cell, name)));
+        };
+        const double right = counter(*cell, "right_pairs_count");
+        table.row({cell->scene.name, cell->accuracy.method, count("node_bytes"),
+                   stage_text(*cell, "gather"), stage_text(*cell, "hierarchy"),
+                   stage_text(*cell, "broad"), stage_text(*cell, "narrow"),
+                   duration_text(spread_of(whole_times_ns(*cell)).median),
+                   count("box_tests_count"), count("missed_count"), count("false_count"),
+                   right > 0 ? fixed(counter(*cell, "pairs_count") / right, 3) : "",
+                   verdict_text(*cell)});
+    }
+    return cells.empty() ? "" : table.text();
+}
+
+}  // namespace bvhbench

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+//
+// Trees whose boxes are in another format keep every promise of a builder: each is the reference's, its boxes rounded as
+// the host rounds them, bit for bit.
+#include <gtest/gtest.h>
+
+#include "builders/spell_out.h"
+#include "geometry/error.h"
+#include "harness/contract.h"
+#include "harness/hard_inputs.h"
+#include "tests/collide/many_objects.h"
+
+namespace bvhbench {
+namespace {
+
+BuilderChoice rounding(std::string_view name, std::string_view boxes, unsigned group_size)
+{
+    return {.name = std::string(name),
+            .group_size = group_size,
+            .sorted_leaves = true,
+            .boxes = std::string(boxes)};
+}
+
+std::string broken_over(Session& on, const BuilderChoice& choice, const Mesh& mesh)
+{
+    const Input input = upload(on.device(), on.queue(), mesh.points, mesh.faces);
+    Oracle oracle(on, input);
+    return broken_contract(on, choice, input, oracle);
+}
+
+void expect_contract(std::string_view builder, std::string_view boxes, unsigned group_size)
+{
+    const BuilderChoice choice = rounding(builder, boxes, group_size);
+    for (const HardInput& input : hard_inputs())
+        for (const std::size_t size : {1u, 2u, 3u, 33u, 300u})
+            EXPECT_EQ(broken_over(session(), choice, input.make(size)), "")
+                << builder << ", " << boxes << ", " << input.name << ", " << size << " triangles, "
+                << group_size;
+}
+
+class RoundedTrees : public testing::TestWithParam<BoxFormat> {};
+
+TEST_P(RoundedTrees, AreTheReferencesRounded)
+{
+    for (const unsigned group_size : {0u, 64u})  // a work-item a subtree, and a group
+        expect_contract("oibvh-single", GetParam().name, group_size);
+}
+
+/// Boxes are handed over by value, packed as the format says.
+TEST_P(RoundedTrees, AreTheSameWhereGroupsWait)
+{
+    EXPECT_EQ(broken_over(waiting_session(), rounding("oibvh-single", GetParam().name, 16),
+                          hard_inputs().front().make(3000)),
+              "");
+}
+
+TEST_P(RoundedTrees, OfSeveralObjectsAreUpdatedWithTheirCells)
+{
+    ManyObjects many({70, 129, 3});
+    Input input = upload(session().device(), session().queue(), many.mesh.points, many.mesh.faces,
+                         many.objects);
+    const BuildOptions options{.sorted_leaves = true, .boxes = GetParam().name};
+    const auto made = [&] {
+        auto builder = find_builder("oibvh-multi").make(session().programs(), options);
+        builder->reserve_objects(object_sizes(input));
+        return builder;
+    };
+    const auto updated = made(), anew = made();
+    const Tree* tree = nullptr;
+    session().build_once(*updated, input, Start::from_triangles, &tree);
+
+    // The first object goes so far off that it is outside of all cells there were.
+    const FaceRange& moved = many.objects[0];
+    for (uint face = moved.first; face < moved.first + moved.count; ++face)
+        for (const uint corner :
+             {many.mesh.faces[face].a, many.mesh.faces[face].b, many.mesh.faces[face].c})
+            many.mesh.points[corner].y += 5000.0f;
+    input.points = many.mesh.points;
+    input.device_points.upload(session().queue().cl(), many.mesh.points);
+    using enum TreeUpdate;
+    const std::vector<TreeUpdate> wanted = {rebuild, keep, refit};
+    const std::vector<TreeUpdate> planned = updated->plan_update(wanted, true, session().queue());
+    EXPECT_EQ(planned, GetParam().has_cells() ? std::vector(3, rebuild) : wanted);
+    const auto& found = dynamic_cast<const DeviceTree&>(updated->update(input, session().queue()));
+    session().queue().finish();
+    const Tree* expected = nullptr;
+    session().build_once(*anew, input, Start::from_triangles, &expected);
+    for (uint object = 0; object < many.objects.size(); ++object)
+        EXPECT_EQ(tree_hash(found.spelled_out_object(object)),
+                  tree_hash(dynamic_cast<const DeviceTree&>(*expected).spelled_out_object(object)))
+            << "object " << object;
+}
+
+INSTANTIATE_TEST_SUITE_P(Catalog, RoundedTrees,
+                         testing::ValuesIn(box_formats().begin() + 1, box_formats().end()),
+                         [](const auto& tested) { return std::string(tested.param.name); });
+
+TEST(RoundedTrees, AreBuiltByAllThatSayThatTheyCan)
+{
+    for (const BuilderEntry& entry : builder_catalog())
+        if (entry.takes_formats && entry.name != "oibvh-single")
+            expect_contract(entry.name, "u8", 0);
+}
+
+TEST(RoundedTrees, AreRefusedByAllOthersInOneSentence)
+{
+    for (const BuilderEntry& entry : builder_catalog()) {
+        if (entry.make == nullptr || entry.takes_formats)
+            continue;
+        EXPECT_THROW(make_builder(rounding(entry.name, "u16", 0), session().programs()), BadUsage);
+        const auto by_itself = entry.make(session().programs(), {});
+        if (by_itself->card().runs == BuilderCard::Runs::on_device) {
+            EXPECT_THROW(
+                entry.make(session().programs(), {.sorted_leaves = true, .boxes = "u16"}),
+                BadUsage)
+                << entry.name;
+        }
+    }
+    EXPECT_THROW(find_builder("oibvh-multi").make(session().programs(), {.boxes = "u16"}), BadUsage)
+        << "leaves are not sorted";
+    EXPECT_THROW(find_builder("oibvh-multi").make(session().programs(),
+                                                  {.sorted_leaves = true, .boxes = "u17"}),
+                 BadUsage);
+}
+
+}  // namespace
+}  // namespace bvhbench

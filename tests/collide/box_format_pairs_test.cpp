@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+//
+// Queries over trees whose boxes are rounded find exactly the pairs whose rounded boxes overlap, so that none of the
+// pairs of exact boxes is missed, and how many are false is known beforehand.
+#include "builders/device_tree.h"
+#include "collide/relation.h"
+#include "tests/collide/collider_testing.h"
+#include "tests/collide/many_objects.h"
+
+namespace bvhbench {
+namespace {
+
+/// Pairs of faces without a common corner whose rounded boxes overlap, each against each.
+PairList rounded_pairs(const Mesh& mesh, const BoxFormat& format)
+{
+    Aabb scene = empty_box();
+    for (const Face& face : mesh.faces)
+        scene = merged(scene, face_box(mesh.points, face));
+    const auto rounding = BoxRounding::of_scene(format, scene);
+    std::vector<Aabb> boxes;
+    for (const Face& face : mesh.faces)
+        boxes.push_back(rounding(face_box(mesh.points, face)));
+    std::vector<Pair> pairs;
+    for (uint a = 0; a < boxes.size(); ++a)
+        for (uint b = a + 1; b < boxes.size(); ++b)
+            if (overlap(boxes[a], boxes[b]) && !share_a_vertex(mesh.faces[a], mesh.faces[b]))
+                pairs.push_back({a, b});
+    return PairList(std::move(pairs));
+}
+
+/// Of few triangles, and of as many as blocks and groups of leaves want.
+std::vector<NamedMesh> telling_meshes()
+{
+    std::vector<NamedMesh> meshes = hard_meshes(9);
+    meshes.push_back({"one", crowded_mesh(1)});
+    meshes.push_back({"two", crowded_mesh(2)});
+    meshes.push_back({"crowded", crowded_mesh(130)});
+    meshes.push_back({"collinear", collinear_mesh(200)});
+    meshes.push_back(hard_meshes(400).back());
+    meshes.push_back({"scattered", hard_inputs().front().make(1500)});
+    return meshes;
+}
+
+/// A collider over trees of a format, in one form of its kernels.
+using Case = std::tuple<BoxFormat, ColliderEntry, KernelForm>;
+
+/// All colliders in both forms over u16, whose text the others' is but for types, and over the others those that do more
+/// with boxes than compare them: lanes and areas.
+std::vector<Case> cases()
+{
+    std::vector<Case> all;
+    for (const BoxFormat& format : box_formats().subspan(1))
+        for (const ColliderEntry& collider : box_colliders(true))
+            for (const KernelForm form : {KernelForm::groups, KernelForm::chunks})
+                if (format.number == BOX_U16 || collider.name == "group" ||
+                    (collider.name == "block" && form == KernelForm::groups))
+                    all.emplace_back(format, collider, form);
+    return all;
+}
+
+class BoxFormats : public testing::TestWithParam<Case> {
+protected:
+    const BoxFormat& format() const { return std::get<0>(GetParam()); }
+
+    BuildOptions options() const { return {.sorted_leaves = true, .boxes = format().name}; }
+
+    PairList found(const Tree* tree, const Input& input) const
+    {
+        const auto collider =
+            std::get<1>(GetParam())
+                .make(session().programs(),
+                      {.keep_adjacent = false, .form = std::get<2>(GetParam())});
+        collider->reserve(tree, input);
+        find_pairs(*collider, tree, input, session().queue());
+        PairList pairs(collider->pairs(session().queue()));
+        session().queue().finish();
+        EXPECT_EQ(pairs.surplus(), 0u);
+        return pairs;
+    }
+};
+
+TEST_P(BoxFormats, FindThePairsOfRoundedBoxesAndMissNone)
+{
+    for (const auto& [name, mesh] : telling_meshes()) {
+        SCOPED_TRACE(name + ", " + std::to_string(mesh.faces.size()) + " triangles");
+        const Standing standing(mesh, find_builder("oibvh-multi").make, options());
+        const PairList pairs = found(standing.tree, standing.input);
+        EXPECT_EQ(pairs, rounded_pairs(mesh, format()));
+        const PairList exact = touching_pairs(mesh.points, mesh.faces, false);
+        EXPECT_TRUE(std::includes(pairs.pairs().begin(), pairs.pairs().end(),
+                                  exact.pairs().begin(), exact.pairs().end()));
+    }
+}
+
+/// Boxes of different trees are compared, so one set of cells serves them all.
+TEST_P(BoxFormats, FindThePairsOfSeveralObjectsToo)
+{
+    const ManyObjects many({1, 70, 3, 2, 129, 200, 1});
+    const StandingForest standing(many, find_builder("oibvh-single").make, options());
+    EXPECT_EQ(found(standing.tree, standing.input), rounded_pairs(many.mesh, format()));
+}
+
+INSTANTIATE_TEST_SUITE_P(Catalog, BoxFormats,
+                         testing::ValuesIn(cases()),
+                         [](const auto& tested) {
+                             return test_name(
+                                 std::string(std::get<0>(tested.param).name) + '_' +
+                                 std::string(std::get<1>(tested.param).name) + '_' +
+                                 (std::get<2>(tested.param) == KernelForm::groups ? "groups"
+                                                                                  : "chunks"));
+                         });
+
+}  // namespace
+}  // namespace bvhbench
