@@ -4,7 +4,7 @@
 #   tests/fuzz/fuzz.sh SECONDS [READER...]      each reader so long; all of tests/fuzz/corpus by default
 #
 # Readers are compiled by clang with its instruments, into build/fuzz; all else comes from build/release, which must stand.
-# What is found lies in build/fuzz as crash-*; make it a test, and then a seed. Needs libclang-rt-14-dev besides packages.txt.
+# Exits 1 if something is found: it lies in build/fuzz as crash-*; make it a test, and then a seed. Needs libclang-rt-14-dev besides packages.txt.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.."
 seconds=${1:?how many seconds a reader}
@@ -28,12 +28,14 @@ for room in harness scenes baselines collide oibvh builders device geometry; do
     libraries+=("$from/$room/lib$room.a")
 done
 libraries+=("$from"/CMakeFiles/kernels.dir/*.o -lOpenCL -lassimp -lbenchmark -lembree3 -lfcl -lgmp -lmpfr -lpthread -ldl)
+found=0
 for reader in "$@"; do
     clang++-14 "${flags[@]}" -fsanitize=fuzzer -DREADER="$reader" tests/fuzz/reader.cpp "${objects[@]}" "${libraries[@]}" \
         -o "$to/$reader"
     mkdir -p "$to/corpus/$reader"
     echo "== $reader"
     "$to/$reader" -max_total_time="$seconds" -max_len=4096 -rss_limit_mb=1500 -timeout=10 -artifact_prefix="$to/" \
-        -print_final_stats=1 "$to/corpus/$reader" "tests/fuzz/corpus/$reader" 2>&1 |
-        grep -E "ERROR|SUMMARY|Uncaught|runtime error|Test unit|number_of_executed_units|^Done" || true
+        -print_final_stats=1 "$to/corpus/$reader" "tests/fuzz/corpus/$reader" >"$to/$reader.log" 2>&1 || found=1
+    grep -E "ERROR|SUMMARY|Uncaught|runtime error|Test unit|number_of_executed_units|^Done" "$to/$reader.log" || true
 done
+exit $found
