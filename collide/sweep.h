@@ -18,4 +18,10 @@ PairList overlapping_pairs(std::span<const Aabb> boxes);
 PairList touching_pairs(std::span<const Point> points, std::span<const Face> faces,
                         bool keep_adjacent);
 
+/// Bytes of the host's memory that a sweep takes besides the pairs that it finds.
+constexpr std::size_t sweep_bytes(std::size_t boxes)
+{
+    return boxes * (2 * sizeof(Aabb) + sizeof(uint));
+}
+
 }  // namespace bvhbench

@@ -20,6 +20,16 @@ class Buffer {
 public:
     Buffer() = default;
     Buffer(cl::Buffer memory, std::size_t size) : memory_(std::move(memory)), size_(size) {}
+    Buffer(const Buffer&) = default;
+    Buffer(Buffer&&) = default;
+    /// By a copy of its own: when a retain fails, the bindings' assignment leaves what it will release and never retained.
+    Buffer& operator=(Buffer other)
+    {
+        memory_ = std::move(other.memory_);
+        size_ = other.size_;
+        return *this;
+    }
+    ~Buffer() = default;
 
     std::size_t size() const { return size_; }
     std::size_t bytes() const { return size_ * sizeof(T); }

@@ -2,6 +2,7 @@
 #include "harness/catalog.h"
 
 #include "baselines/baselines.h"
+#include "baselines/libraries.h"
 #include "geometry/error.h"
 #include "oibvh/oibvh.h"
 
@@ -19,14 +20,14 @@ constexpr BuilderEntry of_embree(std::string_view name, std::string_view summary
             summary,
             own_tree,
             make,
-            make != nullptr ? "" : "built without Embree",
+            embree_absent,
             "Embree takes no coordinates beyond 1.8e18",
             true};
 }
 
 constexpr BuilderEntry of_fcl(std::string_view name, std::string_view summary, MakeBuilder make)
 {
-    return {name, summary, own_tree, make, make != nullptr ? "" : "built without FCL", {}, true};
+    return {name, summary, own_tree, make, fcl_absent, {}, true};
 }
 
 // To add a builder, add its line here. Nothing registers itself.

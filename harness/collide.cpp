@@ -135,6 +135,7 @@ struct Running {
     Cell cell;
     std::unique_ptr<Pipeline> pipeline;
     std::string failure;  ///< why there is none, or none any more
+    std::string number;   ///< which of the run's cells it is
 };
 
 Scene loaded(const CollideTask& task, const SceneLibrary& library)
@@ -192,6 +193,23 @@ void fail(Running& running, Session& session, const std::string& why)
     running.cell.samples.clear();
 }
 
+/// What is known before anything is made: the collider's own, and the oracle's sweep.
+void require_memory(const Session& session, const ColliderChoice& choice, std::size_t triangles)
+{
+    if (const std::size_t bytes = find_collider(choice.name).host_bytes; bytes > 0)
+        session.require_host_memory("collider " + choice.name, bytes * triangles);
+    session.require_host_memory("checking the pairs", sweep_bytes(triangles));
+}
+
+/// What is known once they are counted: those found, and the oracle's.
+void require_memory_for_pairs(const Session& session, const std::map<std::string, double>& counters)
+{
+    for (const char* counted : {"pairs_count", "contacts_count"})
+        if (const auto count = counters.find(counted); count != counters.end())
+            session.require_host_memory(
+                "checking the pairs", 2 * sizeof(Pair) * static_cast<std::size_t>(count->second));
+}
+
 void sample(std::span<Running> all, const CollideTask& task, const Input& input, Session& session,
             int& order, FrameOracle& oracle, Found& found)
 {
@@ -201,8 +219,11 @@ void sample(std::span<Running> all, const CollideTask& task, const Input& input,
         if (!one.failure.empty() || one.cell.check.verdict == Check::Verdict::differs)
             continue;
         ready.push_back(&one);
-        timed.push_back(
-            {one.cell.collider.name, [&one, &input] { return one.pipeline->once(input); }});
+        timed.push_back({one.cell.collider.name, [&] {
+                             const Watchdog::Hand hand(session.watchdog(), one.number);
+                             return session.watchdog().watch(
+                                 [&] { return one.pipeline->once(input); });
+                         }});
     }
     std::vector<Taken> taken = take_samples(timed, task.samples, task.warm_up, order);
     for (std::size_t k = 0; k < ready.size(); ++k) {
@@ -242,10 +263,13 @@ FrameRange frame_range(const std::string& text)
 }
 
 void collide_frames(Session& session, const CollideTask& task, int& order,
-                    const std::function<void(std::vector<Cell>&&, const Found&)>& add)
+                    const std::function<void(std::vector<Cell>&&, const Found&)>& add,
+                    const std::function<bool(std::size_t cells)>& passes)
 {
     const Scene scene = loaded(task, session.scenes());
     const FrameRange frames = checked(task, scene);
+    if (passes && passes((frames.end - frames.first) * task.pipelines.size()))
+        return;
     std::vector<FaceRange> objects;
     for (const SceneObject& object : scene.objects)
         objects.push_back({object.first_face, object.face_count});
@@ -274,16 +298,25 @@ void collide_frames(Session& session, const CollideTask& task, int& order,
             one.cell.collider = task.pipelines[k].collider;
             one.cell.operation = Operation::collide;
             one.cell.warm_up = task.warm_up;
+            one.number = task.number + '/' + std::to_string(frame) + '/' + std::to_string(k);
+            const Watchdog::Hand hand(session.watchdog(), one.number);
+            if (one.failure.empty())
+                one.failure = session.watchdog().given_up(one.number);
             if (one.failure.empty())
                 one.failure = reason_of_failure([&] {
-                    if (one.pipeline == nullptr)
-                        one.pipeline = std::make_unique<Pipeline>(session, one.cell.builder,
-                                                                  one.cell.collider, input);
-                    if (!one.pipeline->collider().needs_tree())
-                        one.cell.builder = {.name = "none"};
-                    one.pipeline->begin_frame(motions);
-                    one.pipeline->settle(input);
-                    one.cell.counters = one.pipeline->counters();
+                    require_memory(session, one.cell.collider, input.triangle_count());
+                    session.watchdog().watch([&] {
+                        if (one.pipeline == nullptr)
+                            one.pipeline = std::make_unique<Pipeline>(session, one.cell.builder,
+                                                                      one.cell.collider, input);
+                        if (!one.pipeline->collider().needs_tree())
+                            one.cell.builder = {.name = "none"};
+                        one.pipeline->begin_frame(motions);
+                        one.pipeline->settle(input);
+                    });
+                    std::map<std::string, double> counters = one.pipeline->counters();
+                    require_memory_for_pairs(session, counters);
+                    one.cell.counters = std::move(counters);
                     judge(*one.pipeline, one.cell, oracle, found);
                 });
             if (!one.failure.empty())

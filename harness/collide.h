@@ -32,6 +32,7 @@ FrameRange frame_range(const std::string& text);
 /// What is collided, and how often it is measured.
 struct CollideTask {
     std::string experiment = "collide";
+    std::string number = "0";  ///< which of the run's scenes it is
     std::string scene;
     bool may_stand_in = false;
     ObjectsBy objects = ObjectsBy::automatic;
@@ -52,8 +53,10 @@ struct Found {
 /// it is done, and what the last pipeline found. `order` counts samples and goes on.
 ///
 /// A pipeline that fails is a cell that says so. Throws BadUsage for options it cannot keep, what loading the scene
-/// throws, and Interrupted; frames done by then have been handed on.
+/// throws, and Interrupted; frames done by then have been handed on. `passes` is asked once the scene is known whether
+/// its so many cells are there already; then nothing is done.
 void collide_frames(Session& session, const CollideTask& task, int& order,
-                    const std::function<void(std::vector<Cell>&&, const Found&)>& add);
+                    const std::function<void(std::vector<Cell>&&, const Found&)>& add,
+                    const std::function<bool(std::size_t cells)>& passes = {});
 
 }  // namespace bvhbench

@@ -17,6 +17,7 @@ struct ColliderEntry {
     std::string_view summary;      ///< one line
     MakeCollider make;             ///< nullptr when this binary was built without it
     std::string_view absent = {};  ///< then: why, as in "built without Embree"
+    std::size_t host_bytes = 0;    ///< a triangle's, about, of what a library takes on the host
     bool is_library = false;       ///< the work is done by somebody else's code
 };
 

@@ -48,16 +48,22 @@ int collide(const CollideCommand& command, const Options& options)
 {
     CollideTask task = task_of(command);
     Session session(options.common);
-    ResultFile results(command.json, measured_facts(session, options.words));
+    ResultFile results(command.json, measured_facts(session, options.words),
+                       session.watchdog().run_id());
+    session.watchdog().keep_by(results.document().run.id, [&] { results.keep(); });
     Found last;
-    int order = 0;
-    for (const std::string& scene : command.scenes) {
-        task.scene = scene;
-        collide_frames(session, task, order, [&](std::vector<Cell>&& cells, const Found& found) {
-            for (Cell& cell : cells)
-                results.add(std::move(cell));
-            last = found;
-        });
+    int order = results.next_order();
+    for (std::size_t i = 0; i < command.scenes.size(); ++i) {
+        task.scene = command.scenes[i];
+        task.number = std::to_string(i);
+        collide_frames(
+            session, task, order,
+            [&](std::vector<Cell>&& cells, const Found& found) {
+                for (Cell& cell : cells)
+                    results.add(std::move(cell));
+                last = found;
+            },
+            [&](std::size_t cells) { return results.pass(cells); });
     }
     results.finish(session.programs().compile_ns());
     const Document& document = results.document();

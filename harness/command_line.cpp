@@ -26,33 +26,32 @@ CLI::Validator one_of(std::vector<std::string> known)
     return {check, "", "one of"};
 }
 
-/// CLI::Range lets NaN pass.
-CLI::Validator a_cost()
-{
-    const auto check = [](const std::string& word) {
-        double value = -1;
-        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-        const bool is_read = error == std::errc() && end == word.data() + word.size();
-        return is_read && value >= 0 && value <= most_cost
-                   ? std::string()
-                   : "must be a number from 0 to " + std::to_string(most_cost) + ", not '" + word +
-                         "'";
-    };
-    return {check, "", "a cost"};
-}
-
 void add_quality(CLI::App& command, bool& quality, NodeCosts& costs)
 {
     command.add_flag("--epo,--quality", quality, "compute end-point overlap, which takes long");
     command.add_option("--sah-inner", costs.inner, "what visiting an inner node costs")
         ->capture_default_str()
-        ->check(a_cost());
+        ->check(a_number(most_cost));
     command.add_option("--sah-triangle", costs.triangle, "what testing a triangle costs")
         ->capture_default_str()
-        ->check(a_cost());
+        ->check(a_number(most_cost));
 }
 
 }  // namespace
+
+CLI::Validator a_number(int most)
+{
+    const auto check = [most](const std::string& word) {
+        double value = -1;
+        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+        const bool is_read = error == std::errc() && end == word.data() + word.size();
+        return is_read && value >= 0 && value <= most
+                   ? std::string()
+                   : "must be a number from 0 to " + std::to_string(most) + ", not '" + word +
+                         "'";
+    };
+    return {check, "", "a number"};
+}
 
 void add_list(CLI::App& app, ListCommand& list)
 {

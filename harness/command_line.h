@@ -11,6 +11,9 @@
 
 namespace bvhbench {
 
+/// Accepts a number from 0 to `most`: CLI::Range lets NaN pass.
+CLI::Validator a_number(int most);
+
 void add_list(CLI::App& app, ListCommand& list);
 void add_build(CLI::App& app, BuildCommand& build, std::string& leaves);
 void add_collide(CLI::App& app, CollideCommand& collide, std::string& leaves, std::string& adjacent,

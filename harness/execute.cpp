@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <iostream>
 
+#include "geometry/error.h"
 #include "harness/commands.h"
+#include "harness/failure.h"
+#include "harness/interrupt.h"
 
 namespace bvhbench {
 namespace {
@@ -26,8 +29,27 @@ struct Executor {
     int operator()(const StressCommand& command) const { return stress(command, options); }
 };
 
+int failed(const std::exception& error, int code)
+{
+    std::cerr << "bvhbench: " << sentence_of(error) << '\n';
+    return code;
+}
+
 }  // namespace
 
 int execute(const Options& options) { return std::visit(Executor{options}, options.command); }
+
+int run_program(int argc, const char* const* argv)
+{
+    try {
+        return execute(parse_options(argc, argv));
+    } catch (const BadUsage& error) {
+        return failed(error, 2);
+    } catch (const Interrupted& error) {
+        return failed(error, 128 + error.signal());
+    } catch (const std::exception& error) {  // Unavailable, BuildFailure, cl::Error, bad_alloc
+        return failed(error, 3);
+    }
+}
 
 }  // namespace bvhbench

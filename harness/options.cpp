@@ -11,6 +11,8 @@
 namespace bvhbench {
 namespace {
 
+constexpr int most_seconds = 1000000;
+
 void add_common(CLI::App& app, CommonOptions& common)
 {
     app.add_option("--device", common.device, "words of its name, or its index in `list devices`");
@@ -28,6 +30,10 @@ void add_common(CLI::App& app, CommonOptions& common)
            "--memory-limit", common.memory_limit,
            "bytes that device and host may each take, as 512M or 2G; default: all there are")
         ->transform(CLI::AsSizeValue(false));
+    app.add_option("--time-limit", common.time_limit_s,
+                   "seconds that a single build or query may take before it is given up; 0: no end")
+        ->capture_default_str()
+        ->check(a_number(most_seconds));
     app.add_flag("--verbose", common.verbose, "say on stderr what is being used");
     app.set_version_flag("--version", std::string("bvhbench ") + build_info.version);
     app.require_subcommand(0, 1);

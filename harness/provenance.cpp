@@ -51,16 +51,14 @@ std::string trimmed(std::string text)
     return text;
 }
 
-/// Whether OpenCL C 3.0 programs may hand data from one group to another with acquire and release.
+/// Whether OpenCL C 3.0 programs may hand data from one group to another with acquire and release. A driver older than
+/// OpenCL 3.0 does not know the question.
 bool has_device_scope_acq_rel(const cl::Device& device)
 {
-    try {
-        const auto can = device.getInfo<CL_DEVICE_ATOMIC_MEMORY_CAPABILITIES>();
-        return (can & CL_DEVICE_ATOMIC_ORDER_ACQ_REL) != 0 &&
-               (can & CL_DEVICE_ATOMIC_SCOPE_DEVICE) != 0;
-    } catch (const cl::Error&) {  // a driver older than OpenCL 3.0 does not know the question
-        return false;
-    }
+    cl_device_atomic_capabilities can = 0;
+    return clGetDeviceInfo(device(), CL_DEVICE_ATOMIC_MEMORY_CAPABILITIES, sizeof can, &can,
+                           nullptr) == CL_SUCCESS &&
+           (can & CL_DEVICE_ATOMIC_ORDER_ACQ_REL) != 0 && (can & CL_DEVICE_ATOMIC_SCOPE_DEVICE) != 0;
 }
 
 std::string kind_of(const cl::Device& device)

@@ -4,8 +4,11 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 
 #include "geometry/error.h"
 #include "harness/provenance.h"
@@ -74,19 +77,64 @@ void write_atomically(const std::filesystem::path& path, const std::string& text
     file.become_path();
 }
 
-ResultFile::ResultFile(std::filesystem::path path, RunFacts run)
+ResultFile::ResultFile(std::filesystem::path path, RunFacts run, const std::string& goes_on)
     : path_(std::move(path)), document_{std::move(run), {}}
 {
     if (path_.empty())
         return;
     const Temporary probe(path_);  // better to know now than after an hour
+    if (!goes_on.empty())
+        take_over(goes_on);
+}
+
+void ResultFile::take_over(const std::string& run_id)
+{
+    std::ifstream file(path_, std::ios::binary);
+    if (!file.is_open())
+        return;  // no cell had been finished
+    Document before =
+        read_document(std::string(std::istreambuf_iterator<char>(file), {}), path_.string());
+    if (before.run.id != run_id)
+        return;
+    document_ = std::move(before);
+    for (const Cell& cell : document_.cells)
+        cell_texts_.push_back(cell_text(cell));
+    goes_on_ = true;
+}
+
+bool ResultFile::pass(std::size_t count)
+{
+    if (goes_on_ && document_.cells.size() >= passed_ + count) {
+        passed_ += count;
+        return true;
+    }
+    if (goes_on_) {
+        document_.cells.resize(passed_);
+        cell_texts_.resize(passed_);
+    }
+    goes_on_ = false;
+    return false;
+}
+
+void ResultFile::keep()
+{
+    if (!is_written_)
+        write();
+}
+
+int ResultFile::next_order() const
+{
+    int next = 0;
+    for (const Cell& cell : document_.cells)
+        for (const Sample& sample : cell.samples)
+            next = std::max(next, sample.order + 1);
+    return next;
 }
 
 ResultFile::~ResultFile()
 {
     try {
-        if (!is_written_)
-            write();
+        keep();
     } catch (const std::exception&) {  // a destructor must not throw
     }
 }

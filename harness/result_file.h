@@ -18,8 +18,9 @@ void write_atomically(const std::filesystem::path& path, const std::string& text
 /// disk: what is killed without warning loses at most that. Without a path, nothing is written.
 class ResultFile {
 public:
-    /// Throws Unavailable if `path` cannot be written. What is there is replaced by the first cell.
-    ResultFile(std::filesystem::path path, RunFacts run);
+    /// Throws Unavailable if `path` cannot be written. What is there is replaced by the first cell; but if it is what the
+    /// run called `goes_on` has left there, that run goes on: its facts and cells stay.
+    ResultFile(std::filesystem::path path, RunFacts run, const std::string& goes_on = {});
     /// Writes what is not written yet; a failure to do so stays silent here, so call finish().
     ~ResultFile();
     ResultFile(const ResultFile&) = delete;
@@ -28,18 +29,31 @@ public:
     void add(Cell cell);
     void add(StressCell cell);
 
+    /// Whether the next `count` cells are there from before, in a run that goes on. If some are missing the others go as
+    /// well, to be made anew.
+    bool pass(std::size_t count);
+
+    /// Write what is not written yet.
+    void keep();
+
+    /// The first place in the order of samples that none of its cells has.
+    int next_order() const;
+
     /// Set the end of the run, and write.
     void finish(std::int64_t compile_ns);
 
     const Document& document() const { return document_; }
 
 private:
+    void take_over(const std::string& run_id);
     void write_if_due();
     void write();
 
     std::filesystem::path path_;
     Document document_;
     std::vector<std::string> cell_texts_;  ///< each cell is turned into text once
+    std::size_t passed_ = 0;               ///< cells that are done, of those from before
+    bool goes_on_ = false;                 ///< whether cells behind them are from before too
     std::vector<std::string> stress_texts_;
     std::chrono::steady_clock::time_point written_at_;
     bool is_written_ = true;

@@ -79,6 +79,7 @@ RunFacts measured_facts(Session& session, std::vector<std::string> command, cons
 /// A cell on its way to being measured; without a builder it is finished already.
 struct Run::Prepared {
     Cell cell;
+    std::string number = {};  ///< which of the run's cells it is
     Builder* builder = nullptr;
     const Tree* tree = nullptr;
 };
@@ -91,8 +92,12 @@ struct Run::Oracles {
 Run::Run(Session& session, std::filesystem::path out, std::vector<std::string> command,
          const NodeCosts& costs)
     : session_(session)
-    , results_(std::move(out), measured_facts(session, std::move(command), costs))
-{}
+    , results_(std::move(out), measured_facts(session, std::move(command), costs),
+               session.watchdog().run_id())
+    , order_(results_.next_order())
+{
+    session.watchdog().keep_by(document().run.id, [this] { results_.keep(); });
+}
 
 CellFilter cell_filter(const std::string& text)
 {
@@ -132,6 +137,7 @@ void Run::experiment(const Experiment& experiment, const CellFilter& filter)
 void Run::collisions(CollideTask task, const CellFilter& filter, Progress& progress)
 {
     progress.step(task.experiment + ": " + task.scene);
+    task.number = std::to_string(scenes_++);
     std::erase_if(task.pipelines, [&](const PipelineChoice& pipeline) {
         return filter && !std::regex_search(task.scene + '/' + pipeline.builder.name + '/' +
                                                 pipeline.collider.name,
@@ -140,14 +146,17 @@ void Run::collisions(CollideTask task, const CellFilter& filter, Progress& progr
     if (task.pipelines.empty())
         return;
     const std::string no_scene = reason_of_failure([&] {
-        collide_frames(session_, task, order_, [&](std::vector<Cell>&& cells, const Found&) {
-            progress.note(task.experiment + ": " + task.scene + ", frame " +
-                          std::to_string(cells.front().scene.frame));
-            for (Cell& cell : cells)
-                results_.add(std::move(cell));
-        });
+        collide_frames(
+            session_, task, order_,
+            [&](std::vector<Cell>&& cells, const Found&) {
+                progress.note(task.experiment + ": " + task.scene + ", frame " +
+                              std::to_string(cells.front().scene.frame));
+                for (Cell& cell : cells)
+                    results_.add(std::move(cell));
+            },
+            [&](std::size_t cells) { return results_.pass(cells); });
     });
-    if (no_scene.empty())
+    if (no_scene.empty() || results_.pass(task.pipelines.size()))
         return;
     for (const PipelineChoice& pipeline : task.pipelines) {
         Cell cell;
@@ -163,6 +172,9 @@ void Run::collisions(CollideTask task, const CellFilter& filter, Progress& progr
 void Run::scene(const Experiment& experiment, const std::string& name,
                 std::span<const BuilderChoice> builders, Progress& progress)
 {
+    const std::string number = std::to_string(scenes_++) + '/';
+    if (results_.pass(builders.size() * experiment.operations.size()))
+        return;
     Frames frames;
     Cell empty;
     empty.experiment = experiment.name;
@@ -184,7 +196,8 @@ void Run::scene(const Experiment& experiment, const std::string& name,
             if (!no_scene.empty())
                 cells.push_back({unmeasured(empty, Cell::Status::skipped, no_scene)});
             else
-                cells.push_back(prepare(experiment, frames, empty, oracles));
+                cells.push_back(prepare(experiment, frames, empty,
+                                        number + std::to_string(cells.size()), oracles));
         }
     oracles.now.wait();  // of builders that failed meanwhile, too
     oracles.before.wait();
@@ -195,13 +208,17 @@ void Run::scene(const Experiment& experiment, const std::string& name,
 }
 
 Run::Prepared Run::prepare(const Experiment& experiment, const Frames& frames, Cell cell,
-                           Oracles& oracles)
+                           std::string number, Oracles& oracles)
 {
     std::string why_not(find_builder(cell.builder.name).absent);
     if (!why_not.empty())
         return {unmeasured(std::move(cell), Cell::Status::skipped, std::move(why_not))};
 
-    Prepared prepared{std::move(cell)};
+    if (std::string why = session_.watchdog().given_up(number); !why.empty())
+        return {unmeasured(std::move(cell), Cell::Status::failed, std::move(why))};
+
+    Prepared prepared{std::move(cell), std::move(number)};
+    const Watchdog::Hand hand(session_.watchdog(), prepared.number);
     const std::string failure = reason_of_failure([&] {
         const bool refits = prepared.cell.operation == Operation::refit;
         const std::size_t triangles = frames.now().triangle_count();
@@ -278,6 +295,7 @@ void Run::sample(const Experiment& experiment, const Frames& frames, std::span<P
             continue;
         ready.push_back(&prepared);
         timed.push_back({prepared.cell.builder.name, [&, one = &prepared] {
+                             const Watchdog::Hand hand(session_.watchdog(), one->number);
                              return one->cell.operation == Operation::refit
                                         ? session_.refit_once(*one->builder, frames.now(),
                                                               &one->tree)

@@ -52,7 +52,7 @@ private:
     void scene(const Experiment& experiment, const std::string& name,
                std::span<const BuilderChoice> builders, Progress& progress);
     Prepared prepare(const Experiment& experiment, const Frames& frames, Cell cell,
-                     Oracles& oracles);
+                     std::string number, Oracles& oracles);
     void judge_build(const Experiment& experiment, const Frames& frames, Builder& builder,
                      Prepared& prepared, Oracle& oracle);
     void judge_refit(const Experiment& experiment, const Frames& frames, Builder& builder,
@@ -62,6 +62,7 @@ private:
     Session& session_;
     ResultFile results_;
     int order_ = 0;
+    int scenes_ = 0;  ///< begun so far
 };
 
 }  // namespace bvhbench

@@ -37,8 +37,10 @@ Device open_device_of(const CommonOptions& common)
     return device;
 }
 
-Session::Session(Device device, SceneLibrary library, std::uint64_t host_memory_limit)
-    : host_memory_limit_(host_memory_limit)
+Session::Session(Device device, SceneLibrary library, std::uint64_t host_memory_limit,
+                 double time_limit_s)
+    : watchdog_(time_limit_s)
+    , host_memory_limit_(host_memory_limit)
     , device_(std::move(device))
     , programs_(device_)
     , queue_(std::make_unique<Queue>(device_))
@@ -49,7 +51,8 @@ Session::Session(const CommonOptions& common) : Session(std::make_unique<PoclCac
 
 /// The cache first: drivers look for it when they are asked for their devices.
 Session::Session(std::unique_ptr<PoclCache> cache, const CommonOptions& common)
-    : Session(open_device_of(common), scene_library(common), common.memory_limit)
+    : Session(open_device_of(common), scene_library(common), common.memory_limit,
+              common.time_limit_s)
 {
     cache_ = std::move(cache);
     if (common.verbose)
@@ -69,7 +72,12 @@ void Session::require_host_memory(std::string_view what, std::uint64_t bytes) co
                           std::to_string(given));
 }
 
-void Session::renew_queue() { queue_ = std::make_unique<Queue>(device_); }
+/// In its place: trees that stand were built through it and are read through it.
+void Session::renew_queue()
+{
+    Queue fresh(device_);
+    std::swap(*queue_, fresh);
+}
 
 Builder& Session::builder(const BuilderChoice& choice, Operation operation)
 {
@@ -97,20 +105,24 @@ void Session::give_head_start()
 std::vector<StageTime> Session::build_once(Builder& builder, const Input& input, Start start,
                                            const Tree** tree)
 {
-    give_head_start();
-    const Tree& built = builder.build(input, queue(), start);
-    if (tree != nullptr)
-        *tree = &built;
-    return queue().finish();
+    return watchdog_.watch([&] {
+        give_head_start();
+        const Tree& built = builder.build(input, queue(), start);
+        if (tree != nullptr)
+            *tree = &built;
+        return queue().finish();
+    });
 }
 
 std::vector<StageTime> Session::refit_once(Builder& builder, const Input& input, const Tree** tree)
 {
-    give_head_start();
-    const Tree& refitted = builder.refit(input, queue());
-    if (tree != nullptr)
-        *tree = &refitted;
-    return queue().finish();
+    return watchdog_.watch([&] {
+        give_head_start();
+        const Tree& refitted = builder.refit(input, queue());
+        if (tree != nullptr)
+            *tree = &refitted;
+        return queue().finish();
+    });
 }
 
 }  // namespace bvhbench

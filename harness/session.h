@@ -12,6 +12,7 @@
 #include "harness/catalog.h"
 #include "harness/options.h"
 #include "harness/pocl_cache.h"
+#include "harness/watchdog.h"
 #include "scenes/catalog.h"
 
 namespace bvhbench {
@@ -23,7 +24,8 @@ public:
     explicit Session(const CommonOptions& common);
 
     /// The same of a device that is open, its programs compiled anew: for one that is tuned otherwise.
-    Session(Device device, SceneLibrary library, std::uint64_t host_memory_limit);
+    Session(Device device, SceneLibrary library, std::uint64_t host_memory_limit,
+            double time_limit_s = 0);
 
     const Device& device() const { return device_; }
     Programs& programs() { return programs_; }
@@ -34,6 +36,7 @@ public:
     {
         library_.doubles = how.value_or(doubles_asked_);
     }
+    Watchdog& watchdog() { return watchdog_; }
     std::uint64_t host_memory_limit() const { return host_memory_limit_; }
 
     /// Throws Unavailable if the host has not so many bytes for `what`. Asked before they are needed, as it is of
@@ -51,7 +54,7 @@ public:
     /// Before work that is timed is enqueued (device/head_start.h).
     void give_head_start();
 
-    /// One whole build, waited for. Throws what the builder throws.
+    /// One whole build, waited for and watched. Throws what the builder throws.
     std::vector<StageTime> build_once(Builder& builder, const Input& input, Start start,
                                       const Tree** tree = nullptr);
 
@@ -68,6 +71,7 @@ private:
         std::unique_ptr<Builder> builder;
     };
 
+    Watchdog watchdog_;
     std::unique_ptr<PoclCache> cache_;  ///< outlives all that runs kernels
     std::uint64_t host_memory_limit_;
     Device device_;

@@ -103,7 +103,7 @@ def draw(run: results.Run) -> plt.Figure:
     for (row, column), entry in entries.items():
         x, y = columns.index(column), rows.index(row)
         axes.add_patch(Rectangle((x, y), 1, 1, facecolor=COLOURS[entry.state], edgecolor="white", linewidth=0.8))
-        axes.text(x + 0.5, y + 0.5, entry.text, ha="center", va="center", fontsize=5,
+        axes.text(x + 0.5, y + 0.5, entry.text, ha="center", va="center", fontsize=5 if len(entry.text) < 7 else 3.6,
                   color=style.ink_on(COLOURS[entry.state]))
     plain = [column_of(cell) for cell in cells if cell["kind"] == "library"]
     if plain:

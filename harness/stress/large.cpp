@@ -108,13 +108,12 @@ void stress_large(Session& session, const StressTask& task, const StressFamily& 
         if (builds_on_device(session, entry) && task.wants(cell))
             builders.push_back({.name = std::string(entry.name)});
     }
-    std::vector<StressPipeline> pipelines = stress_pipelines(session, true);
+    std::vector<StressPipeline> pipelines = stress_pipelines(session, true, false);
     std::erase_if(pipelines, [&](const StressPipeline& pipeline) {
         StressCell cell;
         cell.family = family.name, cell.scene = one.name;
         cell.system = system_name(pipeline.builder, pipeline.collider);
-        return pipeline.is_library || pipeline.collider.form != KernelForm::of_device ||
-               pipeline.collider.name == "brute" || !task.wants(cell);
+        return pipeline.is_library || pipeline.collider.name == "brute" || !task.wants(cell);
     });
     if (builders.empty() && pipelines.empty())
         return;

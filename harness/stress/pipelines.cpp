@@ -93,7 +93,12 @@ std::string system_name(const BuilderChoice& builder, const ColliderChoice& coll
     return name;
 }
 
-std::vector<StressPipeline> stress_pipelines(Session& session, bool few)
+bool wants_other_forms(const Session& session, const StressSize& size)
+{
+    return size.quick || session.device().is_cpu();
+}
+
+std::vector<StressPipeline> stress_pipelines(Session& session, bool few, bool other_forms)
 {
     const KernelForm other = session.device().is_cpu() ? KernelForm::groups : KernelForm::chunks;
     std::vector<StressPipeline> pipelines;
@@ -117,7 +122,7 @@ std::vector<StressPipeline> stress_pipelines(Session& session, bool few)
                 over.push_back({builder, choice, false});
         }
         pipelines.insert(pipelines.end(), over.begin(), over.end());
-        over.resize(std::min(over.size(), few ? 1 : std::size(some_builders)));
+        over.resize(other_forms ? std::min(over.size(), few ? 1 : std::size(some_builders)) : 0);
         for (StressPipeline& one : over) {
             one.collider.form = other;
             pipelines.push_back(one);

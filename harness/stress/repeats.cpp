@@ -32,7 +32,8 @@ void stress_repeats(Session& session, const StressTask& task, const AddStressCel
         add(std::move(done));
     }
     cell.kind = StressCell::Kind::collider;
-    for (const StressPipeline& pipeline : stress_pipelines(session, true)) {
+    for (const StressPipeline& pipeline :
+         stress_pipelines(session, true, wants_other_forms(session, task.size))) {
         cell.system = system_name(pipeline.builder, pipeline.collider);
         if (pipeline.is_library || !task.wants(cell))
             continue;

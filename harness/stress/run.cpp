@@ -57,7 +57,7 @@ public:
         // Meanwhile, for they need no device.
         auto libraries = std::async(std::launch::async, [&] { return of_libraries(scene); });
         if (is_all_finite(scene)) {
-            of_builders(scene);
+            guarded([&] { of_builders(scene); });
             of_pipelines(scene);
         } else {
             of_loading(scene);
@@ -81,6 +81,19 @@ private:
         StressCell cell = cell_;
         cell.findings = std::move(findings);
         add_(std::move(cell));
+    }
+
+    /// What stops all systems, such as a scene that the device has no room for, is a finding too.
+    void guarded(const std::function<void()>& work)
+    {
+        const std::string failure = reason_of_failure(work);
+        if (failure.empty())
+            return;
+        session_.renew_queue();
+        cell_.system = "device";
+        cell_.kind = StressCell::Kind::host;
+        cell_.library.clear();
+        done({{Invariant::ends, {broken, 1, 1, 0, failure}}});
     }
 
     void of_builders(const StressScene& scene)
@@ -168,7 +181,8 @@ void stress_all(Session& session, const StressTask& task, const AddStressCell& a
         total += family->cases(task.size).size();
     Progress progress(total);
 
-    const std::vector<StressPipeline> pipelines = stress_pipelines(session, task.size.quick);
+    const std::vector<StressPipeline> pipelines =
+        stress_pipelines(session, task.size.quick, wants_other_forms(session, task.size));
     SceneStress scenes(session, task, pipelines, add);
     for (const StressFamily* family : families)
         for (const StressCase& one : family->cases(task.size)) {

@@ -45,8 +45,13 @@ struct StressPipeline {
 };
 
 /// Those that can be: every collider over a tree of each way to walk one that it takes (whose trees they are, builders'
-/// own findings tell), and over some in the form of kernels that is not the device's. If `few`, over fewer.
-std::vector<StressPipeline> stress_pipelines(Session& session, bool few);
+/// own findings tell), and, if `other_forms`, over some in the form of kernels that is not the device's. If `few`, over
+/// fewer.
+std::vector<StressPipeline> stress_pipelines(Session& session, bool few, bool other_forms);
+
+/// Whether the form of kernels that is not the device's is put under stress too. On a CPU groups show what they do on a
+/// GPU. The kernels for few cores take minutes a scene on a GPU, where nobody runs them: there they are with small scenes.
+bool wants_other_forms(const Session& session, const StressSize& size);
 
 /// Runs a frame of such a pipeline; if it goes on from frame to frame, a second one, which must find the same. Throws
 /// what pipelines throw.

@@ -194,11 +194,13 @@ TEST(Experiment, NamesTheKeyThatItDoesNotKnowAndThoseItDoes)
 {
     EXPECT_EQ(refusal(R"({"experiment": "a", "scene": ["soup:1"], "builders": ["perfect"]})"),
               "x.json: 'scene' is no key of an experiment; there are: experiment, question, paper, "
-              "scenes, builders, operations, pipelines, stages, samples, warm_up, quality, quick");
-    EXPECT_EQ(refusal(R"({"experiment": "a", "scenes": ["soup:1"],
+              "scenes, builders, operations, pipelines, stages, samples, warm_up, quality, "
+              "doubles, quick");
+    EXPECT_EQ(
+        refusal(R"({"experiment": "a", "scenes": ["soup:1"],
                           "builders": [{"name": "perfect", "size": 3}]})"),
-              "x.json: 'size' is no key of a builder; there are: name, order, group_size, items, "
-              "leaves");
+        "x.json: 'size' is no key of a builder; there are: name, order, grid, group_size, items, "
+        "leaves");
     EXPECT_EQ(refusal(R"({"experiment": "a", "scenes": [{"scene": "soup:{t}", "t": {"til": 3}}],
                           "builders": ["perfect"]})"),
               "x.json: 'til' is no key of the sizes 't'; there are: from, to, powers_of_two_from, "

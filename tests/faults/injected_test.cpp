@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: MIT
+//
+// The program's commands, run again and again in one process, with another OpenCL call failing each time. The shim is
+// linked in before the loader, so every call of the program goes through it.
+//
+// Which calls fail is told by BVHBENCH_FAULTS. "calls": every call, alone and with all that follow. "ways": of each way in
+// which calls are reached the first call, and of every fifth way all that follow with it. By default every eighth of those.
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+#include <algorithm>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "harness/commands.h"
+#include "harness/result_file.h"
+#include "tests/faults/opencl_shim.h"
+
+namespace bvhbench {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Standard output or error, caught for as long as this is there.
+class Caught {
+public:
+    explicit Caught(std::ostream& stream) : stream_(stream), before_(stream.rdbuf(text_.rdbuf())) {}
+    ~Caught() { stream_.rdbuf(before_); }
+    Caught(const Caught&) = delete;
+    Caught& operator=(const Caught&) = delete;
+    std::string text() const { return text_.str(); }
+
+private:
+    std::ostream& stream_;
+    std::ostringstream text_;
+    std::streambuf* before_;
+};
+
+enum class Faults { calls, ways, some };
+
+Faults wanted_faults()
+{
+    const char* text = std::getenv("BVHBENCH_FAULTS");
+    const std::string wanted = text != nullptr ? text : "";
+    return wanted == "calls" ? Faults::calls : wanted == "ways" ? Faults::ways : Faults::some;
+}
+
+struct Outcome {
+    int code;
+    std::string out, error;
+};
+
+class Injected : public testing::Test {
+protected:
+    void SetUp() override
+    {
+        folder_ = fs::temp_directory_path() / ("bvhbench-faults-" + std::to_string(getpid()));
+        fs::create_directories(folder_);
+        file_ = folder_ / "r.json";
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+
+    Outcome run(std::vector<std::string> words, shim::Plan plan) const
+    {
+        fs::remove(file_);
+        words.insert(words.begin(),
+                     {"bvhbench", "--time-limit", "0"});  // a crash is to end the test
+        std::vector<const char*> argv;
+        for (const std::string& word : words)
+            argv.push_back(word.c_str());
+        const Caught out(std::cout);
+        const Caught error(std::cerr);
+        shim::begin(plan);
+        const int code = run_program(static_cast<int>(argv.size()), argv.data());
+        return {code, out.text(), error.text()};
+    }
+
+    Document document() const
+    {
+        std::ifstream file(file_);
+        return read_document(std::string(std::istreambuf_iterator<char>(file), {}), "r");
+    }
+
+    /// Fails every chosen call of the run in turn, alone and with all that follow it.
+    void fail_calls_of(const std::vector<std::string>& words, std::size_t cells);
+
+private:
+    std::vector<long> chosen(const std::vector<std::string>& words);
+    void expect_clean(const Outcome& outcome, const shim::Plan& plan, std::size_t cells) const;
+
+    std::set<std::uint64_t> tried_;  ///< ways of calls, in this test
+
+protected:
+    fs::path folder_, file_;
+};
+
+std::vector<long> Injected::chosen(const std::vector<std::string>& words)
+{
+    shim::remember_calls(true);
+    run(words, {});
+    shim::remember_calls(false);
+    std::map<std::uint64_t, std::vector<long>> ways;
+    const std::vector<shim::Call>& calls = shim::remembered();
+    for (std::size_t i = 0; i < calls.size(); ++i)
+        ways[calls[i].stack].push_back(static_cast<long>(i) + 1);
+    std::set<long> picked;
+    for (const auto& [stack, where] : ways)
+        if (tried_.insert(stack).second &&
+            (wanted_faults() != Faults::some || tried_.size() % 8 == 0))
+            picked.insert(where.begin(),
+                          wanted_faults() == Faults::calls ? where.end() : where.begin() + 1);
+    std::cout << calls.size() << " calls by " << ways.size() << " ways, " << picked.size()
+              << " of them fail" << std::endl;
+    return {picked.begin(), picked.end()};
+}
+
+void Injected::expect_clean(const Outcome& outcome, const shim::Plan& plan, std::size_t cells) const
+{
+    SCOPED_TRACE("call " + std::to_string(plan.nth) +
+                 (plan.from_there_on ? " and all that follow, " : ", ") + shim::failed_call() +
+                 ": " + outcome.error);
+    EXPECT_TRUE(outcome.code == 0 || outcome.code == 3) << outcome.code;
+    if (outcome.code == 3) {
+        EXPECT_EQ(outcome.error.rfind("bvhbench: ", 0), 0u);
+        EXPECT_EQ(std::count(outcome.error.begin(), outcome.error.end(), '\n'), 1);
+    }
+    EXPECT_EQ(shim::leaked(), std::vector<std::string>());
+    EXPECT_EQ(shim::misused(), std::vector<std::string>());
+    if (!fs::exists(file_)) {
+        EXPECT_EQ(outcome.code, 3);
+        return;
+    }
+    const Document result = document();
+    EXPECT_LE(result.cells.size(), cells);
+    for (const Cell& cell : result.cells) {
+        if (cell.status == Cell::Status::measured)
+            EXPECT_TRUE(cell.check.verdict == Check::Verdict::agrees ||
+                        (cell.check.verdict == Check::Verdict::not_checked &&
+                         cell.check.detail.find("the reference failed") != std::string::npos))
+                << cell.check.detail;
+        else
+            EXPECT_NE(cell.reason, "");
+    }
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1) << "a temporary file was left";
+}
+
+void Injected::fail_calls_of(const std::vector<std::string>& words, std::size_t cells)
+{
+    const Outcome whole = run(words, {});
+    ASSERT_EQ(whole.code, 0) << whole.error;
+    ASSERT_EQ(document().cells.size(), cells);
+    ASSERT_EQ(shim::leaked(), std::vector<std::string>());
+    std::map<int, int> ends;
+    int number = 0;
+    for (const long nth : chosen(words))
+        for (const bool from_there_on : {false, true}) {
+            if (from_there_on && wanted_faults() != Faults::calls && number++ % 5 != 0)
+                continue;
+            const shim::Plan plan{nth, from_there_on};
+            const Outcome outcome = run(words, plan);
+            expect_clean(outcome, plan, cells);
+            ++ends[outcome.code];
+            if (HasFailure() && wanted_faults() == Faults::some)
+                return;  // one is enough to look at
+        }
+    for (const auto& [code, times] : ends)
+        std::cout << "exit code " << code << ": " << times << " times\n";
+    EXPECT_GT(ends[3], 0);
+    const Outcome again = run(words, {});
+    EXPECT_EQ(again.code, 0) << again.error;
+}
+
+/// With so little memory the copy rate is not measured, which takes longer than all else.
+const std::vector<std::string> without_yardsticks = {"--memory-limit", "16M"};
+
+std::vector<std::string> operator+(std::vector<std::string> words,
+                                   const std::vector<std::string>& more)
+{
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
+TEST_F(Injected, ABuildEndsCleanlyWhicheverCallFails)
+{
+    const std::vector<std::string> build = {"build",   "--builder", "oibvh-multi",
+                                            "--scene", "soup:70",   "--samples",
+                                            "1",       "--json",    file_.string()};
+    fail_calls_of(build + without_yardsticks, 1);
+    fail_calls_of(build, 1);  // what those tried already is not tried again
+}
+
+TEST_F(Injected, ACollisionEndsCleanlyWhicheverCallFails)
+{
+    const std::vector<std::string> collide = {
+        "collide",  "--collider", "leaf",      "--scene", "bend:soup:60", "--frames",    "0:2",
+        "--narrow", "exact",      "--samples", "1",       "--json",       file_.string()};
+    fail_calls_of(collide + without_yardsticks, 2);
+}
+
+TEST_F(Injected, FinishedCellsAreKeptAndTheOthersAreDone)
+{
+    const fs::path plan = folder_.string() + ".plan.json";
+    std::ofstream(plan)
+        << R"({"experiment": "faults", "scenes": ["soup:9", "soup:30"], "samples": 1, "warm_up": 0,
+                               "builders": ["oibvh-multi", "karras", "median-split"]})";
+    const std::vector<std::string> words =
+        std::vector<std::string>{"run", plan.string(), "--out", file_.string()} +
+        without_yardsticks;
+    run(words, {});
+    const long calls = shim::calls();
+    std::size_t kept = 0;
+    for (int part = 1; part < 20; ++part) {
+        const shim::Plan one{calls * part / 20, false};
+        const Outcome outcome = run(words, one);
+        SCOPED_TRACE("call " + std::to_string(one.nth) + ", " + shim::failed_call() + ": " +
+                     outcome.error);
+        if (outcome.code != 0) {  // before there were cells
+            EXPECT_EQ(outcome.code, 3);
+            EXPECT_EQ(kept, 0u);
+            continue;
+        }
+        const Document result = document();
+        EXPECT_EQ(result.cells.size(), 6u);
+        EXPECT_FALSE(result.run.finished_at.empty());
+        const auto measured =
+            std::count_if(result.cells.begin(), result.cells.end(), [](const Cell& cell) {
+                return cell.status == Cell::Status::measured &&
+                       cell.check.verdict == Check::Verdict::agrees;
+            });
+        EXPECT_GE(measured, 3);  // at most a scene, when it cannot be uploaded
+        ++kept;
+    }
+    EXPECT_GT(kept, 10u);
+    fs::remove(plan);
+}
+
+}  // namespace
+}  // namespace bvhbench

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+//
+// Stands between a program and the OpenCL loader: counts calls, keeps account of objects, and lets a call fail on demand.
+// Linked into a test it takes the loader's place; as a library it is preloaded into the program, and BVHBENCH_FAIL_CALL
+// says which call fails (see opencl_shim.cpp). Knows nothing of what it stands before.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace bvhbench::shim {
+
+/// Which calls fail: the n-th, counted from 1, or all from there on, as of a device that is gone.
+struct Plan {
+    long nth = 0;  ///< 0: none
+    bool from_there_on = false;
+};
+
+/// One call: what it was, and by which way of calls it was reached.
+struct Call {
+    const char* name;
+    std::uint64_t stack;
+};
+
+/// Begin to count anew, with no object on the account.
+void begin(Plan plan);
+
+/// How many calls there were since.
+long calls();
+
+/// The name of the first one that was made to fail, and the error it gave; empty if none was.
+std::string failed_call();
+
+/// Every call since, if `begin` was told to remember them.
+void remember_calls(bool wanted);
+const std::vector<Call>& remembered();
+
+/// Objects that were made and are not released as often as they were made and retained, by the call that made them.
+std::vector<std::string> leaked();
+
+/// Calls that used an object which was no longer there, or was never: "clReleaseEvent of what is not there".
+const std::vector<std::string>& misused();
+
+}  // namespace bvhbench::shim

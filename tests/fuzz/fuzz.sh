@@ -1,0 +1,41 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Fuzzes our readers with libFuzzer under the address and undefined-behaviour sanitizers:
+#   tests/fuzz/fuzz.sh SECONDS [READER...]      each reader so long; all of tests/fuzz/corpus by default
+#
+# Readers are compiled by clang with its instruments, into build/fuzz; all else comes from build/release, which must stand.
+# Exits 1 if something is found: it lies in build/fuzz as crash-*; make it a test, and then a seed. Needs libclang-rt-14-dev besides packages.txt.
+set -euo pipefail
+cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.."
+seconds=${1:?how many seconds a reader}
+shift
+(($#)) || set -- $(ls tests/fuzz/corpus)
+from=build/release
+to=build/fuzz
+mkdir -p "$to"
+
+flags=(-std=c++20 -O1 -g1 -march=x86-64-v3 -fsanitize=address,undefined -fno-sanitize-recover=undefined -I.
+    -DBVHBENCH_HAS_CGAL=1 -DBVHBENCH_HAS_EMBREE=1 -DBVHBENCH_HAS_FCL=1)
+objects=()
+for source in scenes/formats/{obj,off,ply,ply_header,ply_values,stl,text}.cpp scenes/sequence_facts.cpp \
+    harness/{experiment,experiment_pipelines,json_keys,record,record_read,tuning_file,options}.cpp; do
+    object=$to/${source//\//_}.o
+    objects+=("$object")
+    [[ $object -nt $source ]] || clang++-14 "${flags[@]}" -fsanitize=fuzzer-no-link -c "$source" -o "$object"
+done
+libraries=()
+for room in harness scenes baselines collide oibvh builders device geometry; do
+    libraries+=("$from/$room/lib$room.a")
+done
+libraries+=("$from"/CMakeFiles/kernels.dir/*.o -lOpenCL -lassimp -lbenchmark -lembree3 -lfcl -lgmp -lmpfr -lpthread -ldl)
+found=0
+for reader in "$@"; do
+    clang++-14 "${flags[@]}" -fsanitize=fuzzer -DREADER="$reader" tests/fuzz/reader.cpp "${objects[@]}" "${libraries[@]}" \
+        -o "$to/$reader"
+    mkdir -p "$to/corpus/$reader"
+    echo "== $reader"
+    "$to/$reader" -max_total_time="$seconds" -max_len=4096 -rss_limit_mb=1500 -timeout=10 -artifact_prefix="$to/" \
+        -print_final_stats=1 "$to/corpus/$reader" "tests/fuzz/corpus/$reader" >"$to/$reader.log" 2>&1 || found=1
+    grep -E "ERROR|SUMMARY|Uncaught|runtime error|Test unit|number_of_executed_units|^Done" "$to/$reader.log" || true
+done
+exit $found
