@@ -141,9 +141,21 @@ TEST_P(RadixSortOfEverySize, EqualsAStableSortUpToPastTwoTiles)
     const uint tile = sweeps ? shape.sweep_group_size * shape.sweep_keys_per_item
                              : shape.group_size * shape.keys_per_item;
     const std::size_t last = 2 * std::size_t{tile} + 1;
-    for (std::size_t size = 0; size <= last; ++size) {
+    std::vector<std::size_t> sizes(last + 1);
+    std::iota(sizes.begin(), sizes.end(), std::size_t{0});
+    // As many tiles as the group that scans their counts has work-items, one less and one more.
+    if (!sweeps)
+        for (const std::size_t tiles :
+             {shape.group_size - 1, shape.group_size, shape.group_size + 1})
+            sizes.push_back(tiles * tile);
+    for (const std::size_t size : sizes) {
         plan(size);
+        // Every size with codes of any kind and with hardly any that differ; all kinds around the ends of tiles.
+        const std::size_t past = size % tile;
+        const bool at_an_end = past <= 1 || past == tile - 1;
         for (const auto& [name, codes] : hard_codes(size, GetParam().bits)) {
+            if (!at_an_end && name != "any" && name != "few")
+                continue;
             SCOPED_TRACE(name + ", " + std::to_string(size) + " codes");
             expect_equal_to_host(codes);
         }
@@ -165,9 +177,11 @@ INSTANTIATE_TEST_SUITE_P(Small, RadixSortOfEverySize, testing::ValuesIn([] {
 
 TEST_P(RadixSortAsShipped, EqualsAStableSortAroundEveryBoundary)
 {
+    if (GetParam().name == "of_device" && !bench().device.lets_groups_wait())
+        GTEST_SKIP() << "groups may not wait for each other: it is the sort called groups";
     constexpr std::size_t tile = 256 * 15;
     for (const std::size_t size : {std::size_t{1}, tile - 1, tile, tile + 1, 2 * tile - 1, 2 * tile,
-                                   2 * tile + 1, 255 * tile, 256 * tile, 257 * tile + 1}) {
+                                   2 * tile + 1, 257 * tile + 1}) {
         plan(size);
         for (const auto& [name, codes] : hard_codes(size, GetParam().bits)) {
             if (size > 3 * tile && name != "any")

@@ -57,7 +57,8 @@ TEST(Experiment, MayHaveBuildersAndPipelinesOverTheSameScenes)
     EXPECT_EQ(quick.collisions[0].samples, 2);
     EXPECT_THROW(parse_experiment(R"({"experiment": "mine", "builders": ["perfect"],
         "scenes": [{"scene": "soup:9", "frames": "0:"}],
-        "pipelines": [{"builder": "perfect", "collider": "leaf"}]})", "x.json", false),
+        "pipelines": [{"builder": "perfect", "collider": "leaf"}]})",
+                                  "x.json", false),
                  BadUsage)
         << "scenes of both are texts";
 }
@@ -80,7 +81,8 @@ TEST(Experiment, OfWholeFramesReadsEveryKey)
     EXPECT_EQ(tasks[0].warm_up, 1);
     EXPECT_TRUE(tasks[0].may_stand_in);
     EXPECT_EQ(tasks[0].pipelines[0].builder.name, "none");
-    EXPECT_EQ(tasks[0].pipelines[0].collider, (ColliderChoice{.name = "brute", .narrow = "exact", .rules_off = skip_near}));
+    EXPECT_EQ(tasks[0].pipelines[0].collider,
+              (ColliderChoice{.name = "brute", .narrow = "exact", .rules_off = skip_near}));
     EXPECT_EQ(tasks[0].pipelines[1].builder,
               (BuilderChoice{.name = "perfect", .sorted_leaves = true}));
     EXPECT_EQ(tasks[0].pipelines[1].collider, (ColliderChoice{.name = "bvtt",
@@ -133,8 +135,9 @@ TEST(Experiment, OfWholeFramesPairsEachBuilderWithEachCollider)
         seen.push_back(choice.builder.name + ' ' + choice.collider.name);
         EXPECT_EQ(choice.collider.keep_adjacent, choice.builder.name == "none");
     }
-    EXPECT_EQ(seen, (std::vector<std::string>{"none grid", "none brute", "perfect leaf", "perfect bvtt", "perfect group",
-                                              "karras leaf", "karras bvtt", "karras group"}));
+    EXPECT_EQ(seen, (std::vector<std::string>{"none grid", "none brute", "perfect leaf",
+                                              "perfect bvtt", "perfect group", "karras leaf",
+                                              "karras bvtt", "karras group"}));
 }
 
 TEST(Experiment, OfWholeFramesIsRefusedForWhatItDoesNotKnow)
@@ -172,13 +175,15 @@ TEST(Experiment, ReadsEveryKey)
         "experiment": "mine", "question": "q", "paper": "Fig. 8",
         "scenes": ["bunny", {"scene": "soup:{t}:x", "t": [9, 5]}],
         "builders": ["perfect", {"name": "oibvh-multi", "order": "morton63", "group_size": 128, "items": 2,
-                                 "leaves": "sorted"}],
+                                 "leaves": "sorted", "grid": "scene"}],
+        "doubles": "as-is",
         "operations": ["refit", "build"], "stages": ["hierarchy"], "samples": 7, "warm_up": 0, "quality": true,
         "quick": {"samples": 2, "scenes": ["soup:1"]}})";
     const Experiment experiment = parse_experiment(text, "x.json", false);
     EXPECT_EQ(experiment.scenes, (std::vector<std::string>{"bunny", "soup:5:x", "soup:9:x"}));
     EXPECT_EQ(experiment.builders[1], (BuilderChoice{.name = "oibvh-multi",
                                                      .order = "morton63",
+                                                     .grid = GridOver::scene,
                                                      .group_size = 128,
                                                      .items = 2,
                                                      .sorted_leaves = true}));
@@ -187,6 +192,16 @@ TEST(Experiment, ReadsEveryKey)
     EXPECT_EQ(experiment.samples, 7);
     EXPECT_EQ(experiment.warm_up, 0);
     EXPECT_TRUE(experiment.quality);
+    EXPECT_EQ(experiment.doubles, Doubles::as_is);
+    EXPECT_THROW(
+        parse_experiment(R"({"experiment": "e", "scenes": ["soup:1"], "builders": ["perfect"],
+                                      "doubles": "exact"})",
+                         "x.json", false),
+        BadUsage);
+    EXPECT_THROW(parse_experiment(R"({"experiment": "e", "scenes": ["soup:1"],
+                                      "builders": [{"name": "perfect", "grid": "none"}]})",
+                                  "x.json", false),
+                 BadUsage);
 
     const Experiment quick = parse_experiment(text, "x.json", true);
     EXPECT_EQ(quick.samples, 2);
@@ -198,11 +213,13 @@ TEST(Experiment, NamesTheKeyThatItDoesNotKnowAndThoseItDoes)
 {
     EXPECT_EQ(refusal(R"({"experiment": "a", "scene": ["soup:1"], "builders": ["perfect"]})"),
               "x.json: 'scene' is no key of an experiment; there are: experiment, question, paper, "
-              "scenes, builders, operations, pipelines, stages, samples, warm_up, quality, quick");
-    EXPECT_EQ(refusal(R"({"experiment": "a", "scenes": ["soup:1"],
+              "scenes, builders, operations, pipelines, stages, samples, warm_up, quality, "
+              "doubles, quick");
+    EXPECT_EQ(
+        refusal(R"({"experiment": "a", "scenes": ["soup:1"],
                           "builders": [{"name": "perfect", "size": 3}]})"),
-              "x.json: 'size' is no key of a builder; there are: name, order, group_size, items, "
-              "leaves");
+        "x.json: 'size' is no key of a builder; there are: name, order, grid, group_size, items, "
+        "leaves");
     EXPECT_EQ(refusal(R"({"experiment": "a", "scenes": [{"scene": "soup:{t}", "t": {"til": 3}}],
                           "builders": ["perfect"]})"),
               "x.json: 'til' is no key of the sizes 't'; there are: from, to, powers_of_two_from, "

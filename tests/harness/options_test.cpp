@@ -80,10 +80,12 @@ TEST(Options, OfCollideAreAllUnderstood)
                 "soup:5",  "--order",   "hilbert30", "--leaves",      "sorted", "--adjacent",
                 "drop",    "--jump",    "3",         "--start-level", "4",      "--group-size",
                 "64",      "--samples", "3",         "--json",        "a.json", "--pairs",
-                "p.bin"});
+                "p.bin",   "--grid",    "scene"});
     const auto& collide = std::get<CollideCommand>(options.command);
-    EXPECT_EQ(collide.builder,
-              (BuilderChoice{.name = "karras", .order = "hilbert30", .sorted_leaves = true}));
+    EXPECT_EQ(collide.builder, (BuilderChoice{.name = "karras",
+                                              .order = "hilbert30",
+                                              .grid = GridOver::scene,
+                                              .sorted_leaves = true}));
     EXPECT_EQ(collide.collider, (ColliderChoice{.name = "leaf",
                                                 .keep_adjacent = false,
                                                 .jump = 3,
@@ -203,10 +205,10 @@ TEST(Catalog, ListsEachBuilderOnceUnderTheNameOnItsCard)
         EXPECT_FALSE(entry.summary.empty());
         EXPECT_EQ(entry.make == nullptr, !entry.absent.empty());
     }
-    EXPECT_TRUE(
-        names.starts_with("perfect karras apetrei apetrei-fused lbvh-levels oibvh-single "
-                          "oibvh-multi oibvh-wide4 oibvh-wide8 oibvh-wide8-q8 oibvh-host oibvh-reference "
-                          "radix-reference "))
+    EXPECT_TRUE(names.starts_with(
+        "perfect karras apetrei apetrei-fused lbvh-levels oibvh-single "
+        "oibvh-multi oibvh-wide4 oibvh-wide8 oibvh-wide8-q8 oibvh-host oibvh-reference "
+        "radix-reference "))
         << names;
 }
 

@@ -86,6 +86,8 @@ TEST(Record, ReadsBackWhatItWrote)
     host.check = {Check::Verdict::differs, "oibvh-reference", "something", 0x12u};
     host.scene.outlier = {"bunny", 3, 2.5};
     host.scene.bend_of = "bunny";
+    host.scene.rounding = {Doubles::recentred, {4500123.45, -2, 0.1}, -3, 17, 1.25e-7};
+    host.builder.grid = GridOver::scene;
     host.operation = Operation::refit;
     host.left_out = {{"epo", "not asked for"}};
     host.leaves_by_depth = {0, 1, 2};
@@ -107,6 +109,10 @@ TEST(Record, ReadsBackWhatItWrote)
     EXPECT_EQ(document.run.costs, (NodeCosts{2, 0.5}));
     EXPECT_EQ(document.cells[2].scene.outlier.diameters, 2.5);
     EXPECT_EQ(document.cells[2].scene.bend_of, "bunny");
+    EXPECT_EQ(document.cells[2].scene.rounding.how, Doubles::recentred);
+    EXPECT_EQ(document.cells[2].scene.rounding.offset.x, 4500123.45);
+    EXPECT_EQ(document.cells[2].builder.grid, GridOver::scene);
+    EXPECT_FALSE(document.cells[0].scene.rounding.how);
     EXPECT_EQ(document.cells[2].operation, Operation::refit);
     EXPECT_EQ(document.cells[2].left_out, host.left_out);
     EXPECT_EQ(document.cells[2].leaves_by_depth, host.leaves_by_depth);
@@ -134,7 +140,8 @@ TEST(Record, ReadsBackWhatALaunchCostsAndWhatTheDeviceWasTunedTo)
     EXPECT_EQ(read.launch_cost_ns, 3812.5);
     EXPECT_EQ(read.tuning_from, run.tuning_from);
     EXPECT_EQ(read.tuning, run.tuning);
-    EXPECT_EQ(read_document(document_text(run_text(fake_run()), {}), "test").run.tuning_from, "none");
+    EXPECT_EQ(read_document(document_text(run_text(fake_run()), {}), "test").run.tuning_from,
+              "none");
 }
 
 TEST(Record, ReadsBackWhatStressFound)
