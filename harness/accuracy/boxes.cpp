@@ -89,7 +89,7 @@ std::string stage_text(const Cell& cell, std::string_view stage)
 void measure_boxes(const AxisRun& run)
 {
     for_each_scene(
-        run, "boxes", {"torus:100000", "hairball:100000", "cloth-ball:92230"},
+        run, "boxes", {"torus:100000", "hairball:100000"},
         [&](const SceneFacts& scene, const Input& input) {
             const Right right = right_answers(input);
             std::vector<Measured> cells;
