@@ -37,9 +37,8 @@ void choose_pipeline(std::string_view method, bool is_cpu, Cell& cell)
                     .order = "hilbert30",
                     .sorted_leaves = true,
                     .boxes = is_wide ? "f32" : std::string(method)};
-    cell.collider = {.name = is_cpu || is_wide ? "group" : "block",
-                     .keep_adjacent = false,
-                     .narrow = "exact"};
+    cell.collider = {
+        .name = is_cpu || is_wide ? "group" : "block", .keep_adjacent = false, .narrow = "exact"};
 }
 
 struct Right {
@@ -155,8 +154,8 @@ std::string report_boxes(const Document& document)
         table.row({cell->scene.name, cell->accuracy.method, count("node_bytes"),
                    stage_text(*cell, "gather"), stage_text(*cell, "hierarchy"),
                    stage_text(*cell, "broad"), stage_text(*cell, "narrow"),
-                   duration_text(spread_of(whole_times_ns(*cell)).median),
-                   count("box_tests_count"), count("missed_count"), count("false_count"),
+                   duration_text(spread_of(whole_times_ns(*cell)).median), count("box_tests_count"),
+                   count("missed_count"), count("false_count"),
                    right > 0 ? fixed(counter(*cell, "pairs_count") / right, 3) : "",
                    verdict_text(*cell)});
     }
