@@ -147,8 +147,9 @@ Breach first_breach(const HostTree& tree, std::span<const Point> points,
         ++reached;
         if (breach.of != nothing)
             return;
-        breach = node.primitive != HostTree::none ? broken_leaf(tree, node, index, points, faces, seen)
-                                                  : broken_inner(tree, node, index);
+        breach = node.primitive != HostTree::none
+                     ? broken_leaf(tree, node, index, points, faces, seen)
+                     : broken_inner(tree, node, index);
     });
     if (breach.of != nothing)
         return breach;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=0 -DTEAMS=1u -DLOOSE=4u
 // check: -include oibvh/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DTEAMS=4u -DLOOSE=4u
+// check: -include oibvh/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DTEAMS=4u -DLOOSE=4u -DBOX_FORMAT=1u
+// check: -include oibvh/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DTEAMS=4u -DLOOSE=4u -DBOX_FORMAT=2u
 //
 // A block of 32 neighbouring leaves, a subtree, as one query of a team, which takes an implicit tree for one of nodes
 // with 32 children each: five levels are skipped, Eq. (12), and a node's descendants there are neighbours in memory. A

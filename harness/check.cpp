@@ -76,8 +76,8 @@ Check check_tree(const HostTree& tree, const Input& input, const BuilderChoice& 
     if (reference.empty())
         return check;
     std::uint64_t expected = 0;
-    const std::string failure =
-        reason_of_failure([&] { expected = oracle.tree_hash(reference, builder.order, builder.boxes); });
+    const std::string failure = reason_of_failure(
+        [&] { expected = oracle.tree_hash(reference, builder.order, builder.boxes); });
     if (!failure.empty()) {
         check.verdict = not_checked;
         check.detail = "the reference failed: " + failure;

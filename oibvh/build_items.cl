@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Algorithm 1 over the ostensibly-implicit layout, a work-item a subtree.
+// check: -DBOX_FORMAT=0u
+// check: -DBOX_FORMAT=1u
+// check: -DBOX_FORMAT=4u
 #include "oibvh/levels.clh"
 
 #include "builders/implicit/build_items.clh"

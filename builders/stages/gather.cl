@@ -53,17 +53,17 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void gather_objec
         if (word < words) {
             const uint id = ids[start + word / 3u];
             const uint slot = slots[owners[id]] + start + word / 3u;
-            sorted[3ul * slot + word % 3u] =
-                STORED_WORD(boxes[3ul * id + word % 3u], word % 3u);
+            sorted[3ul * slot + word % 3u] = STORED_WORD(boxes[3ul * id + word % 3u], word % 3u);
         }
     }
 }
 
 /// As gather_chunks, of several objects.
-kernel void gather_objects_chunks(global const float2* restrict boxes, global const uint* restrict ids,
+kernel void gather_objects_chunks(global const float2* restrict boxes,
+                                  global const uint* restrict ids,
                                   global const uint* restrict owners,
-                                  global const uint* restrict slots, global BoxWord* restrict sorted,
-                                  const uint count CELLS_PARAMETER)
+                                  global const uint* restrict slots,
+                                  global BoxWord* restrict sorted, const uint count CELLS_PARAMETER)
 {
     const Chunk chunk = own_chunk(count);
     for (uint k = chunk.first; k < chunk.end; ++k)

@@ -42,9 +42,9 @@ GatherStage::GatherStage(Programs& programs, KernelForm form, uint group_size,
     objects_kernel_ = kernel("gather_objects_groups", "gather_objects_chunks");
     runs_kernel_ = kernel("gather_runs_groups", "gather_runs_chunks");
     if (format.has_cells())
-        cells_kernel_ = programs.kernel("builders/stages/scene_cells.cl", "find_cells",
-                                        {{"GROUP_SIZE", groups ? cells_group_size : 1u},
-                                         {"CELLS_OF", format.number}});
+        cells_kernel_ = programs.kernel(
+            "builders/stages/scene_cells.cl", "find_cells",
+            {{"GROUP_SIZE", groups ? cells_group_size : 1u}, {"CELLS_OF", format.number}});
 }
 
 void GatherStage::plan(Arena& arena, const Buffer<Bounds>& bounds)

@@ -8,7 +8,8 @@
 #include "geometry/box_format.h"
 
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void find_cells(
-    global const Bounds* restrict bounds, const uint object_count, global SceneCells* restrict cells)
+    global const Bounds* restrict bounds, const uint object_count,
+    global SceneCells* restrict cells)
 {
     local Bounds parts[GROUP_SIZE];
     const uint item = (uint)get_local_id(0);

@@ -37,9 +37,8 @@ void choose_pipeline(std::string_view method, bool is_cpu, Cell& cell)
                     .order = "hilbert30",
                     .sorted_leaves = true,
                     .boxes = is_wide ? "f32" : std::string(method)};
-    cell.collider = {.name = is_cpu || is_wide ? "group" : "block",
-                     .keep_adjacent = false,
-                     .narrow = "exact"};
+    cell.collider = {
+        .name = is_cpu || is_wide ? "group" : "block", .keep_adjacent = false, .narrow = "exact"};
 }
 
 struct Right {
@@ -89,7 +88,7 @@ std::string stage_text(const Cell& cell, std::string_view stage)
 void measure_boxes(const AxisRun& run)
 {
     for_each_scene(
-        run, "boxes", {"torus:100000", "hairball:100000", "cloth-ball:92230"},
+        run, "boxes", {"torus:100000", "hairball:100000"},
         [&](const SceneFacts& scene, const Input& input) {
             const Right right = right_answers(input);
             std::vector<Measured> cells;
@@ -155,8 +154,8 @@ std::string report_boxes(const Document& document)
         table.row({cell->scene.name, cell->accuracy.method, count("node_bytes"),
                    stage_text(*cell, "gather"), stage_text(*cell, "hierarchy"),
                    stage_text(*cell, "broad"), stage_text(*cell, "narrow"),
-                   duration_text(spread_of(whole_times_ns(*cell)).median),
-                   count("box_tests_count"), count("missed_count"), count("false_count"),
+                   duration_text(spread_of(whole_times_ns(*cell)).median), count("box_tests_count"),
+                   count("missed_count"), count("false_count"),
                    right > 0 ? fixed(counter(*cell, "pairs_count") / right, 3) : "",
                    verdict_text(*cell)});
     }

@@ -22,10 +22,12 @@ constexpr float denormal = std::numeric_limits<float>::denorm_min();
 /// Numbers at which rounding, subtracting or scaling goes wrong, ascending.
 std::vector<float> hard_numbers()
 {
-    std::vector<float> positive = {denormal, 3 * denormal, 0x1p-126f, 0x1p-126f - denormal, 1e-30f,
-                                   1e-20f,   1e-3f,        0.1f,      1.0f - 0x1p-24f,      1.0f,
-                                   1.0f + 0x1p-23f, 3.0f,  65503.0f,  65504.0f,             65536.0f,
-                                   16777217.0f,     1e20f, 1e30f,     0x1.fffffcp127f,      largest};
+    std::vector<float> positive = {
+        denormal,        3 * denormal, 0x1p-126f,       0x1p-126f - denormal,
+        1e-30f,          1e-20f,       1e-3f,           0.1f,
+        1.0f - 0x1p-24f, 1.0f,         1.0f + 0x1p-23f, 3.0f,
+        65503.0f,        65504.0f,     65536.0f,        16777217.0f,
+        1e20f,           1e30f,        0x1.fffffcp127f, largest};
     std::vector<float> all = {0.0f};
     for (const float x : positive) {
         all.push_back(x);
@@ -87,7 +89,8 @@ TEST_P(EachFormat, KeepsTheOrderOfSidesAndRoundsThemOutward)
             std::vector<float> inside;
             std::copy_if(numbers.begin(), numbers.end(), std::back_inserter(inside),
                          [&](float x) { return low <= x && x <= high; });
-            float lower_before = -std::numeric_limits<float>::infinity(), upper_before = lower_before;
+            float lower_before = -std::numeric_limits<float>::infinity(),
+                  upper_before = lower_before;
             for (const float x : inside) {
                 const Aabb point = rounding(along_x(x, x));
                 ASSERT_LE(point.min_x, x);

@@ -110,16 +110,15 @@ TEST(RoundedTrees, AreRefusedByAllOthersInOneSentence)
         EXPECT_THROW(make_builder(rounding(entry.name, "u16", 0), session().programs()), BadUsage);
         const auto by_itself = entry.make(session().programs(), {});
         if (by_itself->card().runs == BuilderCard::Runs::on_device) {
-            EXPECT_THROW(
-                entry.make(session().programs(), {.sorted_leaves = true, .boxes = "u16"}),
-                BadUsage)
+            EXPECT_THROW(entry.make(session().programs(), {.sorted_leaves = true, .boxes = "u16"}),
+                         BadUsage)
                 << entry.name;
         }
     }
     EXPECT_THROW(find_builder("oibvh-multi").make(session().programs(), {.boxes = "u16"}), BadUsage)
         << "leaves are not sorted";
-    EXPECT_THROW(find_builder("oibvh-multi").make(session().programs(),
-                                                  {.sorted_leaves = true, .boxes = "u17"}),
+    EXPECT_THROW(find_builder("oibvh-multi")
+                     .make(session().programs(), {.sorted_leaves = true, .boxes = "u17"}),
                  BadUsage);
 }
 

@@ -66,10 +66,9 @@ protected:
 
     PairList found(const Tree* tree, const Input& input) const
     {
-        const auto collider =
-            std::get<1>(GetParam())
-                .make(session().programs(),
-                      {.keep_adjacent = false, .form = std::get<2>(GetParam())});
+        const auto collider = std::get<1>(GetParam())
+                                  .make(session().programs(),
+                                        {.keep_adjacent = false, .form = std::get<2>(GetParam())});
         collider->reserve(tree, input);
         find_pairs(*collider, tree, input, session().queue());
         PairList pairs(collider->pairs(session().queue()));
@@ -87,8 +86,8 @@ TEST_P(BoxFormats, FindThePairsOfRoundedBoxesAndMissNone)
         const PairList pairs = found(standing.tree, standing.input);
         EXPECT_EQ(pairs, rounded_pairs(mesh, format()));
         const PairList exact = touching_pairs(mesh.points, mesh.faces, false);
-        EXPECT_TRUE(std::includes(pairs.pairs().begin(), pairs.pairs().end(),
-                                  exact.pairs().begin(), exact.pairs().end()));
+        EXPECT_TRUE(std::includes(pairs.pairs().begin(), pairs.pairs().end(), exact.pairs().begin(),
+                                  exact.pairs().end()));
     }
 }
 
@@ -100,15 +99,11 @@ TEST_P(BoxFormats, FindThePairsOfSeveralObjectsToo)
     EXPECT_EQ(found(standing.tree, standing.input), rounded_pairs(many.mesh, format()));
 }
 
-INSTANTIATE_TEST_SUITE_P(Catalog, BoxFormats,
-                         testing::ValuesIn(cases()),
-                         [](const auto& tested) {
-                             return test_name(
-                                 std::string(std::get<0>(tested.param).name) + '_' +
-                                 std::string(std::get<1>(tested.param).name) + '_' +
-                                 (std::get<2>(tested.param) == KernelForm::groups ? "groups"
-                                                                                  : "chunks"));
-                         });
+INSTANTIATE_TEST_SUITE_P(Catalog, BoxFormats, testing::ValuesIn(cases()), [](const auto& tested) {
+    return test_name(std::string(std::get<0>(tested.param).name) + '_' +
+                     std::string(std::get<1>(tested.param).name) + '_' +
+                     (std::get<2>(tested.param) == KernelForm::groups ? "groups" : "chunks"));
+});
 
 }  // namespace
 }  // namespace bvhbench
