@@ -43,16 +43,18 @@ typedef struct {
 /// The number of the last cell along an axis; 0 of formats without cells.
 SHARED_FN_INLINED double last_cell(uint format)
 {
-    return format == BOX_U8 ? 254.0 : format == BOX_U16 ? 65534.0
-           : format == BOX_F16                          ? 2.0 * HALF_CELLS
-                                                        : 0.0;
+    return format == BOX_U8    ? 254.0
+           : format == BOX_U16 ? 65534.0
+           : format == BOX_F16 ? 2.0 * HALF_CELLS
+                               : 0.0;
 }
 
 /// The whole number nearest to `x`, whose bits are 32 at most: beyond 2^51 it is one. Where floor and ceil are a call, as
 /// PoCL's are, lining leaves up took several times as long with them.
 SHARED_FN_INLINED double whole_near(double x)
 {
-    const double shift = 6755399441055744.0;  // 1.5 * 2^52: a double of that size has no bits after the point
+    const double shift =
+        6755399441055744.0;  // 1.5 * 2^52: a double of that size has no bits after the point
     return fabs(x) < 2251799813685248.0 ? (x + shift) - shift : x;
 }
 
@@ -129,10 +131,9 @@ SHARED_FN double cell_of_side(uint format, uint side)
         return (double)side;
     const uint bits = side < 0x8000u ? 0x8000u - side : side - 0x8000u;
     const uint exponent = bits >> 10u;
-    const double size =
-        exponent == 0u ? (double)bits
-                       : (double)((bits & 0x3ffu) + 0x400u) *
-                             as_double((ulong)(exponent - 1u + 1023u) << 52u);
+    const double size = exponent == 0u ? (double)bits
+                                       : (double)((bits & 0x3ffu) + 0x400u) *
+                                             as_double((ulong)(exponent - 1u + 1023u) << 52u);
     return side < 0x8000u ? HALF_CELLS - size : HALF_CELLS + size;
 }
 
@@ -140,7 +141,8 @@ SHARED_END
 
 #ifndef __OPENCL_C_VERSION__
 static_assert(sizeof(bvhbench::SceneCells) == 48);
-static_assert(bvhbench::half_below(HALF_CELLS) == 0x7bff && bvhbench::half_above(HALF_CELLS) == 0x7bff);
+static_assert(bvhbench::half_below(HALF_CELLS) == 0x7bff &&
+              bvhbench::half_above(HALF_CELLS) == 0x7bff);
 static_assert(bvhbench::half_below(2048.0) == 0x800 && bvhbench::half_above(2049.0) == 0x801);
 #endif
 #endif

@@ -21,7 +21,10 @@ public:
     /// gathered.
     void plan(Arena& arena, const Buffer<Bounds>& bounds);
 
-    const Buffer<SceneCells>& cells() const { return cells_; }  ///< one: of the scene gathered last; of formats with cells
+    const Buffer<SceneCells>& cells() const
+    {
+        return cells_;
+    }  ///< one: of the scene gathered last; of formats with cells
 
     /// Enqueue sorted[first + k] = boxes[ids[k]] for every id. Other elements of `sorted` stay. Does not wait.
     void enqueue(const Buffer<Aabb>& boxes, const Buffer<uint>& ids,

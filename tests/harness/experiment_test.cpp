@@ -175,8 +175,8 @@ TEST(Experiment, ReadsEveryKey)
         "experiment": "mine", "question": "q", "paper": "Fig. 8",
         "scenes": ["bunny", {"scene": "soup:{t}:x", "t": [9, 5]}],
         "builders": ["perfect", {"name": "oibvh-multi", "order": "morton63", "group_size": 128, "items": 2,
-                                 "leaves": "sorted", "grid": "scene"}],
-        "doubles": "as-is",
+                                  "leaves": "sorted", "grid": "scene"}, {"name": "perfect", "boxes": "u8"}],
+         "doubles": "as-is",
         "operations": ["refit", "build"], "stages": ["hierarchy"], "samples": 7, "warm_up": 0, "quality": true,
         "quick": {"samples": 2, "scenes": ["soup:1"]}})";
     const Experiment experiment = parse_experiment(text, "x.json", false);
@@ -187,6 +187,8 @@ TEST(Experiment, ReadsEveryKey)
                                                      .group_size = 128,
                                                      .items = 2,
                                                      .sorted_leaves = true}));
+    EXPECT_EQ(experiment.builders[2],
+              (BuilderChoice{.name = "perfect", .sorted_leaves = true, .boxes = "u8"}));
     EXPECT_EQ(experiment.operations, (std::vector{Operation::build, Operation::refit}));
     EXPECT_EQ(experiment.start, Start::from_sorted_leaves);
     EXPECT_EQ(experiment.samples, 7);
@@ -206,7 +208,7 @@ TEST(Experiment, ReadsEveryKey)
     const Experiment quick = parse_experiment(text, "x.json", true);
     EXPECT_EQ(quick.samples, 2);
     EXPECT_EQ(quick.scenes, std::vector<std::string>{"soup:1"});
-    EXPECT_EQ(quick.builders.size(), 2u);
+    EXPECT_EQ(quick.builders.size(), 3u);
 }
 
 TEST(Experiment, NamesTheKeyThatItDoesNotKnowAndThoseItDoes)
@@ -219,7 +221,7 @@ TEST(Experiment, NamesTheKeyThatItDoesNotKnowAndThoseItDoes)
         refusal(R"({"experiment": "a", "scenes": ["soup:1"],
                           "builders": [{"name": "perfect", "size": 3}]})"),
         "x.json: 'size' is no key of a builder; there are: name, order, grid, group_size, items, "
-        "leaves");
+        "leaves, boxes");
     EXPECT_EQ(refusal(R"({"experiment": "a", "scenes": [{"scene": "soup:{t}", "t": {"til": 3}}],
                           "builders": ["perfect"]})"),
               "x.json: 'til' is no key of the sizes 't'; there are: from, to, powers_of_two_from, "
@@ -268,6 +270,12 @@ TEST(Experiment, RefusesWhatMakesNoSense)
                  "builders": [{"name": "perfect", "leaves": "both"}]})",
             R"({"experiment": "a", "scenes": ["b"],
                  "builders": [{"name": "perfect", "order": "zigzag"}]})",
+            R"({"experiment": "a", "scenes": ["b"],
+                 "builders": [{"name": "perfect", "boxes": "u7"}]})",
+            R"({"experiment": "a", "scenes": ["b"],
+                 "builders": [{"name": "perfect", "boxes": "u8", "leaves": "mesh"}]})",
+            R"({"experiment": "a", "scenes": ["b"],
+                 "builders": [{"name": "karras", "boxes": "u8"}]})",
         })
         EXPECT_TRUE(refusal(text).starts_with("x.json: ")) << text;
 }

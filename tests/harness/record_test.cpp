@@ -28,7 +28,7 @@ TEST(Record, WritesACellOnOneLineWithKeysThatEndInTheirUnit)
         R"({"experiment":"table1","scene":{"name":"bunny","triangles":144046,"vertices":72027,)"
         R"("objects":1,"frame":0,"source":"bunny.ply","content_hash":"00ab54a98ceb1f0a"},)"
         R"("builder":{"name":"oibvh-multi","options":{"order":"morton30","group_size":0,"items":0,)"
-        R"("leaves":"mesh"}},"operation":"build","status":"measured","warm_up":1,"samples":[{"order":7,"stages":)"
+        R"("leaves":"mesh","boxes":"f32"}},"operation":"build","status":"measured","warm_up":1,"samples":[{"order":7,"stages":)"
         R"([{"stage":"hierarchy","launches":2,"busy_ns":109990,"span_ns":110000,)"
         R"("moved_bytes":50000000,"start_ns":0}]}],"counters":{"nodes_count":288100,"scratch_bytes":0,)"
         R"("tree_bytes":6914400},"check":{"verdict":"agrees","against":"oibvh-reference",)"
@@ -81,6 +81,7 @@ TEST(Record, ReadsBackWhatItWrote)
     failed.reason = "built without it";
     Cell host = fake_cell("oibvh-reference");
     host.builder.sorted_leaves = true;
+    host.builder.boxes = "u16";
     host.builder.order = "morton63";
     host.samples = {{3, {{"hierarchy", 0, 0, 1234, 0, 0}}}};
     host.check = {Check::Verdict::differs, "oibvh-reference", "something", 0x12u};
