@@ -44,10 +44,10 @@ constexpr uint get_local_id(int) { return 0; }
 constexpr uint get_local_size(int) { return 1; }
 
 // What climb.clh finds in a kernel: the layout's calls, and boxes in memory.
-using float2 = Aabb;
+using BoxWord = Aabb;
 #define BVHBENCH_GEOMETRY_BOX_WORDS_CLH
-inline Aabb load_box(const float2* boxes, uint i) { return boxes[i]; }
-inline void store_box(float2* boxes, uint i, Aabb box) { boxes[i] = box; }
+inline Aabb load_box(const BoxWord* boxes, uint i) { return boxes[i]; }
+inline void store_box(BoxWord* boxes, uint i, Aabb box) { boxes[i] = box; }
 constexpr uint first_slot(uint leaves, uint level)
 {
     return oi_first_slot(oi_shape(leaves), level);
