@@ -325,8 +325,6 @@ def draw_boxes(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
         draw_points(axes, "boxes", points)
         for line, cell in zip(axes.lines[1:], group):  # behind the front, as points were drawn
             line.set_markersize(2.2 * math.sqrt(cell.counters["node_bytes"]))
-            axes.annotate(cell.accuracy["method"], line.get_xydata()[0], xytext=(7, 7), textcoords="offset points",
-                          fontsize=6, color="#444444")
         axes.set_title(name, loc="left")
         axes.set_xlabel("query, ms")
         if number % columns == 0:
