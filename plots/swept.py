@@ -84,7 +84,7 @@ def draw_cells(run: results.Run, cells: list[results.Cell], experiment: str) -> 
             axes.text(max(whole, query), row, f" {whole:,.{0 if whole >= 100 else 1}f}", va="center", fontsize=style.SMALL)
         axes.set_yticks(range(len(steps)), [step.label for step in steps], fontsize=style.SMALL)
         axes.set_ylim(len(steps) - 0.4, -0.6)
-        axes.set_title(title(steps), loc="right")
+        axes.set_title(title(steps), loc="left", x=-0.4)
         axes.margins(x=0.08)
         axes.grid(axis="x")
         axes.grid(visible=False, axis="y")

@@ -4,7 +4,7 @@
 // linked in before the loader, so every call of the program goes through it.
 //
 // Which calls fail is told by BVHBENCH_FAULTS. "calls": every call, alone and with all that follow. "ways": of each way in
-// which calls are reached the first call, and of every fifth way all that follow with it. By default every eighth of those.
+// which calls are reached the first call, and of every fifth way all that follow with it. By default every sixteenth of those.
 #include <gtest/gtest.h>
 
 #include <unistd.h>
@@ -112,7 +112,7 @@ std::vector<long> Injected::chosen(const std::vector<std::string>& words)
     std::set<long> picked;
     for (const auto& [stack, where] : ways)
         if (tried_.insert(stack).second &&
-            (wanted_faults() != Faults::some || tried_.size() % 8 == 0))
+            (wanted_faults() != Faults::some || tried_.size() % 16 == 0))
             picked.insert(where.begin(),
                           wanted_faults() == Faults::calls ? where.end() : where.begin() + 1);
     std::cout << calls.size() << " calls by " << ways.size() << " ways, " << picked.size()

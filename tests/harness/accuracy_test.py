@@ -11,7 +11,7 @@ from program import SCHEMA, expect, main, valid
 
 
 def test_accuracy_counts_the_errors_of_each_narrow_phase():
-    assert [line.split()[0] for line in expect(0, "list", "accuracy").splitlines()] == ["narrow", "sums", "codes", "input", "boxes"]
+    assert [line.split()[0] for line in expect(0, "list", "accuracy").splitlines()] == ["narrow", "sums", "codes", "input", "boxes", "swept"]
     methods = [line.split()[0] for line in expect(0, "list", "narrow").splitlines()]
     assert methods[0] == "filter-f64+exact" and len(methods) == 4, methods
     out = expect(0, "accuracy", "--axis", "narrow", "--pairs", "60000", "--samples", "2", "--seed", "5", "--out", "a",

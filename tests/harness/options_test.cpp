@@ -191,7 +191,7 @@ TEST(Options, ThatAreNotUnderstoodAreAnsweredInOneSentence)
     }
     EXPECT_NE(
         refusal({"list", "colours"})
-            .find("there is no 'colours'; there are: builders, colliders, narrow, orders, skips, "
+            .find("there is no 'colours'; there are: builders, colliders, narrow, orders, formats, skips, "
                   "tuning, scenes, devices, accuracy"),
         std::string::npos);
 }

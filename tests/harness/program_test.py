@@ -38,7 +38,7 @@ def test_memory_that_will_not_do_is_told_before_it_is_taken():
 def test_exit_codes():
     expect(2, says="name a command: list, build")
     expect(2, "paint", says="paint")
-    expect(2, "list", "colours", says="there are: builders, colliders, narrow, orders, skips, tuning, scenes, devices, accuracy, "
+    expect(2, "list", "colours", says="there are: builders, colliders, narrow, orders, formats, skips, tuning, scenes, devices, accuracy, "
                                    "experiments")
     expect(2, "build", "--builder", "x", "--scene", "soup:5", says="there are: perfect, ")
     expect(2, "build", "--builder", "perfect", "--scene", "no-such", says="no-such")
