@@ -125,7 +125,7 @@ def test_options_reach_the_builder():
            says="oibvh-multi, groups of 64, 2 items, sorted leaves on soup:300")
     cell, = valid("o.json")["cells"]
     assert cell["builder"]["options"] == {"order": "morton30", "group_size": 64, "items": 2,
-                                          "leaves": "sorted"}
+                                          "leaves": "sorted", "boxes": "f32"}
     assert "gather" in [stage["stage"] for stage in cell["samples"][0]["stages"]]
 
 
