@@ -18,35 +18,11 @@ import sys
 import tempfile
 import time
 
-try:
-    import jsonschema
-except ImportError:
-    jsonschema = None
+SHIM, SOURCE = (pathlib.Path(word).resolve() for word in sys.argv[3:5])
+sys.path.insert(0, str(SOURCE / "tests/harness"))
+from program import PROGRAM, expect, run, valid  # noqa: E402
 
-PROGRAM, SCHEMA, SHIM, SOURCE = (pathlib.Path(word).resolve() for word in sys.argv[1:5])
 BUILD = ("build", "--builder", "oibvh-multi", "--scene", "soup:300", "--samples", "1")
-
-
-def run(*words: str, **environment: str) -> subprocess.CompletedProcess:
-    return subprocess.run([PROGRAM, *words], capture_output=True, text=True, timeout=120,
-                          env={**os.environ, **environment})
-
-
-def expect(code: int, *words: str, says: str = "", **environment: str) -> str:
-    """What the program prints; an error is one sentence on one line that contains `says`."""
-    done = run(*words, **environment)
-    assert done.returncode == code, (words, done)
-    assert says in (done.stderr if code else done.stdout), (words, done)
-    if code in (2, 3):
-        assert done.stderr.startswith("bvhbench: ") and done.stderr.count("\n") == 1, done.stderr
-    return done.stdout
-
-
-def valid(path: pathlib.Path) -> dict:
-    result = json.loads(path.read_text())
-    if jsonschema:
-        jsonschema.validate(result, json.loads(SCHEMA.read_text()))
-    return result
 
 
 def experiment(path: str, **keys) -> str:
