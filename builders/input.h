@@ -11,7 +11,8 @@
 
 namespace bvhbench {
 
-/// The triangles to build over, in both memories. Moving them is the harness's work and is never timed.
+/// The triangles to build over, in both memories. Moving them is the harness's work and is never timed. What runs on the
+/// device alone wants no host copies: who calls the library may have none.
 struct Input {
     std::span<const Point> points;
     std::span<const Face> faces;
@@ -27,7 +28,7 @@ struct Input {
 
     std::vector<MemoryShare> memory = {};  ///< what the buffers take
 
-    uint triangle_count() const { return static_cast<uint>(faces.size()); }
+    uint triangle_count() const { return static_cast<uint>(device_faces.size()); }
     bool is_swept() const { return !end_points.empty(); }
 
     /// Bytes of points that boxes are made from.

@@ -64,10 +64,13 @@ public:
     }
 
 private:
-    /// What was asked for, else as the device is tuned where nodes have descendants by arithmetic, else `otherwise`.
-    uint chosen(const DeviceTree& tree, uint asked, const Parameter& parameter, uint otherwise) const
+    /// What was asked for, else as the device is tuned where nodes have descendants by arithmetic, else 0. Tuned are
+    /// levels of binary trees: as many of a wide one would be 2^48 pairs at once of 8 levels of 8 children.
+    uint chosen(const DeviceTree& tree, uint asked, const Parameter& parameter) const
     {
-        return asked != 0 ? asked : tree.is_implicit() ? device().tuned(parameter) : otherwise;
+        return asked != 0           ? asked
+               : tree.is_implicit() ? device().tuned(parameter) / tree.child_bits()
+                                    : 0;
     }
 
     /// Pairs of a work-item's own, of the form for few cores, for each of two lists.
@@ -82,10 +85,10 @@ private:
         if (tree.objects.size() > 1)  // roots that are leaves meet in a step too
             left = std::max(left, 1u);
         std::vector<uint> steps;
-        const uint start_level = chosen(tree, options_.start_level, bvtt_start_level, 0);
+        const uint start_level = chosen(tree, options_.start_level, bvtt_start_level);
         if (start_level > 0 && left > 0 && skips(skip_start_level))
             steps.push_back(std::min(start_level, left));
-        const uint jump = chosen(tree, options_.jump, bvtt_jump, 1);
+        const uint jump = std::max(1u, chosen(tree, options_.jump, bvtt_jump));
         for (left -= steps.empty() ? 0 : steps.front(); left > 0; left -= steps.back())
             steps.push_back(std::min(jump, left));
         return steps;
@@ -113,7 +116,9 @@ private:
                                        {{"SINK_BLOCK", block_pairs()}, one_object, label});
         queue_capacity_ = options_.capacity != 0
                               ? options_.capacity
-                              : std::max<std::size_t>(1024, 8 * std::size_t{tree.leaf_count()});
+                              : device().room_for(
+                                    std::max<std::size_t>(1024, 8 * std::size_t{tree.leaf_count()}),
+                                    sizeof(Pair));
     }
 
     void plan(Arena& arena, const DeviceTree&) override
@@ -151,7 +156,7 @@ private:
             throw Unavailable(std::to_string(needed) + " pairs of nodes or more: a queue holds " +
                               std::to_string(most));
         // Steps behind the one that ran over have seen only some of their entries: they will need more.
-        queue_capacity_ = static_cast<std::size_t>(std::min(most, 2 * needed));
+        queue_capacity_ = device().room_for(std::min(most, 2 * needed), sizeof(Pair), needed);
         return false;
     }
 

@@ -29,6 +29,9 @@ constexpr double growth_to_restart = 2;
 
 constexpr std::uint64_t most_entries = std::numeric_limits<uint>::max();
 
+/// Entries, 128 MiB of them, from which on room is given sparingly: repeating a query costs less than what it would take.
+constexpr std::size_t many = std::size_t{1} << 24;
+
 /// The front that stands is never written to: a query goes from it to another, and the next frame exchanges them. So a
 /// query that lacked room, or is timed, can be repeated.
 class Front final : public DeviceCollider {
@@ -133,10 +136,12 @@ private:
             cut_off_roots_ = kernel(tree, "collide/front_parents.cl", "cut_off_roots", {});
             list_depths_ = kernel(tree, "collide/front_parents.cl", "list_depths", {});
         }
+        const std::size_t leaves = tree.leaf_count();
         const std::size_t guess =
-            options_.capacity != 0
-                ? options_.capacity
-                : std::max<std::size_t>(1024, 8 * std::size_t{tree.leaf_count()});
+            options_.capacity != 0 ? options_.capacity
+                                   : device().room_for(std::clamp<std::size_t>(
+                                                           8 * leaves, 1024, std::max(leaves, many)),
+                                                       sizeof(Pair));
         queue_capacity_ = guess;
         front_capacity_ = std::max(guess, static_cast<std::size_t>(roots));
         standing_.reset();
@@ -190,22 +195,24 @@ private:
         constexpr std::size_t queues = (FRONT_QUEUES_COUNT - QUEUES_COUNT) / 2 + 1;
         const std::uint64_t waiting = *std::max_element(sizes.begin() + queues, sizes.end());
         // Steps behind one that ran over have seen only some of their entries: they, and the front, will need more.
-        const bool queues_had_room = had_room(queue_capacity_, waiting, waiting);
-        const bool front_had_room = had_room(front_capacity_, sizes.front(), sizes.front() / 4);
+        const bool queues_had_room =
+            had_room(queue_capacity_, waiting, waiting < many ? waiting : waiting / 16);
+        const bool front_had_room =
+            had_room(front_capacity_, sizes.front(), sizes.front() / (sizes.front() < many ? 4 : 16));
         if (queues_had_room && front_had_room)
             last_front_ = static_cast<uint>(sizes.front());
         return queues_had_room && front_had_room;
     }
 
     /// Whether `needed` entries had room; if not, they will, and `more` besides.
-    static bool had_room(std::size_t& capacity, std::uint64_t needed, std::uint64_t more)
+    bool had_room(std::size_t& capacity, std::uint64_t needed, std::uint64_t more) const
     {
         if (needed <= capacity)
             return true;
         if (needed > most_entries)
             throw Unavailable(std::to_string(needed) + " pairs of nodes or more: a front holds " +
                               std::to_string(most_entries));
-        capacity = static_cast<std::size_t>(std::min(most_entries, needed + more));
+        capacity = device().room_for(std::min(most_entries, needed + more), sizeof(Pair), needed);
         return false;
     }
 

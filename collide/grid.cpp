@@ -114,7 +114,9 @@ void HashedGrid::reserve(const Tree*, const Input& input)
 {
     triangles_ = input.triangle_count();
     compile(input);
-    entry_room_ = options_.capacity != 0 ? options_.capacity : entries_each * triangles_;
+    entry_room_ = options_.capacity != 0
+                      ? options_.capacity
+                      : device().room_for(std::uint64_t{entries_each} * triangles_, sizeof(Entry));
     take_memory_for(triangles_);
 }
 
@@ -137,7 +139,8 @@ bool HashedGrid::make_room(std::uint64_t, const std::vector<std::uint64_t>& queu
 {
     if (queue_sizes[0] <= entry_room_)
         return true;
-    entry_room_ = static_cast<std::size_t>(queue_sizes[0] + queue_sizes[0] / 8);
+    entry_room_ =
+        device().room_for(queue_sizes[0] + queue_sizes[0] / 8, sizeof(Entry), queue_sizes[0]);
     return false;
 }
 

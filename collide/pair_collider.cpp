@@ -47,7 +47,9 @@ PairCollider::PairCollider(Programs& programs, const ColliderCard& card,
 void PairCollider::take_memory_for(std::size_t triangles)
 {
     capacity_ =
-        options_.capacity != 0 ? options_.capacity : std::max<std::size_t>(1024, 8 * triangles);
+        options_.capacity != 0
+            ? options_.capacity
+            : device().room_for(std::max<std::size_t>(1024, 8 * triangles), sizeof(Pair));
     take_memory();
 }
 
@@ -89,7 +91,7 @@ bool PairCollider::complete(const Queue& queue)
         if (found > most)
             throw Unavailable(std::to_string(found) + " pairs or more: a query holds at most " +
                               std::to_string(most));
-        capacity_ = static_cast<std::size_t>(std::min(most, found + found / 8));
+        capacity_ = device().room_for(std::min(most, found + found / 8), sizeof(Pair), found);
     }
     const bool queues_had_room =
         make_room(counts[TASKS_COUNT / 2], {counts.begin() + QUEUES_COUNT / 2, counts.end()});

@@ -126,7 +126,7 @@ inline constexpr Parameter bvtt_block_pairs{
     .candidates = {64, 128, 256, 512, 1024}};
 inline constexpr Parameter bvtt_jump{
     .name = "bvtt.jump",
-    .meaning = "levels a step of bvtt descends in a tree without pointers, if not asked for",
+    .meaning = "levels a step of bvtt descends in a binary tree without pointers, if not asked for",
     .stage = "broad",
     .on_cpu = 1,
     .elsewhere = 1,

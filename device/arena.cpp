@@ -23,8 +23,11 @@ Arena Arena::reserved(const Device& device, const Footprint& footprint)
 {
     Arena arena(device, footprint.total());
     arena.share_ = device.take_memory(footprint.total());
-    arena.memory_ =
-        cl::Buffer(device.context, CL_MEM_READ_WRITE, std::max<std::size_t>(1, footprint.total()));
+    if (footprint.total() > device.most_at_once())
+        arena.pieces_ = device;
+    else
+        arena.memory_ = cl::Buffer(device.context, CL_MEM_READ_WRITE,
+                                   std::max<std::size_t>(1, footprint.total()));
     return arena;
 }
 
@@ -38,7 +41,13 @@ cl::Buffer Arena::carve(std::size_t bytes, Use use)
                                " predicted");
     used_.scratch_bytes += start - end;
     (use == Use::tree ? used_.tree_bytes : used_.scratch_bytes) += bytes;
-    if (!memory_() || bytes == 0)
+    if (bytes == 0)
+        return {};
+    if (pieces_) {
+        pieces_->require_at_once(bytes);
+        return {pieces_->context, CL_MEM_READ_WRITE, bytes};
+    }
+    if (!memory_())
         return {};
     const cl_buffer_region region{start, bytes};
     return memory_.createSubBuffer(CL_MEM_READ_WRITE, CL_BUFFER_CREATE_TYPE_REGION, &region);

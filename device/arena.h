@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
 #include "device/buffer.h"
 #include "device/device.h"
@@ -20,7 +21,8 @@ struct Footprint {
 /// What a piece of an arena is for.
 enum class Use { tree, scratch };
 
-/// One allocation, handed out front to back in typed pieces: there is no second way to get device memory.
+/// One allocation, handed out front to back in typed pieces: there is no second way to get device memory. Of more bytes
+/// than a device allocates at once, each piece is an allocation of its own.
 ///
 /// A builder writes down once which pieces it takes, in one function of an Arena&. Run on a measuring arena
 /// that function predicts the footprint; run on a reserved one it gives the buffers. So prediction and fact
@@ -31,7 +33,8 @@ public:
     static Arena measuring(const Device& device);
 
     /// Exactly `footprint.total()` bytes of device memory.
-    /// Throws Unavailable, before allocating, if the device cannot hold them.
+    /// Throws Unavailable, before allocating, if the device cannot hold them all; a piece too large for one allocation is
+    /// refused when it is taken.
     static Arena reserved(const Device& device, const Footprint& footprint);
 
     template <class T>
@@ -48,7 +51,8 @@ private:
     cl::Buffer carve(std::size_t bytes, Use use);
 
     MemoryShare share_;
-    cl::Buffer memory_;  ///< null when measuring
+    cl::Buffer memory_;             ///< null when measuring, and of pieces of their own
+    std::optional<Device> pieces_;  ///< who allocates those
     std::size_t alignment_ = 1;
     std::size_t capacity_ = 0;
     Footprint used_;

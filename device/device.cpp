@@ -83,25 +83,32 @@ std::string Device::platform() const
 
 MemoryShare Device::take_memory(std::size_t bytes) const
 {
-    const auto refuse = [&](const char* how, std::size_t given) {
-        throw Unavailable("out of device memory: " + std::to_string(bytes) + " bytes are needed " +
-                          how + (*taken > 0 ? " beside " + std::to_string(*taken) + " taken" : "") +
-                          ", " + name() + " gives " + std::to_string(given));
-    };
-    if (const std::size_t most = cl.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>(); bytes > most)
-        refuse("at once", most);
     const std::size_t all =
         std::min<std::size_t>(cl.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>(), memory_limit);
     if (bytes > all - std::min(all, *taken))
-        refuse("at once", all);
+        refuse_memory(bytes, "", all);
     if (const auto available = is_cpu() ? available_host_memory() : std::nullopt;
         available && bytes > *available)
-        refuse("of the host's", *available);
+        refuse_memory(bytes, " of the host's", *available);
     *taken += bytes;
     return {new std::size_t(bytes), [account = taken](const std::size_t* share) {
                 *account -= *share;
                 delete share;
             }};
+}
+
+void Device::require_at_once(std::size_t bytes) const
+{
+    if (bytes > most_at_once())
+        refuse_memory(bytes, " in one piece", most_at_once());
+}
+
+void Device::refuse_memory(std::size_t bytes, std::string_view how, std::size_t given) const
+{
+    throw Unavailable("out of device memory: " + std::to_string(bytes) + " bytes are needed" +
+                      std::string(how) +
+                      (*taken > 0 ? " beside " + std::to_string(*taken) + " taken" : "") + ", " +
+                      name() + " gives " + std::to_string(given));
 }
 
 void Device::require_group(std::string_view what, std::size_t group_size,

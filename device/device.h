@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <memory>
@@ -51,12 +52,34 @@ struct Device {
     /// Whether a group may also wait for one that has started, while others are not even there.
     bool lets_groups_wait() const { return is_nvidia(); }
 
-    /// Count one allocation of `bytes` as taken. Throws Unavailable when it will not fit: beside what is taken, into
-    /// one allocation, or, on a CPU, into what the host has left. Asked before every allocation: PoCL never reports
-    /// that memory ran out, the process is killed instead.
+    /// Bytes that one allocation may take, if less than the device says.
+    std::size_t allocation_limit = std::numeric_limits<std::size_t>::max();
+
+    /// Bytes that one allocation may take: on many devices a quarter of the memory.
+    std::size_t most_at_once() const
+    {
+        return std::min<std::size_t>(cl.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>(), allocation_limit);
+    }
+
+    /// `wanted` entries of so many bytes each, or as many as one allocation may hold, but never fewer than are `needed`: what
+    /// is a guess, or room to spare, is no reason to be refused.
+    std::size_t room_for(std::uint64_t wanted, std::size_t bytes_each, std::uint64_t needed = 0) const
+    {
+        return static_cast<std::size_t>(
+            std::max(needed, std::min<std::uint64_t>(wanted, most_at_once() / bytes_each)));
+    }
+
+    /// Count `bytes` as taken. Throws Unavailable when they will not fit: beside what is taken, or, on a CPU, into what
+    /// the host has left. Asked before memory is allocated: PoCL never reports that it ran out, the process is killed
+    /// instead.
     MemoryShare take_memory(std::size_t bytes) const;
 
+    /// Throws Unavailable if one allocation cannot be of `bytes`.
+    void require_at_once(std::size_t bytes) const;
+
 private:
+    [[noreturn]] void refuse_memory(std::size_t bytes, std::string_view how, std::size_t given) const;
+
     bool is_nvidia() const
     {
         return cl.getInfo<CL_DEVICE_EXTENSIONS>().find("cl_nv_") != std::string::npos;

@@ -37,3 +37,21 @@ kernel void keep_busy(global uint* word, const uint rounds)
     if (x == 1u)  // the compiler cannot know, so it cannot leave the steps out
         word[0] = 0u;
 }
+
+/// Reads and writes all of `memory`, `count` vectors, so that afterwards no cache holds anything else.
+kernel void walk(global uint4* memory, const uint count)
+{
+    for (uint i = get_global_id(0); i < count; i += get_global_size(0))
+        memory[i] += 1u;
+}
+
+/// A fixed piece of work, some of it arithmetic and some of it memory: each of `count` vectors takes `rounds` steps.
+kernel void calibrate(global uint4* memory, const uint count, const uint rounds)
+{
+    for (uint i = get_global_id(0); i < count; i += get_global_size(0)) {
+        uint4 x = memory[i];
+        for (uint round = 0u; round < rounds; ++round)
+            x = (x ^ (x >> 7u)) * 1664525u + round;
+        memory[i] = x;
+    }
+}

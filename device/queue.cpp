@@ -9,9 +9,38 @@
 
 namespace bvhbench {
 
+namespace {
+
+/// Some drivers read these off another clock, or not at all: never less than 0.
+std::int64_t between(cl_ulong from, cl_ulong to)
+{
+    return from > 0 && to > from ? static_cast<std::int64_t>(to - from) : 0;
+}
+
+}  // namespace
+
 Queue::Queue(const Device& device)
     : queue_(device.context, device.cl, cl::QueueProperties::Profiling)
 {}
+
+Queue::Queue(const Device&, cl::CommandQueue shared) : queue_(std::move(shared))
+{
+    const auto properties = queue_.getInfo<CL_QUEUE_PROPERTIES>();
+    has_times_ = (properties & CL_QUEUE_PROFILING_ENABLE) != 0;
+    is_in_order_ = (properties & CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE) == 0;
+}
+
+void Queue::join()
+{
+    if (!is_in_order_)
+        queue_.enqueueBarrierWithWaitList();
+}
+
+void Queue::forget()
+{
+    launches_.clear();
+    stages_.clear();
+}
 
 void Queue::begin(std::string_view stage)
 {
@@ -21,31 +50,44 @@ void Queue::begin(std::string_view stage)
 
 void Queue::declare(std::int64_t moved_bytes) { stages_.back().moved_bytes += moved_bytes; }
 
-cl::Event& Queue::record(std::int64_t moved_bytes)
+/// Where the event of the next command goes; nowhere without times.
+cl::Event* Queue::record(std::int64_t moved_bytes)
 {
     assert(!stages_.empty() && "name the stage before its first launch");
     ++stages_.back().launches;
     stages_.back().moved_bytes += moved_bytes;
-    return launches_.emplace_back(Launch{stages_.size() - 1, {}}).event;
+    return has_times_ ? &launches_.emplace_back(Launch{stages_.size() - 1, {}}).event : nullptr;
 }
 
 void Queue::launch(const cl::Kernel& kernel, std::size_t global, std::size_t local,
                    std::int64_t moved_bytes)
 {
     queue_.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(global), cl::NDRange(local),
-                                nullptr, &record(moved_bytes));
+                                nullptr, record(moved_bytes));
+    join();
 }
 
 void Queue::clear(const cl::Buffer& memory, std::size_t bytes)
 {
     queue_.enqueueFillBuffer(memory, cl_uint{0}, 0, bytes, nullptr,
-                             &record(static_cast<std::int64_t>(bytes)));
+                             record(static_cast<std::int64_t>(bytes)));
+    join();
+}
+
+void Queue::copy(const cl::Buffer& from, const cl::Buffer& to, std::size_t first, std::size_t bytes)
+{
+    if (bytes == 0)
+        return;
+    queue_.enqueueCopyBuffer(from, to, 0, first, bytes, nullptr,
+                             record(2 * static_cast<std::int64_t>(bytes)));
+    join();
 }
 
 void Queue::read(const cl::Buffer& memory, std::size_t bytes, void* to)
 {
     queue_.enqueueReadBuffer(memory, CL_TRUE, 0, bytes, to, nullptr,
-                             &record(static_cast<std::int64_t>(bytes)));
+                             record(static_cast<std::int64_t>(bytes)));
+    join();
 }
 
 void Queue::on_host(std::string_view stage, const std::function<void()>& work)
@@ -73,7 +115,12 @@ std::vector<StageTime> Queue::finish()
     for (const Launch& launch : launches_) {
         const auto start = launch.event.getProfilingInfo<CL_PROFILING_COMMAND_START>();
         const auto end = launch.event.getProfilingInfo<CL_PROFILING_COMMAND_END>();
-        stages_[launch.stage].busy_ns += static_cast<std::int64_t>(end - start);
+        const auto queued = launch.event.getProfilingInfo<CL_PROFILING_COMMAND_QUEUED>();
+        const auto submitted = launch.event.getProfilingInfo<CL_PROFILING_COMMAND_SUBMIT>();
+        StageTime& stage = stages_[launch.stage];
+        stage.busy_ns += static_cast<std::int64_t>(end - start);
+        stage.queued_ns += between(queued, submitted);
+        stage.submitted_ns += between(submitted, start);
         first[launch.stage] = std::min(first[launch.stage], start);
         last[launch.stage] = std::max(last[launch.stage], end);
     }

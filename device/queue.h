@@ -21,6 +21,8 @@ struct StageTime {
     int launches = 0;
     std::int64_t moved_bytes = 0;  ///< the least its launches must read and write, as they declared
     std::int64_t start_ns = 0;  ///< device clock, its first start, from that of the first stage on
+    std::int64_t queued_ns = 0;     ///< device clock, sum of the launches' times from queued to submitted
+    std::int64_t submitted_ns = 0;  ///< the same from submitted to started; from there on it is busy
 
     /// The one duration to quote: the span on the device, else the host clock.
     std::int64_t elapsed_ns() const { return launches > 0 ? span_ns : wall_ns; }
@@ -32,6 +34,20 @@ struct StageTime {
 class Queue {
 public:
     explicit Queue(const Device& device);
+
+    /// Somebody else's queue of that device, which stays theirs. Without profiling there are no times. In an out-of-order
+    /// queue each command waits for all before it, so that what is enqueued here still runs in order.
+    Queue(const Device& device, cl::CommandQueue shared);
+
+    /// What is enqueued from here on runs after all that anybody has enqueued before: of an in-order queue no more than
+    /// the truth. Does not wait.
+    void join();
+
+    /// Whether `finish` reads the device clock; if not, durations are 0.
+    bool has_times() const { return has_times_; }
+
+    /// Forget the stages since the last `finish` without waiting for them.
+    void forget();
 
     /// Launches from here on belong to `stage`.
     void begin(std::string_view stage);
@@ -45,6 +61,9 @@ public:
 
     /// Enqueue `bytes` of zeros at the front of `memory`. Timed like a launch.
     void clear(const cl::Buffer& memory, std::size_t bytes);
+
+    /// Enqueue a copy of `bytes` at the front of `from` to `to`, from its byte `first` on. Timed like a launch.
+    void copy(const cl::Buffer& from, const cl::Buffer& to, std::size_t first, std::size_t bytes);
 
     /// Read the front of `memory` once all before has run. Waits. Timed like a launch.
     void read(const cl::Buffer& memory, std::size_t bytes, void* to);
@@ -66,9 +85,11 @@ private:
         std::size_t stage;
         cl::Event event;
     };
-    cl::Event& record(std::int64_t moved_bytes);
+    cl::Event* record(std::int64_t moved_bytes);
 
     cl::CommandQueue queue_;
+    bool has_times_ = true;
+    bool is_in_order_ = true;
     std::vector<StageTime> stages_;
     std::vector<Launch> launches_;
 };

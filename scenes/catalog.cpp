@@ -230,6 +230,40 @@ Scene load_any(std::string_view text, const SceneLibrary& library)
 
 }  // namespace
 
+std::size_t triangles_said(std::string_view text)
+{
+    const std::size_t colon = std::min(text.find(':'), text.size());
+    const std::string_view head = text.substr(0, colon);
+    const std::string_view rest = text.substr(std::min(colon + 1, text.size()));
+    const auto before_last_colon = [](std::string_view words) {
+        return words.substr(0, std::min(words.rfind(':'), words.size()));
+    };
+    if (head == "refine") {
+        const std::string_view inner = before_last_colon(rest);
+        triangles_said(inner);
+        return triangle_count(text, rest.substr(std::min(inner.size() + 1, rest.size())),
+                              0xffffffffu / 3);
+    }
+    if (head == "outlier")
+        return triangles_said(before_last_colon(before_last_colon(rest)));
+    if (head == "bend")
+        return triangles_said(rest);
+    if (const ManifestEntry* const entry = manifest_entry(text))
+        return entry->set.triangles;
+    if (const Generator* const generator = called(head, generators()))
+        return triangle_count(text, rest, generator->most);
+    if (const MovingGenerator* const generator = called(head, moving_generators()))
+        return triangle_count(text, rest.substr(0, rest.find(':')), generator->most);
+    if (!looks_like_path(text))
+        unknown(text);
+    return 0;
+}
+
+bool is_sized_generator(std::string_view text)
+{
+    return called(text, generators()) != nullptr || called(text, moving_generators()) != nullptr;
+}
+
 Scene load_scene(std::string_view text, const SceneLibrary& library)
 {
     try {

@@ -30,6 +30,14 @@ struct SceneLibrary {
 /// not what it should be, or holds something that is no scene (says what, in one sentence).
 Scene load_scene(std::string_view text, const SceneLibrary& library);
 
+/// How many triangles the scene `text` will have, as far as its name tells; 0 if only loading it does.
+///
+/// Throws BadUsage when no scene is called so, as far as that can be told without loading it.
+std::size_t triangles_said(std::string_view text);
+
+/// Whether `text` is a generator's name, for which ":N" makes a scene of N triangles.
+bool is_sized_generator(std::string_view text);
+
 /// A line of `list scenes`.
 struct SceneListing {
     std::string name;     ///< as typed, with N where a size goes

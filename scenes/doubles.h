@@ -36,7 +36,7 @@ Doubles doubles_called(std::string_view name);
 /// How doubles became floats: the float nearest to 2^scale_log2 (x - offset).
 struct Rounding {
     std::optional<Doubles> how;  ///< none: floats held everything, and nothing was done
-    WidePoint offset;            ///< in the file's unit
+    WidePoint offset = {};       ///< in the file's unit
     int scale_log2 = 0;
     std::uint64_t rounded_count =
         0;                     ///< coordinates, of all frames, that are not exactly what they were

@@ -15,7 +15,7 @@ import subprocess
 import sys
 import tempfile
 
-ROOMS = ("geometry", "device", "builders", "oibvh", "baselines", "collide", "scenes", "harness")
+ROOMS = ("geometry", "device", "builders", "oibvh", "baselines", "collide", "library", "scenes", "harness")
 FIRST_INCLUDE = re.compile(r'^\s*#\s*include\s*["<]([^">]+)', re.MULTILINE)
 WITH_VALUE = ("-o", "-MF", "-MT", "-MQ")
 

@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "scenes/mesh_worker.h"
 
-#include <fcntl.h>
-#include <sys/resource.h>
-#include <unistd.h>
-
-#include <cerrno>
 #include <cstdlib>
 #include <new>
 #include <string_view>
@@ -14,6 +9,7 @@
 #include "scenes/worker/assimp_reader.h"
 #include "scenes/worker/message.h"
 #include "scenes/worker/process.h"
+#include "scenes/worker/worker.h"
 
 namespace bvhbench {
 namespace {
@@ -21,26 +17,6 @@ namespace {
 constexpr const char* argument = "--read-mesh";
 // A program whose main forgets to ask is_mesh_worker would start itself again and again.
 constexpr const char* marker = "BVHBENCH_MESH_WORKER";
-
-void limit_memory([[maybe_unused]] std::size_t bytes)
-{
-#if !defined(__SANITIZE_ADDRESS__)  // its shadow memory takes terabytes of address space
-    const rlimit limit{bytes, bytes};
-    setrlimit(RLIMIT_AS, &limit);
-#endif
-    const rlimit no_core{0, 0};
-    setrlimit(RLIMIT_CORE, &no_core);
-}
-
-/// Keeps standard output for the answer alone: assimp's readers may print.
-int take_standard_output()
-{
-    const int answer = dup(STDOUT_FILENO);
-    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
-    dup2(nowhere, STDOUT_FILENO);
-    dup2(nowhere, STDERR_FILENO);
-    return answer;
-}
 
 std::string answer_for(const std::string& path)
 {
@@ -54,19 +30,6 @@ std::string answer_for(const std::string& path)
     }
 }
 
-bool write_all(int file, std::string_view bytes)
-{
-    while (!bytes.empty()) {
-        const ssize_t count = write(file, bytes.data(), bytes.size());
-        if (count < 0 && errno == EINTR)
-            continue;
-        if (count <= 0)
-            return false;
-        bytes.remove_prefix(static_cast<std::size_t>(count));
-    }
-    return true;
-}
-
 }  // namespace
 
 bool is_mesh_worker(int argc, char** argv)
@@ -76,7 +39,7 @@ bool is_mesh_worker(int argc, char** argv)
 
 int mesh_worker_main(int, char** argv)
 {
-    limit_memory(std::strtoull(argv[3], nullptr, 10));
+    limit_worker(std::strtoull(argv[3], nullptr, 10));
     const int answer = take_standard_output();
     return write_all(answer, answer_for(argv[2])) ? 0 : 1;
 }

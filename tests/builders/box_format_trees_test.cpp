@@ -46,6 +46,15 @@ TEST_P(RoundedTrees, AreTheReferencesRounded)
         expect_contract("oibvh-single", GetParam().name, group_size);
 }
 
+/// For the device that checks every access.
+TEST_P(RoundedTrees, OfFewAreTheReferencesRounded)
+{
+    for (const HardInput& input : hard_inputs().first(2))
+        for (const std::size_t size : {1u, 3u, 33u})
+            EXPECT_EQ(broken_over(session(), rounding("oibvh-single", GetParam().name, 16), input.make(size)), "")
+                << input.name << ", " << size << " triangles";
+}
+
 /// Boxes are handed over by value, packed as the format says.
 TEST_P(RoundedTrees, AreTheSameWhereGroupsWait)
 {

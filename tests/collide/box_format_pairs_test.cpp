@@ -91,6 +91,14 @@ TEST_P(BoxFormats, FindThePairsOfRoundedBoxesAndMissNone)
     }
 }
 
+/// For the device that checks every access.
+TEST_P(BoxFormats, FindThePairsOfFew)
+{
+    const Mesh mesh = crowded_mesh(21);
+    const Standing standing(mesh, find_builder("oibvh-single").make, options());
+    EXPECT_EQ(found(standing.tree, standing.input), rounded_pairs(mesh, format()));
+}
+
 /// Boxes of different trees are compared, so one set of cells serves them all.
 TEST_P(BoxFormats, FindThePairsOfSeveralObjectsToo)
 {

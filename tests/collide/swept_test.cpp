@@ -276,6 +276,22 @@ TEST(SweptSteps, OfASequenceAreEachHeldToTheSweep)
     EXPECT_NE(hashes.front(), hashes[hashes.size() - 5]);
 }
 
+// Rounded outward, the box around the way has false pairs and misses none.
+TEST(SweptSteps, OverRoundedBoxesMissNothing)
+{
+    CollideTask task;
+    task.scene = "cloth-ball:600:3";
+    task.pipelines = {{{.name = "oibvh-single", .order = "hilbert30", .sorted_leaves = true, .boxes = "u8"},
+                       {.name = "group"}}};
+    const std::vector<Cell> cells = cells_of(task);
+    ASSERT_EQ(cells.size(), 2u * 2u);
+    for (const Cell& cell : cells) {
+        EXPECT_EQ(cell.check.verdict, Check::Verdict::counted) << cell.check.detail << cell.reason;
+        EXPECT_EQ(cell.counters.at("missed_count"), 0);
+        EXPECT_GT(cell.counters.at("false_count"), 0);
+    }
+}
+
 TEST(SweptSteps, RefuseWhatHasNoMeaningForThem)
 {
     CollideTask task;

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "device/arena.h"
+#include "device/cache_flush.h"
+#include "device/calibration.h"
 #include "device/copy_rate.h"
 #include "geometry/error.h"
 
@@ -110,6 +112,40 @@ TEST(CopyRate, IsPositiveAndFromTheSamplesItNames)
     EXPECT_GE(rate.buffer_bytes, std::size_t{64} << 20);
     EXPECT_GE(rate.buffer_bytes, device.cl.getInfo<CL_DEVICE_GLOBAL_MEM_CACHE_SIZE>());
     EXPECT_GE(rate.samples, 9);
+}
+
+TEST(CacheFlush, CountsWhatItHoldsAndGivesItBack)
+{
+    const Device device = open_device("");
+    Programs programs(device);
+    Queue queue(device);
+    {
+        const CacheFlush flush(programs, queue);
+        EXPECT_GE(*device.taken, std::size_t{64} << 20);
+        const std::size_t flushing = *device.taken;
+        Calibration calibration(programs, queue);
+        EXPECT_GT(*device.taken, flushing);
+        EXPECT_GT(calibration.take(queue), 0);
+    }
+    EXPECT_EQ(*device.taken, 0u);
+}
+
+TEST(CacheFlush, TouchesEveryVector)
+{
+    const Device device = open_device("");
+    Programs programs(device);
+    Queue queue(device);
+    constexpr std::size_t count = 1001;  // no multiple of the work-items
+    Arena arena = Arena::reserved(device, {count * sizeof(cl_uint4), 0});
+    const Buffer<cl_uint4> memory = arena.take<cl_uint4>(count, Use::tree);
+    queue.begin("walk");
+    queue.clear(memory.cl(), memory.bytes());
+    cl::Kernel walk = programs.kernel("device/limits.cl", "walk");
+    set_arguments(walk, memory, static_cast<cl_uint>(count));
+    queue.launch(walk, 8, 1, 0);
+    queue.finish();
+    for (const cl_uint4& vector : memory.download(queue.cl()))
+        ASSERT_TRUE(vector.s[0] == 1 && vector.s[1] == 1 && vector.s[2] == 1 && vector.s[3] == 1);
 }
 
 }  // namespace

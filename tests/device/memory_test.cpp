@@ -3,9 +3,11 @@
 
 #include <numeric>
 #include <stdexcept>
+#include <string>
 
 #include "device/arena.h"
 #include "device/queue.h"
+#include "geometry/error.h"
 
 namespace bvhbench {
 namespace {
@@ -52,6 +54,46 @@ TEST(Arena, HandsOutPiecesThatDoNotOverlap)
     EXPECT_EQ(pieces.a.download(queue.cl()), values);
     EXPECT_EQ(pieces.b.download(queue.cl()), (std::vector<cl_uint>{1, 2, 3}));
     EXPECT_EQ(pieces.c.download(queue.cl()), std::vector<cl_uchar>(5, cl_uchar{9}));
+}
+
+TEST(Device, HasRoomForNoMoreThanAnAllocationHoldsUnlessItIsNeeded)
+{
+    Device device = open_device("");
+    device.allocation_limit = 4000;
+    EXPECT_EQ(device.room_for(100, 16), 100u);
+    EXPECT_EQ(device.room_for(1000, 16), 250u) << "a guess is cut";
+    EXPECT_EQ(device.room_for(1000, 16, 300), 300u) << "a need is not: it is refused when it is taken";
+    EXPECT_EQ(device.room_for(std::uint64_t{1} << 40, 1), 4000u);
+}
+
+TEST(Arena, AllocatesPieceByPieceWhatTheDeviceDoesNotAtOnce)
+{
+    Device device = open_device("");
+    device.allocation_limit = 4000;
+    const Queue queue(device);
+    Arena measuring = Arena::measuring(device);
+    take(measuring);
+    ASSERT_GT(measuring.used().total(), device.most_at_once());
+    Arena arena = Arena::reserved(device, measuring.used());
+    Pieces pieces = take(arena);
+    EXPECT_EQ(arena.used(), measuring.used());
+    EXPECT_EQ(*device.taken, measuring.used().total());
+
+    pieces.a.upload(queue.cl(), std::vector<cl_uint>(1000, 7));
+    pieces.b.upload(queue.cl(), std::vector<cl_uint>{1, 2, 3});
+    EXPECT_EQ(pieces.a.download(queue.cl()), std::vector<cl_uint>(1000, 7));
+    EXPECT_EQ(pieces.b.download(queue.cl()), (std::vector<cl_uint>{1, 2, 3}));
+
+    device.allocation_limit = 3999;
+    Arena small = Arena::reserved(device, measuring.used());
+    try {
+        take(small);
+        FAIL() << "a piece of 4000 bytes was taken";
+    } catch (const Unavailable& error) {
+        const std::string message = error.what();
+        EXPECT_NE(message.find("4000 bytes are needed in one piece"), message.npos) << message;
+        EXPECT_NE(message.find("gives 3999"), message.npos) << message;
+    }
 }
 
 TEST(Arena, GivesEmptyPiecesWithoutMemory)

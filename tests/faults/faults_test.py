@@ -10,8 +10,6 @@ import json
 import os
 import pathlib
 import random
-import re
-import shutil
 import signal
 import subprocess
 import sys
@@ -20,7 +18,7 @@ import time
 
 SHIM, SOURCE = (pathlib.Path(word).resolve() for word in sys.argv[3:5])
 sys.path.insert(0, str(SOURCE / "tests/harness"))
-from program import PROGRAM, expect, run, valid  # noqa: E402
+from program import PROGRAM, expect, planted_kernels, run, valid  # noqa: E402
 
 BUILD = ("build", "--builder", "oibvh-multi", "--scene", "soup:300", "--samples", "1")
 
@@ -87,17 +85,8 @@ def test_killed_at_any_time_it_leaves_a_whole_result_file():
 
 def hanging_kernels(folder: str) -> str:
     """A copy of the kernels in which karras never ends."""
-    for path in SOURCE.rglob("*"):
-        if path.suffix in (".cl", ".clh", ".h") and "build" not in path.relative_to(SOURCE).parts[:1]:
-            to = pathlib.Path(folder, path.relative_to(SOURCE))
-            to.parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy(path, to)
-    planted = pathlib.Path(folder, "baselines/radix/karras_topology.cl")
     endless = r"\1\n    while (*(volatile global const uint*)\2 != 0xdeadbeefu) {}\n"
-    text, kernels = re.subn(r"(kernel void \w+\(global const \w+\* restrict (\w+)[^{]*\{)", endless, planted.read_text())
-    assert kernels > 0
-    planted.write_text(text)
-    return folder
+    return planted_kernels(folder, r"(kernel void \w+\(global const \w+\* restrict (\w+)[^{]*\{)", endless)
 
 
 def test_a_build_that_hangs_is_given_up_and_the_rest_is_done():

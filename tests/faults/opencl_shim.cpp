@@ -359,6 +359,9 @@ ENQUEUE(clEnqueueFillBuffer, CL_MEM_OBJECT_ALLOCATION_FAILURE,
         (cl_command_queue queue, cl_mem memory, const void* pattern, size_t pattern_size,
          size_t offset, size_t size, cl_uint waits, const cl_event* list, cl_event* event),
         (queue, memory, pattern, pattern_size, offset, size, waits, list, event))
+ENQUEUE(clEnqueueBarrierWithWaitList, CL_OUT_OF_RESOURCES,
+        (cl_command_queue queue, cl_uint waits, const cl_event* list, cl_event* event),
+        (queue, waits, list, event))
 ENQUEUE(clEnqueueUnmapMemObject, CL_OUT_OF_RESOURCES,
         (cl_command_queue queue, cl_mem memory, void* mapped, cl_uint waits, const cl_event* list,
          cl_event* event),

@@ -9,6 +9,7 @@
 #include "harness/experiment.h"
 #include "harness/options.h"
 #include "harness/record.h"
+#include "harness/sweep/units.h"
 #include "harness/tuning_file.h"
 #include "scenes/formats/formats.h"
 #include "scenes/ground_truth.h"
@@ -26,6 +27,15 @@ namespace {
 {
     for (const Cell& cell : read_document(bytes, "fuzz").cells)
         cell_text(cell);
+}
+
+/// As command_sweep.cpp reads them.
+[[maybe_unused]] void sweep(const std::string& bytes)
+{
+    try {
+        units_of(sweep_of(Json::parse(bytes)), bytes.size() % 2 == 0, "");
+    } catch (const Json::exception&) {
+    }
 }
 
 [[maybe_unused]] void tuning(const std::string& bytes) { tuning_text(parse_tuning(bytes, "fuzz")); }

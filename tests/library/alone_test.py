@@ -1,0 +1,81 @@
+#!/usr/bin/env python3
+"""The library alone needs OpenCL and nothing else: configured with every other package out of reach, and held to which
+headers its objects were really made from.
+
+Usage: alone_test.py <cmake> <ninja> <build folder> <source root> <compiler>
+
+Building it once more takes a minute, and is left to .ci/nightly: the sources and their options are those of the whole
+build, which has told Ninja what they include.
+"""
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+CMAKE, NINJA, BUILD, ROOT, COMPILER = sys.argv[1:6]
+OTHERS = ("assimp", "benchmark", "nlohmann_json", "CLI11", "embree", "fcl", "CGAL", "GTest", "Boost", "TBB", "Eigen3")
+ROOMS = ("geometry", "device", "builders", "oibvh", "collide", "library")
+# In /usr/include, a header is in reach whether or not its package was asked for.
+SYSTEM = re.compile(r"^/usr/(?:include/(?:c\+\+/|x86_64-linux-gnu/|\w+-linux-gnu/|CL/|linux/|asm-generic/|[\w-]+\.h$|"
+                    r"(?:bits|sys|gnu|rpc)/)|lib/|local/lib/)")
+
+
+def sources_of(commands: pathlib.Path) -> dict[str, str]:
+    """Of the rooms, by path from the source root, and how each is compiled; generated ones by their name."""
+    found = {}
+    for command in json.loads(commands.read_text()):
+        path = pathlib.Path(command["file"])
+        if path.is_relative_to(ROOT) and path.relative_to(ROOT).parts[0] in ROOMS:
+            found[path.relative_to(ROOT).as_posix()] = command["command"]
+    return found
+
+
+def strange_headers() -> list[str]:
+    """What objects of the rooms were made from that is neither the project's, nor the system's, nor OpenCL's."""
+    said = subprocess.run([NINJA, "-C", BUILD, "-t", "deps"], capture_output=True, text=True, check=True).stdout
+    strange, objects, ours = set(), 0, False
+    for line in said.splitlines():
+        if line and not line.startswith(" "):
+            name = line.split(":")[0]
+            # exact_reference has a target of its own, which the library is not made of.
+            ours = name.split("/")[0] in ROOMS and "exact_reference.dir" not in name
+            objects += ours
+        elif ours and line.strip():
+            path = (pathlib.Path(BUILD) / line.strip()).resolve()
+            if not path.is_relative_to(ROOT) and not SYSTEM.match(line.strip()):
+                strange.add(line.strip())
+    assert objects > 40, f"{objects} objects of the rooms: this test looks in the wrong place"
+    return sorted(strange)
+
+
+def main() -> int:
+    assert strange_headers() == [], strange_headers()
+    with tempfile.TemporaryDirectory() as name:
+        alone = pathlib.Path(name)
+        done = subprocess.run(
+            [CMAKE, "-S", ROOT, "-B", alone, "-G", "Ninja", f"-DCMAKE_MAKE_PROGRAM={NINJA}",
+             f"-DCMAKE_CXX_COMPILER={COMPILER}", "-DCMAKE_BUILD_TYPE=Release", "-DBVHBENCH_BUILD_HARNESS=OFF",
+             *(f"-DCMAKE_DISABLE_FIND_PACKAGE_{package}=ON" for package in OTHERS)],
+            capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stderr
+        # CMake tells of variables that nobody has looked at: nothing has even asked for those packages.
+        unasked = set(re.findall(r"^ +CMAKE_DISABLE_FIND_PACKAGE_(\w+)$", done.stderr, re.MULTILINE))
+        assert unasked == set(OTHERS), set(OTHERS) - unasked
+        here, whole = sources_of(alone / "compile_commands.json"), sources_of(pathlib.Path(BUILD) / "compile_commands.json")
+        # CGAL's file is there where CGAL is, and its stand-in where it is not.
+        only_one = {"collide/exact_reference.cpp", "collide/no_exact_reference.cpp"}
+        assert set(here) - only_one == set(whole) - only_one, set(here) ^ set(whole)
+        march = [path for path, command in here.items() if "-march" in command]
+        assert not march, f"compiled for one kind of processor only: {march}"
+        assert all("-fPIC" in command for command in here.values())
+        built = subprocess.run([NINJA, "-C", alone, "-n"], capture_output=True, text=True, check=True).stdout
+        targets = re.findall(r"Linking CXX (?:static|shared) library (\S+)", built)
+        assert "library/libbvhbench-oibvh.a" in targets and "Linking CXX executable" not in built, targets
+    print(f"{len(here)} sources, OpenCL and nothing else")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+//
+// Whichever OpenCL call fails inside the library: the caller gets an Error, the same trees then do what they were asked if
+// nothing fails any more, and nothing of the caller's or the library's is left or released twice. The shim is linked in
+// before the loader, so every call goes through it.
+//
+// BVHBENCH_FAULTS=calls: every call, alone and with all that follow. By default every eightieth way in which calls are reached.
+#include <cstdlib>
+#include <iostream>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "tests/faults/opencl_shim.h"
+#include "tests/library/testing.h"
+
+namespace bvhbench {
+namespace {
+
+/// What a caller does: all kinds of calls once.
+class Work {
+public:
+    explicit Work(Caller& caller) : caller_(caller) {}
+
+    /// All of it; a Device and trees that were there before are used again. The pairs found.
+    std::vector<PairList> once()
+    {
+        if (!tree_) {
+            const oibvh::Device device(caller_.queue);
+            oibvh::Tree tree(device, {.adjacent_pairs = false});
+            other_.emplace(device);
+            tree_ = std::move(tree);
+        }
+        std::vector<PairList> found;
+        tree_->build(triangles_);
+        found.push_back(query());
+        tree_->refit(mesh_.on_host());
+        found.push_back(query());
+        tree_->build(mesh_.on_host(), halves_);
+        const oibvh::Update updates[] = {oibvh::Update::keep, oibvh::Update::rebuild};
+        tree_->update(triangles_, updates);
+        found.push_back(query());
+        tree_->build(triangles_);
+        other_->build(oibvh::HostBoxes{boxes_});
+        tree_->find_pairs(*other_);
+        found.push_back(PairList(between()));
+        return found;
+    }
+
+private:
+    PairList query()
+    {
+        tree_->find_pairs();
+        return pair_list(tree_->read_pairs());
+    }
+
+    /// b counted from behind the first tree's, so that the list may sort them.
+    std::vector<Pair> between() const
+    {
+        std::vector<Pair> pairs;
+        for (const oibvh::Pair pair : tree_->read_pairs())
+            pairs.push_back({pair.a, pair.b + 100});
+        return pairs;
+    }
+
+    Caller& caller_;
+    LibraryMesh mesh_ = soup_mesh(100);
+    std::vector<oibvh::Box> boxes_ = mesh_.boxes();
+    oibvh::DeviceTriangles triangles_ = mesh_.on_device(caller_);
+    std::vector<std::uint32_t> halves_ = {60, 40};
+    std::optional<oibvh::Tree> tree_, other_;
+};
+
+struct Outcome {
+    int errors = 0;
+    long callers = 0,
+         calls = 0;  ///< those of the caller before the library's, and all before he was gone
+};
+
+/// One caller's life. With one call that fails his second try has to go well.
+Outcome live(cl_command_queue_properties kind, cl_device_id device, shim::Plan plan,
+             const std::vector<PairList>& right)
+{
+    Outcome outcome;
+    shim::begin(plan);
+    Caller caller(kind, {device});
+    Work work(caller);
+    outcome.callers = shim::calls();
+    for (int time = 0; time < 2; ++time) {
+        try {
+            const std::vector<PairList> found = work.once();
+            EXPECT_EQ(found, right);
+            break;
+        } catch (const oibvh::Error& error) {
+            ++outcome.errors;
+            EXPECT_STRNE(error.what(), "");
+        }
+    }
+    outcome.calls = shim::calls();
+    EXPECT_LE(outcome.errors, plan.from_there_on ? 2 : 1);
+    return outcome;
+}
+
+std::vector<long> chosen(const Outcome& whole)
+{
+    const char* faults = std::getenv("BVHBENCH_FAULTS");
+    const bool wants_all = faults != nullptr && std::string(faults) == "calls";
+    std::set<std::uint64_t> ways;
+    std::vector<long> picked;
+    for (long call = whole.callers + 1; call <= whole.calls; ++call) {
+        const auto& remembered = shim::remembered()[static_cast<std::size_t>(call) - 1];
+        if (wants_all || (ways.insert(remembered.stack).second && ways.size() % 80 == 0))
+            picked.push_back(call);
+    }
+    std::cout << whole.calls - whole.callers << " calls, " << picked.size() << " of them fail"
+              << std::endl;
+    return picked;
+}
+
+class LibraryFaults : public testing::TestWithParam<cl_command_queue_properties> {};
+
+TEST_P(LibraryFaults, EndInAnErrorAndLeaveNothing)
+{
+    shim::begin({});
+    const cl_device_id device = open_device("").cl();
+    std::vector<PairList> right;
+    {
+        Caller caller(GetParam(), {device});
+        right = Work(caller).once();
+    }
+    shim::remember_calls(true);
+    const Outcome whole = live(GetParam(), device, {}, right);
+    shim::remember_calls(false);
+    ASSERT_EQ(whole.errors, 0);
+    ASSERT_EQ(shim::leaked(), std::vector<std::string>());
+    int errors = 0;
+    for (const long nth : chosen(whole))
+        for (const bool from_there_on : {false, true}) {
+            const Outcome outcome = live(GetParam(), device, {nth, from_there_on}, right);
+            EXPECT_EQ(shim::leaked(), std::vector<std::string>()) << nth << shim::failed_call();
+            EXPECT_EQ(shim::misused(), std::vector<std::string>()) << nth << shim::failed_call();
+            errors += outcome.errors;
+            if (HasFailure())
+                return;  // one is enough to look at
+        }
+    EXPECT_GT(errors, 0);
+}
+INSTANTIATE_TEST_SUITE_P(Queues, LibraryFaults,
+                         testing::Values(0, CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE),
+                         [](const auto& queue) {
+                             return queue.param == 0 ? "InOrder" : "OutOfOrder";
+                         });
+
+}  // namespace
+}  // namespace bvhbench

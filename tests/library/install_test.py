@@ -1,0 +1,124 @@
+#!/usr/bin/env python3
+"""Installs the library and builds the examples against it as an outside project that knows nothing of the source tree.
+
+Usage: install_test.py <cmake> <build folder> <source root> <compiler> <library file> [<compiler flags>]
+
+The build folder has built the library; flags are those that whoever links it needs too, as a sanitizer's. What is installed is
+moved before it is used: a package knows no absolute path.
+"""
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+CMAKE, BUILD, ROOT, COMPILER, LIBRARY = sys.argv[1:6]
+FLAGS = sys.argv[6] if len(sys.argv) > 6 else ""
+
+
+def run(*words, fails: bool = False, **environment: str) -> str:
+    """What a command says, after it went well, or did not where it must not."""
+    done = subprocess.run([str(word) for word in words], capture_output=True, text=True, timeout=300, check=False,
+                          env={**os.environ, **environment})
+    said = done.stdout + done.stderr
+    assert (done.returncode != 0) == fails, f"{' '.join(map(str, words))} ended with {done.returncode}:\n{said}"
+    return said
+
+
+def installed(prefix: pathlib.Path) -> list[str]:
+    return sorted(path.relative_to(prefix).as_posix() for path in prefix.rglob("*") if not path.is_dir())
+
+
+def check_files(prefix: pathlib.Path) -> None:
+    """One header, one library, the package's files and the licence; none of them names this machine's folders or its CPU."""
+    names = [pathlib.PurePath(name).name for name in installed(prefix)]
+    headers = [name for name in installed(prefix) if name.endswith((".h", ".hpp", ".clh", ".cl"))]
+    assert headers == ["include/bvhbench/oibvh.h"], headers
+    assert names.count(pathlib.Path(LIBRARY).name) == 1, names
+    package = {"bvhbenchConfig.cmake", "bvhbenchConfigVersion.cmake", "bvhbenchTargets.cmake", "LICENSE"}
+    assert package <= set(names), names
+    for path in prefix.rglob("*"):
+        if path.suffix not in (".cmake", ".h"):
+            continue
+        text = path.read_text()
+        for word in (ROOT, BUILD, "-march", "project_flags"):
+            assert word not in text, f"{path.name} says {word}"
+    header = (prefix / headers[0]).read_text()
+    included = [line for line in header.splitlines() if line.startswith("#include")]
+    assert all("<CL/cl.h>" in line or "/" not in line for line in included), included
+    assert not any('"' in line for line in included), included
+
+
+def check_version(folder: pathlib.Path, prefix: pathlib.Path) -> None:
+    project = folder / "newer"
+    project.mkdir()
+    (project / "CMakeLists.txt").write_text("cmake_minimum_required(VERSION 3.16)\nproject(newer LANGUAGES CXX)\n"
+                                            "find_package(bvhbench 99 REQUIRED)\n")
+    said = run(CMAKE, "-S", project, "-B", project / "build", f"-DCMAKE_PREFIX_PATH={prefix}",
+               f"-DCMAKE_CXX_COMPILER={COMPILER}", fails=True)
+    assert "bvhbenchConfig.cmake, version:" in said, said
+
+
+# What the documents' examples leave to the reader.
+GIVEN = ("cl_command_queue queue, cl_mem points, std::size_t point_count, cl_mem faces, std::size_t face_count, "
+         "std::uint32_t cloth_faces, std::uint32_t ball_faces, const bvhbench::oibvh::Input& input, "
+         "const bvhbench::oibvh::Input& moved, const bvhbench::oibvh::Input& scene, "
+         "const bvhbench::oibvh::Input& frame, bvhbench::oibvh::Tree& world")
+
+
+def check_documents(folder: pathlib.Path, prefix: pathlib.Path) -> None:
+    """The C++ of the guide and of the README compiles as it stands there."""
+    text, count = "", 0
+    for document in ("docs/library.md", "README.md"):
+        blocks = re.findall(r"```cpp\n(.*?)```", (pathlib.Path(ROOT) / document).read_text(), re.DOTALL)
+        blocks = [block for block in blocks if document.startswith("docs") or "oibvh" in block]
+        lines = "".join(blocks).splitlines(keepends=True)
+        outside = [line for line in lines if line.startswith(("#include", "namespace"))]
+        inside = [line for line in lines if line not in outside]
+        count += len(blocks)
+        text += f"{''.join(outside)}void example_{len(text)}({GIVEN})\n{{\n{''.join(inside)}}}\n"
+    assert count >= 4, count
+    source = folder / "documents.cpp"
+    source.write_text(text)
+    run(COMPILER, "-std=c++20", "-fsyntax-only", "-DCL_TARGET_OPENCL_VERSION=120", f"-I{prefix / 'include'}", source)
+
+
+def main() -> int:
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        run(CMAKE, "--install", BUILD, "--prefix", folder / "first")
+        prefix = folder / "moved" / "prefix"
+        prefix.parent.mkdir()
+        (folder / "first").rename(prefix)
+        check_files(prefix)
+        check_documents(folder, prefix)
+
+        project = folder / "project"
+        shutil.copytree(pathlib.Path(ROOT) / "examples" / "oibvh", project)
+        build = project / "build"
+        run(CMAKE, "-S", project, "-B", build, f"-DCMAKE_PREFIX_PATH={prefix}", f"-DCMAKE_CXX_COMPILER={COMPILER}",
+            "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON", f"-DCMAKE_CXX_FLAGS=-Wall -Wextra -Wpedantic -Werror {FLAGS}")
+        commands = (build / "compile_commands.json").read_text()
+        assert "-march" not in commands and ROOT not in commands, commands
+        run(CMAKE, "--build", build, "--parallel", "2")
+
+        # Nothing but the program: no source tree, no prefix.
+        shutil.rmtree(prefix / "include")
+        nowhere = {"BVHBENCH_KERNELS": str(folder / "nowhere")}
+        shared = {"LD_LIBRARY_PATH": str(next(prefix.rglob(pathlib.Path(LIBRARY).name)).parent)}
+        said = run(build / "torus", **nowhere, **shared)
+        version = next(prefix.rglob("bvhbenchConfigVersion.cmake")).read_text().split('PACKAGE_VERSION "')[1].split('"')[0]
+        assert said.startswith(f"bvhbench {version}\n"), said
+        assert "4800 leaves on level 13 of 14, 9603 nodes of 24 bytes" in said, said
+        assert "31485 pairs" in said and "the same" in said, said
+        said = run(build / "own_kernel", **nowhere, **shared)
+        assert said == "2400 points lie in 14500 boxes; 0 counts differ from brute force\n", said
+        check_version(folder, prefix)
+    print("installed, moved, found, built against and run")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: MIT
+//
+// The library's pairs are the sweep's: of every kind of input, collider and set of objects, and after every way for a tree
+// to follow its triangles.
+#include "tests/library/testing.h"
+
+namespace bvhbench {
+namespace {
+
+std::vector<std::pair<std::string, LibraryMesh>> meshes()
+{
+    std::vector<std::pair<std::string, LibraryMesh>> all;
+    for (const std::size_t size : {1, 2, 3, 4, 5, 64, 65, 700})
+        all.emplace_back("soup:" + std::to_string(size), soup_mesh(size));
+    for (const char* scene : {"sphere:8", "torus:2000", "hairball:1500", "two-spheres:1200:1"})
+        all.emplace_back(scene, scene_mesh(scene));
+    LibraryMesh same = soup_mesh(1);
+    same.faces.resize(40, same.faces.front());
+    all.emplace_back("forty times the same", same);
+    return all;
+}
+
+class LibraryCollider : public testing::TestWithParam<const char*> {};
+
+TEST_P(LibraryCollider, FindsThePairsOfTheSweep)
+{
+    Caller caller;
+    const oibvh::Device device(caller.queue);
+    const std::string collider = GetParam();
+    for (const bool sorted : {false, true})
+        for (const bool adjacent : {false, true}) {
+            oibvh::Tree tree(device, {.sorted_leaves = sorted,
+                                      .collider = collider == "none" ? "" : collider,
+                                      .adjacent_pairs = adjacent});
+            for (const auto& [name, mesh] : meshes()) {
+                tree.build(mesh.on_host());
+                EXPECT_EQ(found_pairs(tree, caller), swept_pairs(mesh, adjacent)) << name;
+            }
+        }
+}
+INSTANTIATE_TEST_SUITE_P(Named, LibraryCollider,
+                         testing::Values("none", "leaf", "group", "block", "bvtt"),
+                         [](const auto& collider) { return std::string(collider.param); });
+
+TEST(LibraryPairs, OfBoxesAreThoseOfTheirTriangles)
+{
+    Caller caller;
+    oibvh::Tree tree(caller.queue);
+    for (const std::size_t size : {1, 2, 3, 700, 65}) {
+        const LibraryMesh mesh = soup_mesh(size);
+        const std::vector<oibvh::Box> boxes = mesh.boxes();
+        tree.build(oibvh::HostBoxes{boxes});
+        EXPECT_EQ(found_pairs(tree, caller), swept_pairs(mesh)) << size;
+        tree.build(oibvh::DeviceBoxes{caller.buffer_of(boxes), size});
+        EXPECT_EQ(found_pairs(tree, caller), swept_pairs(mesh)) << size;
+    }
+}
+
+/// Every triangle overlaps every other: 499,500 pairs, and room for 8,000 at first.
+TEST(LibraryPairs, GetRoomWhenTheyAreMore)
+{
+    Caller caller;
+    LibraryMesh mesh = soup_mesh(1);
+    mesh.faces.resize(1000, mesh.faces.front());
+    for (const char* collider : {"leaf", "group", "bvtt"}) {
+        oibvh::Tree tree(caller.queue, {.collider = collider});
+        tree.build(mesh.on_host());
+        EXPECT_EQ(found_pairs(tree, caller).size(), 499500u);
+        const std::size_t taken = tree.memory();
+        EXPECT_EQ(found_pairs(tree, caller).size(), 499500u);
+        EXPECT_EQ(tree.memory(), taken);
+    }
+}
+
+/// Three soups in one another's way, of one, 300 and 77 triangles.
+struct ThreeObjects {
+    std::vector<std::uint32_t> sizes = {1, 300, 77};
+    LibraryMesh mesh;
+
+    ThreeObjects()
+    {
+        for (const std::uint32_t size : sizes) {
+            const LibraryMesh own = soup_mesh(size, size);
+            for (const oibvh::Face face : own.faces) {
+                const auto shift = static_cast<std::uint32_t>(mesh.points.size());
+                mesh.faces.push_back({face.a + shift, face.b + shift, face.c + shift});
+            }
+            mesh.points.insert(mesh.points.end(), own.points.begin(), own.points.end());
+        }
+    }
+
+    std::vector<FaceRange> ranges() const { return {{0, 1}, {1, 300}, {301, 77}}; }
+    void move(std::size_t object, float by)
+    {
+        const FaceRange range = ranges()[object];
+        for (std::size_t k = 3 * range.first; k < 3 * (std::size_t{range.first} + range.count); ++k)
+            mesh.points[k].x += by * static_cast<float>(k % 7);
+    }
+    PairList right(Among among) const { return among_objects(swept_pairs(mesh), ranges(), among); }
+};
+
+void expect_right(oibvh::Tree& tree, const Caller& caller, const ThreeObjects& objects,
+                  const std::string& what)
+{
+    EXPECT_EQ(found_pairs(tree, caller), objects.right(Among::all)) << what;
+    EXPECT_EQ(found_pairs(tree, caller, oibvh::Among::between_objects),
+              objects.right(Among::between_objects))
+        << what;
+    EXPECT_EQ(found_pairs(tree, caller, oibvh::Among::within_objects),
+              objects.right(Among::within_objects))
+        << what;
+}
+
+TEST(LibraryPairs, OfObjectsAreToldApart)
+{
+    Caller caller;
+    const ThreeObjects objects;
+    for (const char* collider : {"leaf", "group", "block", "bvtt"}) {
+        oibvh::Tree tree(caller.queue, {.collider = collider});
+        tree.build(objects.mesh.on_host(), objects.sizes);
+        EXPECT_EQ(tree.buffers().object_count, 3u);
+        EXPECT_EQ(tree.levels(1).back().node_count, 300u);
+        expect_right(tree, caller, objects, collider);
+        tree.build(objects.mesh.on_device(caller), objects.sizes);
+        expect_right(tree, caller, objects, collider);
+        tree.build(objects.mesh.on_host());  // one again
+        EXPECT_EQ(found_pairs(tree, caller), objects.right(Among::all));
+        EXPECT_EQ(found_pairs(tree, caller, oibvh::Among::between_objects).size(), 0u);
+    }
+}
+
+TEST(LibraryPairs, FollowTrianglesThatMove)
+{
+    using oibvh::Update;
+    Caller caller;
+    const std::vector<std::vector<Update>> ways = {
+        {Update::rebuild, Update::rebuild, Update::rebuild},
+        {Update::refit, Update::refit, Update::refit},
+        {Update::keep, Update::refit, Update::rebuild},
+        {Update::keep, Update::rebuild, Update::keep},
+        {Update::keep, Update::keep, Update::keep},
+        {Update::refit, Update::keep, Update::rebuild}};
+    for (const bool sorted : {false, true}) {
+        ThreeObjects objects;
+        oibvh::Tree tree(caller.queue, {.sorted_leaves = sorted});
+        tree.build(objects.mesh.on_host(), objects.sizes);
+        for (std::size_t way = 0; way < ways.size(); ++way) {
+            for (std::size_t object = 0; object < 3; ++object)
+                if (ways[way][object] != Update::keep)
+                    objects.move(object, 0.01f);
+            tree.update(objects.mesh.on_host(), ways[way]);
+            expect_right(tree, caller, objects, "update " + std::to_string(way));
+        }
+        objects.move(1, 0.02f);
+        tree.refit(objects.mesh.on_device(caller));
+        expect_right(tree, caller, objects, "refit");
+    }
+}
+
+TEST(LibraryPairs, OfOneObjectFollowItToo)
+{
+    Caller caller;
+    LibraryMesh mesh = soup_mesh(300);
+    oibvh::Tree tree(caller.queue);
+    tree.build(mesh.on_host());
+    for (const oibvh::Update update : {oibvh::Update::refit, oibvh::Update::rebuild}) {
+        for (std::size_t k = 0; k < mesh.points.size(); ++k)
+            mesh.points[k].y += 0.02f * static_cast<float>(k % 5);
+        tree.update(mesh.on_host(), {&update, 1});
+        EXPECT_EQ(found_pairs(tree, caller), swept_pairs(mesh));
+    }
+    const oibvh::Update keep = oibvh::Update::keep;
+    tree.update(mesh.on_host(), {&keep, 1});
+    EXPECT_EQ(found_pairs(tree, caller), swept_pairs(mesh));
+}
+
+/// Pairs of one of `a` with one of `b`, by holding each against each.
+std::vector<oibvh::Pair> each_with_each(const LibraryMesh& a, const LibraryMesh& b)
+{
+    std::vector<oibvh::Pair> pairs;
+    const auto first = a.boxes(), second = b.boxes();
+    const auto apart = [](float end, float begin) { return end < begin; };
+    for (std::uint32_t i = 0; i < first.size(); ++i)
+        for (std::uint32_t j = 0; j < second.size(); ++j) {
+            const oibvh::Box &x = first[i], &y = second[j];
+            if (!apart(x.max_x, y.min_x) && !apart(y.max_x, x.min_x) && !apart(x.max_y, y.min_y) &&
+                !apart(y.max_y, x.min_y) && !apart(x.max_z, y.min_z) && !apart(y.max_z, x.min_z))
+                pairs.push_back({i, j});
+        }
+    return pairs;
+}
+
+TEST(LibraryPairs, BetweenTreesBuiltApartAreThoseOfEachWithEach)
+{
+    Caller caller;
+    const oibvh::Device device(caller.queue);
+    for (const bool sorted : {false, true})
+        for (const char* collider : {"leaf", "group", "block", "bvtt"}) {
+            const oibvh::Options options{.sorted_leaves = sorted, .collider = collider};
+            oibvh::Tree a(device, options), b(device, options);
+            const std::pair<std::size_t, std::size_t> sizes[] = {
+                {1, 1}, {1, 2}, {3, 1}, {300, 77}, {77, 300}};
+            for (const auto& [first, second] : sizes) {
+                const LibraryMesh mesh = soup_mesh(first, 3), other = soup_mesh(second, 4);
+                a.build(mesh.on_host());
+                b.build(other.on_host());
+                for (int time = 0; time < 2; ++time) {  // the second takes no memory
+                    const oibvh::Pairs found = a.find_pairs(b);
+                    std::vector<oibvh::Pair> pairs = a.read_pairs();
+                    EXPECT_EQ(pairs, caller.values_of<oibvh::Pair>(found.pairs, pairs.size()));
+                    EXPECT_EQ(pairs.size(), found.count);
+                    std::sort(pairs.begin(), pairs.end());
+                    EXPECT_EQ(pairs, each_with_each(mesh, other)) << collider << ' ' << first;
+                }
+                EXPECT_EQ(found_pairs(a, caller), swept_pairs(mesh));  // its own are as they were
+            }
+        }
+}
+
+TEST(LibraryPairs, BetweenATreeAndItselfAreThoseOfEachWithEach)
+{
+    Caller caller;
+    const LibraryMesh mesh = soup_mesh(50);
+    oibvh::Tree tree(caller.queue);
+    tree.build(mesh.on_host());
+    tree.find_pairs(tree);
+    std::vector<oibvh::Pair> pairs = tree.read_pairs();
+    std::sort(pairs.begin(), pairs.end());
+    EXPECT_EQ(pairs, each_with_each(mesh, mesh));
+}
+
+}  // namespace
+}  // namespace bvhbench

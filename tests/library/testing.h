@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+//
+// What the tests of the library share: a caller with OpenCL objects of his own, and what is true of his scenes.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "collide/relation.h"
+#include "collide/sweep.h"
+#include "device/device.h"
+#include "geometry/error.h"
+#include "library/include/bvhbench/oibvh.h"
+#include "scenes/catalog.h"
+
+namespace bvhbench {
+
+/// A caller's device, context and queue, made and released by OpenCL's own calls.
+struct Caller {
+    cl_device_id device = nullptr;
+    cl_context context = nullptr;
+    cl_command_queue queue = nullptr;
+
+    explicit Caller(cl_command_queue_properties properties = 0,
+                    std::vector<cl_device_id> devices = {})
+    {
+        if (devices.empty())
+            devices.push_back(open_device("").cl());
+        device = devices.back();
+        context = clCreateContext(nullptr, static_cast<cl_uint>(devices.size()), devices.data(),
+                                  nullptr, nullptr, nullptr);
+        queue = clCreateCommandQueue(context, device, properties, nullptr);
+    }
+    Caller(const Caller&) = delete;
+    Caller& operator=(const Caller&) = delete;
+    ~Caller()
+    {
+        for (const cl_mem buffer : buffers_)
+            clReleaseMemObject(buffer);
+        clReleaseCommandQueue(queue);
+        clReleaseContext(context);
+    }
+
+    /// A buffer of this caller's, for as long as he is there.
+    template <class T>
+    cl_mem buffer_of(const std::vector<T>& values)
+    {
+        buffers_.push_back(clCreateBuffer(context, CL_MEM_READ_WRITE | CL_MEM_COPY_HOST_PTR,
+                                          values.size() * sizeof(T), const_cast<T*>(values.data()),
+                                          nullptr));
+        return buffers_.back();
+    }
+
+    template <class T>
+    std::vector<T> values_of(cl_mem buffer, std::size_t count) const
+    {
+        std::vector<T> values(count);
+        clEnqueueReadBuffer(queue, buffer, CL_TRUE, 0, count * sizeof(T), values.data(), 0, nullptr,
+                            nullptr);
+        return values;
+    }
+
+    const std::vector<cl_mem>& buffers() const { return buffers_; }
+
+    /// To all that he has made.
+    cl_uint references() const
+    {
+        cl_uint of_queue = 0, of_context = 0, of_buffers = 0;
+        clGetCommandQueueInfo(queue, CL_QUEUE_REFERENCE_COUNT, sizeof of_queue, &of_queue, nullptr);
+        clGetContextInfo(context, CL_CONTEXT_REFERENCE_COUNT, sizeof of_context, &of_context,
+                         nullptr);
+        for (const cl_mem buffer : buffers_) {
+            cl_uint own = 0;
+            clGetMemObjectInfo(buffer, CL_MEM_REFERENCE_COUNT, sizeof own, &own, nullptr);
+            of_buffers += own;
+        }
+        return of_queue + of_context + of_buffers;
+    }
+
+private:
+    std::vector<cl_mem> buffers_;
+};
+
+/// A mesh in the library's words.
+struct LibraryMesh {
+    std::vector<oibvh::Point> points;
+    std::vector<oibvh::Face> faces;
+
+    oibvh::HostTriangles on_host() const { return {points, faces}; }
+    oibvh::DeviceTriangles on_device(Caller& caller) const
+    {
+        return {caller.buffer_of(points), points.size(), caller.buffer_of(faces), faces.size()};
+    }
+
+    /// The same in the rooms' words.
+    Mesh mesh() const
+    {
+        Mesh mesh;
+        for (const oibvh::Point point : points)
+            mesh.points.push_back({point.x, point.y, point.z});
+        for (const oibvh::Face face : faces)
+            mesh.faces.push_back({face.a, face.b, face.c});
+        return mesh;
+    }
+
+    std::vector<oibvh::Box> boxes() const
+    {
+        std::vector<oibvh::Box> boxes;
+        const Mesh own = mesh();
+        for (const Aabb box : face_boxes(own.points, own.faces))
+            boxes.push_back({box.min_x, box.min_y, box.min_z, box.max_x, box.max_y, box.max_z});
+        return boxes;
+    }
+};
+
+inline LibraryMesh library_mesh(std::span<const Point> points, std::span<const Face> faces)
+{
+    LibraryMesh mesh;
+    for (const Point point : points)
+        mesh.points.push_back({point.x, point.y, point.z});
+    for (const Face face : faces)
+        mesh.faces.push_back({face.a, face.b, face.c});
+    return mesh;
+}
+
+inline LibraryMesh scene_mesh(const std::string& name)
+{
+    const Scene scene = load_scene(name, {});
+    return library_mesh(scene.frames.front(), scene.faces);
+}
+
+/// Triangles anywhere, each about as large as the way to its neighbours.
+inline LibraryMesh soup_mesh(std::size_t count, unsigned seed = 1)
+{
+    std::mt19937 random(seed);
+    const float size = 1 / std::max(1.0f, std::cbrt(static_cast<float>(count)));
+    const auto next = [&] { return static_cast<float>(random() >> 8) / 16777216.0f; };
+    LibraryMesh mesh;
+    for (std::uint32_t k = 0; k < count; ++k) {
+        const oibvh::Point at = {next(), next(), next()};
+        for (int corner = 0; corner < 3; ++corner)
+            mesh.points.push_back(
+                {at.x + size * next(), at.y + size * next(), at.z + size * next()});
+        mesh.faces.push_back({3 * k, 3 * k + 1, 3 * k + 2});
+    }
+    return mesh;
+}
+
+/// Pairs in the sweep's form; no pair may have been found twice.
+inline PairList pair_list(const std::vector<oibvh::Pair>& pairs)
+{
+    std::vector<Pair> own;
+    for (const oibvh::Pair pair : pairs)
+        own.push_back({pair.a, pair.b});
+    PairList list(std::move(own));
+    EXPECT_EQ(list.surplus(), 0u);
+    return list;
+}
+
+inline PairList swept_pairs(const LibraryMesh& mesh, bool keep_adjacent = true)
+{
+    const Mesh own = mesh.mesh();
+    return touching_pairs(own.points, own.faces, keep_adjacent);
+}
+
+/// The pairs of a query, which the tree's own count and the device's agree on.
+inline PairList found_pairs(oibvh::Tree& tree, const Caller& caller,
+                            oibvh::Among among = oibvh::Among::all)
+{
+    const oibvh::Pairs found = tree.find_pairs(among);
+    const auto counts = caller.values_of<cl_uint>(found.device_count, 2);
+    EXPECT_EQ(counts[0] | std::uint64_t{counts[1]} << 32, found.count);
+    const std::vector<oibvh::Pair> pairs = tree.read_pairs();
+    EXPECT_EQ(pairs.size(), found.count);
+    EXPECT_EQ(pairs, caller.values_of<oibvh::Pair>(found.pairs, pairs.size()));
+    return pair_list(pairs);
+}
+
+/// The sentence of the `E` that `work` throws.
+template <class E, class Work>
+std::string sentence(Work&& work)
+{
+    try {
+        work();
+    } catch (const E& error) {
+        return error.what();
+    } catch (const std::exception& error) {
+        ADD_FAILURE() << "another error: " << error.what();
+        return {};
+    }
+    ADD_FAILURE() << "no error";
+    return {};
+}
+
+}  // namespace bvhbench
