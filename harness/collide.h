@@ -7,6 +7,7 @@
 
 #include "collide/pairs.h"
 #include "harness/record.h"
+#include "harness/sampling.h"
 #include "harness/session.h"
 #include "scenes/objects_by.h"
 
@@ -42,6 +43,7 @@ struct CollideTask {
     std::vector<PipelineChoice> pipelines;
     int samples = 20;
     int warm_up = 3;
+    SamplingRules sampling = {};
 };
 
 /// What a pipeline found in a frame, in canonical order, by the numbers triangles have in the file.

@@ -27,14 +27,16 @@ constexpr ColliderEntry catalog[] = {
      make_block},
     {"front", "where the frame before stopped, moved to where this one does, over refitted boxes",
      make_front},
-    {"grid", "no tree: boxes hashed by the cells they cover, on levels by their size", make_grid},
-    {"brute", "sweep and prune on one core of the host, without the tree: the oracle", make_brute},
+    {"grid", "no tree: boxes hashed by the cells they cover, on levels by their size", make_grid,
+     {}, 0, false, false},
+    {"brute", "sweep and prune on one core of the host, without the tree: the oracle", make_brute,
+     {}, 0, false, false},
     {"embree", "Embree's rtcCollide over trees of its own, on all host threads",
-     make_embree_collider, embree_absent, embree_bytes, true},
+     make_embree_collider, embree_absent, embree_bytes, true, false},
     {"fcl", "triangles that intersect, by FCL, its trees built each time, on a host core",
-     make_fcl_collider, fcl_absent, fcl_bytes, true},
+     make_fcl_collider, fcl_absent, fcl_bytes, true, false},
     {"fcl-refit", "the same, its trees refit to moved points", make_fcl_refit_collider, fcl_absent,
-     fcl_bytes, true},
+     fcl_bytes, true, false},
 };
 
 }  // namespace

@@ -38,6 +38,7 @@ int build(const BuildCommand& command, const Options& options)
     experiment.scenes = {command.scene};
     experiment.builders = {command.builder};
     experiment.samples = command.samples;
+    command.sampling.apply(experiment.sampling);
     experiment.quality = command.quality;
     experiment.may_stand_in = false;  // who names a mesh means that mesh
 

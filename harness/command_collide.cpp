@@ -43,6 +43,7 @@ CollideTask task_of(const CollideCommand& command)
             task.pipelines.back().collider.rules_off |= entry.rule;
         }
     task.samples = command.samples;
+    command.sampling.apply(task.sampling);
     if (task.swept)
         check_swept(task);
     if (task.swept && !command.pairs.empty() && command.collider.among == Among::all)

@@ -4,27 +4,44 @@
 #include <charconv>
 
 #include "geometry/error.h"
+#include "harness/commands.h"
 
 namespace bvhbench {
 namespace {
 
-constexpr int most_samples = 1000000;
 constexpr int most_cost = 1000000;
+constexpr int most_seconds = 1000000;
 
-/// Accepts only `known` words; the answer to another one lists them.
-CLI::Validator one_of(std::vector<std::string> known)
+/// Behind --samples, which it is instead of.
+void add_sampling(CLI::App& command, SamplingWords& sampling)
 {
-    const auto check = [known = std::move(known)](const std::string& word) {
-        std::string there;
-        for (const std::string& each : known) {
-            if (each == word)
-                return std::string();
-            there += (there.empty() ? "" : ", ") + each;
-        }
-        return "there is no '" + word + "'; there are: " + there;
-    };
-    return {check, "", "one of"};
+    command
+        .add_option("--until", sampling.until,
+                    "sample each cell until the range between its quartiles is this share of the "
+                    "median, as 2%")
+        ->transform(a_share(1))
+        ->excludes("--samples");
+    command.add_option("--min-samples", sampling.min_samples, "with --until: at least so many; 15")
+        ->check(CLI::Range(2, most_samples));
+    command
+        .add_option("--max-samples", sampling.max_samples, "with --until: at most so many; 1000")
+        ->check(CLI::Range(2, most_samples));
+    command
+        .add_option("--time-budget", sampling.time_budget_s,
+                    "with --until: seconds for the samples of a scene or frame; 60")
+        ->check(a_number(most_seconds));
+    command.add_flag("--cold", sampling.cold, "empty the device's caches before each sample");
+    command
+        .add_option("--calibrate-every", sampling.calibrate_every,
+                    "samples between two looks at how fast the device is; 0: none; 16")
+        ->check(CLI::Range(0, most_samples));
+    command
+        .add_option("--drift-limit", sampling.drift_limit,
+                    "mark samples beside a look that is further off its median; 25%")
+        ->transform(a_share(1000));
 }
+
+}  // namespace
 
 void add_leaves(CLI::App& command, std::string& leaves, std::string& boxes)
 {
@@ -39,6 +56,20 @@ void add_leaves(CLI::App& command, std::string& leaves, std::string& boxes)
         ->capture_default_str();
 }
 
+CLI::Validator one_of(std::vector<std::string> known)
+{
+    const auto check = [known = std::move(known)](const std::string& word) {
+        std::string there;
+        for (const std::string& each : known) {
+            if (each == word)
+                return std::string();
+            there += (there.empty() ? "" : ", ") + each;
+        }
+        return "there is no '" + word + "'; there are: " + there;
+    };
+    return {check, "", "one of"};
+}
+
 void add_quality(CLI::App& command, bool& quality, NodeCosts& costs)
 {
     command.add_flag("--epo,--quality", quality, "compute end-point overlap, which takes long");
@@ -49,8 +80,6 @@ void add_quality(CLI::App& command, bool& quality, NodeCosts& costs)
         ->capture_default_str()
         ->check(a_number(most_cost));
 }
-
-}  // namespace
 
 CLI::Validator a_number(int most)
 {
@@ -63,6 +92,25 @@ CLI::Validator a_number(int most)
                    : "must be a number from 0 to " + std::to_string(most) + ", not '" + word + "'";
     };
     return {check, "", "a number"};
+}
+
+CLI::Validator a_share(double most)
+{
+    const auto read = [most](std::string& word) {
+        const bool is_percent = word.ends_with('%');
+        const std::size_t digits = word.size() - (is_percent ? 1 : 0);
+        double value = -1;
+        const auto [end, error] = std::from_chars(word.data(), word.data() + digits, value);
+        if (is_percent)
+            value /= 100;
+        if (error != std::errc() || end != word.data() + digits || !(value >= 0 && value <= most))
+            return "must be a share from 0 to " + std::to_string(static_cast<int>(100 * most)) +
+                   "%, as 5% or 0.05, not '" + word + "'";
+        char text[40];
+        word.assign(text, std::to_chars(text, text + sizeof text, value).ptr);
+        return std::string();
+    };
+    return {read, "", "a share"};
 }
 
 void add_list(CLI::App& app, ListCommand& list)
@@ -93,6 +141,7 @@ void add_build(CLI::App& app, BuildCommand& build, std::string& leaves)
     command->add_option("--samples", build.samples, "timed builds")
         ->capture_default_str()
         ->check(CLI::Range(1, most_samples));
+    add_sampling(*command, build.sampling);
     add_quality(*command, build.quality, build.costs);
     command->add_option("--json", build.json, "write the result file");
     command->add_option("--dump", build.dump, "write the tree, spelled out, as JSON");
@@ -160,6 +209,7 @@ void add_collide(CLI::App& app, CollideCommand& collide, std::string& leaves, st
     command->add_option("--samples", collide.samples, "timed builds and queries")
         ->capture_default_str()
         ->check(CLI::Range(1, most_samples));
+    add_sampling(*command, collide.sampling);
     command->add_option("--json", collide.json, "write the result file");
     command->add_option("--pairs", collide.pairs,
                         "write the last frame's pairs: .csv, or .bin of 32-bit ids");
@@ -176,6 +226,9 @@ void add_run(CLI::App& app, RunCommand& run)
     command->add_option("--filter", run.filter, "only cells whose scene/builder this matches");
     command->add_option("--samples", run.samples, "timed builds a cell")
         ->check(CLI::Range(1, most_samples));
+    add_sampling(*command, run.sampling);
+    command->add_option("--turns", run.turns,
+                        "FILE:N: sample by turns with other runs, N in all, that name the file");
     command->add_flag("--quick", run.quick, "fewer scenes and samples");
     add_quality(*command, run.quality, run.costs);
 }
@@ -184,50 +237,15 @@ void add_reproduce(CLI::App& app, ReproduceCommand& reproduce)
 {
     CLI::App* command =
         app.add_subcommand("reproduce", "Measure, print and draw what the paper shows");
-    command->add_option("WHAT", reproduce.what, "table1 to table4, fig8, fig9, fig10 or fig13")
+    command
+        ->add_option("WHAT", reproduce.what,
+                     "table1 to table4, fig8, fig9, fig10, fig13; or all, and a page of all")
         ->required()
-        ->check(one_of({"table1", "table2", "table3", "table4", "fig8", "fig9", "fig10", "fig13"}));
-    command->add_option("--out", reproduce.out, "folder for the result file and figures")
+        ->check(one_of(reproducible()));
+    command->add_option("--out", reproduce.out, "folder for result files, figures and the page")
         ->capture_default_str();
     command->add_flag("--quick", reproduce.quick, "fewer scenes and samples");
     add_quality(*command, reproduce.quality, reproduce.costs);
-}
-
-void add_check(CLI::App& app, CheckCommand& check)
-{
-    CLI::App* command =
-        app.add_subcommand("check", "Hold builders to every promise, without timing");
-    command->add_option("--builder", check.builder, "only this one");
-    command->add_option("--scene", check.scene, "over this instead of the hard inputs");
-}
-
-void add_show(CLI::App& app, ShowCommand& show)
-{
-    CLI::App* command = app.add_subcommand("show", "Print a result file as tables");
-    command->add_option("FILE", show.file, "a result file")->required();
-}
-
-void add_accuracy(CLI::App& app, AccuracyCommand& accuracy)
-{
-    CLI::App* command = app.add_subcommand(
-        "accuracy", "Measure run time against error, along an axis at a time, print and draw it");
-    command->add_option("--axis", accuracy.axis, "a name of `list accuracy`; default: all in turn");
-    command->add_option("--scene", accuracy.scenes,
-                        "scenes, data sets or mesh files, of axes that are about scenes");
-    command
-        ->add_option("--pairs", accuracy.pairs,
-                     "pairs of triangles in all, of the axis narrow, at least one a class")
-        ->capture_default_str()
-        ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 32));
-    command->add_option("--seed", accuracy.seed, "of what is generated")
-        ->capture_default_str()
-        ->check(CLI::Range(1u, 1000000000u));
-    command->add_option("--filter", accuracy.filter, "only cells whose input/method this matches");
-    command->add_option("--samples", accuracy.samples, "timed runs a cell")
-        ->capture_default_str()
-        ->check(CLI::Range(1, most_samples));
-    command->add_option("--out", accuracy.out, "folder for the result file and figures")
-        ->capture_default_str();
 }
 
 void add_tune(CLI::App& app, TuneCommand& tune, std::string& leaves, std::string& adjacent)
@@ -256,18 +274,6 @@ void add_tune(CLI::App& app, TuneCommand& tune, std::string& leaves, std::string
     command->add_option(
         "--out", tune.out,
         "the tuning file; default: the device's in --tuning, else in results/tuning");
-}
-
-void add_stress(CLI::App& app, StressCommand& stress)
-{
-    CLI::App* command = app.add_subcommand("stress",
-                                           "Hold builders, colliders and libraries to what must "
-                                           "hold over scenes that are hard on them");
-    command->add_flag("--quick", stress.quick, "smaller scenes and fewer systems");
-    command->add_option("--seed", stress.seed, "of what is random")->capture_default_str();
-    command->add_option("--filter", stress.filter,
-                        "only cells whose family/scene/system this matches");
-    command->add_option("--out", stress.out, "write the result file");
 }
 
 }  // namespace bvhbench

@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <iostream>
-#include <iterator>
 
 #include "geometry/error.h"
 #include "harness/accuracy/axis.h"
 #include "harness/commands.h"
-#include "harness/plot.h"
 #include "harness/report.h"
 #include "harness/report_frames.h"
-#include "harness/report_paper.h"
 #include "harness/report_quality.h"
 #include "harness/report_refit.h"
 #include "harness/report_roofline.h"
@@ -35,22 +30,6 @@ bool is_long(const Document& document)
            });
 }
 
-/// Figs. 9 and 10 show other sides of what Table 2 measures.
-bool is_of_table2(const std::string& what)
-{
-    return what == "table2" || what == "fig9" || what == "fig10";
-}
-
-std::string paper_report(const std::string& what, const Document& document)
-{
-    return what == "table1"   ? table1_report(document)
-           : what == "table4" ? table4_report(document)
-           : what == "fig13"  ? fig13_report(document)
-           : what == "table3" ? frames_table(document, what)
-           : is_of_table2(what) ? frames_table(document, "table2")
-                              : fig8_report(document);
-}
-
 }  // namespace
 
 int run(const RunCommand& command, const Options& options)
@@ -58,15 +37,20 @@ int run(const RunCommand& command, const Options& options)
     Experiment experiment = find_experiment(command.experiment, command.quick);
     if (command.samples > 0) {
         experiment.samples = command.samples;
+        experiment.sampling.until = 0;
         for (CollideTask& task : experiment.collisions)
             task.samples = command.samples;
     }
+    command.sampling.apply(experiment.sampling);
+    for (CollideTask& task : experiment.collisions)
+        task.sampling = experiment.sampling;
     experiment.quality = experiment.quality || command.quality;
     const CellFilter filter = cell_filter(command.filter);
     const std::string out = command.out.empty() ? experiment.name + ".json" : command.out;
 
     Session session(options.common);
     Run run(session, out, options.words, command.costs);
+    session.take_turns(command.turns, run.document().run.id);
     run.experiment(experiment, filter);
     run.finish();
     if (run.document().cells.empty())
@@ -81,32 +65,10 @@ int run(const RunCommand& command, const Options& options)
     return has_differing_cell(run.document()) ? 1 : 0;
 }
 
-int reproduce(const ReproduceCommand& command, const Options& options)
-{
-    Experiment experiment =
-        find_experiment(is_of_table2(command.what) ? "table2" : command.what, command.quick);
-    experiment.quality = experiment.quality || command.quality;
-    const std::filesystem::path folder = command.out;
-    const std::filesystem::path file = folder / (command.what + ".json");
-
-    Session session(options.common);
-    Run run(session, file, options.words, command.costs);
-    run.experiment(experiment);
-    run.finish();
-    std::cout << run_report(run.document().run) << paper_report(command.what, run.document())
-              << "written: " << file.string() << '\n';
-    std::cout << draw(command.what + ".py", file, folder) << '\n';
-    return has_differing_cell(run.document()) ? 1 : 0;
-}
-
 int show(const ShowCommand& command, const Options&)
 {
-    std::ifstream file(command.file, std::ios::binary);
-    const std::string text(std::istreambuf_iterator<char>(file), {});
-    if (!file.is_open() || file.bad())
-        throw Unavailable("the result file '" + command.file + "' cannot be read");
-    const Document document = read_document(text, command.file);
-    std::cout << run_report(document.run);
+    const Document document = read_result_file(command.file);
+    std::cout << run_report(document.run) << merged_report(document);
     if (const std::string axes = accuracy_report(document); !axes.empty())
         std::cout << axes;
     else if (!document.stress.empty())

@@ -11,6 +11,7 @@
 #include "harness/progress.h"
 #include "harness/provenance.h"
 #include "harness/result_file.h"
+#include "harness/test_hooks.h"
 #include "harness/trials.h"
 #include "harness/tuning_file.h"
 
@@ -71,6 +72,9 @@ void put(const SearchResult& result, const TuneTask& task, int samples, TuningFi
 int tune(const TuneCommand& command, const Options& options)
 {
     // Wrong words are found before anything is opened.
+    if (!test_hooks().empty())
+        throw BadUsage(test_hooks().begin()->first +
+                       " is set, which changes times for tests: nothing is tuned by such");
     for (const std::string& target : targets_of(command))
         check_target(target);
     find_builder(command.builder.name);

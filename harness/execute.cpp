@@ -27,6 +27,12 @@ struct Executor {
     int operator()(const TuneCommand& command) const { return tune(command, options); }
     int operator()(const AccuracyCommand& command) const { return accuracy(command, options); }
     int operator()(const StressCommand& command) const { return stress(command, options); }
+    int operator()(const SweepCommand& command) const { return sweep(command, options); }
+    int operator()(const MergeCommand& command) const { return merge(command, options); }
+    int operator()(const PlotCommand& command) const { return plot(command, options); }
+    int operator()(const ReportCommand& command) const { return report(command, options); }
+    int operator()(const CompareCommand& command) const { return compare(command, options); }
+    int operator()(const SmokeCommand& command) const { return smoke(command, options); }
 };
 
 int failed(const std::exception& error, int code)

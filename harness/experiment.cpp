@@ -79,6 +79,41 @@ void read_size(const Json& json, Experiment& experiment)
         experiment.warm_up = static_cast<int>(whole_number(json["warm_up"], "warm_up", 0, 1000000));
 }
 
+double real_number(const Json& json, const char* key, double least, double most)
+{
+    const Json& value = json[key];
+    if (!value.is_number() || !(value.get<double>() >= least && value.get<double>() <= most))
+        throw BadUsage("'" + std::string(key) + "' must be a number from " +
+                       Json(least).dump() + " to " + Json(most).dump() + ", not " + value.dump());
+    return value.get<double>();
+}
+
+SamplingRules sampling_of(const Json& json)
+{
+    SamplingRules rules;
+    if (json.contains("until"))
+        rules.until = real_number(json, "until", 0, 1);
+    for (const char* key : {"min_samples", "max_samples", "time_budget_s"})
+        if (json.contains(key) && rules.until == 0)
+            throw BadUsage("'" + std::string(key) + "' bounds what 'until' begins, which is not there");
+    if (json.contains("min_samples"))
+        rules.min_samples =
+            static_cast<int>(whole_number(json["min_samples"], "min_samples", 2, 1000000));
+    if (json.contains("max_samples"))
+        rules.max_samples =
+            static_cast<int>(whole_number(json["max_samples"], "max_samples", 2, 1000000));
+    if (json.contains("time_budget_s"))
+        rules.time_budget_s = real_number(json, "time_budget_s", 0, 1e6);
+    if (json.contains("caches")) {
+        const std::string caches = text_at(json, "caches");
+        if (caches != "hot" && caches != "cold")
+            throw BadUsage("'caches' is hot or cold, not '" + caches + "'");
+        rules.cold = caches == "cold";
+    }
+    check_rules(rules);
+    return rules;
+}
+
 Start start_of(const Json& stages)
 {
     constexpr std::string_view known[] = {"bounds", "codes",  "sort",
@@ -105,22 +140,13 @@ std::vector<Operation> operations_of(const Json& json)
     return wanted;
 }
 
-/// The name becomes a file's name.
-void check_name(const std::string& name)
-{
-    const auto is_plain = [](unsigned char c) {
-        return std::isalnum(c) != 0 || c == '-' || c == '_';
-    };
-    if (name.empty() || !std::all_of(name.begin(), name.end(), is_plain))
-        throw BadUsage("'experiment' must be letters, digits, - and _, not '" + name + "'");
-}
-
 Experiment experiment_of(const Json& json, bool quick)
 {
     refuse_unknown_keys(
         json,
         {"experiment", "question", "paper", "scenes", "builders", "operations", "pipelines",
-         "stages", "samples", "warm_up", "quality", "doubles", "quick"},
+         "stages", "samples", "warm_up", "until", "min_samples", "max_samples", "time_budget_s",
+         "caches", "quality", "doubles", "quick"},
         "an experiment");
     const bool collides = json.contains("pipelines");
     for (const char* key : {"experiment", "scenes", collides ? "pipelines" : "builders"})
@@ -128,13 +154,16 @@ Experiment experiment_of(const Json& json, bool quick)
             throw BadUsage("an experiment must have the key '" + std::string(key) + "'");
     Experiment experiment;
     experiment.name = text_at(json, "experiment");
-    check_name(experiment.name);
+    check_experiment_name(experiment.name, "experiment");
     experiment.question = json.contains("question") ? text_at(json, "question") : "";
     experiment.paper = json.contains("paper") ? text_at(json, "paper") : "";
     if (json.contains("doubles"))
         experiment.doubles = doubles_called(text_at(json, "doubles"));
+    experiment.sampling = sampling_of(json);
     if (collides)
         experiment.collisions = collisions_of(json, experiment.name, quick);
+    for (CollideTask& task : experiment.collisions)
+        task.sampling = experiment.sampling;
     if (collides && !json.contains("builders"))
         return experiment;
     read_size(json, experiment);
@@ -163,6 +192,15 @@ Experiment experiment_of(const Json& json, bool quick)
 }  // namespace
 
 std::span<const std::string_view> experiment_names() { return names; }
+
+void check_experiment_name(const std::string& name, const std::string& key)
+{
+    const auto is_plain = [](unsigned char c) {
+        return std::isalnum(c) != 0 || c == '-' || c == '_';
+    };
+    if (name.empty() || !std::all_of(name.begin(), name.end(), is_plain))
+        throw BadUsage('\'' + key + "' must be letters, digits, - and _, not '" + name + "'");
+}
 
 Experiment parse_experiment(std::string_view text, const std::string& origin, bool quick)
 {

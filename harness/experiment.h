@@ -35,6 +35,9 @@ namespace bvhbench {
 /// `"doubles": "as-is"` rounds coordinates that floats cannot hold as they are, whatever the command line says; so does
 /// `"recentred"` (scenes/doubles.h).
 ///
+/// `"until": 0.02` samples each cell until the range between its quartiles is 2 % of the median, instead of a fixed number;
+/// `min_samples`, `max_samples` and `time_budget_s` bound that. `"caches": "cold"` empties them before each sample.
+///
 /// `quick` replaces `scenes`, `builders`, `samples` or `warm_up` for --quick. In a scene with sizes, the key
 /// in braces takes a list of numbers or an object of: `from` and `to` (every number), `powers_of_two_from`
 /// and `powers_of_two_to`, `around_powers_of_two_to` (one below, at and above each power of two up to it).
@@ -57,6 +60,7 @@ struct Experiment {
     std::vector<CollideTask> collisions;
     int samples = 30;
     int warm_up = 3;
+    SamplingRules sampling;
 
     bool has(Operation operation) const
     {
@@ -70,6 +74,9 @@ Experiment parse_experiment(std::string_view text, const std::string& origin, bo
 /// The experiment `name_or_path` asks for: one of ours, else a file that ends in .json.
 /// Throws BadUsage with the known names, or Unavailable when the file is not there.
 Experiment find_experiment(const std::string& name_or_path, bool quick);
+
+/// The name of one becomes a file's name. Throws BadUsage, naming the key it is at, if it cannot.
+void check_experiment_name(const std::string& name, const std::string& key);
 
 /// The experiments inside this binary, in the order `list` shows them.
 std::span<const std::string_view> experiment_names();

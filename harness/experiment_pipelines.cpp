@@ -14,22 +14,6 @@ unsigned number_at(const Json& json, const char* key, std::int64_t most)
     return json.contains(key) ? static_cast<unsigned>(whole_number(json[key], key, 0, most)) : 0;
 }
 
-ColliderChoice collider_of(const Json& json)
-{
-    ColliderChoice choice;
-    if (json.is_string()) {
-        choice.name = json.get<std::string>();
-    } else {
-        refuse_unknown_keys(json, {"name", "jump", "start_level", "group_size"}, "a collider");
-        choice.name = text_at(json, "name");
-        choice.jump = number_at(json, "jump", 32);
-        choice.start_level = number_at(json, "start_level", 32);
-        choice.group_size = number_at(json, "group_size", 1 << 16);
-    }
-    find_collider(choice.name);
-    return choice;
-}
-
 /// The value at `key`, or each of the list there.
 void read_each(const Json& json, const char* key, const std::function<void(const Json&)>& add)
 {
@@ -43,7 +27,7 @@ PipelineChoice pipeline_of(const Json& json, const BuilderChoice& builder, const
 {
     PipelineChoice choice;
     choice.builder = builder;
-    choice.collider = collider_of(collider);
+    choice.collider = collider_choice(collider);
     if (json.contains("pairs_of"))
         choice.collider.among = among_called(text_at(json, "pairs_of"));
     if (json.contains("adjacent")) {
@@ -114,6 +98,22 @@ CollideTask task_of(const Json& json, const std::vector<PipelineChoice>& pipelin
 }
 
 }  // namespace
+
+ColliderChoice collider_choice(const Json& json)
+{
+    ColliderChoice choice;
+    if (json.is_string()) {
+        choice.name = json.get<std::string>();
+    } else {
+        refuse_unknown_keys(json, {"name", "jump", "start_level", "group_size"}, "a collider");
+        choice.name = text_at(json, "name");
+        choice.jump = number_at(json, "jump", 32);
+        choice.start_level = number_at(json, "start_level", 32);
+        choice.group_size = number_at(json, "group_size", 1 << 16);
+    }
+    find_collider(choice.name);
+    return choice;
+}
 
 std::vector<CollideTask> collisions_of(const Json& json, const std::string& experiment, bool quick)
 {

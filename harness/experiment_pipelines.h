@@ -22,4 +22,7 @@ namespace bvhbench {
 /// Throws BadUsage.
 std::vector<CollideTask> collisions_of(const Json& json, const std::string& experiment, bool quick);
 
+/// A collider's name, or an object of it and its options. Throws BadUsage.
+ColliderChoice collider_choice(const Json& json);
+
 }  // namespace bvhbench

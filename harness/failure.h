@@ -10,9 +10,6 @@ namespace bvhbench {
 /// What went wrong, as one sentence; for an OpenCL error with the call and the error's name.
 std::string sentence_of(const std::exception& error);
 
-/// The name of an OpenCL error code: "CL_OUT_OF_RESOURCES"; "OpenCL error -9999" for one of a vendor's own.
-std::string opencl_error_name(int code);
-
 /// Run `work`. If the machine or a builder fails in it, the sentence why; empty when it went well.
 ///
 /// For one cell of many, whose failure is a result. BadUsage and Interrupted end the run and pass through.

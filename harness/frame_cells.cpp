@@ -14,6 +14,7 @@
 #include "harness/accuracy/differences.h"
 #include "harness/failure.h"
 #include "harness/sampler.h"
+#include "harness/session_samples.h"
 
 namespace bvhbench {
 namespace {
@@ -201,10 +202,14 @@ void sample(std::span<Running> all, const CollideTask& task, const FrameOfPipeli
                                  [&] { return one.pipeline->once(input); });
                          }});
     }
-    std::vector<Taken> taken = take_samples(timed, task.samples, task.warm_up, order);
+    std::vector<Taken> taken =
+        session_samples(session, timed, {task.samples, task.warm_up, task.sampling}, order);
     for (std::size_t k = 0; k < ready.size(); ++k) {
         Running& one = *ready[k];
         one.cell.samples = std::move(taken[k].samples);
+        one.cell.sampling = {.stopped = taken[k].stopped,
+                             .until = task.sampling.until,
+                             .cold = task.sampling.cold};
         std::string failure = std::move(taken[k].failure);
         // What the last sample found: another pipeline may have used the same builder's tree since, so once more.
         if (failure.empty())
@@ -250,6 +255,7 @@ std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span
         one.cell = empty_cell(task, one.choice, frame);
         one.number = frame.number + '/' + std::to_string(k);
         const Watchdog::Hand hand(session.watchdog(), one.number);
+        const std::int64_t compiled_ns = session.programs().compile_ns();
         if (one.failure.empty())
             one.failure = session.watchdog().given_up(one.number);
         if (one.failure.empty())
@@ -262,8 +268,10 @@ std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span
                     if (!one.pipeline->collider().needs_tree())
                         one.cell.builder = {.name = "none"};
                     one.pipeline->begin_frame(frame.motions);
-                    one.pipeline->settle(frame.input);
+                    one.cell.first.run_ns =
+                        host_ns([&] { one.pipeline->settle(frame.input); });
                 });
+                one.cell.first.compile_ns = session.programs().compile_ns() - compiled_ns;
                 std::map<std::string, double> counters = one.pipeline->counters();
                 require_memory_for_pairs(session, counters);
                 one.cell.counters = std::move(counters);

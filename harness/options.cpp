@@ -2,11 +2,13 @@
 #include "harness/options.h"
 
 #include <CLI/CLI.hpp>
+#include <map>
 #include <sstream>
 
 #include "geometry/error.h"
 #include "harness/build_info.h"
 #include "harness/command_line.h"
+#include "harness/help.h"
 
 namespace bvhbench {
 namespace {
@@ -47,6 +49,15 @@ void check_power_of_two(const char* option, unsigned value)
                        std::to_string(value));
 }
 
+/// "list, build or show"
+std::string names_of(const std::vector<CLI::App*>& commands)
+{
+    std::string text;
+    for (std::size_t k = 0; k < commands.size(); ++k)
+        text += (k == 0 ? "" : k + 1 < commands.size() ? ", " : " or ") + commands[k]->get_name();
+    return text;
+}
+
 void check_costs(const NodeCosts& costs)
 {
     if (costs == NodeCosts{0, 0})
@@ -70,6 +81,12 @@ Options parse_options(int argc, const char* const* argv)
     TuneCommand tune;
     AccuracyCommand accuracy;
     StressCommand stress;
+    SweepCommand sweep;
+    MergeCommand merge;
+    PlotCommand plot;
+    ReportCommand report;
+    CompareCommand compare;
+    SmokeCommand smoke;
     std::string leaves;
     std::string adjacent = "keep";
     std::string pairs_of = "all";
@@ -85,6 +102,13 @@ Options parse_options(int argc, const char* const* argv)
     add_tune(app, tune, leaves, adjacent);
     add_accuracy(app, accuracy);
     add_stress(app, stress);
+    add_sweep(app, sweep);
+    add_merge(app, merge);
+    add_plot(app, plot);
+    add_report(app, report, leaves);
+    add_compare(app, compare);
+    add_smoke(app, smoke);
+    add_help(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -95,16 +119,15 @@ Options parse_options(int argc, const char* const* argv)
         return options;
     }
     if (app.get_subcommands().empty())
-        throw BadUsage(
-            "name a command: list, build, collide, run, reproduce, check, show, tune, accuracy or "
-            "stress; "
-            "`bvhbench --help` says what they do");
+        throw BadUsage("name a command: " + names_of(app.get_subcommands({})) +
+                       "; `bvhbench --help` says what they do");
     check_power_of_two("--group-size", build.builder.group_size);
     check_power_of_two("--items", build.builder.items);
-    for (const NodeCosts& costs : {build.costs, run.costs, reproduce.costs})
+    for (const NodeCosts& costs : {build.costs, run.costs, reproduce.costs, sweep.costs})
         check_costs(costs);
     check_power_of_two("--group-size", collide.collider.group_size);
-    for (BuilderChoice* builder : {&build.builder, &collide.builder, &tune.builder})
+    for (BuilderChoice* builder :
+         {&build.builder, &collide.builder, &tune.builder, &report.builder})
         builder->sorted_leaves = leaves == "sorted" || (leaves.empty() && builder->boxes != "f32");
     collide.collider.keep_adjacent = tune.collider.keep_adjacent = adjacent == "keep";
     collide.collider.among = among_called(pairs_of);
@@ -116,27 +139,13 @@ Options parse_options(int argc, const char* const* argv)
                 "for --adjacent keep");
         collide.collider.keep_adjacent = false;
     }
-    const std::string chosen = app.get_subcommands().front()->get_name();
-    if (chosen == "list")
-        options.command = list;
-    else if (chosen == "build")
-        options.command = build;
-    else if (chosen == "collide")
-        options.command = collide;
-    else if (chosen == "run")
-        options.command = run;
-    else if (chosen == "reproduce")
-        options.command = reproduce;
-    else if (chosen == "check")
-        options.command = check;
-    else if (chosen == "tune")
-        options.command = tune;
-    else if (chosen == "accuracy")
-        options.command = accuracy;
-    else if (chosen == "stress")
-        options.command = stress;
-    else
-        options.command = show;
+    const std::map<std::string_view, Command> commands = {
+        {"list", list},         {"build", build},       {"collide", collide}, {"run", run},
+        {"check", check},       {"reproduce", reproduce}, {"show", show},     {"tune", tune},
+        {"accuracy", accuracy}, {"stress", stress},     {"sweep", sweep},     {"merge", merge},
+        {"plot", plot},         {"report", report},     {"compare", compare}, {"smoke", smoke},
+    };
+    options.command = commands.at(app.get_subcommands().front()->get_name());
     return options;
 }
 

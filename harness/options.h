@@ -12,6 +12,7 @@
 #include "harness/catalog.h"
 #include "harness/collider_catalog.h"
 #include "harness/node_costs.h"
+#include "harness/sampling.h"
 
 namespace bvhbench {
 
@@ -40,6 +41,7 @@ struct BuildCommand {
     BuilderChoice builder;
     std::string scene;
     int samples = 20;
+    SamplingWords sampling;
     std::string json;  ///< result file to write; may be empty
     std::string dump;  ///< file for the spelled-out tree; may be empty
     bool quality = false;
@@ -54,6 +56,7 @@ struct CollideCommand {
     unsigned between = 0;
     bool swept = false;    ///< boxes are around the way from each frame to the next
     int samples = 20;
+    SamplingWords sampling;
     bool skips = false;    ///< whether each rule is measured switched off as well
     std::string json;      ///< result file to write; may be empty
     std::string pairs;     ///< file for the last frame's pairs, .csv or .bin; may be empty
@@ -64,12 +67,14 @@ struct RunCommand {
     std::string out;         ///< result file; empty: <experiment>.json
     std::string filter;      ///< regular expression on "scene/builder"
     int samples = 0;         ///< 0: as the experiment says
+    SamplingWords sampling;
+    std::string turns;       ///< file and number of runs that sample by turns; may be empty
     bool quick = false;
     bool quality = false;
     NodeCosts costs;
 };
 struct ReproduceCommand {
-    std::string what;  ///< table1 to table4, fig8, fig9, fig10 or fig13
+    std::string what;  ///< a name of reproducible()
     std::string out = "out";
     bool quick = false;
     bool quality = false;
@@ -81,6 +86,22 @@ struct CheckCommand {
 };
 struct ShowCommand {
     std::string file;
+};
+struct CompareCommand {
+    std::string first, second;  ///< result files
+    double threshold = 0.05;    ///< the smallest change of time that counts, as a share
+    bool all = false;           ///< whether unchanged cells are in the table
+    bool allow_missing = false;
+    bool allow_dirty = false;
+    bool other_devices = false;
+    bool allow_test_hooks = false;
+};
+struct SmokeCommand {
+    std::string baseline;  ///< file to hold the run to; empty: the device kind's in results/baseline
+    std::string filter;    ///< regular expression on "scene/builder"
+    std::string out;       ///< result file to write; may be empty
+    double tolerance = 5;  ///< of times, as a ratio
+    bool update = false;   ///< write the baseline
 };
 struct TuneCommand {
     std::string target;  ///< sort, a builder or a collider; empty: the usual ones
@@ -109,9 +130,51 @@ struct StressCommand {
     std::string out;     ///< result file to write; may be empty
 };
 
+struct SweepCommand {
+    std::string file;  ///< the sweep as JSON; empty: the rest says it all
+    std::string name;  ///< this and those up to `set` take the place of what is in the file
+    std::vector<std::string> scenes, builders, orders, colliders;
+    std::string sizes;             ///< "1000:1000000:x10"
+    std::vector<std::string> set;  ///< "key=v1,v2"
+    int samples = 0, warm_up = -1;  ///< 0 and -1: as the file says
+    bool quality = false;
+    NodeCosts costs;
+    std::string out;  ///< the folder
+    std::vector<std::string> devices;
+    unsigned jobs = 0;  ///< 0: one a device
+    std::string shard;  ///< "i/n"; empty: all
+    std::string together = "cell";
+    double cell_limit_s = 0;  ///< 0: none
+    bool continue_other_commit = false;
+    bool retry_failed = false;
+    bool dry_run = false;
+};
+
+struct MergeCommand {
+    std::vector<std::string> files;
+    std::string out;
+    bool other_devices = false;
+    bool other_commits = false;
+};
+
+struct PlotCommand {
+    std::vector<std::string> files;
+    std::string out = "out";
+};
+
+struct ReportCommand {
+    std::vector<std::string> files;  ///< result files
+    std::string out = "report.html";
+    std::vector<std::string> scenes;  ///< to show in three dimensions; a frame of each
+    unsigned frame = 0;
+    BuilderChoice builder{.name = "oibvh-multi"};
+    ColliderChoice collider{.name = "leaf", .keep_adjacent = false, .narrow = "exact"};
+};
+
 using Command = std::variant<PrintCommand, ListCommand, BuildCommand, CollideCommand, RunCommand,
                              ReproduceCommand, CheckCommand, ShowCommand, TuneCommand,
-                             AccuracyCommand, StressCommand>;
+                             AccuracyCommand, StressCommand, SweepCommand, MergeCommand, PlotCommand,
+                             ReportCommand, CompareCommand, SmokeCommand>;
 
 struct Options {
     CommonOptions common;

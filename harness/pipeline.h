@@ -46,6 +46,8 @@ public:
     std::map<std::string, double> counters() const;
 
     const Collider& collider() const { return *collider_; }
+    /// That the last frame queried; null if none is wanted.
+    const Tree* tree() const { return tree_; }
 
 private:
     /// What enters a frame under the rule `near`: some of the triangles, of those objects that have any.

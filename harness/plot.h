@@ -3,12 +3,26 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace bvhbench {
+
+/// The exit status of plots/<script> with these words, run to its end, what it prints passed through; that of plots under
+/// BVHBENCH_HOME, else where the program was built. Throws Unavailable if it is not there or cannot be run.
+int run_plots_script(const std::string& script, std::vector<std::string> words);
 
 /// Have plots/<script> draw `file` into `folder`. Returns one sentence: what was drawn, or why nothing was and
 /// how to draw it elsewhere. The plots are found under BVHBENCH_HOME, else where the program was built.
 std::string draw(const std::string& script, const std::filesystem::path& file,
                  const std::filesystem::path& folder);
+
+/// What became of drawing everything that files have the cells for.
+struct Drawn {
+    bool all = false;      ///< whether each file made a figure
+    std::string why = {};  ///< else one sentence: which did not, and why
+};
+
+/// Have plots/all.py draw them into `folder`; it prints the pictures' names.
+Drawn draw_all(const std::vector<std::string>& files, const std::filesystem::path& folder);
 
 }  // namespace bvhbench

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "harness/build_info.h"
+#include "harness/test_hooks.h"
 
 namespace bvhbench {
 namespace {
@@ -138,11 +139,12 @@ RunFacts run_facts(const Device& device, std::vector<std::string> command)
     run.arch = build_info.arch;
     run.kernels = device.sources.origin();
     run.device = device_facts(device);
+    run.test_hooks = test_hooks();
+    run.conditions = host_conditions(run.host_threads, run.build_type);
     run.tuning_from = device.tuning.origin();
     for (const auto& [name, value] : device.tuning.values())
         run.tuning[std::string(name)] = value;
     run.libraries = {{"assimp", BVHBENCH_ASSIMP_VERSION},
-                     {"benchmark", BVHBENCH_BENCHMARK_VERSION},
                      {"nlohmann_json", BVHBENCH_JSON_VERSION},
                      {"CLI11", BVHBENCH_CLI11_VERSION},
                      {"OpenCL loader", loader_version()}};

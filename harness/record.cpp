@@ -24,7 +24,8 @@ Json json_of(const StageTime& time)
         return {{"stage", time.stage}, {"wall_ns", time.wall_ns}};
     return {
         {"stage", time.stage},     {"launches", time.launches},       {"busy_ns", time.busy_ns},
-        {"span_ns", time.span_ns}, {"moved_bytes", time.moved_bytes}, {"start_ns", time.start_ns}};
+        {"span_ns", time.span_ns}, {"moved_bytes", time.moved_bytes}, {"start_ns", time.start_ns},
+        {"queued_ns", time.queued_ns}, {"submitted_ns", time.submitted_ns}};
 }
 
 Json json_of(const Sample& sample)
@@ -32,7 +33,12 @@ Json json_of(const Sample& sample)
     Json stages = Json::array();
     for (const StageTime& time : sample.stages)
         stages.push_back(json_of(time));
-    return {{"order", sample.order}, {"stages", std::move(stages)}};
+    Json json = {{"order", sample.order}, {"stages", std::move(stages)}};
+    if (sample.calibration_ns > 0)
+        json["calibration_ns"] = sample.calibration_ns;
+    if (sample.drifted)
+        json["drifted"] = true;
+    return json;
 }
 
 Json json_of(const SceneFacts& scene)
@@ -115,6 +121,29 @@ Json json_of(const Check& check)
     return json;
 }
 
+Json json_of(const SamplingFacts& sampling)
+{
+    Json json = {{"stopped", stopped_name(sampling.stopped)},
+                 {"caches", sampling.cold ? "cold" : "hot"}};
+    if (sampling.until > 0)
+        json["until"] = sampling.until;
+    return json;
+}
+
+Json json_of(const HostConditions& conditions)
+{
+    Json json = Json::object();
+    put_if(json, "governor", conditions.governor);
+    if (conditions.turbo)
+        json["turbo"] = *conditions.turbo;
+    if (conditions.on_battery)
+        json["on_battery"] = *conditions.on_battery;
+    if (conditions.load)
+        json["load"] = *conditions.load;
+    json["warnings"] = conditions.warnings;
+    return json;
+}
+
 Json json_of(const DeviceFacts& device)
 {
     return {{"name", device.name},
@@ -165,6 +194,12 @@ std::string run_text(const RunFacts& run)
     json["tuning"] = {{"from", run.tuning_from}, {"values", run.tuning}};
     json["compile_ns"] = run.compile_ns;
     json["node_costs"] = {{"inner", run.costs.inner}, {"triangle", run.costs.triangle}};
+    if (run.conditions != HostConditions{})
+        json["conditions"] = json_of(run.conditions);
+    if (!run.turns_with.empty())
+        json["turns_with"] = run.turns_with;
+    if (!run.test_hooks.empty())
+        json["test_hooks"] = run.test_hooks;
     return dumped(json);
 }
 
@@ -180,6 +215,7 @@ std::string cell_text(const Cell& cell)
         json["swept"] = json_of(cell.swept);
     if (!cell.accuracy.axis.empty())
         json["accuracy"] = json_of(cell.accuracy);
+    put_if(json, "run", cell.run);
     json["operation"] = operation_name(cell.operation);
     json["status"] = states[static_cast<std::size_t>(cell.status)];
     if (cell.status != Cell::Status::measured) {
@@ -187,6 +223,10 @@ std::string cell_text(const Cell& cell)
         return dumped(json);
     }
     json["warm_up"] = cell.warm_up;
+    if (cell.first.run_ns > 0)
+        json["first"] = {{"compile_ns", cell.first.compile_ns}, {"run_ns", cell.first.run_ns}};
+    if (cell.sampling.stopped != Stopped::not_sampled)
+        json["sampling"] = json_of(cell.sampling);
     json["samples"] = Json::array();
     for (const Sample& sample : cell.samples)
         json["samples"].push_back(json_of(sample));
@@ -225,8 +265,17 @@ std::string cell_text(const StressCell& cell)
     return dumped(json);
 }
 
+double copy_rate_of(const Document& document, const Cell& cell)
+{
+    for (const SourceRun& source : document.merged_from)
+        if (source.id == cell.run && source.copy_rate_bytes_per_s > 0)
+            return source.copy_rate_bytes_per_s;
+    return document.run.copy_rate_bytes_per_s;
+}
+
 std::string document_text(const std::string& run, const std::vector<std::string>& cells,
-                          const std::vector<std::string>& stress)
+                          const std::vector<std::string>& stress,
+                          const std::vector<std::string>& merged_from, const std::string& format)
 {
     const auto lines = [](const std::vector<std::string>& all) {
         std::string text;
@@ -234,8 +283,10 @@ std::string document_text(const std::string& run, const std::vector<std::string>
             text += (i == 0 ? "\n" : ",\n") + all[i];
         return text;
     };
-    std::string text =
-        "{\"format\": \"1.7\",\n\"run\": " + run + ",\n\"cells\": [" + lines(cells) + "\n]";
+    std::string text = "{\"format\": \"" + format + "\",\n\"run\": " + run;
+    if (!merged_from.empty())
+        text += ",\n\"merged_from\": [" + lines(merged_from) + "\n]";
+    text += ",\n\"cells\": [" + lines(cells) + "\n]";
     if (!stress.empty())
         text += ",\n\"stress\": [" + lines(stress) + "\n]";
     return text + "}\n";

@@ -13,7 +13,9 @@
 #include "device/queue.h"
 #include "harness/catalog.h"
 #include "harness/collider_catalog.h"
+#include "harness/conditions.h"
 #include "harness/node_costs.h"
+#include "harness/sampling.h"
 #include "harness/stress/finding.h"
 #include "scenes/scene.h"
 
@@ -23,6 +25,8 @@ namespace bvhbench {
 struct Sample {
     int order = 0;  ///< position in the whole run, so that drift can be seen
     std::vector<StageTime> stages;
+    std::int64_t calibration_ns = 0;  ///< what the calibration took around it; 0: not known
+    bool drifted = false;             ///< whether that was far from its median
 };
 
 /// Whether what was measured was also right. A cell that was not checked says so; one that promises no right answer
@@ -65,6 +69,19 @@ struct AccuracyFacts {
     std::int64_t seed = 0;  ///< of what was generated; 0: nothing was
 };
 
+/// How a cell's samples were taken.
+struct SamplingFacts {
+    Stopped stopped = Stopped::not_sampled;  ///< why there are no more
+    double until = 0;                        ///< the relative quartile range asked for; 0: none
+    bool cold = false;                       ///< whether caches were emptied before each
+};
+
+/// What is over before the first sample: on the host's clock.
+struct FirstRun {
+    std::int64_t compile_ns = 0;  ///< kernels compiled for the cell; 0 if they were there
+    std::int64_t run_ns = 0;      ///< the first build, or frames until there was room; 0: not known
+};
+
 /// Everything known about one builder on one scene.
 struct Cell {
     enum class Status { measured, skipped, failed };
@@ -79,11 +96,14 @@ struct Cell {
     Status status = Status::measured;
     std::string reason;  ///< why it was skipped or failed
     int warm_up = 0;     ///< samples taken first and thrown away
+    FirstRun first = {};
+    SamplingFacts sampling = {};
     std::vector<Sample> samples;
     std::map<std::string, double> counters;  ///< the unit ends the key: nodes_count, tree_bytes
     std::map<std::string, std::string> left_out;  ///< a counter without a value, and why
     std::vector<std::int64_t> leaves_by_depth;    ///< from the root's level on
     Check check;
+    std::string run = {};  ///< of a merged file: the id of the run it is from
 };
 
 struct DeviceFacts {
@@ -116,14 +136,35 @@ struct RunFacts {
     std::map<std::string, uint> tuning;       ///< parameter to value, where it is not the default
     std::int64_t compile_ns = 0;
     NodeCosts costs;  ///< in the counters sah_cost and epo
+    HostConditions conditions = {};
+    std::vector<std::string> turns_with = {};  ///< ids of runs that sampled by turns with this one
+    std::map<std::string, std::string> test_hooks = {};  ///< of any: this is no result
 };
+
+/// A run that cells of a merged file are from.
+struct SourceRun {
+    std::string id, started_at, finished_at, commit, host, device, driver;
+    bool dirty = false;
+    double copy_rate_bytes_per_s = 0;  ///< 0: not measured
+};
+
+/// The minor number of the format that is written.
+constexpr int newest_minor = 8;
+
+/// The format that is written.
+inline const std::string result_format = "1." + std::to_string(newest_minor);
 
 /// A whole result file.
 struct Document {
     RunFacts run;
     std::vector<Cell> cells;
     std::vector<StressCell> stress = {};
+    std::vector<SourceRun> merged_from = {};  ///< none: all is from `run`
+    int minor = newest_minor;  ///< of its format
 };
+
+/// The copy rate of the run that the cell is from.
+double copy_rate_of(const Document& document, const Cell& cell);
 
 /// JSON of a run and of a cell, each on one line. A number that is not finite is left out.
 std::string run_text(const RunFacts& run);
@@ -132,7 +173,9 @@ std::string cell_text(const StressCell& cell);
 
 /// The text of a file from its parts' texts: a cell a line, so that files can be compared.
 std::string document_text(const std::string& run, const std::vector<std::string>& cells,
-                          const std::vector<std::string>& stress = {});
+                          const std::vector<std::string>& stress = {},
+                          const std::vector<std::string>& merged_from = {},
+                          const std::string& format = result_format);
 
 /// Read the text of a result file. Throws Unavailable, naming `origin`, when it is none of format 1.
 Document read_document(const std::string& text, const std::string& origin);

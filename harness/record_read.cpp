@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Reading result files back. Keys it does not know are left alone: a newer minor format may add some.
+#include <charconv>
 #include <nlohmann/json.hpp>
 
 #include "geometry/error.h"
@@ -41,12 +42,17 @@ StageTime stage_of(const Json& json)
             .wall_ns = get<std::int64_t>(json, "wall_ns"),
             .launches = get<int>(json, "launches"),
             .moved_bytes = get<std::int64_t>(json, "moved_bytes"),
-            .start_ns = get<std::int64_t>(json, "start_ns")};
+            .start_ns = get<std::int64_t>(json, "start_ns"),
+            .queued_ns = get<std::int64_t>(json, "queued_ns"),
+            .submitted_ns = get<std::int64_t>(json, "submitted_ns")};
 }
 
 Sample sample_of(const Json& json)
 {
-    Sample sample{json.at("order").get<int>(), {}};
+    Sample sample{.order = json.at("order").get<int>(),
+                  .stages = {},
+                  .calibration_ns = get<std::int64_t>(json, "calibration_ns"),
+                  .drifted = get<bool>(json, "drifted")};
     for (const Json& stage : json.at("stages"))
         sample.stages.push_back(stage_of(stage));
     return sample;
@@ -135,6 +141,29 @@ AccuracyFacts accuracy_of(const Json& json)
             .seed = get<std::int64_t>(json, "seed")};
 }
 
+SamplingFacts sampling_of(const Json& json)
+{
+    return {.stopped = static_cast<Stopped>(index_of(
+                json.at("stopped").get<std::string>(),
+                {"not_sampled", "number", "steady", "noisy", "most", "budget", "failure"})),
+            .until = get<double>(json, "until"),
+            .cold = json.value("caches", "hot") == "cold"};
+}
+
+HostConditions conditions_of(const Json& json)
+{
+    HostConditions conditions;
+    conditions.governor = get<std::string>(json, "governor");
+    if (json.contains("turbo"))
+        conditions.turbo = json["turbo"].get<bool>();
+    if (json.contains("on_battery"))
+        conditions.on_battery = json["on_battery"].get<bool>();
+    if (json.contains("load"))
+        conditions.load = json["load"].get<double>();
+    conditions.warnings = get<std::vector<std::string>>(json, "warnings");
+    return conditions;
+}
+
 Check check_of(const Json& json)
 {
     Check check;
@@ -168,8 +197,14 @@ Cell cell_of(const Json& json)
                  {"build", "refit", "collide", "accuracy"}));  // before 1.2 all were builds
     cell.status = static_cast<Cell::Status>(
         index_of(json.at("status").get<std::string>(), {"measured", "skipped", "failed"}));
+    cell.run = get<std::string>(json, "run");
     cell.reason = get<std::string>(json, "reason");
     cell.warm_up = get<int>(json, "warm_up");
+    if (json.contains("first"))  // this and the next since 1.8
+        cell.first = {.compile_ns = get<std::int64_t>(json["first"], "compile_ns"),
+                      .run_ns = get<std::int64_t>(json["first"], "run_ns")};
+    if (json.contains("sampling"))
+        cell.sampling = sampling_of(json["sampling"]);
     for (const Json& sample : json.value("samples", Json::array()))
         cell.samples.push_back(sample_of(sample));
     cell.counters = json.value("counters", std::map<std::string, double>{});
@@ -260,7 +295,34 @@ RunFacts run_of(const Json& json)
     if (json.contains("node_costs"))  // before format 1.2 there were only the usual ones
         run.costs = {.inner = json["node_costs"].at("inner").get<double>(),
                      .triangle = json["node_costs"].at("triangle").get<double>()};
+    run.conditions = conditions_of(json.value("conditions", Json::object()));
+    run.turns_with = get<std::vector<std::string>>(json, "turns_with");
+    run.test_hooks = get<std::map<std::string, std::string>>(json, "test_hooks");
     return run;
+}
+
+SourceRun source_of(const Json& json)
+{
+    return {.id = json.at("id").get<std::string>(),
+            .started_at = get<std::string>(json, "started_at"),
+            .finished_at = get<std::string>(json, "finished_at"),
+            .commit = get<std::string>(json, "commit"),
+            .host = get<std::string>(json, "host"),
+            .device = get<std::string>(json, "device"),
+            .driver = get<std::string>(json, "driver"),
+            .dirty = get<bool>(json, "dirty"),
+            .copy_rate_bytes_per_s = get<double>(json, "copy_rate_bytes_per_s")};
+}
+
+/// Of "1.8".
+int minor_of(const std::string& format)
+{
+    int minor = 0;
+    const char* end = format.data() + format.size();
+    const auto read = std::from_chars(format.data() + 2, end, minor);
+    if (read.ec != std::errc() || read.ptr != end)
+        throw std::invalid_argument("'" + format + "' is no format");
+    return minor;
 }
 
 }  // namespace
@@ -277,6 +339,9 @@ Document read_document(const std::string& text, const std::string& origin)
             document.cells.push_back(cell_of(cell));
         for (const Json& cell : json.value("stress", Json::array()))  // since 1.6
             document.stress.push_back(stress_cell_of(cell));
+        for (const Json& source : json.value("merged_from", Json::array()))  // since 1.8
+            document.merged_from.push_back(source_of(source));
+        document.minor = minor_of(format);
         return document;
     } catch (const Json::exception& error) {
         throw Unavailable(origin + " is no result file: " + error.what());

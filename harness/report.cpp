@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 
 #include "geometry/hash.h"
+#include "harness/sample_times.h"
+#include "harness/stopping.h"
 #include "harness/table.h"
 
 namespace bvhbench {
@@ -30,23 +31,82 @@ std::string counters_text(const Cell& cell)
     return text;
 }
 
+/// median, p10, q1, q3, p90
+std::vector<std::string> spread_texts(const Spread& spread)
+{
+    return {duration_text(spread.median), duration_text(spread.p10), duration_text(spread.q1),
+            duration_text(spread.q3), duration_text(spread.p90)};
+}
+
+/// The median of what a stage's launches, or those of "all", waited in that state; blank before format 1.8.
+std::string waited_text(const Cell& cell, const std::string& stage, std::int64_t StageTime::*waited)
+{
+    std::vector<double> sums;
+    for (const Sample* sample : counted_samples(cell.samples)) {
+        sums.push_back(0);
+        for (const StageTime& time : sample->stages)
+            sums.back() += time.stage == stage || stage == "all" ? static_cast<double>(time.*waited) : 0;
+    }
+    const double median = quantile(std::move(sums), 0.5);
+    return median > 0 ? duration_text(median) : "";
+}
+
+/// How many samples there are, and why no more.
+std::string samples_line(const Cell& cell)
+{
+    const std::size_t counted = counted_samples(cell.samples).size();
+    std::string text = std::to_string(cell.samples.size()) + " samples";
+    if (cell.sampling.cold)
+        text += ", caches emptied before each";
+    const auto drifted = std::count_if(cell.samples.begin(), cell.samples.end(),
+                                       [](const Sample& sample) { return sample.drifted; });
+    if (drifted > 0)
+        text += ", " + std::to_string(drifted) + " of them beside drift of the device" +
+                (counted < cell.samples.size() ? " and left out here" : "");
+    const std::string noise =
+        fixed(100 * relative_quartile_range(whole_times_ns(cell)), 1) + " %";
+    const std::string target = fixed(100 * cell.sampling.until, 1) + " %";
+    switch (cell.sampling.stopped) {
+        case Stopped::steady:
+            return text + "; quartiles " + noise + " apart, within " + target;
+        case Stopped::noisy:
+            return text + "; quartiles " + noise + " apart and staying so, above " + target;
+        case Stopped::most:
+            return text + "; no more are allowed, quartiles " + noise + " apart, above " + target;
+        case Stopped::budget:
+            return text + "; the time is over, quartiles " + noise + " apart, above " + target;
+        default:
+            return text + "; quartiles " + noise + " apart";
+    }
+}
+
 std::string stages_table(const Cell& cell, double copy_rate)
 {
     Table table({{"stage", left},
                  {"median"},
                  {"p10"},
+                 {"q1"},
+                 {"q3"},
                  {"p90"},
                  {"launches"},
                  {"bytes"},
                  {"GB/s"},
-                 {"% of copy"}});
+                 {"% of copy"},
+                 {"queued"},
+                 {"submitted"}});
     const auto row = [&](const std::string& name, const std::vector<double>& times, int launches,
                          double bytes) {
         const Spread spread = spread_of(times);
-        table.row({name, duration_text(spread.median), duration_text(spread.p10),
-                   duration_text(spread.p90), launches > 0 ? std::to_string(launches) : "host",
-                   bytes > 0 ? bytes_text(bytes) : "", rate_text(bytes, spread.median),
-                   copy_share_text(bytes, spread.median, copy_rate)});
+        std::vector<std::string> entries = {name};
+        for (std::string& text : spread_texts(spread))
+            entries.push_back(std::move(text));
+        entries.insert(entries.end(),
+                       {launches > 0 ? std::to_string(launches) : "host",
+                        bytes > 0 ? bytes_text(bytes) : "", rate_text(bytes, spread.median),
+                        copy_share_text(bytes, spread.median, copy_rate),
+                        waited_text(cell, name, &StageTime::queued_ns),
+                        waited_text(cell, name, &StageTime::submitted_ns)});
+        table.row(std::move(entries));
     };
     for (const StageTime& stage : cell.samples.front().stages)
         row(stage.stage, stage_times_ns(cell, stage.stage), stage.launches,
@@ -84,16 +144,17 @@ std::vector<std::string> line_of(const Cell& cell, double copy_rate)
         cell.scene.name + (cell.scene.stand_in_for.empty() ? "" : " *"),
         cell.scene.triangles > 0 ? grouped(cell.scene.triangles) : "", pipeline_text(cell)};
     if (!has_times(cell)) {
-        line.insert(line.end(), {verdict_text(cell), "", "", "", "", "", ""});
+        line.insert(line.end(), {verdict_text(cell), "", "", "", "", "", "", "", "", ""});
         line.push_back(!cell.reason.empty() ? cell.reason : cell.check.detail);
         return line;
     }
     const Spread spread = spread_of(whole_times_ns(cell));
     const double rate =
         spread.median > 0 ? static_cast<double>(cell.scene.triangles) * 1e3 / spread.median : 0;
+    for (std::string& text : spread_texts(spread))
+        line.push_back(std::move(text));
     line.insert(line.end(),
-                {duration_text(spread.median), duration_text(spread.p10), duration_text(spread.p90),
-                 rate > 0 ? fixed(rate, 1) : "", rate > 0 ? fixed(1e3 / rate, 2) : "",
+                {std::to_string(counted_samples(cell.samples).size()), rate > 0 ? fixed(rate, 1) : "", rate > 0 ? fixed(1e3 / rate, 2) : "",
                  rate_text(moved_bytes(cell), spread.median),
                  copy_share_text(moved_bytes(cell), spread.median, copy_rate), verdict_text(cell)});
     return line;
@@ -110,8 +171,8 @@ bool has_times(const Cell& cell)
 std::vector<double> stage_times_ns(const Cell& cell, std::string_view stage)
 {
     std::vector<double> times;
-    for (const Sample& sample : cell.samples)
-        for (const StageTime& time : sample.stages)
+    for (const Sample* sample : counted_samples(cell.samples))
+        for (const StageTime& time : sample->stages)
             if (time.stage == stage)
                 times.push_back(static_cast<double>(time.elapsed_ns()));
     return times;
@@ -120,19 +181,8 @@ std::vector<double> stage_times_ns(const Cell& cell, std::string_view stage)
 std::vector<double> whole_times_ns(const Cell& cell)
 {
     std::vector<double> times;
-    for (const Sample& sample : cell.samples) {
-        times.push_back(0);
-        // On the device from the first start to the last end, as far as files before 1.4 tell when stages started.
-        std::int64_t end = 0;
-        bool on_device = true;
-        for (const StageTime& time : sample.stages) {
-            times.back() += static_cast<double>(time.elapsed_ns());
-            end = std::max(end, time.start_ns + time.span_ns);
-            on_device = on_device && time.wall_ns == 0;
-        }
-        if (on_device)
-            times.back() = std::max(times.back(), static_cast<double>(end));
-    }
+    for (const Sample* sample : counted_samples(cell.samples))
+        times.push_back(whole_ns(sample->stages));
     return times;
 }
 
@@ -177,7 +227,11 @@ std::string cell_report(const Cell& cell, const RunFacts& run)
         text += ", standing in for " + cell.scene.stand_in_for;
     text += '\n';
     if (has_times(cell))
-        text += stages_table(cell, run.copy_rate_bytes_per_s);
+        text += stages_table(cell, run.copy_rate_bytes_per_s) + samples_line(cell) + '\n';
+    if (cell.first.run_ns > 0)
+        text += "first run " + duration_text(static_cast<double>(cell.first.run_ns)) +
+                " on the host's clock, kernels compiled in " +
+                duration_text(static_cast<double>(cell.first.compile_ns)) + '\n';
     if (!cell.counters.empty())
         text += "counters: " + counters_text(cell) + '\n';
     for (const auto& [counter, why] : cell.left_out)
@@ -194,7 +248,10 @@ std::string cells_report(const Document& document, bool only_notable)
                  {"builder", left},
                  {"median"},
                  {"p10"},
+                 {"q1"},
+                 {"q3"},
                  {"p90"},
+                 {"n"},
                  {"Mtris/s"},
                  {"ns/tri"},
                  {"GB/s"},
@@ -210,7 +267,7 @@ std::string cells_report(const Document& document, bool only_notable)
             continue;
         ++shown;
         has_stand_in = has_stand_in || !cell.scene.stand_in_for.empty();
-        table.row(line_of(cell, document.run.copy_rate_bytes_per_s));
+        table.row(line_of(cell, copy_rate_of(document, cell)));
     }
     return (shown > 0 ? table.text() : "") +
            (has_stand_in ? "* a stand-in: the scene itself is not there\n" : "") +
@@ -225,7 +282,10 @@ std::string frames_report(const Document& document)
                  {"what", left},
                  {"median"},
                  {"p10"},
+                 {"q1"},
+                 {"q3"},
                  {"p90"},
+                 {"n"},
                  {"pairs"},
                  {"contacts"},
                  {"verdict", left}});
@@ -238,11 +298,11 @@ std::string frames_report(const Document& document)
         std::vector<std::string> row = {cell.scene.name, std::to_string(cell.scene.frame),
                                         pipeline_text(cell)};
         if (has_times(cell)) {
-            const Spread spread = spread_of(whole_times_ns(cell));
-            row.insert(row.end(), {duration_text(spread.median), duration_text(spread.p10),
-                                   duration_text(spread.p90)});
+            for (std::string& text : spread_texts(spread_of(whole_times_ns(cell))))
+                row.push_back(std::move(text));
+            row.push_back(std::to_string(counted_samples(cell.samples).size()));
         } else {
-            row.insert(row.end(), {"", "", ""});
+            row.insert(row.end(), {"", "", "", "", "", ""});
         }
         row.insert(row.end(), {count("pairs_count"), count("contacts_count"), verdict_line(cell)});
         table.row(row);
@@ -264,36 +324,6 @@ std::string depths_text(const std::vector<std::int64_t>& leaves_by_depth)
         std::find_if(first, end, [&](std::int64_t leaves) { return 2 * (met += leaves) >= all; });
     return std::to_string(first - begin) + "–" + std::to_string(leaves_by_depth.size() - 1) +
            ", half by " + std::to_string(middle - begin);
-}
-
-std::string costs_text(const NodeCosts& costs)
-{
-    char text[80];
-    std::snprintf(text, sizeof text, "an inner node %.10g, a triangle %.10g", costs.inner,
-                  costs.triangle);
-    return text;
-}
-
-std::string run_report(const RunFacts& run)
-{
-    std::string text = "device: " + run.device.platform + '/' + run.device.name + ", driver " +
-                       run.device.driver + '\n';
-    text += "program: " + run.version + ", commit " + run.commit +
-            (run.dirty ? " with changes" : "") + ", " + run.build_type + '\n';
-    if (run.launch_cost_ns > 0)
-        text += "launch cost: " + duration_text(run.launch_cost_ns) + '\n';
-    if (!run.tuning.empty()) {
-        text += "tuned by " + run.tuning_from + ':';
-        for (const auto& [name, value] : run.tuning)
-            text += ' ' + name + '=' + std::to_string(value);
-        text += '\n';
-    }
-    if (run.copy_rate_bytes_per_s > 0)
-        text += "copy rate: " + fixed(run.copy_rate_bytes_per_s * 1e-9, 1) +
-                " GB/s, read plus written\n";
-    if (run.costs != NodeCosts{})
-        text += "costs in sah_cost and epo: " + costs_text(run.costs) + '\n';
-    return text;
 }
 
 }  // namespace bvhbench

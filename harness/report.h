@@ -55,4 +55,7 @@ std::string costs_text(const NodeCosts& costs);
 /// Where and with what a run was made, in a few lines.
 std::string run_report(const RunFacts& run);
 
+/// Of a merged file: how many runs its cells are from, on which hosts and devices, by which commits. Else empty.
+std::string merged_report(const Document& document);
+
 }  // namespace bvhbench

@@ -77,6 +77,20 @@ void write_atomically(const std::filesystem::path& path, const std::string& text
     file.become_path();
 }
 
+std::string file_text(const std::filesystem::path& path, const std::string& what)
+{
+    std::ifstream file(path, std::ios::binary);
+    std::string text(std::istreambuf_iterator<char>(file), {});
+    if (!file.is_open() || file.bad())
+        throw Unavailable(what + " '" + path.string() + "' cannot be read");
+    return text;
+}
+
+Document read_result_file(const std::filesystem::path& path)
+{
+    return read_document(file_text(path, "the result file"), path.string());
+}
+
 ResultFile::ResultFile(std::filesystem::path path, RunFacts run, const std::string& goes_on)
     : path_(std::move(path)), document_{std::move(run), {}}
 {

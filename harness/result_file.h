@@ -12,6 +12,12 @@ namespace bvhbench {
 /// a temporary file in the same folder, fsync, rename. Throws Unavailable with the system's reason.
 void write_atomically(const std::filesystem::path& path, const std::string& text);
 
+/// All of a file. Throws Unavailable, "WHAT 'path' cannot be read".
+std::string file_text(const std::filesystem::path& path, const std::string& what);
+
+/// Read a result file. Throws Unavailable if it is not there, cannot be read or is none.
+Document read_result_file(const std::filesystem::path& path);
+
 /// A result file that grows: rewritten whole and atomically as cells finish.
 ///
 /// Rewrites are at least half a second apart, so that a thousand short cells do not spend their time on the
@@ -38,6 +44,9 @@ public:
 
     /// The first place in the order of samples that none of its cells has.
     int next_order() const;
+
+    /// The runs that took turns with this one.
+    void took_turns(std::vector<std::string> others) { document_.run.turns_with = std::move(others); }
 
     /// Set the end of the run, and write.
     void finish(std::int64_t compile_ns);

@@ -13,6 +13,7 @@
 #include "harness/metrics.h"
 #include "harness/provenance.h"
 #include "harness/sampler.h"
+#include "harness/session_samples.h"
 
 namespace bvhbench {
 namespace {
@@ -97,6 +98,13 @@ Run::Run(Session& session, std::filesystem::path out, std::vector<std::string> c
     , order_(results_.next_order())
 {
     session.watchdog().keep_by(document().run.id, [this] { results_.keep(); });
+}
+
+void Run::finish()
+{
+    if (const Turns* turns = session_.turns())
+        results_.took_turns({turns->others().begin(), turns->others().end()});
+    results_.finish(session_.programs().compile_ns());
 }
 
 CellFilter cell_filter(const std::string& text)
@@ -219,6 +227,7 @@ Run::Prepared Run::prepare(const Experiment& experiment, const Frames& frames, C
 
     Prepared prepared{std::move(cell), std::move(number)};
     const Watchdog::Hand hand(session_.watchdog(), prepared.number);
+    const std::int64_t compiled_ns = session_.programs().compile_ns();
     const std::string failure = reason_of_failure([&] {
         const bool refits = prepared.cell.operation == Operation::refit;
         const std::size_t triangles = frames.now().triangle_count();
@@ -247,6 +256,7 @@ Run::Prepared Run::prepare(const Experiment& experiment, const Frames& frames, C
         counters["tree_bytes"] = static_cast<double>(footprint.tree_bytes);
         counters["scratch_bytes"] = static_cast<double>(footprint.scratch_bytes);
         prepared.builder = &builder;
+        prepared.cell.first.compile_ns = session_.programs().compile_ns() - compiled_ns;
     });
     if (!why_not.empty())
         return {unmeasured(std::move(prepared.cell), Cell::Status::skipped, std::move(why_not))};
@@ -261,7 +271,9 @@ void Run::judge_build(const Experiment& experiment, const Frames& frames, Builde
                       Prepared& prepared, Oracle& oracle)
 {
     Cell& cell = prepared.cell;
-    session_.build_once(builder, frames.now(), Start::from_triangles, &prepared.tree);
+    cell.first.run_ns = host_ns([&] {
+        session_.build_once(builder, frames.now(), Start::from_triangles, &prepared.tree);
+    });
     const HostTree tree = prepared.tree->spelled_out();
     cell.check = check_tree(tree, frames.now(), cell.builder, oracle);
     count_quality(cell, tree, frames.now(), document().run.costs, experiment.quality);
@@ -276,7 +288,9 @@ void Run::judge_refit(const Experiment& experiment, const Frames& frames, Builde
                       Prepared& prepared, Oracle& oracle)
 {
     Cell& cell = prepared.cell;
-    session_.build_once(builder, frames.before(), Start::from_triangles, &prepared.tree);
+    cell.first.run_ns = host_ns([&] {
+        session_.build_once(builder, frames.before(), Start::from_triangles, &prepared.tree);
+    });
     const HostTree built = prepared.tree->spelled_out();
     cell.check = check_tree(built, frames.before(), cell.builder, oracle);
     session_.refit_once(builder, frames.before(), &prepared.tree);
@@ -304,10 +318,14 @@ void Run::sample(const Experiment& experiment, const Frames& frames, std::span<P
                                                               experiment.start, &one->tree);
                          }});
     }
-    std::vector<Taken> taken = take_samples(timed, experiment.samples, experiment.warm_up, order_);
+    std::vector<Taken> taken = session_samples(
+        session_, timed, {experiment.samples, experiment.warm_up, experiment.sampling}, order_);
     for (std::size_t i = 0; i < ready.size(); ++i) {
         Cell& cell = ready[i]->cell;
         cell.samples = std::move(taken[i].samples);
+        cell.sampling = {.stopped = taken[i].stopped,
+                         .until = experiment.sampling.until,
+                         .cold = experiment.sampling.cold};
         std::string failure = std::move(taken[i].failure);
         if (failure.empty())
             failure = reason_of_failure(

@@ -40,7 +40,7 @@ public:
     void experiment(const Experiment& experiment, const CellFilter& filter = {});
 
     /// End the run and write its file.
-    void finish() { results_.finish(session_.programs().compile_ns()); }
+    void finish();
 
     const Document& document() const { return results_.document(); }
 

@@ -2,6 +2,7 @@
 #include "harness/session.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
@@ -95,8 +96,45 @@ Builder& Session::builder(const BuilderChoice& choice, Operation operation)
     return *builders_.back().builder;
 }
 
+void Session::empty_caches(bool before_each)
+{
+    if (before_each && !cache_flush_)
+        cache_flush_.emplace(programs_, queue());
+    cold_ = before_each;
+}
+
+void Session::take_turns(const std::string& path, const std::string& id)
+{
+    if (path.empty())
+        return;
+    const std::size_t colon = path.rfind(':');
+    int count = 0;
+    const char* end = path.data() + path.size();
+    if (colon == path.npos || colon == 0 ||
+        std::from_chars(path.data() + colon + 1, end, count).ptr != end || count < 2 || count > 64)
+        throw BadUsage("--turns names a file and how many runs take turns by it, as out/turns:2, not '" +
+                       path + "'");
+    turns_.emplace(path.substr(0, colon), count, id);
+}
+
+std::int64_t Session::calibrate()
+{
+    try {
+        return watchdog_.watch([&] {
+            if (!calibration_)
+                calibration_.emplace(programs_, queue());
+            return calibration_->take(queue());
+        });
+    } catch (...) {
+        renew_queue();  // else the next sample finds what is left of this
+        throw;
+    }
+}
+
 void Session::give_head_start()
 {
+    if (cold_)
+        cache_flush_->flush(queue());
     if (!head_start_)
         head_start_.emplace(programs_, queue());
     head_start_->give(queue());

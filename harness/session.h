@@ -8,10 +8,13 @@
 #include <vector>
 
 #include "builders/builder.h"
+#include "device/cache_flush.h"
+#include "device/calibration.h"
 #include "device/head_start.h"
 #include "harness/catalog.h"
 #include "harness/options.h"
 #include "harness/pocl_cache.h"
+#include "harness/turns.h"
 #include "harness/watchdog.h"
 #include "scenes/catalog.h"
 
@@ -52,8 +55,20 @@ public:
     /// Throws as make_builder does.
     Builder& builder(const BuilderChoice& choice, Operation operation = Operation::build);
 
-    /// Before work that is timed is enqueued (device/head_start.h).
+    /// Before work that is timed is enqueued: caches are emptied, if samples are to find them so, and a GPU gets a head
+    /// start (device/cache_flush.h, device/head_start.h).
     void give_head_start();
+
+    /// Whether what is timed from here on finds caches empty. Throws what taking their size of memory throws.
+    void empty_caches(bool before_each);
+
+    /// Sample by turns with other runs, if `path` is not empty: "FILE:N", N runs that name the file; `id` is this one's.
+    /// Throws BadUsage and Unavailable.
+    void take_turns(const std::string& path, const std::string& id);
+    Turns* turns() { return turns_ ? &*turns_ : nullptr; }
+
+    /// What a fixed piece of work takes right now, in nanoseconds (device/calibration.h).
+    std::int64_t calibrate();
 
     /// One whole build, waited for and watched. Throws what the builder throws.
     std::vector<StageTime> build_once(Builder& builder, const Input& input, Start start,
@@ -78,7 +93,11 @@ private:
     Device device_;
     Programs programs_;
     std::unique_ptr<Queue> queue_;
-    std::optional<HeadStart> head_start_;  ///< made when first asked for
+    std::optional<HeadStart> head_start_;  ///< this and the next two are made when first asked for
+    std::optional<CacheFlush> cache_flush_;
+    std::optional<Calibration> calibration_;
+    bool cold_ = false;
+    std::optional<Turns> turns_;
     SceneLibrary library_;
     Doubles doubles_asked_ = library_.doubles;
     /// A list, so that choices stay where they are: builders may keep looking at their words.

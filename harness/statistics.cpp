@@ -20,7 +20,8 @@ double quantile(std::vector<double> values, double fraction)
 
 Spread spread_of(const std::vector<double>& values)
 {
-    return {quantile(values, 0.5), quantile(values, 0.1), quantile(values, 0.9)};
+    return {quantile(values, 0.5), quantile(values, 0.1), quantile(values, 0.9),
+            quantile(values, 0.25), quantile(values, 0.75)};
 }
 
 }  // namespace bvhbench

@@ -77,6 +77,11 @@ std::string grouped(std::int64_t value)
     return text;
 }
 
+std::string counted(std::size_t count, const std::string& what)
+{
+    return grouped(static_cast<std::int64_t>(count)) + ' ' + what + (count == 1 ? "" : "s");
+}
+
 std::string padding_text(double percent)
 {
     if (percent == 0)

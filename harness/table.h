@@ -41,6 +41,9 @@ std::string bytes_text(double bytes);
 /// 1234567 as "1,234,567".
 std::string grouped(std::int64_t value);
 
+/// "1 cell", "1,200 cells".
+std::string counted(std::size_t count, const std::string& what);
+
 /// A percentage the way the paper's Table 1 prints padding: "45.05", "3.1e-3", "0".
 std::string padding_text(double percent);
 

@@ -4,14 +4,18 @@
     plots/all.py FILE_OR_FOLDER... --out DIR
 
 A folder stands for all result files below it; their pictures go into folders of the same names below DIR.
-Other JSON files are passed over.
+Other JSON files are passed over, and so are files of a folder that no figure is made of.
 """
 from __future__ import annotations
 
 import argparse
+import collections
+import functools
 import pathlib
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+
+import matplotlib.pyplot as plt
 
 import accuracy
 import fig10
@@ -26,6 +30,7 @@ import roofline
 import scaling
 import stress
 import style
+import sweeps
 import swept
 import table1
 import table2
@@ -63,6 +68,27 @@ def files_of(given: pathlib.Path, out: pathlib.Path) -> Iterator[tuple[pathlib.P
             yield path, out / path.parent.relative_to(given)
 
 
+def pictures_of(run: results.Run) -> dict[str, Callable[[], plt.Figure]]:
+    """Every figure that the file has cells for, by the name of its picture."""
+    path = run.path
+    figures = {style.stem(path, name): functools.partial(draw, run) for name, draw in FIGURES.items() if run.of(name)}
+    figures |= accuracy.figures_of(run)
+    if run.stress:
+        figures[style.stem(path, "stress")] = lambda: stress.draw(run)
+    for experiment, of_frames in FRAME_FIGURES.items():
+        if run.has_frames(experiment):
+            figures |= {style.stem(path, name): functools.partial(draw, run) for name, draw in of_frames.items()}
+    return figures | {style.stem(path, name): functools.partial(draw, run) for name, draw in sweeps.figures_of(run).items()}
+
+
+def held(run: results.Run) -> str:
+    """The experiments that a file holds, for a sentence."""
+    counts = collections.Counter(cell.experiment for cell in run.cells)
+    counts.update(cell["experiment"] for cell in run.without_numbers)
+    named = [f"{name} ({count} cell{'' if count == 1 else 's'})" for name, count in counts.items()]
+    return ", ".join(named) or "no cells"
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("given", nargs="+", type=pathlib.Path, metavar="FILE_OR_FOLDER")
@@ -74,21 +100,12 @@ def main() -> int:
         for path, folder in files_of(given, arguments.out):
             try:
                 run = results.load(path)
-                for name, draw in FIGURES.items():
-                    if run.of(name):
-                        for picture in style.save(draw(run), folder, style.stem(path, name)):
-                            print(picture)
-                for name, draw_axis in accuracy.figures_of(run).items():
-                    for picture in style.save(draw_axis(), folder, name):
+                pictures = pictures_of(run)
+                if not pictures and not given.is_dir():
+                    raise results.Refused(f"{path}: there is no figure of what it holds: {held(run)}")
+                for name, draw in pictures.items():
+                    for picture in style.save(draw(), folder, name):
                         print(picture)
-                if run.stress:
-                    for picture in style.save(stress.draw(run), folder, style.stem(path, "stress")):
-                        print(picture)
-                for experiment, figures in FRAME_FIGURES.items():
-                    if run.has_frames(experiment):
-                        for name, draw in figures.items():
-                            for picture in style.save(draw(run), folder, style.stem(path, name)):
-                                print(picture)
             except results.Refused as refusal:
                 print(refusal, file=sys.stderr)
                 refused = 1

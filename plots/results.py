@@ -190,16 +190,31 @@ def is_result(path: pathlib.Path) -> bool:
     return isinstance(document, dict) and {"format", "run", "cells"} <= document.keys()
 
 
-def load(path: pathlib.Path) -> Run:
-    """Read a result file. Raises Refused for another format and for a cell whose answer was wrong."""
+def document_of(path: pathlib.Path) -> dict[str, Any]:
+    """A result file as it is, wrong answers and all. Raises Refused for another format."""
     try:
         document = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
+    except OSError as error:
+        raise Refused(f"{path}: {error.strerror}") from error
+    except ValueError as error:
         raise Refused(f"{path}: {error}") from error
     if not isinstance(document, dict) or "format" not in document:
         raise Refused(f"{path}: not a result file")
     if document["format"].split(".")[0] != MAJOR:
         raise Refused(f"{path}: format {document['format']}, while this reader knows {MAJOR}.x")
+    if not {"run", "cells"} <= document.keys():
+        raise Refused(f"{path}: not a result file")
+    return document
+
+
+def load(path: pathlib.Path) -> Run:
+    """Read a result file. Raises Refused for another format and for a cell whose answer was wrong."""
+    document = document_of(path)
+    devices = sorted({f"{source['device']}, driver {source['driver']}" for source in document.get("merged_from", [])})
+    if len(devices) > 1:
+        raise Refused(f"{path}: merged from several devices, which no figure tells apart: {'; '.join(devices)}")
+    for hook, value in document["run"].get("test_hooks", {}).items():
+        raise Refused(f"{path}: made under the test hook {hook}={value}: it is no result")
     measured = [cell for cell in document["cells"] if cell["status"] == "measured"]
     without = [cell for cell in document["cells"] if cell["status"] != "measured"]
     return Run(path, document["run"], [cell_of(path, cell) for cell in measured], without,
@@ -214,6 +229,12 @@ def called(cell: dict[str, Any]) -> str:
     return names.pipeline(collider["name"], collider.get("options", {}), builder["name"], builder.get("options", {}))
 
 
+def counted(samples: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Those that statistics are made of: no drift of the device was near, unless it was near most of them."""
+    steady = [sample for sample in samples if not sample.get("drifted", False)]
+    return steady if 2 * len(steady) >= len(samples) else samples
+
+
 def cell_of(path: pathlib.Path, cell: dict[str, Any]) -> Cell:
     scene, builder = cell["scene"], cell["builder"]
     if cell["check"]["verdict"] == "differs":
@@ -222,7 +243,7 @@ def cell_of(path: pathlib.Path, cell: dict[str, Any]) -> Cell:
     collider = cell.get("collider", {})
     options, collider_options = (tuple(sorted((key, str(value)) for key, value in choice.get("options", {}).items()))
                                  for choice in (builder, collider))
-    samples = [{entry["stage"]: entry for entry in sample["stages"]} for sample in cell["samples"]]
+    samples = [{entry["stage"]: entry for entry in sample["stages"]} for sample in counted(cell["samples"])]
     return Cell(cell["experiment"], scene["name"], scene.get("triangles", 0), scene.get("stand_in_for"), scene.get("outlier"),
                 builder["name"], options, cell.get("operation", "build"), scene.get("frame", 0), collider.get("name"), collider_options,
                 cell["check"]["verdict"] in ("agrees", "counted"), cell["counters"],

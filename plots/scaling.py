@@ -22,6 +22,7 @@ import results
 import style
 
 WHOLE = "whole build"
+COLUMNS, LINE = 4, 120  # of the legend: columns, and letters that they have room for together
 Times = Callable[[results.Cell], numpy.ndarray]  # seconds, one per sample
 Curve = list[tuple[int, results.Quantiles]]  # triangles, seconds; by size
 
@@ -67,11 +68,12 @@ def dress(upper: list[plt.Axes], lower: list[plt.Axes], sizes: list[int]) -> Non
         axes.set_xlabel("triangles")
 
 
-def draw(run: results.Run) -> plt.Figure:
-    cells = [cell for cell in run.of("scaling") if cell.samples]
+def draw(run: results.Run, experiment: str = "scaling", cells: list[results.Cell] | None = None) -> plt.Figure:
+    """Of all the experiment's cells, unless some are chosen."""
+    cells = [cell for cell in (run.of(experiment) if cells is None else cells) if cell.samples]
     stages = stages_of(cells)
     if not stages:
-        raise results.Refused(f"{run.path}: no measured cell of scaling has a stage")
+        raise results.Refused(f"{run.path}: no measured cell of {experiment} has a stage")
     among = style.in_order(cells)
     columns: dict[str, Times] = {stage: lambda cell, stage=stage: cell.times_s(stage) for stage in stages}
     columns[WHOLE] = lambda cell: cell.whole_times_s()
@@ -85,8 +87,10 @@ def draw(run: results.Run) -> plt.Figure:
                 draw_curve(upper[place], points, False, series, among)
                 draw_curve(lower[place], points, True, series, among)
     dress(list(upper), list(lower), [cell.triangles for cell in cells])
-    height = figure.legend_above(drawing, upper[-1].get_legend_handles_labels()[0], 4)
-    figure.footer(drawing, run, "scaling", ("Medians; bands: 10th to 90th percentile.",), height)
+    handles = upper[-1].get_legend_handles_labels()[0]
+    longest = max((len(handle.get_label()) for handle in handles), default=0)
+    height = figure.legend_above(drawing, handles, max(1, min(COLUMNS, LINE // (longest + 6))))
+    figure.footer(drawing, run, experiment, ("Medians; bands: 10th to 90th percentile.",), height)
     return drawing
 
 

@@ -9,7 +9,7 @@ import pathlib
 import re
 import sys
 
-ROOMS = ("geometry", "device", "builders", "oibvh", "baselines", "collide")
+ROOMS = ("geometry", "device", "builders", "oibvh", "baselines", "collide", "library")
 PRAGMA = "#pragma OPENCL FP_CONTRACT OFF"
 HOME = "geometry/dialect.h"
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)

@@ -90,7 +90,10 @@ Finding judge_builds(Session& session, const BuilderChoice& choice, const Input&
 
 }  // namespace
 
-std::string system_name(const BuilderChoice& builder) { return builder.name; }
+std::string system_name(const BuilderChoice& builder)
+{
+    return builder.name + (builder.boxes == "f32" ? "" : " in " + builder.boxes);
+}
 
 bool builds_on_device(Session& session, const BuilderEntry& entry)
 {

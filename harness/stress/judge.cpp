@@ -23,10 +23,15 @@ std::size_t missing_from(const PairList& list, const PairList& other)
     return missing.size();
 }
 
-FoundPairs expected_over(const StressScene& scene)
+PairList pairs_of(const StressScene& scene)
+{
+    return touching_pairs(scene.mesh.points, scene.mesh.faces, true);
+}
+
+FoundPairs expected_over(const StressScene& scene, PairList pairs)
 {
     FoundPairs expected;
-    expected.pairs = touching_pairs(scene.mesh.points, scene.mesh.faces, true);
+    expected.pairs = std::move(pairs);
     if (has_exact_reference)
         expected.contacts =
             intersecting_pairs(scene.mesh.points, scene.mesh.faces, *expected.pairs, true);
@@ -46,7 +51,8 @@ template <class Add>
 void compare(const FoundPairs& found, const FoundPairs& expected, const Add& add)
 {
     if (found.pairs && expected.pairs)
-        add(Invariant::pairs, judge_pairs(*found.pairs, *expected.pairs));
+        add(Invariant::pairs, found.is_rounded ? judge_candidates(*found.pairs, *expected.pairs)
+                                               : judge_pairs(*found.pairs, *expected.pairs));
     if (found.contacts && expected.contacts)
         add(Invariant::contacts, judge_pairs(*found.contacts, *expected.contacts));
 }
@@ -91,6 +97,18 @@ Finding judge_pairs(const PairList& found, const PairList& expected)
     return finding;
 }
 
+Finding judge_candidates(const PairList& found, const PairList& expected)
+{
+    const std::size_t missed = missing_from(found, expected);
+    Finding finding{holds, expected.size(), missed + found.surplus(), missed};
+    if (finding.wrong > 0) {
+        finding.verdict = broken;
+        finding.detail = std::to_string(missed) + " missed, " + std::to_string(found.surplus()) +
+                         " twice, of " + std::to_string(expected.size());
+    }
+    return finding;
+}
+
 Finding judge_repeats(std::span<const std::uint64_t> hashes)
 {
     Finding finding{holds, hashes.size()};
@@ -107,7 +125,7 @@ Finding judge_repeats(std::span<const std::uint64_t> hashes)
 StressQuestion question_of(StressScene scene, std::uint64_t seed)
 {
     StressQuestion question{std::move(scene), {}, {}};
-    question.expected = expected_over(question.scene);
+    question.expected = expected_over(question.scene, pairs_of(question.scene));
     const auto add = [&](std::optional<StressVariant> variant) {
         if (variant)
             question.variants.push_back({std::move(*variant), question.expected});
@@ -115,9 +133,12 @@ StressQuestion question_of(StressScene scene, std::uint64_t seed)
     add(shuffled(question.scene, seed));
     add(swapped(question.scene));
     add(scaled(question.scene, seed));
+    // With as many bits as a translation takes, a scene with an outlier is all but one point: another one.
+    const std::size_t most = 100 * (question.expected.pairs->size() + question.scene.mesh.faces.size());
     if (auto translation = translated(question.scene))
-        question.variants.push_back(
-            {std::move(translation->moved), expected_over(translation->snapped)});
+        if (PairList pairs = pairs_of(translation->snapped); pairs.size() <= most)
+            question.variants.push_back({std::move(translation->moved),
+                                         expected_over(translation->snapped, std::move(pairs))});
     return question;
 }
 

@@ -21,12 +21,16 @@ Findings judge_tree(const HostTree& tree, std::span<const Point> points,
 /// Of a set of pairs: how many are missed, false, or found twice.
 Finding judge_pairs(const PairList& found, const PairList& expected);
 
+/// The same of pairs of boxes that were rounded outward: others may be among them.
+Finding judge_candidates(const PairList& found, const PairList& expected);
+
 /// Of the same thing done so often: hashes that are not the first one.
 Finding judge_repeats(std::span<const std::uint64_t> hashes);
 
 /// What a system that looks for pairs has found; what it does not look for is not there.
 struct FoundPairs {
     std::optional<PairList> pairs, contacts;
+    bool is_rounded = false;  ///< pairs are of boxes that were rounded outward
     bool operator==(const FoundPairs&) const = default;
 };
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "harness/stress/libraries.h"
 
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -19,6 +18,7 @@
 #include "geometry/error.h"
 #include "harness/failure.h"
 #include "scenes/worker/process.h"
+#include "scenes/worker/worker.h"
 
 namespace bvhbench {
 namespace {
@@ -127,15 +127,8 @@ bool is_library_worker(int argc, char** argv) { return argc == 4 && argv[1] == a
 
 int library_worker_main(int, char** argv)
 {
-#if !defined(__SANITIZE_ADDRESS__)  // its shadow memory takes terabytes of address space
-    const rlimit limit{memory_limit, memory_limit};
-    setrlimit(RLIMIT_AS, &limit);
-#endif
-    const rlimit no_core{0, 0};
-    setrlimit(RLIMIT_CORE, &no_core);
-    // What the library prints itself must not be taken for its answer.
-    std::ofstream answer("/dev/fd/" + std::to_string(dup(STDOUT_FILENO)), std::ios::binary);
-    dup2(STDERR_FILENO, STDOUT_FILENO);
+    limit_worker(memory_limit);
+    std::ofstream answer("/dev/fd/" + std::to_string(take_standard_output()), std::ios::binary);
     const std::string failure = reason_of_failure([&] {
         const PlainLibrary& library = library_called(argv[2]);
         std::ifstream in(argv[3], std::ios::binary);

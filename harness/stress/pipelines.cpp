@@ -18,6 +18,13 @@ using enum Finding::Verdict;
 constexpr std::string_view some_builders[] = {"oibvh-multi", "oibvh-wide4", "oibvh-wide8-q8",
                                               "karras"};
 
+/// Who walks boxes in which format: one for each, since formats change what kernels are compiled for and not what they do.
+struct InFormat {
+    std::string_view collider, boxes;
+};
+constexpr InFormat some_formats[] = {
+    {"leaf", "f64"}, {"leaf", "u8"}, {"group", "u16"}, {"block", "u16"}, {"bvtt", "f16"}, {"front", "f64"}};
+
 /// A builder's tree over one triangle.
 const Tree& smallest_tree(Session& session, const BuilderChoice& choice)
 {
@@ -54,9 +61,10 @@ Input uploaded(Session& session, const StressScene& scene)
                   scene.objects);
 }
 
-FoundPairs found_by(const Pipeline& pipeline)
+FoundPairs found_by(const Pipeline& pipeline, const StressPipeline& chosen)
 {
     FoundPairs found;
+    found.is_rounded = find_box_format(chosen.builder.boxes).has_cells();
     if (pipeline.has_pairs())
         found.pairs = pipeline.pairs();
     if (pipeline.has_contacts())
@@ -83,11 +91,16 @@ Findings guarded(Session& session, const StressPipeline& chosen, const Judge& ju
 
 }  // namespace
 
+BuilderChoice in_format(std::string_view name, std::string_view boxes)
+{
+    return {.name = std::string(name), .sorted_leaves = boxes != "f32", .boxes = std::string(boxes)};
+}
+
 std::string system_name(const BuilderChoice& builder, const ColliderChoice& collider)
 {
     std::string name = collider.name;
     if (!builder.name.empty())
-        name += " over " + builder.name;
+        name += " over " + system_name(builder);
     if (collider.form != KernelForm::of_device)
         name += collider.form == KernelForm::groups ? ", groups" : ", chunks";
     return name;
@@ -127,6 +140,9 @@ std::vector<StressPipeline> stress_pipelines(Session& session, bool few, bool ot
             one.collider.form = other;
             pipelines.push_back(one);
         }
+        for (const InFormat& one : some_formats)
+            if (one.collider == entry.name)
+                pipelines.push_back({in_format(builder_in_formats, one.boxes), choice, false});
     }
     return pipelines;
 }
@@ -140,12 +156,12 @@ PairFinder finder_of(Session& session, const StressPipeline& chosen)
         Pipeline pipeline(session, chosen.builder, collider, input);
         pipeline.begin_frame({});
         pipeline.settle(input);
-        FoundPairs first = found_by(pipeline);
+        FoundPairs first = found_by(pipeline, chosen);
         if (!pipeline.collider().keeps_tree())
             return first;
         pipeline.begin_frame({});
         pipeline.settle(input);
-        FoundPairs second = found_by(pipeline);
+        FoundPairs second = found_by(pipeline, chosen);
         if (first != second)
             throw Unavailable("two frames in a row over the same points found different pairs");
         return second;
@@ -162,7 +178,7 @@ Findings judge_frames(Session& session, const StressPipeline& chosen, const Stre
         for (int frame = 0; frame <= repeats; ++frame) {
             pipeline.begin_frame({});
             pipeline.settle(input);
-            hashes.push_back(hash_of(found_by(pipeline)));
+            hashes.push_back(hash_of(found_by(pipeline, chosen)));
         }
         return Findings{{Invariant::same, judge_repeats(hashes)}};
     });

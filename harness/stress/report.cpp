@@ -147,19 +147,28 @@ std::string stress_report(const std::vector<StressCell>& cells,
                           const std::map<std::string, std::string>& versions)
 {
     std::string text = scenes_table(cells) + '\n' + systems_table(cells, versions) + '\n';
-    std::size_t ours = 0, wrong = 0;
-    for (const StressCell& cell : cells) {
-        ours += cell.library.empty() ? 1 : 0;
-        if (!is_our_fault(cell))
-            continue;
-        ++wrong;
+    std::size_t ours = 0, wrong = 0, refusals = 0;
+    const auto tell = [&](const char* word, const StressCell& cell, Finding::Verdict verdict) {
         for (const auto& [invariant, finding] : cell.findings)
-            if (finding.verdict == broken)
-                text += "WRONG " + cell.family + ": " + cell.scene + ", " + cell.system + ", " +
+            if (finding.verdict == verdict)
+                text += word + cell.family + ": " + cell.scene + ", " + cell.system + ", " +
                         std::string(name_of(invariant)) + ": " + finding.detail + '\n';
+    };
+    for (const StressCell& cell : cells) {
+        if (!cell.library.empty())
+            continue;
+        ++ours;
+        if (is_our_fault(cell)) {
+            ++wrong;
+            tell("WRONG ", cell, broken);
+        } else if (cell.kind != StressCell::Kind::host && verdict_of(cell) == "refused") {
+            ++refusals;  // of the host, that is what was to be done
+            tell("refused ", cell, refused);
+        }
     }
-    return text + std::to_string(ours) + " cells of ours, " +
-           (wrong == 0 ? "all right\n" : std::to_string(wrong) + " wrong\n");
+    text += std::to_string(ours) + " cells of ours, " +
+            (wrong > 0 ? std::to_string(wrong) + " wrong" : refusals > 0 ? "none wrong" : "all right");
+    return text + (refusals > 0 ? ", " + std::to_string(refusals) + " refused\n" : "\n");
 }
 
 }  // namespace bvhbench

@@ -13,9 +13,15 @@
 
 namespace bvhbench {
 
-/// The name of a builder's system, and of a pipeline's.
+/// The name of a builder's system, "oibvh-multi in u16", and of a pipeline's.
 std::string system_name(const BuilderChoice& builder);
 std::string system_name(const BuilderChoice& builder, const ColliderChoice& collider);
+
+/// The builder of that name, its boxes in that format, for which leaves are sorted where they have to be.
+BuilderChoice in_format(std::string_view name, std::string_view boxes);
+
+/// Whose trees are put under stress in other formats where there is time for one builder only.
+inline constexpr std::string_view builder_in_formats = "oibvh-multi";
 
 /// Whether it is there and its kernels run on the device.
 bool builds_on_device(Session& session, const BuilderEntry& entry);
@@ -45,8 +51,8 @@ struct StressPipeline {
 };
 
 /// Those that can be: every collider over a tree of each way to walk one that it takes (whose trees they are, builders'
-/// own findings tell), and, if `other_forms`, over some in the form of kernels that is not the device's. If `few`, over
-/// fewer.
+/// own findings tell), and, if `other_forms`, over some in the form of kernels that is not the device's; and some over boxes
+/// of every other format. If `few`, over fewer.
 std::vector<StressPipeline> stress_pipelines(Session& session, bool few, bool other_forms);
 
 /// Whether the form of kernels that is not the device's is put under stress too. On a CPU groups show what they do on a

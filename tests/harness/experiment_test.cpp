@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "collide/skips.h"
 #include "geometry/error.h"
 #include "harness/scene_range.h"
@@ -211,12 +213,51 @@ TEST(Experiment, ReadsEveryKey)
     EXPECT_EQ(quick.builders.size(), 3u);
 }
 
+TEST(Experiment, SaysWhenToStopSamplingAndWhetherCachesAreCold)
+{
+    const auto of = [](const std::string& keys) {
+        return parse_experiment(R"({"experiment": "a", "scenes": ["soup:1"], "builders": ["perfect"],
+                                    "pipelines": [{"builder": "perfect", "collider": "leaf"}])" +
+                                    keys + "}",
+                                "x.json", false);
+    };
+    EXPECT_EQ(of("").sampling, SamplingRules());
+    const Experiment experiment = of(
+        R"(, "until": 0.02, "min_samples": 20, "max_samples": 300, "time_budget_s": 2.5, "caches": "cold")");
+    EXPECT_EQ(experiment.sampling, (SamplingRules{.until = 0.02,
+                                                  .min_samples = 20,
+                                                  .max_samples = 300,
+                                                  .time_budget_s = 2.5,
+                                                  .cold = true}));
+    EXPECT_EQ(experiment.collisions.at(0).sampling, experiment.sampling);
+    for (const char* keys :
+         {R"(, "until": -1)", R"(, "until": "2%")", R"(, "caches": "warm")", R"(, "min_samples": 20)",
+          R"(, "until": 0.1, "min_samples": 20, "max_samples": 10)", R"(, "time_budget_s": 3)"})
+        EXPECT_THROW(of(keys), BadUsage) << keys;
+}
+
+TEST(Experiment, SmokeHasEveryBuilderAndEveryCollider)
+{
+    const Experiment smoke = find_experiment("smoke", false);
+    for (const BuilderEntry& entry : builder_catalog())
+        EXPECT_TRUE(std::any_of(smoke.builders.begin(), smoke.builders.end(),
+                                [&](const BuilderChoice& one) { return one.name == entry.name; }))
+            << entry.name;
+    for (const ColliderEntry& entry : collider_catalog())
+        for (const CollideTask& task : smoke.collisions)
+            EXPECT_TRUE(std::any_of(
+                task.pipelines.begin(), task.pipelines.end(),
+                [&](const PipelineChoice& one) { return one.collider.name == entry.name; }))
+                << entry.name << " on " << task.scene;
+    EXPECT_EQ(smoke.collisions.size(), smoke.scenes.size());
+}
+
 TEST(Experiment, NamesTheKeyThatItDoesNotKnowAndThoseItDoes)
 {
     EXPECT_EQ(refusal(R"({"experiment": "a", "scene": ["soup:1"], "builders": ["perfect"]})"),
               "x.json: 'scene' is no key of an experiment; there are: experiment, question, paper, "
-              "scenes, builders, operations, pipelines, stages, samples, warm_up, quality, "
-              "doubles, quick");
+              "scenes, builders, operations, pipelines, stages, samples, warm_up, until, min_samples, "
+              "max_samples, time_budget_s, caches, quality, doubles, quick");
     EXPECT_EQ(
         refusal(R"({"experiment": "a", "scenes": ["soup:1"],
                           "builders": [{"name": "perfect", "size": 3}]})"),

@@ -3,8 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <iterator>
+#include <sstream>
+
 #include "geometry/error.h"
+#include "harness/build_info.h"
 #include "harness/catalog.h"
+#include "harness/help.h"
 
 namespace bvhbench {
 namespace {
@@ -44,6 +50,26 @@ TEST(Options, OfBuildAreAllUnderstood)
     EXPECT_EQ(options.words.size(), 20u);
 }
 
+TEST(Options, OfReportAreAllUnderstood)
+{
+    const Options options = parsed({"report", "a.json", "b.json", "--scene", "soup:5", "--scene",
+                                    "soup:6", "--frame", "2", "--builder", "karras", "--collider",
+                                    "group", "--order", "hilbert30", "-o", "r.html"});
+    const auto& report = std::get<ReportCommand>(options.command);
+    EXPECT_EQ(report.files, (std::vector<std::string>{"a.json", "b.json"}));
+    EXPECT_EQ(report.scenes, (std::vector<std::string>{"soup:5", "soup:6"}));
+    EXPECT_EQ(report.frame, 2u);
+    EXPECT_EQ(report.builder, (BuilderChoice{.name = "karras", .order = "hilbert30"}));
+    EXPECT_EQ(report.collider.name, "group");
+    EXPECT_FALSE(report.collider.keep_adjacent);
+    EXPECT_EQ(report.collider.narrow, "exact");
+    EXPECT_EQ(report.out, "r.html");
+    const Options usual = parsed({"report", "a.json"});
+    EXPECT_EQ(std::get<ReportCommand>(usual.command).builder.name, "oibvh-multi");
+    EXPECT_EQ(std::get<ReportCommand>(usual.command).collider.name, "leaf");
+    EXPECT_EQ(std::get<ReportCommand>(usual.command).out, "report.html");
+}
+
 TEST(Options, OfCostsAreThoseOfAilaUnlessGiven)
 {
     const auto costs = [](std::vector<const char*> words) {
@@ -71,6 +97,29 @@ TEST(Options, OfQualityAreTwoNamesOfOneFlag)
     EXPECT_TRUE(std::get<RunCommand>(parsed({"run", "smoke", "--epo"}).command).quality);
     EXPECT_TRUE(
         std::get<ReproduceCommand>(parsed({"reproduce", "fig13", "--quality"}).command).quality);
+}
+
+TEST(Options, OfSweepAreAllUnderstood)
+{
+    const Options options = parsed(
+        {"sweep", "--scenes", "a,b", "s.json", "--sizes", "1:8:x2", "--builders", "karras", "--set", "boxes=f32,u16",
+         "--set", "leaves=sorted", "--out", "folder", "--device", "0", "--device", "big one", "--shard", "1/2"});
+    const auto& sweep = std::get<SweepCommand>(options.command);
+    EXPECT_EQ(sweep.file, "s.json") << "and no third scene";
+    EXPECT_EQ(sweep.scenes, (std::vector<std::string>{"a", "b"}));
+    EXPECT_EQ(sweep.builders, std::vector<std::string>{"karras"});
+    EXPECT_EQ(sweep.set, (std::vector<std::string>{"boxes=f32,u16", "leaves=sorted"}));
+    EXPECT_EQ(sweep.devices, (std::vector<std::string>{"0", "big one"}));
+    EXPECT_EQ(sweep.sizes, "1:8:x2");
+    EXPECT_EQ(sweep.shard, "1/2");
+    EXPECT_EQ(sweep.together, "cell");
+    EXPECT_EQ(sweep.jobs, 0u);
+    EXPECT_EQ(std::get<SweepCommand>(parsed({"--device", "1", "sweep", "s.json", "--out", "f"}).command).devices.size(),
+              0u);
+    EXPECT_NE(refusal({"sweep", "s.json", "--out", "f", "--together", "all"}).find("there are: cell, scene"),
+              std::string::npos);
+    EXPECT_EQ(std::get<MergeCommand>(parsed({"merge", "a", "b", "-o", "c"}).command).files,
+              (std::vector<std::string>{"a", "b"}));
 }
 
 TEST(Options, OfCollideAreAllUnderstood)
@@ -107,8 +156,9 @@ TEST(Options, OfSweptBoxesDropPairsThatShareAVertex)
     EXPECT_TRUE(collide.swept);
     EXPECT_FALSE(collide.collider.keep_adjacent);
     parsed(swept({"--adjacent", "drop"}));
-    EXPECT_NE(refusal(swept({"--adjacent", "keep"})).find("--swept leaves out pairs that share a vertex"),
-              std::string::npos);
+    EXPECT_NE(
+        refusal(swept({"--adjacent", "keep"})).find("--swept leaves out pairs that share a vertex"),
+        std::string::npos);
 }
 
 TEST(Options, OfAccuracyAreAllUnderstood)
@@ -151,12 +201,50 @@ TEST(Options, InCommonMayStandBeforeOrBehindTheCommand)
 
 TEST(Options, ThatAskForHelpOnlyPrint)
 {
-    for (const char* command :
-         {"list", "build", "collide", "run", "reproduce", "check", "show", "stress"}) {
-        const auto text = std::get<PrintCommand>(parsed({command, "--help"}).command).text;
-        EXPECT_NE(text.find("Usage: bvhbench " + std::string(command)), std::string::npos) << text;
+    const auto whole = std::get<PrintCommand>(parsed({"--help"}).command).text;
+    for (const char* words : {"Exit codes:", "128 + n", "BVHBENCH_DATA", "--time-limit"})
+        EXPECT_NE(whole.find(words), std::string::npos) << words;
+    for (const CommandHelp& help : command_helps()) {
+        const std::string command(help.command);
+        EXPECT_NE(whole.find("\n  " + command + ' '), std::string::npos) << command;
+        const auto text = std::get<PrintCommand>(parsed({command.c_str(), "--help"}).command).text;
+        EXPECT_NE(text.find("Usage: bvhbench " + command), std::string::npos) << text;
+        EXPECT_NE(text.find("Examples:"), std::string::npos) << text;
+        EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(build_info.source_root) / help.see))
+            << help.see;
     }
     EXPECT_TRUE(std::get<PrintCommand>(parsed({"--version"}).command).text.starts_with("bvhbench"));
+}
+
+TEST(Options, ThatHelpShowsAreUnderstood)
+{
+    for (const CommandHelp& help : command_helps()) {
+        EXPECT_FALSE(help.examples.empty()) << help.command;
+        for (const HelpExample& example : help.examples) {
+            std::istringstream line{std::string(example.line)};
+            std::vector<std::string> words{std::istream_iterator<std::string>(line), {}};
+            ASSERT_GT(words.size(), 1u) << example.line;
+            EXPECT_EQ(words[0], "bvhbench");
+            EXPECT_EQ(words[1], help.command);
+            std::vector<const char*> rest;
+            for (std::size_t k = 1; k < words.size(); ++k)
+                rest.push_back(words[k].c_str());
+            EXPECT_EQ(refusal(rest), "") << example.line;
+        }
+    }
+}
+
+TEST(Options, OfHelpStayWithinThePage)
+{
+    for (const CommandHelp& help : command_helps()) {
+        std::istringstream lines(std::get<PrintCommand>(
+                                     parsed({std::string(help.command).c_str(), "--help"}).command)
+                                     .text);
+        for (std::string line; std::getline(lines, line);)
+            EXPECT_TRUE(line.size() <= 100 || line.starts_with("  bvhbench ") ||
+                        line.find(' ', 30) == line.npos)
+                << line;
+    }
 }
 
 TEST(Options, ThatAreNotUnderstoodAreAnsweredInOneSentence)
@@ -189,11 +277,11 @@ TEST(Options, ThatAreNotUnderstoodAreAnsweredInOneSentence)
         EXPECT_FALSE(sentence.empty()) << (words.empty() ? "" : words[0]);
         EXPECT_EQ(sentence.find('\n'), std::string::npos) << sentence;
     }
-    EXPECT_NE(
-        refusal({"list", "colours"})
-            .find("there is no 'colours'; there are: builders, colliders, narrow, orders, formats, skips, "
-                  "tuning, scenes, devices, accuracy"),
-        std::string::npos);
+    EXPECT_NE(refusal({"list", "colours"})
+                  .find("there is no 'colours'; there are: builders, colliders, narrow, orders, "
+                        "formats, skips, "
+                        "tuning, scenes, devices, accuracy"),
+              std::string::npos);
 }
 
 TEST(Catalog, ListsEachBuilderOnceUnderTheNameOnItsCard)

@@ -8,6 +8,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "geometry/error.h"
+
 namespace bvhbench {
 namespace {
 
@@ -26,6 +28,23 @@ TEST(Plot, NamesReachTheScriptAsTheyAreWhateverAShellWouldMakeOfThem)
     std::ifstream file(folder / "drawn");
     EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}),
               (folder / "r 1.json").string() + "\n--out\n" + folder.string());
+    fs::remove_all(folder);
+}
+
+TEST(Plot, AScriptEndsWithItsOwnStatusAndOneThatIsNotThereIsNamed)
+{
+    const fs::path folder = fs::temp_directory_path() / ("plots of " + std::to_string(getpid()));
+    fs::create_directories(folder / "plots");
+    std::ofstream(folder / "plots" / "two.py") << "import sys\nsys.exit(40 + len(sys.argv))\n";
+    setenv("BVHBENCH_HOME", folder.c_str(), 1);
+    EXPECT_EQ(run_plots_script("two.py", {"a b", "--"}), 43);
+    try {
+        run_plots_script("none.py", {});
+        ADD_FAILURE() << "nothing was thrown";
+    } catch (const Unavailable& error) {
+        EXPECT_NE(std::string(error.what()).find("none.py is not there"), std::string::npos);
+    }
+    unsetenv("BVHBENCH_HOME");
     fs::remove_all(folder);
 }
 

@@ -5,6 +5,8 @@ A test script is called with the program and the result schema, and ends with `s
 import json
 import os
 import pathlib
+import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -39,6 +41,26 @@ def valid(path: str) -> dict:
     if jsonschema:
         jsonschema.validate(result, json.loads(SCHEMA.read_text()))
     return result
+
+
+def copied_kernels(folder: str) -> str:
+    """A folder of all kernels' text, for --kernels, to be changed there."""
+    source = SCHEMA.parents[2]
+    for path in source.rglob("*"):
+        if path.suffix in (".cl", ".clh", ".h") and "build" not in path.relative_to(source).parts[:1]:
+            to = pathlib.Path(folder, path.relative_to(source))
+            to.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(path, to)
+    return folder
+
+
+def planted_kernels(folder: str, pattern: str, replacement: str) -> str:
+    """The same, those of karras' topology changed."""
+    planted = pathlib.Path(copied_kernels(folder), "baselines/radix/karras_topology.cl")
+    text, kernels = re.subn(pattern, replacement, planted.read_text())
+    assert kernels > 0
+    planted.write_text(text)
+    return folder
 
 
 def main(names: dict) -> int:

@@ -30,7 +30,7 @@ TEST(Record, WritesACellOnOneLineWithKeysThatEndInTheirUnit)
         R"("builder":{"name":"oibvh-multi","options":{"order":"morton30","group_size":0,"items":0,)"
         R"("leaves":"mesh","boxes":"f32"}},"operation":"build","status":"measured","warm_up":1,"samples":[{"order":7,"stages":)"
         R"([{"stage":"hierarchy","launches":2,"busy_ns":109990,"span_ns":110000,)"
-        R"("moved_bytes":50000000,"start_ns":0}]}],"counters":{"nodes_count":288100,"scratch_bytes":0,)"
+        R"("moved_bytes":50000000,"start_ns":0,"queued_ns":0,"submitted_ns":0}]}],"counters":{"nodes_count":288100,"scratch_bytes":0,)"
         R"("tree_bytes":6914400},"check":{"verdict":"agrees","against":"oibvh-reference",)"
         R"("tree_hash":"00000000000000ff"}})");
 }
@@ -129,6 +129,41 @@ TEST(Record, ReadsBackWhatItWrote)
     EXPECT_EQ(document.cells[3].check.pairs_hash, 0x34u);
     EXPECT_EQ(document.cells[3].check.contacts_hash, 0x56u);
     EXPECT_EQ(document.cells[2].samples[0].stages[0].elapsed_ns(), 1234);
+}
+
+TEST(Record, ReadsBackHowSamplesWereTaken)
+{
+    Cell cell = fake_cell();
+    cell.first = {.compile_ns = 12, .run_ns = 34};
+    cell.sampling = {.stopped = Stopped::noisy, .until = 0.02, .cold = true};
+    cell.samples[0].calibration_ns = 1234;
+    cell.samples[1].drifted = true;
+    cell.samples[0].stages[0].queued_ns = 5;
+    cell.samples[0].stages[0].submitted_ns = 6;
+    RunFacts run = fake_run();
+    run.conditions = {.governor = "powersave",
+                      .turbo = true,
+                      .on_battery = false,
+                      .load = 0.5,
+                      .warnings = {"slow"}};
+    run.test_hooks = {{"BVHBENCH_SLOW", "karras:2"}};
+    const std::string text = text_of(run, {cell});
+    const Document document = read_document(text, "x");
+    EXPECT_EQ(text_of(document.run, document.cells), text);
+    EXPECT_EQ(document.minor, newest_minor);
+    EXPECT_EQ(document.run.conditions, run.conditions);
+    EXPECT_EQ(document.run.test_hooks, run.test_hooks);
+    const Cell& read = document.cells[0];
+    EXPECT_EQ(read.first.compile_ns, 12);
+    EXPECT_EQ(read.first.run_ns, 34);
+    EXPECT_EQ(read.sampling.stopped, Stopped::noisy);
+    EXPECT_EQ(read.sampling.until, 0.02);
+    EXPECT_TRUE(read.sampling.cold);
+    EXPECT_EQ(read.samples[0].calibration_ns, 1234);
+    EXPECT_FALSE(read.samples[0].drifted);
+    EXPECT_TRUE(read.samples[1].drifted);
+    EXPECT_EQ(read.samples[0].stages[0].queued_ns, 5);
+    EXPECT_EQ(read.samples[0].stages[0].submitted_ns, 6);
 }
 
 TEST(Record, ReadsBackWhatALaunchCostsAndWhatTheDeviceWasTunedTo)

@@ -48,6 +48,8 @@ TEST(Statistics, LieBetweenNeighboursInProportion)
     EXPECT_EQ(spread.median, 50);
     EXPECT_EQ(spread.p10, 10);
     EXPECT_EQ(spread.p90, 90);
+    EXPECT_EQ(spread.q1, 25);
+    EXPECT_EQ(spread.q3, 75);
 }
 
 TEST(Padding, IsCountedAndPrintedAsInTable1)
@@ -68,10 +70,42 @@ TEST(CellReport, PrintsStagesCountersAndVerdict)
 {
     EXPECT_EQ(cell_report(fake_cell(), fake_run()),
               "oibvh-multi on bunny, 144,046 triangles\n"
-              "stage      median      p10     p90  launches    bytes   GB/s  % of copy\n"
-              "hierarchy  100 us  92.0 us  108 us         2  50.0 MB  500.0     50.0 %\n"
+              "stage      median      p10       q1      q3     p90  launches    bytes   GB/s  % of copy"
+              "  queued  submitted\n"
+              "hierarchy  100 us  92.0 us  95.0 us  105 us  108 us         2  50.0 MB  500.0     50.0 %\n"
+              "3 samples; quartiles 10.0 % apart\n"
               "counters: nodes_count 288,100, scratch_bytes 0, tree_bytes 6,914,400\n"
               "verdict: agrees with oibvh-reference, tree 00000000000000ff\n");
+}
+
+TEST(CellReport, SaysWhyThereAreNoMoreSamplesAndLeavesOutThoseBesideDrift)
+{
+    Cell cell = fake_cell();
+    cell.first = {.compile_ns = 2000, .run_ns = 3000000};
+    cell.sampling = {.stopped = Stopped::noisy, .until = 0.02, .cold = true};
+    cell.samples[0].drifted = true;  // the slowest, of 110 us
+    cell.samples[1].stages[0].queued_ns = 4000;
+    cell.samples[2].stages[0].queued_ns = 6000;
+    cell.samples[1].stages[0].submitted_ns = cell.samples[2].stages[0].submitted_ns = 700;
+    const std::string text = cell_report(cell, fake_run());
+    EXPECT_NE(text.find("3 samples, caches emptied before each, 1 of them beside drift of the device "
+                        "and left out here; quartiles 5.3 % apart and staying so, above 2.0 %\n"
+                        "first run 3.00 ms on the host's clock, kernels compiled in 2.00 us\n"),
+              std::string::npos)
+        << text;
+    EXPECT_NE(text.find("hierarchy  95.0 us"), std::string::npos) << text;
+    EXPECT_NE(text.find("5.00 us     700 ns\n"), std::string::npos) << text;
+    // Where most are beside drift nothing is left out: measured, and marked.
+    cell.samples[1].drifted = true;
+    EXPECT_NE(cell_report(cell, fake_run()).find("hierarchy  100 us"), std::string::npos);
+}
+
+TEST(RunReport, WarnsOfWhatSpoilsTimes)
+{
+    RunFacts run = fake_run();
+    EXPECT_EQ(run_report(run).find("warning"), std::string::npos);
+    run.conditions.warnings = {"the host is on battery"};
+    EXPECT_NE(run_report(run).find("warning: the host is on battery\n"), std::string::npos);
 }
 
 TEST(CellReport, SaysWhatIsMissingAndWhereTheLeavesAre)
@@ -110,14 +144,14 @@ TEST(CellsReport, NeverPrintsATimeOfAWrongTree)
     failed.reason = "out of memory";
     const Document document{fake_run(), {fake_cell(), wrong, failed}};
     EXPECT_EQ(cells_report(document),
-              "scene  triangles  builder        median      p10     p90  Mtris/s  ns/tri   GB/s  % of copy"
-              "  verdict\n"
-              "bunny    144,046  oibvh-multi    100 us  92.0 us  108 us   1440.5    0.69  500.0     50.0 %"
-              "  agrees\n"
-              "bunny    144,046  oibvh-single  differs                                                    "
-              "  node 3 is lost\n"
-              "bunny    144,046  perfect        failed                                                    "
-              "  out of memory\n"
+              "scene  triangles  builder        median      p10       q1      q3     p90  n  Mtris/s"
+              "  ns/tri   GB/s  % of copy  verdict\n"
+              "bunny    144,046  oibvh-multi    100 us  92.0 us  95.0 us  105 us  108 us  3   1440.5"
+              "    0.69  500.0     50.0 %  agrees\n"
+              "bunny    144,046  oibvh-single  differs                                              "
+              "                            node 3 is lost\n"
+              "bunny    144,046  perfect        failed                                              "
+              "                            out of memory\n"
               "3 cells, 1 agree\n");
     EXPECT_EQ(cell_report(wrong, fake_run()).find("us"), std::string::npos);
     EXPECT_EQ(cells_report({fake_run(), {fake_cell()}}, true), "1 cells, 1 agree\n");

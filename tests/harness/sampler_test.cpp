@@ -77,6 +77,155 @@ TEST(Sampler, GoesOnWithTheOthersWhenOneFails)
     EXPECT_EQ(taken[1].samples.size(), 10u);
 }
 
+TEST(Sampler, TakesEveryCellOnceInEachRound)
+{
+    FakeBuild builds[3];
+    std::vector<Timed> cells;
+    for (FakeBuild& build : builds)
+        cells.push_back({"fake", std::ref(build)});
+    int order = 0;
+    const std::vector<Taken> taken = take_samples(cells, 40, 0, order);
+    std::set<int> places;  // of the first cell in its rounds
+    for (int round = 0; round < 40; ++round)
+        for (const Taken& cell : taken) {
+            EXPECT_EQ(cell.samples[round].order / 3, round);
+            places.insert(taken[0].samples[round].order % 3);
+        }
+    EXPECT_EQ(places.size(), 3u);
+}
+
+/// Takes as long as the list says, and the last for ever after.
+struct Listed {
+    std::vector<std::int64_t> times;
+    std::size_t next = 0;
+
+    std::vector<StageTime> operator()()
+    {
+        const std::int64_t ns = times[std::min(next++, times.size() - 1)];
+        return {{"hierarchy", ns, ns, 0, 1, 0}};
+    }
+};
+
+/// What `spread` around a thousand looks like, again and again: quartiles half of it apart.
+std::vector<std::int64_t> spread_by(std::int64_t spread, int count)
+{
+    std::vector<std::int64_t> times;
+    for (int i = 0; i < count; ++i)
+        times.push_back(1000 + spread * (i % 5 - 2) / 4);
+    return times;
+}
+
+Taken taken_until(std::vector<std::int64_t> times, SamplingRules rules)
+{
+    Listed listed{std::move(times)};
+    const std::vector<Timed> cells = {{"listed", std::ref(listed)}};
+    int order = 0;
+    return take_samples(cells, {.samples = 5, .warm_up = 0, .rules = rules}, order).at(0);
+}
+
+TEST(Sampler, StopsAtTheTargetAndNotBeforeTheLeastNumber)
+{
+    const Taken steady = taken_until({1000}, {.until = 0.02, .min_samples = 12});
+    EXPECT_EQ(steady.stopped, Stopped::steady);
+    EXPECT_EQ(steady.samples.size(), 12u);
+    // Twenty wild ones, then steady: quartiles come together when three quarters are of one kind.
+    std::vector<std::int64_t> calming(20);
+    for (std::size_t i = 0; i < calming.size(); ++i)
+        calming[i] = i % 2 == 0 ? 500 : 2000;
+    calming.push_back(1000);
+    const Taken later = taken_until(calming, {.until = 0.02, .min_samples = 12});
+    EXPECT_EQ(later.stopped, Stopped::steady);
+    EXPECT_GT(later.samples.size(), 30u);
+    EXPECT_LT(later.samples.size(), 60u);
+}
+
+TEST(Sampler, SaysHonestlyThatNoiseWillNotGoDown)
+{
+    const Taken noisy = taken_until(spread_by(400, 2000), {.until = 0.02});
+    EXPECT_EQ(noisy.stopped, Stopped::noisy);
+    EXPECT_GE(noisy.samples.size(), 64u);
+    EXPECT_LT(noisy.samples.size(), 200u);
+}
+
+TEST(Sampler, StopsAtTheMostAllowedAndWhenTheTimeIsOver)
+{
+    const Taken most = taken_until(spread_by(400, 2000), {.until = 0.02, .max_samples = 30});
+    EXPECT_EQ(most.stopped, Stopped::most);
+    EXPECT_EQ(most.samples.size(), 30u);
+    const Taken budget = taken_until(spread_by(400, 2000), {.until = 0.02, .time_budget_s = 0});
+    EXPECT_EQ(budget.stopped, Stopped::budget);
+    EXPECT_EQ(budget.samples.size(), 1u);
+    EXPECT_EQ(taken_until({1000}, {}).stopped, Stopped::number);
+    EXPECT_EQ(taken_until({1000}, {}).samples.size(), 5u);
+}
+
+TEST(Sampler, GoesOnWithThoseThatAreNotSteadyYet)
+{
+    Listed steady{{1000}};
+    Listed wild{spread_by(400, 2000)};
+    const std::vector<Timed> cells = {{"steady", std::ref(steady)}, {"wild", std::ref(wild)}};
+    int order = 0;
+    const std::vector<Taken> taken = take_samples(
+        cells, {.warm_up = 2, .rules = {.until = 0.02, .min_samples = 10}}, order);
+    EXPECT_EQ(taken[0].samples.size(), 10u);
+    EXPECT_EQ(taken[1].stopped, Stopped::noisy);
+    EXPECT_EQ(order, static_cast<int>(taken[0].samples.size() + taken[1].samples.size()) + 4);
+}
+
+TEST(Sampler, MarksSamplesBesideDriftAndKeepsThem)
+{
+    Listed build{{1000}};
+    const std::vector<Timed> cells = {{"fake", std::ref(build)}};
+    int looks = 0;
+    const auto calibrate = [&]() -> std::int64_t { return ++looks == 5 ? 200 : 100; };
+    int order = 0;
+    const std::vector<Taken> taken = take_samples(
+        cells, {.samples = 100, .warm_up = 1, .rules = {.calibrate_every = 10}}, order, calibrate);
+    // Looks are before samples 1, 11, 21, 31, 41, ...: the fifth is the one before 41.
+    ASSERT_EQ(taken[0].samples.size(), 100u);
+    for (const Sample& sample : taken[0].samples) {
+        EXPECT_EQ(sample.drifted, sample.order >= 31 && sample.order < 51) << sample.order;
+        EXPECT_EQ(sample.calibration_ns, sample.drifted ? 150 : 100);
+    }
+    EXPECT_EQ(looks, 11);
+}
+
+TEST(Sampler, DoesNotCountSamplesBesideDriftTowardsATarget)
+{
+    Listed build{{1000}};
+    const std::vector<Timed> cells = {{"fake", std::ref(build)}};
+    int looks = 0;
+    const auto calibrate = [&]() -> std::int64_t { return ++looks == 2 ? 300 : 100; };
+    int order = 0;
+    const SamplingRules rules{.until = 0.02, .min_samples = 12, .calibrate_every = 4};
+    const std::vector<Taken> taken =
+        take_samples(cells, {.warm_up = 0, .rules = rules}, order, calibrate);
+    EXPECT_EQ(taken[0].samples.size(), 16u);
+    // Drift that never ends is no reason never to end.
+    const auto worse = [&]() -> std::int64_t {
+        ++looks;
+        return std::int64_t{100} * looks * looks;
+    };
+    const std::vector<Taken> marked = take_samples(
+        cells, {.warm_up = 0, .rules = {.until = 0.02, .max_samples = 40, .calibrate_every = 4}},
+        order, worse);
+    EXPECT_EQ(marked[0].stopped, Stopped::most);
+    EXPECT_EQ(marked[0].samples.size(), 40u);
+}
+
+TEST(Sampler, GoesOnWithoutACalibrationThatFails)
+{
+    Listed build{{1000}};
+    const std::vector<Timed> cells = {{"fake", std::ref(build)}};
+    int order = 0;
+    const std::vector<Taken> taken =
+        take_samples(cells, {.samples = 30, .warm_up = 0}, order,
+                     []() -> std::int64_t { throw Unavailable("no room"); });
+    EXPECT_EQ(taken[0].samples.size(), 30u);
+    EXPECT_EQ(taken[0].samples[0].calibration_ns, 0);
+    EXPECT_EQ(taken[0].failure, "");
+}
+
 TEST(Sampler, PrintsNothing)
 {
     FakeBuild build;

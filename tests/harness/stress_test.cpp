@@ -4,7 +4,10 @@
 // scenes and variants are what they say.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <regex>
 
 #include "builders/spell_out.h"
 #include "collide/exact_reference.h"
@@ -13,6 +16,7 @@
 #include "harness/stress/libraries.h"
 #include "harness/stress/parts.h"
 #include "harness/stress/report.h"
+#include "harness/stress/run.h"
 
 namespace bvhbench {
 namespace {
@@ -85,6 +89,39 @@ TEST(StressPairs, CountsWhatIsMissedFalseAndTwice)
     EXPECT_EQ(judge_pairs(expected, expected), (Finding{holds, 4, 0, 0, ""}));
     const Finding finding = judge_pairs(PairList({{0, 1}, {1, 0}, {1, 2}, {0, 9}}), expected);
     EXPECT_EQ(finding, (Finding{broken, 4, 4, 2, "2 missed, 1 false, 1 twice, of 4"}));
+}
+
+TEST(StressPairs, OfRoundedBoxesMayHaveOthersAmongThemAndMissNone)
+{
+    const PairList expected({{0, 1}, {1, 2}, {2, 3}});
+    EXPECT_EQ(judge_candidates(PairList({{0, 1}, {0, 9}, {1, 2}, {2, 3}}), expected),
+              (Finding{holds, 3, 0, 0, ""}));
+    EXPECT_EQ(judge_candidates(PairList({{0, 1}, {0, 9}, {1, 2}, {1, 2}}), expected),
+              (Finding{broken, 3, 2, 1, "1 missed, 1 twice, of 3"}));
+}
+
+TEST(StressFinder, HoldsContactsBehindRoundedBoxesToAllOfThemAndNoOthers)
+{
+    const StressQuestion question = question_of(spheres(), 3);
+    const auto judged_with = [&](bool is_rounded, bool drops) {
+        return judge_finder(
+            [=](const StressScene& scene, std::size_t) {
+                FoundPairs found = right_answer(scene);
+                std::vector<Pair> more(found.pairs->pairs().begin(), found.pairs->pairs().end());
+                more.push_back({0, static_cast<uint>(scene.mesh.faces.size()) - 1});
+                found.pairs = PairList(std::move(more));
+                if (drops && found.contacts)
+                    found.contacts = shortened(*found.contacts);
+                found.is_rounded = is_rounded;
+                return found;
+            },
+            question, 0);
+    };
+    EXPECT_EQ(judged_with(true, false).at(Invariant::pairs).verdict, holds);
+    EXPECT_EQ(judged_with(false, false).at(Invariant::pairs).verdict, broken);
+    if (has_exact_reference) {
+        EXPECT_EQ(judged_with(true, true).at(Invariant::contacts).verdict, broken);
+    }
 }
 
 TEST(StressRepeats, NoticesOneHashThatIsAnother)
@@ -227,6 +264,28 @@ TEST(StressLayout, HoldsAndCountsWhatItLookedAt)
     EXPECT_GT(finding.checked, 20000u);
 }
 
+TEST(StressRun, TellsOfASceneThatTheDeviceHasNoRoomForAndGoesOn)
+{
+    Device device = open_device("");
+    device.memory_limit = 65536;
+    Session full(std::move(device), SceneLibrary{}, std::numeric_limits<std::uint64_t>::max());
+    StressTask task;
+    task.size = {false, 1};  // 5,000 triangles
+    task.filter = std::regex("^scale/1e(10|17)/(oibvh-multi|device)$");
+    std::vector<StressCell> cells;
+    stress_all(full, task, [&](StressCell&& cell) { cells.push_back(std::move(cell)); });
+    // Nothing of the other scenes was asked for, but the part that uploads one beforehand.
+    ASSERT_EQ(std::count_if(cells.begin(), cells.end(),
+                            [](const StressCell& cell) { return cell.family == "scale"; }),
+              2);
+    EXPECT_EQ(cells.back().family, "group-sizes");
+    for (const StressCell& cell : cells) {
+        EXPECT_EQ(cell.system, "device");
+        EXPECT_TRUE(is_our_fault(cell));
+        EXPECT_NE(cell.findings.at(Invariant::ends).detail.find("out of device memory"), std::string::npos);
+    }
+}
+
 TEST(StressReport, TellsOursFromTheLibraries)
 {
     StressCell ours;
@@ -242,6 +301,13 @@ TEST(StressReport, TellsOursFromTheLibraries)
     for (const char* words : {"-2 +0", "Embree 3.13.5", "1 cells of ours, all right"})
         EXPECT_NE(text.find(words), text.npos) << words << '\n' << text;
 
+    ours.findings[Invariant::ends] = {refused, 1, 0, 0, "out of device memory"};
+    text = stress_report({ours, theirs}, {});
+    for (const char* words : {"refused scale: 1e20, leaf over karras, ends: out of device memory",
+                              "1 cells of ours, none wrong, 1 refused\n"})
+        EXPECT_NE(text.find(words), text.npos) << words << '\n' << text;
+
+    ours.findings.erase(Invariant::ends);
     ours.findings[Invariant::room] = {broken, 10, 1, 1, "1 missed, 0 false, 0 twice, of 10"};
     EXPECT_TRUE(is_our_fault(ours));
     text = stress_report({ours, theirs}, {});

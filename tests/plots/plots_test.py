@@ -102,6 +102,33 @@ class Scripts(TemporaryFolder):
         self.assertIn("oibvh-multi (leaves sorted)", text)
 
 
+    def test_experiments_of_ones_own_are_drawn_as_what_they_can_be(self) -> None:
+        for name, figures in (("scaling", ["mine-scaling"]), ("quality", ["mine-orders"]), ("pairs", ["mine-frames"])):
+            document = json.loads((GOLDEN / f"{name}.json").read_text(encoding="utf-8"))
+            for cell in document["cells"]:
+                cell["experiment"] = "one-of-mine"
+            done = self.run_script("all.py", self.written(document, "mine.json"), "--out", self.folder / name)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            self.assertEqual({path.stem for path in (self.folder / name).iterdir()} & set(figures), set(figures), done.stdout)
+
+    def test_a_file_without_a_figure_is_told_what_it_holds(self) -> None:
+        for cell in self.document["cells"]:
+            cell["experiment"] = "smoke"
+        path = self.written(self.document, "no.json")
+        done = self.run_script("all.py", path, "--out", self.folder / "out")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn(f"{path}: there is no figure of what it holds: smoke ({len(self.document['cells'])} cells)", done.stderr)
+        (self.folder / "table1.json").unlink(missing_ok=True)
+        done = self.run_script("all.py", self.folder, "--out", self.folder / "out")
+        self.assertEqual((done.returncode, done.stderr), (0, ""), "in a folder it is passed over")
+
+    def test_cells_of_several_devices_make_no_picture(self) -> None:
+        source = {"id": "a", "started_at": "", "command": [], "commit": "", "host": "", "device": "one", "driver": "1"}
+        self.document["merged_from"] = [source, source | {"id": "b", "driver": "2"}]
+        done = self.run_script("all.py", self.written(self.document), "--out", self.folder / "out")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("merged from several devices, which no figure tells apart: one, driver 1; one, driver 2", done.stderr)
+
     def test_other_costs_are_named_and_not_held_against_the_papers(self) -> None:
         document = json.loads((GOLDEN / "table4.json").read_text(encoding="utf-8"))
         document["run"]["node_costs"] = {"inner": 2, "triangle": 0.5}
@@ -232,6 +259,20 @@ class Reader(TemporaryFolder):
     def test_refuses_a_wrong_answer(self) -> None:
         self.document["cells"][0]["check"]["verdict"] = "differs"
         self.assert_refused(self.document, "perfect gave a wrong answer on bunny")
+
+    def test_refuses_what_was_made_under_a_test_hook(self) -> None:
+        self.document["run"]["test_hooks"] = {"BVHBENCH_SLOW": "karras:2"}
+        self.assert_refused(self.document, "made under the test hook BVHBENCH_SLOW=karras:2: it is no result")
+
+    def test_leaves_out_samples_beside_drift_unless_most_are(self) -> None:
+        cell = self.document["cells"][0]
+        count = len(cell["samples"])
+        self.assertGreater(count, 2)
+        cell["samples"][0]["drifted"] = True
+        self.assertEqual(len(results.load(self.written(self.document)).cells[0].samples), count - 1)
+        for sample in cell["samples"]:
+            sample["drifted"] = True
+        self.assertEqual(len(results.load(self.written(self.document)).cells[0].samples), count)
 
     def test_counts_no_refit_as_a_build(self) -> None:
         refit = copy.deepcopy(self.document["cells"][0]) | {"operation": "refit"}

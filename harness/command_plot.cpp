@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#include <iostream>
+
+#include "geometry/error.h"
+#include "harness/commands.h"
+#include "harness/plot.h"
+
+namespace bvhbench {
+
+int plot(const PlotCommand& command, const Options&)
+{
+    const Drawn drawn = draw_all(command.files, command.out);
+    if (!drawn.all)
+        throw Unavailable(drawn.why);
+    std::cout << "drawn into " << command.out << '\n';
+    return 0;
+}
+
+}  // namespace bvhbench

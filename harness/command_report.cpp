@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include <filesystem>
+#include <iostream>
+#include <system_error>
+
+#include "builders/orders.h"
+#include "geometry/error.h"
+#include "harness/commands.h"
+#include "harness/plot.h"
+#include "harness/result_file.h"
+#include "harness/view.h"
+
+namespace bvhbench {
+namespace {
+
+/// Files that only the page's script reads, gone when it is done.
+class ViewFiles {
+public:
+    explicit ViewFiles(const std::string& page) : page_(page) {}
+    ViewFiles(const ViewFiles&) = delete;
+    ViewFiles& operator=(const ViewFiles&) = delete;
+    ~ViewFiles()
+    {
+        std::error_code ignored;
+        for (const std::string& path : paths_)
+            std::filesystem::remove(path, ignored);
+    }
+
+    void add(const View& view)
+    {
+        paths_.push_back(page_ + ".view" + std::to_string(paths_.size()));
+        write_atomically(paths_.back(), view_text(view));
+    }
+
+    const std::vector<std::string>& paths() const { return paths_; }
+
+private:
+    std::string page_;
+    std::vector<std::string> paths_;
+};
+
+/// Wrong words are found before anything is opened.
+void check_words(const ReportCommand& command)
+{
+    if (command.files.empty() && command.scenes.empty())
+        throw BadUsage("name result files, or a --scene to show");
+    find_builder(command.builder.name);
+    find_order(command.builder.order);
+    check_boxes(command.builder);
+    find_collider(command.collider.name);
+}
+
+}  // namespace
+
+int report(const ReportCommand& command, const Options& options)
+{
+    check_words(command);
+    ViewFiles views(command.out);
+    if (!command.scenes.empty()) {
+        Session session(options.common);
+        for (const std::string& scene : command.scenes) {
+            const ViewTask task{.scene = scene,
+                                .frame = command.frame,
+                                .pipeline = {command.builder, command.collider}};
+            views.add(view_of(session, task, options.words));
+        }
+    }
+    std::vector<std::string> words = {"--out", command.out};
+    for (const std::string& path : views.paths())
+        words.insert(words.end(), {"--view", path});
+    words.push_back("--");
+    words.insert(words.end(), command.files.begin(), command.files.end());
+    return run_plots_script("report.py", words);
+}
+
+}  // namespace bvhbench

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <iostream>
+#include <span>
+
+#include "geometry/error.h"
+#include "harness/commands.h"
+#include "harness/plot.h"
+#include "harness/report.h"
+#include "harness/report_frames.h"
+#include "harness/report_paper.h"
+#include "harness/report_quality.h"
+#include "harness/run.h"
+
+namespace bvhbench {
+namespace {
+
+/// A table or figure of the paper that shows what was measured.
+struct Shown {
+    std::string_view name;
+    std::string_view experiment;  ///< Figs. 9 and 10 show other sides of what Table 2 measures
+    std::string (*report)(const Document&);
+};
+
+constexpr std::array shown_in_paper = {
+    Shown{"table1", "table1", table1_report},
+    Shown{"fig8", "fig8", fig8_report},
+    Shown{"table2", "table2", [](const Document& of) { return frames_table(of, "table2"); }},
+    Shown{"fig9", "table2", [](const Document& of) { return frames_table(of, "table2"); }},
+    Shown{"fig10", "table2", [](const Document& of) { return frames_table(of, "table2"); }},
+    Shown{"table3", "table3", [](const Document& of) { return frames_table(of, "table3"); }},
+    Shown{"table4", "table4", table4_report},
+    Shown{"fig13", "fig13", fig13_report},
+};
+
+/// The scene that the page of everything shows in three dimensions: small, and with contacts.
+constexpr const char* page_scene = "cloth-funnel:2000:4";
+constexpr unsigned page_frame = 3;
+
+/// What runs have in common, and how they ended.
+class Reproduction {
+public:
+    Reproduction(const ReproduceCommand& command, const Options& options)
+        : command_(command), options_(options), session_(options.common)
+    {
+    }
+
+    /// Measure `experiment` into a file of that `name`, print the table of the first and draw all that are shown of it.
+    void run(std::string_view experiment, const std::string& name, std::span<const Shown> shown)
+    {
+        const std::filesystem::path folder = command_.out;
+        const std::filesystem::path file = folder / (name + ".json");
+        Experiment task = find_experiment(std::string(experiment), command_.quick);
+        task.quality = task.quality || command_.quality;
+        Run run(session_, file, options_.words, command_.costs);
+        run.experiment(task);
+        run.finish();
+        std::cout << run_report(run.document().run) << shown.front().report(run.document())
+                  << "written: " << file.string() << '\n';
+        for (const Shown& each : shown)
+            std::cout << draw(std::string(each.name) + ".py", file, folder) << '\n';
+        files_.push_back(file.string());
+        differs_ = differs_ || has_differing_cell(run.document());
+    }
+
+    const std::vector<std::string>& files() const { return files_; }
+    bool differs() const { return differs_; }
+
+private:
+    const ReproduceCommand& command_;
+    const Options& options_;
+    Session session_;
+    std::vector<std::string> files_;
+    bool differs_ = false;
+};
+
+int reproduce_all(const ReproduceCommand& command, const Options& options)
+{
+    ReportCommand page;
+    page.out = (std::filesystem::path(command.out) / "report.html").string();
+    page.scenes = {page_scene};
+    page.frame = page_frame;
+    bool differs = false;
+    {
+        Reproduction reproduction(command, options);
+        for (std::size_t begin = 0, end = 0; begin < shown_in_paper.size(); begin = end) {
+            const std::string_view experiment = shown_in_paper[begin].experiment;
+            while (end < shown_in_paper.size() && shown_in_paper[end].experiment == experiment)
+                ++end;
+            reproduction.run(experiment, std::string(experiment),
+                             std::span(shown_in_paper).subspan(begin, end - begin));
+        }
+        page.files = reproduction.files();
+        differs = reproduction.differs();
+    }  // the device's memory is free for the page's scene
+    // As where figures cannot be drawn: what was measured is there, and can be shown elsewhere.
+    try {
+        const int status = report(page, options);
+        return status != 0 ? status : differs ? 1 : 0;
+    } catch (const Unavailable& error) {
+        std::cout << "no page was made: " << error.what()
+                  << "; elsewhere: bvhbench report " << command.out << "/*.json -o " << page.out
+                  << '\n';
+        return differs ? 1 : 0;
+    }
+}
+
+}  // namespace
+
+std::vector<std::string> reproducible()
+{
+    std::vector<std::string> names;
+    for (const Shown& each : shown_in_paper)
+        names.emplace_back(each.name);
+    names.emplace_back("all");
+    return names;
+}
+
+int reproduce(const ReproduceCommand& command, const Options& options)
+{
+    if (command.what == "all")
+        return reproduce_all(command, options);
+    const Shown& shown = *std::find_if(shown_in_paper.begin(), shown_in_paper.end(),
+                                       [&](const Shown& each) { return each.name == command.what; });
+    Reproduction reproduction(command, options);
+    reproduction.run(shown.experiment, command.what, std::span(&shown, 1));
+    return reproduction.differs() ? 1 : 0;
+}
+
+}  // namespace bvhbench

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <set>
+#include <string>
+
+namespace bvhbench {
+
+/// Several runs, of several builds of this program, that sample at the same time by turns, a round each: whatever the
+/// machine does hits them alike, which runs one after the other cannot have. They meet by a file that all of them name.
+///
+///     file    a line a run and meeting, the run's id; and a lock, held by whose turn it is
+class Turns {
+public:
+    /// Turns among `count` runs, of which this one is called `id`. Throws BadUsage if others have used the file up before.
+    Turns(std::string path, int count, std::string id);
+    ~Turns();
+    Turns(const Turns&) = delete;
+    Turns& operator=(const Turns&) = delete;
+
+    /// Wait until all have come: before the samples of each scene. Throws Unavailable after two minutes, and Interrupted.
+    void meet();
+
+    /// While it lives, the others wait. Whoever ends, however, gives it back.
+    class Turn {
+    public:
+        explicit Turn(Turns* turns);
+        ~Turn();
+        Turn(const Turn&) = delete;
+        Turn& operator=(const Turn&) = delete;
+
+    private:
+        Turns* turns_;
+    };
+
+    /// Runs met, without this one.
+    const std::set<std::string>& others() const { return others_; }
+
+private:
+    std::string path_;
+    int count_;
+    std::string id_;
+    int descriptor_ = -1;
+    int meetings_ = 0;
+    std::set<std::string> others_;
+};
+
+}  // namespace bvhbench

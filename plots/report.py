@@ -1,0 +1,90 @@
+#!/usr/bin/env python3
+"""One page of result files that anybody can open: tables, charts, raw samples, scenes in three dimensions. No network.
+
+    plots/report.py FILE... -o report.html
+
+`bvhbench report` calls it and makes what --view names. Exits 0; 1 if an answer in the files was wrong, which the page shows; 2
+for wrong usage; 3 if a file or library is missing or a file is no result.
+"""
+from __future__ import annotations
+
+import argparse
+import pathlib
+import sys
+from collections import Counter
+from typing import Any
+
+import report_cells
+import report_facts
+import report_looks
+import report_page
+import report_tables
+import report_view
+import results
+
+
+def file_data(path: pathlib.Path, document: dict[str, Any]) -> dict[str, Any]:
+    run, raw = document["run"], document["cells"]
+    cells = [report_cells.cell_data(path, cell, run.get("copy_rate_bytes_per_s")) for cell in raw]
+    stress = document.get("stress", [])
+    states = Counter(cell["state"] for cell in cells)
+    states.update(finding["verdict"] for cell in stress for finding in cell["findings"].values())
+    return {"name": path.stem, "path": path.name, "cells": cells, "looks": report_looks.looks_of(cells),
+            "tables": report_tables.tables_of(cells, stress), "states": states,
+            "experiments": list(dict.fromkeys(cell["experiment"] for cell in cells)) or ["stress"],
+            "device": run["device"]["name"], "driver": run["device"]["driver"], "machine": run["host"]["name"],
+            "processor": run["host"]["cpu"], "commit": run["program"]["commit"][:10], "started": run["started_at"],
+            "options": " ".join(run["command"][1:])}
+
+
+def titles_of(files: list[pathlib.Path]) -> list[str]:
+    """A file's name, with its folder where another file has that name too."""
+    names = Counter(path.stem for path in files)
+    return [path.stem if names[path.stem] == 1 else f"{path.resolve().parent.name}/{path.stem}" for path in files]
+
+
+def make(files: list[pathlib.Path], views: list[pathlib.Path]) -> tuple[str, bool]:
+    """The page, and whether an answer was wrong. Raises results.Refused."""
+    blobs, sections, is_wrong, summary = [], [], False, []
+    for number, (path, title) in enumerate(zip(files, titles_of(files))):
+        document = results.document_of(path)
+        data = file_data(path, document) | {"title": title}
+        is_wrong |= data["states"]["differs"] > 0
+        summary.append({key: value for key, value in data.items() if key not in ("cells", "looks", "tables")}
+                       | {"count": len(data["cells"]) or len(document.get("stress", []))})
+        sections.append(report_page.section(number, title, report_facts.sentence_of(document),
+                                            report_facts.warnings_of(document),
+                                            report_facts.facts_of(document)))
+        blobs.append(report_page.json_blob(f"file-{number}", data))
+        blobs.append(report_page.json_blob(f"samples-{number}", [report_cells.samples_data(cell) for cell in document["cells"]]))
+    shown = []
+    for number, path in enumerate(views):
+        facts, arrays = report_view.load(path)
+        is_wrong |= facts["state"] == "differs"
+        shown.append(facts)
+        blobs += [report_page.blob(f"view-{number}-{name}", content) for name, content in arrays.items()]
+    head = {"files": summary, "views": shown, "stages": report_looks.stage_looks()}
+    title = "bvhbench report" + (f": {', '.join(titles_of(files)[:4])}" if files else "")
+    title += f" and {len(files) - 4} more" if len(files) > 4 else ""
+    return report_page.page(title, sections, [report_page.json_blob("head", head), *blobs], bool(shown)), is_wrong
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("files", nargs="*", type=pathlib.Path, metavar="FILE", help="result files")
+    parser.add_argument("-o", "--out", type=pathlib.Path, default=pathlib.Path("report.html"), help="the page")
+    parser.add_argument("--view", action="append", default=[], type=pathlib.Path, help="a scene, as harness/view.h writes it")
+    arguments = parser.parse_args()
+    try:
+        text, is_wrong = make(arguments.files, arguments.view)
+        arguments.out.parent.mkdir(parents=True, exist_ok=True)
+        arguments.out.write_text(text, encoding="utf-8")
+    except (results.Refused, OSError) as refusal:
+        print(f"bvhbench: {refusal}", file=sys.stderr)
+        return 3
+    print(f"written: {arguments.out}, {arguments.out.stat().st_size / 1e6:.1f} MB")
+    return 1 if is_wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

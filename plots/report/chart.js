@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// What charts share: a card with choices, a legend of buttons, a drawing by Plotly that waits until it is seen.
+const seen = new IntersectionObserver(
+  (entries) => {
+    for (const entry of entries.filter((one) => one.isIntersecting)) {
+      seen.unobserve(entry.target);
+      entry.target.chart.draw();
+    }
+  },
+  {rootMargin: "300px"}
+);
+
+// Where room is short names are broken: drawn anew when a window becomes narrow, or no longer is.
+const narrow = matchMedia("(max-width: 600px)");
+narrow.addEventListener("change", () =>
+  document.querySelectorAll(".drawing.drawn").forEach((drawing) => drawing.chart && drawing.chart.draw())
+);
+
+class Chart {
+  /** `choices`: [{label, options: [[value, text]]}]; `draw` makes {traces, layout, legend, notes} of what is chosen. */
+  constructor(title, choices, draw) {
+    this.drawing = draw;
+    this.selects = choices.map((choice) =>
+      element(
+        "select",
+        {change: () => this.draw()},
+        ...choice.options.map(([value, text]) => element("option", {value}, text))
+      )
+    );
+    const shownChoices = choices.map((choice, k) =>
+      choice.options.length > 1 ? element("label", {}, choice.label + " ", this.selects[k]) : null
+    );
+    this.plot = element("div", {class: "drawing", role: "img", "aria-label": title});
+    this.legend = element("div", {class: "legend", role: "group", "aria-label": "Legend: press to hide or show"});
+    this.notes = element("div", {class: "note"});
+    this.element = element(
+      "figure",
+      {class: "chart"},
+      element("figcaption", {}, element("h3", {}, title)),
+      element("div", {class: "controls"}, ...shownChoices),
+      this.plot,
+      this.legend,
+      this.notes
+    );
+    this.plot.chart = this;
+    seen.observe(this.plot);
+  }
+
+  async draw() {
+    await libraryOf("plotly");
+    const {traces, layout, legend, notes} = this.drawing(...this.selects.map((select) => select.value));
+    this.legend.replaceChildren(...legend.map((entry) => this.entry(entry)));
+    this.notes.replaceChildren(...notes.filter(Boolean).map((note) => element("p", {}, note)));
+    this.plot.style.height = (layout.height || 400) + "px";
+    await Plotly.react(this.plot, traces, layoutOf(layout), {
+      displaylogo: false,
+      responsive: true,
+      modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d"],
+    });
+    if (!this.plot.classList.contains("drawn")) {
+      this.plot.on("plotly_click", ({points: [point]}) => leadOn(point));
+    }
+    this.plot.classList.add("drawn");
+  }
+
+  entry({name, look}) {
+    const button = element(
+      "button",
+      {
+        type: "button",
+        "aria-pressed": "true",
+        click: () => {
+          const isShown = button.getAttribute("aria-pressed") !== "true";
+          button.setAttribute("aria-pressed", String(isShown));
+          const places = this.plot.data.flatMap((trace, k) => (trace.name === name ? [k] : []));
+          if (places.length) {
+            Plotly.restyle(this.plot, {visible: isShown ? true : "legendonly"}, places);
+          }
+        },
+      },
+      swatch(look),
+      name
+    );
+    return button;
+  }
+}

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+// Where the time goes: a bar a builder or pipeline, its stages stacked. Of several frames, means over them.
+const LONGEST = 12; // times the shortest bar: the axis ends there at first
+const ROW = 38;
+
+function mean(values) {
+  return values.reduce((sum, value) => sum + value, 0) / values.length;
+}
+
+/** One bar: its name, stages in nanoseconds and the whole, or why it has none. */
+function barOf(name, cells) {
+  const bad = cells.find((cell) => !cell.times.whole);
+  if (bad) {
+    const where = cells.length > 1 ? ` on frame ${bad.frame}` : "";
+    return {name, said: `${bad.state.replace("_", " ")}${where}${bad.why ? ": " + bad.why : ""}`};
+  }
+  const whole = mean(cells.map((cell) => cell.times.whole[1]));
+  const stages = {};
+  for (const stage of new Set(cells.flatMap((cell) => Object.keys(cell.times)))) {
+    stages[stage] = mean(cells.map((cell) => (cell.times[stage] ? cell.times[stage][1] : 0)));
+  }
+  delete stages.whole;
+  const between = whole - Object.values(stages).reduce((sum, value) => sum + value, 0);
+  if (cells[0].operation === "collide" && between > 0) {
+    stages.between = between;
+  }
+  return {name, whole, stages, cell: cells.length === 1 ? cells[0] : null};
+}
+
+function shortened(text, most) {
+  return text.length > most ? text.slice(0, most - 1) + "…" : text;
+}
+
+/** A name in lines that are short enough for what room there is. */
+function broken(name, most) {
+  const lines = [""];
+  for (const word of name.split(" ")) {
+    const last = lines[lines.length - 1];
+    if (last && last.length + word.length + 1 > most) {
+      lines.push(word);
+    } else {
+      lines[lines.length - 1] = last ? `${last} ${word}` : word;
+    }
+  }
+  return lines;
+}
+
+function stagesChart(file, stageLooks) {
+  const question = questionOf(file.cells);
+  const scenes = grouped(file.cells, question);
+  const useful = [...scenes].filter(([, cells]) => cells.some((cell) => cell.times.whole));
+  if (!useful.length) {
+    return null;
+  }
+  return new Chart("Time by stage", [{label: "Scene", options: useful.map(([name]) => [name, name])}], (scene) => {
+    const cells = scenes.get(scene);
+    const bars = [...grouped(cells, (cell) => cell.who)].map(([name, group]) => barOf(name, group));
+    const timed = bars.filter((bar) => bar.stages);
+    const unit = unitFor(timed.map((bar) => bar.whole));
+    const limit = LONGEST * Math.min(...timed.map((bar) => bar.whole));
+    const longest = Math.max(...timed.map((bar) => bar.whole));
+    const there = Object.keys(stageLooks).filter((stage) => timed.some((bar) => bar.stages[stage]));
+    const labels = bars.map((bar) => broken(bar.name, narrow.matches ? 18 : 40));
+    const traces = there.map((stage) => ({
+      type: "bar",
+      orientation: "h",
+      name: stage === "between" ? "between stages" : stage,
+      y: timed.map((bar) => bars.indexOf(bar)),
+      x: timed.map((bar) => (bar.stages[stage] || 0) / unit[1]),
+      width: 0.7,
+      customdata: timed.map((bar) => bar.name),
+      ...samplesOf(
+        timed.map((bar) => bar.cell),
+        stage === "between" ? "whole" : stage
+      ),
+      marker: {
+        color: stageLooks[stage].colour,
+        line: {width: 0},
+        pattern: {shape: stageLooks[stage].pattern, bgcolor: stageLooks[stage].colour, fgcolor: "#ffffff", size: 6},
+      },
+      hovertemplate: `%{customdata}<br>%{x:.4g} ${unit[0]}<extra>%{fullData.name}</extra>`,
+    }));
+    const frames = new Set(cells.map((cell) => cell.frame)).size;
+    const row = Math.max(ROW, 15 * (Math.max(...labels.map((lines) => lines.length)) + 1) + 6); // all as high as the highest
+    return {
+      traces,
+      legend: there.map((stage) => ({
+        name: stage === "between" ? "between stages" : stage,
+        look: {...stageLooks[stage], symbol: "square"},
+      })),
+      layout: {
+        height: Math.max(240, 80 + row * bars.length),
+        barmode: "stack",
+        xaxis: axis(`time, ${unit[0]}`, false, {range: [0, (1.03 * Math.min(longest, limit)) / unit[1]]}),
+        yaxis: {
+          automargin: true,
+          ticks: "outside",
+          tickcolor: "#ffffff",
+          range: [bars.length - 0.4, -0.6],
+          tickvals: bars.map((_, k) => k),
+          fixedrange: true,
+          ticktext: bars.map(
+            (bar, k) => labels[k].join("<br>") + (bar.whole ? `<br><b>${four(bar.whole / unit[1])} ${unit[0]}</b>` : "")
+          ),
+        },
+        annotations: bars.flatMap((bar, k) =>
+          bar.said
+            ? [
+                {
+                  x: 0,
+                  y: k,
+                  xanchor: "left",
+                  showarrow: false,
+                  bgcolor: "#ffffff",
+                  font: {color: "#A11212"},
+                  text: shortened(bar.said, narrow.matches ? 24 : 90),
+                },
+              ]
+            : []
+        ),
+      },
+      notes: [
+        frames > 1 ? `Means over ${frames} frames of medians. Bold: the whole.` : "Medians. Bold: the whole.",
+        longest > limit
+          ? `The axis ends at ${LONGEST} times the shortest bar; a double click on the chart shows all.`
+          : "",
+      ],
+    };
+  });
+}

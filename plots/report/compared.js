@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// Cells that a chart puts side by side: which may be, which have nothing to show, and where each one's samples are.
+function grouped(cells, keyOf) {
+  const groups = new Map();
+  for (const cell of cells) {
+    const key = keyOf(cell);
+    if (!groups.has(key)) {
+      groups.set(key, []);
+    }
+    groups.get(key).push(cell);
+  }
+  return groups;
+}
+
+/** What cells of a file may be compared over: a scene, asked the same. Says as much as is needed to tell them apart. */
+function questionOf(cells) {
+  const ofScene = [...grouped(cells, (cell) => cell.scene).values()];
+  const parts = ["experiment", "axis", "scene", "asked"].filter(
+    (key) => key === "scene" || ofScene.some((group) => new Set(group.map((cell) => cell[key])).size > 1)
+  );
+  return (cell) =>
+    parts
+      .map((key) => cell[key])
+      .filter(Boolean)
+      .join(" · ");
+}
+
+/** What is not drawn, and why, in a few sentences. */
+function missingNotes(cells) {
+  const groups = grouped(
+    cells.filter((cell) => WITHOUT_TIMES.includes(cell.state)),
+    (cell) => `${cell.who} ${cell.state === "differs" ? "gave a wrong answer" : cell.state}`
+  );
+  const sentences = [...groups].map(([key, group]) => {
+    const scenes = [...new Set(group.map((cell) => cell.scene))];
+    return `${key} on ${scenes.slice(0, 3).join(", ")}${scenes.length > 3 ? ` and ${scenes.length - 3} more` : ""}${
+      group[0].why ? ": " + group[0].why : ""
+    }.`;
+  });
+  return sentences.length > 4
+    ? [
+        "Not drawn: " + sentences.slice(0, 4).join(" "),
+        `And ${sentences.length - 4} more, in the table of what has no time.`,
+      ]
+    : sentences.length
+    ? ["Not drawn: " + sentences.join(" ")]
+    : [];
+}
+
+/** A mark leads to the samples behind it: traces say of which cell each of theirs is, and of which stage. */
+function samplesOf(cells, stage) {
+  return {leads: cells.map((cell) => (cell ? `#cell=${cell.file}.${cell.place}.${stage}` : null))};
+}
+
+function leadOn(point) {
+  const {leads} = point.data;
+  if (leads && leads[point.pointIndex]) {
+    location.hash = leads[point.pointIndex];
+  }
+}

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// Numbers as text, and elements of the page.
+const WITHOUT_TIMES = ["differs", "failed", "skipped"];
+const UNITS = [
+  ["s", 1e9],
+  ["ms", 1e6],
+  ["µs", 1e3],
+  ["ns", 1],
+];
+
+/** Four digits that count; an exponent only where there is no room. */
+function four(value) {
+  const size = Math.abs(value);
+  if (value === 0) {
+    return "0";
+  }
+  if (size >= 1e3 && size < 1e15) {
+    return Math.round(value).toLocaleString("en");
+  }
+  return size >= 1e-4 && size < 1e3 ? value.toPrecision(4) : value.toExponential(3);
+}
+
+function shown(value, kind) {
+  if (value === null || value === undefined || value === "") {
+    return "–";
+  }
+  if (kind === "count") {
+    return value.toLocaleString("en", {maximumFractionDigits: 3});
+  }
+  if (kind === "share") {
+    return (100 * value).toPrecision(3) + " %";
+  }
+  return typeof value === "number" ? four(value) : value;
+}
+
+/** In which the middle one of these nanoseconds is a number from 1 on: [name, nanoseconds]. */
+function unitFor(times) {
+  const sorted = [...times].sort((a, b) => a - b);
+  const middle = sorted[sorted.length >> 1] || 1;
+  return UNITS.find((unit) => middle >= unit[1]) || UNITS[3];
+}
+
+/** element("a", {href: "#"}, "text", child): attributes that are functions are handlers. */
+function element(tag, attributes, ...children) {
+  const made = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes || {})) {
+    if (typeof value === "function") {
+      made.addEventListener(name, value);
+    } else if (value !== null && value !== false) {
+      made.setAttribute(name, value === true ? "" : value);
+    }
+  }
+  made.append(...children.filter((child) => child !== null && child !== undefined));
+  return made;
+}
+
+/** A verdict, told by its word and its border, not by colour alone. */
+function badge(state) {
+  return element("span", {class: "state state-" + String(state).split(/[ :]/)[0]}, String(state).replace("_", " "));
+}
+
+function download(name, lines) {
+  const link = element("a", {
+    download: name,
+    href: URL.createObjectURL(new Blob([lines.join("\n") + "\n"], {type: "text/csv"})),
+  });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+}
+
+function csvLine(values) {
+  return values
+    .map((value) =>
+      value === null || value === undefined
+        ? ""
+        : /[",\n]/.test(value)
+        ? `"${String(value).replace(/"/g, '""')}"`
+        : value
+    )
+    .join(",");
+}
+
+function plural(count, word) {
+  return `${count.toLocaleString("en")} ${word}${count === 1 ? "" : "s"}`;
+}

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// Names in a chart's legend: a shape in its colour, as Plotly draws it, and who is in it.
+const SHAPES = {
+  // of legends, around 0, for Plotly's symbols
+  circle: "M4,0A4,4 0 1 1 -4,0A4,4 0 1 1 4,0Z",
+  square: "M-3.6,-3.6H3.6V3.6H-3.6Z",
+  diamond: "M0,-5L5,0L0,5L-5,0Z",
+  "diamond-tall": "M0,-6L3,0L0,6L-3,0Z",
+  "triangle-up": "M0,-4.6L4.6,3.6H-4.6Z",
+  "triangle-down": "M0,4.6L4.6,-3.6H-4.6Z",
+  "triangle-left": "M-4.6,0L3.6,-4.6V4.6Z",
+  "triangle-right": "M4.6,0L-3.6,-4.6V4.6Z",
+  pentagon: "M0,-5L4.8,-1.5L2.9,4H-2.9L-4.8,-1.5Z",
+  hexagon: "M0,-5L4.3,-2.5V2.5L0,5L-4.3,2.5V-2.5Z",
+  hexagon2: "M-5,0L-2.5,-4.3H2.5L5,0L2.5,4.3H-2.5Z",
+  star: "M0,-5.5L1.4,-1.7H5.3L2.2,0.7L3.3,4.6L0,2.3L-3.3,4.6L-2.2,0.7L-5.3,-1.7H-1.4Z",
+  cross: "M-1.6,-4.6H1.6V-1.6H4.6V1.6H1.6V4.6H-1.6V1.6H-4.6V-1.6H-1.6Z",
+  x: "M-4.4,-2.2L-2.2,-4.4L0,-2.2L2.2,-4.4L4.4,-2.2L2.2,0L4.4,2.2L2.2,4.4L0,2.2L-2.2,4.4L-4.4,2.2L-2.2,0Z",
+};
+
+const HATCHES = {
+  "/": "M-3,3L3,-3",
+  x: "M-3,3L3,-3M-3,-3L3,3",
+  ".": "M-2.4,-1.6h1.6M0.8,-1.6h1.6M-2.4,1.6h1.6M0.8,1.6h1.6",
+};
+
+function drawn(tag, attributes, ...children) {
+  const made = document.createElementNS("http://www.w3.org/2000/svg", tag);
+  Object.entries(attributes).forEach(([name, value]) => made.setAttribute(name, value));
+  made.append(...children);
+  return made;
+}
+
+/** A look as a legend shows it; hatched, as some bars are, with a stroke. */
+function swatch(look) {
+  const shape = drawn("path", {
+    d: SHAPES[look.symbol] || SHAPES.square,
+    fill: look.colour,
+    stroke: INK,
+    "stroke-width": 0.6,
+  });
+  const hatch = look.pattern
+    ? [drawn("path", {d: HATCHES[look.pattern], stroke: "#ffffff", "stroke-width": 1.6, fill: "none"})]
+    : [];
+  return drawn("svg", {viewBox: "-8 -7 16 14", "aria-hidden": "true"}, shape, ...hatch);
+}
+
+/** Of these cells, in the order of the file's looks. */
+function legendOf(cells, looks) {
+  const there = new Set(cells.map((cell) => cell.who));
+  return Object.keys(looks)
+    .filter((name) => there.has(name))
+    .map((name) => ({name, look: looks[name]}));
+}

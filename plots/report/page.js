@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// The page itself: what is in it, which part is shown, and where a link leads. Parts are made when they are first shown.
+const made = new Set();
+const STATES = ["agrees", "counted", "not_checked", "holds", "refused", "differs", "broken", "failed", "skipped"];
+
+function verdictsOf(states) {
+  return STATES.filter((state) => states[state]).map((state) =>
+    element("span", {class: "tally"}, badge(state), " " + states[state].toLocaleString("en"))
+  );
+}
+
+function runsTable(files) {
+  const bad = (file) =>
+    ["differs", "failed", "skipped", "broken"]
+      .filter((state) => file.states[state])
+      .map((state) => `${file.states[state]} ${state}`)
+      .join(", ");
+  const columns = [
+    ["file", "text"],
+    ["experiments", "text"],
+    ["cells", "count"],
+    ["wrong or missing", "text"],
+    ["device", "text"],
+    ["driver", "text"],
+    ["commit", "text"],
+    ["options", "text"],
+    ["machine", "text"],
+    ["processor", "text"],
+    ["started", "text"],
+  ];
+  const rows = files.map((file) => [
+    file.title,
+    file.experiments.join(", "),
+    file.count,
+    bad(file) || null,
+    file.device,
+    file.driver,
+    file.commit,
+    file.options,
+    file.machine,
+    file.processor,
+    file.started,
+  ]);
+  return tableSection(
+    {
+      title: "What was run on what",
+      cells: null,
+      rows,
+      links: files.map((_, k) => "#file-" + k),
+      columns: columns.map(([label, kind]) => ({
+        label,
+        kind,
+        facet: ["device", "experiments", "commit"].includes(label),
+      })),
+    },
+    0
+  );
+}
+
+/** A file's tables and charts, the first time it is shown. */
+async function makeFile(number, head) {
+  if (made.has(number)) {
+    return;
+  }
+  made.add(number);
+  const part = document.getElementById("file-" + number);
+  const file = await jsonOf("file-" + number);
+  file.cells.forEach((cell, place) => Object.assign(cell, {file: number, place}));
+  part.querySelector(".verdicts").append(...verdictsOf(file.states));
+  const charts = [sizeChart(file), stagesChart(file, head.stages), paretoChart(file), framesChart(file)];
+  part.querySelector(".charts").append(...charts.filter(Boolean).map((chart) => chart.element));
+  const tables = file.tables.map((table) => tableSection(table, number));
+  const missing = file.tables.findIndex((table) => table.title.startsWith("Without"));
+  if (missing >= 0) {
+    part.querySelector(".verdicts").after(tables.splice(missing, 1)[0]);
+  }
+  part.querySelector(".tables").append(...tables);
+}
+
+async function show(name, head) {
+  document.querySelectorAll("section.file").forEach((part) => {
+    part.hidden = part.id !== name;
+  });
+  document.querySelectorAll("#files a").forEach((link) => {
+    link.toggleAttribute("aria-current", link.getAttribute("href") === "#" + name);
+  });
+  if (name.startsWith("file-")) {
+    await makeFile(Number(name.slice(5)), head);
+  }
+}
+
+/** #overview, #file-0, or #cell=0.17.sort: the samples of cell 17 of file 0, of the stage sort. */
+async function follow(head) {
+  const target = decodeURIComponent(location.hash.slice(1));
+  const cell = /^cell=(\d+)\.(\d+)\.(\w+)$/.exec(target);
+  const first = head.files.length === 1 ? "file-0" : "overview";
+  if (cell) {
+    await show("file-" + cell[1], head);
+    await showSamples(Number(cell[1]), Number(cell[2]), cell[3]);
+    return;
+  }
+  document.getElementById("samples").close();
+  await show(document.getElementById(target) && target ? target : first, head);
+}
+
+async function start() {
+  if (typeof DecompressionStream === "undefined") {
+    throw new Error("This page needs a browser of 2023 or later: it unpacks its data with DecompressionStream.");
+  }
+  const head = await jsonOf("head");
+  const links = [["overview", "Overview"], ...head.files.map((file, k) => ["file-" + k, file.title])];
+  document.getElementById("files").append(...links.map(([id, text]) => element("a", {href: "#" + id}, text)));
+  if (head.files.length) {
+    document.getElementById("runs").append(runsTable(head.files));
+  }
+  document.getElementById("views").append(...head.views.map((facts, k) => new View(facts, k).element));
+  // A closed dialog leaves the part it was opened over, and the way back.
+  document.getElementById("samples").addEventListener("close", () => {
+    if (location.hash.startsWith("#cell=")) {
+      history.replaceState(null, "", "#file-" + location.hash.slice(6).split(".")[0]);
+    }
+  });
+  addEventListener("hashchange", () => follow(head).catch(complain));
+  await follow(head);
+  document.body.classList.add("ready");
+}
+
+function complain(error) {
+  const trouble = document.getElementById("trouble");
+  trouble.textContent = error.message;
+  trouble.hidden = false;
+  throw error;
+}
+
+start().catch(complain);

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+// The raw samples behind a number: a dialog with what was measured, every sample, and how they went through the run.
+const QUANTITY = {
+  span_ns: "first start to last end, ns (device clock)",
+  wall_ns: "ns on the host's clock",
+  start_ns: "start in the sample, ns",
+  busy_ns: "sum over launches, ns",
+  launches: "launches",
+  moved_bytes: "bytes that must move",
+};
+
+function at(column, place) {
+  return Array.isArray(column) ? column[place] : column;
+}
+
+/** Nanoseconds of a stage in a sample, by whichever clock it has. */
+function nanosecondsOf(stage, place) {
+  const span = at(stage.span_ns, place);
+  return span !== undefined && span !== null ? span : at(stage.wall_ns, place);
+}
+
+/** As results.Cell.frame_times_s and whole_times_s in plots/results.py. */
+function wholeOf(samples, place, isBuild) {
+  const stages = Object.values(samples.stages);
+  const sum = stages.reduce((total, stage) => total + (nanosecondsOf(stage, place) || 0), 0);
+  const isOnHost = stages.some((stage) => stage.wall_ns !== undefined);
+  const ends = stages.map((stage) => (at(stage.start_ns, place) || 0) + (at(stage.span_ns, place) || 0));
+  return isBuild || isOnHost ? sum : Math.max(...ends, sum);
+}
+
+/** Facts of a cell, nested ones spelled out: [name, text]. */
+function factsOf(value, prefix) {
+  return Object.entries(value).flatMap(([key, entry]) => {
+    const name = prefix ? `${prefix} ${key}` : key;
+    return entry !== null && typeof entry === "object" && !Array.isArray(entry)
+      ? factsOf(entry, name)
+      : [[name.replace(/_/g, " "), Array.isArray(entry) ? entry.join(" ") : String(entry)]];
+  });
+}
+
+function samplesTable(samples, key, isBuild, marked) {
+  const stages = Object.keys(samples.stages).filter(
+    (stage) =>
+      samples.stages[stage][key] !== undefined || (key === "span_ns" && samples.stages[stage].wall_ns !== undefined)
+  );
+  const own = Object.keys(samples.own);
+  const columns = [
+    ...own.map((name) => ({label: name.replace(/_/g, " "), kind: "count"})),
+    ...(key === "span_ns" ? [{label: "whole", kind: "count", unit: "ns"}] : []),
+    ...stages.map((stage) => ({label: stage, kind: "count"})),
+  ];
+  const rows = Array.from({length: samples.count}, (_, place) => [
+    ...own.map((name) => at(samples.own[name], place)),
+    ...(key === "span_ns" ? [wholeOf(samples, place, isBuild)] : []),
+    ...stages.map((stage) =>
+      key === "span_ns" ? nanosecondsOf(samples.stages[stage], place) : at(samples.stages[stage][key], place)
+    ),
+  ]);
+  const clean = rows.map((row) =>
+    row.map((value) =>
+      value === undefined
+        ? null
+        : typeof value === "boolean" || (typeof value === "object" && value !== null)
+        ? JSON.stringify(value)
+        : value
+    )
+  );
+  const table = new SortedTable({title: "Raw samples", columns, rows: clean, cells: null}, 0);
+  const place = columns.findIndex((column) => column.label === marked);
+  table.element.classList.add("raw");
+  if (place >= 0) {
+    table.heads[place].classList.add("marked");
+  }
+  return table.element;
+}
+
+async function drawSamples(plot, samples, stage, isBuild, quantiles, colour) {
+  await libraryOf("plotly");
+  const isWhole = stage === "whole" || !samples.stages[stage];
+  const times = Array.from({length: samples.count}, (_, place) =>
+    isWhole ? wholeOf(samples, place, isBuild) : nanosecondsOf(samples.stages[stage], place)
+  );
+  const unit = unitFor(times.filter((time) => time !== undefined && time !== null));
+  const order =
+    samples.own.order === undefined
+      ? times.map((_, place) => place)
+      : times.map((_, place) => at(samples.own.order, place));
+  const lines = quantiles
+    ? quantiles.map((value, k) => ({
+        type: "line",
+        xref: "paper",
+        x0: 0,
+        x1: 1,
+        y0: value / unit[1],
+        y1: value / unit[1],
+        line: {color: "#666666", width: 1, dash: k === 1 ? "solid" : "dot"},
+      }))
+    : [];
+  await Plotly.react(
+    plot,
+    [
+      {
+        type: "scatter",
+        mode: "markers",
+        x: order,
+        y: times.map((time) => time / unit[1]),
+        name: stage,
+        marker: {color: colour, size: 6, line: {color: INK, width: 0.4}},
+        hovertemplate: `sample %{x}<br>%{y:.5g} ${unit[0]}<extra></extra>`,
+      },
+    ],
+    layoutOf({
+      height: 260,
+      shapes: lines,
+      xaxis: axis("place in the run", false, {tickformat: "d"}),
+      yaxis: axis(`${isWhole ? "whole" : stage}, ${unit[0]}`, false, {rangemode: "tozero"}),
+    }),
+    {displaylogo: false, responsive: true, displayModeBar: false}
+  );
+  plot.classList.add("drawn");
+}
+
+async function showSamples(file, place, stage) {
+  const dialog = document.getElementById("samples");
+  const data = await jsonOf("file-" + file);
+  const samples = (await jsonOf("samples-" + file))[place];
+  const cell = data.cells[place];
+  const isBuild = ["build", "refit"].includes(cell.operation);
+  const keys = Object.keys(QUANTITY).filter(
+    (key) => key !== "wall_ns" && Object.values(samples.stages).some((columns) => columns[key] !== undefined)
+  );
+  const others = [...new Set(Object.values(samples.stages).flatMap((columns) => Object.keys(columns)))].filter(
+    (key) => !(key in QUANTITY)
+  );
+  const all = [...new Set(["span_ns", ...keys, ...others])];
+  const holder = element("div");
+  const fill = (key) =>
+    holder.replaceChildren(
+      samples.count ? samplesTable(samples, key, isBuild, stage) : element("p", {}, "No sample was taken.")
+    );
+  const select = element(
+    "select",
+    {change: () => fill(select.value)},
+    ...all.map((key) => element("option", {value: key}, QUANTITY[key] || key.replace(/_/g, " ")))
+  );
+  const plot = element("div", {class: "drawing", role: "img", "aria-label": "Samples in the order of the run"});
+  const quantiles = cell.times[stage];
+  const said = quantiles
+    ? `Median ${four(quantiles[1] / 1e3)} µs, 10th to 90th percentile ${four(quantiles[0] / 1e3)} to ${four(
+        quantiles[2] / 1e3
+      )} µs, ${plural(samples.count, "sample")}.`
+    : cell.why || "";
+  dialog.replaceChildren(
+    element(
+      "div",
+      {class: "dialog-head"},
+      element(
+        "h2",
+        {id: "samples-title"},
+        `${cell.who} on ${cell.scene}${cell.frame ? `, frame ${cell.frame}` : ""}${
+          stage === "whole" ? "" : `: ${stage}`
+        }`
+      ),
+      element("button", {type: "button", click: () => dialog.close()}, "Close")
+    ),
+    element("p", {}, badge(cell.state), " ", said),
+    ...(samples.count && quantiles
+      ? [plot, element("p", {class: "note"}, "Lines: median, and dotted 10th and 90th percentile.")]
+      : []),
+    element("h3", {}, "Raw samples"),
+    ...(samples.count && all.length > 1 ? [element("label", {}, "Of each stage ", select)] : []),
+    holder,
+    element("h3", {}, "The cell"),
+    element(
+      "dl",
+      {class: "facts"},
+      ...factsOf(samples.facts, "").map(([name, text]) =>
+        element("div", {}, element("dt", {}, name), element("dd", {}, text))
+      )
+    )
+  );
+  fill("span_ns");
+  if (!dialog.open) {
+    dialog.showModal();
+  }
+  dialog.scrollTop = 0;
+  if (samples.count && quantiles) {
+    await drawSamples(plot, samples, stage, isBuild, quantiles, data.looks[cell.who].colour);
+  }
+}

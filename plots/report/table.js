@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+// A table that is sorted by its headers and filtered by words and choices.
+const ROWS_AT_FIRST = 100;
+const MOST_CHOICES = 60;
+const SHORT = 24; // characters: a column of texts no longer than that breaks none
+const words = new Intl.Collator("en", {numeric: true});
+
+class SortedTable {
+  /** `data` as plots/report_tables.py makes it; `file` is the number in links to samples. */
+  constructor(data, file) {
+    this.data = data;
+    this.file = file;
+    this.order = null; // a column and 1 or -1
+    this.all = false;
+    this.choices = new Map();
+    this.text = data.rows.map((row) =>
+      row
+        .map((value, k) => shown(value, data.columns[k].kind))
+        .join(" ")
+        .toLowerCase()
+    );
+    this.short = data.columns.map((column, k) => data.rows.every((row) => shown(row[k], column.kind).length <= SHORT));
+    this.state = data.columns.findIndex((column) => column.kind === "state");
+    this.count = element("span", {class: "count", "aria-live": "polite"});
+    this.body = element("tbody");
+    this.more = element("button", {
+      type: "button",
+      class: "more",
+      click: () => {
+        this.all = true;
+        this.fill();
+      },
+    });
+    this.heads = data.columns.map((column, k) => this.head(column, k));
+    const table = element("table", {}, element("thead", {}, element("tr", {}, ...this.heads)), this.body);
+    const box = element("div", {class: "scroll", tabindex: "0", role: "region", "aria-label": data.title}, table);
+    this.element = element("div", {class: "table"}, this.controls(), box, this.more);
+    this.fill();
+  }
+
+  head(column, k) {
+    const unit = column.unit ? element("span", {class: "unit"}, column.unit) : null;
+    return element(
+      "th",
+      {scope: "col", class: "kind-" + column.kind, "aria-sort": "none"},
+      element(
+        "button",
+        {type: "button", click: () => this.sort(k)},
+        column.label + "\u00a0",
+        element("span", {class: "arrow", "aria-hidden": "true"}),
+        unit
+      )
+    );
+  }
+
+  controls() {
+    this.query = element("input", {type: "search", placeholder: "words, all of them", input: () => this.fill()});
+    const choices = this.data.columns.map((column, k) => (column.facet ? this.choice(column, k) : null));
+    return element(
+      "div",
+      {class: "controls"},
+      element("label", {}, "Filter ", this.query),
+      ...choices,
+      this.count,
+      element("button", {type: "button", click: () => this.save()}, "CSV")
+    );
+  }
+
+  choice(column, k) {
+    const there = [...new Set(this.data.rows.map((row) => row[k]).filter((value) => value !== null && value !== ""))];
+    if (there.length < 2 || there.length > MOST_CHOICES) {
+      return null;
+    }
+    const select = element(
+      "select",
+      {
+        change: () => {
+          this.choices.set(k, select.value);
+          this.fill();
+        },
+      },
+      element("option", {value: ""}, "all"),
+      ...there.sort(words.compare).map((value) => element("option", {value}, value))
+    );
+    return element("label", {}, column.label + " ", select);
+  }
+
+  /** First up, then down, then as it was. Numbers are more often wanted from the least on. */
+  sort(k) {
+    const [column, direction] = this.order || [-1, 0];
+    this.order = column !== k ? [k, 1] : direction === 1 ? [k, -1] : null;
+    this.heads.forEach((head, other) =>
+      head.setAttribute(
+        "aria-sort",
+        !this.order || other !== this.order[0] ? "none" : this.order[1] === 1 ? "ascending" : "descending"
+      )
+    );
+    this.fill();
+  }
+
+  /** Places of the rows that are wanted, in their order. What has no value is last, whichever way. */
+  wanted() {
+    const needles = this.query.value.toLowerCase().split(/\s+/).filter(Boolean);
+    const found = [];
+    this.data.rows.forEach((row, i) => {
+      const chosen = [...this.choices].every(([k, value]) => value === "" || row[k] === value);
+      if (chosen && needles.every((needle) => this.text[i].includes(needle))) {
+        found.push(i);
+      }
+    });
+    if (this.order) {
+      const [k, direction] = this.order;
+      const missing = (value) => value === null || value === "";
+      found.sort((i, j) => {
+        const [a, b] = [this.data.rows[i][k], this.data.rows[j][k]];
+        if (missing(a) || missing(b)) {
+          return missing(a) - missing(b);
+        }
+        return direction * (typeof a === "number" ? a - b : words.compare(a, b));
+      });
+    }
+    return found;
+  }
+
+  fill() {
+    const wanted = this.wanted();
+    const here = this.all ? wanted : wanted.slice(0, ROWS_AT_FIRST);
+    this.body.replaceChildren(...here.map((i) => this.row(i)));
+    this.count.textContent = `${wanted.length.toLocaleString("en")} of ${plural(this.data.rows.length, "row")}`;
+    this.more.hidden = here.length === wanted.length;
+    this.more.textContent = `Show all ${wanted.length.toLocaleString("en")} rows`;
+  }
+
+  row(i) {
+    const row = this.data.rows[i];
+    const state = this.state < 0 ? "" : row[this.state];
+    const isBad = WITHOUT_TIMES.includes(state);
+    return element(
+      "tr",
+      {class: isBad ? "bad" : null},
+      ...row.map((value, k) => {
+        const column = this.data.columns[k];
+        return element(
+          k === 0 ? "th" : "td",
+          {class: `kind-${column.kind}${this.short[k] ? " short" : ""}`, scope: k === 0 ? "row" : null},
+          this.content(value, column, i, isBad ? state : null)
+        );
+      })
+    );
+  }
+
+  content(value, column, i, bad) {
+    if (column.kind === "state") {
+      return value === null ? "–" : badge(value);
+    }
+    if (value === null && column.kind === "time" && bad) {
+      return badge(bad);
+    }
+    if (this.data.links && column === this.data.columns[0]) {
+      return element("a", {href: this.data.links[i]}, value);
+    }
+    const cells = column.cells || this.data.cells;
+    if (value !== null && cells && column.stage) {
+      return element("a", {href: `#cell=${this.file}.${cells[i]}.${column.stage}`}, shown(value, "time"));
+    }
+    return shown(value, column.kind);
+  }
+
+  save() {
+    const head = csvLine(this.data.columns.map((column) => column.label + (column.unit ? ` (${column.unit})` : "")));
+    download(this.data.title.toLowerCase().replace(/\W+/g, "-") + ".csv", [
+      head,
+      ...this.wanted().map((i) => csvLine(this.data.rows[i])),
+    ]);
+  }
+}
+
+/** A table under its title. One that is folded is made when it is opened. */
+function tableSection(data, file) {
+  const note = data.note ? element("p", {class: "note"}, data.note) : null;
+  if (!data.folded) {
+    return element("div", {class: "titled"}, element("h3", {}, data.title), note, new SortedTable(data, file).element);
+  }
+  const details = element("details", {class: "titled"}, element("summary", {}, element("h3", {}, data.title)));
+  details.addEventListener("toggle", () => {
+    if (details.children.length === 1) {
+      details.append(new SortedTable(data, file).element);
+    }
+  });
+  return details;
+}

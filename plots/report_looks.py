@@ -1,0 +1,59 @@
+"""The look of each line and point on a page: style.py's colours, in the words of Plotly."""
+from __future__ import annotations
+
+from typing import Any
+
+import accuracy
+import frame_stages
+import pipelines
+import results
+import style
+
+SYMBOLS = {"s": "square", "^": "triangle-up", "v": "triangle-down", "D": "diamond", "o": "circle", "d": "diamond-tall",
+           "p": "pentagon", "*": "star", "P": "cross", "h": "hexagon", "H": "hexagon2", "x": "x", "+": "x",
+           "<": "triangle-left", ">": "triangle-right"}
+# What tells variants of one colour apart, in order; the first keeps the builder's marker.
+MORE_SYMBOLS = ("circle", "square", "diamond", "triangle-up", "triangle-down", "star", "hexagon", "cross", "x", "pentagon",
+                "triangle-left", "triangle-right", "diamond-tall", "hexagon2")
+DASHES = ("solid", "dash", "dot", "dashdot", "longdash", "longdashdot")
+HATCHED = {"near": "/", "order": "/", "gather": "/", "refit": ".", "ropes": "x", "copy": "/"}
+UNKNOWN = style.Look("#666666", "o")
+
+
+def look_of(cell: dict[str, Any]) -> style.Look:
+    """Of a cell's data (report_cells). One that no figure knows is grey."""
+    try:
+        if cell["axis"] in accuracy.METHODS:
+            return accuracy.look(cell["axis"], cell["who"])
+        if cell["collider"] in pipelines.COLOURS:
+            return style.Look(pipelines.COLOURS[cell["collider"]], "o")
+        return style.look(cell["builder"])
+    except results.Refused:
+        return UNKNOWN
+
+
+def looks_of(cells: list[dict[str, Any]]) -> dict[str, dict[str, str]]:
+    """Of everybody in a file, by name, in the order of legends: colour, symbol and dash, no two the same."""
+    order = list(style.LOOKS)
+    found: dict[str, style.Look] = {}
+    places: dict[str, int] = {}
+    for cell in cells:
+        found.setdefault(cell["who"], look_of(cell))
+        places.setdefault(cell["who"], order.index(cell["builder"]) if cell["builder"] in order else len(order))
+    looks, taken = {}, {}
+    for name in sorted(found, key=lambda name: places[name]):  # stable: else as in the file
+        colour, symbol = found[name].colour, SYMBOLS[found[name].marker]
+        used = taken.setdefault(colour, [])
+        if symbol in used:
+            symbol = next((other for other in MORE_SYMBOLS if other not in used), symbol)
+        looks[name] = {"colour": colour, "symbol": symbol, "dash": DASHES[len(used) % len(DASHES)]}
+        used.append(symbol)
+    return looks
+
+
+def stage_looks() -> dict[str, dict[str, str]]:
+    """The colours of frame_stages.py; of stages that share one, all but the usual one are hatched."""
+    looks = {stage: {"colour": colour, "pattern": HATCHED.get(stage, "")}
+             for _, stages, colour in frame_stages.PARTS for stage in stages}
+    return looks | {"between": {"colour": frame_stages.BETWEEN[1], "pattern": ""},
+                    "sum": {"colour": "#CC79A7", "pattern": ""}}

@@ -1,0 +1,86 @@
+"""Puts a page together: one HTML file that needs nothing else, and no network.
+
+Text that people may want to read in the page's source, markup, style and scripts of plots/report/, stands in it as it is.
+Libraries, data and samples are gzip in base64, unpacked by plots/report/unpack.js: samples only when somebody asks for them.
+"""
+from __future__ import annotations
+
+import base64
+import gzip
+import html
+import importlib.util
+import json
+import pathlib
+from typing import Any
+
+import results
+
+PARTS = pathlib.Path(__file__).resolve().parent / "report"
+STYLES = ("base.css", "tables.css", "charts.css", "samples.css", "view.css")
+SCRIPTS = ("unpack.js", "format.js", "table.js", "axes.js", "legend.js", "compared.js", "chart.js", "chart_size.js",
+           "chart_stages.js", "chart_pareto.js", "chart_frames.js", "samples.js", "boxes.js", "view.js", "page.js")
+DEBIAN = pathlib.Path("/usr/share")
+
+
+def plotly_file() -> pathlib.Path:
+    """Debian's, else that of the Python package. Raises results.Refused if there is none."""
+    debian = DEBIAN / "python3-plotly" / "plotly.js"
+    if debian.exists():
+        return debian
+    package = importlib.util.find_spec("plotly")
+    for folder in package.submodule_search_locations or [] if package else []:
+        if (found := pathlib.Path(folder) / "package_data" / "plotly.min.js").exists():
+            return found
+    raise results.Refused(f"charts need plotly.js, and neither {debian} nor a Python package plotly is there: "
+                          "on Debian, install python3-plotly")
+
+
+def three_files() -> list[pathlib.Path]:
+    folder = DEBIAN / "javascript" / "three"
+    files = [folder / "three.min.js", folder / "examples" / "js" / "controls" / "OrbitControls.js"]
+    for path in files:
+        if not path.exists():
+            raise results.Refused(f"a scene in three dimensions needs three.js, and {path} is not there: "
+                                  "on Debian, install libjs-three")
+    return files
+
+
+def blob(name: str, content: bytes) -> str:
+    """Bytes for unpack.js. The same bytes give the same text: gzip would write the time."""
+    text = base64.b64encode(gzip.compress(content, 9, mtime=0)).decode("ascii")
+    return f'<script type="text/plain" id="blob-{name}">{text}</script>'
+
+
+def json_blob(name: str, value: Any) -> str:
+    text = json.dumps(value, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
+    return blob(name, text.encode("utf-8"))
+
+
+def inlined(names: tuple[str, ...]) -> str:
+    return "\n".join(f"/* plots/report/{name} */\n" + (PARTS / name).read_text(encoding="utf-8") for name in names)
+
+
+def facts_list(facts: list[tuple[str, str]]) -> str:
+    return "<dl class=\"facts\">" + "".join(
+        f"<div><dt>{html.escape(term)}</dt><dd>{html.escape(said)}</dd></div>" for term, said in facts) + "</dl>"
+
+
+def section(number: int, title: str, sentence: str, warnings: list[str], facts: list[tuple[str, str]]) -> str:
+    """What a reader sees of a file even where no script runs."""
+    said = "".join(f'<p class="warning">{html.escape(warning)}</p>' for warning in warnings)
+    return (f'<section id="file-{number}" class="file" hidden><h2>{html.escape(title)}</h2>'
+            f'<p class="note">{html.escape(sentence)}</p>{said}'
+            f'<details class="circumstances"><summary>What was run on what</summary>{facts_list(facts)}</details>'
+            '<div class="verdicts"></div><div class="charts"></div><div class="tables"></div></section>')
+
+
+def page(title: str, sections: list[str], blobs: list[str], has_views: bool) -> str:
+    libraries = [blob("plotly", plotly_file().read_bytes())]
+    if has_views:
+        libraries.append(blob("three", b"\n".join(path.read_bytes() for path in three_files())))
+    filled = {"TITLE": html.escape(title), "STYLE": inlined(STYLES), "SECTIONS": "\n".join(sections),
+              "BLOBS": "\n".join([*blobs, *libraries]), "SCRIPT": inlined(SCRIPTS)}
+    text = (PARTS / "page.html").read_text(encoding="utf-8")
+    for name, content in filled.items():
+        text = text.replace(f"<!--{name}-->", content)
+    return text

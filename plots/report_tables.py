@@ -1,0 +1,179 @@
+"""The tables of a page: columns and rows as data, which plots/report/table.js shows, sorts and filters.
+
+A column's kind is text, state, count (every digit), number (four digits) or time. A row's values stand in its columns' order;
+times are of the table's unit. A value that is not there is null and never 0.
+"""
+from __future__ import annotations
+
+import statistics
+from collections.abc import Callable
+from typing import Any
+
+from report_cells import WHOLE, WITHOUT_TIMES
+
+STAGES = ("near", "bounds", "codes", "sort", "order", "gather", "hierarchy", "refit", "ropes", "copy", "broad", "narrow",
+          "sum")
+UNITS = (("ns", 1.0), ("µs", 1e3), ("ms", 1e6), ("s", 1e9))
+FINDINGS = ("ends", "leaves", "boxes", "layout", "pairs", "contacts", "agree", "moved", "room", "same")
+Cells = list[tuple[int, dict[str, Any]]]  # places in the file and their data
+Value = Callable[[dict[str, Any]], Any]
+
+
+def unit_for(times: list[float]) -> tuple[str, float]:
+    """In which most of these nanoseconds are numbers from 1 on."""
+    middle = statistics.median(times) if times else 1.0
+    return next((unit for unit in reversed(UNITS) if middle >= unit[1]), UNITS[0])
+
+
+class Table:
+    """Columns that no row has a value for are left out, and those that `varies` asks for where all rows are alike."""
+
+    def __init__(self, title: str, cells: Cells, note: str = ""):
+        self.title, self.cells, self.note = title, cells, note
+        self.columns: list[tuple[dict[str, Any], list[Any]]] = []
+
+    def add(self, label: str, kind: str, value: Value, *, varies: bool = False, facet: bool = False, **more: Any) -> None:
+        values = [value(data) for _, data in self.cells]
+        there = {found for found in values if found not in (None, "")}
+        if there and not (varies and len(there) == 1 and "" not in values):
+            self.columns.append(({"label": label, "kind": kind, "facet": facet, **more}, values))
+
+    def times(self, unit: tuple[str, float], quantiles: bool = True) -> None:
+        def of(stage: str, place: int) -> Value:
+            return lambda data: data["times"][stage][place] / unit[1] if stage in data["times"] else None
+
+        whole = [("median", 1), ("p10", 0), ("p90", 2)] if quantiles else [("median", 1)]
+        for name, place in whole:
+            self.add(f"whole, {name}", "time", of(WHOLE, place), unit=unit[0], stage=WHOLE)
+        for stage in STAGES:
+            self.add(stage, "time", of(stage, 1), unit=unit[0], stage=stage)
+
+    def counters(self, wanted: list[str]) -> None:
+        for name in wanted:
+            kind = "count" if name.endswith(("_count", "_bytes", "_max")) else "number"
+            self.add(name.removesuffix("_count").replace("_", " "), kind, lambda data, name=name: data["counters"].get(name))
+
+    def data(self) -> dict[str, Any]:
+        return {"title": self.title, "note": self.note, "columns": [column for column, _ in self.columns],
+                "cells": [place for place, _ in self.cells],
+                "rows": [list(row) for row in zip(*(values for _, values in self.columns))]}
+
+
+def begin(title: str, cells: Cells, called: str, note: str = "") -> Table:
+    """The columns that all tables of cells begin with: of what, whose, and whether it was right."""
+    table = Table(title, cells, note)
+    table.add("scene", "text", lambda data: data["scene"], facet=True)
+    table.add("frame", "count", lambda data: data["frame"], varies=True)
+    table.add(called, "text", lambda data: data["who"], facet=True)
+    table.add("verdict", "state", lambda data: data["state"], facet=True)
+    table.add("experiment", "text", lambda data: data["experiment"], varies=True, facet=True)
+    table.add("axis", "text", lambda data: data["axis"], varies=True, facet=True)
+    table.add("asked for", "text", lambda data: data["asked"], varies=True, facet=True)
+    table.add("triangles", "count", lambda data: data["triangles"])
+    return table
+
+
+def times_table(title: str, cells: Cells, called: str, counters: list[str], note: str) -> dict[str, Any]:
+    table = begin(title, cells, called, note)
+    table.add("samples", "count", lambda data: data["n"] or None)
+    table.times(unit_for([data["times"][WHOLE][1] for _, data in cells if WHOLE in data["times"]]))
+    table.add("million triangles a second", "number", lambda data: data["triangles"] * 1e3 / data["times"][WHOLE][1]
+              if data["operation"] == "build" and data["times"].get(WHOLE, [0, 0])[1] > 0 and data["triangles"] else None)
+    table.add("of the copy rate", "share", lambda data: data.get("copy_share"))
+    for error in dict.fromkeys(name for _, data in cells for name in data.get("errors", {})):
+        table.add(error, "number", lambda data, error=error: data.get("errors", {}).get(error))
+    table.counters(counters)
+    return table.data()
+
+
+def missing_table(cells: Cells) -> dict[str, Any]:
+    table = begin("Without a time, and why", cells, "who")
+    table.add("why", "text", lambda data: data["why"] or "no reason given")
+    return table.data()
+
+
+def counters_table(title: str, cells: Cells, called: str) -> dict[str, Any]:
+    table = begin(title, cells, called)
+    table.counters(sorted({name for _, data in cells for name in data["counters"]}))
+    return table.data()
+
+
+def summary_table(cells: Cells) -> dict[str, Any]:
+    """A row a scene and pipeline: means over frames of their medians, as in the paper's tables."""
+    groups: dict[tuple, Cells] = {}
+    for place, data in cells:
+        groups.setdefault((data["experiment"], data["scene"], data["asked"], data["who"]), []).append((place, data))
+    timed = [data["times"][WHOLE][1] for _, data in cells if WHOLE in data["times"]]
+    unit, scale = unit_for(timed)
+    columns = [("scene", "text"), ("pipeline", "text"), ("verdict", "state"), ("asked for", "text"), ("frames", "count"),
+               ("mean of medians", "time"), ("slowest frame", "time"), ("pairs a frame", "number"),
+               ("contacts a frame", "number")]
+    rows, slowest = [], []
+    for (_, scene, question, name), placed in groups.items():
+        group = [data for _, data in placed]
+        slowest.append(max(placed, key=lambda one: one[1]["times"].get(WHOLE, [0, 0])[1])[0])
+        bad = next((data["state"] for state in WITHOUT_TIMES for data in group if data["state"] == state), None)
+        medians = [data["times"][WHOLE][1] / scale for data in group if WHOLE in data["times"]]
+        # A mean over frames of which some are missing is a mean of something else.
+        is_whole = bad is None and medians
+
+        def mean(counter: str) -> float | None:
+            values = [data["counters"][counter] for data in group if counter in data["counters"]]
+            return statistics.fmean(values) if values and is_whole else None
+
+        rows.append([scene, name, bad or group[0]["state"], question, len(group),
+                     statistics.fmean(medians) if is_whole else None, max(medians) if is_whole else None,
+                     mean("pairs_count"), mean("contacts_count")])
+    return {"title": "Whole frames by scene", "cells": None, "rows": rows,
+            "note": "Means over all frames of a scene; of a pipeline that lacks one there is none.",
+            "columns": [{"label": label, "kind": kind, "facet": label in ("scene", "pipeline", "verdict", "asked for"),
+                         **({"unit": unit} if kind == "time" else {}),
+                         **({"cells": slowest, "stage": WHOLE} if label == "slowest frame" else {})} for label, kind in columns]}
+
+
+def stress_table(stress: list[dict[str, Any]]) -> dict[str, Any]:
+    there = [name for name in FINDINGS if any(name in cell["findings"] for cell in stress)]
+
+    def said(finding: dict[str, Any] | None) -> str | None:
+        if finding is None or finding["verdict"] != "broken":
+            return finding and finding["verdict"]
+        counts = f": {finding['wrong']:,} of {finding['checked']:,} wrong" if finding["wrong"] else ""
+        return "broken" + counts
+
+    rows = [[cell["family"], cell["scene"], cell["system"], cell["kind"],
+             *(said(cell["findings"].get(name)) for name in there),
+             "; ".join(f"{name}: {finding['detail']}" for name, finding in cell["findings"].items() if finding.get("detail"))
+             or None] for cell in stress]
+    columns = [("family", "text"), ("scene", "text"), ("system", "text"), ("kind", "text"),
+               *((name, "state") for name in there), ("detail", "text")]
+    return {"title": "Stress", "cells": None, "note": "", "rows": rows,
+            "columns": [{"label": label, "kind": kind, "facet": label in ("family", "kind")} for label, kind in columns]}
+
+
+TREE = ["sah_cost", "epo", "sibling_overlap", "depth_max", "nodes_count", "tree_bytes"]
+FOUND = ["pairs_count", "contacts_count", "box_tests_count", "memory_bytes"]
+
+
+def tables_of(cells: list[dict[str, Any]], stress: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """In the order in which a reader needs them. Those that end with `folded` are opened when asked for."""
+    placed = list(enumerate(cells))
+    builds, frames, others = ([(place, data) for place, data in placed if data["operation"] in operations]
+                              for operations in (("build", "refit"), ("collide",), ("accuracy",)))
+    missing = [(place, data) for place, data in placed if data["state"] in WITHOUT_TIMES]
+    tables = [missing_table(missing)] if missing else []
+    if builds:
+        tables.append(times_table("Builds", builds, "builder", TREE,
+                                  "Whole: the sum of the stages. Stages: medians. Each time leads to its samples."))
+    if frames:
+        if len({data["frame"] for _, data in frames}) > 1:
+            tables.append(summary_table(frames))
+        tables.append(times_table("Frames", frames, "pipeline", FOUND,
+                                  "Whole: from the first start to the last end. Stages: medians. Each time leads to its samples."))
+    if others:
+        tables.append(times_table("Accuracy", others, "method", ["pairs_count", "missed_count", "false_count", "sah_cost"],
+                                  "Times beside errors. Each time leads to its samples."))
+    if any(data["counters"] for data in cells):
+        tables.append(counters_table("All counters", placed, "who") | {"folded": True})
+    if stress:
+        tables.append(stress_table(stress))
+    return tables

@@ -1,0 +1,105 @@
+#!/usr/bin/env python3
+"""Figures of sweeps and of experiments of one's own: whatever their cells can be drawn as.
+
+    plots/sweeps.py FILE... --out DIR
+
+Builds of a generated scene in several sizes: how each stage grows, a figure a kind of scene (as scaling.py). Builds in several
+orders: time against surface area cost (as pareto_orders.py). Whole frames: milliseconds by stage (as frames.py).
+"""
+from __future__ import annotations
+
+import dataclasses
+import functools
+import pathlib
+import re
+import sys
+from collections.abc import Iterator
+
+import matplotlib.pyplot as plt
+
+import figure
+import frame_stages
+import pareto_orders
+import results
+import scaling
+import style
+
+# Experiments of the program have figures of their own, or none.
+OWN = {path.stem for path in (pathlib.Path(__file__).resolve().parent.parent / "harness" / "experiments").glob("*.json")}
+MOST_SERIES = len(style.VARIANT_LINES)  # of a builder: more would look alike
+MOST_PANELS = 8
+MOST_BARS = 150
+ANSWERS = {"narrow": "none", "adjacent": "keep", "pairs_of": "all"}  # options that decide what is found; the usual ones
+FRAME = "A frame is all from moved vertices to pairs, or to contacts where a narrow phase follows."
+
+
+def kinds_of(cells: list[results.Cell]) -> dict[str, list[results.Cell]]:
+    """Cells of scenes that are the same but for their number of triangles, by what is left of the name."""
+    kinds: dict[str, list[results.Cell]] = {}
+    for cell in cells:
+        kind = re.sub(rf":{cell.triangles}(?=:|$)", "", cell.scene)
+        kinds.setdefault(kind, []).append(cell)
+    return kinds
+
+
+def plain(name: str) -> str:
+    """As part of a file's name."""
+    return re.sub(r"[^A-Za-z0-9_-]+", "-", name).strip("-")
+
+
+def scalings(run: results.Run, experiment: str, cells: list[results.Cell]) -> Iterator[tuple[str, figure.Draw]]:
+    several = {kind: sized for kind, sized in kinds_of(cells).items() if len({cell.triangles for cell in sized}) > 1}
+    for kind, sized in several.items():
+        among = style.in_order(sized)
+        if max(sum(other[0] == one[0] for other in among) for one in among) > MOST_SERIES:
+            continue
+        suffix = f"-{plain(kind)}" if len(several) > 1 else ""
+        yield f"scaling{suffix}", functools.partial(scaling.draw, experiment=experiment, cells=sized)
+
+
+def frames(run: results.Run, experiment: str) -> Iterator[tuple[str, figure.Draw]]:
+    """A figure for each answer that frames were asked for: one takes longer than another."""
+    answers: dict[tuple[str, ...], list[results.Cell]] = {}
+    for cell in run.cells:
+        if cell.experiment == experiment and cell.operation == "collide" and cell.samples:
+            options = dict(cell.collider_options)
+            asked = tuple(options.get(key, usual) for key, usual in ANSWERS.items()) + (cell.swept.get("pairs", ""),)
+            answers.setdefault(asked, []).append(cell)
+    for asked, cells in answers.items():
+        if len({(cell.scene, cell.called) for cell in cells}) > MOST_BARS:
+            continue
+        said = [f"{key} {value}" for (key, usual), value in zip(ANSWERS.items(), asked) if value != usual]
+        said += [asked[-1]] if asked[-1] else []
+        remarks = (FRAME + (f" Asked for: {', '.join(said)}." if said else ""),)
+        suffix = plain("-" + "-".join(said)) if said else ""
+        yield ("frames" + (f"-{suffix}" if suffix else ""),
+               functools.partial(draw_frames, cells=cells, experiment=experiment, remarks=remarks))
+
+
+def draw_frames(run: results.Run, cells: list[results.Cell], experiment: str, remarks: tuple[str, ...]) -> plt.Figure:
+    return frame_stages.draw(dataclasses.replace(run, cells=cells), experiment, remarks)
+
+
+def figures_of(run: results.Run) -> dict[str, figure.Draw]:
+    """By the name of the picture, without the file's."""
+    found: dict[str, figure.Draw] = {}
+    for experiment in dict.fromkeys(cell.experiment for cell in run.cells if cell.experiment not in OWN):
+        builds = [cell for cell in run.of(experiment) if cell.samples]
+        found |= scalings(run, experiment, builds)
+        orders = {pareto_orders.order_of(cell) for cell in builds if "sah_cost" in cell.counters} - {None}
+        if len(orders) > 1 and len({cell.scene for cell in builds}) <= MOST_PANELS:
+            found["orders"] = pareto_orders.draw
+        found |= frames(run, experiment)
+    return found
+
+
+def draw_all(path: pathlib.Path, folder: pathlib.Path) -> list[pathlib.Path]:
+    run = results.load(path)
+    found = figures_of(run)
+    if not found:
+        raise results.Refused(f"{path}: no builds in several sizes or orders, and no frames, of an experiment of one's own")
+    return [picture for name, draw in found.items() for picture in style.save(draw(run), folder, style.stem(path, name))]
+
+
+if __name__ == "__main__":
+    sys.exit(figure.draw_from(__doc__, draw_all))

@@ -1,0 +1,114 @@
+#!/usr/bin/env python3
+"""How often `compare` is right, on real runs: of two runs of one build, and of a builder that was slowed by 10 %.
+
+Usage: compare_trials.py <bvhbench> [--trials N] [--samples N] [--keep FOLDER] [--slow FACTOR]
+
+Takes some three minutes and wants a machine with nothing else on it, so no test runs it: CI's nightly does. In each trial
+three runs sample by turns (`run --turns`): two as they are, and one with a builder slowed through the test hook
+BVHBENCH_SLOW, another builder each time. The first is held to the second and to the slowed one, and to the second of the
+trial before, which ran at another time. Exits with 1 unless
+
+- at least 95 % of the cells of runs of one build are SAME or UNSURE, by turns and one after the other,
+- the slowed cell is SLOWER in at least 90 % of the trials,
+- a SAH cost, and a number of pairs, that is off by its last digit is found in every trial.
+"""
+import argparse
+import copy
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+BUILDERS = ["perfect", "karras", "apetrei-fused", "lbvh-levels", "oibvh-single", "oibvh-multi"]
+VERDICTS = ("SAME", "FASTER", "SLOWER", "UNSURE")
+
+
+def experiment(samples: int) -> dict:
+    return {"experiment": "trial", "scenes": ["torus:20000"], "builders": BUILDERS, "samples": samples, "warm_up": 5}
+
+
+def measure(program: pathlib.Path, folder: pathlib.Path, trial: int, slow: str) -> None:
+    """Three runs by turns."""
+    runs = []
+    for name in ("before", "after", "slow"):
+        environment = {**os.environ, "BVHBENCH_SLOW": slow if name == "slow" else ""}
+        runs.append(subprocess.Popen([program, "run", folder / "trial.json", "--out", folder / f"{name}{trial}.json",
+                                      "--turns", f"{folder / f'turns{trial}'}:3"], env=environment,
+                                     stdout=subprocess.DEVNULL))
+    if any([run.wait() for run in runs]):
+        sys.exit("a run failed")
+
+
+def verdicts(program: pathlib.Path, before: pathlib.Path, after: pathlib.Path) -> dict[str, str]:
+    """Of each cell by its builder; all rows are asked for."""
+    done = subprocess.run([program, "compare", before, after, "--all", "--allow-dirty", "--test-hooks"],
+                          capture_output=True, text=True)
+    assert done.returncode in (0, 1), done
+    found = {}
+    for line in done.stdout.splitlines():
+        words = line.split()
+        if words and words[-1] in VERDICTS and ": " in line and "together" not in line:
+            found[line.split(": ", 1)[1].split("  ")[0].strip()] = words[-1]
+    return found
+
+
+def finds(program: pathlib.Path, path: pathlib.Path, counter: str) -> bool:
+    """Whether the smallest change of a counter is told, and fails."""
+    document = json.loads(path.read_text())
+    changed = copy.deepcopy(document)
+    cell = next(cell for cell in changed["cells"] if counter in cell["counters"])
+    value = cell["counters"][counter]
+    cell["counters"][counter] = value + 1 if isinstance(value, int) else value * (1 + 2**-52)
+    other = path.with_suffix(".changed.json")
+    other.write_text(json.dumps(changed))
+    done = subprocess.run([program, "compare", path, other, "--allow-dirty"], capture_output=True, text=True)
+    return done.returncode == 1 and f": {counter} " in done.stdout
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser()
+    parser.add_argument("program", type=lambda path: pathlib.Path(path).resolve())
+    parser.add_argument("--trials", type=int, default=20)
+    parser.add_argument("--samples", type=int, default=240)
+    parser.add_argument("--slow", type=float, default=1.10)
+    parser.add_argument("--keep", type=pathlib.Path, help="folder of the runs; those that are there are not made again")
+    options = parser.parse_args()
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = options.keep or pathlib.Path(temporary)
+        folder.mkdir(parents=True, exist_ok=True)
+        if not (folder / "trial.json").exists():
+            (folder / "trial.json").write_text(json.dumps(experiment(options.samples)))
+            for trial in range(options.trials):
+                measure(options.program, folder, trial, f"{BUILDERS[trial % len(BUILDERS)]}:{options.slow}")
+        pairs = folder / "pairs.json"
+        subprocess.run([options.program, "collide", "--collider", "leaf", "--scene", "torus:2000", "--samples", "1",
+                        "--json", pairs], check=True, stdout=subprocess.DEVNULL)
+        quiet, cells, found, exact = {"by turns": 0, "apart": 0}, {"by turns": 0, "apart": 0}, 0, 0
+        for trial in range(options.trials):
+            slowed = BUILDERS[trial % len(BUILDERS)]
+            before, after, slow = (folder / f"{name}{trial}.json" for name in ("before", "after", "slow"))
+            told = {"by turns": verdicts(options.program, before, after)}
+            if trial > 0:
+                told["apart"] = verdicts(options.program, folder / f"after{trial - 1}.json", before)
+            for how, of_cells in told.items():
+                cells[how] += len(of_cells)
+                quiet[how] += sum(verdict in ("SAME", "UNSURE") for verdict in of_cells.values())
+            slower = verdicts(options.program, before, slow)
+            found += slower[slowed] == "SLOWER"
+            exact += finds(options.program, before, "sah_cost") and finds(options.program, pairs, "pairs_count")
+            print(f"trial {trial}: {slowed} slowed {slower[slowed]};",
+                  "; ".join(how + " " + ", ".join(f"{cell} {verdict}" for cell, verdict in of_cells.items()
+                                                  if verdict in ("SLOWER", "FASTER")) for how, of_cells in told.items()))
+    for how, count in quiet.items():
+        print(f"of one build, {how}: {count} of {cells[how]} cells SAME or UNSURE ({100 * count / cells[how]:.1f} %,"
+              " at least 95 wanted)")
+    print(f"slowed by {options.slow}: found in {found} of {options.trials} trials (at least 90 % wanted)")
+    print(f"changed SAH and pair count: found in {exact} of {options.trials} trials (all wanted)")
+    enough = all(count >= 0.95 * cells[how] for how, count in quiet.items())
+    return 0 if enough and found >= 0.9 * options.trials and exact == options.trials else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,94 @@
+#!/usr/bin/env python3
+"""How samples are taken, as the program and its result files tell it.
+
+Usage: sampling_test.py <bvhbench> <result schema>
+"""
+import json
+import pathlib
+import re
+import statistics
+import subprocess
+import sys
+
+from program import PROGRAM, copied_kernels, expect, main, valid
+
+BUILD = ("build", "--builder", "oibvh-multi", "--scene", "torus:3000")
+
+
+def only(path: str) -> dict:
+    cell, = valid(path)["cells"]
+    return cell
+
+
+def test_a_fixed_number_is_what_was_asked_for() -> None:
+    said = expect(0, *BUILD, "--samples", "40", "--json", "a.json", says="40 samples")
+    cell = only("a.json")
+    assert len(cell["samples"]) == 40 and cell["sampling"] == {"stopped": "number", "caches": "hot"}
+    assert all(sample["calibration_ns"] > 0 for sample in cell["samples"])
+    assert cell["first"]["run_ns"] > 0 and "first run" in said
+    for stage in (stage for sample in cell["samples"] for stage in sample["stages"]):
+        assert stage["queued_ns"] >= 0 and stage["submitted_ns"] >= 0
+    assert "q1" in said and "q3" in said and "queued" in said and "submitted" in said
+
+
+def test_a_target_stops_and_says_why() -> None:
+    expect(0, *BUILD, "--until", "100%", "--min-samples", "10", "--json", "a.json", says="within 100.0 %")
+    cell = only("a.json")
+    assert cell["sampling"] == {"stopped": "steady", "caches": "hot", "until": 1}
+    assert 10 <= len(cell["samples"]) < 200
+    expect(0, *BUILD, "--until", "0.01%", "--max-samples", "20", "--json", "a.json", says="no more are allowed")
+    cell = only("a.json")
+    assert cell["sampling"]["stopped"] == "most" and len(cell["samples"]) == 20
+    expect(0, *BUILD, "--until", "0.01%", "--min-samples", "9", "--max-samples", "100000", "--time-budget", "0.2",
+           "--json", "a.json")
+    assert only("a.json")["sampling"]["stopped"] in ("budget", "noisy")
+    pathlib.Path("until.json").write_text(json.dumps({
+        "experiment": "until", "scenes": ["soup:500"], "builders": ["perfect"], "until": 0.9, "caches": "cold",
+        "pipelines": [{"builder": "karras", "collider": "leaf"}]}))
+    expect(0, "run", "until.json", "--out", "a.json")
+    for cell in valid("a.json")["cells"]:
+        assert cell["sampling"]["caches"] == "cold" and cell["sampling"]["until"] == 0.9, cell
+    expect(0, "run", "until.json", "--samples", "2", "--out", "a.json")
+    assert all(len(cell["samples"]) == 2 for cell in valid("a.json")["cells"])
+
+
+def test_what_makes_no_sense_is_refused() -> None:
+    expect(2, *BUILD, "--until", "2%", "--samples", "9", says="--samples")
+    expect(2, *BUILD, "--until", "2", says="a share")
+    expect(2, *BUILD, "--min-samples", "9", says="--until begins")
+    expect(2, *BUILD, "--until", "2%", "--min-samples", "30", "--max-samples", "20", says="at most 20")
+    for turns in ("turns", "turns:1", ":2", "turns:x", "turns:99"):
+        expect(2, "run", "smoke", "--turns", turns, says="--turns names a file and how many runs")
+
+
+def test_cold_caches_are_emptied_before_each_sample() -> None:
+    """Counted by a line that the kernel prints then; what it gains in time depends on the machine."""
+    planted = pathlib.Path(copied_kernels("kernels"), "device/limits.cl")
+    text, walks = re.subn(r"(kernel void walk\([^)]*\)\s*\{)", r'\1 if (get_global_id(0) == 0) printf("walked\\n");',
+                          planted.read_text())
+    assert walks == 1
+    planted.write_text(text)
+    for words, times in (((), 0), (("--cold",), 1)):
+        said = expect(0, *BUILD, "--samples", "5", "--kernels", "kernels", "--json", "a.json", *words)
+        cell = only("a.json")
+        assert cell["sampling"]["caches"] == ("cold" if words else "hot") and len(cell["samples"]) == 5
+        # Before each sample and each of the 3 builds that warm up, and once when the buffer is made.
+        assert said.count("walked\n") == times * (5 + 3 + 1), said
+
+
+def test_runs_by_turns_know_each_other_and_are_of_one_time() -> None:
+    pathlib.Path("few.json").write_text(json.dumps({
+        "experiment": "few", "scenes": ["torus:3000", "soup:500"], "builders": ["perfect", "karras"], "samples": 20}))
+    runs = [subprocess.Popen([PROGRAM, "run", "few.json", "--out", f"{name}.json", "--turns", "turns:2"],
+                             stdout=subprocess.DEVNULL) for name in ("a", "b")]
+    assert [run.wait(timeout=200) for run in runs] == [0, 0]
+    a, b = valid("a.json"), valid("b.json")
+    assert a["run"]["turns_with"] == [b["run"]["id"]] and b["run"]["turns_with"] == [a["run"]["id"]]
+    assert len(pathlib.Path("turns").read_text().splitlines()) == 4  # two runs, two scenes
+    for document in (a, b):
+        assert all(len(cell["samples"]) == 20 for cell in document["cells"])
+        assert statistics.median(sample["order"] for cell in document["cells"] for sample in cell["samples"]) > 20
+    expect(2, "run", "few.json", "--out", "c.json", "--turns", "turns:2", says="has been used by others")
+
+
+sys.exit(main(globals()))

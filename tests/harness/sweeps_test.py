@@ -1,0 +1,411 @@
+#!/usr/bin/env python3
+"""Sweeps: killed and resumed, crashed, cut into shards, merged and drawn.
+
+Usage: sweeps_test.py <bvhbench> <result schema>
+
+SWEEP_SEED is when it is killed (1).
+"""
+import collections
+import json
+import os
+import pathlib
+import random
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+from program import PROGRAM, SCHEMA, expect, main, planted_kernels, run, valid
+
+SOURCE = SCHEMA.parents[2]
+PRODUCT = ("--scenes", "soup:70,torus:500", "--builders", "perfect,karras", "--orders", "morton30,hilbert30", "--samples", "2",
+           "--warm-up", "0")
+
+
+def about(cell: dict) -> str:
+    """What a cell is about, whatever came of it."""
+    scene = cell["scene"]
+    key = [cell["experiment"], scene["name"], scene.get("frame", 0), cell["builder"], cell.get("collider"), cell["operation"]]
+    return json.dumps(key, sort_keys=True)
+
+
+def cells_of(path: str) -> collections.Counter:
+    """How often each cell is in a result file."""
+    document = valid(path)
+    known = {source["id"] for source in document.get("merged_from", [])}
+    assert all(cell["run"] in known for cell in document["cells"]) or not known, path
+    return collections.Counter(about(cell) for cell in document["cells"])
+
+
+def statuses(path: str) -> collections.Counter:
+    return collections.Counter(cell["status"] for cell in valid(path)["cells"])
+
+
+def processes_of(folder: str) -> list[str]:
+    """Command lines that name something in the folder."""
+    found = []
+    for entry in pathlib.Path("/proc").iterdir():
+        if entry.name.isdigit():
+            try:
+                line = (entry / "cmdline").read_bytes().replace(b"\0", b" ").decode(errors="replace")
+            except OSError:
+                continue
+            found += [line] if f"{folder}/" in line else []
+    return found
+
+
+def finished(folder: str) -> dict[str, str]:
+    """The cells in a folder that are whole, by file, as they are."""
+    found = {}
+    for path in sorted(pathlib.Path(folder, "cells").glob("*.json")):
+        text = path.read_text()  # whole whenever it is there
+        if "finished_at" in json.loads(text)["run"]:
+            found[path.name] = text
+    return found
+
+
+def test_killed_three_times_it_has_the_cells_of_one_that_was_not():
+    seed = int(os.environ.get("SWEEP_SEED", 1))
+    draw = random.Random(seed)
+    whole = expect(0, "sweep", *PRODUCT, "--out", "whole", says="8 cells: 8 measured, 0 skipped, 0 failed")
+    assert len(re.findall(r"^\[[1-7]/8\] .*: agrees, [0-9.]+ s; about \d+ (?:s|min) left$", whole, re.MULTILINE)) == 7, whole
+    wanted = cells_of("whole/sweep.json")
+    assert len(wanted) == 8 and set(wanted.values()) == {1}, wanted
+    before: dict[str, str] = {}
+    progress = []
+    for kill in range(3):
+        with subprocess.Popen([PROGRAM, "sweep", *PRODUCT, "--out", "killed"], stdout=subprocess.DEVNULL,
+                              start_new_session=True) as process:
+            # Once it has begun with cells, so that there is something to go on with; the last time only the sweep itself.
+            until = time.time() + 60
+            while not finished("killed").keys() - before.keys() and process.poll() is None and time.time() < until:
+                time.sleep(0.02)
+            time.sleep(draw.uniform(0, 0.8))
+            if kill < 2:
+                os.killpg(process.pid, signal.SIGKILL)
+            else:
+                process.kill()
+            process.wait(60)
+        until = time.time() + 10
+        while processes_of("killed") and time.time() < until:  # what was killed is gone in a moment
+            time.sleep(0.02)
+        now = finished("killed")
+        assert all(now[name] == text for name, text in before.items()), "a finished cell was measured again"
+        before = now
+        progress.append(len(before))
+    print(f"  seed {seed}: killed with {progress} of 8 cells done")
+    assert 1 <= progress[0] < 8, progress
+    done = expect(0, "sweep", *PRODUCT, "--out", "killed", says="8 cells: 8 measured, 0 skipped, 0 failed")
+    assert done.count("\n[") == 8 - len(before), done
+    now = finished("killed")
+    assert len(now) == 8 and all(now[name] == text for name, text in before.items())
+    assert cells_of("killed/sweep.json") == wanted
+    assert not list(pathlib.Path("killed").rglob("*.tmp*"))
+    done = expect(0, "sweep", *PRODUCT, "--out", "killed", says="8 cells: 8 measured")
+    assert "[" not in done and cells_of("killed/sweep.json") == wanted, done
+    # As a process leaves it that is killed between its last cell and the end of its run.
+    cut = pathlib.Path("killed/cells", min(now))
+    cut.write_text(re.sub(r'"finished_at":"[^"]*",', "", now[cut.name]))
+    done = expect(0, "sweep", *PRODUCT, "--out", "killed", says="8 cells: 8 measured")
+    assert done.count("\n[") == 1 and cells_of("killed/sweep.json") == wanted, done
+
+
+def test_no_process_outlives_a_sweep_that_is_killed():
+    words = ("sweep", "--scenes", "soup:70", "--builders", "perfect", "--samples", "1000000", "--out", "outlived")
+    with subprocess.Popen([PROGRAM, *words], stdout=subprocess.DEVNULL) as process:
+        while not any(" run outlived/" in line for line in processes_of("outlived")):
+            time.sleep(0.02)
+        time.sleep(0.5)  # it is at work by now, and would be for minutes
+        process.kill()
+        process.wait(60)
+    until = time.time() + 5
+    while processes_of("outlived") and time.time() < until:
+        time.sleep(0.02)
+    assert not processes_of("outlived"), processes_of("outlived")
+
+
+def test_an_interrupt_ends_it_and_keeps_what_is_done():
+    with subprocess.Popen([PROGRAM, "sweep", *PRODUCT, "--out", "stopped"], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                          text=True, start_new_session=True) as process:
+        for line in process.stdout:
+            if line.startswith("[2/8]"):
+                break
+        os.killpg(process.pid, signal.SIGINT)  # as a terminal does: to the cell's process too
+        output, errors = process.communicate(timeout=60)
+    assert process.returncode == 130 and errors == "bvhbench: stopped; finished cells are kept\n", (process.returncode, errors)
+    kept = cells_of("stopped/sweep.json")
+    assert 2 <= len(kept) < 8 and "written: stopped/sweep.json" in output, (kept, output)
+    assert "finished_at" not in valid("stopped/sweep.json")["run"]
+    assert not processes_of("stopped")
+
+
+def crashing_kernels(folder: str) -> str:
+    """A copy of the kernels in which karras writes where nothing is."""
+    crash = r"\1\n    *(volatile global uint*)(ulong)(get_global_size(0) & 0) = 1;\n"
+    return planted_kernels(folder, r"(kernel void \w+\([^{]*\{)", crash)
+
+
+def test_a_crash_costs_one_cell():
+    # Without a watchdog, which would catch it in the process: a crash is a crash, and the sweep sees the process end.
+    words = ("sweep", "--scenes", "soup:70", "--builders", "perfect,karras,median-split", "--samples", "2", "--out", "crash",
+             "--kernels", crashing_kernels("crashing"), "--time-limit", "0")
+    expect(0, *words, says="3 cells: 2 measured, 0 skipped, 1 failed")
+    cells = {cell["builder"]["name"]: cell for cell in valid("crash/sweep.json")["cells"]}
+    assert cells["karras"]["status"] == "failed", cells["karras"]
+    assert re.match(r"its process crashed \(signal (6|11)\)", cells["karras"]["reason"]), cells["karras"]
+    assert cells["perfect"]["check"]["verdict"] == cells["median-split"]["check"]["verdict"] == "agrees"
+    assert "[" not in expect(0, *words, says="1 failed")  # a cell that failed is done
+    good = next(path for path in pathlib.Path("crash/cells").glob("*.json") if '"name":"perfect"' in path.read_text())
+    text = good.read_text()
+    good.write_text(text.replace('"verdict":"agrees"', '"verdict":"differs"'))
+    expect(1, *words)  # an answer that is wrong is told to who asks, however long ago it was found
+    good.write_text(text)
+    assert "[3/3] soup:70, karras: failed" in expect(0, *words, "--retry-failed", says="1 failed")
+
+
+def test_a_process_that_takes_too_long_is_ended_and_may_be_tried_again():
+    words = ("sweep", "--scenes", "soup:70", "--builders", "perfect", "--samples", "2", "--out", "late")
+    expect(0, *words, "--cell-limit", "0.01", says="soup:70, perfect: failed: its process took longer than 0.01")
+    assert statuses("late/sweep.json") == {"failed": 1}
+    expect(0, *words, "--retry-failed", says="1 cell: 1 measured")
+
+
+def test_a_device_that_goes_away_ends_it_with_what_is_done():
+    vendors = pathlib.Path("vendors").resolve()
+    vendors.mkdir()
+    for path in pathlib.Path(os.environ.get("OCL_ICD_VENDORS", "/etc/OpenCL/vendors")).glob("*.icd"):
+        shutil.copy(path, vendors)
+    words = ("sweep", "--scenes", "soup:70,torus:500", "--builders", "perfect,karras", "--samples", "1", "--out", "gone")
+    environment = {**os.environ, "OCL_ICD_VENDORS": str(vendors)}
+    with subprocess.Popen([PROGRAM, *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                          env=environment) as process:
+        for line in process.stdout:
+            if line.startswith("[1/4]"):
+                shutil.rmtree(vendors)
+                break
+        _, errors = process.communicate(timeout=60)
+    assert process.returncode == 3 and re.match(r"bvhbench: the device is gone after [12] of 4 cells \(.*\n$", errors), errors
+    assert statuses("gone/sweep.json").keys() == {"measured"}
+    expect(0, *words, says="4 cells: 4 measured")
+
+
+def test_shards_together_are_the_whole():
+    words = ("sweep", "--scenes", "soup:70,torus:500", "--builders", "perfect,karras", "--set", "boxes=f32,u16", "--samples",
+             "1", "--warm-up", "0")
+    cannot_be = "karras keeps its boxes in its own way"
+    whole = expect(0, *words, "--out", "all", says="8 cells: 6 measured, 2 skipped, 0 failed")
+    assert "8 cells, 2 of which cannot be" in whole, whole
+    sizes = []
+    for shard in ("1/3", "2/3", "3/3"):  # two of them in one folder, as on a shared file system
+        expect(0, *words, "--out", "part" if shard != "2/3" else "elsewhere", "--shard", shard, says="written: ")
+        path = f"{'part' if shard != '2/3' else 'elsewhere'}/sweep-{shard.replace('/', 'of')}.json"
+        sizes.append(statuses(path)["measured"])
+    assert sizes == [2, 2, 2], sizes
+    parts = ("part/sweep-1of3.json", "elsewhere/sweep-2of3.json", "part/sweep-3of3.json")
+    expect(0, "merge", *parts, "-o", "merged.json", says="8 cells of 7 runs")
+    assert cells_of("merged.json") == cells_of("all/sweep.json")
+    skipped = [cell for cell in valid("merged.json")["cells"] if cell["status"] == "skipped"]
+    assert len(skipped) == 2 and all(cell["reason"].startswith(cannot_be) for cell in skipped), skipped
+    expect(0, "show", "merged.json", says="merged from 7 runs on ")
+    # Merged again, with a part of itself: each cell once, as it was.
+    expect(0, "merge", "merged.json", parts[0], "-o", "again.json", says="8 cells of 7 runs; in more than one file, the same in each: 4\n")
+    assert cells_of("again.json") == cells_of("merged.json")
+
+
+def test_cells_from_warm_and_empty_caches_are_two():
+    for name, words in (("hot", ()), ("cold", ("--cold",))):
+        expect(0, "build", "--builder", "perfect", "--scene", "soup:70", "--samples", "2", "--json", f"{name}.json", *words)
+    expect(0, "merge", "hot.json", "cold.json", "-o", "both.json", says="2 cells of 2 runs")
+    assert sorted(cell["sampling"]["caches"] for cell in valid("both.json")["cells"]) == ["cold", "hot"]
+
+
+def test_two_processes_over_two_devices():
+    # PoCL makes as many devices as it is told to.
+    words = ("sweep", *PRODUCT, "--out", "jobs")
+    done = expect(0, *words, "--device", "0", "--device", "1", says="8 cells: 8 measured", POCL_DEVICES="pthread pthread")
+    assert "note: processes share a device" in done, done
+    commands = [source["command"] for source in valid("jobs/sweep.json")["merged_from"]]
+    on = collections.Counter(words[words.index("--device") + 1] for words in commands)
+    assert set(on) == {"0", "1"} and min(on.values()) >= 2, on
+    assert cells_of("jobs/sweep.json") == cells_of("whole/sweep.json")
+    expect(0, "sweep", "--scenes", "soup:70", "--colliders", "leaf,grid", "--samples", "1", "--out", "shared", "--jobs", "2",
+           says="2 cells: 2 measured")
+    expect(3, *words, "--device", "7", says="no OpenCL device matches '7'")
+
+
+def test_a_file_says_what_the_command_line_does_not():
+    pathlib.Path("s.json").write_text(json.dumps({
+        "sweep": "mine", "question": "?", "scenes": ["soup", {"scene": "cloth-ball:1300:3", "frames": "0:2"}],
+        "sizes": [70, "200:400:+200"], "builders": ["perfect", {"name": "oibvh-multi", "boxes": "u16"}],
+        "colliders": ["leaf", {"name": "bvtt", "jump": 2}, "grid"], "set": {"adjacent": ["drop"]}, "samples": 1, "warm_up": 0}))
+    listed = expect(0, "sweep", "s.json", "--out", "mine", "--dry-run",
+                    says="mine: 4 scenes x 2 builders x 3 colliders x 1 value of adjacent: 20 cells\n")
+    assert listed.count("bvtt") == 8 and listed.count(" grid") == 4 and not pathlib.Path("mine").exists(), listed
+    words = ("sweep", "s.json", "--scenes", "soup:70,cloth-ball:1300:3", "--colliders", "leaf,grid", "--set", "frames=0:2")
+    pathlib.Path("t.json").write_text(json.dumps({key: value for key, value in json.loads(
+        pathlib.Path("s.json").read_text()).items() if key != "sizes"} | {"scenes": ["cloth-ball:1300:3"]}))
+    expect(0, "sweep", "t.json", "--colliders", "leaf,grid", "--set", "frames=0:2", "--out", "mine", "--together", "scene",
+           says="[1/1] cloth-ball:1300:3, 3 cells: 6 results")
+    result = valid("mine/mine.json")
+    found = [(cell["collider"]["name"], cell["builder"]["name"], cell["scene"]["frame"]) for cell in result["cells"]]
+    assert sorted(found) == [("grid", "none", 0), ("grid", "none", 1), ("leaf", "oibvh-multi", 0), ("leaf", "oibvh-multi", 1),
+                             ("leaf", "perfect", 0), ("leaf", "perfect", 1)], found
+    assert all(cell["experiment"] == "mine" and cell["collider"]["options"]["adjacent"] == "drop" for cell in result["cells"])
+    orders = sorted(sample["order"] for cell in result["cells"] for sample in cell["samples"])
+    assert orders == list(range(6)), "samples of one process are counted through"
+    expect(2, *words, "--out", "mine", says="s.json: none of the scenes has room for a size")
+
+
+def test_what_cannot_be_is_one_sentence():
+    def refused(*words: str, says: str, code: int = 2) -> None:
+        expect(code, "sweep", "--out", "refused", *words, says=says)
+
+    soup = ("--scenes", "soup:70", "--builders", "perfect")
+    refused("--scenes", "soup:70", "--builders", "perfekt", says="no builder is called 'perfekt'; there are: perfect, ")
+    refused("--scenes", "sooup:70", "--builders", "perfect", says="no scene is called 'sooup:70'; there are: torus:N, ")
+    refused("--scenes", "refine:bunnny:5", "--builders", "perfect", says="no scene is called 'bunnny'")
+    refused(*soup, "--orders", "up", says="there are: morton30, ")
+    refused(*soup, "--colliders", "x", says="no collider is called 'x'; there are: leaf, ")
+    refused("--scenes", "soup:70", says="a sweep needs builders or colliders")
+    refused("--builders", "perfect", says="a sweep needs scenes")
+    for sizes, why in (("1000:10:x10", "1000 is more than 10"), ("10:1000", "a range is FROM:TO:xFACTOR or FROM:TO:+STEP"),
+                       ("10:1000:x1", "'x1' leads nowhere"), ("10:1000:+0", "'0' is no number"), ("ten", "'ten' is no number"),
+                       ("0", "'0' is no number from 1 to"), ("1:2000000000:+1", "they are more than 10000"), (",", "'' is no")):
+        refused("--scenes", "soup", "--builders", "perfect", "--sizes", sizes, says=f"'{sizes}' are no sizes: {why}")
+    refused(*soup, "--sizes", "10", says="none of the scenes has room for a size")
+    refused("--scenes", "soup:{size}", "--builders", "perfect", says="asks for sizes, and the sweep has none")
+    refused("--scenes", "soup", "--builders", "perfect", says="where a triangle count from 1 to")
+    for shard in ("4/3", "0/3", "1", "1/3/5", "a/b", "1/0"):
+        refused(*soup, "--shard", shard, says=f"--shard is i/n with i from 1 to n, not '{shard}'")
+    refused(*soup, "--set", "boxes=u15", says="'boxes' takes names of `list formats`: no format of boxes is called 'u15'")
+    refused(*soup, "--set", "colour=red", says="a sweep sets no 'colour'; there are: grid, ")
+    refused(*soup, "--set", "boxes", says="--set is KEY=V1,V2, not 'boxes'")
+    refused(*soup, "--set", "narrow=exact", says="'narrow' is for colliders, and the sweep has none")
+    refused(*soup, "--colliders", "leaf", "--set", "between=1,2", says="'between' may have one value")
+    refused(*soup, "--colliders", "leaf", "--set", "frames=2:1", says="'frames' takes a:b")
+    refused(*soup, "--set", "builder.group_size=3", says="'3' is no power of two")
+    refused(*soup, "--name", "a b", says="'sweep' must be letters, digits, - and _, not 'a b'")
+    refused("nowhere.json", says="the sweep's file 'nowhere.json' cannot be read", code=3)
+    for text, why in (('{"scenes": ["soup:70"], "builders": []}', "'builders' must be a list of at least one"),
+                      ('{"scenes": [], "builders": ["perfect"]}', "'scenes' must be a list of at least one"),
+                      ('{"scenes": ["soup:70"], "builders": ["perfect"], "set": {"boxes": []}}', "'boxes' must be a list"),
+                      ('{"scene": ["soup:70"]}', "'scene' is no key of a sweep; there are: sweep, question, scenes"),
+                      ('{"scenes": ["soup:70", {"scene": "soup:70", "objects": "one"}], "colliders": ["leaf"]}',
+                       "the scene 'soup:70' is there twice"), ("[]", "must be an object"), ("{", "parse error")):
+        pathlib.Path("bad.json").write_text(text)
+        refused("bad.json", says=why)
+    assert not pathlib.Path("refused").exists()
+    expect(2, "sweep", *soup, says="--out is required")
+    expect(2, "sweep", *soup, "--out", "whole", says="whole holds another sweep, 'sweep' of 2 scenes x 2 builders x 2 orders: "
+                                                     "8 of the 8 cells that it measures are none of these; choose another --out")
+    expect(0, "build", "--builder", "perfect", "--scene", "soup:70", "--samples", "1", "--json", "taken/sweep.json")
+    expect(2, "sweep", *soup, "--out", "taken", says="taken/sweep.json is there and no sweep's")
+    expect(3, "sweep", *soup, "--out", "/proc/sweep", says="/proc/sweep/cells cannot be made")
+
+
+def test_the_documented_examples_work():
+    text = (SOURCE / "docs/sweeps.md").read_text()
+    assert "docs/sweep.json --out" in text and "docs/sweep.sbatch docs/sweep.json" in text
+    expect(0, "sweep", str(SOURCE / "docs/sweep.json"), "--out", "example", "--dry-run",
+           says="orders-by-size: 9 scenes x 3 builders x 3 orders: 81 cells\n")
+    pathlib.Path("tiny.json").write_text('{"scenes": ["soup:70", "torus:70"], "builders": ["perfect"], "samples": 1}')
+    script = str(SOURCE / "docs/sweep.sbatch")
+    for task in "1", "2":
+        environment = {"BVHBENCH": str(PROGRAM), "BVHBENCH_DEVICE": "0", "SLURM_ARRAY_TASK_ID": task, "SLURM_ARRAY_TASK_MAX": "2"}
+        done = subprocess.run([script, "tiny.json", "array"], env={**os.environ, **environment}, capture_output=True, text=True,
+                              check=False)
+        assert done.returncode == 0 and f"written: array/sweep-{task}of2.json" in done.stdout, done
+    expect(0, "merge", "array/sweep-1of2.json", "array/sweep-2of2.json", "-o", "array.json", says="2 cells of 2 runs")
+    alone = subprocess.run([script, "tiny.json", "array"], capture_output=True, text=True, check=False)
+    assert alone.returncode != 0 and "submit it as an array" in alone.stderr, alone
+
+
+def fnv(*parts: bytes) -> str:
+    state = 1469598103934665603
+    for byte in b"".join(parts):
+        state = (state ^ byte) * 1099511628211 % 2**64
+    return f"{state:016x}"
+
+
+def of_another_commit(folder: str) -> str:
+    """Make a finished sweep look as if an earlier program had measured its first cell, and nobody the others."""
+    path = pathlib.Path(folder, "plan.json")
+    plan = json.loads(path.read_text())
+    program, = plan["programs"]
+    other = re.sub(r"^commit \w+", "commit 0123456789", program)
+    plan["programs"] = [other]
+    path.write_text(json.dumps(plan))
+    for number, what in enumerate(plan["units"]):
+        one, two = (pathlib.Path(folder, "cells", fnv(int(what, 16).to_bytes(8, "little"), name.encode(), b"\0",
+                                                      plan["device"].encode(), b"\0") + ".json") for name in (program, other))
+        one.rename(two) if number == 0 else one.unlink()
+    return other
+
+
+def test_another_commit_is_said_and_refused_unless_asked_for():
+    words = ("sweep", "--scenes", "soup:70", "--builders", "perfect,karras", "--samples", "1", "--out", "older")
+    expect(0, *words, says="2 cells: 2 measured")
+    other = of_another_commit("older")
+    expect(2, *words, says=f"older holds 1 cell by {other}, and this program is of commit ")
+    done = expect(0, *words, "--continue-other-commit", says=f"kept: 1 cell by {other}; the others are measured by commit ")
+    assert "[2/2] soup:70, karras" in done and "[1/2]" not in done, done
+    assert cells_of("older/sweep.json").total() == 2
+    plan = pathlib.Path("older/plan.json")
+    plan.write_text(plan.read_text().replace("/pthread", "/another"))
+    expect(2, *words, "--continue-other-commit", says="older holds a sweep on Portable Computing Language/another")
+
+
+def test_merge_refuses_what_is_not_alike():
+    build = ("build", "--builder", "perfect", "--scene", "soup:70", "--samples", "1", "--json")
+    expect(0, *build, "a.json")
+    expect(0, *build, "b.json")
+    expect(2, "merge", "a.json", "b.json", "-o", "m.json",
+           says="a.json and b.json both have soup:70, perfect, and not the same of it")
+    expect(0, "merge", "a.json", "a.json", "-o", "m.json", says="1 cell of 1 run; in more than one file, the same in each: 1\n")
+    expect(3, "merge", "a.json", "nowhere.json", "-o", "m.json", says="the result file 'nowhere.json' cannot be read")
+    expect(3, "merge", "a.json", str(SCHEMA), "-o", "m.json", says="is no result file")
+    document = valid("b.json")
+
+    def changed(name: str, change) -> str:
+        other = json.loads(json.dumps(document))
+        change(other)
+        pathlib.Path(name).write_text(json.dumps(other))
+        return name
+
+    old = changed("old.json", lambda other: other.update(format="1.7"))
+    expect(2, "merge", "a.json", old, "-o", "m.json", says=f"a.json has format {document['format']} and old.json 1.7")
+    expect(0, "merge", old, "-o", "m.json", says="1 cell of 1 run")
+    assert float(valid("m.json")["format"].split(".")[1]) >= 8
+    device = changed("device.json", lambda other: other["run"]["device"].update(name="other"))
+    expect(2, "merge", "a.json", device, "-o", "m.json", says="--other-devices merges them all the same")
+    expect(0, "merge", "a.json", device, "-o", "m.json", "--other-devices", says="2 cells of 2 runs")
+    expect(0, "show", "m.json", says="of several devices: ")
+    assert sorted(source["device"] for source in valid("m.json")["merged_from"])[0] == "other"
+    refused = run("plot", "m.json", "--out", "pictures", BVHBENCH_HOME=str(SOURCE))
+    assert refused.returncode == 3 and "merged from several devices" in refused.stderr, refused
+    commit = changed("commit.json", lambda other: (other["run"]["program"].update(commit="0" * 40),
+                                                   other["cells"][0]["builder"].update(name="karras")))
+    expect(2, "merge", "a.json", commit, "-o", "m.json", says="--other-commits merges them all the same")
+    expect(0, "merge", "a.json", commit, "-o", "m.json", "--other-commits", says="2 cells of 2 runs")
+    wrong = changed("wrong.json", lambda other: other["cells"][0]["check"].update(verdict="differs"))
+    expect(1, "merge", wrong, "-o", "m.json", says="")
+    # What a newer program has put into a cell stays there.
+    newer = changed("newer.json", lambda other: other["cells"][0].update(colour="red"))
+    expect(0, "merge", newer, "-o", "m.json")
+    assert json.loads(pathlib.Path("m.json").read_text())["cells"][0]["colour"] == "red"
+
+
+def test_plot_draws_what_there_is_or_says_what_there_is():
+    environment = {"BVHBENCH_HOME": str(SOURCE)}
+    drawn = expect(0, "plot", "whole/sweep.json", "--out", "pictures", says="drawn into pictures", **environment)
+    assert "pictures/sweep-orders.svg" in drawn and pathlib.Path("pictures/sweep-orders.png").exists(), drawn
+    expect(3, "plot", "a.json", "--out", "pictures", says="a.json: there is no figure of what it holds: build (1 cell)",
+           **environment)
+    expect(3, "plot", "nowhere.json", "--out", "pictures", says="nowhere.json", **environment)
+    expect(3, "plot", "a.json", BVHBENCH_HOME="/nowhere", says="/nowhere/plots/all.py is not there")
+
+
+if __name__ == "__main__":
+    sys.exit(main(globals()))

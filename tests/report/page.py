@@ -1,0 +1,119 @@
+"""What tests of a page share: a report of golden files, one of them with faults, open in a browser, and ways to ask it.
+
+Called as `<test> <source root> <bvhbench>`: the test takes both words off the command line through this module.
+"""
+from __future__ import annotations
+
+import atexit
+import copy
+import functools
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
+PROGRAM = pathlib.Path(sys.argv.pop(1)).resolve()
+GOLDEN = ROOT / "tests" / "golden"
+sys.path.insert(0, str(ROOT / "plots"))
+
+import results  # noqa: E402
+from browser import Browser  # noqa: E402
+
+FILES = ("table1", "quality", "table2", "accuracy", "stress")
+DETAIL = "box 7 is not its children's"
+
+
+def with_faults(document: dict) -> dict:
+    """One cell wrong, one failed; one is skipped in the golden file already."""
+    document = copy.deepcopy(document)
+    measured = [cell for cell in document["cells"] if cell["status"] == "measured"]
+    measured[0]["check"] = {"verdict": "differs", "against": "contract", "detail": DETAIL}
+    failed = measured[1]
+    for key in ("samples", "counters", "check", "warm_up"):
+        del failed[key]
+    failed |= {"status": "failed", "reason": "out of device memory: 9 bytes"}
+    return document
+
+
+def golden(name: str) -> dict:
+    return json.loads((GOLDEN / f"{name}.json").read_text(encoding="utf-8"))
+
+
+def report(out: pathlib.Path, *files: pathlib.Path) -> subprocess.CompletedProcess:
+    return subprocess.run([PROGRAM, "report", *files, "-o", out], capture_output=True, text=True, check=False,
+                          env={"BVHBENCH_HOME": str(ROOT), "PATH": "/usr/bin:/bin"})
+
+
+class Opened:
+    """A report and a browser, made when first asked for."""
+
+    def __init__(self) -> None:
+        self.holder = tempfile.TemporaryDirectory()
+        self.folder = pathlib.Path(self.holder.name)
+        self.faulty = with_faults(golden("table1"))
+        (self.folder / "faulty.json").write_text(json.dumps(self.faulty), encoding="utf-8")
+        self.files = [*(GOLDEN / f"{name}.json" for name in FILES), self.folder / "faulty.json"]
+        self.page = self.folder / "a report.html"
+        self.made = report(self.page, *self.files)
+        if not self.page.exists():
+            raise AssertionError(f"no page was made: {self.made}")
+        self.browser = Browser()
+        atexit.register(self.holder.cleanup)
+        atexit.register(self.browser.close)
+
+
+@functools.cache
+def opened() -> Opened:
+    return Opened()
+
+
+class Page(unittest.TestCase):
+    """Ends with an error if the console has said anything, or the network was asked for anything."""
+
+    def setUp(self) -> None:
+        self.report = opened()
+        self.browser = self.report.browser
+        self.browser.resize(1280)
+
+    def tearDown(self) -> None:
+        self.assertEqual(self.browser.complaints(), [])
+        self.assertEqual(self.browser.requests(), [])
+
+    def show(self, name: str) -> results.Run | None:
+        """A file's part, all drawn; the golden file as figures read it."""
+        place = len(FILES) if name == "faulty" else FILES.index(name)
+        self.browser.open(self.report.page, f"#file-{place}")
+        self.browser.all_drawn()
+        return results.load(GOLDEN / f"{name}.json") if name in FILES else None
+
+    def chart(self, title: str, script: str, *arguments: object) -> object:
+        """`script` of the chart's element, `chart`, and Plotly's `drawing` in it."""
+        return self.browser.run(f"""const chart = [...document.querySelectorAll("section:not([hidden]) .chart")].find(
+            (one) => one.querySelector("h3").textContent === {json.dumps(title)});
+            const drawing = chart.querySelector(".drawing"); {script}""", *arguments)
+
+    def choose(self, title: str, label: str, value: str) -> None:
+        self.chart(title, """const named = [...chart.querySelectorAll("label")].find((one) => one.textContent.startsWith(arguments[0]));
+            const select = named.querySelector("select");
+            select.value = arguments[1];
+            select.dispatchEvent(new Event("change"));""", label, value)
+
+    def table(self, title: str, script: str, *arguments: object) -> object:
+        return self.browser.run(f"""const titled = [...document.querySelectorAll("section:not([hidden]) .titled")].find(
+            (one) => one.querySelector("h3").textContent === {json.dumps(title)});
+            const cells = (row) => [...row.children].map((cell) => cell.innerText); {script}""", *arguments)
+
+    def rows(self, title: str) -> list[list[str]]:
+        return self.table(title, "return [...titled.querySelectorAll('tbody tr')].map(cells);")
+
+    def per_second(self, title: str) -> float:
+        """How many of a table's unit of time a second has."""
+        unit = self.table(title, "return titled.querySelector('thead .unit').textContent;")
+        return {"ns": 1e9, "µs": 1e6, "ms": 1e3, "s": 1.0}[unit]
+
+    def heads(self, title: str) -> list[str]:
+        heads = self.table(title, "return [...titled.querySelectorAll('thead button')].map((head) => head.firstChild.data);")
+        return [head.strip() for head in heads]

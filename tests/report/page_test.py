@@ -1,0 +1,65 @@
+#!/usr/bin/env python3
+"""A report in a browser: charts draw what the files say, tables sort and filter, a number leads to its samples, and what has
+no time is shown as that. Nothing is asked of the network.
+
+Usage: page_test.py <source root> <bvhbench>
+"""
+import pathlib
+import tempfile
+import unittest
+
+from page import FILES, Page, report  # first: it takes the command line's words, and says where figures are
+
+from charts import Charts  # noqa: F401
+from tables import Tables  # noqa: F401
+
+WIDTHS = (1280, 400)
+
+
+class Whole(Page):
+    def test_nothing_is_wider_than_the_window(self) -> None:
+        for width in WIDTHS:
+            self.browser.resize(width)
+            self.browser.open(self.report.page)
+            for part in ("#overview", *(f"#file-{place}" for place in range(len(FILES) + 1)), "#cell=2.3.broad"):
+                self.browser.go(part)
+                self.browser.all_drawn()
+                sizes = self.browser.run("""const dialog = document.querySelector("dialog");
+                    return [document.documentElement.scrollWidth, innerWidth, dialog.scrollWidth - dialog.clientWidth];""")
+                self.assertEqual(sizes, [width, width, 0], part)
+
+    def test_the_overview_says_what_ran_on_what(self) -> None:
+        self.browser.open(self.report.page, "#overview")
+        rows = self.rows("What was run on what")
+        self.assertEqual([row[0] for row in rows], [*FILES, "faulty"])
+        self.assertEqual([row[4] for row in rows], ["Invented GPU"] * len(rows))
+        self.assertEqual(rows[-1][3], "1 differs, 1 failed, 1 skipped")
+        facts = self.browser.run("return document.querySelector('#file-0 .facts').textContent")
+        for words in ("Invented GPU", "Invented CPU", "0" * 40, "reproduce table1", "GNU 12.2.0"):
+            self.assertIn(words, facts)
+
+    def test_the_same_files_make_the_same_page(self) -> None:
+        again = self.report.folder / "again.html"
+        report(again, *self.report.files)
+        self.assertEqual(again.read_bytes(), self.report.page.read_bytes())
+
+
+class Refusals(unittest.TestCase):
+    def test_what_is_no_result_file_is_refused_in_one_sentence(self) -> None:
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            other = folder / "other.json"
+            for text, words in (("{}", "not a result file"), ("{", "Expecting"), ('{"format": "2.0"}', "this reader knows 1.x")):
+                other.write_text(text, encoding="utf-8")
+                done = report(folder / "r.html", other)
+                self.assertEqual((done.returncode, done.stdout), (3, ""))
+                self.assertRegex(done.stderr, rf"^bvhbench: [^\n]*{words}[^\n]*\n$")
+            done = report(folder / "r.html", folder / "none.json")
+            self.assertEqual((done.returncode, done.stderr), (3, f"bvhbench: {folder}/none.json: No such file or directory\n"))
+            self.assertEqual(list(folder.glob("*.html")), [])
+            done = report(folder / "r.html")
+            self.assertEqual((done.returncode, done.stderr), (2, "bvhbench: name result files, or a --scene to show\n"))
+
+
+if __name__ == "__main__":
+    unittest.main()
