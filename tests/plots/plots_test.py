@@ -5,11 +5,14 @@ Usage: plots_test.py <source root>
 """
 import copy
 import json
+import os
 import pathlib
 import re
+import runpy
 import subprocess
 import sys
 import tempfile
+import traceback
 import unittest
 
 ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
@@ -26,6 +29,22 @@ import style  # noqa: E402
 import swept  # noqa: E402
 
 
+def code_of_script() -> int:
+    """Runs what sys.argv names as the main program: what the interpreter would have ended with."""
+    code = 1
+    try:
+        runpy.run_path(sys.argv[0], run_name="__main__")
+        code = 0
+    except SystemExit as end:
+        code = end.code if isinstance(end.code, int) else 0 if end.code is None else 1
+        if isinstance(end.code, str):
+            print(end.code, file=sys.stderr)
+    except BaseException:
+        traceback.print_exc()
+    sys.stdout.flush(), sys.stderr.flush()
+    return code
+
+
 class TemporaryFolder(unittest.TestCase):
     def setUp(self) -> None:
         holder = tempfile.TemporaryDirectory()
@@ -39,8 +58,18 @@ class TemporaryFolder(unittest.TestCase):
         return path
 
     def run_script(self, name: str, *arguments: object) -> subprocess.CompletedProcess:
-        command = [sys.executable, str(ROOT / "plots" / name), *map(str, arguments)]
-        return subprocess.run(command, capture_output=True, text=True, check=False)
+        """As from a shell, but split off from this process, where matplotlib is loaded already."""
+        command = [str(ROOT / "plots" / name), *map(str, arguments)]
+        with tempfile.TemporaryFile("w+") as out, tempfile.TemporaryFile("w+") as errors:
+            sys.stdout.flush(), sys.stderr.flush()
+            if (child := os.fork()) == 0:
+                os.dup2(out.fileno(), 1)
+                os.dup2(errors.fileno(), 2)
+                sys.stdout, sys.stderr, sys.argv = open(1, "w", closefd=False), open(2, "w", closefd=False), command
+                os._exit(code_of_script())
+            status = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+            out.seek(0), errors.seek(0)
+            return subprocess.CompletedProcess(command, status, out.read(), errors.read())
 
 
 class Scripts(TemporaryFolder):
