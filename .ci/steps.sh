@@ -17,6 +17,23 @@ step() {
     fi
 }
 
+# beside NAME COMMAND...: a step that runs beside those after it, until `awaited` prints what it said.
+beside() {
+    beside_name=$1 beside_log=$(mktemp)
+    (
+        failed=()
+        step "$@"
+        ((${#failed[@]} == 0))
+    ) >"$beside_log" 2>&1 &
+    beside_job=$!
+}
+
+awaited() {
+    wait "$beside_job" || failed+=("$beside_name")
+    cat "$beside_log"
+    rm -f "$beside_log"
+}
+
 # A line for each step that failed; how many they are is the status.
 say_failed() {
     local name
