@@ -19,7 +19,8 @@ step() {
 
 # beside NAME COMMAND...: a step that runs beside those after it, until `awaited` prints what it said.
 beside() {
-    beside_name=$1 beside_log=$(mktemp)
+    beside_name=$1
+    beside_log=$(mktemp)
     (
         failed=()
         step "$@"

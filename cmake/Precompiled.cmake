@@ -1,6 +1,6 @@
 # precompiled_headers(<name> [OPTIONS <option>...] [LIBRARIES <target>...] HEADERS <header>...): these headers compiled once,
-# for precompile(<target> <name>), whose sources are then compiled with these options too. Half of what a source takes to
-# compile is the standard library's headers and the bindings'.
+# for precompile(<target> <name>), whose sources are then compiled with these options too. A quarter of what a source
+# takes to compile is the standard library's headers and the bindings'.
 #
 # Sources still include what they use: the presets dev and sanitize leave this off and would not compile otherwise.
 option(BVHBENCH_PRECOMPILE "Compile the headers of libraries once" ${PROJECT_IS_TOP_LEVEL})

@@ -1,5 +1,5 @@
 # add_room(<name> [NEEDS <room>...] [OWNS <prefix>...] [LIBRARIES <target>...]
-#          [SOURCES <file>...] [HEADERS <file>...] [KERNELS <file>...] [PRECOMPILED <name>])
+#          [SOURCES <file>...] [HEADERS <file>...] [KERNELS <file>...])
 #
 # A room is a folder, a library and a rule. Its files may include, by path from the source root, only
 # their own headers and those of the rooms they NEED. A library's headers (<CL/...>, <assimp/...>) may be
@@ -9,18 +9,13 @@
 #
 # KERNELS lists every file that kernels are made of: .cl entry points and the headers they include.
 # Entry points (.cl) are also syntax-checked, each alone, by cmake/KernelChecks.cmake.
-#
-# PRECOMPILED are headers and options of cmake/Precompiled.cmake, `precompiled` if not said.
 function(add_room name)
-    cmake_parse_arguments(PARSE_ARGV 1 room "" "PRECOMPILED" "NEEDS;OWNS;LIBRARIES;SOURCES;HEADERS;KERNELS")
+    cmake_parse_arguments(PARSE_ARGV 1 room "" "" "NEEDS;OWNS;LIBRARIES;SOURCES;HEADERS;KERNELS")
     if(room_SOURCES)
         add_library(${name} STATIC ${room_SOURCES})
         set(visibility PUBLIC)
         target_link_libraries(${name} PRIVATE project_flags)
-        if(NOT room_PRECOMPILED)
-            set(room_PRECOMPILED precompiled)
-        endif()
-        precompile(${name} ${room_PRECOMPILED})
+        precompile(${name} precompiled)
     else()
         add_library(${name} INTERFACE)
         set(visibility INTERFACE)
