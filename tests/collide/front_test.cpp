@@ -158,15 +158,17 @@ TEST_P(FrontOver, FindsTheOraclesPairsInEveryFrameOfOneObject)
 {
     const Moving moving = three_objects();
     for (const bool keep_adjacent : {true, false})
-        for (const bool sorted_leaves : {true, false}) {
-            const std::size_t capacity = keep_adjacent == sorted_leaves ? 0 : 1;
-            SCOPED_TRACE(std::to_string(keep_adjacent) + std::to_string(sorted_leaves));
-            Tracked tracked(moving, true, make(),
-                            {.keep_adjacent = keep_adjacent, .form = form(), .capacity = capacity},
-                            {.sorted_leaves = sorted_leaves});
-            run_all(tracked, moving);
-            EXPECT_GE(tracked.counted().at("restarts_count"), 1);
-        }
+        for (const std::size_t capacity : {0u, 1u})
+            for (const bool sorted_leaves : {true, false}) {
+                SCOPED_TRACE(std::to_string(keep_adjacent) + std::to_string(capacity) +
+                             std::to_string(sorted_leaves));
+                Tracked tracked(
+                    moving, true, make(),
+                    {.keep_adjacent = keep_adjacent, .form = form(), .capacity = capacity},
+                    {.sorted_leaves = sorted_leaves});
+                run_all(tracked, moving);
+                EXPECT_GE(tracked.counted().at("restarts_count"), 1);
+            }
 }
 
 TEST_P(FrontOver, FindsTheOraclesPairsInEveryFrameOfSeveralObjects)

@@ -4,7 +4,7 @@
 // nothing fails any more, and nothing of the caller's or the library's is left or released twice. The shim is linked in
 // before the loader, so every call goes through it.
 //
-// BVHBENCH_FAULTS=calls: every call, alone and with all that follow. By default every 160th way in which calls are reached.
+// BVHBENCH_FAULTS=calls: every call, alone and with all that follow. By default every eightieth way in which calls are reached.
 #include <cstdlib>
 #include <iostream>
 #include <map>
@@ -109,7 +109,7 @@ std::vector<long> chosen(const Outcome& whole)
     std::vector<long> picked;
     for (long call = whole.callers + 1; call <= whole.calls; ++call) {
         const auto& remembered = shim::remembered()[static_cast<std::size_t>(call) - 1];
-        if (wants_all || (ways.insert(remembered.stack).second && ways.size() % 160 == 0))
+        if (wants_all || (ways.insert(remembered.stack).second && ways.size() % 80 == 0))
             picked.push_back(call);
     }
     std::cout << whole.calls - whole.callers << " calls, " << picked.size() << " of them fail"

@@ -152,13 +152,12 @@ TEST(OiBuilders, EqualTheReferenceForEveryCountTo600)
         ASSERT_NO_FATAL_FAILURE(expect_all_equal(builders, triangles));
 }
 
-TEST(OiBuilders, EqualTheReferenceAroundEveryPowerOfTwoTo2To18AndPast2To20)
+TEST(OiBuilders, EqualTheReferenceAroundEveryPowerOfTwoTo2To20)
 {
     auto builders =
         builders_of({{"multi", make_oibvh_multi, {}}, {"single", make_oibvh_single, {}}});
-    for (const uint triangles : around_powers_of_two(10, 18))
+    for (const uint triangles : around_powers_of_two(10, 20))
         ASSERT_NO_FATAL_FAILURE(expect_all_equal(builders, triangles));
-    ASSERT_NO_FATAL_FAILURE(expect_all_equal(builders, (1u << 20) + 1));
 }
 
 TEST(OiBuilders, GiveTheSameTreeAHundredTimes)
