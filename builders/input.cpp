@@ -11,6 +11,7 @@ template <class T>
 Buffer<T> copied(const Device& device, const Queue& queue, std::span<const T> values,
                  std::vector<MemoryShare>& memory)
 {
+    device.require_at_once(values.size_bytes());
     memory.push_back(device.take_memory(values.size_bytes()));
     Buffer<T> buffer(cl::Buffer(device.context, CL_MEM_READ_ONLY, values.size_bytes()),
                      values.size());

@@ -215,6 +215,7 @@ void InputTaker::take_objects(std::span<const std::uint32_t> sizes)
     if (objects == taken_.objects && taken_.device_owners.size() > 0)
         return;
     taken_.objects.clear();  // until their owners are there
+    taken_.device_owners = {};
     std::vector<uint> owners(objects.size() > 1 ? count : 1, 0u);
     for (uint object = 0; objects.size() > 1 && object < objects.size(); ++object)
         std::fill_n(owners.begin() + objects[object].first, objects[object].count, object);

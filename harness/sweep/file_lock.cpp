@@ -45,6 +45,4 @@ FileLock::FileLock(const std::filesystem::path& path, Kind kind)
 
 FileLock::~FileLock() { close(file_); }
 
-void FileLock::share() const { flock(file_, LOCK_SH); }
-
 }  // namespace bvhbench

@@ -17,9 +17,6 @@ public:
     FileLock(const FileLock&) = delete;
     FileLock& operator=(const FileLock&) = delete;
 
-    /// From exclusive to shared.
-    void share() const;
-
 private:
     int file_ = -1;
 };

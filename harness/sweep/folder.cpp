@@ -92,7 +92,10 @@ SweepFolder::SweepFolder(fs::path folder, const Sweep& sweep, bool together,
     for (const char* inside : {"cells", "experiments"})
         if (fs::create_directories(folder_ / inside, error); error)
             throw Unavailable((folder_ / inside).string() + " cannot be made: " + error.message());
-    lock_.emplace(folder_ / "lock", FileLock::Kind::exclusive);
+    // Shards work beside each other, a whole sweep alone; whoever looks at the plan and writes it does so alone.
+    lock_.emplace(folder_ / "lock",
+                  shard.is_all() ? FileLock::Kind::exclusive : FileLock::Kind::shared);
+    const FileLock planning(folder_ / "lock-plan", FileLock::Kind::exclusive);
     if (!shard.is_all())
         shard_lock_.emplace(folder_ / ("lock-" + part), FileLock::Kind::exclusive);
     const fs::path plan_file = folder_ / "plan.json";
@@ -105,9 +108,7 @@ SweepFolder::SweepFolder(fs::path folder, const Sweep& sweep, bool together,
     Json now = plan_of(sweep, units);
     now["together"] = together ? "scene" : "cell";
     write_atomically(plan_file, now.dump(1) + '\n');
-    if (!shard.is_all())
-        lock_->share();
-    else
+    if (shard.is_all())
         remove_leftovers(folder_ / "cells");
 }
 

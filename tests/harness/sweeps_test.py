@@ -6,6 +6,7 @@ Usage: sweeps_test.py <bvhbench> <result schema>
 SWEEP_SEED is when it is killed (1).
 """
 import collections
+import fcntl
 import json
 import os
 import pathlib
@@ -198,8 +199,13 @@ def test_shards_together_are_the_whole():
     whole = expect(0, *words, "--out", "all", says="8 cells: 6 measured, 2 skipped, 0 failed")
     assert "8 cells, 2 of which cannot be" in whole, whole
     sizes = []
+    pathlib.Path("part").mkdir()
     for shard in ("1/3", "2/3", "3/3"):  # two of them in one folder, as on a shared file system
-        expect(0, *words, "--out", "part" if shard != "2/3" else "elsewhere", "--shard", shard, says="written: ")
+        with open("part/lock", "w", encoding="utf-8") as lock:
+            fcntl.flock(lock, fcntl.LOCK_SH)  # as another shard has it while it measures
+            expect(0, *words, "--out", "part" if shard != "2/3" else "elsewhere", "--shard", shard, says="written: ")
+            if shard == "3/3":
+                expect(3, *words, "--out", "part", says="another process is at work")
         path = f"{'part' if shard != '2/3' else 'elsewhere'}/sweep-{shard.replace('/', 'of')}.json"
         sizes.append(statuses(path)["measured"])
     assert sizes == [2, 2, 2], sizes
