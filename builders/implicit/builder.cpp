@@ -8,6 +8,7 @@
 #include "builders/implicit/later_subtree.h"
 #include "builders/implicit/schedule.h"
 #include "builders/parameters.h"
+#include "geometry/error.h"
 
 namespace bvhbench {
 namespace {
@@ -43,18 +44,24 @@ private:
     bool waits() const { return meeting_ == Meeting::by_waiting; }
     bool by_groups() const { return cut_.form == KernelForm::groups; }
 
-    cl::Kernel kernel(std::string_view name) const
+    /// The kernel that reads `from` ids or nodes, of groups as `cut` says.
+    cl::Kernel kernel(const Cut& cut, const char* from) const
     {
-        const std::string text(name);
+        const std::string text = std::string(is_forest() ? "forest_" : "") +
+                                 (waits()           ? "waiting_"
+                                  : in_one_launch() ? "single_"
+                                  : is_forest()     ? ""
+                                                    : "multi_") +
+                                 from;
         const Define boxes{"BOX_FORMAT", tree_.format->number};
         if (!by_groups())
             return programs_.kernel(tree_.layout.build_items, text.c_str(), {boxes});
         return programs_.kernel(
             tree_.layout.build_groups, text.c_str(),
             {boxes,
-             {"GROUP_SIZE", cut_.group_size},
-             {"ITEMS", cut_.items},
-             {"LEVELS", cut_.levels}},
+             {"GROUP_SIZE", cut.group_size},
+             {"ITEMS", cut.items},
+             {"LEVELS", cut.levels}},
             in_one_launch() ? Optimise::on_gpus
                             : Optimise::freely);  // groups return before a barrier
     }
@@ -80,6 +87,7 @@ private:
     void plan_hierarchy(Arena& arena) override;
     void plan_launches(Launches& launches, std::span<const uint> objects) const;
     bool may_wait() const;
+    bool fits(const Cut& cut) const;
     void choose_and_plan(Meeting meeting);
     void prepare(const cl::CommandQueue& queue) override;
     void enqueue(const Launches& launches, Queue& queue);
@@ -131,11 +139,25 @@ bool KernelBuilder::may_wait() const
            device.tuned(implicit_waits) != 0;
 }
 
+/// Whether the device can give groups what the kernels were compiled to need.
+bool KernelBuilder::fits(const Cut& cut) const
+{
+    try {
+        kernel(cut, "from_ids");
+        kernel(cut, "from_nodes");
+        return true;
+    } catch (const Unavailable&) {
+        return false;
+    }
+}
+
 void KernelBuilder::choose_and_plan(Meeting meeting)
 {
     cut_ = choose_cut(programs_.device(), options_, meeting, tree_.most_leaves,
                       tree_.format->box_bytes());
     meeting_ = by_groups() ? meeting : asked_;
+    if (by_groups() && options_.group_size == 0)
+        cut_ = cut_that_fits(cut_, [&](const Cut& cut) { return fits(cut); });
     std::vector<uint> all(tree_.objects.size());
     std::iota(all.begin(), all.end(), 0u);
     plan_launches(whole_, all);
@@ -218,13 +240,8 @@ void KernelBuilder::enqueue(const Launches& launches, Queue& queue)
 void KernelBuilder::prepare(const cl::CommandQueue& queue)
 {
     ImplicitBuilder::prepare(queue);
-    const std::string prefix =
-        std::string(is_forest() ? "forest_" : "") + (waits()           ? "waiting_"
-                                                     : in_one_launch() ? "single_"
-                                                     : is_forest()     ? ""
-                                                                       : "multi_");
-    from_ids_ = kernel(prefix + "from_ids");
-    from_nodes_ = kernel(prefix + "from_nodes");
+    from_ids_ = kernel(cut_, "from_ids");
+    from_nodes_ = kernel(cut_, "from_nodes");
     arrivals_.upload(queue, std::vector<uint>(arrivals_.size(), 0u));
     posts_.upload(queue, std::vector<cl_ulong>(posts_.size(), ~cl_ulong{0}));
     whole_.subtrees.upload(queue, whole_.subtree_list);

@@ -94,4 +94,11 @@ Cut choose_cut(const Device& device, const BuildOptions& options, Meeting meetin
     return smallest_group_with_fewest_launches(implicit_leaf_level(leaves), items, most);
 }
 
+Cut cut_that_fits(Cut cut, const std::function<bool(const Cut&)>& fits)
+{
+    while (cut.group_size > 1 && !fits(cut))
+        cut = groups_of(cut.group_size / 2, cut.items);
+    return cut;
+}
+
 }  // namespace bvhbench

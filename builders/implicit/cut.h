@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
+
 #include "builders/builder.h"
 #include "builders/implicit/layout.h"
 #include "builders/stages/kernel_form.h"
@@ -21,5 +23,9 @@ struct Cut {
 /// on that kind of device. Throws BadUsage for a group the device does not have.
 Cut choose_cut(const Device& device, const BuildOptions& options, Meeting meeting, uint leaves,
                std::size_t box_bytes = sizeof(Aabb));
+
+/// `cut`, its groups halved until it `fits`: compilers take local memory of their own, 16 bytes say, and a group may have
+/// been given all there is. The smallest there is, if none fits.
+Cut cut_that_fits(Cut cut, const std::function<bool(const Cut&)>& fits);
 
 }  // namespace bvhbench

@@ -90,9 +90,10 @@ TEST(Device, RefusesGroupsThatItDoesNotHaveInOneSentence)
     EXPECT_EQ(refusal(device, most + 1, 0), "a part needs groups of " + std::to_string(most + 1) +
                                                 " work-items, and " + device.name() +
                                                 " has them up to " + std::to_string(most));
-    EXPECT_EQ(refusal(device, 1, local + 1), "a part needs " + std::to_string(local + 1) +
-                                                 " bytes of local memory, and a group has " +
-                                                 std::to_string(local) + " on " + device.name());
+    const std::size_t over = local + 9;  // some drivers say 8 more than a kernel declares
+    EXPECT_EQ(refusal(device, 1, over), "a part needs " + std::to_string(over) +
+                                            " bytes of local memory, and a group has " +
+                                            std::to_string(local) + " on " + device.name());
 }
 
 TEST(LaunchCost, IsMoreThanNothingAndLessThanACopy)
