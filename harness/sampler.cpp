@@ -30,10 +30,12 @@ public:
             return;
         next_ = order + plan_.rules.calibrate_every;
         std::int64_t ns = 0;
-        if (!reason_of_failure([&] { ns = calibrate_(); }).empty())
-            calibrate_ = nullptr;  // samples are worth having without
-        else
+        if (reason_of_failure([&] { ns = calibrate_(); }).empty()) {
             looks_.push_back({order, static_cast<double>(ns)});
+        } else {  // samples are worth having without
+            calibrate_ = nullptr;
+            looks_.clear();
+        }
     }
 
     /// Whether it took just now what it takes.
@@ -105,16 +107,24 @@ public:
         for (int round = 0; round < plan_.warm_up && !going_.empty(); ++round)
             take_round(false);
         start_ = std::chrono::steady_clock::now();
-        drift_.look(order_, true);
+        look_in_turn();
         while (!going_.empty())
             take_round(true);
-        drift_.look(order_, true);
+        look_in_turn();
+        if (turns_ != nullptr)
+            turns_->part();
         for (Taken& taken : taken_)
             drift_.mark(taken.samples);
         return std::move(taken_);
     }
 
 private:
+    void look_in_turn()
+    {
+        const Turns::Turn turn(turns_);
+        drift_.look(order_, true);
+    }
+
     void take_round(bool counts)
     {
         const Turns::Turn turn(turns_);

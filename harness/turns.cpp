@@ -49,6 +49,21 @@ Turns::~Turns() { close(descriptor_); }
 
 void Turns::meet()
 {
+    if (!all_come())
+        throw Unavailable("--turns: not all of " + std::to_string(count_) + " runs came to " + path_ +
+                          " within two minutes");
+}
+
+void Turns::part()
+{
+    try {
+        all_come();
+    } catch (const Unavailable&) {  // a full disk: the next meeting says so
+    }
+}
+
+bool Turns::all_come()
+{
     const std::string line = id_ + '\n';
     if (write(descriptor_, line.data(), line.size()) != static_cast<ssize_t>(line.size()))
         throw Unavailable("--turns: " + path_ + " cannot be written: " + std::strerror(errno));
@@ -60,12 +75,11 @@ void Turns::meet()
             static_cast<std::size_t>(count_) * static_cast<std::size_t>(meetings_)) {
             others_.insert(lines.begin(), lines.end());
             others_.erase(id_);
-            return;
+            return true;
         }
         throw_if_interrupted();
         if (std::chrono::steady_clock::now() - start > longest_wait)
-            throw Unavailable("--turns: not all of " + std::to_string(count_) + " runs came to " +
-                              path_ + " within two minutes");
+            return false;
         std::this_thread::sleep_for(2ms);
     }
 }

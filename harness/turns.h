@@ -9,7 +9,7 @@ namespace bvhbench {
 /// Several runs, of several builds of this program, that sample at the same time by turns, a round each: whatever the
 /// machine does hits them alike, which runs one after the other cannot have. They meet by a file that all of them name.
 ///
-///     file    a line a run and meeting, the run's id; and a lock, held by whose turn it is
+///     file    a line a run, meeting and parting, the run's id; and a lock, held by whose turn it is
 class Turns {
 public:
     /// Turns among `count` runs, of which this one is called `id`. Throws BadUsage if others have used the file up before.
@@ -20,6 +20,10 @@ public:
 
     /// Wait until all have come: before the samples of each scene. Throws Unavailable after two minutes, and Interrupted.
     void meet();
+
+    /// Wait until all have taken their samples, so that what comes after disturbs none of them: after the samples of each
+    /// scene. No longer than two minutes: what was measured is worth more. Throws Interrupted.
+    void part();
 
     /// While it lives, the others wait. Whoever ends, however, gives it back.
     class Turn {
@@ -37,6 +41,9 @@ public:
     const std::set<std::string>& others() const { return others_; }
 
 private:
+    /// Whether all came within two minutes.
+    bool all_come();
+
     std::string path_;
     int count_;
     std::string id_;

@@ -226,6 +226,28 @@ TEST(Sampler, GoesOnWithoutACalibrationThatFails)
     EXPECT_EQ(taken[0].failure, "");
 }
 
+TEST(Sampler, MarksNothingByACalibrationThatFailsLater)
+{
+    Listed build{{1000}};
+    const std::vector<Timed> cells = {{"fake", std::ref(build)}};
+    int looks = 0;
+    const auto calibrate = [&]() -> std::int64_t {
+        if (++looks == 3)
+            throw Unavailable("no room");
+        return 100 * looks;  // drift, if anybody asks
+    };
+    int order = 0;
+    const std::vector<Taken> taken =
+        take_samples(cells, {.samples = 40, .warm_up = 0, .rules = {.calibrate_every = 10}}, order,
+                     calibrate);
+    EXPECT_EQ(looks, 3);
+    ASSERT_EQ(taken[0].samples.size(), 40u);
+    for (const Sample& sample : taken[0].samples) {
+        EXPECT_EQ(sample.calibration_ns, 0) << sample.order;
+        EXPECT_FALSE(sample.drifted) << sample.order;
+    }
+}
+
 TEST(Sampler, PrintsNothing)
 {
     FakeBuild build;

@@ -82,6 +82,27 @@ TEST(Turns, BeginWhenAllHaveCome)
     EXPECT_THROW(Turns("/nowhere/turns", 2, "x"), Unavailable);
 }
 
+TEST(Turns, PartWhenAllHaveEnough)
+{
+    const FreshFile file;
+    std::atomic<bool> has_parted = false;
+    std::thread early([&] {
+        Turns turns(FreshFile::path(), 2, "early");
+        turns.meet();
+        turns.part();
+        has_parted = true;
+        turns.meet();  // of the next scene
+    });
+    Turns late(FreshFile::path(), 2, "late");
+    late.meet();
+    std::this_thread::sleep_for(50ms);
+    EXPECT_FALSE(has_parted);
+    late.part();
+    late.meet();
+    early.join();
+    EXPECT_TRUE(has_parted);
+}
+
 TEST(Turns, OfNobodyAreNone)
 {
     const Turns::Turn turn(nullptr);
