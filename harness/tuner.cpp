@@ -8,6 +8,7 @@
 #include "geometry/error.h"
 #include "harness/failure.h"
 #include "harness/interrupt.h"
+#include "harness/sample_times.h"
 #include "harness/sampler.h"
 #include "harness/statistics.h"
 #include "harness/table.h"
@@ -22,9 +23,9 @@ std::vector<double> times_of(const std::vector<Sample>& samples, std::string_vie
     for (const Sample& sample : samples) {
         double ns = 0;
         for (const StageTime& time : sample.stages)
-            if (stage.empty() || time.stage == stage)
+            if (time.stage == stage)
                 ns += static_cast<double>(time.elapsed_ns());
-        times.push_back(ns);
+        times.push_back(stage.empty() ? whole_ns(sample.stages) : ns);
     }
     return times;
 }

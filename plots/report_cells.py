@@ -64,11 +64,10 @@ def quantiles_ns(seconds: Any) -> list[float]:
 
 
 def times_of(cell: results.Cell) -> dict[str, list[float]]:
-    """By stage, and of the whole: a frame from first start to last end, a build the sum of its stages."""
+    """By stage, and of the whole, from first start to last end."""
     if not cell.samples:
         return {}
-    is_build = cell.operation in ("build", "refit")
-    times = {WHOLE: quantiles_ns(cell.whole_times_s() if is_build else cell.frame_times_s())}
+    times = {WHOLE: quantiles_ns(cell.whole_times_s())}
     for stage in dict.fromkeys(stage for sample in cell.samples for stage in sample):
         times[stage] = quantiles_ns(cell.times_s(stage))
     return times

@@ -59,7 +59,7 @@ class Cell:
         times = [entry["span_ns"] if "span_ns" in entry else entry["wall_ns"] for entry in stages]
         return numpy.array(times, dtype=float) * 1e-9
 
-    def frame_times_s(self) -> numpy.ndarray:
+    def whole_times_s(self) -> numpy.ndarray:
         """Seconds per sample from the first start to the last end: on the device's clock as it tells since format 1.4,
         and host stages, which run by themselves, added."""
         times = []
@@ -70,10 +70,6 @@ class Cell:
             spans = sum(entry["span_ns"] for entry in entries if "span_ns" in entry)
             times.append((max(spans, *on_device, 0) if on_device and not on_host else spans) + sum(on_host))
         return numpy.array(times, dtype=float) * 1e-9
-
-    def whole_times_s(self) -> numpy.ndarray:
-        """Seconds per sample of all stages together."""
-        return sum((self.times_s(stage) for stage in self.samples[0]), numpy.zeros(len(self.samples)))
 
     @property
     def called(self) -> str:

@@ -19,13 +19,13 @@ function nanosecondsOf(stage, place) {
   return span !== undefined && span !== null ? span : at(stage.wall_ns, place);
 }
 
-/** As results.Cell.frame_times_s and whole_times_s in plots/results.py. */
-function wholeOf(samples, place, isBuild) {
+/** As results.Cell.whole_times_s in plots/results.py. */
+function wholeOf(samples, place) {
   const stages = Object.values(samples.stages);
   const sum = stages.reduce((total, stage) => total + (nanosecondsOf(stage, place) || 0), 0);
   const isOnHost = stages.some((stage) => stage.wall_ns !== undefined);
   const ends = stages.map((stage) => (at(stage.start_ns, place) || 0) + (at(stage.span_ns, place) || 0));
-  return isBuild || isOnHost ? sum : Math.max(...ends, sum);
+  return isOnHost ? sum : Math.max(...ends, sum);
 }
 
 /** Facts of a cell, nested ones spelled out: [name, text]. */
@@ -38,7 +38,7 @@ function factsOf(value, prefix) {
   });
 }
 
-function samplesTable(samples, key, isBuild, marked) {
+function samplesTable(samples, key, marked) {
   const stages = Object.keys(samples.stages).filter(
     (stage) =>
       samples.stages[stage][key] !== undefined || (key === "span_ns" && samples.stages[stage].wall_ns !== undefined)
@@ -51,7 +51,7 @@ function samplesTable(samples, key, isBuild, marked) {
   ];
   const rows = Array.from({length: samples.count}, (_, place) => [
     ...own.map((name) => at(samples.own[name], place)),
-    ...(key === "span_ns" ? [wholeOf(samples, place, isBuild)] : []),
+    ...(key === "span_ns" ? [wholeOf(samples, place)] : []),
     ...stages.map((stage) =>
       key === "span_ns" ? nanosecondsOf(samples.stages[stage], place) : at(samples.stages[stage][key], place)
     ),
@@ -74,11 +74,11 @@ function samplesTable(samples, key, isBuild, marked) {
   return table.element;
 }
 
-async function drawSamples(plot, samples, stage, isBuild, quantiles, colour) {
+async function drawSamples(plot, samples, stage, quantiles, colour) {
   await libraryOf("plotly");
   const isWhole = stage === "whole" || !samples.stages[stage];
   const times = Array.from({length: samples.count}, (_, place) =>
-    isWhole ? wholeOf(samples, place, isBuild) : nanosecondsOf(samples.stages[stage], place)
+    isWhole ? wholeOf(samples, place) : nanosecondsOf(samples.stages[stage], place)
   );
   const unit = unitFor(times.filter((time) => time !== undefined && time !== null));
   const order =
@@ -125,7 +125,6 @@ async function showSamples(file, place, stage) {
   const data = await jsonOf("file-" + file);
   const samples = (await jsonOf("samples-" + file))[place];
   const cell = data.cells[place];
-  const isBuild = ["build", "refit"].includes(cell.operation);
   const keys = Object.keys(QUANTITY).filter(
     (key) => key !== "wall_ns" && Object.values(samples.stages).some((columns) => columns[key] !== undefined)
   );
@@ -136,7 +135,7 @@ async function showSamples(file, place, stage) {
   const holder = element("div");
   const fill = (key) =>
     holder.replaceChildren(
-      samples.count ? samplesTable(samples, key, isBuild, stage) : element("p", {}, "No sample was taken.")
+      samples.count ? samplesTable(samples, key, stage) : element("p", {}, "No sample was taken.")
     );
   const select = element(
     "select",
@@ -185,6 +184,6 @@ async function showSamples(file, place, stage) {
   }
   dialog.scrollTop = 0;
   if (samples.count && quantiles) {
-    await drawSamples(plot, samples, stage, isBuild, quantiles, data.looks[cell.who].colour);
+    await drawSamples(plot, samples, stage, quantiles, data.looks[cell.who].colour);
   }
 }
