@@ -10,8 +10,7 @@ namespace {
 std::size_t buffer_bytes(const Device& device)
 {
     const std::size_t cache = device.cl.getInfo<CL_DEVICE_GLOBAL_MEM_CACHE_SIZE>();
-    const std::size_t most = std::min<std::size_t>(
-        std::size_t{1} << 30, device.cl.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>());
+    const std::size_t most = std::min(std::size_t{1} << 30, device.most_at_once());
     return std::min(std::max(2 * cache, std::size_t{64} << 20), most) / 16 * 16;
 }
 
@@ -24,9 +23,7 @@ CacheFlush::CacheFlush(Programs& programs, Queue& queue)
     const auto count = static_cast<cl_uint>(bytes / sizeof(cl_uint4));
     arena_ = Arena::reserved(device, {.tree_bytes = 0, .scratch_bytes = bytes});
     memory_ = arena_->take<cl_uint4>(count, Use::scratch);
-    const std::size_t units = device.cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
-    group_ = device.is_cpu() ? 1 : 256;
-    work_items_ = device.is_cpu() ? 4 * units : units * 8 * group_;
+    launch_ = filling_launch(device);
     walk_ = programs.kernel("device/limits.cl", "walk");
     set_arguments(walk_, memory_, count);
     queue.cl().enqueueFillBuffer(memory_.cl(), cl_uint{0}, 0, memory_.bytes());
@@ -35,8 +32,8 @@ CacheFlush::CacheFlush(Programs& programs, Queue& queue)
 
 void CacheFlush::flush(const Queue& queue)
 {
-    queue.cl().enqueueNDRangeKernel(walk_, cl::NullRange, cl::NDRange(work_items_),
-                                    cl::NDRange(group_));
+    queue.cl().enqueueNDRangeKernel(walk_, cl::NullRange, cl::NDRange(launch_.work_items),
+                                    cl::NDRange(launch_.group));
     queue.cl().finish();
 }
 

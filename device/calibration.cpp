@@ -22,9 +22,7 @@ Calibration::Calibration(Programs& programs, Queue& queue)
     arena_ = Arena::reserved(
         device, {.tree_bytes = 0, .scratch_bytes = std::size_t{count} * sizeof(cl_uint4)});
     memory_ = arena_->take<cl_uint4>(count, Use::scratch);
-    const std::size_t units = device.cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
-    group_ = device.is_cpu() ? 1 : 256;
-    work_items_ = device.is_cpu() ? 4 * units : units * 8 * group_;
+    launch_ = filling_launch(device);
     work_ = programs.kernel("device/limits.cl", "calibrate");
     set_arguments(work_, memory_, count, rounds);
     queue.cl().enqueueFillBuffer(memory_.cl(), cl_uint{0}, 0, memory_.bytes());
@@ -36,7 +34,7 @@ std::int64_t Calibration::take(Queue& queue)
     std::array<std::int64_t, launches> times{};
     for (std::size_t i = 0; i < launches; ++i) {
         queue.begin("calibration");
-        queue.launch(work_, work_items_, group_, 0);
+        queue.launch(work_, launch_.work_items, launch_.group, 0);
     }
     const std::vector<StageTime> stages = queue.finish();
     std::transform(stages.begin(), stages.end(), times.begin(),

@@ -5,6 +5,7 @@
 
 #include "device/arena.h"
 #include "device/buffer.h"
+#include "device/filling_launch.h"
 #include "device/program.h"
 #include "device/queue.h"
 
@@ -24,8 +25,7 @@ private:
     cl::Kernel work_;
     std::optional<Arena> arena_;  ///< kept, so that what it takes stays counted
     Buffer<cl_uint4> memory_;
-    std::size_t work_items_ = 0;
-    std::size_t group_ = 0;
+    FillingLaunch launch_{};
 };
 
 }  // namespace bvhbench

@@ -2,9 +2,9 @@
 #include "harness/sweep/cell_process.h"
 
 #include <csignal>
-#include <cstdio>
 #include <sstream>
 
+#include "harness/number_text.h"
 #include "harness/sweep/facts_worker.h"
 #include "scenes/worker/worker.h"
 
@@ -12,13 +12,6 @@ namespace bvhbench {
 namespace {
 
 constexpr std::size_t most_errors = 1 << 16;  ///< bytes kept of what a process says
-
-std::string number_text(double value)
-{
-    char text[32];
-    std::snprintf(text, sizeof text, "%.17g", value);
-    return text;
-}
 
 Child::Start start_of(const SweepUnit& unit, const SweepFolder& folder, const Options& options,
                       const NodeCosts& costs, const std::string& device)

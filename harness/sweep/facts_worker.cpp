@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "harness/sweep/facts_worker.h"
 
-#include <cstdio>
 #include <string_view>
 
 #include "geometry/error.h"
 #include "harness/failure.h"
+#include "harness/number_text.h"
 #include "harness/run.h"
 #include "harness/session.h"
 #include "scenes/worker/process.h"
@@ -17,13 +17,6 @@ namespace {
 constexpr std::string_view argument = "--run-facts";
 constexpr std::string_view refusal_mark = "ERROR 1\n";
 constexpr double time_limit_s = 600;  ///< compiling its two kernels has taken a driver a minute
-
-std::string number_text(double value)
-{
-    char text[32];
-    std::snprintf(text, sizeof text, "%.10g", value);
-    return text;
-}
 
 }  // namespace
 

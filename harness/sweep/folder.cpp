@@ -143,17 +143,26 @@ void SweepFolder::check_plan(const Json& plan, const std::vector<SweepUnit>& uni
         const auto program = words.get<std::string>();
         if (program == programs_.front())
             continue;
-        const auto there = std::count_if(units.begin(), units.end(), [&](const SweepUnit& unit) {
-            return finished_document(cell_file(unit, program)).has_value();
-        });
+        std::size_t there = 0;
+        std::string other_format;
+        for (const SweepUnit& unit : units) {
+            const auto document = finished_document(cell_file(unit, program));
+            there += document ? 1 : 0;
+            if (document && document->minor != newest_minor)
+                other_format = "1." + std::to_string(document->minor);
+        }
         if (there == 0)
             continue;
-        const std::string by = counted(static_cast<std::size_t>(there), "cell") + " by " + program;
+        const std::string by = counted(there, "cell") + " by " + program;
         if (!keeps_other_commit)
             throw BadUsage(folder_.string() + " holds " + by + ", and this program is of " +
                            programs_.front() +
                            "; --continue-other-commit keeps them and goes on, or choose another "
                            "--out");
+        if (!other_format.empty())
+            throw BadUsage(folder_.string() + " holds " + by + " in format " + other_format +
+                           ", and this program writes " + result_format +
+                           ", which are not merged; choose another --out");
         programs_.push_back(program);
         note_ += (note_.empty() ? "kept: " : "\nkept: ") + by + "; the others are measured by " +
                  programs_.front();

@@ -7,9 +7,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <functional>
+#include <set>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -52,6 +56,20 @@ std::vector<char*> pointers(std::vector<std::string>& words)
     return result;
 }
 
+/// `variables`, and those of this process's own that none of them names: of two of one name the first counts.
+std::vector<std::string> environment_under(std::vector<std::string> variables)
+{
+    std::set<std::string, std::less<>> named;
+    for (const std::string& variable : variables)
+        named.insert(variable.substr(0, variable.find('=')));
+    for (char** own = environ; *own != nullptr; ++own) {
+        const std::string_view variable = *own;
+        if (!named.contains(variable.substr(0, variable.find('='))))
+            variables.emplace_back(variable);
+    }
+    return variables;
+}
+
 }  // namespace
 
 std::string spelled(const ProcessEnd& end, double time_limit_s)
@@ -67,10 +85,7 @@ std::string spelled(const ProcessEnd& end, double time_limit_s)
 
 Child::Child(Start start)
 {
-    std::vector<std::string> environment;
-    for (char** variable = environ; *variable != nullptr; ++variable)
-        environment.emplace_back(*variable);
-    environment.insert(environment.end(), start.environment.begin(), start.environment.end());
+    std::vector<std::string> environment = environment_under(std::move(start.environment));
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0)
         throw Unavailable("no pipe to a process of its own: " +
@@ -107,7 +122,7 @@ Child::~Child()
 
 bool Child::take()
 {
-    std::string more(std::size_t{1} << 20, '\0');
+    std::array<char, std::size_t{1} << 16> more;
     const ssize_t count = read(reader_, more.data(), more.size());
     if (count < 0 && errno == EINTR)
         return true;
