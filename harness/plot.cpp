@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <iostream>
 #include <sstream>
+#include <string_view>
 
 #include "geometry/error.h"
 #include "harness/build_info.h"
@@ -26,26 +27,46 @@ std::string python()
     return access("/usr/bin/python3", X_OK) == 0 ? "/usr/bin/python3" : "python3";
 }
 
-/// Exit status of a command run to its end, its standard error in `errors` if that is wanted; -1 if it was not.
-int run_command(std::vector<std::string> words, std::string* errors = nullptr)
+/// Exit status of a command run to its end, -1 if it was not, and its standard error in `errors`.
+int run_command(std::vector<std::string> words, std::string& errors)
 {
     std::cout.flush();
     try {
         const std::string program = words.front();
-        Child child(
-            {.path = program,
-             .words = std::move(words),
-             .output = Child::Stream::inherited,
-             .errors = errors != nullptr ? Child::Stream::captured : Child::Stream::inherited});
-        while (errors != nullptr && child.take()) {
+        Child child({.path = program,
+                     .words = std::move(words),
+                     .output = Child::Stream::inherited,
+                     .errors = Child::Stream::captured});
+        while (child.take()) {
         }
         const ProcessEnd end = child.wait();
-        if (errors != nullptr)
-            *errors = end.output;
+        errors = end.output;
         return end.how == ProcessEnd::How::exited ? end.code : -1;
     } catch (const Unavailable&) {
         return -1;
     }
+}
+
+/// The module that Python did not find, if that is what its last line says.
+std::string missing_module(const std::string& errors)
+{
+    constexpr std::string_view mark = "\nModuleNotFoundError: No module named '";
+    const std::size_t at = errors.rfind(mark);
+    if (at == errors.npos)
+        return {};
+    const std::size_t name = at + mark.size();
+    return errors.substr(name, errors.find('\'', name) - name);
+}
+
+/// What became of a script that did not end with 0, as the end of a sentence; what it said of it is printed, unless it is that a
+/// module is missing.
+std::string how_it_ended(const std::string& script, int status, const std::string& errors)
+{
+    if (const std::string module = missing_module(errors); !module.empty())
+        return python() + " has no module " + module;
+    std::cerr << errors;
+    return python() + ' ' + script +
+           (status < 0 ? " could not be run to its end" : " ended with " + std::to_string(status));
 }
 
 /// Lines as one sentence.
@@ -68,9 +89,11 @@ int run_plots_script(const std::string& script, std::vector<std::string> words)
         throw Unavailable(path.string() +
                           " is not there (BVHBENCH_HOME names the folder with plots/)");
     words.insert(words.begin(), {python(), path.string()});
-    const int status = run_command(std::move(words));
-    if (status < 0)
-        throw Unavailable(python() + ' ' + path.string() + " could not be run to its end");
+    std::string errors;
+    const int status = run_command(std::move(words), errors);
+    if (status < 0 || !missing_module(errors).empty())
+        throw Unavailable(how_it_ended(path.string(), status, errors));
+    std::cerr << errors;
     return status;
 }
 
@@ -84,12 +107,12 @@ std::string draw(const std::string& script, const std::filesystem::path& file,
     if (!std::filesystem::exists(path))
         return "nothing was drawn, " + path.string() +
                " is not there (BVHBENCH_HOME names the folder with plots/)" + elsewhere;
+    std::string errors;
     const int status =
-        run_command({python(), path.string(), file.string(), "--out", folder.string()});
+        run_command({python(), path.string(), file.string(), "--out", folder.string()}, errors);
     if (status != 0)
-        return "nothing was drawn, " + python() + ' ' + path.string() +
-               (status < 0 ? " could not be run" : " ended with " + std::to_string(status)) +
-               elsewhere;
+        return "nothing was drawn, " + how_it_ended(path.string(), status, errors) + elsewhere;
+    std::cerr << errors;
     return "drawn into " + folder.string();
 }
 
@@ -102,16 +125,12 @@ Drawn draw_all(const std::vector<std::string>& files, const std::filesystem::pat
     std::vector<std::string> words = {python(), path.string(), "--out", folder.string(), "--"};
     words.insert(words.end(), files.begin(), files.end());
     std::string errors;
-    const int status = run_command(std::move(words), &errors);
+    const int status = run_command(std::move(words), errors);
     if (status == 0)
         return {.all = true};
-    errors = joined_lines(errors);
-    return {.why = !errors.empty() && status == 1
-                       ? errors
-                       : python() + ' ' + path.string() +
-                             (status < 0 ? " could not be run"
-                                         : " ended with " + std::to_string(status)) +
-                             (errors.empty() ? "" : ": " + errors)};
+    if (status == 1 && !errors.empty() && missing_module(errors).empty())
+        return {.why = joined_lines(errors)};
+    return {.why = how_it_ended(path.string(), status, errors)};
 }
 
 }  // namespace bvhbench

@@ -48,5 +48,42 @@ TEST(Plot, AScriptEndsWithItsOwnStatusAndOneThatIsNotThereIsNamed)
     fs::remove_all(folder);
 }
 
+/// What is said on standard error, and by the Unavailable that is thrown.
+template <class Call>
+std::string sentence(Call call)
+{
+    testing::internal::CaptureStderr();
+    std::string said = "nothing was thrown";
+    try {
+        call();
+    } catch (const Unavailable& error) {
+        said = error.what();
+    }
+    return testing::internal::GetCapturedStderr() + said;
+}
+
+TEST(Plot, APythonThatLacksAModuleIsASentenceAndOtherErrorsAreTold)
+{
+    const fs::path folder = fs::temp_directory_path() / ("no module " + std::to_string(getpid()));
+    fs::create_directories(folder / "plots");
+    for (const char* script : {"all.py", "one.py"})
+        std::ofstream(folder / "plots" / script) << "def f():\n    import no_such_module\nf()\n";
+    std::ofstream(folder / "plots" / "broken.py") << "raise ValueError('three legs')\n";
+    setenv("BVHBENCH_HOME", folder.c_str(), 1);
+    const std::string lacks = "python3 has no module no_such_module";
+    testing::internal::CaptureStderr();
+    EXPECT_NE(draw("one.py", "r.json", folder).find(lacks + "; where Python and"), std::string::npos);
+    EXPECT_TRUE(draw_all({"r.json"}, folder).why.ends_with(lacks));
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+    EXPECT_TRUE(sentence([] { run_plots_script("one.py", {}); }).ends_with(lacks));
+    EXPECT_EQ(sentence([] { run_plots_script("one.py", {}); }).find("Traceback"), std::string::npos);
+
+    testing::internal::CaptureStderr();
+    EXPECT_NE(draw("broken.py", "r.json", folder).find("broken.py ended with 1"), std::string::npos);
+    EXPECT_NE(testing::internal::GetCapturedStderr().find("three legs"), std::string::npos);
+    unsetenv("BVHBENCH_HOME");
+    fs::remove_all(folder);
+}
+
 }  // namespace
 }  // namespace bvhbench
