@@ -31,25 +31,28 @@ constexpr BuilderEntry of_fcl(std::string_view name, std::string_view summary, M
 }
 
 constexpr BuilderEntry in_any_format(std::string_view name, std::string_view summary,
-                                     MakeBuilder make)
+                                     std::string_view tree, MakeBuilder make)
 {
-    return {name, summary, oi_tree, make, {}, {}, false, true};
+    return {name, summary, tree, make, {}, {}, false, true};
 }
 
 // To add a builder, add its line here. Nothing registers itself.
 constexpr BuilderEntry catalog[] = {
-    in_any_format("perfect", "perfect implicit tree, padded to a power of two leaves",
+    in_any_format("perfect", "perfect implicit tree, padded to a power of two leaves", oi_tree,
                   make_perfect),
-    {"karras", "radix tree, topology from all nodes at once, then boxes", radix_tree, make_karras},
-    {"apetrei", "radix tree bottom-up as printed: ranges and counters in memory", radix_tree,
-     make_apetrei},
-    {"apetrei-fused", "radix tree, topology and boxes in one launch, one exchange a node",
-     radix_tree, make_apetrei_fused},
-    {"lbvh-levels", "radix tree, a launch a level: topology from the root down, boxes back up",
-     radix_tree, make_lbvh_levels},
+    in_any_format("karras", "radix tree, topology from all nodes at once, then boxes", radix_tree,
+                  make_karras),
+    in_any_format("apetrei", "radix tree bottom-up as printed: ranges and counters in memory",
+                  radix_tree, make_apetrei),
+    in_any_format("apetrei-fused",
+                  "radix tree, topology and boxes in one launch, one exchange a node", radix_tree,
+                  make_apetrei_fused),
+    in_any_format("lbvh-levels",
+                  "radix tree, a launch a level: topology from the root down, boxes back up",
+                  radix_tree, make_lbvh_levels),
     in_any_format("oibvh-single", "Oi-BVH in one launch, groups meet through global atomics",
-                  make_oibvh_single),
-    in_any_format("oibvh-multi", "Oi-BVH in several launches, groups meet between them",
+                  oi_tree, make_oibvh_single),
+    in_any_format("oibvh-multi", "Oi-BVH in several launches, groups meet between them", oi_tree,
                   make_oibvh_multi),
     {"oibvh-wide4", "Oi-BVH with 4 children a node, their boxes side by side", own_tree,
      make_oibvh_wide4},
@@ -57,8 +60,9 @@ constexpr BuilderEntry catalog[] = {
      make_oibvh_wide8},
     {"oibvh-wide8-q8", "the same in bytes, rounded outward on a grid over the node", own_tree,
      make_oibvh_wide8_q8},
-    {"oibvh-host", "Oi-BVH by plain threads on the host, from leaves lined up on the device",
-     oi_tree, make_oibvh_host},
+    in_any_format("oibvh-host",
+                  "Oi-BVH by plain threads on the host, from leaves lined up on the device",
+                  oi_tree, make_oibvh_host),
     {"oibvh-reference", "Oi-BVH on one core of the host, slowly: the oracle", oi_tree,
      make_oibvh_reference},
     {"radix-reference", "radix tree on one core of the host, slowly: the oracle", radix_tree,
@@ -97,9 +101,14 @@ void check_boxes(const BuilderChoice& choice)
     const BoxFormat& format = find_box_format(choice.boxes);
     if (format.number == BOX_F32)
         return;
-    if (!find_builder(choice.name).takes_formats)
+    if (!find_builder(choice.name).takes_formats) {
+        std::string others;
+        for (const BuilderEntry& entry : catalog)
+            if (entry.takes_formats)
+                others += (others.empty() ? "" : ", ") + std::string(entry.name);
         throw BadUsage(choice.name + " keeps its boxes in its own way, not as " + choice.boxes +
-                       "; perfect, oibvh-single and oibvh-multi do as they are told");
+                       "; these do as they are told: " + others);
+    }
     if (!choice.sorted_leaves)
         throw BadUsage("boxes of " + choice.boxes +
                        " are made where leaves are lined up, so leaves must be sorted, not left "

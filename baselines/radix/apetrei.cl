@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // check: -DCODE_WORDS=1 -DSORTED_LEAVES=0
 // check: -DCODE_WORDS=2 -DSORTED_LEAVES=1
+// check: -DCODE_WORDS=1 -DSORTED_LEAVES=1 -DBOX_FORMAT=4u
 //
 // [Apetrei2014] as printed: a node is called after its split, its children and the two ends of its range lie in
 // arrays, each child writes its own half, and a counter lets the second of them go on.
@@ -13,11 +14,11 @@
 /// What a build works on, as the kernel is handed it.
 typedef struct {
     global const uint* common;
-    global const float2* leaf_boxes;
+    global const BoxWord* leaf_boxes;
     global const uint* ids;
     global uint* children;  ///< left and right of node k at 2k and 2k + 1
     global uint* ranges;    ///< first and last leaf, alike
-    global float2* boxes;
+    global BoxWord* boxes;
 } Tree;
 
 static inline Aabb box_of_child(const Tree tree, const uint child)
@@ -60,9 +61,9 @@ static inline void climb_from(const Tree tree, volatile global Arrivals* arrival
 
 /// `children`, `ranges` and `boxes` become the radix tree whose neighbours have `common`; `root` its root.
 /// `arrivals` is zero, one an inner node, and is zero again afterwards.
-kernel void build(global const uint* restrict common, global const float2* restrict leaf_boxes,
+kernel void build(global const uint* restrict common, global const BoxWord* restrict leaf_boxes,
                   global const uint* restrict ids, global uint* children, global uint* ranges,
-                  global float2* boxes, volatile global Arrivals* arrivals, global uint* root,
+                  global BoxWord* boxes, volatile global Arrivals* arrivals, global uint* root,
                   const uint leaves)
 {
     const Tree tree = {common, leaf_boxes, ids, children, ranges, boxes};

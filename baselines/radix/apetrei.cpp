@@ -17,7 +17,7 @@ public:
     {
         leaves_ = &leaves;
         const std::size_t inner = leaves.count - 1;
-        boxes_ = arena.take<Aabb>(inner, Use::tree);
+        boxes_ = arena.take<std::byte>(inner * leaves.format->box_bytes(), Use::tree);
         children_ = arena.take<uint>(2 * inner, Use::tree);
         root_ = arena.take<uint>(1, Use::tree);
         ranges_ = arena.take<uint>(2 * inner, Use::scratch);
@@ -43,17 +43,15 @@ public:
     /// The kernel finds the same tree again while it climbs; what leaves have in common has not changed.
     void refit(Queue& queue) override { climb(queue); }
 
-    std::vector<RadixNode> download(const cl::CommandQueue& queue, uint& root) const override
+    std::vector<RadixNode> download(const cl::CommandQueue& queue, const BoxRounding& rounding,
+                                    uint& root) const override
     {
         root = root_.download(queue).at(0);
-        const std::vector<Aabb> boxes = boxes_.download(queue);
+        const std::vector<Aabb> boxes = read_boxes(boxes_.download(queue), rounding);
         const std::vector<uint> children = children_.download(queue);
         std::vector<RadixNode> nodes;
-        for (std::size_t k = 0; k < boxes.size(); ++k) {
-            const Aabb& box = boxes[k];
-            nodes.push_back({box.min_x, box.min_y, box.min_z, children[2 * k], box.max_x, box.max_y,
-                             box.max_z, children[2 * k + 1]});
-        }
+        for (std::size_t k = 0; k < boxes.size(); ++k)
+            nodes.push_back(radix_node(boxes[k], children[2 * k], children[2 * k + 1]));
         return nodes;
     }
 
@@ -83,7 +81,7 @@ private:
     RadixLaunch launch_;
     cl::Kernel deltas_, build_;
     const RadixLeaves* leaves_ = nullptr;
-    Buffer<Aabb> boxes_;     ///< by split, as are all but the root
+    Buffer<std::byte> boxes_;  ///< by split, as are all but the root
     Buffer<uint> children_;  ///< left, right
     Buffer<uint> ranges_;    ///< first, last
     Buffer<uint> common_;    ///< one a gap between leaves

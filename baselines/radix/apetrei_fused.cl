@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // check: -DCODE_WORDS=1 -DSORTED_LEAVES=0
 // check: -DCODE_WORDS=2 -DSORTED_LEAVES=1
+// check: -DCODE_WORDS=1 -DSORTED_LEAVES=1 -DBOX_FORMAT=1u
+// check: -DCODE_WORDS=1 -DSORTED_LEAVES=1 -DBOX_FORMAT=2u
+// check: -DCODE_WORDS=1 -DSORTED_LEAVES=1 -DBOX_FORMAT=4u
 //
 // [Apetrei2014] in the strongest form we know: topology and boxes in one launch, one exchange a meeting.
 //
@@ -19,8 +22,8 @@
 #include "device/handoff.clh"
 
 /// From `leaf` upwards, until the sibling has yet to come or the root is built.
-static inline void climb_from(global const Code* codes, global const float2* leaf_boxes,
-                              global const uint* ids, global uint4* nodes,
+static inline void climb_from(global const Code* codes, global const BoxWord* leaf_boxes,
+                              global const uint* ids, global RadixWord* nodes,
                               volatile global Arrivals* ends, const uint leaves, const uint leaf)
 {
     uint first = leaf, last = leaf;
@@ -54,8 +57,8 @@ static inline void climb_from(global const Code* codes, global const float2* lea
 
 /// `nodes` becomes the radix tree over `codes`, ascending. `ends` is zero, one a gap between leaves, and is zero
 /// again afterwards.
-kernel void build(global const Code* restrict codes, global const float2* restrict leaf_boxes,
-                  global const uint* restrict ids, global uint4* nodes,
+kernel void build(global const Code* restrict codes, global const BoxWord* restrict leaf_boxes,
+                  global const uint* restrict ids, global RadixWord* nodes,
                   volatile global Arrivals* ends, const uint leaves)
 {
     const Chunk chunk = own_chunk(leaves);

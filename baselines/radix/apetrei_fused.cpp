@@ -14,7 +14,7 @@ public:
     void plan(Arena& arena, const RadixLeaves& leaves) override
     {
         leaves_ = &leaves;
-        nodes_ = arena.take<RadixNode>(leaves.count - 1, Use::tree);
+        nodes_ = take_radix_nodes(arena, leaves);
         ends_ = arena.take<uint>(leaves.count - 1, Use::scratch);
     }
 
@@ -35,10 +35,11 @@ public:
     /// The codes are still there, and from them comes the same tree. No parents are stored that would tell sooner.
     void refit(Queue& queue) override { build(queue); }
 
-    std::vector<RadixNode> download(const cl::CommandQueue& queue, uint& root) const override
+    std::vector<RadixNode> download(const cl::CommandQueue& queue, const BoxRounding& rounding,
+                                    uint& root) const override
     {
         root = 0;
-        return nodes_.download(queue);
+        return read_radix_nodes(nodes_.download(queue), rounding);
     }
 
     cl_uint bind(cl::Kernel& kernel, cl_uint first) const override
@@ -50,7 +51,7 @@ private:
     RadixLaunch launch_;
     cl::Kernel build_;
     const RadixLeaves* leaves_ = nullptr;
-    Buffer<RadixNode> nodes_;
+    Buffer<std::byte> nodes_;
     Buffer<uint> ends_;  ///< one a gap between leaves
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 #include <numeric>
 
 #include "baselines/radix/hierarchy.h"
@@ -13,9 +14,11 @@ class RadixTree final : public DeviceTree {
 public:
     RadixLeaves leaves;
     std::unique_ptr<RadixHierarchy> hierarchy;
+    Buffer<SceneCells> cells;  ///< one, of formats with cells
     uint code_bits = 0;
 
     uint leaf_count() const override { return leaves.count; }
+    const BoxFormat& box_format() const override { return *leaves.format; }
     bool has_sorted_leaves() const override { return leaves.sorted; }
     std::string_view access_header() const override { return hierarchy->access_header(); }
     bool is_implicit() const override { return false; }
@@ -37,12 +40,15 @@ public:
     /// Breadth-first: a radix tree may be 95 levels deep, so nothing here recurses.
     HostTree spelled_out_object(uint object) const override
     {
-        const std::vector<Aabb> boxes = leaves.boxes.download(queue->cl());
+        HostTree tree;
+        tree.rounding = {leaves.format, leaves.format->has_cells()
+                                            ? cells.download(queue->cl()).front()
+                                            : SceneCells{}};
+        const std::vector<Aabb> boxes = read_boxes(leaves.boxes.download(queue->cl()), tree.rounding);
         const std::vector<uint> ids = leaves.ids.download(queue->cl());
         uint root = 0;
-        const std::vector<RadixNode> inner = hierarchy->download(queue->cl(), root);
+        const std::vector<RadixNode> inner = hierarchy->download(queue->cl(), tree.rounding, root);
 
-        HostTree tree;
         if (objects.size() > 1)
             root = device_objects.download(queue->cl()).at(object).root;
         else
@@ -96,10 +102,10 @@ public:
                  const BuildOptions& options)
         : OrderedBuilder(programs, card, options), make_(make)
     {
-        require_floats();
         tree_.leaves.sorted = options.sorted_leaves;
+        tree_.leaves.format = &format();
         tree_.hierarchy = make({programs, RadixLaunch(programs.device(), options),
-                                leaf_order_.code_bits(), options.sorted_leaves});
+                                leaf_order_.code_bits(), options.sorted_leaves, format()});
     }
 
 private:
@@ -117,21 +123,24 @@ private:
         tree_.device_objects = arena.take<ForestObject>(sizes.size(), Use::tree);
         leaf_order_.plan(arena, sizes, leaves.sorted ? Use::scratch : Use::tree, true);
         tree_.code_bits = leaf_order_.code_bits();
-        leaves.boxes =
-            leaves.sorted ? arena.take<Aabb>(primitives, Use::tree) : leaf_order_.boxes();
+        tree_.cells = plan_cells(arena);
+        leaves.boxes = leaves.sorted
+                           ? arena.take<std::byte>(primitives * format().box_bytes(), Use::tree)
+                           : leaf_order_.boxes().as<std::byte>();
         leaves.ids = leaf_order_.ids();
         leaves.codes = leaf_order_.codes();
-        gathered_ = {leaves.boxes.as<std::byte>(), 0};
+        gathered_ = {leaves.boxes, 0};
         tree_.hierarchy->plan(arena, leaves);
     }
 
     void prepare(const cl::CommandQueue& queue) override
     {
         tree_.device_objects.upload(queue, tree_.objects);
-        const Define sorted{"SORTED_LEAVES", tree_.leaves.sorted ? 1u : 0u};
+        const std::array defines = {Define{"SORTED_LEAVES", tree_.leaves.sorted ? 1u : 0u},
+                                    Define{"BOX_FORMAT", format().number}};
         if (!tree_.hierarchy->numbers_by_range())
             roots_ = programs_.kernel(tree_.access_header(), "baselines/radix/roots.cl",
-                                      "find_roots", {&sorted, 1});
+                                      "find_roots", defines);
         tree_.hierarchy->prepare(queue);
     }
 

@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "baselines/radix/node.h"
+#include "baselines/radix/stored_nodes.h"
 #include "builders/builder.h"
 #include "builders/device_tree.h"
 #include "builders/stages/codes.h"
@@ -16,9 +16,12 @@ namespace bvhbench {
 struct RadixLeaves {
     uint count = 0;
     bool sorted = false;
-    Buffer<Aabb> boxes;  ///< in leaf order if sorted, else in mesh order
+    const BoxFormat* format = &float_boxes();
+    Buffer<std::byte> boxes;  ///< in the format; in leaf order if sorted, else in mesh order
     Buffer<uint> ids;    ///< the triangle of each leaf
     Buffer<uint> codes;  ///< ascending
+
+    std::size_t inner() const { return std::size_t{count} - 1; }  ///< nodes over them
 
     /// The least that reading all codes, or all boxes, moves.
     std::int64_t code_bytes() const { return static_cast<std::int64_t>(codes.bytes()); }
@@ -27,6 +30,12 @@ struct RadixLeaves {
         return static_cast<std::int64_t>(boxes.bytes() + (sorted ? 0 : ids.bytes()));
     }
 };
+
+/// Memory for the inner nodes over `leaves`.
+inline Buffer<std::byte> take_radix_nodes(Arena& arena, const RadixLeaves& leaves)
+{
+    return arena.take<std::byte>(leaves.inner() * radix_node_bytes(*leaves.format), Use::tree);
+}
 
 /// How kernels over leaves or nodes are launched: a work-item each in groups, or a run of them a work-item where
 /// no more than `most_items` work-items are to share the work; 0 is no such bound. The kernels are the same:
@@ -48,12 +57,14 @@ struct RadixSetup {
     RadixLaunch launch;
     unsigned code_bits;
     bool sorted_leaves;
+    const BoxFormat& format;
 
     cl::Kernel kernel(std::string_view path, const char* name) const
     {
-        return programs.kernel(
-            path, name,
-            {{"CODE_WORDS", code_words(code_bits)}, {"SORTED_LEAVES", sorted_leaves ? 1u : 0u}});
+        return programs.kernel(path, name,
+                               {{"CODE_WORDS", code_words(code_bits)},
+                                {"SORTED_LEAVES", sorted_leaves ? 1u : 0u},
+                                {"BOX_FORMAT", format.number}});
     }
 };
 
@@ -77,8 +88,9 @@ public:
     /// Enqueue boxes only, over the topology that the last build left. As `build`.
     virtual void refit(Queue& queue) = 0;
 
-    /// The inner nodes, the children's indices as stored; `root` is set to the root's.
-    virtual std::vector<RadixNode> download(const cl::CommandQueue& queue, uint& root) const = 0;
+    /// The inner nodes, the children's indices as stored, boxes read back by `rounding`; `root` is set to the root's.
+    virtual std::vector<RadixNode> download(const cl::CommandQueue& queue,
+                                            const BoxRounding& rounding, uint& root) const = 0;
 
     /// As DeviceTree says of the nodes; the leaves' parameters come behind.
     virtual std::string_view access_header() const { return "baselines/radix/access.clh"; }

@@ -17,7 +17,7 @@ public:
     {
         leaves_ = &leaves;
         const std::size_t inner = leaves.count - 1;
-        nodes_ = arena.take<RadixNode>(inner, Use::tree);
+        nodes_ = take_radix_nodes(arena, leaves);
         parents_ = arena.take<uint>(inner + leaves.count, Use::scratch);
         arrivals_ = arena.take<uint>(inner, Use::scratch);
     }
@@ -37,10 +37,11 @@ public:
 
     void refit(Queue& queue) override { make_boxes(queue); }
 
-    std::vector<RadixNode> download(const cl::CommandQueue& queue, uint& root) const override
+    std::vector<RadixNode> download(const cl::CommandQueue& queue, const BoxRounding& rounding,
+                                    uint& root) const override
     {
         root = 0;
-        return nodes_.download(queue);
+        return read_radix_nodes(nodes_.download(queue), rounding);
     }
 
     cl_uint bind(cl::Kernel& kernel, cl_uint first) const override
@@ -57,7 +58,7 @@ private:
     {
         set_arguments(boxes_, leaves_->boxes, leaves_->ids, nodes_, parents_, arrivals_,
                       leaves_->count);
-        const auto children = static_cast<std::int64_t>(nodes_.size() * 2 * sizeof(uint));
+        const auto children = static_cast<std::int64_t>(leaves_->inner() * 2 * sizeof(uint));
         launch_(queue, boxes_, leaves_->count,
                 leaves_->box_bytes() + parent_bytes() + children + node_bytes());
     }
@@ -65,7 +66,7 @@ private:
     RadixLaunch launch_;
     cl::Kernel topology_, boxes_;
     const RadixLeaves* leaves_ = nullptr;
-    Buffer<RadixNode> nodes_;
+    Buffer<std::byte> nodes_;
     Buffer<uint> parents_;   ///< inner nodes, then leaves
     Buffer<uint> arrivals_;  ///< one an inner node
 };

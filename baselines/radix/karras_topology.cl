@@ -19,7 +19,7 @@ static inline uint farthest_with(global const Code* codes, const uint leaves, co
 }
 
 /// Inner node i covers leaf i and those on the side it has more in common with, as far as that lasts.
-static inline void make_node(global const Code* codes, global uint4* nodes, global uint* parents,
+static inline void make_node(global const Code* codes, global RadixWord* nodes, global uint* parents,
                              const uint leaves, const uint i)
 {
     const uint before = common_of(codes, leaves, i, i - 1u);
@@ -48,7 +48,7 @@ static inline void make_node(global const Code* codes, global uint4* nodes, glob
 
 /// The children of every inner node, boxes left empty, and the parent of every node: inner nodes first, then
 /// leaves. The root, node 0, has none.
-kernel void topology(global const Code* restrict codes, global uint4* restrict nodes,
+kernel void topology(global const Code* restrict codes, global RadixWord* restrict nodes,
                      global uint* restrict parents, const uint leaves)
 {
     const Chunk chunk = own_chunk(leaves - 1u);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // check: -DCODE_WORDS=1 -DSORTED_LEAVES=0
 // check: -DCODE_WORDS=2 -DSORTED_LEAVES=1
+// check: -DCODE_WORDS=1 -DSORTED_LEAVES=1 -DBOX_FORMAT=1u
+// check: -DCODE_WORDS=1 -DSORTED_LEAVES=1 -DBOX_FORMAT=3u
+// check: -DCODE_WORDS=1 -DSORTED_LEAVES=1 -DBOX_FORMAT=4u
 //
 // [Lauterbach2009]: a level of the tree after the other, from the root down, then boxes from the deepest level
 // up. A launch a level, as many as there can be: how deep the tree is only the device knows, and a launch whose
@@ -14,22 +17,15 @@
 //     nodes       level 0 | level 1 | level 2 ...        level l is nodes[begins[l]] to before begins[l + 1]
 //     counts      1       | <= 2    | <= 4    ...        counts[l] grows while level l - 1 is split
 //
-// A node that has not been split holds the range of its leaves where its children will be: the tree is its own
-// queue.
+// A node that has not been split holds the range of its leaves where its children will be, and for a moment its split where
+// its box will be: the tree is its own queue.
 #include "baselines/radix/nodes.clh"
 
-/// Node i waits for its split, leaves `first` to `last`.
-static inline void put_range(global uint4* nodes, const uint i, const uint first, const uint last)
-{
-    nodes[2ul * i].w = first;
-    nodes[2ul * i + 1ul].w = last;
-}
-
 /// Find the split of node i and leave it where its box will be. How many of its children are inner nodes.
-static inline uint find_split(global const Code* codes, global uint4* nodes, const uint leaves,
+static inline uint find_split(global const Code* codes, global RadixWord* nodes, const uint leaves,
                               const uint i)
 {
-    const uint first = nodes[2ul * i].w, last = nodes[2ul * i + 1ul].w;
+    const uint first = node_left(nodes, i), last = node_right(nodes, i);
     const uint own = common_of(codes, leaves, first, last);
     uint split = first, beyond = last;  // more in common with `first` at split, not so at beyond
     while (beyond - split > 1u) {
@@ -39,33 +35,32 @@ static inline uint find_split(global const Code* codes, global uint4* nodes, con
         else
             beyond = middle;
     }
-    nodes[2ul * i].x = split;
+    store_note(nodes, i, split);
     return (split != first ? 1u : 0u) + (beyond != last ? 1u : 0u);
 }
 
 /// Node i, whose split was found, gets its children; those that are inner nodes wait from `slot` on. The slot
 /// after them.
-static inline uint put_children(global uint4* nodes, const uint i, uint slot)
+static inline uint put_children(global RadixWord* nodes, const uint i, uint slot)
 {
-    const uint first = nodes[2ul * i].w, last = nodes[2ul * i + 1ul].w;
-    const uint split = nodes[2ul * i].x;
+    const uint first = node_left(nodes, i), last = node_right(nodes, i);
+    const uint split = node_note(nodes, i);
     uint left = radix_child(split, true), right = radix_child(split + 1u, true);
     if (split != first) {
-        put_range(nodes, slot, first, split);
+        store_children(nodes, slot, first, split);
         left = radix_child(slot++, false);
     }
     if (split + 1u != last) {
-        put_range(nodes, slot, split + 1u, last);
+        store_children(nodes, slot, split + 1u, last);
         right = radix_child(slot++, false);
     }
-    nodes[2ul * i].w = left;
-    nodes[2ul * i + 1ul].w = right;
+    store_children(nodes, i, left, right);
     return slot;
 }
 
 /// The nodes of `level` get their children, and the next level its nodes: counts[level + 1], zero before, and
 /// begins[level + 1]. Where a group's children go is settled by one atomic, whatever its size.
-kernel void split_level(global const Code* restrict codes, global uint4* nodes, global uint* begins,
+kernel void split_level(global const Code* restrict codes, global RadixWord* nodes, global uint* begins,
                         volatile global uint* counts, const uint leaves, const uint level)
 {
     local uint group_count, group_slot;
@@ -74,7 +69,7 @@ kernel void split_level(global const Code* restrict codes, global uint4* nodes, 
     if (get_global_id(0) == 0) {
         begins[level + 1u] = begin + count;
         if (level == 0u)
-            put_range(nodes, 0u, 0u, leaves - 1u);
+            store_children(nodes, 0u, 0u, leaves - 1u);
     }
     if (get_local_id(0) == 0)
         group_count = 0u;
@@ -96,8 +91,8 @@ kernel void split_level(global const Code* restrict codes, global uint4* nodes, 
 
 /// The nodes of `level` get the boxes around their children's, which the level below has. counts[level], which
 /// is done with, becomes zero for the next build, all but the root's.
-kernel void box_level(global const float2* restrict leaf_boxes, global const uint* restrict ids,
-                      global uint4* nodes, global const uint* restrict begins, global uint* counts,
+kernel void box_level(global const BoxWord* restrict leaf_boxes, global const uint* restrict ids,
+                      global RadixWord* nodes, global const uint* restrict begins, global uint* counts,
                       const uint level)
 {
     const uint begin = begins[level];
@@ -106,7 +101,7 @@ kernel void box_level(global const float2* restrict leaf_boxes, global const uin
         counts[level] = 0u;
     for (uint k = chunk.first; k < chunk.end; ++k) {
         const uint i = begin + k;
-        const uint left = nodes[2ul * i].w, right = nodes[2ul * i + 1ul].w;
+        const uint left = node_left(nodes, i), right = node_right(nodes, i);
         const Aabb box = merged(child_box(leaf_boxes, ids, nodes, left),
                                 child_box(leaf_boxes, ids, nodes, right));
         store_node(nodes, i, box, left, right);

@@ -33,7 +33,7 @@ public:
         // On the way down from the root every node splits at a bit of the key that is below its parent's, and
         // of a place only so many bits differ.
         levels_ = std::min(leaves.count - 1, code_bits_ + ceil_log2(leaves.count));
-        nodes_ = arena.take<RadixNode>(leaves.count - 1, Use::tree);
+        nodes_ = take_radix_nodes(arena, leaves);
         begins_ = arena.take<uint>(levels_ + 1, Use::scratch);
         counts_ = arena.take<uint>(levels_ + 1, Use::scratch);
     }
@@ -60,10 +60,11 @@ public:
 
     bool numbers_by_range() const override { return false; }
 
-    std::vector<RadixNode> download(const cl::CommandQueue& queue, uint& root) const override
+    std::vector<RadixNode> download(const cl::CommandQueue& queue, const BoxRounding& rounding,
+                                    uint& root) const override
     {
         root = 0;
-        return nodes_.download(queue);
+        return read_radix_nodes(nodes_.download(queue), rounding);
     }
 
     cl_uint bind(cl::Kernel& kernel, cl_uint first) const override
@@ -83,7 +84,7 @@ private:
     /// How many bytes a level moves the host does not know: the root's launch declares all levels'.
     void make_boxes(Queue& queue)
     {
-        const auto children = static_cast<std::int64_t>(nodes_.size() * 2 * sizeof(uint));
+        const auto children = static_cast<std::int64_t>(leaves_->inner() * 2 * sizeof(uint));
         for (uint level = levels_; level-- > 0;) {
             set_arguments(box_, leaves_->boxes, leaves_->ids, nodes_, begins_, counts_, level);
             launch_(queue, box_, most_nodes_on(level),
@@ -96,7 +97,7 @@ private:
     cl::Kernel split_, box_;
     const RadixLeaves* leaves_ = nullptr;
     uint levels_ = 0;          ///< of inner nodes, at most
-    Buffer<RadixNode> nodes_;  ///< level by level
+    Buffer<std::byte> nodes_;  ///< level by level
     Buffer<uint> begins_;      ///< one a level and one more
     Buffer<uint> counts_;      ///< likewise
 };

@@ -20,10 +20,15 @@ constexpr std::string_view some_builders[] = {"oibvh-multi", "oibvh-wide4", "oib
 
 /// Who walks boxes in which format: one for each, since formats change what kernels are compiled for and not what they do.
 struct InFormat {
-    std::string_view collider, boxes;
+    std::string_view collider, builder, boxes;
 };
 constexpr InFormat some_formats[] = {
-    {"leaf", "f64"}, {"leaf", "u8"}, {"group", "u16"}, {"block", "u16"}, {"bvtt", "f16"}, {"front", "f64"}};
+    {"leaf", builder_in_formats, "f64"},  {"leaf", builder_in_formats, "u8"},
+    {"group", builder_in_formats, "u16"}, {"block", builder_in_formats, "u16"},
+    {"bvtt", builder_in_formats, "f16"},  {"front", builder_in_formats, "f64"},
+    {"leaf", "karras", "f16"},            {"front", "karras", "u8"},
+    {"group", "apetrei", "u16"},          {"bvtt", "karras", "f64"},
+};
 
 /// A builder's tree over one triangle.
 const Tree& smallest_tree(Session& session, const BuilderChoice& choice)
@@ -142,7 +147,7 @@ std::vector<StressPipeline> stress_pipelines(Session& session, bool few, bool ot
         }
         for (const InFormat& one : some_formats)
             if (one.collider == entry.name)
-                pipelines.push_back({in_format(builder_in_formats, one.boxes), choice, false});
+                pipelines.push_back({in_format(one.builder, one.boxes), choice, false});
     }
     return pipelines;
 }

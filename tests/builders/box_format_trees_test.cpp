@@ -63,6 +63,16 @@ TEST_P(RoundedTrees, AreTheSameWhereGroupsWait)
               "");
 }
 
+/// Likewise: inner nodes of radix trees are packed in words of a format's own.
+TEST_P(RoundedTrees, OfFewAreRadixTreesToo)
+{
+    for (const char* builder : {"karras", "apetrei", "apetrei-fused", "lbvh-levels"})
+        EXPECT_EQ(broken_over(session(), rounding(builder, GetParam().name, 16),
+                              hard_inputs().front().make(33)),
+                  "")
+            << builder;
+}
+
 TEST_P(RoundedTrees, OfSeveralObjectsAreUpdatedWithTheirCells)
 {
     ManyObjects many({70, 129, 3});
@@ -108,7 +118,8 @@ TEST(RoundedTrees, AreBuiltByAllThatSayThatTheyCan)
 {
     for (const BuilderEntry& entry : builder_catalog())
         if (entry.takes_formats && entry.name != "oibvh-single")
-            expect_contract(entry.name, "u8", 0);
+            for (const char* boxes : {"f64", "u16", "u8"})  // f16 is the text of u16
+                expect_contract(entry.name, boxes, 0);
 }
 
 TEST(RoundedTrees, AreRefusedByAllOthersInOneSentence)
