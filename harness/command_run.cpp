@@ -22,12 +22,14 @@ namespace {
 constexpr std::size_t most_lines = 100;
 
 /// Frames have a table of their own.
-bool is_long(const Document& document)
+Lines lines_of(const Document& document)
 {
-    return document.cells.size() > most_lines ||
-           std::any_of(document.cells.begin(), document.cells.end(), [](const Cell& cell) {
-               return cell.operation == Operation::collide;
-           });
+    const auto frames =
+        std::count_if(document.cells.begin(), document.cells.end(), [](const Cell& cell) {
+            return cell.operation == Operation::collide;
+        });
+    const std::size_t others = document.cells.size() - static_cast<std::size_t>(frames);
+    return others > most_lines ? Lines::notable : frames > 0 ? Lines::of_builds : Lines::all;
 }
 
 }  // namespace
@@ -57,7 +59,7 @@ int run(const RunCommand& command, const Options& options)
         throw BadUsage("--filter: no cell of " + experiment.name + " matches '" + command.filter +
                        "'");
     std::cout << run_report(run.document().run)
-              << cells_report(run.document(), is_long(run.document()))
+              << cells_report(run.document(), lines_of(run.document()))
               << frames_table(run.document()) << swept_report(run.document())
               << refit_report(run.document()) << quality_report(run.document())
               << roofline_report(run.document()) << yardstick_report(run.document())
@@ -76,7 +78,7 @@ int show(const ShowCommand& command, const Options&)
     else if (document.cells.size() == 1)
         std::cout << cell_report(document.cells.front(), document.run);
     else
-        std::cout << cells_report(document, is_long(document))
+        std::cout << cells_report(document, lines_of(document))
                   << frames_table(document) << swept_report(document) << refit_report(document) << quality_report(document)
                   << roofline_report(document) << yardstick_report(document);
     return 0;

@@ -79,7 +79,7 @@ int smoke(const SmokeCommand& command, const Options& options)
     const Document& document = run.document();
     if (document.cells.empty())
         throw BadUsage("--filter: no cell of smoke matches '" + command.filter + "'");
-    std::cout << run_report(document.run) << cells_report(document, true);
+    std::cout << run_report(document.run) << cells_report(document, Lines::notable);
     const SmokeBaseline now = smoke_baseline(document);
     if (command.update) {
         require_sound(document);

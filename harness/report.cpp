@@ -241,7 +241,7 @@ std::string cell_report(const Cell& cell, const RunFacts& run)
     return text + "verdict: " + verdict_line(cell) + '\n';
 }
 
-std::string cells_report(const Document& document, bool only_notable)
+std::string cells_report(const Document& document, Lines lines)
 {
     Table table({{"scene", left},
                  {"triangles"},
@@ -263,7 +263,9 @@ std::string cells_report(const Document& document, bool only_notable)
     for (const Cell& cell : document.cells) {
         const bool agrees = verdict_text(cell) == "agrees";
         agreeing += agrees ? 1 : 0;
-        if (only_notable && agrees)
+        const bool is_wanted = lines == Lines::all || (lines == Lines::of_builds &&
+                                                       cell.operation != Operation::collide);
+        if (agrees && !is_wanted)
             continue;
         ++shown;
         has_stand_in = has_stand_in || !cell.scene.stand_in_for.empty();

@@ -40,8 +40,11 @@ std::string verdict_text(const Cell& cell);
 /// One cell in full: its stages as a table, its counters and its verdict.
 std::string cell_report(const Cell& cell, const RunFacts& run);
 
-/// Every cell of a run in a line; with `only_notable`, those that agree are only counted.
-std::string cells_report(const Document& document, bool only_notable = false);
+/// Which cells that agree get a line. All others do.
+enum class Lines { all, of_builds, notable };
+
+/// The cells of a run, a line each of those that `lines` says; all are counted.
+std::string cells_report(const Document& document, Lines lines = Lines::all);
 
 /// Every frame of a collision run in a line.
 std::string frames_report(const Document& document);

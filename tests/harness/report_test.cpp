@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "harness/report_paper.h"
 #include "harness/report_quality.h"
 #include "harness/report_refit.h"
@@ -154,7 +156,18 @@ TEST(CellsReport, NeverPrintsATimeOfAWrongTree)
               "                            out of memory\n"
               "3 cells, 1 agree\n");
     EXPECT_EQ(cell_report(wrong, fake_run()).find("us"), std::string::npos);
-    EXPECT_EQ(cells_report({fake_run(), {fake_cell()}}, true), "1 cells, 1 agree\n");
+    EXPECT_EQ(cells_report({fake_run(), {fake_cell()}}, Lines::notable), "1 cells, 1 agree\n");
+}
+
+TEST(CellsReport, LeavesFramesToTheirOwnTableUnlessTheyAreWrong)
+{
+    Document mixed{fake_run(), {fake_cell(), fake_cell()}};
+    mixed.cells.back().operation = Operation::collide;
+    const std::string builds = cells_report(mixed, Lines::of_builds);
+    EXPECT_EQ(std::count(builds.begin(), builds.end(), '\n'), 3) << builds;  // titles, the build and the sum
+    mixed.cells.back().check.verdict = Check::Verdict::differs;
+    const std::string wrong = cells_report(mixed, Lines::of_builds);
+    EXPECT_EQ(std::count(wrong.begin(), wrong.end(), '\n'), 4) << wrong;
 }
 
 TEST(YardstickReport, HoldsKernelsToThreadsOfTheHostWhereTreesAreEqual)
