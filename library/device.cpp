@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "builders/parameters.h"
+#include "builders/stages/kernel_form.h"
 #include "collide/parameters.h"
 #include "device/error_name.h"
 #include "geometry/error.h"
@@ -108,6 +109,15 @@ void rethrow_as_error()
 Device::Impl::Impl(const cl::CommandQueue& callers, const DeviceOptions& options)
     : device(device_of(callers, options)), programs(device), queue(device, callers)
 {}
+
+void Device::Impl::launch(cl::Kernel& kernel, std::size_t count, std::size_t moved_bytes)
+{
+    constexpr std::size_t most_items = std::size_t{1} << 20;
+    const std::size_t group = device.is_cpu() ? 1 : 64;
+    const std::size_t items = std::min(count, device.is_cpu() ? chunk_count(device) : most_items);
+    queue.launch(kernel, (items + group - 1) / group * group, group,
+                 static_cast<std::int64_t>(moved_bytes));
+}
 
 Device::Device(cl_command_queue queue, const DeviceOptions& options)
 {

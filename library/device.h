@@ -17,6 +17,9 @@ namespace bvhbench::oibvh {
 struct Device::Impl {
     Impl(const cl::CommandQueue& queue, const DeviceOptions& options);
 
+    /// Launch a kernel whose work-items take chunks of `count` items: a few of them on a CPU, up to one an item elsewhere.
+    void launch(cl::Kernel& kernel, std::size_t count, std::size_t moved_bytes);
+
     std::mutex mutex;  ///< trees of a Device share its programs and its account of memory
     bvhbench::Device device;
     Programs programs;

@@ -6,7 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include "builders/stages/kernel_form.h"
 #include "geometry/error.h"
 
 namespace bvhbench::oibvh {
@@ -52,6 +51,12 @@ cl_context context_of(cl_mem memory)
     if (code != CL_SUCCESS)
         throw cl::Error(code, "clGetMemObjectInfo");
     return context;
+}
+
+/// Whether the host may read it.
+bool may_be_read(const cl::Buffer& buffer)
+{
+    return (buffer.getInfo<CL_MEM_FLAGS>() & (CL_MEM_HOST_WRITE_ONLY | CL_MEM_HOST_NO_ACCESS)) == 0;
 }
 
 bool is_finite(OwnPoint point)
@@ -189,7 +194,7 @@ void InputTaker::take_boxes(const Buffer<OwnPoint>& corners)
             faces_kernel_ = device_.programs.kernel("library/box_faces.cl", "box_faces");
         set_arguments(faces_kernel_, faces, static_cast<uint>(count));
         device_.queue.begin("input");
-        launch(faces_kernel_, count, faces.bytes());
+        device_.launch(faces_kernel_, count, faces.bytes());
     }
     box_faces_made_ = count;
     take_triangles(corners, faces);
@@ -223,16 +228,6 @@ void InputTaker::take_objects(std::span<const std::uint32_t> sizes)
     taken_.objects = std::move(objects);
 }
 
-/// A kernel whose work-items take chunks: a few of them on a CPU, one an item elsewhere.
-void InputTaker::launch(cl::Kernel& kernel, std::size_t count, std::size_t moved_bytes)
-{
-    const bvhbench::Device& device = device_.device;
-    const std::size_t group = device.is_cpu() ? 1 : 64;
-    const std::size_t items = device.is_cpu() ? std::min(count, chunk_count(device))
-                                              : (count + group - 1) / group * group;
-    device_.queue.launch(kernel, items, group, static_cast<std::int64_t>(moved_bytes));
-}
-
 void InputTaker::check(bool are_boxes)
 {
     Queue& queue = device_.queue;
@@ -250,7 +245,7 @@ void InputTaker::check(bool are_boxes)
                       faces, static_cast<uint>(count), is_bad);
     queue.begin("check");
     queue.clear(is_bad.cl(), is_bad.bytes());
-    launch(kernel, count, points.bytes() + (are_boxes ? 0 : faces.bytes()));
+    device_.launch(kernel, count, points.bytes() + (are_boxes ? 0 : faces.bytes()));
     uint was_bad = 0;
     queue.read(is_bad.cl(), sizeof was_bad, &was_bad);
     if (was_bad != 0)
@@ -260,6 +255,10 @@ void InputTaker::check(bool are_boxes)
 /// Throws BadUsage about the first one.
 void InputTaker::complain(bool are_boxes) const
 {
+    if (!may_be_read(taken_.device_points.cl()) || !may_be_read(taken_.device_faces.cl()))
+        throw BadUsage(std::string(are_boxes ? "a box has a corner that is not finite, or ends before it begins"
+                                             : "a triangle names a point that is not there, or has a corner that is not finite") +
+                       "; which one cannot be told, since the host may not read the buffer");
     const std::vector<OwnPoint> points = taken_.device_points.download(device_.queue.cl());
     const std::vector<OwnFace> faces = taken_.device_faces.download(device_.queue.cl());
     for (std::size_t k = 0; k < faces.size(); ++k) {

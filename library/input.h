@@ -50,7 +50,6 @@ private:
     void take_boxes(const Buffer<bvhbench::Point>& corners);
     void drop_box_faces();
     void take_objects(std::span<const std::uint32_t> sizes);
-    void launch(cl::Kernel& kernel, std::size_t count, std::size_t moved_bytes);
     void check(bool are_boxes);
     void complain(bool are_boxes) const;
 

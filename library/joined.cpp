@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "builders/stages/kernel_form.h"
 #include "collide/counters.h"
 #include "geometry/error.h"
 #include "library/tree.h"
@@ -75,18 +74,7 @@ void JoinedTrees::enqueue_copies(const ImplicitTree& a, const ImplicitTree& b)
                b.leaf_boxes.bytes());
     queue.copy(a.ids.cl(), tree_.ids.cl(), 0, a.ids.bytes());
     set_arguments(number_, b.ids, tree_.ids, a.leaves, b.leaves);
-    launch(number_, b.leaves);
-}
-
-/// A kernel whose work-items take chunks: a few of them on a CPU, up to one an item elsewhere.
-void JoinedTrees::launch(cl::Kernel& kernel, std::size_t count)
-{
-    constexpr std::size_t most_items = std::size_t{1} << 20;
-    const bvhbench::Device& device = device_.device;
-    const std::size_t group = device.is_cpu() ? 1 : 64;
-    const std::size_t items = device.is_cpu() ? chunk_count(device) : std::min(count, most_items);
-    device_.queue.launch(kernel, (items + group - 1) / group * group, group,
-                         static_cast<std::int64_t>(2 * count * sizeof(uint)));
+    device_.launch(number_, b.leaves, 2 * b.ids.bytes());
 }
 
 void JoinedTrees::enqueue_own_numbers()
@@ -97,7 +85,8 @@ void JoinedTrees::enqueue_own_numbers()
         return;
     set_arguments(own_numbers_, found.pairs, found.counters, static_cast<uint>(found.pairs.size()),
                   tree_.objects.front().leaves);
-    launch(own_numbers_, static_cast<std::size_t>(count));
+    device_.launch(own_numbers_, static_cast<std::size_t>(count),
+                   static_cast<std::size_t>(count) * 2 * sizeof(bvhbench::Pair));
 }
 
 Collider& JoinedTrees::find_pairs(const ImplicitTree& a, const ImplicitTree& b,

@@ -32,7 +32,6 @@ private:
     void plan(Arena& arena, const ImplicitTree& a, const ImplicitTree& b);
     void enqueue_copies(const ImplicitTree& a, const ImplicitTree& b);
     void enqueue_own_numbers();
-    void launch(cl::Kernel& kernel, std::size_t count);
 
     Device::Impl& device_;
     cl::Kernel number_, own_numbers_;

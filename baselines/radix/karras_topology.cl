@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // check: -DCODE_WORDS=1 -DSORTED_LEAVES=0
 // check: -DCODE_WORDS=2 -DSORTED_LEAVES=1
+// check: -DCODE_WORDS=1 -DSORTED_LEAVES=1 -DBOX_FORMAT=1u
+// check: -DCODE_WORDS=1 -DSORTED_LEAVES=1 -DBOX_FORMAT=3u
+// check: -DCODE_WORDS=1 -DSORTED_LEAVES=1 -DBOX_FORMAT=4u
 //
 // [Karras2012, Sec. 4]: all inner nodes at once, each from the codes alone. Names in the paper: common_of is
 // delta, `farthest_other` is delta_min, `reach` is l, `to_split` is s, `split` is gamma.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // check: -include baselines/radix/access.clh -DSORTED_LEAVES=0
 // check: -include baselines/radix/access_apetrei.clh -DSORTED_LEAVES=0
+// check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DBOX_FORMAT=3u
+// check: -include baselines/radix/access_apetrei.clh -DSORTED_LEAVES=1 -DBOX_FORMAT=4u
 //
 // The roots of several objects' trees, where nodes are not numbered so that they tell: an object's root is the first
 // node, on the way down from the root of all, that has some of its leaves on either side of its split.
