@@ -45,15 +45,16 @@ def statuses(path: str) -> collections.Counter:
 
 
 def processes_of(folder: str) -> list[str]:
-    """Command lines that name something in the folder."""
+    """Command lines that name something in the folder, of processes that were started here: other tests have such folders too."""
     found = []
     for entry in pathlib.Path("/proc").iterdir():
         if entry.name.isdigit():
             try:
                 line = (entry / "cmdline").read_bytes().replace(b"\0", b" ").decode(errors="replace")
+                is_ours = os.readlink(entry / "cwd") == os.getcwd()
             except OSError:
                 continue
-            found += [line] if f"{folder}/" in line else []
+            found += [line] if is_ours and f"{folder}/" in line else []
     return found
 
 
