@@ -16,12 +16,8 @@ constexpr std::string_view own_tree = {};  // no other builder makes it: its pro
 
 constexpr BuilderEntry of_embree(std::string_view name, std::string_view summary, MakeBuilder make)
 {
-    return {name,
-            summary,
-            own_tree,
-            make,
-            embree_absent,
-            "Embree takes no coordinates beyond 1.8e18",
+    return {name, summary,       own_tree,
+            make, embree_absent, "Embree takes no coordinates beyond 1.8e18",
             true};
 }
 

@@ -25,9 +25,8 @@ constexpr std::size_t most_lines = 100;
 Lines lines_of(const Document& document)
 {
     const auto frames =
-        std::count_if(document.cells.begin(), document.cells.end(), [](const Cell& cell) {
-            return cell.operation == Operation::collide;
-        });
+        std::count_if(document.cells.begin(), document.cells.end(),
+                      [](const Cell& cell) { return cell.operation == Operation::collide; });
     const std::size_t others = document.cells.size() - static_cast<std::size_t>(frames);
     return others > most_lines ? Lines::notable : frames > 0 ? Lines::of_builds : Lines::all;
 }
@@ -78,8 +77,8 @@ int show(const ShowCommand& command, const Options&)
     else if (document.cells.size() == 1)
         std::cout << cell_report(document.cells.front(), document.run);
     else
-        std::cout << cells_report(document, lines_of(document))
-                  << frames_table(document) << swept_report(document) << refit_report(document) << quality_report(document)
+        std::cout << cells_report(document, lines_of(document)) << frames_table(document)
+                  << swept_report(document) << refit_report(document) << quality_report(document)
                   << roofline_report(document) << yardstick_report(document);
     return 0;
 }

@@ -45,7 +45,8 @@ std::string waited_text(const Cell& cell, const std::string& stage, std::int64_t
     for (const Sample* sample : counted_samples(cell.samples)) {
         sums.push_back(0);
         for (const StageTime& time : sample->stages)
-            sums.back() += time.stage == stage || stage == "all" ? static_cast<double>(time.*waited) : 0;
+            sums.back() +=
+                time.stage == stage || stage == "all" ? static_cast<double>(time.*waited) : 0;
     }
     const double median = quantile(std::move(sums), 0.5);
     return median > 0 ? duration_text(median) : "";
@@ -63,8 +64,7 @@ std::string samples_line(const Cell& cell)
     if (drifted > 0)
         text += ", " + std::to_string(drifted) + " of them beside drift of the device" +
                 (counted < cell.samples.size() ? " and left out here" : "");
-    const std::string noise =
-        fixed(100 * relative_quartile_range(whole_times_ns(cell)), 1) + " %";
+    const std::string noise = fixed(100 * relative_quartile_range(whole_times_ns(cell)), 1) + " %";
     const std::string target = fixed(100 * cell.sampling.until, 1) + " %";
     switch (cell.sampling.stopped) {
         case Stopped::steady:
@@ -100,12 +100,12 @@ std::string stages_table(const Cell& cell, double copy_rate)
         std::vector<std::string> entries = {name};
         for (std::string& text : spread_texts(spread))
             entries.push_back(std::move(text));
-        entries.insert(entries.end(),
-                       {launches > 0 ? std::to_string(launches) : "host",
-                        bytes > 0 ? bytes_text(bytes) : "", rate_text(bytes, spread.median),
-                        copy_share_text(bytes, spread.median, copy_rate),
-                        waited_text(cell, name, &StageTime::queued_ns),
-                        waited_text(cell, name, &StageTime::submitted_ns)});
+        entries.insert(
+            entries.end(),
+            {launches > 0 ? std::to_string(launches) : "host", bytes > 0 ? bytes_text(bytes) : "",
+             rate_text(bytes, spread.median), copy_share_text(bytes, spread.median, copy_rate),
+             waited_text(cell, name, &StageTime::queued_ns),
+             waited_text(cell, name, &StageTime::submitted_ns)});
         table.row(std::move(entries));
     };
     for (const StageTime& stage : cell.samples.front().stages)
@@ -153,10 +153,11 @@ std::vector<std::string> line_of(const Cell& cell, double copy_rate)
         spread.median > 0 ? static_cast<double>(cell.scene.triangles) * 1e3 / spread.median : 0;
     for (std::string& text : spread_texts(spread))
         line.push_back(std::move(text));
-    line.insert(line.end(),
-                {std::to_string(counted_samples(cell.samples).size()), rate > 0 ? fixed(rate, 1) : "", rate > 0 ? fixed(1e3 / rate, 2) : "",
-                 rate_text(moved_bytes(cell), spread.median),
-                 copy_share_text(moved_bytes(cell), spread.median, copy_rate), verdict_text(cell)});
+    line.insert(
+        line.end(),
+        {std::to_string(counted_samples(cell.samples).size()), rate > 0 ? fixed(rate, 1) : "",
+         rate > 0 ? fixed(1e3 / rate, 2) : "", rate_text(moved_bytes(cell), spread.median),
+         copy_share_text(moved_bytes(cell), spread.median, copy_rate), verdict_text(cell)});
     return line;
 }
 
@@ -263,8 +264,8 @@ std::string cells_report(const Document& document, Lines lines)
     for (const Cell& cell : document.cells) {
         const bool agrees = verdict_text(cell) == "agrees";
         agreeing += agrees ? 1 : 0;
-        const bool is_wanted = lines == Lines::all || (lines == Lines::of_builds &&
-                                                       cell.operation != Operation::collide);
+        const bool is_wanted = lines == Lines::all ||
+                               (lines == Lines::of_builds && cell.operation != Operation::collide);
         if (agrees && !is_wanted)
             continue;
         ++shown;

@@ -50,8 +50,8 @@ Turns::~Turns() { close(descriptor_); }
 void Turns::meet()
 {
     if (!all_come())
-        throw Unavailable("--turns: not all of " + std::to_string(count_) + " runs came to " + path_ +
-                          " within two minutes");
+        throw Unavailable("--turns: not all of " + std::to_string(count_) + " runs came to " +
+                          path_ + " within two minutes");
 }
 
 void Turns::part()

@@ -256,9 +256,12 @@ void InputTaker::check(bool are_boxes)
 void InputTaker::complain(bool are_boxes) const
 {
     if (!may_be_read(taken_.device_points.cl()) || !may_be_read(taken_.device_faces.cl()))
-        throw BadUsage(std::string(are_boxes ? "a box has a corner that is not finite, or ends before it begins"
-                                             : "a triangle names a point that is not there, or has a corner that is not finite") +
-                       "; which one cannot be told, since the host may not read the buffer");
+        throw BadUsage(
+            std::string(are_boxes
+                            ? "a box has a corner that is not finite, or ends before it begins"
+                            : "a triangle names a point that is not there, or has a corner that is "
+                              "not finite") +
+            "; which one cannot be told, since the host may not read the buffer");
     const std::vector<OwnPoint> points = taken_.device_points.download(device_.queue.cl());
     const std::vector<OwnFace> faces = taken_.device_faces.download(device_.queue.cl());
     for (std::size_t k = 0; k < faces.size(); ++k) {

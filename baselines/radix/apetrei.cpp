@@ -82,9 +82,9 @@ private:
     cl::Kernel deltas_, build_;
     const RadixLeaves* leaves_ = nullptr;
     Buffer<std::byte> boxes_;  ///< by split, as are all but the root
-    Buffer<uint> children_;  ///< left, right
-    Buffer<uint> ranges_;    ///< first, last
-    Buffer<uint> common_;    ///< one a gap between leaves
+    Buffer<uint> children_;    ///< left, right
+    Buffer<uint> ranges_;      ///< first, last
+    Buffer<uint> common_;      ///< one a gap between leaves
     Buffer<uint> arrivals_;
     Buffer<uint> root_;  ///< one: where the root is
 };

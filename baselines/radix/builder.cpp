@@ -44,7 +44,8 @@ public:
         tree.rounding = {leaves.format, leaves.format->has_cells()
                                             ? cells.download(queue->cl()).front()
                                             : SceneCells{}};
-        const std::vector<Aabb> boxes = read_boxes(leaves.boxes.download(queue->cl()), tree.rounding);
+        const std::vector<Aabb> boxes =
+            read_boxes(leaves.boxes.download(queue->cl()), tree.rounding);
         const std::vector<uint> ids = leaves.ids.download(queue->cl());
         uint root = 0;
         const std::vector<RadixNode> inner = hierarchy->download(queue->cl(), tree.rounding, root);

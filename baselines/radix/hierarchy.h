@@ -18,8 +18,8 @@ struct RadixLeaves {
     bool sorted = false;
     const BoxFormat* format = &float_boxes();
     Buffer<std::byte> boxes;  ///< in the format; in leaf order if sorted, else in mesh order
-    Buffer<uint> ids;    ///< the triangle of each leaf
-    Buffer<uint> codes;  ///< ascending
+    Buffer<uint> ids;         ///< the triangle of each leaf
+    Buffer<uint> codes;       ///< ascending
 
     std::size_t inner() const { return std::size_t{count} - 1; }  ///< nodes over them
 

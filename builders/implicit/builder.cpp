@@ -19,7 +19,8 @@ public:
                   Meeting meeting, const BuildOptions& options)
         : ImplicitBuilder(programs, card, layout, options), asked_(meeting), meeting_(meeting)
     {
-        choose_cut(programs.device(), options, meeting, 1, format().box_bytes());  // refuses bad options now
+        choose_cut(programs.device(), options, meeting, 1,
+                   format().box_bytes());  // refuses bad options now
     }
 
 private:
@@ -58,10 +59,7 @@ private:
             return programs_.kernel(tree_.layout.build_items, text.c_str(), {boxes});
         return programs_.kernel(
             tree_.layout.build_groups, text.c_str(),
-            {boxes,
-             {"GROUP_SIZE", cut.group_size},
-             {"ITEMS", cut.items},
-             {"LEVELS", cut.levels}},
+            {boxes, {"GROUP_SIZE", cut.group_size}, {"ITEMS", cut.items}, {"LEVELS", cut.levels}},
             in_one_launch() ? Optimise::on_gpus
                             : Optimise::freely);  // groups return before a barrier
     }
@@ -175,7 +173,8 @@ void KernelBuilder::plan_hierarchy(Arena& arena)
     whole_.later = arena.take<LaterSubtree>(whole_.later_list.size(), Use::scratch);
     const std::size_t groups =
         whole_.list.empty() ? 0 : whole_.list[0].subtrees + whole_.later_list.size();
-    posts_ = arena.take<cl_ulong>(waits() ? words_per_post(*tree_.format) * groups : 0, Use::scratch);
+    posts_ =
+        arena.take<cl_ulong>(waits() ? words_per_post(*tree_.format) * groups : 0, Use::scratch);
 
     std::size_t above = 0;
     if (meeting_ == Meeting::by_handoff && is_forest())

@@ -72,7 +72,8 @@ Cut choose_cut(const Device& device, const BuildOptions& options, Meeting meetin
                std::size_t box_bytes)
 {
     // Where groups wait, more nodes a work-item were never better.
-    const bool is_tuned = !device.is_cpu() && options.group_size == 0 && meeting != Meeting::by_waiting;
+    const bool is_tuned =
+        !device.is_cpu() && options.group_size == 0 && meeting != Meeting::by_waiting;
     const uint items = options.items != 0 ? options.items
                        : is_tuned         ? device.tuned(implicit_items)
                                           : 1;

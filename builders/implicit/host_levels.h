@@ -19,7 +19,8 @@ struct HostLevels {
     ImplicitLayout layout;
     uint leaves = 0;
     Box* nodes = nullptr;  ///< by slot
-    const Box* leaf_boxes = nullptr;  ///< in mesh order; null if leaves are in `nodes`, in leaf order
+    const Box* leaf_boxes =
+        nullptr;                ///< in mesh order; null if leaves are in `nodes`, in leaf order
     const uint* ids = nullptr;  ///< triangles in leaf order
 
     /// Build from the leaves to the node at `position` of `root_level`, which is above the leaves: all inner nodes

@@ -23,11 +23,16 @@ struct InFormat {
     std::string_view collider, builder, boxes;
 };
 constexpr InFormat some_formats[] = {
-    {"leaf", builder_in_formats, "f64"},  {"leaf", builder_in_formats, "u8"},
-    {"group", builder_in_formats, "u16"}, {"block", builder_in_formats, "u16"},
-    {"bvtt", builder_in_formats, "f16"},  {"front", builder_in_formats, "f64"},
-    {"leaf", "karras", "f16"},            {"front", "karras", "u8"},
-    {"group", "apetrei", "u16"},          {"bvtt", "karras", "f64"},
+    {"leaf", builder_in_formats, "f64"},
+    {"leaf", builder_in_formats, "u8"},
+    {"group", builder_in_formats, "u16"},
+    {"block", builder_in_formats, "u16"},
+    {"bvtt", builder_in_formats, "f16"},
+    {"front", builder_in_formats, "f64"},
+    {"leaf", "karras", "f16"},
+    {"front", "karras", "u8"},
+    {"group", "apetrei", "u16"},
+    {"bvtt", "karras", "f64"},
 };
 
 /// A builder's tree over one triangle.
@@ -98,7 +103,8 @@ Findings guarded(Session& session, const StressPipeline& chosen, const Judge& ju
 
 BuilderChoice in_format(std::string_view name, std::string_view boxes)
 {
-    return {.name = std::string(name), .sorted_leaves = boxes != "f32", .boxes = std::string(boxes)};
+    return {
+        .name = std::string(name), .sorted_leaves = boxes != "f32", .boxes = std::string(boxes)};
 }
 
 std::string system_name(const BuilderChoice& builder, const ColliderChoice& collider)

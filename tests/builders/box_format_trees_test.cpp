@@ -51,7 +51,9 @@ TEST_P(RoundedTrees, OfFewAreTheReferencesRounded)
 {
     for (const HardInput& input : hard_inputs().first(2))
         for (const std::size_t size : {1u, 3u, 33u})
-            EXPECT_EQ(broken_over(session(), rounding("oibvh-single", GetParam().name, 16), input.make(size)), "")
+            EXPECT_EQ(broken_over(session(), rounding("oibvh-single", GetParam().name, 16),
+                                  input.make(size)),
+                      "")
                 << input.name << ", " << size << " triangles";
 }
 

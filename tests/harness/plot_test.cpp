@@ -72,14 +72,17 @@ TEST(Plot, APythonThatLacksAModuleIsASentenceAndOtherErrorsAreTold)
     setenv("BVHBENCH_HOME", folder.c_str(), 1);
     const std::string lacks = "python3 has no module no_such_module";
     testing::internal::CaptureStderr();
-    EXPECT_NE(draw("one.py", "r.json", folder).find(lacks + "; where Python and"), std::string::npos);
+    EXPECT_NE(draw("one.py", "r.json", folder).find(lacks + "; where Python and"),
+              std::string::npos);
     EXPECT_TRUE(draw_all({"r.json"}, folder).why.ends_with(lacks));
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
     EXPECT_TRUE(sentence([] { run_plots_script("one.py", {}); }).ends_with(lacks));
-    EXPECT_EQ(sentence([] { run_plots_script("one.py", {}); }).find("Traceback"), std::string::npos);
+    EXPECT_EQ(sentence([] { run_plots_script("one.py", {}); }).find("Traceback"),
+              std::string::npos);
 
     testing::internal::CaptureStderr();
-    EXPECT_NE(draw("broken.py", "r.json", folder).find("broken.py ended with 1"), std::string::npos);
+    EXPECT_NE(draw("broken.py", "r.json", folder).find("broken.py ended with 1"),
+              std::string::npos);
     EXPECT_NE(testing::internal::GetCapturedStderr().find("three legs"), std::string::npos);
     unsetenv("BVHBENCH_HOME");
     fs::remove_all(folder);

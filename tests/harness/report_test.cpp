@@ -70,14 +70,15 @@ TEST(Padding, IsCountedAndPrintedAsInTable1)
 
 TEST(CellReport, PrintsStagesCountersAndVerdict)
 {
-    EXPECT_EQ(cell_report(fake_cell(), fake_run()),
-              "oibvh-multi on bunny, 144,046 triangles\n"
-              "stage      median      p10       q1      q3     p90  launches    bytes   GB/s  % of copy"
-              "  queued  submitted\n"
-              "hierarchy  100 us  92.0 us  95.0 us  105 us  108 us         2  50.0 MB  500.0     50.0 %\n"
-              "3 samples; quartiles 10.0 % apart\n"
-              "counters: nodes_count 288,100, scratch_bytes 0, tree_bytes 6,914,400\n"
-              "verdict: agrees with oibvh-reference, tree 00000000000000ff\n");
+    EXPECT_EQ(
+        cell_report(fake_cell(), fake_run()),
+        "oibvh-multi on bunny, 144,046 triangles\n"
+        "stage      median      p10       q1      q3     p90  launches    bytes   GB/s  % of copy"
+        "  queued  submitted\n"
+        "hierarchy  100 us  92.0 us  95.0 us  105 us  108 us         2  50.0 MB  500.0     50.0 %\n"
+        "3 samples; quartiles 10.0 % apart\n"
+        "counters: nodes_count 288,100, scratch_bytes 0, tree_bytes 6,914,400\n"
+        "verdict: agrees with oibvh-reference, tree 00000000000000ff\n");
 }
 
 TEST(CellReport, SaysWhyThereAreNoMoreSamplesAndLeavesOutThoseBesideDrift)
@@ -90,10 +91,11 @@ TEST(CellReport, SaysWhyThereAreNoMoreSamplesAndLeavesOutThoseBesideDrift)
     cell.samples[2].stages[0].queued_ns = 6000;
     cell.samples[1].stages[0].submitted_ns = cell.samples[2].stages[0].submitted_ns = 700;
     const std::string text = cell_report(cell, fake_run());
-    EXPECT_NE(text.find("3 samples, caches emptied before each, 1 of them beside drift of the device "
-                        "and left out here; quartiles 5.3 % apart and staying so, above 2.0 %\n"
-                        "first run 3.00 ms on the host's clock, kernels compiled in 2.00 us\n"),
-              std::string::npos)
+    EXPECT_NE(
+        text.find("3 samples, caches emptied before each, 1 of them beside drift of the device "
+                  "and left out here; quartiles 5.3 % apart and staying so, above 2.0 %\n"
+                  "first run 3.00 ms on the host's clock, kernels compiled in 2.00 us\n"),
+        std::string::npos)
         << text;
     EXPECT_NE(text.find("hierarchy  95.0 us"), std::string::npos) << text;
     EXPECT_NE(text.find("5.00 us     700 ns\n"), std::string::npos) << text;
@@ -145,16 +147,17 @@ TEST(CellsReport, NeverPrintsATimeOfAWrongTree)
     failed.status = Cell::Status::failed;
     failed.reason = "out of memory";
     const Document document{fake_run(), {fake_cell(), wrong, failed}};
-    EXPECT_EQ(cells_report(document),
-              "scene  triangles  builder        median      p10       q1      q3     p90  n  Mtris/s"
-              "  ns/tri   GB/s  % of copy  verdict\n"
-              "bunny    144,046  oibvh-multi    100 us  92.0 us  95.0 us  105 us  108 us  3   1440.5"
-              "    0.69  500.0     50.0 %  agrees\n"
-              "bunny    144,046  oibvh-single  differs                                              "
-              "                            node 3 is lost\n"
-              "bunny    144,046  perfect        failed                                              "
-              "                            out of memory\n"
-              "3 cells, 1 agree\n");
+    EXPECT_EQ(
+        cells_report(document),
+        "scene  triangles  builder        median      p10       q1      q3     p90  n  Mtris/s"
+        "  ns/tri   GB/s  % of copy  verdict\n"
+        "bunny    144,046  oibvh-multi    100 us  92.0 us  95.0 us  105 us  108 us  3   1440.5"
+        "    0.69  500.0     50.0 %  agrees\n"
+        "bunny    144,046  oibvh-single  differs                                              "
+        "                            node 3 is lost\n"
+        "bunny    144,046  perfect        failed                                              "
+        "                            out of memory\n"
+        "3 cells, 1 agree\n");
     EXPECT_EQ(cell_report(wrong, fake_run()).find("us"), std::string::npos);
     EXPECT_EQ(cells_report({fake_run(), {fake_cell()}}, Lines::notable), "1 cells, 1 agree\n");
 }
@@ -164,7 +167,8 @@ TEST(CellsReport, LeavesFramesToTheirOwnTableUnlessTheyAreWrong)
     Document mixed{fake_run(), {fake_cell(), fake_cell()}};
     mixed.cells.back().operation = Operation::collide;
     const std::string builds = cells_report(mixed, Lines::of_builds);
-    EXPECT_EQ(std::count(builds.begin(), builds.end(), '\n'), 3) << builds;  // titles, the build and the sum
+    EXPECT_EQ(std::count(builds.begin(), builds.end(), '\n'), 3)
+        << builds;  // titles, the build and the sum
     mixed.cells.back().check.verdict = Check::Verdict::differs;
     const std::string wrong = cells_report(mixed, Lines::of_builds);
     EXPECT_EQ(std::count(wrong.begin(), wrong.end(), '\n'), 4) << wrong;
@@ -178,11 +182,12 @@ TEST(YardstickReport, HoldsKernelsToThreadsOfTheHostWhereTreesAreEqual)
     wrong.check.verdict = Check::Verdict::differs;
     const Document document{
         fake_run(), {fake_cell("oibvh-multi", 125000), fake_cell("oibvh-host"), other, wrong}};
-    EXPECT_EQ(yardstick_report(document),
-              "scene  triangles  builder      hierarchy  oibvh-host  times\n"
-              "bunny    144,046  oibvh-multi     125 us      100 us   1.25\n"
-              "medians of the stage hierarchy, of trees that are equal: at most 1.25 times as long as "
-              "by threads of the host\n");
+    EXPECT_EQ(
+        yardstick_report(document),
+        "scene  triangles  builder      hierarchy  oibvh-host  times\n"
+        "bunny    144,046  oibvh-multi     125 us      100 us   1.25\n"
+        "medians of the stage hierarchy, of trees that are equal: at most 1.25 times as long as "
+        "by threads of the host\n");
     EXPECT_EQ(yardstick_report({fake_run(), {fake_cell("oibvh-multi")}}), "");
 }
 

@@ -165,8 +165,8 @@ TEST(Sampler, GoesOnWithThoseThatAreNotSteadyYet)
     Listed wild{spread_by(400, 2000)};
     const std::vector<Timed> cells = {{"steady", std::ref(steady)}, {"wild", std::ref(wild)}};
     int order = 0;
-    const std::vector<Taken> taken = take_samples(
-        cells, {.warm_up = 2, .rules = {.until = 0.02, .min_samples = 10}}, order);
+    const std::vector<Taken> taken =
+        take_samples(cells, {.warm_up = 2, .rules = {.until = 0.02, .min_samples = 10}}, order);
     EXPECT_EQ(taken[0].samples.size(), 10u);
     EXPECT_EQ(taken[1].stopped, Stopped::noisy);
     EXPECT_EQ(order, static_cast<int>(taken[0].samples.size() + taken[1].samples.size()) + 4);
@@ -237,9 +237,8 @@ TEST(Sampler, MarksNothingByACalibrationThatFailsLater)
         return 100 * looks;  // drift, if anybody asks
     };
     int order = 0;
-    const std::vector<Taken> taken =
-        take_samples(cells, {.samples = 40, .warm_up = 0, .rules = {.calibrate_every = 10}}, order,
-                     calibrate);
+    const std::vector<Taken> taken = take_samples(
+        cells, {.samples = 40, .warm_up = 0, .rules = {.calibrate_every = 10}}, order, calibrate);
     EXPECT_EQ(looks, 3);
     ASSERT_EQ(taken[0].samples.size(), 40u);
     for (const Sample& sample : taken[0].samples) {

@@ -60,7 +60,8 @@ TEST(Turns, AreTakenOneAtATimeAndByAll)
     int changes = 0;
     for (std::size_t i = 1; i < sequence.size(); ++i)
         changes += sequence[i] != sequence[i - 1] ? 1 : 0;
-    EXPECT_GT(changes, 60) << sequence;  // 99, if neither is ever twice in a row; a loaded machine may be late
+    EXPECT_GT(changes, 60)
+        << sequence;  // 99, if neither is ever twice in a row; a loaded machine may be late
 }
 
 TEST(Turns, BeginWhenAllHaveCome)

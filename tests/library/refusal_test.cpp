@@ -104,12 +104,13 @@ TEST(LibraryRefuses, WhatIsWrongInABufferThatTheHostMayNotRead)
 {
     Refused refused;
     std::vector<oibvh::Box> boxes = {{0, 0, 0, 1, 1, 1}, {0, 2, 0, 1, 1, 1}};
-    const cl_mem unread = clCreateBuffer(refused.caller.context,
-                                         CL_MEM_HOST_NO_ACCESS | CL_MEM_COPY_HOST_PTR,
-                                         boxes.size() * sizeof(oibvh::Box), boxes.data(), nullptr);
-    EXPECT_EQ(refused.build(oibvh::DeviceBoxes{unread, 2}),
-              "a box has a corner that is not finite, or ends before it begins; which one cannot be "
-              "told, since the host may not read the buffer");
+    const cl_mem unread =
+        clCreateBuffer(refused.caller.context, CL_MEM_HOST_NO_ACCESS | CL_MEM_COPY_HOST_PTR,
+                       boxes.size() * sizeof(oibvh::Box), boxes.data(), nullptr);
+    EXPECT_EQ(
+        refused.build(oibvh::DeviceBoxes{unread, 2}),
+        "a box has a corner that is not finite, or ends before it begins; which one cannot be "
+        "told, since the host may not read the buffer");
     clReleaseMemObject(unread);
 }
 

@@ -25,7 +25,8 @@ TEST(Cut, HalvesGroupsUntilTheyFit)
 
 TEST(Cut, IsLeftAsItIsWhereItFits)
 {
-    const Cut cut = cut_that_fits({KernelForm::groups, 512, 1, 10}, [](const Cut&) { return true; });
+    const Cut cut =
+        cut_that_fits({KernelForm::groups, 512, 1, 10}, [](const Cut&) { return true; });
     EXPECT_EQ(cut.group_size, 512u);
     EXPECT_EQ(cut.levels, 10u);
 }
