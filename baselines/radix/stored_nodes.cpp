@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "baselines/radix/stored_nodes.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 
@@ -26,7 +27,7 @@ std::vector<RadixNode> read_radix_nodes(std::span<const std::byte> stored,
     const std::size_t bytes = radix_node_bytes(format);
     std::vector<RadixNode> nodes(stored.size() / bytes);
     if (format.number == BOX_F32) {
-        std::memcpy(nodes.data(), stored.data(), stored.size());
+        std::ranges::copy(stored, std::as_writable_bytes(std::span(nodes)).begin());
         return nodes;
     }
     for (std::size_t k = 0; k < nodes.size(); ++k) {
@@ -45,7 +46,7 @@ std::vector<Aabb> read_boxes(std::span<const std::byte> stored, const BoxRoundin
     std::vector<Aabb> boxes;
     if (rounding.format->number == BOX_F32) {
         boxes.resize(stored.size() / sizeof(Aabb));
-        std::memcpy(boxes.data(), stored.data(), stored.size());
+        std::ranges::copy(stored, std::as_writable_bytes(std::span(boxes)).begin());
         return boxes;
     }
     for (std::size_t from = 0; from < stored.size(); from += bytes)

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <iostream>
 #include <iterator>
+#include <span>
 
 #include "collide/exact_reference.h"
 #include "collide/relation.h"
@@ -161,10 +162,11 @@ PairList found_by_library(const PlainLibrary& library, const StressScene& scene,
     const std::size_t start = answer_mark.size() + sizeof count;
     if (end.output.starts_with(answer_mark) && end.output.size() >= start)
         std::memcpy(&count, end.output.data() + answer_mark.size(), sizeof count);
-    std::vector<Pair> pairs(count);
     if (end.output.size() != start + count * sizeof(Pair))
         throw Unavailable("it ended without an answer");
-    std::memcpy(pairs.data(), end.output.data() + start, count * sizeof(Pair));
+    std::vector<Pair> pairs(count);
+    std::ranges::copy(std::as_bytes(std::span(end.output)).subspan(start),
+                      std::as_writable_bytes(std::span(pairs)).begin());
     return PairList(std::move(pairs));
 }
 

@@ -84,7 +84,7 @@ def test_runs_by_turns_know_each_other_and_are_of_one_time() -> None:
     assert [run.wait(timeout=200) for run in runs] == [0, 0]
     a, b = valid("a.json"), valid("b.json")
     assert a["run"]["turns_with"] == [b["run"]["id"]] and b["run"]["turns_with"] == [a["run"]["id"]]
-    assert len(pathlib.Path("turns").read_text().splitlines()) == 4  # two runs, two scenes
+    assert len(pathlib.Path("turns").read_text().splitlines()) == 8  # two runs, two scenes, a meeting and a parting each
     for document in (a, b):
         assert all(len(cell["samples"]) == 20 for cell in document["cells"])
         assert statistics.median(sample["order"] for cell in document["cells"] for sample in cell["samples"]) > 20
