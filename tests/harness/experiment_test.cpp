@@ -316,7 +316,7 @@ TEST(Experiment, RefusesWhatMakesNoSense)
             R"({"experiment": "a", "scenes": ["b"],
                  "builders": [{"name": "perfect", "boxes": "u8", "leaves": "mesh"}]})",
             R"({"experiment": "a", "scenes": ["b"],
-                 "builders": [{"name": "karras", "boxes": "u8"}]})",
+                 "builders": [{"name": "oibvh-wide4", "boxes": "u8"}]})",
         })
         EXPECT_TRUE(refusal(text).starts_with("x.json: ")) << text;
 }
