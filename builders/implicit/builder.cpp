@@ -5,7 +5,7 @@
 
 #include "builders/implicit/cut.h"
 #include "builders/implicit/implicit_builder.h"
-#include "builders/implicit/later_subtree.h"
+#include "builders/implicit/later_subtrees.h"
 #include "builders/implicit/schedule.h"
 #include "builders/parameters.h"
 #include "geometry/error.h"
@@ -105,30 +105,6 @@ private:
 /// POSTS_A_BOX of build_waiting.clh, where nothing posted is a word of ones.
 std::size_t words_per_post(const BoxFormat& format) { return format.number == BOX_F64 ? 6 : 3; }
 
-/// What later rounds build, round by round and object by object; `schedules` are of `objects`.
-std::vector<LaterSubtree> later_subtrees(std::span<const uint> objects,
-                                         std::span<const SubtreeSchedule> schedules)
-{
-    std::vector<LaterSubtree> list;
-    std::vector<uint> below;  // where the roots of the round before begin, by object
-    uint next = 0;
-    for (const SubtreeSchedule& schedule : schedules) {
-        below.push_back(next);
-        next += schedule.count > 0 ? schedule.launches[0].subtrees : 0;
-    }
-    for (uint round = 1; round < SubtreeSchedule{}.launches.size(); ++round)
-        for (std::size_t chosen = 0; chosen < objects.size(); ++chosen) {
-            if (round >= schedules[chosen].count)
-                continue;
-            const uint subtrees = schedules[chosen].launches[round].subtrees;
-            for (uint position = 0; position < subtrees; ++position)
-                list.push_back({below[chosen], round, position, objects[chosen]});
-            below[chosen] = next;
-            next += subtrees;
-        }
-    return list;
-}
-
 /// A CPU takes groups in order, so that whom a group waits for has begun; it is asked to in tests only.
 bool KernelBuilder::may_wait() const
 {
@@ -137,9 +113,13 @@ bool KernelBuilder::may_wait() const
            device.tuned(implicit_waits) != 0;
 }
 
-/// Whether the device can give groups what the kernels were compiled to need.
+/// Whether the device can give groups what the kernels were compiled to need. Whose boxes take half of it at most are not
+/// compiled to be asked: compilers add a few bytes.
 bool KernelBuilder::fits(const Cut& cut) const
 {
+    const std::size_t local = programs_.device().cl.getInfo<CL_DEVICE_LOCAL_MEM_SIZE>();
+    if (2 * local_box_bytes(cut, tree_.format->box_bytes()) <= local)
+        return true;
     try {
         kernel(cut, "from_ids");
         kernel(cut, "from_nodes");

@@ -11,11 +11,10 @@
 namespace bvhbench {
 namespace {
 
-/// A group keeps two boxes a work-item in local memory, or its entry level if that is more.
 uint most_group_size(const Device& device, uint items, std::size_t box_bytes)
 {
-    const std::size_t room =
-        device.cl.getInfo<CL_DEVICE_LOCAL_MEM_SIZE>() / (std::max(2u, items) * box_bytes);
+    const std::size_t room = device.cl.getInfo<CL_DEVICE_LOCAL_MEM_SIZE>() /
+                             local_box_bytes({.group_size = 1, .items = items}, box_bytes);
     return static_cast<uint>(std::bit_floor(std::min<std::size_t>(
         {room, device.cl.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>(), std::size_t{1024}})));
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <functional>
 
 #include "builders/builder.h"
@@ -23,6 +24,12 @@ struct Cut {
 /// on that kind of device. Throws BadUsage for a group the device does not have.
 Cut choose_cut(const Device& device, const BuildOptions& options, Meeting meeting, uint leaves,
                std::size_t box_bytes = sizeof(Aabb));
+
+/// Bytes of local memory that a group keeps boxes in: two a work-item, or its entry level if that is more.
+inline std::size_t local_box_bytes(const Cut& cut, std::size_t box_bytes)
+{
+    return std::size_t{cut.group_size} * std::max(2u, cut.items) * box_bytes;
+}
 
 /// `cut`, its groups halved until it `fits`: compilers take local memory of their own, 16 bytes say, and a group may have
 /// been given all there is. The smallest there is, if none fits.

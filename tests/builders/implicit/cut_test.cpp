@@ -23,6 +23,13 @@ TEST(Cut, HalvesGroupsUntilTheyFit)
     EXPECT_EQ(cut.levels, 9u);
 }
 
+TEST(Cut, KeepsTwoBoxesAWorkItemOrItsEntryLevel)
+{
+    EXPECT_EQ(local_box_bytes({KernelForm::groups, 512, 1, 10}, 48), 49152u);
+    EXPECT_EQ(local_box_bytes({KernelForm::groups, 512, 2, 11}, 48), 49152u);
+    EXPECT_EQ(local_box_bytes({KernelForm::groups, 64, 4, 9}, 24), 6144u);
+}
+
 TEST(Cut, IsLeftAsItIsWhereItFits)
 {
     const Cut cut =
