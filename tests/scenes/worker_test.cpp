@@ -85,6 +85,18 @@ TEST(Process, TellsHowItEnded)
 
 FileMesh triangle() { return {{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}}, {{"it", 0, 1}}}; }
 
+TEST(Process, FindsWhatItIsGivenBeforeWhatWasThere)
+{
+    setenv("COLOUR", "red", 1);
+    setenv("COLOURS", "all", 1);
+    const ProcessEnd end = run_process(
+        {"/usr/bin/python3", "-c", "import os; print(os.getenv('COLOUR'), os.getenv('COLOURS'))"},
+        20, "COLOUR=blue");
+    unsetenv("COLOUR");
+    unsetenv("COLOURS");
+    EXPECT_EQ(end.output, "blue all\n");
+}
+
 TEST(Message, CarriesAMeshOrARefusal)
 {
     const auto mesh = decoded(mesh_message(triangle()));
