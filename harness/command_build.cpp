@@ -12,7 +12,7 @@ namespace bvhbench {
 namespace {
 
 /// Build once more and write the tree: measuring has its own copy of the scene, which is gone by now.
-void dump(Session& session, const BuildCommand& command)
+void dump(Session& session, const BuildCommand& command, const Output& output)
 {
     const Scene scene = load_scene(command.scene, session.scenes());
     const Input input =
@@ -21,7 +21,7 @@ void dump(Session& session, const BuildCommand& command)
     builder.reserve(input.triangle_count());
     const Tree* tree = nullptr;
     session.build_once(builder, input, Start::from_triangles, &tree);
-    write_atomically(command.dump, dump_text(tree->spelled_out()));
+    output.replace(dump_text(tree->spelled_out()));
 }
 
 }  // namespace
@@ -43,15 +43,19 @@ int build(const BuildCommand& command, const Options& options)
     experiment.may_stand_in = false;  // who names a mesh means that mesh
 
     Session session(options.common);
-    Run run(session, command.json, options.words, command.costs);
+    const auto rules = result_rules(options.common.force,
+                                    scene_files(command.scene, session.scenes()),
+                                    session.watchdog().run_id());
+    const Output dumped(command.dump, "--dump", rules);
+    Run run(session, Output(command.json, "--json", rules), options.words, command.costs);
     run.experiment(experiment);
     run.finish();
     const Cell& cell = run.document().cells.front();
     if (cell.status != Cell::Status::measured)
         throw Unavailable(cell.reason);
     std::cout << run_report(run.document().run) << cell_report(cell, run.document().run);
-    if (!command.dump.empty())
-        dump(session, command);
+    if (!dumped.is_nowhere())
+        dump(session, command, dumped);
     return has_differing_cell(run.document()) ? 1 : 0;
 }
 

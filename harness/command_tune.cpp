@@ -86,8 +86,13 @@ int tune(const TuneCommand& command, const Options& options)
     const std::filesystem::path path = path_of(command, options, device);
     NamedTuning named = tuning_file_for(device, tuning_folder(options.common.tuning));
     TuningFile file = std::move(named.file);
-    if (std::filesystem::exists(path))
-        file = read_tuning(path);
+    const Output output(path, "--out",
+                        {.force = options.common.force,
+                         .inputs = scene_files(command.scene, session.scenes()),
+                         .may_replace = [&](const std::string& text) {
+                             file = parse_tuning(text, path.string());  // whose values are kept
+                             return true;
+                         }});
     tuning_of(file, device, path.string());  // refuses another device's now
     file.device = device.name();
     file.driver = device_facts(device).driver;
@@ -117,7 +122,7 @@ int tune(const TuneCommand& command, const Options& options)
                   << '\n'
                   << search_report(result);
         put(result, task, search_options.samples, file);
-        write_atomically(path, tuning_text(file));
+        output.replace(tuning_text(file));
         if (interrupted)
             throw *interrupted;
     }

@@ -20,6 +20,9 @@ using CellFilter = std::optional<std::regex>;
 /// What --filter says; none if it is empty. Throws BadUsage if it is no regular expression.
 CellFilter cell_filter(const std::string& text);
 
+/// Whether the experiment has a cell that matches.
+bool has_cells(const Experiment& experiment, const CellFilter& filter);
+
 /// Whether a cell of it is wrong.
 bool has_differing_cell(const Document& document);
 
@@ -33,7 +36,7 @@ RunFacts measured_facts(Session& session, std::vector<std::string> command,
 class Run {
 public:
     /// Measures the device's copy rate, the yardstick of the run. Without `out` no file is written.
-    Run(Session& session, std::filesystem::path out, std::vector<std::string> command,
+    Run(Session& session, Output output, std::vector<std::string> command,
         const NodeCosts& costs);
 
     /// Throws BadUsage for a scene that cannot be, Interrupted; finished cells are then in the file.
