@@ -16,9 +16,13 @@ DeviceCollider::DeviceCollider(Programs& programs, const ColliderCard& card,
 
 std::string DeviceCollider::refusal(const Tree& tree) const
 {
-    if (dynamic_cast<const DeviceTree*>(&tree) != nullptr)
-        return {};
-    return std::string(card().name) + " needs a tree in device memory";
+    const auto* on_device = dynamic_cast<const DeviceTree*>(&tree);
+    if (on_device == nullptr)
+        return std::string(card().name) + " needs a tree in device memory";
+    if (has_ropes(*on_device) && device().ends_loops)
+        return std::string(card().name) + " follows pointers of a tree in loops that " +
+               device().name() + " ends early";
+    return {};
 }
 
 cl::Kernel DeviceCollider::kernel(const DeviceTree& tree, std::string_view path, const char* name,

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "device/host_memory.h"
+#include "device/loops.h"
 #include "geometry/error.h"
 
 namespace bvhbench {
@@ -138,10 +139,15 @@ std::vector<std::string> device_names()
 Device open_device(std::string_view words, Sources sources)
 {
     const std::vector<Found> devices = all_devices();
-    if (const Found* found = choose(devices, words))
-        return {.cl = found->device,
-                .context = cl::Context(found->device),
-                .sources = std::move(sources)};
+    if (const Found* found = choose(devices, words)) {
+        Device device{.cl = found->device,
+                      .context = cl::Context(found->device),
+                      .sources = std::move(sources)};
+        // Kernels for few cores have long loops. PoCL is not asked: one program more costs it 40 ms at every start.
+        if (device.is_cpu() && device.platform() != "Portable Computing Language")
+            device.ends_loops = ends_loops_early(device);
+        return device;
+    }
 
     std::string known;
     for (std::size_t i = 0; i < devices.size(); ++i)

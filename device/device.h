@@ -34,6 +34,9 @@ struct Device {
     /// Throws Unavailable, in one sentence that begins with `what`, if the device cannot give a group so much.
     void require_group(std::string_view what, std::size_t group_size, std::size_t local_bytes) const;
 
+    /// Whether its driver ends loops early (device/loops.h).
+    bool ends_loops = false;
+
     /// Bytes that all together may take, if less than the device has.
     std::size_t memory_limit = std::numeric_limits<std::size_t>::max();
 
