@@ -44,10 +44,7 @@ int accuracy(const AccuracyCommand& command, const Options& options)
     std::cout << run_report(document.run) << accuracy_report(document)
               << "written: " << file.string() << '\n'
               << draw("accuracy.py", file, folder) << '\n';
-    for (const Cell& cell : document.cells)
-        if (cell.status == Cell::Status::failed)
-            throw Unavailable(cell.scene.name + ", " + cell.accuracy.method + ": " + cell.reason);
-    return has_differing_cell(document) ? 1 : 0;
+    return exit_code_of(document);
 }
 
 }  // namespace bvhbench

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
 #include <iostream>
 
 #include "builders/orders.h"
@@ -42,6 +41,7 @@ CollideTask task_of(const CollideCommand& command)
             task.pipelines.push_back(task.pipelines.front());
             task.pipelines.back().collider.rules_off |= entry.rule;
         }
+    task.needs_scene = command.scenes.size() == 1;
     task.samples = command.samples;
     command.sampling.apply(task.sampling);
     if (task.swept)
@@ -88,12 +88,7 @@ int collide(const CollideCommand& command, const Options& options)
         write_pairs(command.pairs, last.pairs);
     if (!command.contacts.empty())
         write_pairs(command.contacts, last.contacts);
-    const auto failed = std::find_if(
-        document.cells.begin(), document.cells.end(),
-        [](const Cell& cell) { return cell.status == Cell::Status::failed; });
-    if (failed != document.cells.end())
-        throw Unavailable(failed->reason);
-    return has_differing_cell(document) ? 1 : 0;
+    return exit_code_of(document);
 }
 
 }  // namespace bvhbench

@@ -62,18 +62,32 @@ public:
         for (const Shown& each : shown)
             std::cout << draw(std::string(each.name) + ".py", file, folder) << '\n';
         files_.push_back(file.string());
-        differs_ = differs_ || has_differing_cell(run.document());
+        try {
+            differs_ = exit_code_of(run.document()) == 1 || differs_;
+            is_measured_ = true;
+        } catch (const NothingMeasured& error) {
+            if (why_not_.empty())
+                why_not_ = error.what();
+        }
     }
 
     const std::vector<std::string>& files() const { return files_; }
-    bool differs() const { return differs_; }
+
+    /// Of all that was run. Throws NothingMeasured.
+    int exit_code() const
+    {
+        if (!is_measured_)
+            throw NothingMeasured(why_not_);
+        return differs_ ? 1 : 0;
+    }
 
 private:
     const ReproduceCommand& command_;
     const Options& options_;
     Session session_;
     std::vector<std::string> files_;
-    bool differs_ = false;
+    bool differs_ = false, is_measured_ = false;
+    std::string why_not_;
 };
 
 int reproduce_all(const ReproduceCommand& command, const Options& options)
@@ -82,7 +96,7 @@ int reproduce_all(const ReproduceCommand& command, const Options& options)
     page.out = (std::filesystem::path(command.out) / "report.html").string();
     page.scenes = {page_scene};
     page.frame = page_frame;
-    bool differs = false;
+    int code = 0;
     {
         Reproduction reproduction(command, options);
         for (std::size_t begin = 0, end = 0; begin < shown_in_paper.size(); begin = end) {
@@ -93,17 +107,17 @@ int reproduce_all(const ReproduceCommand& command, const Options& options)
                              std::span(shown_in_paper).subspan(begin, end - begin));
         }
         page.files = reproduction.files();
-        differs = reproduction.differs();
+        code = reproduction.exit_code();
     }  // the device's memory is free for the page's scene
     // As where figures cannot be drawn: what was measured is there, and can be shown elsewhere.
     try {
         const int status = report(page, options);
-        return status != 0 ? status : differs ? 1 : 0;
+        return status != 0 ? status : code;
     } catch (const Unavailable& error) {
         std::cout << "no page was made: " << error.what()
                   << "; elsewhere: bvhbench report " << command.out << "/*.json -o " << page.out
                   << '\n';
-        return differs ? 1 : 0;
+        return code;
     }
 }
 
@@ -126,7 +140,7 @@ int reproduce(const ReproduceCommand& command, const Options& options)
                                        [&](const Shown& each) { return each.name == command.what; });
     Reproduction reproduction(command, options);
     reproduction.run(shown.experiment, command.what, std::span(&shown, 1));
-    return reproduction.differs() ? 1 : 0;
+    return reproduction.exit_code();
 }
 
 }  // namespace bvhbench

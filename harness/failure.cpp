@@ -6,7 +6,6 @@
 #include "device/cl.h"
 #include "device/error_name.h"
 #include "geometry/error.h"
-#include "harness/interrupt.h"
 
 namespace bvhbench {
 
@@ -19,16 +18,16 @@ std::string sentence_of(const std::exception& error)
     return error.what();
 }
 
-std::string reason_of_failure(const std::function<void()>& work)
+std::string reason_of_failure(const std::function<void()>& work, bool* cannot_be)
 {
+    if (cannot_be != nullptr)
+        *cannot_be = false;
     try {
         work();
         return {};
-    } catch (const BadUsage&) {
-        throw;
-    } catch (const Interrupted&) {
-        throw;
     } catch (const std::exception& error) {
+        if (cannot_be != nullptr)
+            *cannot_be = dynamic_cast<const BadUsage*>(&error) != nullptr;
         const std::string sentence = sentence_of(error);
         return sentence.empty() ? "failed without a word" : sentence;
     }

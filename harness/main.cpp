@@ -18,6 +18,6 @@ int main(int argc, char** argv)
         return library_worker_main(argc, argv);
     if (is_facts_worker(argc, argv))
         return facts_worker_main(argc, argv);
-    remember_interrupts();
+    end_on_signals();
     return run_program(argc, argv);
 }

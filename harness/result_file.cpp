@@ -99,6 +99,7 @@ ResultFile::ResultFile(std::filesystem::path path, RunFacts run, const std::stri
     const Temporary probe(path_);  // better to know now than after an hour
     if (!goes_on.empty())
         take_over(goes_on);
+    at_signal_.emplace([this] { keep(); }, "finished cells are kept");
 }
 
 void ResultFile::take_over(const std::string& run_id)
@@ -118,6 +119,7 @@ void ResultFile::take_over(const std::string& run_id)
 
 bool ResultFile::pass(std::size_t count)
 {
+    const std::lock_guard lock(mutex_);
     if (goes_on_ && document_.cells.size() >= passed_ + count) {
         passed_ += count;
         return true;
@@ -132,6 +134,10 @@ bool ResultFile::pass(std::size_t count)
 
 void ResultFile::keep()
 {
+    using namespace std::chrono_literals;
+    const std::unique_lock lock(mutex_, 1s);
+    if (!lock)
+        throw Unavailable(path_.string() + " takes too long to write");
     if (!is_written_)
         write();
 }
@@ -147,6 +153,7 @@ int ResultFile::next_order() const
 
 ResultFile::~ResultFile()
 {
+    at_signal_.reset();
     try {
         keep();
     } catch (const std::exception&) {  // a destructor must not throw
@@ -155,6 +162,7 @@ ResultFile::~ResultFile()
 
 void ResultFile::add(Cell cell)
 {
+    const std::lock_guard lock(mutex_);
     cell_texts_.push_back(cell_text(cell));
     document_.cells.push_back(std::move(cell));
     write_if_due();
@@ -162,6 +170,7 @@ void ResultFile::add(Cell cell)
 
 void ResultFile::add(StressCell cell)
 {
+    const std::lock_guard lock(mutex_);
     stress_texts_.push_back(cell_text(cell));
     document_.stress.push_back(std::move(cell));
     write_if_due();
@@ -177,6 +186,7 @@ void ResultFile::write_if_due()
 
 void ResultFile::finish(std::int64_t compile_ns)
 {
+    const std::lock_guard lock(mutex_);
     document_.run.compile_ns = compile_ns;
     document_.run.finished_at = utc_now();
     write();

@@ -97,8 +97,12 @@ std::string system_name(const BuilderChoice& builder)
 
 bool builds_on_device(Session& session, const BuilderEntry& entry)
 {
-    return entry.make != nullptr &&
-           entry.make(session.programs(), {})->card().runs == BuilderCard::Runs::on_device;
+    bool on_device = false;  // of one that cannot be made, judge_builder says why
+    reason_of_failure([&] {
+        on_device = entry.make != nullptr &&
+                    entry.make(session.programs(), {})->card().runs == BuilderCard::Runs::on_device;
+    });
+    return on_device;
 }
 
 Findings judge_builder(Session& session, const BuilderChoice& choice, const Input& input,
@@ -108,18 +112,23 @@ Findings judge_builder(Session& session, const BuilderChoice& choice, const Inpu
     const BuilderEntry& entry = find_builder(choice.name);
     bool refused = false;
     std::string wrong;
-    const std::string failure = reason_of_failure([&] {
-        wrong = broken_contract(session, choice, input, oracle, &refused);
-        if (refused)
-            return;
-        findings = judge_one_build(session, choice, input, oracle);
-        findings[Invariant::same] = judge_builds(session, choice, input, repeats);
-    });
+    bool cannot_be = false;
+    const std::string failure = reason_of_failure(
+        [&] {
+            wrong = broken_contract(session, choice, input, oracle, &refused);
+            if (refused)
+                return;
+            findings = judge_one_build(session, choice, input, oracle);
+            findings[Invariant::same] = judge_builds(session, choice, input, repeats);
+        },
+        &cannot_be);
     if (refused)
         return {
             {Invariant::ends, {Finding::Verdict::refused, 1, 0, 0, std::string(entry.may_refuse)}}};
     if (!failure.empty()) {
         session.renew_queue();
+        if (cannot_be)
+            return {{Invariant::ends, {Finding::Verdict::refused, 1, 0, 0, failure}}};
         return {{Invariant::ends, {broken, 1, 1, 0, failure}}};
     }
     bool is_told = wrong.empty();
