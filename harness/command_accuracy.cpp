@@ -42,9 +42,10 @@ int accuracy(const AccuracyCommand& command, const Options& options)
         throw BadUsage("--filter: no cell matches '" + command.filter + "'");
     results.finish(session.programs().compile_ns());
     std::cout << run_report(document.run) << accuracy_report(document)
-              << "written: " << file.string() << '\n'
-              << draw("accuracy.py", file, folder) << '\n';
-    return exit_code_of(document);
+              << "written: " << file.string() << '\n';
+    const int code = exit_code_of(document);
+    std::cout << draw("accuracy.py", file, folder) << '\n';
+    return code;
 }
 
 }  // namespace bvhbench

@@ -59,8 +59,6 @@ public:
         run.finish();
         std::cout << run_report(run.document().run) << shown.front().report(run.document())
                   << "written: " << file.string() << '\n';
-        for (const Shown& each : shown)
-            std::cout << draw(std::string(each.name) + ".py", file, folder) << '\n';
         files_.push_back(file.string());
         try {
             differs_ = exit_code_of(run.document()) == 1 || differs_;
@@ -68,7 +66,10 @@ public:
         } catch (const NothingMeasured& error) {
             if (why_not_.empty())
                 why_not_ = error.what();
+            return;
         }
+        for (const Shown& each : shown)
+            std::cout << draw(std::string(each.name) + ".py", file, folder) << '\n';
     }
 
     const std::vector<std::string>& files() const { return files_; }

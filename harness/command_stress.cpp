@@ -21,10 +21,10 @@ int stress(const StressCommand& command, const Options& options)
     Session session(options.common);
     ResultFile results(command.out, run_facts(session.device(), options.words));
     stress_all(session, task, [&](StressCell&& cell) { results.add(std::move(cell)); });
-    results.finish(session.programs().compile_ns());
     const Document& document = results.document();
     if (document.stress.empty())
         throw BadUsage("--filter: no cell of stress matches '" + command.filter + "'");
+    results.finish(session.programs().compile_ns());
     std::cout << run_report(document.run) << stress_report(document.stress, document.run.libraries);
     if (std::any_of(document.stress.begin(), document.stress.end(), is_our_fault))
         return 1;
