@@ -84,11 +84,12 @@ int collide(const CollideCommand& command, const Options& options)
         std::cout << frames_report(document);
     std::cout << swept_report(document);
     std::cout << skips_report(document);
+    const int code = exit_code_of(document);
     if (!command.pairs.empty())
         write_pairs(command.pairs, last.pairs);
     if (!command.contacts.empty())
         write_pairs(command.contacts, last.contacts);
-    return exit_code_of(document);
+    return code;
 }
 
 }  // namespace bvhbench

@@ -18,16 +18,20 @@ std::string sentence_of(const std::exception& error)
     return error.what();
 }
 
-std::string reason_of_failure(const std::function<void()>& work, bool* cannot_be)
+std::string reason_of_failure(const std::function<void()>& work)
 {
-    if (cannot_be != nullptr)
-        *cannot_be = false;
+    bool ignored = false;
+    return reason_of_failure(ignored, work);
+}
+
+std::string reason_of_failure(bool& cannot_be, const std::function<void()>& work)
+{
+    cannot_be = false;
     try {
         work();
         return {};
     } catch (const std::exception& error) {
-        if (cannot_be != nullptr)
-            *cannot_be = dynamic_cast<const BadUsage*>(&error) != nullptr;
+        cannot_be = dynamic_cast<const BadUsage*>(&error) != nullptr;
         const std::string sentence = sentence_of(error);
         return sentence.empty() ? "failed without a word" : sentence;
     }

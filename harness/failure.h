@@ -12,8 +12,11 @@ std::string sentence_of(const std::exception& error);
 
 /// Run `work`. If it fails, the sentence why; empty when it went well.
 ///
-/// For one cell of many, whose failure is a result. `cannot_be` is set to whether what failed makes no sense, a BadUsage:
-/// an option that this builder does not have over this scene is wrong usage of the cell, not of the program.
-std::string reason_of_failure(const std::function<void()>& work, bool* cannot_be = nullptr);
+/// For one cell of many, whose failure is a result.
+std::string reason_of_failure(const std::function<void()>& work);
+
+/// The same. `cannot_be` is set to whether it was a BadUsage: an option that this builder does not have over this scene is
+/// wrong usage of the cell, not of the program.
+std::string reason_of_failure(bool& cannot_be, const std::function<void()>& work);
 
 }  // namespace bvhbench

@@ -259,25 +259,24 @@ std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span
         if (one.failure.empty())
             one.failure = session.watchdog().given_up(one.number);
         if (one.failure.empty())
-            one.failure = reason_of_failure(
-                [&] {
-                    require_memory(session, one.cell.collider, frame.input.triangle_count());
-                    session.watchdog().watch([&] {
-                        if (one.pipeline == nullptr)
-                            one.pipeline = std::make_unique<Pipeline>(
-                                session, one.cell.builder, one.cell.collider, frame.input);
-                        if (!one.pipeline->collider().needs_tree())
-                            one.cell.builder = {.name = "none"};
-                        one.pipeline->begin_frame(frame.motions);
-                        one.cell.first.run_ns = host_ns([&] { one.pipeline->settle(frame.input); });
-                    });
-                    one.cell.first.compile_ns = session.programs().compile_ns() - compiled_ns;
-                    std::map<std::string, double> counters = one.pipeline->counters();
-                    require_memory_for_pairs(session, counters);
-                    one.cell.counters = std::move(counters);
-                    judge(*one.pipeline, one.cell, oracle, frame, found);
-                },
-                &one.cannot_be);
+            one.failure = reason_of_failure(one.cannot_be, [&] {
+                require_memory(session, one.cell.collider, frame.input.triangle_count());
+                session.watchdog().watch([&] {
+                    if (one.pipeline == nullptr)
+                        one.pipeline = std::make_unique<Pipeline>(session, one.cell.builder,
+                                                                  one.cell.collider, frame.input);
+                    if (!one.pipeline->collider().needs_tree())
+                        one.cell.builder = {.name = "none"};
+                    one.pipeline->begin_frame(frame.motions);
+                    one.cell.first.run_ns =
+                        host_ns([&] { one.pipeline->settle(frame.input); });
+                });
+                one.cell.first.compile_ns = session.programs().compile_ns() - compiled_ns;
+                std::map<std::string, double> counters = one.pipeline->counters();
+                require_memory_for_pairs(session, counters);
+                one.cell.counters = std::move(counters);
+                judge(*one.pipeline, one.cell, oracle, frame, found);
+            });
         if (!one.failure.empty())
             fail(one, session, one.failure);
     }

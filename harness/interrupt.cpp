@@ -9,6 +9,7 @@
 #include <csignal>
 #include <iostream>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -22,14 +23,11 @@ public:
     void begin()
     {
         sem_init(&woken_, 0, 0);
-        std::thread([this] {
-            for (;;) {
-                while (sem_wait(&woken_) != 0) {
-                }
-                if (deferrals_ == 0)
-                    end();
-            }
-        }).detach();
+        try {
+            std::thread([this] { wait(); }).detach();
+        } catch (const std::system_error&) {
+            return;  // no room for a thread: signals end the process as they end any other
+        }
         struct sigaction action = {};
         action.sa_handler = remember;
         action.sa_flags = SA_RESTART;
@@ -66,6 +64,16 @@ public:
 private:
     static void remember(int signal);
 
+    [[noreturn]] void wait()
+    {
+        for (;;) {
+            while (sem_wait(&woken_) != 0) {
+            }
+            if (deferrals_ == 0)
+                end();
+        }
+    }
+
     /// Whoever waits for the mutex waits until the process is gone.
     [[noreturn]] void end()
     {
@@ -79,7 +87,9 @@ private:
                 std::find(clauses.begin(), clauses.end(), clause) == clauses.end())
                 clauses.push_back(clause);
         }
-        std::string sentence = "bvhbench: stopped";
+        // Over what shows progress, if that is on the terminal's last line.
+        std::string sentence = isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "";
+        sentence += "bvhbench: stopped";
         for (const std::string& clause : clauses)
             sentence += "; " + clause;
         std::cerr << sentence + '\n' << std::flush;

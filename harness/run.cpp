@@ -226,35 +226,34 @@ Run::Prepared Run::prepare(const Experiment& experiment, const Frames& frames, C
     const Watchdog::Hand hand(session_.watchdog(), prepared.number);
     const std::int64_t compiled_ns = session_.programs().compile_ns();
     bool cannot_be = false;
-    const std::string failure = reason_of_failure(
-        [&] {
-            const bool refits = prepared.cell.operation == Operation::refit;
-            const std::size_t triangles = frames.now().triangle_count();
-            session_.require_host_memory("checking the tree", check_bytes(triangles));
-            Oracle& oracle = refits ? oracles.before : oracles.now;
-            // While the builder is compiled and builds for the first time.
-            if (const auto reference = find_builder(prepared.cell.builder.name).oracle;
-                !reference.empty())
-                oracle.begin(reference, prepared.cell.builder.order, prepared.cell.builder.boxes);
-            Builder& builder = session_.builder(prepared.cell.builder, prepared.cell.operation);
-            if (refits && !builder.can_refit())
-                throw BadUsage(std::string(builder.card().name) + " cannot refit");
-            if (builder.card().runs == BuilderCard::Runs::on_host)
-                session_.require_host_memory("the tree", builder.footprint(triangles).total());
-            builder.reserve(triangles);
-            if (refits)
-                judge_refit(experiment, frames, builder, prepared, oracle);
-            else
-                judge_build(experiment, frames, builder, prepared, oracle);
-            const Footprint footprint = builder.reserved();
-            auto& counters = prepared.cell.counters;
-            counters["nodes_count"] = static_cast<double>(prepared.tree->node_count());
-            counters["tree_bytes"] = static_cast<double>(footprint.tree_bytes);
-            counters["scratch_bytes"] = static_cast<double>(footprint.scratch_bytes);
-            prepared.builder = &builder;
-            prepared.cell.first.compile_ns = session_.programs().compile_ns() - compiled_ns;
-        },
-        &cannot_be);
+    const std::string failure = reason_of_failure(cannot_be, [&] {
+        const bool refits = prepared.cell.operation == Operation::refit;
+        const std::size_t triangles = frames.now().triangle_count();
+        session_.require_host_memory("checking the tree", check_bytes(triangles));
+        Oracle& oracle = refits ? oracles.before : oracles.now;
+        // While the builder is compiled and builds for the first time.
+        if (const auto reference = find_builder(prepared.cell.builder.name).oracle;
+            !reference.empty())
+            oracle.begin(reference, prepared.cell.builder.order,
+                         prepared.cell.builder.boxes);
+        Builder& builder = session_.builder(prepared.cell.builder, prepared.cell.operation);
+        if (refits && !builder.can_refit())
+            throw BadUsage(std::string(builder.card().name) + " cannot refit");
+        if (builder.card().runs == BuilderCard::Runs::on_host)
+            session_.require_host_memory("the tree", builder.footprint(triangles).total());
+        builder.reserve(triangles);
+        if (refits)
+            judge_refit(experiment, frames, builder, prepared, oracle);
+        else
+            judge_build(experiment, frames, builder, prepared, oracle);
+        const Footprint footprint = builder.reserved();
+        auto& counters = prepared.cell.counters;
+        counters["nodes_count"] = static_cast<double>(prepared.tree->node_count());
+        counters["tree_bytes"] = static_cast<double>(footprint.tree_bytes);
+        counters["scratch_bytes"] = static_cast<double>(footprint.scratch_bytes);
+        prepared.builder = &builder;
+        prepared.cell.first.compile_ns = session_.programs().compile_ns() - compiled_ns;
+    });
     if (!failure.empty()) {
         session_.renew_queue();
         return {unmeasured(std::move(prepared.cell),

@@ -113,15 +113,13 @@ Findings judge_builder(Session& session, const BuilderChoice& choice, const Inpu
     bool refused = false;
     std::string wrong;
     bool cannot_be = false;
-    const std::string failure = reason_of_failure(
-        [&] {
-            wrong = broken_contract(session, choice, input, oracle, &refused);
-            if (refused)
-                return;
-            findings = judge_one_build(session, choice, input, oracle);
-            findings[Invariant::same] = judge_builds(session, choice, input, repeats);
-        },
-        &cannot_be);
+    const std::string failure = reason_of_failure(cannot_be, [&] {
+        wrong = broken_contract(session, choice, input, oracle, &refused);
+        if (refused)
+            return;
+        findings = judge_one_build(session, choice, input, oracle);
+        findings[Invariant::same] = judge_builds(session, choice, input, repeats);
+    });
     if (refused)
         return {
             {Invariant::ends, {Finding::Verdict::refused, 1, 0, 0, std::string(entry.may_refuse)}}};

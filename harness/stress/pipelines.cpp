@@ -88,12 +88,10 @@ Findings guarded(Session& session, const StressPipeline& chosen, const Judge& ju
 {
     Findings findings;
     bool cannot_be = false;
-    const std::string failure = reason_of_failure(
-        [&] {
-            findings = judge();
-            findings[Invariant::ends] = {holds, 1};
-        },
-        &cannot_be);
+    const std::string failure = reason_of_failure(cannot_be, [&] {
+        findings = judge();
+        findings[Invariant::ends] = {holds, 1};
+    });
     if (!failure.empty()) {
         session.renew_queue();
         // A library's collider says what it does not take, in whatever way; ours as wrong usage.
