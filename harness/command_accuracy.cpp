@@ -29,7 +29,13 @@ int accuracy(const AccuracyCommand& command, const Options& options)
         folder / (command.axis.empty() ? "accuracy.json" : "accuracy-" + command.axis + ".json");
 
     Session session(options.common);
-    ResultFile results(file, measured_facts(session, options.words));
+    std::vector<std::string> inputs;
+    for (const std::string& scene : command.scenes)
+        for (std::string& read : scene_files(scene, session.scenes()))
+            inputs.push_back(std::move(read));
+    make_folder(folder);
+    Output output(file, "--out", result_rules(options.common.force, std::move(inputs)));
+    ResultFile results(std::move(output), measured_facts(session, options.words));
     Progress progress(axes.size());
     int order = 0;
     for (const Axis* axis : axes) {

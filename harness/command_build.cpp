@@ -11,7 +11,7 @@ namespace bvhbench {
 namespace {
 
 /// Build once more and write the tree: measuring has its own copy of the scene, which is gone by now.
-void dump(Session& session, const BuildCommand& command)
+void dump(Session& session, const BuildCommand& command, const Output& output)
 {
     const Scene scene = load_scene(command.scene, session.scenes());
     const Input input =
@@ -20,7 +20,7 @@ void dump(Session& session, const BuildCommand& command)
     builder.reserve(input.triangle_count());
     const Tree* tree = nullptr;
     session.build_once(builder, input, Start::from_triangles, &tree);
-    write_atomically(command.dump, dump_text(tree->spelled_out()));
+    output.replace(dump_text(tree->spelled_out()));
 }
 
 }  // namespace
@@ -43,14 +43,18 @@ int build(const BuildCommand& command, const Options& options)
     experiment.needs_scene = true;
 
     Session session(options.common);
-    Run run(session, command.json, options.words, command.costs);
+    const auto rules = result_rules(options.common.force,
+                                    scene_files(command.scene, session.scenes()),
+                                    session.watchdog().run_id());
+    const Output dumped(command.dump, "--dump", rules);
+    Run run(session, Output(command.json, "--json", rules), options.words, command.costs);
     run.experiment(experiment);
     run.finish();
     const int code = exit_code_of(run.document());
     std::cout << run_report(run.document().run)
               << cell_report(run.document().cells.front(), run.document().run);
-    if (!command.dump.empty())
-        dump(session, command);
+    if (!dumped.is_nowhere())
+        dump(session, command, dumped);
     return code;
 }
 

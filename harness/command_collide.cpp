@@ -58,7 +58,16 @@ int collide(const CollideCommand& command, const Options& options)
 {
     CollideTask task = task_of(command);
     Session session(options.common);
-    ResultFile results(command.json, measured_facts(session, options.words),
+    std::vector<std::string> inputs;
+    for (const std::string& scene : command.scenes)
+        for (std::string& file : scene_files(scene, session.scenes()))
+            inputs.push_back(std::move(file));
+    const OutputRules rules =
+        result_rules(options.common.force, std::move(inputs), session.watchdog().run_id());
+    const Output pairs(command.pairs, "--pairs", rules);
+    const Output contacts(command.contacts, "--contacts", rules);
+    Output json(command.json, "--json", rules);
+    ResultFile results(std::move(json), measured_facts(session, options.words),
                        session.watchdog().run_id());
     session.watchdog().keep_by(results.document().run.id, [&] { results.keep(); });
     Found last;
@@ -85,10 +94,10 @@ int collide(const CollideCommand& command, const Options& options)
     std::cout << swept_report(document);
     std::cout << skips_report(document);
     const int code = exit_code_of(document);
-    if (!command.pairs.empty())
-        write_pairs(command.pairs, last.pairs);
-    if (!command.contacts.empty())
-        write_pairs(command.contacts, last.contacts);
+    if (!pairs.is_nowhere())
+        write_pairs(pairs, last.pairs);
+    if (!contacts.is_nowhere())
+        write_pairs(contacts, last.contacts);
     return code;
 }
 

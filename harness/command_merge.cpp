@@ -8,14 +8,15 @@
 
 namespace bvhbench {
 
-int merge(const MergeCommand& command, const Options&)
+int merge(const MergeCommand& command, const Options& options)
 {
+    const Output output(command.out, "--out", result_rules(options.common.force, command.files));
     std::vector<MergePart> parts;
     for (const std::string& path : command.files)
         parts.push_back({path, file_text(path, "the result file")});
     const Merged merged = merge(
         parts, {.other_devices = command.other_devices, .other_commits = command.other_commits});
-    write_atomically(command.out, merged.text);
+    output.replace(merged.text);
     std::cout << counted(merged.cells, "cell") << " of " << counted(merged.runs, "run");
     if (merged.repeated > 0)
         std::cout << "; in more than one file, the same in each: " << merged.repeated;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
-#include <iostream>
 #include <system_error>
 
 #include "builders/orders.h"
@@ -13,31 +15,43 @@
 namespace bvhbench {
 namespace {
 
-/// Files that only the page's script reads, gone when it is done.
+/// Files that only the page's script reads, in a folder that is removed when it is done.
 class ViewFiles {
 public:
-    explicit ViewFiles(const std::string& page) : page_(page) {}
+    ViewFiles()
+    {
+        std::string name = (std::filesystem::temp_directory_path() / "bvhbench-XXXXXX").string();
+        if (mkdtemp(name.data()) == nullptr)
+            throw Unavailable("no temporary folder can be made as " + name + ": " +
+                              std::strerror(errno));
+        folder_ = name;
+    }
     ViewFiles(const ViewFiles&) = delete;
     ViewFiles& operator=(const ViewFiles&) = delete;
     ~ViewFiles()
     {
         std::error_code ignored;
-        for (const std::string& path : paths_)
-            std::filesystem::remove(path, ignored);
+        std::filesystem::remove_all(folder_, ignored);
     }
 
     void add(const View& view)
     {
-        paths_.push_back(page_ + ".view" + std::to_string(paths_.size()));
+        paths_.push_back((folder_ / std::to_string(paths_.size())).string());
         write_atomically(paths_.back(), view_text(view));
     }
 
     const std::vector<std::string>& paths() const { return paths_; }
 
 private:
-    std::string page_;
+    std::filesystem::path folder_;
     std::vector<std::string> paths_;
 };
+
+/// A page that this command made, and makes again from what it is made of.
+bool is_page(const std::string& text)
+{
+    return text.starts_with("<!DOCTYPE html>") && text.find("bvhbench") != text.npos;
+}
 
 /// Wrong words are found before anything is opened.
 void check_words(const ReportCommand& command)
@@ -55,7 +69,14 @@ void check_words(const ReportCommand& command)
 int report(const ReportCommand& command, const Options& options)
 {
     check_words(command);
-    ViewFiles views(command.out);
+    const SceneLibrary library = scene_library(options.common);
+    std::vector<std::string> inputs = command.files;
+    for (const std::string& scene : command.scenes)
+        for (std::string& file : scene_files(scene, library))
+            inputs.push_back(std::move(file));
+    const Output page(command.out, "--out",
+                      {.force = options.common.force, .inputs = std::move(inputs), .may_replace = is_page});
+    ViewFiles views;
     if (!command.scenes.empty()) {
         Session session(options.common);
         for (const std::string& scene : command.scenes) {

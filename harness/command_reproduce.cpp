@@ -3,6 +3,7 @@
 #include <array>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <span>
 
 #include "geometry/error.h"
@@ -42,19 +43,28 @@ constexpr unsigned page_frame = 3;
 /// What runs have in common, and how they ended.
 class Reproduction {
 public:
-    Reproduction(const ReproduceCommand& command, const Options& options)
+    /// Into a file for each name, all of which are reserved before anything is measured.
+    Reproduction(const ReproduceCommand& command, const Options& options,
+                 std::span<const std::string> names)
         : command_(command), options_(options), session_(options.common)
     {
+        const OutputRules rules =
+            result_rules(options.common.force, {}, session_.watchdog().run_id());
+        make_folder(command.out);
+        for (const std::string& name : names)
+            outputs_.try_emplace(name, std::filesystem::path(command.out) / (name + ".json"), "--out",
+                                 rules);
     }
 
     /// Measure `experiment` into a file of that `name`, print the table of the first and draw all that are shown of it.
     void run(std::string_view experiment, const std::string& name, std::span<const Shown> shown)
     {
         const std::filesystem::path folder = command_.out;
-        const std::filesystem::path file = folder / (name + ".json");
+        Output output = std::move(outputs_.at(name));
+        const std::filesystem::path file = output.path();
         Experiment task = find_experiment(std::string(experiment), command_.quick);
         task.quality = task.quality || command_.quality;
-        Run run(session_, file, options_.words, command_.costs);
+        Run run(session_, std::move(output), options_.words, command_.costs);
         run.experiment(task);
         run.finish();
         std::cout << run_report(run.document().run) << shown.front().report(run.document())
@@ -86,6 +96,7 @@ private:
     const ReproduceCommand& command_;
     const Options& options_;
     Session session_;
+    std::map<std::string, Output> outputs_;
     std::vector<std::string> files_;
     bool differs_ = false, is_measured_ = false;
     std::string why_not_;
@@ -99,7 +110,10 @@ int reproduce_all(const ReproduceCommand& command, const Options& options)
     page.frame = page_frame;
     int code = 0;
     {
-        Reproduction reproduction(command, options);
+        std::vector<std::string> names;
+        for (const Shown& each : shown_in_paper)
+            names.emplace_back(each.experiment);
+        Reproduction reproduction(command, options, names);
         for (std::size_t begin = 0, end = 0; begin < shown_in_paper.size(); begin = end) {
             const std::string_view experiment = shown_in_paper[begin].experiment;
             while (end < shown_in_paper.size() && shown_in_paper[end].experiment == experiment)
@@ -139,7 +153,7 @@ int reproduce(const ReproduceCommand& command, const Options& options)
         return reproduce_all(command, options);
     const Shown& shown = *std::find_if(shown_in_paper.begin(), shown_in_paper.end(),
                                        [&](const Shown& each) { return each.name == command.what; });
-    Reproduction reproduction(command, options);
+    Reproduction reproduction(command, options, std::span(&command.what, 1));
     reproduction.run(shown.experiment, command.what, std::span(&shown, 1));
     return reproduction.exit_code();
 }

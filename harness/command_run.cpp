@@ -31,6 +31,21 @@ Lines lines_of(const Document& document)
     return others > most_lines ? Lines::notable : frames > 0 ? Lines::of_builds : Lines::all;
 }
 
+/// What the scenes of an experiment may be read from.
+std::vector<std::string> files_of(const Experiment& experiment, const SceneLibrary& library)
+{
+    std::vector<std::string> files;
+    const auto add = [&](const std::string& scene) {
+        for (std::string& file : scene_files(scene, library))
+            files.push_back(std::move(file));
+    };
+    for (const std::string& scene : experiment.scenes)
+        add(scene);
+    for (const CollideTask& task : experiment.collisions)
+        add(task.scene);
+    return files;
+}
+
 }  // namespace
 
 int run(const RunCommand& command, const Options& options)
@@ -47,16 +62,25 @@ int run(const RunCommand& command, const Options& options)
         task.sampling = experiment.sampling;
     experiment.quality = experiment.quality || command.quality;
     const CellFilter filter = cell_filter(command.filter);
-    const std::string out = command.out.empty() ? experiment.name + ".json" : command.out;
+    if (!has_cells(experiment, filter))
+        throw BadUsage("--filter: no cell of " + experiment.name + " matches '" + command.filter +
+                       "'");
+    const bool is_file = command.experiment.ends_with(".json");
+    const std::string out = !command.out.empty() ? command.out
+                            : is_file            ? experiment.name + "-results.json"
+                                                 : experiment.name + ".json";
 
     Session session(options.common);
-    Run run(session, out, options.words, command.costs);
+    std::vector<std::string> inputs = files_of(experiment, session.scenes());
+    if (is_file)
+        inputs.push_back(command.experiment);
+    Run run(session,
+            Output(out, "--out",
+                   result_rules(options.common.force, std::move(inputs), session.watchdog().run_id())),
+            options.words, command.costs);
     session.take_turns(command.turns, run.document().run.id);
     run.experiment(experiment, filter);
     run.finish();
-    if (run.document().cells.empty())
-        throw BadUsage("--filter: no cell of " + experiment.name + " matches '" + command.filter +
-                       "'");
     std::cout << run_report(run.document().run)
               << cells_report(run.document(), lines_of(run.document()))
               << frames_table(run.document()) << swept_report(run.document())

@@ -37,6 +37,17 @@ void require_sound(const Document& document)
                               verdict_text(cell) + ": no baseline is made of that");
 }
 
+/// Whether it is the text of an earlier baseline, which --update replaces.
+bool is_smoke(const std::string& text)
+{
+    try {
+        read_smoke(text, "the baseline");
+        return true;
+    } catch (const Unavailable&) {
+        return false;
+    }
+}
+
 int told(const SmokeResult& result, double tolerance)
 {
     for (const std::string& remark : result.remarks)
@@ -67,12 +78,18 @@ int smoke(const SmokeCommand& command, const Options& options)
     if (!common.tuning)
         common.tuning = "";  // what is compared must not depend on which device is known
     Session session(common);
-    Run run(session, command.out, options.words, {});
+    Run run(session,
+            Output(command.out, "--out",
+                   result_rules(options.common.force, {}, session.watchdog().run_id())),
+            options.words, {});
     const std::string kind = run.document().run.device.kind;
     const std::filesystem::path path =
         command.baseline.empty() ? smoke_path(kind) : std::filesystem::path(command.baseline);
     SmokeBaseline before;
-    if (!command.update)
+    Output updated;
+    if (command.update)
+        updated = Output(path, "--baseline", {.force = options.common.force, .may_replace = is_smoke});
+    else
         before = read_baseline(path, kind);  // better to know now than after a minute
     run.experiment(experiment, filter);
     run.finish();
@@ -83,7 +100,7 @@ int smoke(const SmokeCommand& command, const Options& options)
     const SmokeBaseline now = smoke_baseline(document);
     if (command.update) {
         require_sound(document);
-        write_atomically(path, smoke_text(now));
+        updated.replace(smoke_text(now));
         std::cout << "written: " << path.string() << '\n';
         return 0;
     }

@@ -19,7 +19,8 @@ int stress(const StressCommand& command, const Options& options)
     task.size = {command.quick, command.seed};
     task.filter = cell_filter(command.filter);
     Session session(options.common);
-    ResultFile results(command.out, run_facts(session.device(), options.words));
+    Output output(command.out, "--out", result_rules(options.common.force, {}));
+    ResultFile results(std::move(output), run_facts(session.device(), options.words));
     stress_all(session, task, [&](StressCell&& cell) { results.add(std::move(cell)); });
     const Document& document = results.document();
     if (document.stress.empty())

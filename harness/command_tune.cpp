@@ -71,17 +71,17 @@ void put(const SearchResult& result, const TuneTask& task, int samples, TuningFi
 /// Search, say what was found, and write it; as much as was found so far when a signal ends the program. Throws what loading
 /// the scene and the search do, and BadUsage where there is no parameter.
 void tune_target(Session& session, const TuneTask& task, const SearchOptions& options,
-                 const std::filesystem::path& path, TuningFile& file,
+                 const Output& output, TuningFile& file,
                  const std::function<void(const std::string&)>& note)
 {
     TuneTarget over(session, task);
-    const Tuning in_effect = tuning_of(file, session.device(), path.string());
+    const Tuning in_effect = tuning_of(file, session.device(), output.path().string());
     const auto keep = [&](const SearchResult& found) {
         std::cout << "tuned: " << task.target << " over " << task.scene << " on "
                   << session.device().name() << '\n'
                   << search_report(found) << std::flush;
         put(found, task, options.samples, file);
-        write_atomically(path, tuning_text(file));
+        output.replace(tuning_text(file));
     };
     SearchResult result, so_far;
     std::mutex mutex;  // of what is so far
@@ -126,8 +126,13 @@ int tune(const TuneCommand& command, const Options& options)
     const std::filesystem::path path = path_of(command, options, device);
     NamedTuning named = tuning_file_for(device, tuning_folder(options.common.tuning));
     TuningFile file = std::move(named.file);
-    if (std::filesystem::exists(path))
-        file = read_tuning(path);
+    const Output output(path, "--out",
+                        {.force = options.common.force,
+                         .inputs = scene_files(command.scene, session.scenes()),
+                         .may_replace = [&](const std::string& text) {
+                             file = parse_tuning(text, path.string());  // whose values are kept
+                             return true;
+                         }});
     tuning_of(file, device, path.string());  // refuses another device's now
     file.device = device.name();
     file.driver = device_facts(device).driver;
@@ -141,7 +146,7 @@ int tune(const TuneCommand& command, const Options& options)
         const TuneTask task{target, command.scene, command.builder, command.collider};
         progress.step("tune: " + target);
         const auto tune = [&] {
-            tune_target(session, task, search_options, path, file,
+            tune_target(session, task, search_options, output, file,
                         [&](const std::string& what) { progress.note("tune: " + target + what); });
         };
         if (targets.size() == 1) {

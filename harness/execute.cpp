@@ -4,6 +4,7 @@
 #include "geometry/error.h"
 #include "harness/commands.h"
 #include "harness/failure.h"
+#include "harness/printable.h"
 
 namespace bvhbench {
 namespace {
@@ -46,8 +47,12 @@ int execute(const Options& options) { return std::visit(Executor{options}, optio
 
 int run_program(int argc, const char* const* argv)
 {
+    const PrintableOutput output(std::cout), errors(std::cerr);
     try {
-        return execute(parse_options(argc, argv));
+        const int code = execute(parse_options(argc, argv));
+        if (!std::cout.flush())
+            throw Unavailable("standard output cannot be written: what was printed is lost");
+        return code;
     } catch (const BadUsage& error) {
         return failed(error, 2);
     } catch (const NothingMeasured& error) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <atomic>
 #include <csignal>
+#include <cstdio>
 #include <iostream>
 #include <mutex>
 #include <system_error>
@@ -87,11 +88,11 @@ private:
                 std::find(clauses.begin(), clauses.end(), clause) == clauses.end())
                 clauses.push_back(clause);
         }
-        // Over what shows progress, if that is on the terminal's last line.
-        std::string sentence = isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "";
-        sentence += "bvhbench: stopped";
+        std::string sentence = "bvhbench: stopped";
         for (const std::string& clause : clauses)
             sentence += "; " + clause;
+        if (isatty(STDERR_FILENO) == 1)
+            std::fputs("\r\033[K", stderr);  // what shows progress is on that line
         std::cerr << sentence + '\n' << std::flush;
         _exit(128 + received_);
     }

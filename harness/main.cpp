@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <csignal>
+
 #include "harness/commands.h"
 #include "harness/interrupt.h"
 #include "harness/stress/libraries.h"
@@ -18,6 +20,7 @@ int main(int argc, char** argv)
         return library_worker_main(argc, argv);
     if (is_facts_worker(argc, argv))
         return facts_worker_main(argc, argv);
+    std::signal(SIGXFSZ, SIG_IGN);  // a file over the limit of its size is an error of write()
     end_on_signals();
     return run_program(argc, argv);
 }

@@ -36,6 +36,7 @@ void add_common(CLI::App& app, CommonOptions& common)
                    "seconds that a single build or query may take before it is given up; 0: no end")
         ->capture_default_str()
         ->check(a_number(most_seconds));
+    app.add_flag("--force", common.force, "replace earlier files of the names that are written to");
     app.add_flag("--verbose", common.verbose, "say on stderr what is being used");
     app.set_version_flag("--version", std::string("bvhbench ") + build_info.version);
     app.require_subcommand(0, 1);
@@ -56,6 +57,15 @@ std::string names_of(const std::vector<CLI::App*>& commands)
     for (std::size_t k = 0; k < commands.size(); ++k)
         text += (k == 0 ? "" : k + 1 < commands.size() ? ", " : " or ") + commands[k]->get_name();
     return text;
+}
+
+/// An empty name of an output would write nothing without a word.
+void check_outputs_are_named(const CLI::App& command)
+{
+    for (const char* output : {"--out", "--json", "--dump", "--pairs", "--contacts"})
+        if (const CLI::Option* option = command.get_option_no_throw(output);
+            option != nullptr && option->count() > 0 && option->results().back().empty())
+            throw BadUsage(std::string(output) + " names no file or folder");
 }
 
 void check_costs(const NodeCosts& costs)
@@ -121,6 +131,7 @@ Options parse_options(int argc, const char* const* argv)
     if (app.get_subcommands().empty())
         throw BadUsage("name a command: " + names_of(app.get_subcommands({})) +
                        "; `bvhbench --help` says what they do");
+    check_outputs_are_named(*app.get_subcommands().front());
     check_power_of_two("--group-size", build.builder.group_size);
     check_power_of_two("--items", build.builder.items);
     for (const NodeCosts& costs : {build.costs, run.costs, reproduce.costs, sweep.costs})

@@ -2,7 +2,6 @@
 #include "harness/pairs_file.h"
 
 #include "geometry/error.h"
-#include "harness/result_file.h"
 
 namespace bvhbench {
 
@@ -12,11 +11,10 @@ void check_pairs_path(const std::filesystem::path& path)
         throw BadUsage("pairs are written to .csv or .bin, not to '" + path.string() + "'");
 }
 
-void write_pairs(const std::filesystem::path& path, const PairList& pairs)
+void write_pairs(const Output& output, const PairList& pairs)
 {
-    check_pairs_path(path);
     std::string text;
-    if (path.extension() == ".bin") {
+    if (output.path().extension() == ".bin") {
         text.assign(reinterpret_cast<const char*>(pairs.pairs().data()),
                     pairs.pairs().size_bytes());
     } else {
@@ -24,7 +22,7 @@ void write_pairs(const std::filesystem::path& path, const PairList& pairs)
         for (const Pair pair : pairs.pairs())
             text += std::to_string(pair.a) + ',' + std::to_string(pair.b) + '\n';
     }
-    write_atomically(path, text);
+    output.replace(text);
 }
 
 }  // namespace bvhbench

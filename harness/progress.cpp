@@ -3,7 +3,9 @@
 
 #include <unistd.h>
 
-#include <iostream>
+#include <cstdio>
+
+#include "harness/printable.h"
 
 namespace bvhbench {
 namespace {
@@ -17,7 +19,7 @@ Progress::Progress(std::size_t total) : total_(total), is_shown_(isatty(STDERR_F
 Progress::~Progress()
 {
     if (is_shown_)
-        std::cerr << clear_line << std::flush;
+        std::fputs(clear_line, stderr);
 }
 
 void Progress::step(const std::string& what)
@@ -29,7 +31,7 @@ void Progress::step(const std::string& what)
 void Progress::note(const std::string& what) const
 {
     if (is_shown_)
-        std::cerr << clear_line << '[' << done_ << '/' << total_ << "] " << what << std::flush;
+        std::fprintf(stderr, "%s[%zu/%zu] %s", clear_line, done_, total_, printable(what).c_str());
 }
 
 }  // namespace bvhbench

@@ -1,119 +1,45 @@
 // SPDX-License-Identifier: MIT
 #include "harness/result_file.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <iterator>
 
 #include "geometry/error.h"
 #include "harness/provenance.h"
 
 namespace bvhbench {
-namespace {
-
-[[noreturn]] void fail(const std::filesystem::path& path)
-{
-    throw Unavailable(path.string() + " cannot be written: " + std::strerror(errno));
-}
-
-/// A file beside `path` that becomes `path`, or vanishes.
-class Temporary {
-public:
-    explicit Temporary(const std::filesystem::path& path) : path_(path), temporary_(path)
-    {
-        std::error_code error;
-        if (path.has_parent_path())
-            std::filesystem::create_directories(path.parent_path(), error);
-        temporary_ += ".tmp" + std::to_string(getpid());
-        descriptor_ = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-        if (descriptor_ < 0)
-            fail(path);
-    }
-    ~Temporary()
-    {
-        close(descriptor_);
-        if (!is_renamed_)
-            unlink(temporary_.c_str());
-    }
-    Temporary(const Temporary&) = delete;
-    Temporary& operator=(const Temporary&) = delete;
-
-    void write_all(const std::string& text) const
-    {
-        for (std::size_t done = 0; done < text.size();) {
-            const ssize_t count = write(descriptor_, text.data() + done, text.size() - done);
-            if (count < 0 && errno != EINTR)
-                fail(path_);
-            done += count > 0 ? static_cast<std::size_t>(count) : 0;
-        }
-        if (fsync(descriptor_) != 0)
-            fail(path_);
-    }
-
-    void become_path()
-    {
-        if (std::rename(temporary_.c_str(), path_.c_str()) != 0)
-            fail(path_);
-        is_renamed_ = true;
-    }
-
-private:
-    std::filesystem::path path_, temporary_;
-    int descriptor_ = -1;
-    bool is_renamed_ = false;
-};
-
-}  // namespace
-
-void write_atomically(const std::filesystem::path& path, const std::string& text)
-{
-    Temporary file(path);
-    file.write_all(text);
-    file.become_path();
-}
-
-std::string file_text(const std::filesystem::path& path, const std::string& what)
-{
-    std::ifstream file(path, std::ios::binary);
-    std::string text(std::istreambuf_iterator<char>(file), {});
-    if (!file.is_open() || file.bad())
-        throw Unavailable(what + " '" + path.string() + "' cannot be read");
-    return text;
-}
 
 Document read_result_file(const std::filesystem::path& path)
 {
     return read_document(file_text(path, "the result file"), path.string());
 }
 
-ResultFile::ResultFile(std::filesystem::path path, RunFacts run, const std::string& goes_on)
-    : path_(std::move(path)), document_{std::move(run), {}}
+OutputRules result_rules(bool force, std::vector<std::string> inputs, std::string own_run)
 {
-    if (path_.empty())
-        return;
-    const Temporary probe(path_);  // better to know now than after an hour
-    if (!goes_on.empty())
+    return {.force = force,
+            .inputs = std::move(inputs),
+            .may_replace = [own_run = std::move(own_run)](const std::string& text) {
+                return !own_run.empty() && read_document(text, "the result file").run.id == own_run;
+            }};
+}
+
+ResultFile::ResultFile(Output output, RunFacts run, const std::string& goes_on)
+    : output_(std::move(output)), document_{std::move(run), {}}
+{
+    if (!goes_on.empty() && output_.was_there())
         take_over(goes_on);
-    at_signal_.emplace([this] { keep(); }, "finished cells are kept");
+    if (output_.is_file())
+        at_signal_.emplace([this] { keep(); }, "finished cells are kept");
 }
 
 void ResultFile::take_over(const std::string& run_id)
 {
-    std::ifstream file(path_, std::ios::binary);
-    if (!file.is_open())
-        return;  // no cell had been finished
-    Document before =
-        read_document(std::string(std::istreambuf_iterator<char>(file), {}), path_.string());
+    Document before = read_result_file(output_.path());
     if (before.run.id != run_id)
         return;
     document_ = std::move(before);
     for (const Cell& cell : document_.cells)
         cell_texts_.push_back(cell_text(cell));
+    has_measured_ = true;  // the earlier file is this run's own
     goes_on_ = true;
 }
 
@@ -137,8 +63,8 @@ void ResultFile::keep()
     using namespace std::chrono_literals;
     const std::unique_lock lock(mutex_, 1s);
     if (!lock)
-        throw Unavailable(path_.string() + " takes too long to write");
-    if (!is_written_)
+        throw Unavailable(output_.path().string() + " takes too long to write");
+    if (!is_written_ && output_.is_file())
         write();
 }
 
@@ -163,6 +89,7 @@ ResultFile::~ResultFile()
 void ResultFile::add(Cell cell)
 {
     const std::lock_guard lock(mutex_);
+    has_measured_ = has_measured_ || cell.status == Cell::Status::measured;
     cell_texts_.push_back(cell_text(cell));
     document_.cells.push_back(std::move(cell));
     write_if_due();
@@ -171,6 +98,7 @@ void ResultFile::add(Cell cell)
 void ResultFile::add(StressCell cell)
 {
     const std::lock_guard lock(mutex_);
+    has_measured_ = true;
     stress_texts_.push_back(cell_text(cell));
     document_.stress.push_back(std::move(cell));
     write_if_due();
@@ -180,7 +108,7 @@ void ResultFile::write_if_due()
 {
     using namespace std::chrono_literals;
     is_written_ = false;
-    if (std::chrono::steady_clock::now() - written_at_ >= 500ms)
+    if (output_.is_file() && std::chrono::steady_clock::now() - written_at_ >= 500ms)
         write();
 }
 
@@ -194,8 +122,9 @@ void ResultFile::finish(std::int64_t compile_ns)
 
 void ResultFile::write()
 {
-    if (!path_.empty())
-        write_atomically(path_, document_text(run_text(document_.run), cell_texts_, stress_texts_));
+    const bool is_empty = cell_texts_.empty() && stress_texts_.empty();
+    if (!output_.is_nowhere() && !is_empty && (has_measured_ || !output_.was_there()))
+        output_.replace(document_text(run_text(document_.run), cell_texts_, stress_texts_));
     written_at_ = std::chrono::steady_clock::now();
     is_written_ = true;
 }

@@ -7,29 +7,26 @@
 #include <optional>
 
 #include "harness/interrupt.h"
+#include "harness/output.h"
 #include "harness/record.h"
 
 namespace bvhbench {
 
-/// Replace `path` by `text` so that, whenever the program or the machine stops, one of the two is there whole:
-/// a temporary file in the same folder, fsync, rename. Throws Unavailable with the system's reason.
-void write_atomically(const std::filesystem::path& path, const std::string& text);
-
-/// All of a file. Throws Unavailable, "WHAT 'path' cannot be read".
-std::string file_text(const std::filesystem::path& path, const std::string& what);
-
 /// Read a result file. Throws Unavailable if it is not there, cannot be read or is none.
 Document read_result_file(const std::filesystem::path& path);
+
+/// The rules for a file of results: an earlier one that the run called `own_run` has left may be replaced.
+OutputRules result_rules(bool force, std::vector<std::string> inputs, std::string own_run = {});
 
 /// A result file that grows: rewritten whole and atomically as cells finish.
 ///
 /// Rewrites are at least half a second apart, so that a thousand short cells do not spend their time on the
-/// disk: what is killed without warning loses at most that. Without a path, nothing is written.
+/// disk: what is killed without warning loses at most that. A device or pipe is written to once, by finish(). An earlier file
+/// stays until a cell has been measured.
 class ResultFile {
 public:
-    /// Throws Unavailable if `path` cannot be written. What is there is replaced by the first cell; but if it is what the
-    /// run called `goes_on` has left there, that run goes on: its facts and cells stay.
-    ResultFile(std::filesystem::path path, RunFacts run, const std::string& goes_on = {});
+    /// If the run called `goes_on` has left the file, that run goes on: its facts and cells stay.
+    ResultFile(Output output, RunFacts run, const std::string& goes_on = {});
     /// Writes what is not written yet; a failure to do so stays silent here, so call finish().
     ~ResultFile();
     ResultFile(const ResultFile&) = delete;
@@ -51,7 +48,7 @@ public:
     /// The runs that took turns with this one.
     void took_turns(std::vector<std::string> others) { document_.run.turns_with = std::move(others); }
 
-    /// Set the end of the run, and write.
+    /// Set the end of the run, and write, if there is a cell to keep.
     void finish(std::int64_t compile_ns);
 
     /// Not while another thread adds cells.
@@ -62,8 +59,9 @@ private:
     void write_if_due();
     void write();
 
-    std::filesystem::path path_;
+    Output output_;
     Document document_;
+    bool has_measured_ = false;  ///< whether a cell holds what may replace an earlier file
     std::vector<std::string> cell_texts_;  ///< each cell is turned into text once
     std::size_t passed_ = 0;               ///< cells that are done, of those from before
     bool goes_on_ = false;                 ///< whether cells behind them are from before too

@@ -25,6 +25,18 @@ Cell unmeasured(Cell cell, Cell::Status status, std::string reason)
     return cell;
 }
 
+/// Of the task, those that the filter leaves.
+std::vector<PipelineChoice> chosen(const CollideTask& task, const CellFilter& filter)
+{
+    std::vector<PipelineChoice> pipelines = task.pipelines;
+    std::erase_if(pipelines, [&](const PipelineChoice& pipeline) {
+        return filter && !std::regex_search(task.scene + '/' + pipeline.builder.name + '/' +
+                                                pipeline.collider.name,
+                                            *filter);
+    });
+    return pipelines;
+}
+
 std::vector<BuilderChoice> chosen(const Experiment& experiment, const std::string& scene,
                                   const CellFilter& filter)
 {
@@ -89,10 +101,10 @@ struct Run::Oracles {
     Oracle now, before;
 };
 
-Run::Run(Session& session, std::filesystem::path out, std::vector<std::string> command,
+Run::Run(Session& session, Output output, std::vector<std::string> command,
          const NodeCosts& costs)
     : session_(session)
-    , results_(std::move(out), measured_facts(session, std::move(command), costs),
+    , results_(std::move(output), measured_facts(session, std::move(command), costs),
                session.watchdog().run_id())
     , order_(results_.next_order())
 {
@@ -115,6 +127,16 @@ CellFilter cell_filter(const std::string& text)
     } catch (const std::regex_error& error) {
         throw BadUsage("--filter: '" + text + "' is no regular expression: " + error.what());
     }
+}
+
+bool has_cells(const Experiment& experiment, const CellFilter& filter)
+{
+    return std::any_of(experiment.scenes.begin(), experiment.scenes.end(),
+                       [&](const std::string& scene) {
+                           return !chosen(experiment, scene, filter).empty();
+                       }) ||
+           std::any_of(experiment.collisions.begin(), experiment.collisions.end(),
+                       [&](const CollideTask& task) { return !chosen(task, filter).empty(); });
 }
 
 int exit_code_of(const Document& document)
@@ -152,11 +174,7 @@ void Run::collisions(CollideTask task, const CellFilter& filter, Progress& progr
 {
     progress.step(task.experiment + ": " + task.scene);
     task.number = std::to_string(scenes_++);
-    std::erase_if(task.pipelines, [&](const PipelineChoice& pipeline) {
-        return filter && !std::regex_search(task.scene + '/' + pipeline.builder.name + '/' +
-                                                pipeline.collider.name,
-                                            *filter);
-    });
+    task.pipelines = chosen(task, filter);
     if (task.pipelines.empty())
         return;
     collide_frames(

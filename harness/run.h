@@ -20,6 +20,9 @@ using CellFilter = std::optional<std::regex>;
 /// What --filter says; none if it is empty. Throws BadUsage if it is no regular expression.
 CellFilter cell_filter(const std::string& text);
 
+/// Whether the experiment has a cell that matches.
+bool has_cells(const Experiment& experiment, const CellFilter& filter);
+
 /// How a command ends that has measured these cells: 1 if one is wrong, else 0. Throws NothingMeasured, saying why, if
 /// there are cells and none has been measured.
 int exit_code_of(const Document& document);
@@ -34,7 +37,7 @@ RunFacts measured_facts(Session& session, std::vector<std::string> command,
 class Run {
 public:
     /// Measures the device's copy rate, the yardstick of the run. Without `out` no file is written.
-    Run(Session& session, std::filesystem::path out, std::vector<std::string> command,
+    Run(Session& session, Output output, std::vector<std::string> command,
         const NodeCosts& costs);
 
     /// What cannot be measured is a cell that says so.

@@ -230,6 +230,24 @@ Scene load_any(std::string_view text, const SceneLibrary& library)
 
 }  // namespace
 
+/// A scene may be made of another one, as in "refine:a.obj:1000": its file is one of the parts between colons.
+std::vector<std::string> scene_files(std::string_view text, const SceneLibrary& library)
+{
+    std::vector<std::string> files;
+    for (std::size_t begin = 0; begin <= text.size(); begin = text.find(':', begin) + 1) {
+        for (std::size_t end = begin; end <= text.size(); ++end) {
+            end = std::min(text.find(':', end), text.size());
+            const std::string_view part = text.substr(begin, end - begin);
+            files.emplace_back(part);
+            if (const ManifestEntry* const entry = manifest_entry(part))
+                files.push_back(located(*entry, library.data).string());
+        }
+        if (text.find(':', begin) == text.npos)
+            break;
+    }
+    return files;
+}
+
 std::size_t triangles_said(std::string_view text)
 {
     const std::size_t colon = std::min(text.find(':'), text.size());

@@ -30,6 +30,9 @@ struct SceneLibrary {
 /// not what it should be, or holds something that is no scene (says what, in one sentence).
 Scene load_scene(std::string_view text, const SceneLibrary& library);
 
+/// Files and folders that loading the scene `text` may read; some of them need not be there.
+std::vector<std::string> scene_files(std::string_view text, const SceneLibrary& library);
+
 /// How many triangles the scene `text` will have, as far as its name tells; 0 if only loading it does.
 ///
 /// Throws BadUsage when no scene is called so, as far as that can be told without loading it.

@@ -18,6 +18,9 @@ namespace fs = std::filesystem;
 
 constexpr int plan_format = 1;
 
+/// Longer than a shard looks at the plan, and than the system takes to end a process that was killed.
+constexpr std::chrono::seconds patience{5};
+
 std::optional<std::string> text_of(const fs::path& path)
 {
     std::ifstream file(path, std::ios::binary);
@@ -93,11 +96,13 @@ SweepFolder::SweepFolder(fs::path folder, const Sweep& sweep, bool together,
         if (fs::create_directories(folder_ / inside, error); error)
             throw Unavailable((folder_ / inside).string() + " cannot be made: " + error.message());
     // Shards work beside each other, a whole sweep alone; whoever looks at the plan and writes it does so alone.
+    const std::string refusal = "another process is at work on the sweep in " + folder_.string();
     lock_.emplace(folder_ / "lock",
-                  shard.is_all() ? FileLock::Kind::exclusive : FileLock::Kind::shared);
-    const FileLock planning(folder_ / "lock-plan", FileLock::Kind::exclusive);
+                  shard.is_all() ? FileLock::Kind::exclusive : FileLock::Kind::shared, refusal,
+                  patience);
+    const FileLock planning(folder_ / "lock-plan", FileLock::Kind::exclusive, refusal, patience);
     if (!shard.is_all())
-        shard_lock_.emplace(folder_ / ("lock-" + part), FileLock::Kind::exclusive);
+        shard_lock_.emplace(folder_ / ("lock-" + part), FileLock::Kind::exclusive, refusal, patience);
     const fs::path plan_file = folder_ / "plan.json";
     const std::optional<Json> plan = plan_in(plan_file);
     if (plan)

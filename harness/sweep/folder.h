@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "harness/record.h"
-#include "harness/sweep/file_lock.h"
+#include "harness/file_lock.h"
 #include "harness/sweep/units.h"
 
 namespace bvhbench {

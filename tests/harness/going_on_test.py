@@ -145,6 +145,7 @@ def ends_at_once(process: subprocess.Popen, sent: signal.Signals = signal.SIGTER
     assert process.returncode == 128 + sent and took < AT_ONCE_S, (process.args, process.returncode, took, error)
     assert error.splitlines()[-1].startswith("bvhbench: stopped"), (process.args, error)
     wait_until(lambda: not ours())
+    print(f"  {process.args[1]}: over {took:.2f} s after {sent.name}")
     return error
 
 

@@ -33,13 +33,15 @@ protected:
         return {std::istreambuf_iterator<char>(file), {}};
     }
 
+    static Output output_at(const fs::path& path) { return {path, "--out", {}}; }
+
     fs::path folder_;
 };
 
 TEST_F(ResultFileTest, IsCompleteAfterFinish)
 {
-    const fs::path path = folder_ / "new" / "r.json";
-    ResultFile file(path, fake_run());
+    const fs::path path = folder_ / "r.json";
+    ResultFile file(output_at(path), fake_run());
     for (int i = 0; i < 20; ++i)
         file.add(fake_cell());
     file.finish(77);
@@ -52,7 +54,7 @@ TEST_F(ResultFileTest, IsCompleteWhenTheRunEndsEarly)
 {
     const fs::path path = folder_ / "r.json";
     {
-        ResultFile file(path, fake_run());
+        ResultFile file(output_at(path), fake_run());
         for (int i = 0; i < 20; ++i)
             file.add(fake_cell());
     }
@@ -64,7 +66,7 @@ TEST_F(ResultFileTest, LeavesAnOlderFileAloneUntilThereIsACell)
     const fs::path path = folder_ / "r.json";
     write_atomically(path, "older");
     {
-        const ResultFile file(path, fake_run());
+        const ResultFile file(output_at(path), fake_run());
     }
     EXPECT_EQ(text_of(path), "older");
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);
@@ -72,7 +74,7 @@ TEST_F(ResultFileTest, LeavesAnOlderFileAloneUntilThereIsACell)
 
 TEST_F(ResultFileTest, SaysAtOnceThatItCannotBeWritten)
 {
-    EXPECT_THROW(ResultFile("/proc/nowhere/r.json", fake_run()), Unavailable);
+    EXPECT_THROW(output_at("/proc/nowhere/r.json"), Unavailable);
 }
 
 TEST_F(ResultFileTest, IsWholeWheneverItsWriterIsKilled)
