@@ -17,4 +17,9 @@ class Unavailable : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// All that was to be measured was skipped or failed. Exit code 4.
+class NothingMeasured : public std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
 }  // namespace bvhbench

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "geometry/error.h"
+#include "harness/failure.h"
 #include "harness/frame_cells.h"
-#include "harness/interrupt.h"
 #include "harness/swept.h"
 #include "scenes/frames_between.h"
 
@@ -21,6 +21,23 @@ PairList numbered_as_in_file(const PairList& pairs, const Scene& scene)
     for (const Pair pair : pairs.pairs())
         numbered.push_back({scene.file_faces[pair.a], scene.file_faces[pair.b]});
     return PairList(std::move(numbered));
+}
+
+/// A cell of each pipeline that says why there is none.
+std::vector<Cell> skipped_cells(const CollideTask& task, const std::string& why)
+{
+    std::vector<Cell> cells;
+    for (const PipelineChoice& pipeline : task.pipelines) {
+        Cell& cell = cells.emplace_back();
+        cell.experiment = task.experiment;
+        cell.scene.name = task.scene;
+        cell.builder = pipeline.builder;
+        cell.collider = pipeline.collider;
+        cell.operation = Operation::collide;
+        cell.status = Cell::Status::skipped;
+        cell.reason = why;
+    }
+    return cells;
 }
 
 }  // namespace
@@ -79,14 +96,13 @@ FrameRange frame_range(const std::string& text)
     return range;
 }
 
-void collide_frames(Session& session, const CollideTask& task, int& order,
-                    const std::function<void(std::vector<Cell>&&, const Found&)>& add,
-                    const std::function<bool(std::size_t cells)>& passes)
+namespace {
+
+/// Throws what loading the scene does, and BadUsage for frames that it has not.
+void collide_scene(Session& session, const CollideTask& task, int& order,
+                   const std::function<void(std::vector<Cell>&&, const Found&)>& add,
+                   const std::function<bool(std::size_t cells)>& passes)
 {
-    if (task.swept) {
-        collide_swept(session, task, order, add, passes);
-        return;
-    }
     const Scene scene = scene_of(task, session.scenes());
     const FrameRange frames = frames_of(task, scene.frames.size(), "frames");
     if (passes && passes((frames.end - frames.first) * task.pipelines.size()))
@@ -101,7 +117,6 @@ void collide_frames(Session& session, const CollideTask& task, int& order,
     for (const PipelineChoice& pipeline : task.pipelines)
         all.push_back({pipeline});
     for (std::size_t frame = frames.first; frame < frames.end; ++frame) {
-        throw_if_interrupted();
         input.points = scene.frames[frame];
         input.device_points.upload(session.queue().cl(), input.points);
         FrameOfPipelines now{.input = input,
@@ -115,6 +130,24 @@ void collide_frames(Session& session, const CollideTask& task, int& order,
                  numbered_as_in_file(found.contacts, scene)};
         add(std::move(cells), found);
     }
+}
+
+}  // namespace
+
+void collide_frames(Session& session, const CollideTask& task, int& order,
+                    const std::function<void(std::vector<Cell>&&, const Found&)>& add,
+                    const std::function<bool(std::size_t cells)>& passes)
+{
+    const auto collide = [&] {
+        (task.swept ? collide_swept : collide_scene)(session, task, order, add, passes);
+    };
+    if (task.needs_scene) {
+        collide();
+        return;
+    }
+    const std::string why = reason_of_failure(collide);
+    if (!why.empty() && !(passes && passes(task.pipelines.size())))
+        add(skipped_cells(task, why), {});
 }
 
 }  // namespace bvhbench

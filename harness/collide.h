@@ -36,6 +36,7 @@ struct CollideTask {
     std::string number = "0";  ///< which of the run's scenes it is
     std::string scene;
     bool may_stand_in = false;
+    bool needs_scene = false;  ///< as an Experiment's
     ObjectsBy objects = ObjectsBy::automatic;
     unsigned between = 0;  ///< frames put between each two of the scene's
     bool swept = false;    ///< boxes are around the way from each frame to the next (harness/swept.h)
@@ -63,9 +64,9 @@ SceneFacts facts_of(const CollideTask& task, const Scene& scene, std::size_t fra
 /// interleaved; each sample is a whole frame from vertices to pairs or contacts. `add` gets the cells of a frame once
 /// it is done, and what the last pipeline found. `order` counts samples and goes on.
 ///
-/// A pipeline that fails is a cell that says so. Throws BadUsage for options it cannot keep, what loading the scene
-/// throws, and Interrupted; frames done by then have been handed on. `passes` is asked once the scene is known whether
-/// its so many cells are there already; then nothing is done.
+/// A pipeline that fails is a cell that says so, and so is each pipeline where there is no such scene or frame, after the
+/// frames done by then. `passes` is asked once the scene is known whether its so many cells are there already; then nothing
+/// is done.
 void collide_frames(Session& session, const CollideTask& task, int& order,
                     const std::function<void(std::vector<Cell>&&, const Found&)>& add,
                     const std::function<bool(std::size_t cells)>& passes = {});

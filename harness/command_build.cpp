@@ -2,7 +2,6 @@
 #include <iostream>
 
 #include "builders/orders.h"
-#include "geometry/error.h"
 #include "harness/commands.h"
 #include "harness/dump.h"
 #include "harness/report.h"
@@ -41,6 +40,7 @@ int build(const BuildCommand& command, const Options& options)
     command.sampling.apply(experiment.sampling);
     experiment.quality = command.quality;
     experiment.may_stand_in = false;  // who names a mesh means that mesh
+    experiment.needs_scene = true;
 
     Session session(options.common);
     const auto rules = result_rules(options.common.force,
@@ -50,13 +50,12 @@ int build(const BuildCommand& command, const Options& options)
     Run run(session, Output(command.json, "--json", rules), options.words, command.costs);
     run.experiment(experiment);
     run.finish();
-    const Cell& cell = run.document().cells.front();
-    if (cell.status != Cell::Status::measured)
-        throw Unavailable(cell.reason);
-    std::cout << run_report(run.document().run) << cell_report(cell, run.document().run);
+    const int code = exit_code_of(run.document());
+    std::cout << run_report(run.document().run)
+              << cell_report(run.document().cells.front(), run.document().run);
     if (!dumped.is_nowhere())
         dump(session, command, dumped);
-    return has_differing_cell(run.document()) ? 1 : 0;
+    return code;
 }
 
 }  // namespace bvhbench

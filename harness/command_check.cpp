@@ -6,7 +6,6 @@
 #include "harness/contract.h"
 #include "harness/failure.h"
 #include "harness/hard_inputs.h"
-#include "harness/interrupt.h"
 #include "harness/progress.h"
 #include "harness/run.h"
 #include "harness/table.h"
@@ -36,7 +35,8 @@ struct Tally {
     std::size_t checked = 0;
     std::size_t broken = 0;
     std::size_t refused = 0;
-    std::string first;  ///< the first promise broken
+    std::string first;    ///< the first promise broken
+    std::string refusal;  ///< why the first was refused
 
     std::string verdict() const
     {
@@ -59,15 +59,12 @@ public:
         const Input input = upload(session_.device(), session_.queue(), points, faces);
         Oracle oracle(session_, input);
         for (std::size_t i = 0; i < builders_.size(); ++i) {
-            throw_if_interrupted();
-            std::string wrong;
-            bool refused = false;
+            std::string wrong, refusal;
             const std::string failure = reason_of_failure(
-                [&] { wrong = broken_contract(session_, builders_[i], input, oracle, &refused); });
-            if (!failure.empty())
+                [&] { wrong = wrong_or_refused(builders_[i], input, oracle, refusal); });
+            if (!failure.empty() || !refusal.empty())
                 session_.renew_queue();
-            tallies[i].refused += refused ? 1 : 0;
-            count(tallies[i], failure.empty() ? wrong : failure, faces.size());
+            count(tallies[i], failure.empty() ? wrong : failure, refusal, faces.size());
         }
     }
 
@@ -76,11 +73,12 @@ public:
         for (std::size_t i = 0; i < builders_.size(); ++i) {
             const Tally& tally = tallies[i];
             table_.row({builders_[i].name, input, std::to_string(tally.checked), tally.verdict(),
-                        tally.broken == 0 && tally.refused > 0
-                            ? std::string(find_builder(builders_[i].name).may_refuse)
-                            : tally.first});
+                        tally.broken == 0 ? tally.refusal : tally.first});
             broken_ += tally.broken;
             checked_ += tally.checked;
+            refused_ += tally.refused;
+            if (refusal_.empty())
+                refusal_ = tally.refusal;
         }
     }
 
@@ -91,13 +89,37 @@ public:
         std::cout << table_.text() << checked_ << " checks, "
                   << (broken_ == 0 ? "every promise is kept\n"
                                    : std::to_string(broken_) + " with a broken promise\n");
+        if (refused_ == checked_)
+            throw NothingMeasured("nothing was checked: " + refusal_);
         return broken_ == 0 ? 0 : 1;
     }
 
 private:
-    static void count(Tally& tally, const std::string& wrong, std::size_t triangles)
+    /// The promise that is broken, or why the builder cannot be had over this input.
+    std::string wrong_or_refused(const BuilderChoice& builder, const Input& input, Oracle& oracle,
+                                 std::string& refusal)
+    {
+        try {
+            bool refused = false;
+            const std::string wrong = broken_contract(session_, builder, input, oracle, &refused);
+            if (refused)
+                refusal = find_builder(builder.name).may_refuse;
+            return wrong;
+        } catch (const BadUsage& error) {
+            refusal = error.what();
+        } catch (const Unavailable& error) {
+            refusal = error.what();
+        }
+        return {};
+    }
+
+    static void count(Tally& tally, const std::string& wrong, const std::string& refusal,
+                      std::size_t triangles)
     {
         ++tally.checked;
+        tally.refused += refusal.empty() ? 0 : 1;
+        if (tally.refusal.empty())
+            tally.refusal = refusal;
         if (wrong.empty())
             return;
         ++tally.broken;
@@ -110,6 +132,8 @@ private:
     Table table_{{{"builder", left}, {"input", left}, {"checks"}, {"promises", left}, {"", left}}};
     std::size_t checked_ = 0;
     std::size_t broken_ = 0;
+    std::size_t refused_ = 0;
+    std::string refusal_;
 };
 
 void check_hard_inputs(Checker& checker)

@@ -69,14 +69,28 @@ public:
         run.finish();
         std::cout << run_report(run.document().run) << shown.front().report(run.document())
                   << "written: " << file.string() << '\n';
+        files_.push_back(file.string());
+        try {
+            differs_ = exit_code_of(run.document()) == 1 || differs_;
+            is_measured_ = true;
+        } catch (const NothingMeasured& error) {
+            if (why_not_.empty())
+                why_not_ = error.what();
+            return;
+        }
         for (const Shown& each : shown)
             std::cout << draw(std::string(each.name) + ".py", file, folder) << '\n';
-        files_.push_back(file.string());
-        differs_ = differs_ || has_differing_cell(run.document());
     }
 
     const std::vector<std::string>& files() const { return files_; }
-    bool differs() const { return differs_; }
+
+    /// Of all that was run. Throws NothingMeasured.
+    int exit_code() const
+    {
+        if (!is_measured_)
+            throw NothingMeasured(why_not_);
+        return differs_ ? 1 : 0;
+    }
 
 private:
     const ReproduceCommand& command_;
@@ -84,7 +98,8 @@ private:
     Session session_;
     std::map<std::string, Output> outputs_;
     std::vector<std::string> files_;
-    bool differs_ = false;
+    bool differs_ = false, is_measured_ = false;
+    std::string why_not_;
 };
 
 int reproduce_all(const ReproduceCommand& command, const Options& options)
@@ -93,7 +108,7 @@ int reproduce_all(const ReproduceCommand& command, const Options& options)
     page.out = (std::filesystem::path(command.out) / "report.html").string();
     page.scenes = {page_scene};
     page.frame = page_frame;
-    bool differs = false;
+    int code = 0;
     {
         std::vector<std::string> names;
         for (const Shown& each : shown_in_paper)
@@ -107,17 +122,17 @@ int reproduce_all(const ReproduceCommand& command, const Options& options)
                              std::span(shown_in_paper).subspan(begin, end - begin));
         }
         page.files = reproduction.files();
-        differs = reproduction.differs();
+        code = reproduction.exit_code();
     }  // the device's memory is free for the page's scene
     // As where figures cannot be drawn: what was measured is there, and can be shown elsewhere.
     try {
         const int status = report(page, options);
-        return status != 0 ? status : differs ? 1 : 0;
+        return status != 0 ? status : code;
     } catch (const Unavailable& error) {
         std::cout << "no page was made: " << error.what()
                   << "; elsewhere: bvhbench report " << command.out << "/*.json -o " << page.out
                   << '\n';
-        return differs ? 1 : 0;
+        return code;
     }
 }
 
@@ -140,7 +155,7 @@ int reproduce(const ReproduceCommand& command, const Options& options)
                                        [&](const Shown& each) { return each.name == command.what; });
     Reproduction reproduction(command, options, std::span(&command.what, 1));
     reproduction.run(shown.experiment, command.what, std::span(&shown, 1));
-    return reproduction.differs() ? 1 : 0;
+    return reproduction.exit_code();
 }
 
 }  // namespace bvhbench

@@ -87,7 +87,7 @@ int run(const RunCommand& command, const Options& options)
               << refit_report(run.document()) << quality_report(run.document())
               << roofline_report(run.document()) << yardstick_report(run.document())
               << "written: " << out << '\n';
-    return has_differing_cell(run.document()) ? 1 : 0;
+    return exit_code_of(run.document());
 }
 
 int show(const ShowCommand& command, const Options&)

@@ -106,7 +106,7 @@ int smoke(const SmokeCommand& command, const Options& options)
     }
     const int code =
         told(compare_smoke(before, now, command.tolerance, filter.has_value()), command.tolerance);
-    return has_differing_cell(document) ? 1 : code;
+    return code != 0 ? code : exit_code_of(document);
 }
 
 }  // namespace bvhbench

@@ -4,10 +4,12 @@
 
 #include "geometry/error.h"
 #include "harness/commands.h"
+#include "harness/interrupt.h"
 #include "harness/merge.h"
 #include "harness/provenance.h"
 #include "harness/report.h"
 #include "harness/result_file.h"
+#include "harness/run.h"
 #include "harness/sweep/described.h"
 #include "harness/sweep/facts_worker.h"
 #include "harness/sweep/run.h"
@@ -103,17 +105,17 @@ Merged assembled(const Sweep& sweep, const std::vector<SweepUnit>& units, const 
     return merged;
 }
 
-std::string counts_text(const Merged& merged)
+std::string counts_text(const Document& document)
 {
-    const Document document = read_document(merged.text, "the sweep");
     std::size_t measured = 0, skipped = 0;
     for (const Cell& cell : document.cells) {
         measured += cell.status == Cell::Status::measured ? 1 : 0;
         skipped += cell.status == Cell::Status::skipped ? 1 : 0;
     }
     const auto number = [](std::size_t count) { return grouped(static_cast<std::int64_t>(count)); };
-    return counted(merged.cells, "cell") + ": " + number(measured) + " measured, " +
-           number(skipped) + " skipped, " + number(merged.cells - measured - skipped) + " failed";
+    const std::size_t all = document.cells.size();
+    return counted(all, "cell") + ": " + number(measured) + " measured, " + number(skipped) +
+           " skipped, " + number(all - measured - skipped) + " failed";
 }
 
 std::size_t cells_in(const std::vector<SweepUnit>& units)
@@ -156,17 +158,20 @@ int measure(const SweepCommand& command, const Options& options, const Sweep& sw
     if (!folder.note().empty())
         say(folder.note());
     const auto write = [&] {
-        say(counts_text(assembled(sweep, units, shard, folder, facts)) +
-            "\nwritten: " + folder.result_file().string());
+        const Document document =
+            read_document(assembled(sweep, units, shard, folder, facts).text, "the sweep");
+        say(counts_text(document) + "\nwritten: " + folder.result_file().string());
+        return document;
     };
+    const AtSignal kept([] {}, "finished cells are kept");
+    const DeferSignals deferred;  // what is done is assembled then, too
     try {
-        const SweepEnd end = run_units(sweep, units, folder, task, options, facts);
-        write();
-        return end.differs ? 1 : 0;
+        run_units(sweep, units, folder, task, options, facts);
     } catch (const std::exception&) {
         write();  // what is done, before the reason why not all of it is
         throw;
     }
+    return exit_code_of(write());
 }
 
 }  // namespace

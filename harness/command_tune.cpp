@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <filesystem>
 #include <iostream>
-#include <optional>
+#include <mutex>
 
 #include "builders/orders.h"
 #include "geometry/error.h"
 #include "harness/build_info.h"
 #include "harness/commands.h"
+#include "harness/failure.h"
 #include "harness/interrupt.h"
 #include "harness/progress.h"
 #include "harness/provenance.h"
@@ -67,6 +68,45 @@ void put(const SearchResult& result, const TuneTask& task, int samples, TuningFi
             .commit = build_info.commit + std::string(build_info.dirty ? "+" : "")};
 }
 
+/// Search, say what was found, and write it; as much as was found so far when a signal ends the program. Throws what loading
+/// the scene and the search do, and BadUsage where there is no parameter.
+void tune_target(Session& session, const TuneTask& task, const SearchOptions& options,
+                 const Output& output, TuningFile& file,
+                 const std::function<void(const std::string&)>& note)
+{
+    TuneTarget over(session, task);
+    const Tuning in_effect = tuning_of(file, session.device(), output.path().string());
+    const auto keep = [&](const SearchResult& found) {
+        std::cout << "tuned: " << task.target << " over " << task.scene << " on "
+                  << session.device().name() << '\n'
+                  << search_report(found) << std::flush;
+        put(found, task, options.samples, file);
+        output.replace(tuning_text(file));
+    };
+    SearchResult result, so_far;
+    std::mutex mutex;  // of what is so far
+    {
+        const AtSignal kept(
+            [&] {
+                const std::lock_guard lock(mutex);
+                keep(so_far);
+            },
+            "what was found is kept");
+        search([&](const Tuning& tuning) { return over.trial(tuning); }, in_effect,
+               [&](const Parameter& parameter) { return over.wants(parameter); }, options,
+               [&](const std::string& what) {
+                   const std::lock_guard lock(mutex);
+                   so_far = result;
+                   note(", " + what);
+               },
+               result);
+    }
+    if (result.searched.empty())
+        throw BadUsage(task.target + " asks " + session.device().name() +
+                       " for no parameter: there is nothing to tune");
+    keep(result);
+}
+
 }  // namespace
 
 int tune(const TuneCommand& command, const Options& options)
@@ -98,34 +138,31 @@ int tune(const TuneCommand& command, const Options& options)
     file.driver = device_facts(device).driver;
 
     const SearchOptions search_options = options_of(command, device);
-    Progress progress(targets_of(command).size());
-    for (const std::string& target : targets_of(command)) {
+    const std::vector<std::string> targets = targets_of(command);
+    Progress progress(targets.size());
+    std::string first_reason;
+    std::size_t failed = 0;
+    for (const std::string& target : targets) {
         const TuneTask task{target, command.scene, command.builder, command.collider};
         progress.step("tune: " + target);
-        TuneTarget over(session, task);
-        const Tuning in_effect = tuning_of(file, device, path.string());
-        SearchResult result;
-        std::optional<Interrupted> interrupted;
-        try {
-            search([&](const Tuning& tuning) { return over.trial(tuning); }, in_effect,
-                   [&](const Parameter& parameter) { return over.wants(parameter); },
-                   search_options,
-                   [&](const std::string& what) { progress.note("tune: " + target + ", " + what); },
-                   result);
-        } catch (const Interrupted& stop) {
-            interrupted = stop;
+        const auto tune = [&] {
+            tune_target(session, task, search_options, output, file,
+                        [&](const std::string& what) { progress.note("tune: " + target + what); });
+        };
+        if (targets.size() == 1) {
+            tune();
+            continue;
         }
-        if (!interrupted && result.searched.empty())
-            throw BadUsage(target + " asks " + device.name() +
-                           " for no parameter: there is nothing to tune");
-        std::cout << "tuned: " << target << " over " << command.scene << " on " << device.name()
-                  << '\n'
-                  << search_report(result);
-        put(result, task, search_options.samples, file);
-        output.replace(tuning_text(file));
-        if (interrupted)
-            throw *interrupted;
+        const std::string failure = reason_of_failure(tune);
+        if (failure.empty())
+            continue;
+        session.renew_queue();
+        std::cout << "not tuned: " << target << ": " << failure << '\n';
+        if (failed++ == 0)
+            first_reason = failure;
     }
+    if (failed == targets.size())
+        throw NothingMeasured("nothing was tuned: " + first_reason);
     std::cout << "written: " << path.string() << '\n';
     return 0;
 }

@@ -9,7 +9,6 @@
 
 #include "harness/clip.h"
 #include "harness/compensated_sum.h"
-#include "harness/interrupt.h"
 
 namespace bvhbench {
 namespace {
@@ -156,7 +155,7 @@ std::optional<AreaSums> end_point_overlap(const HostTree& tree, std::span<const 
     std::vector<Sums> chunks((flat.leaves.size() + chunk - 1) / chunk);
     std::atomic<std::size_t> next = 0;
     const auto work = [&] {
-        for (std::size_t i; !is_interrupted() && (i = next++) < chunks.size();)
+        for (std::size_t i; (i = next++) < chunks.size();)
             chunks[i] = sums_of(flat, i * chunk, points, faces);
     };
     std::vector<std::future<void>> others;
@@ -166,7 +165,6 @@ std::optional<AreaSums> end_point_overlap(const HostTree& tree, std::span<const 
     work();
     for (std::future<void>& other : others)
         other.get();
-    throw_if_interrupted();
 
     Sums sums;
     for (const Sums& one : chunks)

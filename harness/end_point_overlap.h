@@ -20,7 +20,6 @@ namespace bvhbench {
 ///
 /// Every triangle descends from the root while some of it is in the box, and is cut to the box exactly, on as
 /// many threads as asked for, or as the host has. Their number does not change a bit of the sums.
-/// Throws Interrupted.
 std::optional<AreaSums> end_point_overlap(const HostTree& tree, std::span<const Point> points,
                                           std::span<const Face> faces, unsigned threads = 0);
 

@@ -4,7 +4,6 @@
 #include "geometry/error.h"
 #include "harness/commands.h"
 #include "harness/failure.h"
-#include "harness/interrupt.h"
 #include "harness/printable.h"
 
 namespace bvhbench {
@@ -56,8 +55,8 @@ int run_program(int argc, const char* const* argv)
         return code;
     } catch (const BadUsage& error) {
         return failed(error, 2);
-    } catch (const Interrupted& error) {
-        return failed(error, 128 + error.signal());
+    } catch (const NothingMeasured& error) {
+        return failed(error, 4);
     } catch (const std::exception& error) {  // Unavailable, BuildFailure, cl::Error, bad_alloc
         return failed(error, 3);
     }

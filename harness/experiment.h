@@ -52,6 +52,8 @@ struct Experiment {
     Start start = Start::from_triangles;
     /// Whether a data set that is not there is replaced by its stand-in; without, its cells are skipped.
     bool may_stand_in = true;
+    /// Whether a scene that cannot be had is thrown, since it is all that was asked for; else it is cells that say so.
+    bool needs_scene = false;
     /// What becomes of coordinates that floats cannot hold: key `doubles`, a doubles_name; none: as the command line says.
     std::optional<Doubles> doubles;
     /// Whether end-point overlap is wanted too, the one measure of a tree that takes long.

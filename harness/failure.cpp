@@ -6,7 +6,6 @@
 #include "device/cl.h"
 #include "device/error_name.h"
 #include "geometry/error.h"
-#include "harness/interrupt.h"
 
 namespace bvhbench {
 
@@ -21,14 +20,18 @@ std::string sentence_of(const std::exception& error)
 
 std::string reason_of_failure(const std::function<void()>& work)
 {
+    bool ignored = false;
+    return reason_of_failure(ignored, work);
+}
+
+std::string reason_of_failure(bool& cannot_be, const std::function<void()>& work)
+{
+    cannot_be = false;
     try {
         work();
         return {};
-    } catch (const BadUsage&) {
-        throw;
-    } catch (const Interrupted&) {
-        throw;
     } catch (const std::exception& error) {
+        cannot_be = dynamic_cast<const BadUsage*>(&error) != nullptr;
         const std::string sentence = sentence_of(error);
         return sentence.empty() ? "failed without a word" : sentence;
     }

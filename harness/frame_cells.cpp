@@ -164,7 +164,7 @@ void fail(Running& running, Session& session, const std::string& why)
 {
     session.renew_queue();
     running.failure = why;
-    running.cell.status = Cell::Status::failed;
+    running.cell.status = running.cannot_be ? Cell::Status::skipped : Cell::Status::failed;
     running.cell.reason = why;
     running.cell.samples.clear();
 }
@@ -259,7 +259,7 @@ std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span
         if (one.failure.empty())
             one.failure = session.watchdog().given_up(one.number);
         if (one.failure.empty())
-            one.failure = reason_of_failure([&] {
+            one.failure = reason_of_failure(one.cannot_be, [&] {
                 require_memory(session, one.cell.collider, frame.input.triangle_count());
                 session.watchdog().watch([&] {
                     if (one.pipeline == nullptr)

@@ -20,7 +20,8 @@ struct Running {
     Cell cell = {};
     std::unique_ptr<Pipeline> pipeline = nullptr;
     std::string failure = {};  ///< why there is none, or none any more
-    std::string number = {};   ///< which of the run's cells it is
+    bool cannot_be = false;   ///< whether that is because there is no such pipeline over this scene
+    std::string number = {};  ///< which of the run's cells it is
 };
 
 /// A frame that pipelines are run over.
@@ -38,8 +39,7 @@ struct FrameOfPipelines {
 void find_wrong(Check& check, const std::string& detail);
 
 /// All pipelines over a frame, a cell each: settled, held to the oracles, sampled interleaved, and held to them again. What
-/// the last one found goes to `found`. One that fails says so, now and in all frames after. Throws BadUsage and
-/// Interrupted.
+/// the last one found goes to `found`. One that fails says so, now and in all frames after.
 std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span<Running> all,
                             const FrameOfPipelines& frame, int& order, Found& found);
 

@@ -17,7 +17,8 @@ constexpr std::string_view exit_codes =
     "  0  done\n"
     "  1  a check differs, or something got worse\n"
     "  2  wrong usage\n"
-    "  3  no device, file, library or memory\n"
+    "  3  no device, file, library or memory to begin with\n"
+    "  4  nothing was measured: every cell was skipped or failed, and says why\n"
     "  128 + n  stopped by signal n; what was finished is in the result file\n";
 
 struct Named {

@@ -1,27 +1,46 @@
 // SPDX-License-Identifier: MIT
+//
+// What becomes of the program when SIGINT, SIGTERM or SIGHUP asks it to end. It may be reading a pipe, compiling or looking
+// for all pairs at that time, none of which can be asked to stop. So a thread ends the process.
 #pragma once
 
-#include <stdexcept>
+#include <functional>
+#include <string>
 
 namespace bvhbench {
 
-/// The user or the system asked the program to stop. What was finished is written before main sees this.
-class Interrupted : public std::runtime_error {
+/// From here on SIGINT, SIGTERM and SIGHUP end the process, with exit code 128 + signal and one sentence: a thread, which
+/// sleeps until then, does what each AtSignal says and exits. A second signal ends the process without that. A SIGHUP
+/// that was ignored before, as under nohup, still is.
+void end_on_signals();
+
+/// What a signal does before it ends the process, as long as this object is there.
+class AtSignal {
 public:
-    explicit Interrupted(int signal);
-    int signal() const { return signal_; }
+    /// `work` is done by another thread, while the one that made this goes on. `kept` ends the sentence: "finished cells
+    /// are kept". What `work` throws is said in its place.
+    explicit AtSignal(std::function<void()> work, std::string kept = {});
+    ~AtSignal();
+    AtSignal(const AtSignal&) = delete;
+    AtSignal& operator=(const AtSignal&) = delete;
 
 private:
-    int signal_;
+    friend class SignalEnd;
+    std::function<void()> work_;
+    std::string kept_;
 };
 
-/// From here on SIGINT and SIGTERM are only remembered, once: a second one ends the program as usual.
-void remember_interrupts();
+/// While one is there a signal is only remembered, for a command that has processes of its own to end: it asks
+/// is_interrupted() and returns. The process then ends where the object does.
+class DeferSignals {
+public:
+    DeferSignals();
+    ~DeferSignals();
+    DeferSignals(const DeferSignals&) = delete;
+    DeferSignals& operator=(const DeferSignals&) = delete;
+};
 
-/// Whether one has come. For code that must not throw.
+/// Whether a signal has come that ends the process.
 bool is_interrupted();
-
-/// Throws Interrupted if one has come. Called between samples and between cells.
-void throw_if_interrupted();
 
 }  // namespace bvhbench

@@ -21,6 +21,6 @@ int main(int argc, char** argv)
     if (is_facts_worker(argc, argv))
         return facts_worker_main(argc, argv);
     std::signal(SIGXFSZ, SIG_IGN);  // a file over the limit of its size is an error of write()
-    remember_interrupts();
+    end_on_signals();
     return run_program(argc, argv);
 }

@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <iostream>
 #include <sstream>
@@ -10,6 +11,7 @@
 
 #include "geometry/error.h"
 #include "harness/build_info.h"
+#include "harness/interrupt.h"
 #include "scenes/worker/child.h"
 
 namespace bvhbench {
@@ -37,6 +39,7 @@ int run_command(std::vector<std::string> words, std::string& errors)
                      .words = std::move(words),
                      .output = Child::Stream::inherited,
                      .errors = Child::Stream::captured});
+        const AtSignal ended([&child] { child.send(SIGKILL); });
         while (child.take()) {
         }
         const ProcessEnd end = child.wait();

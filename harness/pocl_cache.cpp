@@ -129,6 +129,10 @@ void PoclCache::take_temporary(const std::string& why)
         throw Unavailable("there is nowhere to put compiled kernels: " + why +
                           "; nor among temporary files: " + problem);
     temporary_ = name;
+    removed_.emplace([this] {
+        std::error_code ignored;
+        fs::remove_all(temporary_, ignored);
+    });
     tell_pocl(temporary_);
     std::cerr << "bvhbench: kernels are compiled anew, for " << why << '\n';
 }

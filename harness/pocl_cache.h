@@ -3,7 +3,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
+
+#include "harness/interrupt.h"
 
 namespace bvhbench {
 
@@ -28,6 +31,7 @@ private:
     std::filesystem::path ours_, temporary_;
     int lock_ =
         -1;  ///< held shared by all who use the folder, alone by who looks for what is broken
+    std::optional<AtSignal> removed_;  ///< the temporary folder
 };
 
 /// Why a folder will not do to keep `bytes` in; empty if it will. Makes it if it is not there.

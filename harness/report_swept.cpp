@@ -74,7 +74,11 @@ void add_row(Table& table, std::vector<std::string> names, const Sum& sum, std::
     table.row(std::move(names));
 }
 
-bool is_swept(const Cell& cell) { return !cell.swept.pairs.empty(); }
+/// A scene that was not there has no steps; on the axis it is named all the same.
+bool is_swept(const Cell& cell)
+{
+    return !cell.swept.pairs.empty() || cell.accuracy.axis == "swept";
+}
 
 /// Whether both are of one step by one pipeline.
 bool belong_together(const Cell& a, const Cell& b)

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "geometry/error.h"
 #include "harness/provenance.h"
 
 namespace bvhbench {
@@ -26,6 +27,8 @@ ResultFile::ResultFile(Output output, RunFacts run, const std::string& goes_on)
 {
     if (!goes_on.empty() && output_.was_there())
         take_over(goes_on);
+    if (output_.is_file())
+        at_signal_.emplace([this] { keep(); }, "finished cells are kept");
 }
 
 void ResultFile::take_over(const std::string& run_id)
@@ -42,6 +45,7 @@ void ResultFile::take_over(const std::string& run_id)
 
 bool ResultFile::pass(std::size_t count)
 {
+    const std::lock_guard lock(mutex_);
     if (goes_on_ && document_.cells.size() >= passed_ + count) {
         passed_ += count;
         return true;
@@ -56,6 +60,10 @@ bool ResultFile::pass(std::size_t count)
 
 void ResultFile::keep()
 {
+    using namespace std::chrono_literals;
+    const std::unique_lock lock(mutex_, 1s);
+    if (!lock)
+        throw Unavailable(output_.path().string() + " takes too long to write");
     if (!is_written_ && output_.is_file())
         write();
 }
@@ -71,6 +79,7 @@ int ResultFile::next_order() const
 
 ResultFile::~ResultFile()
 {
+    at_signal_.reset();
     try {
         keep();
     } catch (const std::exception&) {  // a destructor must not throw
@@ -79,6 +88,7 @@ ResultFile::~ResultFile()
 
 void ResultFile::add(Cell cell)
 {
+    const std::lock_guard lock(mutex_);
     has_measured_ = has_measured_ || cell.status == Cell::Status::measured;
     cell_texts_.push_back(cell_text(cell));
     document_.cells.push_back(std::move(cell));
@@ -87,6 +97,7 @@ void ResultFile::add(Cell cell)
 
 void ResultFile::add(StressCell cell)
 {
+    const std::lock_guard lock(mutex_);
     has_measured_ = true;
     stress_texts_.push_back(cell_text(cell));
     document_.stress.push_back(std::move(cell));
@@ -103,6 +114,7 @@ void ResultFile::write_if_due()
 
 void ResultFile::finish(std::int64_t compile_ns)
 {
+    const std::lock_guard lock(mutex_);
     document_.run.compile_ns = compile_ns;
     document_.run.finished_at = utc_now();
     write();

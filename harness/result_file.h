@@ -3,7 +3,10 @@
 
 #include <chrono>
 #include <filesystem>
+#include <mutex>
+#include <optional>
 
+#include "harness/interrupt.h"
 #include "harness/output.h"
 #include "harness/record.h"
 
@@ -36,7 +39,7 @@ public:
     /// well, to be made anew.
     bool pass(std::size_t count);
 
-    /// Write what is not written yet.
+    /// Write what is not written yet. May be called by any thread; a signal does, too.
     void keep();
 
     /// The first place in the order of samples that none of its cells has.
@@ -48,6 +51,7 @@ public:
     /// Set the end of the run, and write, if there is a cell to keep.
     void finish(std::int64_t compile_ns);
 
+    /// Not while another thread adds cells.
     const Document& document() const { return document_; }
 
 private:
@@ -64,6 +68,8 @@ private:
     std::vector<std::string> stress_texts_;
     std::chrono::steady_clock::time_point written_at_;
     bool is_written_ = true;
+    std::timed_mutex mutex_;  ///< of cells, their texts and what is written
+    std::optional<AtSignal> at_signal_;
 };
 
 }  // namespace bvhbench

@@ -9,7 +9,6 @@
 #include "harness/check.h"
 #include "harness/failure.h"
 #include "harness/frames.h"
-#include "harness/interrupt.h"
 #include "harness/metrics.h"
 #include "harness/provenance.h"
 #include "harness/sampler.h"
@@ -140,12 +139,21 @@ bool has_cells(const Experiment& experiment, const CellFilter& filter)
                        [&](const CollideTask& task) { return !chosen(task, filter).empty(); });
 }
 
-bool has_differing_cell(const Document& document)
+int exit_code_of(const Document& document)
 {
-    return std::any_of(document.cells.begin(), document.cells.end(), [](const Cell& cell) {
-        return cell.status == Cell::Status::measured &&
-               cell.check.verdict == Check::Verdict::differs;
-    });
+    const std::vector<Cell>& cells = document.cells;
+    const auto is_measured = [](const Cell& cell) { return cell.status == Cell::Status::measured; };
+    if (!cells.empty() && std::none_of(cells.begin(), cells.end(), is_measured))
+        throw NothingMeasured(
+            "nothing was measured: " + cells.front().reason +
+            (cells.size() > 1 ? " (the first of " + std::to_string(cells.size()) + " cells)" : ""));
+    return std::any_of(cells.begin(), cells.end(),
+                       [&](const Cell& cell) {
+                           return is_measured(cell) &&
+                                  cell.check.verdict == Check::Verdict::differs;
+                       })
+               ? 1
+               : 0;
 }
 
 void Run::experiment(const Experiment& experiment, const CellFilter& filter)
@@ -155,7 +163,6 @@ void Run::experiment(const Experiment& experiment, const CellFilter& filter)
     for (const CollideTask& task : experiment.collisions)
         collisions(task, filter, progress);
     for (const std::string& name : experiment.scenes) {
-        throw_if_interrupted();
         const std::vector<BuilderChoice> builders = chosen(experiment, name, filter);
         progress.step(experiment.name + ": " + name);
         if (!builders.empty())
@@ -163,7 +170,6 @@ void Run::experiment(const Experiment& experiment, const CellFilter& filter)
     }
 }
 
-/// A scene that is not there is a cell that says so; frames done before something ended are kept.
 void Run::collisions(CollideTask task, const CellFilter& filter, Progress& progress)
 {
     progress.step(task.experiment + ": " + task.scene);
@@ -171,28 +177,15 @@ void Run::collisions(CollideTask task, const CellFilter& filter, Progress& progr
     task.pipelines = chosen(task, filter);
     if (task.pipelines.empty())
         return;
-    const std::string no_scene = reason_of_failure([&] {
-        collide_frames(
-            session_, task, order_,
-            [&](std::vector<Cell>&& cells, const Found&) {
-                progress.note(task.experiment + ": " + task.scene + ", frame " +
-                              std::to_string(cells.front().scene.frame));
-                for (Cell& cell : cells)
-                    results_.add(std::move(cell));
-            },
-            [&](std::size_t cells) { return results_.pass(cells); });
-    });
-    if (no_scene.empty() || results_.pass(task.pipelines.size()))
-        return;
-    for (const PipelineChoice& pipeline : task.pipelines) {
-        Cell cell;
-        cell.experiment = task.experiment;
-        cell.scene.name = task.scene;
-        cell.builder = pipeline.builder;
-        cell.collider = pipeline.collider;
-        cell.operation = Operation::collide;
-        results_.add(unmeasured(std::move(cell), Cell::Status::skipped, no_scene));
-    }
+    collide_frames(
+        session_, task, order_,
+        [&](std::vector<Cell>&& cells, const Found&) {
+            progress.note(task.experiment + ": " + task.scene + ", frame " +
+                          std::to_string(cells.front().scene.frame));
+            for (Cell& cell : cells)
+                results_.add(std::move(cell));
+        },
+        [&](std::size_t cells) { return results_.pass(cells); });
 }
 
 void Run::scene(const Experiment& experiment, const std::string& name,
@@ -206,17 +199,21 @@ void Run::scene(const Experiment& experiment, const std::string& name,
     empty.experiment = experiment.name;
     empty.scene.name = name;
     empty.warm_up = experiment.warm_up;
-    const std::string no_scene = reason_of_failure([&] {
+    std::string no_scene;
+    const auto load = [&] {
         frames.load(experiment, name, session_.scenes());
         empty.scene = frames.facts();
         frames.upload(session_);
-    });
+    };
+    if (experiment.needs_scene)
+        load();
+    else
+        no_scene = reason_of_failure(load);
 
     Oracles oracles{{session_, frames.now()}, {session_, frames.before()}};
     std::vector<Prepared> cells;
     for (const BuilderChoice& builder : builders)
         for (const Operation operation : experiment.operations) {
-            throw_if_interrupted();
             empty.builder = builder;
             empty.operation = operation;
             if (!no_scene.empty())
@@ -246,7 +243,8 @@ Run::Prepared Run::prepare(const Experiment& experiment, const Frames& frames, C
     Prepared prepared{std::move(cell), std::move(number)};
     const Watchdog::Hand hand(session_.watchdog(), prepared.number);
     const std::int64_t compiled_ns = session_.programs().compile_ns();
-    const std::string failure = reason_of_failure([&] {
+    bool cannot_be = false;
+    const std::string failure = reason_of_failure(cannot_be, [&] {
         const bool refits = prepared.cell.operation == Operation::refit;
         const std::size_t triangles = frames.now().triangle_count();
         session_.require_host_memory("checking the tree", check_bytes(triangles));
@@ -257,10 +255,8 @@ Run::Prepared Run::prepare(const Experiment& experiment, const Frames& frames, C
             oracle.begin(reference, prepared.cell.builder.order,
                          prepared.cell.builder.boxes);
         Builder& builder = session_.builder(prepared.cell.builder, prepared.cell.operation);
-        if (refits && !builder.can_refit()) {
-            why_not = std::string(builder.card().name) + " cannot refit";
-            return;
-        }
+        if (refits && !builder.can_refit())
+            throw BadUsage(std::string(builder.card().name) + " cannot refit");
         if (builder.card().runs == BuilderCard::Runs::on_host)
             session_.require_host_memory("the tree", builder.footprint(triangles).total());
         builder.reserve(triangles);
@@ -276,11 +272,10 @@ Run::Prepared Run::prepare(const Experiment& experiment, const Frames& frames, C
         prepared.builder = &builder;
         prepared.cell.first.compile_ns = session_.programs().compile_ns() - compiled_ns;
     });
-    if (!why_not.empty())
-        return {unmeasured(std::move(prepared.cell), Cell::Status::skipped, std::move(why_not))};
     if (!failure.empty()) {
         session_.renew_queue();
-        return {unmeasured(std::move(prepared.cell), Cell::Status::failed, failure)};
+        return {unmeasured(std::move(prepared.cell),
+                           cannot_be ? Cell::Status::skipped : Cell::Status::failed, failure)};
     }
     return prepared;
 }

@@ -23,8 +23,9 @@ CellFilter cell_filter(const std::string& text);
 /// Whether the experiment has a cell that matches.
 bool has_cells(const Experiment& experiment, const CellFilter& filter);
 
-/// Whether a cell of it is wrong.
-bool has_differing_cell(const Document& document);
+/// How a command ends that has measured these cells: 1 if one is wrong, else 0. Throws NothingMeasured, saying why, if
+/// there are cells and none has been measured.
+int exit_code_of(const Document& document);
 
 /// What is known of a run when it starts, with the device's copy rate, the yardstick of the run, measured.
 RunFacts measured_facts(Session& session, std::vector<std::string> command,
@@ -39,7 +40,7 @@ public:
     Run(Session& session, Output output, std::vector<std::string> command,
         const NodeCosts& costs);
 
-    /// Throws BadUsage for a scene that cannot be, Interrupted; finished cells are then in the file.
+    /// What cannot be measured is a cell that says so.
     void experiment(const Experiment& experiment, const CellFilter& filter = {});
 
     /// End the run and write its file.

@@ -7,7 +7,6 @@
 #include <random>
 
 #include "harness/failure.h"
-#include "harness/interrupt.h"
 #include "harness/sample_times.h"
 #include "harness/statistics.h"
 #include "harness/stopping.h"
@@ -130,7 +129,6 @@ private:
         const Turns::Turn turn(turns_);
         std::shuffle(going_.begin(), going_.end(), random_);
         for (const std::size_t i : going_) {
-            throw_if_interrupted();
             if (counts)
                 drift_.look(order_);
             take(i, counts);
@@ -145,7 +143,6 @@ private:
         std::vector<StageTime> stages;
         const int order = order_++;
         taken.failure = reason_of_failure([&] { stages = cells_[i].once(); });
-        throw_if_interrupted();
         if (!taken.failure.empty()) {
             taken.stopped = Stopped::failure;
             return;

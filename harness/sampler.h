@@ -35,7 +35,7 @@ struct Taken {
 ///
 /// With `turns` each round is a turn among other runs.
 ///
-/// `order` counts the run's samples, warm-up included, and goes on from call to call. Throws Interrupted.
+/// `order` counts the run's samples, warm-up included, and goes on from call to call.
 std::vector<Taken> take_samples(std::span<const Timed> cells, const SamplingPlan& plan, int& order,
                                 const std::function<std::int64_t()>& calibrate = {},
                                 Turns* turns = nullptr);

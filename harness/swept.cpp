@@ -8,7 +8,6 @@
 #include "builders/orders.h"
 #include "geometry/error.h"
 #include "harness/frame_cells.h"
-#include "harness/interrupt.h"
 #include "scenes/ground_truth.h"
 
 namespace bvhbench {
@@ -135,7 +134,6 @@ void collide_swept(Session& session, const CollideTask& task, int& order,
             go_on(questions, scene, step, session.queue());
         const bool is_known = truth && truth->from_frame == step;
         for (Question& question : questions) {
-            throw_if_interrupted();
             if (question.running.empty())
                 continue;
             const bool of_edges = question.among == Among::within_objects;

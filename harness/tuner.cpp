@@ -7,7 +7,6 @@
 
 #include "geometry/error.h"
 #include "harness/failure.h"
-#include "harness/interrupt.h"
 #include "harness/sample_times.h"
 #include "harness/sampler.h"
 #include "harness/statistics.h"
@@ -95,7 +94,6 @@ public:
 private:
     Contender contender(const Parameter& parameter, uint value)
     {
-        throw_if_interrupted();
         note_(std::string(parameter.name) + " = " + std::to_string(value));
         Contender one;
         one.tried.parameter = &parameter;

@@ -81,10 +81,10 @@ bool is_faster(const std::vector<double>& times, const std::vector<double>& than
 /// Coordinate descent over the parameters that the trial asks for and `wanted` says yes to. They start from their
 /// defaults, others stay as `start` has them. Of each, all candidates are sampled beside the current value, interleaved;
 /// the fastest right one is compared with the current value once more, and kept if it is faster both times. In the end
-/// all that was kept is held against the defaults by whole runs, and given up if it is not faster. `result` is true at
-/// all times, so that what is found outlives an Interrupted.
+/// all that was kept is held against the defaults by whole runs, and given up if it is not faster. `result` is true
+/// whenever `note` is called.
 ///
-/// Throws Unavailable if what it starts from is already wrong, and Interrupted.
+/// Throws Unavailable if what it starts from is already wrong.
 void search(const MakeTrial& make, const Tuning& start,
             const std::function<bool(const Parameter&)>& wanted, const SearchOptions& options,
             const std::function<void(const std::string&)>& note, SearchResult& result);

@@ -18,11 +18,11 @@ public:
     Turns(const Turns&) = delete;
     Turns& operator=(const Turns&) = delete;
 
-    /// Wait until all have come: before the samples of each scene. Throws Unavailable after two minutes, and Interrupted.
+    /// Wait until all have come: before the samples of each scene. Throws Unavailable after two minutes.
     void meet();
 
     /// Wait until all have taken their samples, so that what comes after disturbs none of them: after the samples of each
-    /// scene. No longer than two minutes: what was measured is worth more. Throws Interrupted.
+    /// scene. No longer than two minutes: what was measured is worth more.
     void part();
 
     /// While it lives, the others wait. Whoever ends, however, gives it back.

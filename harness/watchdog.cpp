@@ -172,7 +172,8 @@ void Watchdog::crashed(int signal)
 void Watchdog::end(const std::string& why) const
 {
     if (is_interrupted())
-        _exit(130);
+        for (;;)  // until that has ended the process
+            pause();
     const std::string* const cell = cell_;
     if (cell == nullptr || !keep_)
         say_and_end("what was to be done " + why);

@@ -42,7 +42,7 @@ struct AxisRun {
 struct Axis {
     std::string_view name;      ///< the key on the command line and in result files
     std::string_view question;  ///< one line
-    /// Throws BadUsage, Unavailable for scenes that are not there, and Interrupted. Without a reference cells are skipped.
+    /// Cells that cannot be had, for want of a scene or a reference, say so.
     void (*measure)(const AxisRun& run);
     /// Its cells of a document as a table; empty if there are none.
     std::string (*report)(const Document& document);

@@ -13,7 +13,6 @@
 #include "harness/accuracy/differences.h"
 #include "harness/accuracy/narrow_truth.h"
 #include "harness/failure.h"
-#include "harness/interrupt.h"
 #include "harness/query_bytes.h"
 #include "scenes/generate/pair_classes.h"
 
@@ -200,7 +199,6 @@ void measure_class(const AxisRun& run, const PairClass& of, std::size_t pairs)
     const std::string no_piece = reason_of_failure([&] {
         for (std::size_t done = 0; has_exact_reference && done < pairs;
              done += run.task.pairs_at_once) {
-            throw_if_interrupted();
             const std::size_t count = std::min(run.task.pairs_at_once, pairs - done);
             run.session.require_host_memory("a class of pairs", host_bytes_a_pair * count);
             const Piece piece(run.session, of, static_cast<uint>(count), seed++);

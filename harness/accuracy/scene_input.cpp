@@ -4,7 +4,7 @@
 #include "builders/device_tree.h"
 #include "harness/accuracy/differences.h"
 #include "harness/check.h"
-#include "harness/interrupt.h"
+#include "harness/failure.h"
 #include "harness/metrics.h"
 
 namespace bvhbench {
@@ -18,12 +18,25 @@ void for_each_scene(const AxisRun& run, std::string_view axis,
     if (scenes.empty())
         scenes.assign(own.begin(), own.end());
     for (const std::string& scene : scenes) {
-        throw_if_interrupted();
         run.progress.note("accuracy, " + std::string(axis) + ": " + scene);
-        Frames frames;
-        frames.load(Experiment{}, scene, run.session.scenes());
-        frames.upload(run.session, by_objects);
-        measure(frames.facts(), frames.now());
+        SceneFacts facts;
+        facts.name = scene;
+        bool is_there = false;
+        const std::string failure = reason_of_failure([&] {
+            Frames frames;
+            frames.load(Experiment{}, scene, run.session.scenes());
+            facts = frames.facts();
+            frames.upload(run.session, by_objects);
+            is_there = true;
+            measure(facts, frames.now());
+        });
+        if (failure.empty())
+            continue;
+        run.session.renew_queue();
+        Cell cell = accuracy_cell(std::string(axis), "all", facts);
+        cell.status = is_there ? Cell::Status::failed : Cell::Status::skipped;
+        cell.reason = failure;
+        run.add(std::move(cell));
     }
 }
 

@@ -14,7 +14,7 @@
 namespace bvhbench {
 
 /// Call `measure` for each scene asked for, or for those of the axis, with its first frame on the device: as one object,
-/// or, `by_objects`, as those that the scene names. Throws what loading a scene does.
+/// or, `by_objects`, as those that the scene names. A scene for which that fails is a cell that says so, of the method "all".
 void for_each_scene(const AxisRun& run, std::string_view axis,
                     std::initializer_list<const char*> own,
                     const std::function<void(const SceneFacts& facts, const Input& input)>& measure,

@@ -5,6 +5,7 @@
 #include "harness/accuracy/axes.h"
 #include "harness/accuracy/axis.h"
 #include "harness/collide.h"
+#include "harness/failure.h"
 #include "harness/report_swept.h"
 #include "scenes/catalog.h"
 #include "scenes/manifest.h"
@@ -30,7 +31,9 @@ std::vector<SceneOfAxis> scenes_of(const AxisRun& run)
 {
     std::vector<SceneOfAxis> scenes;
     for (const std::string& scene : run.task.scenes) {
-        const bool stands = load_scene(scene, run.session.scenes()).frames.size() < 2;
+        bool stands = false;  // of a scene that is not there, whoever collides it says so
+        reason_of_failure(
+            [&] { stands = load_scene(scene, run.session.scenes()).frames.size() < 2; });
         scenes.push_back({stands ? "bend:" + scene : scene, {}});
     }
     if (!scenes.empty())

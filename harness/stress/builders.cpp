@@ -97,8 +97,12 @@ std::string system_name(const BuilderChoice& builder)
 
 bool builds_on_device(Session& session, const BuilderEntry& entry)
 {
-    return entry.make != nullptr &&
-           entry.make(session.programs(), {})->card().runs == BuilderCard::Runs::on_device;
+    bool on_device = false;  // of one that cannot be made, judge_builder says why
+    reason_of_failure([&] {
+        on_device = entry.make != nullptr &&
+                    entry.make(session.programs(), {})->card().runs == BuilderCard::Runs::on_device;
+    });
+    return on_device;
 }
 
 Findings judge_builder(Session& session, const BuilderChoice& choice, const Input& input,
@@ -108,7 +112,8 @@ Findings judge_builder(Session& session, const BuilderChoice& choice, const Inpu
     const BuilderEntry& entry = find_builder(choice.name);
     bool refused = false;
     std::string wrong;
-    const std::string failure = reason_of_failure([&] {
+    bool cannot_be = false;
+    const std::string failure = reason_of_failure(cannot_be, [&] {
         wrong = broken_contract(session, choice, input, oracle, &refused);
         if (refused)
             return;
@@ -120,6 +125,8 @@ Findings judge_builder(Session& session, const BuilderChoice& choice, const Inpu
             {Invariant::ends, {Finding::Verdict::refused, 1, 0, 0, std::string(entry.may_refuse)}}};
     if (!failure.empty()) {
         session.renew_queue();
+        if (cannot_be)
+            return {{Invariant::ends, {Finding::Verdict::refused, 1, 0, 0, failure}}};
         return {{Invariant::ends, {broken, 1, 1, 0, failure}}};
     }
     bool is_told = wrong.empty();

@@ -40,6 +40,14 @@ Findings with_words(std::string_view words, Findings findings)
     return findings;
 }
 
+bool is_refused(const StressCell& cell)
+{
+    return cell.kind != StressCell::Kind::host && !cell.findings.empty() &&
+           std::all_of(cell.findings.begin(), cell.findings.end(), [](const auto& entry) {
+               return entry.second.verdict == Finding::Verdict::refused;
+           });
+}
+
 bool is_our_fault(const StressCell& cell)
 {
     return cell.library.empty() &&

@@ -71,6 +71,9 @@ struct StressCell {
 inline constexpr std::array stress_kind_names = {"builder", "collider", "host", "library"};
 inline constexpr std::array stress_verdict_names = {"holds", "broken", "refused"};
 
+/// Whether nothing was found out but that it is refused. Of the host, a refusal is an answer.
+bool is_refused(const StressCell& cell);
+
 /// Whether one of ours is wrong.
 bool is_our_fault(const StressCell& cell);
 

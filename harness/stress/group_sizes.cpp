@@ -10,7 +10,6 @@
 #include "collide/parameters.h"
 #include "geometry/error.h"
 #include "harness/failure.h"
-#include "harness/interrupt.h"
 #include "harness/stress/parts.h"
 
 namespace bvhbench {
@@ -157,7 +156,6 @@ void stress_option(Session& session, const StressTask& task, const StressScene& 
             continue;
         StressCell done = cell;
         for (const uint value : values_of(any, task.size.quick)) {
-            throw_if_interrupted();
             join(done.findings,
                  with_words(
                      "at " + std::to_string(value),
@@ -192,7 +190,6 @@ void stress_group_sizes(Session& session, const StressTask& task, const AddStres
         if (found != asked.end())
             asker = found->first;
         for (std::size_t next = asked.size(); !asker && next < askers().size(); ++next) {
-            throw_if_interrupted();
             Trial trial(session, *question, askers()[next], {});
             join(cell.findings, trial.run());
             std::set<const Parameter*> wants;
@@ -206,7 +203,6 @@ void stress_group_sizes(Session& session, const StressTask& task, const AddStres
         if (!asker)
             continue;  // nobody asks for it on this kind of device
         for (const uint value : values_of(*parameter, task.size.quick)) {
-            throw_if_interrupted();
             join(cell.findings,
                  with_words("at " + std::to_string(value),
                             over_value(session, *question, *asker, *parameter, value)));

@@ -10,7 +10,6 @@
 #include "geometry/error.h"
 #include "harness/check.h"
 #include "harness/failure.h"
-#include "harness/interrupt.h"
 #include "harness/stress/parts.h"
 
 namespace bvhbench {
@@ -133,7 +132,6 @@ void stress_large(Session& session, const StressTask& task, const StressFamily& 
             upload(session.device(), session.queue(), scene.mesh.points, scene.mesh.faces);
         LateChecks checks(scene.mesh.faces.size(), add);
         for (const BuilderChoice& builder : builders) {
-            throw_if_interrupted();
             StressCell cell = cell_of(family, one, scene);
             cell.system = system_name(builder);
             checks.begin(std::move(cell), build_large(session, builder, input));
@@ -142,7 +140,6 @@ void stress_large(Session& session, const StressTask& task, const StressFamily& 
     }
     const PairList pairs = expected.get();
     for (const StressPipeline& pipeline : pipelines) {
-        throw_if_interrupted();
         StressCell cell = cell_of(family, one, scene);
         cell.system = system_name(pipeline.builder, pipeline.collider);
         cell.kind = StressCell::Kind::collider;

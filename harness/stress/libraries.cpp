@@ -18,6 +18,7 @@
 #include "collide/sweep.h"
 #include "geometry/error.h"
 #include "harness/failure.h"
+#include "harness/interrupt.h"
 #include "scenes/worker/process.h"
 #include "scenes/worker/worker.h"
 
@@ -77,6 +78,7 @@ public:
 
 private:
     std::filesystem::path path_;
+    const AtSignal removed_{[this] { std::filesystem::remove(path_); }};
 };
 
 const PlainLibrary& library_called(std::string_view name)

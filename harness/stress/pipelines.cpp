@@ -87,14 +87,16 @@ template <class Judge>
 Findings guarded(Session& session, const StressPipeline& chosen, const Judge& judge)
 {
     Findings findings;
-    const std::string failure = reason_of_failure([&] {
+    bool cannot_be = false;
+    const std::string failure = reason_of_failure(cannot_be, [&] {
         findings = judge();
         findings[Invariant::ends] = {holds, 1};
     });
     if (!failure.empty()) {
         session.renew_queue();
-        // A library's collider says what it does not take; of ours nobody asks for what they refuse.
-        findings = {{Invariant::ends, {chosen.is_library ? refused : broken, 1, 0, 0, failure}}};
+        // A library's collider says what it does not take, in whatever way; ours as wrong usage.
+        const bool is_refused = chosen.is_library || cannot_be;
+        findings = {{Invariant::ends, {is_refused ? refused : broken, 1, 0, 0, failure}}};
     }
     return findings;
 }
@@ -133,7 +135,13 @@ std::vector<StressPipeline> stress_pipelines(Session& session, bool few, bool ot
         choice.name = entry.name;
         choice.narrow = "exact";
         choice.keep_adjacent = false;  // as libraries
-        const auto collider = make_collider(choice, session.programs());
+        std::unique_ptr<Collider> collider;
+        const std::string failure =
+            reason_of_failure([&] { collider = make_collider(choice, session.programs()); });
+        if (!failure.empty()) {  // judged all the same, it says why
+            pipelines.push_back({{.name = ""}, choice, entry.is_library});
+            continue;
+        }
         choice.keep_adjacent = !collider->finds_contacts();
         if (!collider->needs_tree()) {
             pipelines.push_back({{.name = ""}, choice, entry.is_library});
@@ -142,8 +150,11 @@ std::vector<StressPipeline> stress_pipelines(Session& session, bool few, bool ot
         std::vector<StressPipeline> over;
         for (const std::string& name : tree_builders(session, few)) {
             const BuilderChoice builder{.name = name};
-            if (collider->refusal(smallest_tree(session, builder)).empty())
-                over.push_back({builder, choice, false});
+            // Where the tree itself cannot be had, judge_builder says why.
+            reason_of_failure([&] {
+                if (collider->refusal(smallest_tree(session, builder)).empty())
+                    over.push_back({builder, choice, false});
+            });
         }
         pipelines.insert(pipelines.end(), over.begin(), over.end());
         over.resize(other_forms ? std::min(over.size(), few ? 1 : std::size(some_builders)) : 0);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "harness/failure.h"
-#include "harness/interrupt.h"
 #include "harness/stress/parts.h"
 
 namespace bvhbench {
@@ -25,7 +24,6 @@ void stress_repeats(Session& session, const StressTask& task, const AddStressCel
         cell.system = entry.name;
         if (!builds_on_device(session, entry) || !task.wants(cell))
             continue;
-        throw_if_interrupted();
         StressCell done = cell;
         done.findings =
             judge_builder(session, {.name = std::string(entry.name)}, input, oracle, repeats);
@@ -37,7 +35,6 @@ void stress_repeats(Session& session, const StressTask& task, const AddStressCel
         cell.system = system_name(pipeline.builder, pipeline.collider);
         if (pipeline.is_library || !task.wants(cell))
             continue;
-        throw_if_interrupted();
         StressCell done = cell;
         done.findings = judge_frames(session, pipeline, scene, repeats);
         add(std::move(done));

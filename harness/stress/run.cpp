@@ -7,7 +7,6 @@
 #include "geometry/error.h"
 #include "harness/failure.h"
 #include "harness/hard_inputs.h"
-#include "harness/interrupt.h"
 #include "harness/progress.h"
 #include "harness/stress/libraries.h"
 #include "scenes/finish.h"
@@ -89,7 +88,6 @@ private:
         cell_.system = std::move(system);
         cell_.kind = kind;
         cell_.library = std::move(library);
-        throw_if_interrupted();
         return task_.wants(cell_);
     }
 
@@ -165,7 +163,7 @@ private:
             cell.system = library.name;
             cell.kind = StressCell::Kind::library;
             cell.library = library.library;
-            if (!task_.wants(cell) || is_interrupted())
+            if (!task_.wants(cell))
                 continue;
             cell.findings =
                 judge_library(library, scene, task_.size.quick ? quick_limit_s : full_limit_s);

@@ -78,10 +78,11 @@ CellProcess::Loss CellProcess::end()
     if (!given_up_.empty())
         return {.why = given_up_};
     const std::string sentence = sentence_in(end.output);
-    if (end.how == ProcessEnd::How::signalled)
+    const int signal = end.how == ProcessEnd::How::signalled ? end.code : end.code - 128;
+    const bool was_stopped = signal == SIGINT || signal == SIGTERM || signal == SIGHUP;
+    if (!was_stopped && end.how == ProcessEnd::How::signalled)
         return {.why = "its process " + spelled(end, 0) + (sentence.empty() ? "" : ": " + sentence),
                 .may_be_the_device = true};
-    const bool was_stopped = end.code == 128 + SIGINT || end.code == 128 + SIGTERM;
     return {.why = !sentence.empty() && !was_stopped
                        ? sentence
                        : "its process " + spelled(end, 0) + " and left no result",

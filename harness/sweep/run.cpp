@@ -46,26 +46,25 @@ public:
            const SweepTask& task, const Options& options, const RunFacts& facts)
         : sweep_(sweep), folder_(folder), task_(task), options_(options), facts_(facts)
     {
-        end_.units = units.size();
+        total_ = units.size();
         for (const SweepUnit& unit : units)
             if (!is_done(unit))
                 waiting_.push_back(&unit);
         slots_.resize(task.devices.size());
     }
 
-    SweepEnd run()
+    void run()
     {
         while (!waiting_.empty() || is_any_running()) {
             if (is_interrupted()) {
                 stop_all();
-                throw_if_interrupted();
+                break;
             }
             for (std::size_t i = 0; i < slots_.size(); ++i)
                 if (slots_[i] == nullptr && !waiting_.empty())
                     start(i);
             wait_for_some();
         }
-        return end_;
     }
 
 private:
@@ -86,11 +85,9 @@ private:
     /// What a cell took that was not measured says nothing of others.
     void count(const SweepUnit& unit, const Document& document, double seconds)
     {
-        ++end_.done;
+        ++done_;
         if (document.cells.front().status == Cell::Status::measured)
             left_.add(kind_of(unit), unit.triangles, seconds);
-        for (const Cell& cell : document.cells)
-            end_.differs = end_.differs || verdict_text(cell) == "differs";
     }
 
     bool is_any_running() const
@@ -166,8 +163,10 @@ private:
             facts_of_device(options_.common, device);
         } catch (const std::exception& error) {
             stop_all();
-            throw Unavailable("the device is gone after " + std::to_string(end_.done) + " of " +
-                              std::to_string(end_.units) + " cells (" + why + "; " + error.what() +
+            if (is_interrupted())  // Ctrl-C reaches the process that was asked, too
+                return;
+            throw Unavailable("the device is gone after " + std::to_string(done_) + " of " +
+                              std::to_string(total_) + " cells (" + why + "; " + error.what() +
                               "); they are kept, and the same command goes on");
         }
     }
@@ -188,8 +187,8 @@ private:
 
     void tell(const SweepUnit& unit, const Document& document, double seconds)
     {
-        std::string line = '[' + std::to_string(end_.done) + '/' + std::to_string(end_.units) +
-                           "] " + unit.label + ": ";
+        std::string line =
+            '[' + std::to_string(done_) + '/' + std::to_string(total_) + "] " + unit.label + ": ";
         const Cell& cell = document.cells.front();
         const std::string verdict = verdict_text(cell);
         if (document.cells.size() > 1)
@@ -197,7 +196,7 @@ private:
         else
             line += verdict + (cell.reason.empty() ? "" : ": " + cell.reason);
         line += ", " + fixed(seconds, 1) + " s";
-        if (end_.done < end_.units && left_.knows())
+        if (done_ < total_ && left_.knows())
             line += "; about " + rough_time(seconds_left()) + " left";
         task_.tell(line);
     }
@@ -241,16 +240,16 @@ private:
     std::deque<const SweepUnit*> waiting_;
     std::vector<Slot> slots_;
     TimeLeft left_;
-    SweepEnd end_;
+    std::size_t total_ = 0;  ///< units that are to be done
+    std::size_t done_ = 0;   ///< of them
 };
 
 }  // namespace
 
-SweepEnd run_units(const Sweep& sweep, const std::vector<SweepUnit>& units,
-                   const SweepFolder& folder, const SweepTask& task, const Options& options,
-                   const RunFacts& facts)
+void run_units(const Sweep& sweep, const std::vector<SweepUnit>& units, const SweepFolder& folder,
+               const SweepTask& task, const Options& options, const RunFacts& facts)
 {
-    return Runner(sweep, units, folder, task, options, facts).run();
+    Runner(sweep, units, folder, task, options, facts).run();
 }
 
 }  // namespace bvhbench

@@ -24,18 +24,10 @@ struct SweepTask {
     std::function<void(const std::string& line)> tell;
 };
 
-/// What became of a sweep's cells.
-struct SweepEnd {
-    std::size_t units = 0;  ///< that are to be done
-    std::size_t done = 0;   ///< of them
-    bool differs = false;   ///< whether an answer is wrong
-};
-
 /// Measures what is not done yet of `units`, a process each, as many at once as there are devices. One that crashes costs
-/// its own cells. Throws Interrupted, with all processes ended, and Unavailable if the device is gone or results cannot be
-/// written: what is done stays.
-SweepEnd run_units(const Sweep& sweep, const std::vector<SweepUnit>& units,
-                   const SweepFolder& folder, const SweepTask& task, const Options& options,
-                   const RunFacts& facts);
+/// its own cells. Ends early, with all processes ended, when a signal was deferred. Throws Unavailable if the device is gone
+/// or results cannot be written. What is done stays.
+void run_units(const Sweep& sweep, const std::vector<SweepUnit>& units, const SweepFolder& folder,
+               const SweepTask& task, const Options& options, const RunFacts& facts);
 
 }  // namespace bvhbench

@@ -19,7 +19,7 @@ def test_collide_writes_a_valid_result_and_the_pairs():
     for collider in [name for name in present if not name.startswith("fcl")]:  # which finds contacts instead
         for builder in ("oibvh-multi", "karras"):
             if (builder, collider) == ("karras", "block"):
-                expect(2, "collide", "--builder", builder, "--collider", collider, *common,
+                expect(4, "collide", "--builder", builder, "--collider", collider, *common,
                        says="block needs a binary implicit tree")
                 continue
             out = expect(0, "collide", "--builder", builder, "--collider", collider, *common, "--json", "c.json",
@@ -80,7 +80,7 @@ def test_collide_goes_through_frames_and_objects_to_contacts():
     expect(2, "collide", "--collider", "leaf", *common, "--frames", "2:9", says="has frames 0 to 2, not 2 to before 9")
     expect(2, "collide", "--collider", "leaf", *common, "--no-skip", "lunch", says="there are: unchanged, rigid, ")
     expect(2, "collide", "--collider", "leaf", "--scene", "soup:9", "--contacts", "k.csv", says="--narrow exact")
-    expect(2, "collide", "--collider", "leaf", "--scene", "soup:9", "--order", "kd", "--objects", "components",
+    expect(4, "collide", "--collider", "leaf", "--scene", "soup:9", "--order", "kd", "--objects", "components",
            says="order kd lines up one object, not 9")
 
 
