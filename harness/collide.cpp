@@ -12,17 +12,6 @@
 namespace bvhbench {
 namespace {
 
-/// Pairs by the numbers that a file's triangles have in it, where objects have put them into another order.
-PairList numbered_as_in_file(const PairList& pairs, const Scene& scene)
-{
-    if (scene.file_faces.empty())
-        return pairs;
-    std::vector<Pair> numbered;
-    for (const Pair pair : pairs.pairs())
-        numbered.push_back({scene.file_faces[pair.a], scene.file_faces[pair.b]});
-    return PairList(std::move(numbered));
-}
-
 /// A cell of each pipeline that says why there is none.
 std::vector<Cell> skipped_cells(const CollideTask& task, const std::string& why)
 {
@@ -105,6 +94,14 @@ void collide_scene(Session& session, const CollideTask& task, int& order,
 {
     const Scene scene = scene_of(task, session.scenes());
     const FrameRange frames = frames_of(task, scene.frames.size(), "frames");
+    const bool finds_nothing =
+        scene.objects.size() == 1 &&
+        std::ranges::all_of(task.pipelines, [](const PipelineChoice& pipeline) {
+            return pipeline.collider.among == Among::between_objects;
+        });
+    if (finds_nothing)
+        throw BadUsage("scene '" + task.scene +
+                       "' is one object, and there are no pairs between objects");
     if (passes && passes((frames.end - frames.first) * task.pipelines.size()))
         return;
     std::vector<FaceRange> objects;
@@ -124,10 +121,10 @@ void collide_scene(Session& session, const CollideTask& task, int& order,
                              .scene = facts_of(task, scene, frame)};
         if (frame > frames.first)
             now.motions = object_motions(scene, frame - 1, frame);
+        now.file_faces = scene.file_faces;
         Found found;
         std::vector<Cell> cells = run_frame(session, task, all, now, order, found);
-        found = {numbered_as_in_file(found.pairs, scene),
-                 numbered_as_in_file(found.contacts, scene)};
+        found.scene = &scene;
         add(std::move(cells), found);
     }
 }

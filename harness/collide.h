@@ -50,6 +50,7 @@ struct CollideTask {
 /// What a pipeline found in a frame, in canonical order, by the numbers triangles have in the file.
 struct Found {
     PairList pairs, contacts;
+    const Scene* scene = nullptr;  ///< it is there while these are handed on
 };
 
 /// The task's scene, with its objects and the frames between. Throws what loading it does.
@@ -64,9 +65,9 @@ SceneFacts facts_of(const CollideTask& task, const Scene& scene, std::size_t fra
 /// interleaved; each sample is a whole frame from vertices to pairs or contacts. `add` gets the cells of a frame once
 /// it is done, and what the last pipeline found. `order` counts samples and goes on.
 ///
-/// A pipeline that fails is a cell that says so, and so is each pipeline where there is no such scene or frame, after the
-/// frames done by then. `passes` is asked once the scene is known whether its so many cells are there already; then nothing
-/// is done.
+/// A pipeline that fails is a cell that says so, and so is each pipeline where there is no such scene or frame, or all of them
+/// look for pairs between the objects of a scene that is one object. Frames done by then have been handed on. `passes` is
+/// asked once the scene is known whether its cells are there already; then nothing is done.
 void collide_frames(Session& session, const CollideTask& task, int& order,
                     const std::function<void(std::vector<Cell>&&, const Found&)>& add,
                     const std::function<bool(std::size_t cells)>& passes = {});

@@ -34,9 +34,9 @@ constexpr ColliderEntry catalog[] = {
     {"embree", "Embree's rtcCollide over trees of its own, on all host threads",
      make_embree_collider, embree_absent, embree_bytes, true, false},
     {"fcl", "triangles that intersect, by FCL, its trees built each time, on a host core",
-     make_fcl_collider, fcl_absent, fcl_bytes, true, false},
+     make_fcl_collider, fcl_absent, fcl_bytes, true, false, true},
     {"fcl-refit", "the same, its trees refit to moved points", make_fcl_refit_collider, fcl_absent,
-     fcl_bytes, true, false},
+     fcl_bytes, true, false, true},
 };
 
 }  // namespace

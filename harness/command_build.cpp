@@ -6,6 +6,7 @@
 #include "harness/dump.h"
 #include "harness/report.h"
 #include "harness/run.h"
+#include "scenes/face_order.h"
 
 namespace bvhbench {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 /// Build once more and write the tree: measuring has its own copy of the scene, which is gone by now.
 void dump(Session& session, const BuildCommand& command, const Output& output)
 {
-    const Scene scene = load_scene(command.scene, session.scenes());
+    const Scene scene = in_file_order(load_scene(command.scene, session.scenes()));
     const Input input =
         upload(session.device(), session.queue(), scene.frames.front(), scene.faces);
     Builder& builder = session.builder(command.builder);

@@ -9,6 +9,7 @@
 #include "harness/progress.h"
 #include "harness/run.h"
 #include "harness/table.h"
+#include "scenes/face_order.h"
 
 namespace bvhbench {
 namespace {
@@ -160,7 +161,7 @@ int check(const CheckCommand& command, const Options& options)
     if (command.scene.empty()) {
         check_hard_inputs(checker);
     } else {
-        const Scene scene = load_scene(command.scene, session.scenes());
+        const Scene scene = in_file_order(load_scene(command.scene, session.scenes()));
         std::vector<Tally> tallies = checker.none();
         for (const std::vector<Point>& points : scene.frames)
             checker.over(points, scene.faces, tallies);

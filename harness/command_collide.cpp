@@ -17,6 +17,24 @@
 namespace bvhbench {
 namespace {
 
+/// Whether --pairs and --contacts have something to write.
+void check_lists(const CollideCommand& command, const FrameRange& frames)
+{
+    for (const std::string& path : {command.pairs, command.contacts})
+        if (!path.empty()) {
+            check_pairs_path(path, frames);
+            if (command.scenes.size() > 1)
+                throw BadUsage("--pairs and --contacts write those of one scene, and there are " +
+                               std::to_string(command.scenes.size()));
+        }
+    const bool finds_contacts = find_collider(command.collider.name).finds_contacts;
+    if (!command.pairs.empty() && finds_contacts)
+        throw BadUsage("collider " + command.collider.name +
+                       " finds contacts and no pairs of boxes: --contacts, not --pairs");
+    if (!command.contacts.empty() && !finds_contacts && command.collider.narrow == "none")
+        throw BadUsage("--contacts needs a narrow phase: --narrow exact");
+}
+
 /// Wrong words are found before anything is opened.
 CollideTask task_of(const CollideCommand& command)
 {
@@ -25,14 +43,10 @@ CollideTask task_of(const CollideCommand& command)
     check_boxes(command.builder);
     find_collider(command.collider.name);
     check_narrow(command.collider.narrow, command.collider.keep_adjacent);
-    for (const std::string& path : {command.pairs, command.contacts})
-        if (!path.empty())
-            check_pairs_path(path);
-    if (!command.contacts.empty() && command.collider.narrow == "none")
-        throw BadUsage("--contacts needs a narrow phase: --narrow exact");
     CollideTask task;
     task.objects = objects_by_called(command.objects);
     task.frames = frame_range(command.frames);
+    check_lists(command, task.frames);
     task.between = command.between;
     task.swept = command.swept;
     task.pipelines = {{command.builder, command.collider}};
@@ -69,8 +83,12 @@ int collide(const CollideCommand& command, const Options& options)
     Output json(command.json, "--json", rules);
     ResultFile results(std::move(json), measured_facts(session, options.words),
                        session.watchdog().run_id());
-    session.watchdog().keep_by(results.document().run.id, [&] { results.keep(); });
-    Found last;
+    PairsFile pairs_file(pairs, task.swept), contacts_file(contacts, task.swept);
+    session.watchdog().keep_by(results.document().run.id, [&] {
+        results.keep();
+        pairs_file.discard();  // the program begins anew
+        contacts_file.discard();
+    });
     int order = results.next_order();
     for (std::size_t i = 0; i < command.scenes.size(); ++i) {
         task.scene = command.scenes[i];
@@ -78,9 +96,13 @@ int collide(const CollideCommand& command, const Options& options)
         collide_frames(
             session, task, order,
             [&](std::vector<Cell>&& cells, const Found& found) {
+                const auto frame = static_cast<std::size_t>(cells.front().scene.frame);
                 for (Cell& cell : cells)
                     results.add(std::move(cell));
-                last = found;
+                if (found.scene == nullptr)
+                    return;
+                pairs_file.add(found.pairs, frame, *found.scene);
+                contacts_file.add(found.contacts, frame, *found.scene);
             },
             [&](std::size_t cells) { return results.pass(cells); });
     }
@@ -94,10 +116,8 @@ int collide(const CollideCommand& command, const Options& options)
     std::cout << swept_report(document);
     std::cout << skips_report(document);
     const int code = exit_code_of(document);
-    if (!pairs.is_nowhere())
-        write_pairs(pairs, last.pairs);
-    if (!contacts.is_nowhere())
-        write_pairs(contacts, last.contacts);
+    pairs_file.finish();
+    contacts_file.finish();
     return code;
 }
 

@@ -212,7 +212,7 @@ void add_collide(CLI::App& app, CollideCommand& collide, std::string& leaves, st
     add_sampling(*command, collide.sampling);
     command->add_option("--json", collide.json, "write the result file");
     command->add_option("--pairs", collide.pairs,
-                        "write the last frame's pairs: .csv, or .bin of 32-bit ids");
+                        "write the pairs of every frame: .csv, or of one frame .bin of 32-bit ids");
     command->add_option("--contacts", collide.contacts, "the same of the pairs that intersect");
 }
 

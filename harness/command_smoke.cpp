@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <fstream>
 #include <iostream>
-#include <iterator>
 
 #include "geometry/error.h"
 #include "harness/commands.h"
+#include "harness/output.h"
 #include "harness/report.h"
 #include "harness/run.h"
 #include "harness/smoke.h"
@@ -16,12 +15,10 @@ namespace {
 
 SmokeBaseline read_baseline(const std::filesystem::path& path, const std::string& kind)
 {
-    std::ifstream file(path, std::ios::binary);
-    const std::string text(std::istreambuf_iterator<char>(file), {});
-    if (!file.is_open() || file.bad())
+    if (std::error_code error; !std::filesystem::exists(path, error))
         throw Unavailable("there is no baseline '" + path.string() +
                           "' to hold this run to; smoke --update makes it");
-    SmokeBaseline baseline = read_smoke(text, path.string());
+    SmokeBaseline baseline = read_smoke(file_text(path, "the baseline"), path.string());
     if (baseline.device_kind != kind)
         throw BadUsage(path.string() + " is of a device of kind " + baseline.device_kind +
                        ", and this one is of kind " + kind);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "harness/failure.h"
 
+#include <filesystem>
 #include <new>
 
 #include "device/cl.h"
@@ -15,6 +16,8 @@ std::string sentence_of(const std::exception& error)
         return std::string(from_cl->what()) + " failed: " + opencl_error_name(from_cl->err());
     if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr)
         return "the host has not enough memory";
+    if (const auto* of_file = dynamic_cast<const std::filesystem::filesystem_error*>(&error))
+        return of_file->path1().string() + ": " + of_file->code().message();
     return error.what();
 }
 

@@ -71,15 +71,28 @@ private:
     std::vector<std::unique_ptr<Entry>> entries_;
 };
 
+/// Pairs by the numbers that a file's triangles have in it, where objects have put them into another order.
+PairList numbered_as_in_file(PairList pairs, std::span<const uint> file_faces)
+{
+    if (file_faces.empty())
+        return pairs;
+    std::vector<Pair> numbered;
+    numbered.reserve(pairs.size());
+    for (const Pair pair : pairs.pairs())
+        numbered.push_back({file_faces[pair.a], file_faces[pair.b]});
+    return PairList(std::move(numbered));
+}
+
 /// Hold a list to the oracle's. What differs is added to the check.
-void hold(const PairList& found, const PairList& expected, const std::string& what, Check& check)
+void hold(const PairList& found, const PairList& expected, const std::string& what,
+          std::span<const uint> file_faces, Check& check)
 {
     std::string detail;
     if (found.surplus() > 0)
         detail = std::to_string(found.surplus()) + ' ' + what + " were found twice";
     else if (found != expected)
         detail = "the oracle has " + std::to_string(expected.size()) + ' ' + what +
-                 " of the hash " + hex(expected.hash());
+                 " of the hash " + hex(numbered_as_in_file(expected, file_faces).hash());
     if (detail.empty())
         return;
     find_wrong(check, detail);
@@ -131,30 +144,32 @@ void judge(const Pipeline& pipeline, Cell& cell, FrameOracle& oracle, const Fram
     check = {.verdict = Check::Verdict::agrees, .against = {}, .detail = {}};
     found = {};
     if (pipeline.has_pairs()) {
-        found.pairs = pipeline.pairs();
+        PairList pairs = pipeline.pairs();
         check.against = "brute";
-        check.pairs_hash = found.pairs.hash();
         if (find_box_format(cell.builder.boxes).has_cells())
-            hold_candidates(found.pairs, oracle.pairs(choice), !pipeline.has_contacts(), cell);
+            hold_candidates(pairs, oracle.pairs(choice), !pipeline.has_contacts(), cell);
         else
-            hold(found.pairs, oracle.pairs(choice), "pairs", check);
+            hold(pairs, oracle.pairs(choice), "pairs", frame.file_faces, check);
         if (!cell.swept.pairs.empty())
-            counted_errors(found.pairs, oracle.pairs(choice), cell);
+            counted_errors(pairs, oracle.pairs(choice), cell);
+        found.pairs = numbered_as_in_file(std::move(pairs), frame.file_faces);
+        check.pairs_hash = found.pairs.hash();
     }
     if (pipeline.has_contacts()) {
-        found.contacts = pipeline.contacts();
-        check.contacts_hash = found.contacts.hash();
+        PairList contacts = pipeline.contacts();
         if (has_exact_reference) {
             check.against += check.against.empty() ? "CGAL" : ", CGAL";
             const bool by_collider = pipeline.collider().finds_contacts();
             if (by_collider || find_narrow_method(choice.narrow).is_exact)
-                hold(found.contacts, oracle.contacts(choice), "contacts", check);
+                hold(contacts, oracle.contacts(choice), "contacts", frame.file_faces, check);
             else
-                count_errors(found.contacts, oracle.contacts(choice), cell);
+                count_errors(contacts, oracle.contacts(choice), cell);
         } else if (check.verdict == Check::Verdict::agrees) {
             check.verdict = Check::Verdict::not_checked;
             check.detail = "contacts: built without CGAL";
         }
+        found.contacts = numbered_as_in_file(std::move(contacts), frame.file_faces);
+        check.contacts_hash = found.contacts.hash();
     }
     if (frame.judge_more)
         frame.judge_more(found, cell);

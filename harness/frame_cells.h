@@ -31,6 +31,8 @@ struct FrameOfPipelines {
     SceneFacts scene;
     SweptFacts swept = {};
     std::vector<Motion> motions = {};  ///< since the frame before, if that is known
+    std::span<const uint> file_faces =
+        {};  ///< by which numbers triangles are shown (Scene::file_faces)
     /// What else to hold to what a pipeline found, besides the oracles.
     std::function<void(const Found& found, Cell& cell)> judge_more = {};
 };

@@ -2,6 +2,7 @@
 #include "harness/frames.h"
 
 #include "geometry/error.h"
+#include "scenes/face_order.h"
 
 namespace bvhbench {
 namespace {
@@ -47,9 +48,12 @@ void Frames::upload(Session& session, bool by_objects)
     if (by_objects)
         for (const SceneObject& object : scene_.objects)
             objects.push_back({object.first_face, object.face_count});
+    else if (!scene_.file_faces.empty())
+        file_faces_ = faces_in_file(scene_);
+    const std::vector<Face>& faces = file_faces_.empty() ? scene_.faces : file_faces_;
     const auto on_device = [&](std::size_t frame) {
-        return bvhbench::upload(session.device(), session.queue(), scene_.frames[frame],
-                                scene_.faces, objects);
+        return bvhbench::upload(session.device(), session.queue(), scene_.frames[frame], faces,
+                                objects);
     };
     now_ = on_device(frame_);
     if (frame_ > 0)

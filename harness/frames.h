@@ -30,6 +30,8 @@ public:
 
 private:
     Scene scene_;
+    std::vector<Face>
+        file_faces_;  ///< those of a scene whose triangles are in another order, as one object
     std::string name_;
     std::size_t frame_ = 0;
     Input now_, before_;

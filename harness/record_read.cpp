@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/error.h"
+#include "harness/json_reason.h"
 #include "harness/record.h"
 
 namespace bvhbench {
@@ -344,7 +345,7 @@ Document read_document(const std::string& text, const std::string& origin)
         document.minor = minor_of(format);
         return document;
     } catch (const Json::exception& error) {
-        throw Unavailable(origin + " is no result file: " + error.what());
+        throw Unavailable(origin + " is no result file: " + json_reason(error));
     } catch (const std::logic_error& error) {  // a number or word that is none
         throw Unavailable(origin + " is no result file: " + error.what());
     }

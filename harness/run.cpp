@@ -30,9 +30,8 @@ std::vector<PipelineChoice> chosen(const CollideTask& task, const CellFilter& fi
 {
     std::vector<PipelineChoice> pipelines = task.pipelines;
     std::erase_if(pipelines, [&](const PipelineChoice& pipeline) {
-        return filter && !std::regex_search(task.scene + '/' + pipeline.builder.name + '/' +
-                                                pipeline.collider.name,
-                                            *filter);
+        return filter && !filter->is_in(task.scene + '/' + pipeline.builder.name + '/' +
+                                        pipeline.collider.name);
     });
     return pipelines;
 }
@@ -42,7 +41,7 @@ std::vector<BuilderChoice> chosen(const Experiment& experiment, const std::strin
 {
     std::vector<BuilderChoice> builders;
     for (const BuilderChoice& builder : experiment.builders)
-        if (!filter || std::regex_search(scene + '/' + builder.name, *filter))
+        if (!filter || filter->is_in(scene + '/' + builder.name))
             builders.push_back(builder);
     return builders;
 }
@@ -122,11 +121,7 @@ CellFilter cell_filter(const std::string& text)
 {
     if (text.empty())
         return std::nullopt;
-    try {
-        return std::regex(text);
-    } catch (const std::regex_error& error) {
-        throw BadUsage("--filter: '" + text + "' is no regular expression: " + error.what());
-    }
+    return Pattern(text, "--filter");
 }
 
 bool has_cells(const Experiment& experiment, const CellFilter& filter)

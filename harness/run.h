@@ -2,9 +2,9 @@
 #pragma once
 
 #include <optional>
-#include <regex>
 
 #include "harness/experiment.h"
+#include "harness/pattern.h"
 #include "harness/progress.h"
 #include "harness/result_file.h"
 #include "harness/session.h"
@@ -15,7 +15,7 @@ class Frames;
 class Oracle;
 
 /// Which cells to run: those whose "scene/builder" it matches; all without one.
-using CellFilter = std::optional<std::regex>;
+using CellFilter = std::optional<Pattern>;
 
 /// What --filter says; none if it is empty. Throws BadUsage if it is no regular expression.
 CellFilter cell_filter(const std::string& text);

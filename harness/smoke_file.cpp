@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/error.h"
+#include "harness/json_reason.h"
 #include "harness/smoke.h"
 
 namespace bvhbench {
@@ -54,7 +55,7 @@ SmokeBaseline read_smoke(const std::string& text, const std::string& origin)
                                       .fastest_ns = cell.value("fastest_ns", 0.0)});
         return baseline;
     } catch (const Json::exception& error) {
-        throw Unavailable(origin + " is no baseline of smoke: " + error.what());
+        throw Unavailable(origin + " is no baseline of smoke: " + json_reason(error));
     }
 }
 

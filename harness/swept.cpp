@@ -155,6 +155,7 @@ void collide_swept(Session& session, const CollideTask& task, int& order,
             };
             Found found;
             std::vector<Cell> cells = run_frame(session, task, question.running, now, order, found);
+            found.scene = &scene;
             add(std::move(cells), found);
         }
     }

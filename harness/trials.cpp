@@ -15,6 +15,7 @@
 #include "harness/check.h"
 #include "harness/collider_catalog.h"
 #include "harness/pipeline.h"
+#include "scenes/face_order.h"
 
 namespace bvhbench {
 namespace {
@@ -225,7 +226,7 @@ TuneTarget::TuneTarget(Session& session, TuneTask task)
     : session_(session), task_(std::move(task)), over_(std::make_unique<Over>())
 {
     check_target(task_.target);
-    over_->scene = load_scene(task_.scene, session.scenes());
+    over_->scene = in_file_order(load_scene(task_.scene, session.scenes()));
     over_->input =
         upload(session.device(), session.queue(), over_->scene.frames.front(), over_->scene.faces);
     over_->oracle.emplace(session, over_->input);

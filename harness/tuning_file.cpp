@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <vector>
 
 #include "baselines/parameters.h"
@@ -13,6 +11,8 @@
 #include "collide/parameters.h"
 #include "geometry/error.h"
 #include "harness/json_keys.h"
+#include "harness/json_reason.h"
+#include "harness/output.h"
 
 namespace bvhbench {
 namespace {
@@ -107,7 +107,7 @@ TuningFile parse_tuning(std::string_view text, const std::string& origin)
     try {
         return file_of(Json::parse(text), origin);
     } catch (const Json::exception& error) {
-        throw Unavailable(origin + ": " + error.what());
+        throw Unavailable(origin + ": " + json_reason(error));
     } catch (const BadUsage& error) {
         throw Unavailable(origin + ": " + error.what());
     }
@@ -115,11 +115,7 @@ TuningFile parse_tuning(std::string_view text, const std::string& origin)
 
 TuningFile read_tuning(const std::filesystem::path& path)
 {
-    std::ifstream stream(path, std::ios::binary);
-    const std::string text(std::istreambuf_iterator<char>(stream), {});
-    if (!stream.is_open() || stream.bad())
-        throw Unavailable("the tuning file '" + path.string() + "' cannot be read");
-    return parse_tuning(text, path.string());
+    return parse_tuning(file_text(path, "the tuning file"), path.string());
 }
 
 std::string tuning_text(const TuningFile& file)

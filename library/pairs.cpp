@@ -14,9 +14,16 @@ constexpr std::pair<std::string_view, MakeCollider> collider_names[] = {
 
 bvhbench::Among internal(Among among)
 {
-    return among == Among::all               ? bvhbench::Among::all
-           : among == Among::between_objects ? bvhbench::Among::between_objects
-                                             : bvhbench::Among::within_objects;
+    switch (among) {
+        case Among::all:
+            return bvhbench::Among::all;
+        case Among::between_objects:
+            return bvhbench::Among::between_objects;
+        case Among::within_objects:
+            return bvhbench::Among::within_objects;
+    }
+    throw BadUsage("a query is among all, between_objects or within_objects, not " +
+                   std::to_string(static_cast<int>(among)));
 }
 
 }  // namespace
@@ -43,19 +50,16 @@ std::unique_ptr<Collider> make_collider(Programs& programs, std::string_view nam
     return nullptr;
 }
 
-ColliderOptions Tree::Impl::collider_options(Among among) const
-{
-    return {.among = internal(among), .keep_adjacent = options.adjacent_pairs};
-}
-
 Pairs Tree::Impl::find_pairs(Among among)
 {
     const ImplicitTree& over = standing("a query");
+    const bvhbench::Among wanted = internal(among);
     begin();
     last_query = nullptr;
     Query& query = queries[static_cast<std::size_t>(among)];
     if (query.collider == nullptr)
-        query.collider = make_collider(device->programs, collider_name, collider_options(among));
+        query.collider = make_collider(device->programs, collider_name,
+                                       {.among = wanted, .keep_adjacent = options.adjacent_pairs});
     if (!std::exchange(query.is_ready, false))  // until all has gone well
         query.collider->reserve(&over, taker.taken());
     bvhbench::find_pairs(*query.collider, &over, taker.taken(), device->queue);

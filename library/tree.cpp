@@ -32,9 +32,16 @@ std::unique_ptr<Builder> make_builder(Device::Impl& device, const Options& optio
 
 TreeUpdate internal(Update update)
 {
-    return update == Update::rebuild ? TreeUpdate::rebuild
-           : update == Update::refit ? TreeUpdate::refit
-                                     : TreeUpdate::keep;
+    switch (update) {
+        case Update::rebuild:
+            return TreeUpdate::rebuild;
+        case Update::refit:
+            return TreeUpdate::refit;
+        case Update::keep:
+            return TreeUpdate::keep;
+    }
+    throw BadUsage("an update is rebuild, refit or keep, not " +
+                   std::to_string(static_cast<int>(update)));
 }
 
 template <class T, class U>

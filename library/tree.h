@@ -36,7 +36,6 @@ struct Tree::Impl {
     std::vector<Pair> read_pairs() const;
 
     std::size_t memory() const;
-    ColliderOptions collider_options(Among among) const;
 
     std::shared_ptr<Device::Impl> device;  ///< outlives all the others
     Options options;

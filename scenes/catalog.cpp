@@ -123,17 +123,16 @@ std::string path_in_library(const std::filesystem::path& path, const SceneLibrar
 Scene from_path(const std::filesystem::path& path, const SceneLibrary& library)
 {
     Scene scene;
-    if (std::filesystem::is_directory(path)) {
+    std::error_code error;
+    if (std::filesystem::is_directory(path, error)) {
         scene = read_sequence(path, limits_of(library), library.doubles);
         scene.folder = path;
     } else {
         FileMesh file = read_mesh_file(path, limits_of(library));
-        scene.faces = std::move(file.mesh.faces);
-        scene.objects = std::move(file.objects);
-        scene.has_meshes = !scene.objects.empty();
         scene.frames.push_back(std::move(file.mesh.points));
         if (!file.floats_hold)
             scene.rounding = round_frames({&file.wide, 1}, library.doubles, scene.frames);
+        take_mesh(scene, std::move(file));
     }
     scene.source = path_in_library(path, library);
     return scene;

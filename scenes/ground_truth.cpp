@@ -2,7 +2,6 @@
 #include "scenes/ground_truth.h"
 
 #include <algorithm>
-#include <cassert>
 #include <functional>
 
 #include "geometry/error.h"
@@ -101,7 +100,6 @@ std::size_t only_step(const Scene& scene)
 
 std::optional<GroundTruth> ground_truth_of(const Scene& scene, const SweptParts& edges)
 {
-    assert(scene.file_faces.empty());
     if (scene.folder.empty())
         return std::nullopt;
     const std::optional<StepFacts> said = step_facts(scene, scene.folder / "meta.json");

@@ -24,7 +24,7 @@ struct GroundTruth {
     std::optional<std::uint64_t> swept_vertex_face, swept_edge_edge;
 };
 
-/// The ground truth of the folder that the scene's frames were read from, with the triangles in the order of the file;
+/// The ground truth of the folder that the scene's frames were read from, with the numbers that triangles have in it;
 /// nothing where there is none. `edges` are its unique_edges. What meta.json says is held to what is listed. Throws
 /// Unavailable, in one sentence, naming file and line, for what is not understood or names what the scene does not have.
 std::optional<GroundTruth> ground_truth_of(const Scene& scene, const SweptParts& edges);

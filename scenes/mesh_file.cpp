@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "geometry/error.h"
+#include "scenes/face_order.h"
 #include "scenes/worker/assimp_reader.h"
 
 namespace bvhbench {
@@ -42,8 +43,10 @@ void check_is_file(const std::filesystem::path& path)
 {
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
-    if (!std::filesystem::exists(status))
+    if (status.type() == std::filesystem::file_type::not_found)
         throw Unavailable("there is no file " + path.string());
+    if (error)
+        throw Unavailable(path.string() + " cannot be read: " + error.message());
     if (!std::filesystem::is_regular_file(status))
         throw Unavailable(path.string() + " is not a file");
 }
@@ -84,6 +87,16 @@ FileMesh read_mesh_file(const std::filesystem::path& path, const WorkerLimits& l
     if (file.mesh.faces.empty())
         throw Unavailable(path.string() + " has no triangles");
     return file;
+}
+
+void take_mesh(Scene& scene, FileMesh&& file)
+{
+    scene.faces = std::move(file.mesh.faces);
+    scene.objects = std::move(file.objects);
+    scene.object_ids = std::move(file.object_ids);
+    scene.has_meshes = !scene.objects.empty();
+    if (!file.object_of_face.empty())
+        group_faces(scene, file.object_of_face);
 }
 
 }  // namespace bvhbench

@@ -15,4 +15,7 @@ bool is_mesh_file(const std::filesystem::path& path);
 /// else assimp knows by assimp in a worker. Throws Unavailable.
 FileMesh read_mesh_file(const std::filesystem::path& path, const WorkerLimits& limits);
 
+/// Makes the file's triangles and objects the scene's, grouped (scenes/face_order.h). Not its points.
+void take_mesh(Scene& scene, FileMesh&& file);
+
 }  // namespace bvhbench

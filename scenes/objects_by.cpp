@@ -1,58 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "scenes/objects_by.h"
 
-#include <iterator>
+#include <utility>
 
 #include "geometry/error.h"
+#include "scenes/face_order.h"
 #include "scenes/finish.h"
-#include "scenes/parts.h"
 
 namespace bvhbench {
 namespace {
-
-/// The triangles by part, each part's as they were: where each place's triangle came from.
-std::vector<uint> order_by_part(const Parts& parts)
-{
-    std::vector<uint> next(parts.count + std::size_t{1}, 0);
-    for (const uint part : parts.of_face)
-        ++next[part + 1];
-    for (uint part = 0; part < parts.count; ++part)
-        next[part + 1] += next[part];
-    std::vector<uint> from(parts.of_face.size());
-    for (uint k = 0; k < from.size(); ++k)
-        from[next[parts.of_face[k]]++] = k;
-    return from;
-}
-
-bool is_identity(const std::vector<uint>& order)
-{
-    for (uint k = 0; k < order.size(); ++k)
-        if (order[k] != k)
-            return false;
-    return true;
-}
-
-template <class T>
-std::vector<T> taken(const std::vector<T>& values, const std::vector<uint>& from)
-{
-    std::vector<T> result;
-    result.reserve(from.size());
-    for (const uint k : from)
-        result.push_back(values[k]);
-    return result;
-}
-
-void divide_by_component(Scene& scene)
-{
-    const Parts parts = parts_of(scene.faces, scene.frames.front().size());
-    std::vector<uint> from = order_by_part(parts);
-    if (!is_identity(from)) {
-        scene.faces = taken(scene.faces, from);
-        scene.file_faces =
-            scene.file_faces.empty() ? std::move(from) : taken(scene.file_faces, from);
-    }
-    scene.objects = connected_parts(scene.faces, scene.frames.front().size());
-}
 
 constexpr std::pair<const char*, ObjectsBy> names[] = {
     {"auto", ObjectsBy::automatic},
@@ -85,9 +41,11 @@ Scene with_objects(Scene scene, ObjectsBy by)
             return scene;
         case ObjectsBy::one:
             scene.objects.clear();  // finishing makes it one
+            scene.object_ids.clear();
+            scene = in_file_order(std::move(scene));
             break;
         case ObjectsBy::components:
-            divide_by_component(scene);
+            group_by_parts(scene);
             break;
     }
     scene.has_meshes = false;

@@ -20,9 +20,8 @@ ObjectsBy objects_by_called(std::string_view name);
 
 /// `scene` with its objects chosen so, finished again (the content hash covers objects).
 ///
-/// An object is a run of triangles, but a file may have those of a component among others. They are then put
-/// into another order: components by their first triangle, triangles of one as they were, and `file_faces` tells
-/// which triangle of the file each one is. Vertices and their numbers stay.
+/// Components are in the order of their first triangles, and their triangles are grouped (scenes/face_order.h); those of
+/// one object are in the order of the file. Vertices and their numbers stay.
 /// Throws BadUsage by `mesh` when the scene's source names no objects.
 Scene with_objects(Scene scene, ObjectsBy by);
 

@@ -54,19 +54,4 @@ Parts parts_of(const std::vector<Face>& faces, std::size_t vertices)
     return parts;
 }
 
-std::vector<SceneObject> connected_parts(const std::vector<Face>& faces, std::size_t vertices)
-{
-    const Parts parts = parts_of(faces, vertices);
-    std::vector<SceneObject> objects;
-    for (uint k = 0; k < faces.size(); ++k) {
-        const uint part = parts.of_face[k];
-        if (part + 1 < objects.size())
-            return {};  // it went on after another one began
-        if (part == objects.size())
-            objects.push_back({"part " + std::to_string(part), k, 0});
-        ++objects.back().face_count;
-    }
-    return objects;
-}
-
 }  // namespace bvhbench

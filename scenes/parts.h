@@ -14,8 +14,4 @@ struct Parts {
 /// Two triangles that name a common vertex are of one part.
 Parts parts_of(const std::vector<Face>& faces, std::size_t vertices);
 
-/// The connected parts of a mesh as objects, in order of their first triangles; none if the triangles of
-/// some part do not follow each other.
-std::vector<SceneObject> connected_parts(const std::vector<Face>& faces, std::size_t vertices);
-
 }  // namespace bvhbench

@@ -38,8 +38,10 @@ struct Scene {
     std::vector<std::string>
         frame_labels;  ///< what the frames are called where they come from, or empty
     /// Which triangle of the file (or generator) triangle k is; empty: it is k. Not empty once triangles were
-    /// put into another order so that those of an object follow each other (scenes/objects_by.h).
+    /// put into another order so that those of an object follow each other (scenes/face_order.h).
     std::vector<uint> file_faces;
+    /// The number that the file gives object k; empty: it is k.
+    std::vector<std::int64_t> object_ids;
     std::string
         source;  ///< "generated", or the file that was read: its path in the data folder if it is there
     std::filesystem::path folder;  ///< where these frames were read from and more may be said of them, or empty

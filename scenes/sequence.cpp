@@ -6,8 +6,8 @@
 #include <map>
 
 #include "geometry/error.h"
+#include "scenes/face_order.h"
 #include "scenes/formats/text.h"
-#include "scenes/parts.h"
 #include "scenes/sequence_facts.h"
 
 namespace bvhbench {
@@ -29,7 +29,8 @@ std::vector<std::vector<Point>> read_frames(const std::filesystem::path& path, s
     return frames;
 }
 
-/// The last number in a file's name, by which frames are ordered.
+/// The last number in a file's name, by which frames are ordered; nothing if there is none. Throws Unavailable if it is
+/// too large.
 std::optional<std::int64_t> frame_number(const std::filesystem::path& path)
 {
     const std::string stem = path.stem().string();
@@ -38,7 +39,11 @@ std::optional<std::int64_t> frame_number(const std::filesystem::path& path)
         return std::nullopt;
     const std::size_t before = stem.find_last_not_of("0123456789", end);
     const std::size_t begin = before == stem.npos ? 0 : before + 1;
-    return parse_integer(std::string_view(stem).substr(begin, end + 1 - begin));
+    const auto number = parse_integer(std::string_view(stem).substr(begin, end + 1 - begin));
+    if (!number)
+        throw Unavailable(path.string() +
+                          " has a frame number above 2^63 - 1, the largest there is");
+    return number;
 }
 
 struct NumberedFile {
@@ -49,9 +54,16 @@ struct NumberedFile {
 std::vector<NumberedFile> numbered_files(const std::filesystem::path& folder)
 {
     std::map<std::int64_t, std::filesystem::path> files;
-    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    std::error_code error;
+    const std::filesystem::directory_iterator entries(folder, error);
+    if (error)
+        throw Unavailable(folder.string() + " cannot be read: " + error.message());
+    for (const auto& entry : entries) {
+        // Whatever else is called like a frame is one: reading it says why it cannot be.
+        if (!is_mesh_file(entry.path()) || entry.is_directory(error))
+            continue;
         const auto number = frame_number(entry.path());
-        if (!entry.is_regular_file() || !is_mesh_file(entry.path()) || !number)
+        if (!number)
             continue;
         if (!files.emplace(*number, entry.path()).second)
             throw Unavailable(folder.string() + " has two files for frame " +
@@ -91,25 +103,24 @@ Scene read_numbered(const std::filesystem::path& folder, const WorkerLimits& lim
         throw Unavailable(folder.string() +
                           " has neither mesh.ply and frames.f32 nor numbered mesh files");
     Scene scene;
+    FileMesh first;
     bool floats_hold = true;
     for (const auto& [number, path] : files) {
         FileMesh file = read_mesh_file(path, limits);
         floats_hold = floats_hold && file.floats_hold;
-        if (scene.frames.empty()) {
-            scene.faces = std::move(file.mesh.faces);
-            scene.objects = std::move(file.objects);
-        } else if (!same(scene.faces, file.mesh.faces)) {
+        if (!scene.frames.empty() && !same(first.mesh.faces, file.mesh.faces))
             throw Unavailable(path.string() + " has other triangles than " +
                               files[0].path.string() + ", and frames share theirs");
-        }
         scene.frames.push_back(std::move(file.mesh.points));
+        if (scene.frames.size() == 1)
+            first = std::move(file);
         scene.frame_labels.push_back(std::to_string(number));
     }
     if (!floats_hold)
         scene.rounding = round_frames(wide_frames(files, limits), doubles, scene.frames);
-    scene.has_meshes = !scene.objects.empty();
+    take_mesh(scene, std::move(first));
     if (scene.objects.empty())
-        scene.objects = connected_parts(scene.faces, scene.frames[0].size());
+        group_by_parts(scene);
     return scene;
 }
 
@@ -118,14 +129,13 @@ Scene read_numbered(const std::filesystem::path& folder, const WorkerLimits& lim
 Scene read_sequence(const std::filesystem::path& folder, const WorkerLimits& limits,
                     Doubles doubles)
 {
-    if (!std::filesystem::exists(folder / "mesh.ply"))
+    std::error_code error;
+    if (!exists(symlink_status(folder / "mesh.ply", error)))
         return read_numbered(folder, limits, doubles);
     FileMesh file = read_mesh_file(folder / "mesh.ply", limits);
     Scene scene;
     scene.frames = read_frames(folder / "frames.f32", file.mesh.points.size());
-    scene.faces = std::move(file.mesh.faces);
-    scene.objects = std::move(file.objects);
-    scene.has_meshes = !scene.objects.empty();
+    take_mesh(scene, std::move(file));
     add_sequence_facts(scene, folder / "meta.json");
     return scene;
 }

@@ -66,6 +66,7 @@ void take_objects(Scene& scene, std::vector<SceneObject> table)
         if (!is_division || covered != scene.faces.size())
             throw Fault{"has objects that do not cover the mesh's triangles one after the other"};
         scene.objects = std::move(table);
+        scene.object_ids.clear();
         return;
     }
     if (table.size() != scene.objects.size())
@@ -73,12 +74,13 @@ void take_objects(Scene& scene, std::vector<SceneObject> table)
                     std::to_string(scene.objects.size())};
     for (std::size_t k = 0; k < table.size(); ++k) {
         SceneObject& object = scene.objects[k];
-        if (table[k].first_face != object.first_face || table[k].face_count != object.face_count)
+        const uint first =
+            scene.file_faces.empty() ? object.first_face : scene.file_faces[object.first_face];
+        if (table[k].first_face != first || table[k].face_count != object.face_count)
             throw Fault{"has an object, '" + table[k].name + "', over " +
                         std::to_string(table[k].face_count) + " triangles from " +
                         std::to_string(table[k].first_face) + ", and the mesh has " +
-                        std::to_string(object.face_count) + " from " +
-                        std::to_string(object.first_face)};
+                        std::to_string(object.face_count) + " from " + std::to_string(first)};
         object.name = table[k].name;
     }
 }

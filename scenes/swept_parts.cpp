@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "scenes/face_order.h"
+
 namespace bvhbench {
 
 SweptParts vertices_and_faces(const Scene& scene)
@@ -12,7 +14,8 @@ SweptParts vertices_and_faces(const Scene& scene)
     parts.faces.reserve(vertices + scene.faces.size());
     for (uint vertex = 0; vertex < vertices; ++vertex)
         parts.faces.push_back({vertex, vertex, vertex});
-    parts.faces.insert(parts.faces.end(), scene.faces.begin(), scene.faces.end());
+    const std::vector<Face> faces = faces_in_file(scene);
+    parts.faces.insert(parts.faces.end(), faces.begin(), faces.end());
     return parts;
 }
 

@@ -14,7 +14,7 @@ struct SweptParts {
     std::vector<FaceRange> objects;  ///< those of one are held against the other's, or their own
 };
 
-/// All vertices, used or not, and behind them all faces, an object each: vertex-face pairs are those between the two.
+/// All vertices, used or not, and behind them all faces in the order of the file, an object each: vertex-face pairs are those between the two.
 SweptParts vertices_and_faces(const Scene& scene);
 
 /// Each edge of the faces once, by its larger vertex and then by its smaller one, the smaller one named first; of a face

@@ -5,8 +5,8 @@
 
 #include <functional>
 #include <optional>
-#include <regex>
 
+#include "harness/pattern.h"
 #include "harness/stress/systems.h"
 #include "scenes/stress/stress_scene.h"
 
@@ -18,12 +18,11 @@ using AddStressCell = std::function<void(StressCell&&)>;
 /// What is asked for: cells whose "family/scene/system" the filter matches.
 struct StressTask {
     StressSize size;
-    std::optional<std::regex> filter;
+    std::optional<Pattern> filter;
 
     bool wants(const StressCell& cell) const
     {
-        return !filter ||
-               std::regex_search(cell.family + '/' + cell.scene + '/' + cell.system, *filter);
+        return !filter || filter->is_in(cell.family + '/' + cell.scene + '/' + cell.system);
     }
 };
 

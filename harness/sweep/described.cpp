@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "geometry/error.h"
+#include "harness/json_reason.h"
 #include "harness/result_file.h"
 
 namespace bvhbench {
@@ -32,7 +33,7 @@ Json described(const SweepCommand& command)
         try {
             json = Json::parse(file_text(command.file, "the sweep's file"));
         } catch (const Json::exception& error) {
-            throw BadUsage(command.file + ": " + error.what());
+            throw BadUsage(command.file + ": " + json_reason(error));
         }
         if (!json.is_object())
             throw BadUsage(command.file + ": a sweep must be an object");
@@ -66,7 +67,7 @@ Sweep sweep_described(const SweepCommand& command)
     } catch (const BadUsage& error) {
         throw BadUsage(origin + error.what());
     } catch (const Json::exception& error) {
-        throw BadUsage(origin + error.what());
+        throw BadUsage(origin + json_reason(error));
     }
 }
 

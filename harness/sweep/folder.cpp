@@ -8,6 +8,7 @@
 
 #include "geometry/error.h"
 #include "geometry/hash.h"
+#include "harness/json_reason.h"
 #include "harness/result_file.h"
 #include "harness/table.h"
 
@@ -40,7 +41,7 @@ std::optional<Json> plan_in(const fs::path& path)
             throw Unavailable(path.string() + " is of a newer program");
         return plan;
     } catch (const Json::exception& error) {
-        throw Unavailable(path.string() + " is no plan of a sweep: " + error.what());
+        throw Unavailable(path.string() + " is no plan of a sweep: " + json_reason(error));
     }
 }
 

@@ -18,10 +18,14 @@
 
 namespace bvhbench {
 
-/// What a mesh file holds. Without objects, all faces are one.
+/// What a mesh file holds, with the faces in its order. Without objects, all faces are one.
 struct FileMesh {
     Mesh mesh;
     std::vector<SceneObject> objects;
+    /// The place in `objects` of each face's; empty: objects are runs of faces, one after the other.
+    std::vector<uint> object_of_face = {};
+    std::vector<std::int64_t> object_ids =
+        {};  ///< the file's numbers of the objects; empty: 0, 1, ...
     /// The same vertices as the file has them; empty of a file whose numbers are floats, which must say so first.
     std::vector<WidePoint> wide = {};
     bool has_doubles = true;
@@ -40,7 +44,8 @@ struct FileMesh {
 /// Wavefront OBJ: v and f lines, relative indices, continued lines; "o" begins an object.
 FileMesh read_obj(std::string_view bytes, const std::string& name);
 
-/// PLY, ascii and binary of either byte order. Faces with an integer property `object_id` are objects.
+/// PLY, ascii and binary of either byte order. Faces with the same integer property `object_id` are an object, wherever they
+/// are in the file; objects are in the order of their ids.
 FileMesh read_ply(std::string_view bytes, const std::string& name);
 
 /// OFF and its variants with colours or normals after the three coordinates; not binary.

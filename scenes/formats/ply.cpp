@@ -39,8 +39,8 @@ public:
                 skip(element);
         }
         values_.end();
-        if (file_.objects.size() == 1)
-            file_.objects.clear();
+        if (!ids_.empty())
+            make_objects();
         return std::move(file_);
     }
 
@@ -118,7 +118,7 @@ private:
                     values_.skip(property);
             add_fan(file_.mesh.faces, corners_);
             if (object)
-                belongs_to(*object, static_cast<uint>(corners_.size() - 2));
+                ids_.resize(file_.mesh.faces.size(), *object);
         }
     }
 
@@ -139,18 +139,21 @@ private:
         }
     }
 
-    /// A scene's objects are contiguous and in order, so ids may only stay or grow.
-    void belongs_to(std::int64_t object, uint triangles)
+    void make_objects()
     {
-        if (file_.objects.empty() || object > object_) {
-            const auto first = static_cast<uint>(file_.mesh.faces.size()) - triangles;
-            file_.objects.push_back({"object " + std::to_string(object), first, 0});
-        } else if (object < object_) {
-            values_.refuse("object_id goes back from " + std::to_string(object_) + " to " +
-                           std::to_string(object));
-        }
-        object_ = object;
-        file_.objects.back().face_count += triangles;
+        std::vector<std::int64_t> known = ids_;
+        std::ranges::sort(known);
+        known.erase(std::unique(known.begin(), known.end()), known.end());
+        if (known.front() != 0 || known.back() + 1 != static_cast<std::int64_t>(known.size()))
+            file_.object_ids = known;
+        if (known.size() == 1)
+            return;  // all triangles are one object
+        file_.object_of_face.reserve(ids_.size());
+        for (const std::int64_t id : ids_)
+            file_.object_of_face.push_back(
+                static_cast<uint>(std::ranges::lower_bound(known, id) - known.begin()));
+        for (const std::int64_t id : known)
+            file_.objects.push_back({"object " + std::to_string(id), 0, 0});
     }
 
     void skip(const PlyElement& element)
@@ -167,8 +170,8 @@ private:
     PlyValues values_;
     FileMesh file_;
     std::vector<uint> corners_;
+    std::vector<std::int64_t> ids_;  ///< object_id of each triangle; empty: the file has none
     std::uint64_t vertex_count_ = 0;
-    std::int64_t object_ = 0;
 };
 
 }  // namespace

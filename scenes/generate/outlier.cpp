@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scenes/generate/outlier.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "geometry/error.h"
@@ -45,7 +46,11 @@ Scene with_outlier(Scene scene, uint triangle, double diameters)
     if (triangle >= scene.triangle_count())
         throw BadUsage("scene '" + scene.name + "' has no triangle " + std::to_string(triangle) +
                        " to move, but " + std::to_string(scene.triangle_count()));
-    const Face face = scene.faces[triangle];
+    std::size_t place = triangle;
+    if (!scene.file_faces.empty())
+        place = static_cast<std::size_t>(std::ranges::find(scene.file_faces, triangle) -
+                                         scene.file_faces.begin());
+    const Face face = scene.faces[place];
     const auto first = static_cast<uint>(scene.frames.front().size());
     for (std::vector<Point>& points : scene.frames) {
         const Point a = points[face.a], b = points[face.b], c = points[face.c];
@@ -57,7 +62,7 @@ Scene with_outlier(Scene scene, uint triangle, double diameters)
         const Vector by = {distance * normal.x, distance * normal.y, distance * normal.z};
         points.insert(points.end(), {moved(a, by), moved(b, by), moved(c, by)});
     }
-    scene.faces[triangle] = {first, first + 1, first + 2};
+    scene.faces[place] = {first, first + 1, first + 2};
     scene.outlier = {scene.name, triangle, diameters};
     return scene;
 }

@@ -243,6 +243,7 @@ Scene refined(Scene scene, uint triangles)
     std::vector<uint> first_part;
     const std::size_t old_count = scene.faces.size();
     scene.faces = in_order(refiner, first_part, old_count);
+    scene.file_faces.clear();  // of triangles that are there no more
     for (SceneObject& object : scene.objects) {
         const uint last = object.first_face + object.face_count;
         object.first_face = first_part[object.first_face];

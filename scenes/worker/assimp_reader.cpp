@@ -66,6 +66,13 @@ private:
     const aiScene& scene_;
 };
 
+std::string reason_in(const std::string& error)
+{
+    if (error.find_first_not_of(" \t\r\n") == error.npos)
+        return "assimp finds no scene in it, and says no more";
+    return "assimp says: " + error.substr(error.find_first_not_of(" \t\r\n"));
+}
+
 }  // namespace
 
 bool assimp_knows(const std::string& extension)
@@ -79,7 +86,7 @@ FileMesh read_with_assimp(const std::string& path)
     // No post-processing: its steps merge vertices and remove faces that have no area.
     const aiScene* const scene = importer.ReadFile(path, 0);
     if (scene == nullptr || scene->mRootNode == nullptr)
-        throw Unavailable(std::string("assimp says: ") + importer.GetErrorString());
+        throw Unavailable(reason_in(importer.GetErrorString()));
     if ((scene->mFlags & AI_SCENE_FLAGS_INCOMPLETE) != 0)
         throw Unavailable("assimp could not read all of it");
     Flattened flattened(*scene);

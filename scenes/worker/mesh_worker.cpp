@@ -26,7 +26,8 @@ std::string answer_for(const std::string& path)
         return refusal_message("it takes more memory than the reader may use");
     } catch (const std::exception& error) {
         const std::string_view why = error.what();
-        return refusal_message(why.substr(0, why.find('\n')));  // one sentence
+        const std::string_view sentence = why.substr(0, why.find('\n'));
+        return refusal_message(sentence.empty() ? "it fails without a reason" : sentence);
     }
 }
 

@@ -196,7 +196,7 @@ TEST(Accuracy, OfNarrowPhasesFindsTheErrorsThatAreThere)
 TEST(Accuracy, OfScenesMeasuresWhatIsAsked)
 {
     const AxisTask task{
-        .scenes = {"soup:700"}, .samples = 2, .filter = std::regex("f64|63|recentred")};
+        .scenes = {"soup:700"}, .samples = 2, .filter = Pattern("f64|63|recentred", "--filter")};
     const auto sums = measured("sums", task);
     EXPECT_EQ(sums.size(), 3u);
     EXPECT_EQ(sums.at("soup:700/f64-compensated").check.verdict, Check::Verdict::agrees);

@@ -22,7 +22,7 @@ def test_collide_writes_a_valid_result_and_the_pairs():
                 expect(4, "collide", "--builder", builder, "--collider", collider, *common,
                        says="block needs a binary implicit tree")
                 continue
-            out = expect(0, "collide", "--builder", builder, "--collider", collider, *common, "--json", "c.json",
+            out = expect(0, "collide", "--builder", builder, "--collider", collider, *common, "--json", "c.json", "--force",
                          "--pairs", "p.csv", says="verdict: agrees with brute, pairs ")
             cell, = valid("c.json")["cells"]
             assert cell["operation"] == "collide" and cell["collider"]["name"] == collider, cell
@@ -30,14 +30,15 @@ def test_collide_writes_a_valid_result_and_the_pairs():
             assert has_tree == (collider not in ("grid", "brute", "embree")), cell
             assert "\nbroad " in out and (not has_tree or "\nhierarchy " in out), out
             lines = pathlib.Path("p.csv").read_text().splitlines()
-            assert lines[0] == "a,b" and len(lines) == 1 + cell["counters"]["pairs_count"]
+            assert lines[0] == "frame,object_a,object_b,a,b" and len(lines) == 1 + cell["counters"]["pairs_count"]
             assert cell["counters"]["pairs_count"] > 700, cell
             hashes.add(cell["check"]["pairs_hash"])
             expect(0, "show", "c.json", says=f"{collider} over {builder}" if has_tree else f"{collider} on sphere")
     assert len(hashes) == 1, hashes
-    expect(0, "collide", "--builder", "perfect", "--collider", "leaf", *common, "--pairs", "p.bin", "--json", "c.json")
+    expect(0, "collide", "--builder", "perfect", "--collider", "leaf", *common, "--pairs", "p.bin", "--json", "c.json",
+           "--force")
     words = array.array("I", pathlib.Path("p.bin").read_bytes())
-    assert [f"{a},{b}" for a, b in zip(words[::2], words[1::2])] == lines[1:]
+    assert [f"0,0,0,{a},{b}" for a, b in zip(words[::2], words[1::2])] == lines[1:]
     expect(0, "collide", "--builder", "perfect", "--collider", "leaf", *common, "--adjacent", "drop", "--json", "d.json",
            says="leaf, adjacent dropped over perfect on sphere:700")
     dropped, = valid("d.json")["cells"]
@@ -49,7 +50,7 @@ def test_collide_goes_through_frames_and_objects_to_contacts():
     expect(0, "collide", "--collider", "leaf", *common, "--frames", "1:", "--between", "1", "--json", "b.json")
     assert [cell["scene"]["frame"] for cell in valid("b.json")["cells"]] == [1, 2, 3, 4]
     shown = expect(0, "collide", "--collider", "group", *common, "--pairs-of", "between", "--frames", "0:",
-           "--json", "f.json", "--pairs", "p.csv", "--contacts", "k.csv", "--skips", says="skips:")
+           "--json", "f.json", "--pairs", "p.csv", "--force", "--contacts", "k.csv", "--skips", says="skips:")
     cells = valid("f.json")["cells"]
     assert {cell["scene"]["frame"] for cell in cells} == {0, 1, 2}, cells
     assert {cell["scene"]["objects"] for cell in cells} == {305}
@@ -71,7 +72,11 @@ def test_collide_goes_through_frames_and_objects_to_contacts():
     assert whole["collider"]["options"]["no_skip"] == "near" and "entered_count" not in whole["counters"], whole
     assert whole["check"]["contacts_hash"] == next(cell for cell in cells if cell["scene"]["frame"] == 0)["check"]["contacts_hash"]
     pairs, contacts = (pathlib.Path(name).read_text().splitlines() for name in ("p.csv", "k.csv"))
-    assert set(contacts[1:]) <= set(pairs[1:]) and len(contacts) - 1 == last[0]["counters"]["contacts_count"]
+    assert set(contacts[1:]) <= set(pairs[1:]), "contacts are among the pairs"
+    for frame in (0, 1, 2):
+        count = next(cell for cell in cells if cell["scene"]["frame"] == frame)["counters"]["contacts_count"]
+        assert sum(line.startswith(f"{frame},") for line in contacts) == count, frame
+    assert count > 0
     one = expect(0, "collide", "--collider", "leaf", *common, "--objects", "one", "--json", "o.json",
                  says="verdict: agrees with brute, CGAL")
     assert "tasks_count" not in one
@@ -93,8 +98,13 @@ def test_collide_numbers_pairs_as_the_file_does_whatever_its_objects_are():
         expect(0, "collide", "--collider", "leaf", "--scene", "turns.obj", "--objects", objects, "--samples", "1",
                "--narrow", "exact", "--pairs", f"{objects}.csv", "--contacts", f"{objects}-contacts.csv")
     for name in (".csv", "-contacts.csv"):
-        one, components = (pathlib.Path(objects + name).read_text() for objects in ("one", "components"))
-        assert one == components and len(one.splitlines()) > 2, (name, one, components)
+        one, components = (pathlib.Path(objects + name).read_text().split() for objects in ("one", "components"))
+        numbers = [row.split(",")[3:] for row in one]
+        assert numbers == [row.split(",")[3:] for row in components] and len(one) > 3, (name, one, components)
+        assert all(row.startswith("0,0,0,") for row in one[1:])
+        for row in components[1:]:  # triangles 0 and 2 are of the one square, 1 and 3 of the other
+            _, object_a, object_b, a, b = map(int, row.split(","))
+            assert (object_a, object_b) == (a % 2, b % 2), row
 
 
 def sheet_and_triangle(z: float) -> str:
@@ -108,7 +118,7 @@ def test_collide_finds_pairs_of_swept_boxes_and_holds_them_to_the_folders_ground
     folder.mkdir()
     for frame, z in enumerate((1, -1)):
         (folder / f"{frame}.obj").write_text(sheet_and_triangle(z))
-    swept = ("collide", "--scene", "fall/", "--collider", "leaf", "--samples", "2", "--swept", "--json", "s.json")
+    swept = ("collide", "--scene", "fall/", "--collider", "leaf", "--samples", "2", "--swept", "--json", "s.json", "--force")
 
     def cells() -> tuple[dict, dict]:
         vf, ee = valid("s.json")["cells"]
@@ -126,7 +136,7 @@ def test_collide_finds_pairs_of_swept_boxes_and_holds_them_to_the_folders_ground
     for cell, listed in zip(cells(), (2, 1)):
         assert (cell["counters"]["ground_truth_pairs"], cell["counters"]["ground_truth_missed"]) == (listed, 0), cell
     expect(0, *swept, "--pairs-of", "within", "--pairs", "p.csv")
-    assert pathlib.Path("p.csv").read_text().splitlines() == ["a,b", "1,5", "1,6", "1,7"]
+    assert pathlib.Path("p.csv").read_text().splitlines() == ["frame,a,b", "0,1,5", "0,1,6", "0,1,7"]
     assert [cell["swept"]["pairs"] for cell in valid("s.json")["cells"]] == ["edge-edge"]
 
     # A pair that there is not is missed, and makes the answer wrong; so does another count than the author's.

@@ -219,6 +219,25 @@ TEST(LibraryRefuses, TreesThatCannotBeHeldAgainstEachOther)
               "a query between trees wants trees of one object each, and one has 2");
 }
 
+TEST(LibraryRefuses, NumbersThatNameNothingToChoose)
+{
+    Refused refused;
+    refused.tree.build(refused.mesh.on_host());
+    refused.tree.find_pairs();
+    const std::vector<oibvh::Pair> before = refused.tree.read_pairs();
+    for (const int other : {-1, 3, 99})
+        EXPECT_EQ(
+            sentence<BadInput>([&] { refused.tree.find_pairs(static_cast<oibvh::Among>(other)); }),
+            "a query is among all, between_objects or within_objects, not " +
+                std::to_string(other));
+    EXPECT_EQ(refused.tree.read_pairs(), before);
+    const oibvh::Update updates[] = {static_cast<oibvh::Update>(77)};
+    EXPECT_EQ(sentence<BadInput>([&] { refused.tree.update(refused.mesh.on_host(), updates); }),
+              "an update is rebuild, refit or keep, not 77");
+    EXPECT_TRUE(refused.tree.is_built());
+    EXPECT_EQ(found_pairs(refused.tree, refused.caller), swept_pairs(refused.mesh));
+}
+
 TEST(LibraryRefuses, OptionsThatThereAreNot)
 {
     Caller caller;

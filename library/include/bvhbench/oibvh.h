@@ -228,7 +228,7 @@ public:
     void refit(const Input& input);
 
     /// The same for each object in its own way, in one set of launches. Input is for all; of objects that are kept it is
-    /// checked and not otherwise read. Waits.
+    /// checked and not otherwise read. Waits. Throws BadInput for an Update that there is not; the tree stays as it is then.
     void update(const Input& input, std::span<const Update> updates);
 
     bool is_built() const;
@@ -238,7 +238,8 @@ public:
     std::vector<Level> levels(std::uint32_t object = 0) const;
     HostTree read() const;  ///< waits
 
-    /// All pairs whose boxes overlap, none dropped: room for them grows and the query is repeated. Waits.
+    /// All pairs whose boxes overlap, none dropped: room for them grows and the query is repeated. Waits. Throws BadInput
+    /// for an Among that there is not; the pairs of the last query are still there then.
     Pairs find_pairs(Among among = Among::all);
 
     /// The pairs of one of this tree's (a) with one of the other's (b), both numbers as in their own input. Both trees are
