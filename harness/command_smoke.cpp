@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <fstream>
 #include <iostream>
-#include <iterator>
 
 #include "geometry/error.h"
 #include "harness/commands.h"
+#include "harness/provenance.h"
 #include "harness/report.h"
 #include "harness/run.h"
 #include "harness/smoke.h"
@@ -16,12 +15,10 @@ namespace {
 
 SmokeBaseline read_baseline(const std::filesystem::path& path, const std::string& kind)
 {
-    std::ifstream file(path, std::ios::binary);
-    const std::string text(std::istreambuf_iterator<char>(file), {});
-    if (!file.is_open() || file.bad())
+    if (!std::filesystem::exists(path))
         throw Unavailable("there is no baseline '" + path.string() +
                           "' to hold this run to; smoke --update makes it");
-    SmokeBaseline baseline = read_smoke(text, path.string());
+    SmokeBaseline baseline = read_smoke(file_text(path, "the baseline"), path.string());
     if (baseline.device_kind != kind)
         throw BadUsage(path.string() + " is of a device of kind " + baseline.device_kind +
                        ", and this one is of kind " + kind);
@@ -78,11 +75,7 @@ int smoke(const SmokeCommand& command, const Options& options)
     if (!common.tuning)
         common.tuning = "";  // what is compared must not depend on which device is known
     Session session(common);
-    Run run(session,
-            Output(command.out, "--out",
-                   result_rules(options.common.force, {}, session.watchdog().run_id())),
-            options.words, {});
-    const std::string kind = run.document().run.device.kind;
+    const std::string kind = device_facts(session.device()).kind;
     const std::filesystem::path path =
         command.baseline.empty() ? smoke_path(kind) : std::filesystem::path(command.baseline);
     SmokeBaseline before;
@@ -91,6 +84,10 @@ int smoke(const SmokeCommand& command, const Options& options)
         updated = Output(path, "--baseline", {.force = options.common.force, .may_replace = is_smoke});
     else
         before = read_baseline(path, kind);  // better to know now than after a minute
+    Run run(session,
+            Output(command.out, "--out",
+                   result_rules(options.common.force, {path}, session.watchdog().run_id())),
+            options.words, {});
     run.experiment(experiment, filter);
     run.finish();
     const Document& document = run.document();

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <iostream>
 
+#include "geometry/error.h"
 #include "harness/commands.h"
 #include "harness/provenance.h"
 #include "harness/report.h"
@@ -21,8 +22,10 @@ int stress(const StressCommand& command, const Options& options)
     Output output(command.out, "--out", result_rules(options.common.force, {}));
     ResultFile results(std::move(output), run_facts(session.device(), options.words));
     stress_all(session, task, [&](StressCell&& cell) { results.add(std::move(cell)); });
-    results.finish(session.programs().compile_ns());
     const Document& document = results.document();
+    if (document.stress.empty())
+        throw BadUsage("--filter: no cell of stress matches '" + command.filter + "'");
+    results.finish(session.programs().compile_ns());
     std::cout << run_report(document.run) << stress_report(document.stress, document.run.libraries);
     return std::any_of(document.stress.begin(), document.stress.end(), is_our_fault) ? 1 : 0;
 }
