@@ -22,7 +22,7 @@ def test_collide_writes_a_valid_result_and_the_pairs():
                 expect(2, "collide", "--builder", builder, "--collider", collider, *common,
                        says="block needs a binary implicit tree")
                 continue
-            out = expect(0, "collide", "--builder", builder, "--collider", collider, *common, "--json", "c.json",
+            out = expect(0, "collide", "--builder", builder, "--collider", collider, *common, "--json", "c.json", "--force",
                          "--pairs", "p.csv", says="verdict: agrees with brute, pairs ")
             cell, = valid("c.json")["cells"]
             assert cell["operation"] == "collide" and cell["collider"]["name"] == collider, cell
@@ -35,7 +35,7 @@ def test_collide_writes_a_valid_result_and_the_pairs():
             hashes.add(cell["check"]["pairs_hash"])
             expect(0, "show", "c.json", says=f"{collider} over {builder}" if has_tree else f"{collider} on sphere")
     assert len(hashes) == 1, hashes
-    expect(0, "collide", "--builder", "perfect", "--collider", "leaf", *common, "--pairs", "p.bin", "--json", "c.json")
+    expect(0, "collide", "--builder", "perfect", "--collider", "leaf", *common, "--pairs", "p.bin", "--json", "c.json", "--force")
     words = array.array("I", pathlib.Path("p.bin").read_bytes())
     assert [f"{a},{b}" for a, b in zip(words[::2], words[1::2])] == lines[1:]
     expect(0, "collide", "--builder", "perfect", "--collider", "leaf", *common, "--adjacent", "drop", "--json", "d.json",
@@ -49,7 +49,7 @@ def test_collide_goes_through_frames_and_objects_to_contacts():
     expect(0, "collide", "--collider", "leaf", *common, "--frames", "1:", "--between", "1", "--json", "b.json")
     assert [cell["scene"]["frame"] for cell in valid("b.json")["cells"]] == [1, 2, 3, 4]
     shown = expect(0, "collide", "--collider", "group", *common, "--pairs-of", "between", "--frames", "0:",
-           "--json", "f.json", "--pairs", "p.csv", "--contacts", "k.csv", "--skips", says="skips:")
+           "--json", "f.json", "--force", "--pairs", "p.csv", "--contacts", "k.csv", "--skips", says="skips:")
     cells = valid("f.json")["cells"]
     assert {cell["scene"]["frame"] for cell in cells} == {0, 1, 2}, cells
     assert {cell["scene"]["objects"] for cell in cells} == {305}
@@ -108,7 +108,7 @@ def test_collide_finds_pairs_of_swept_boxes_and_holds_them_to_the_folders_ground
     folder.mkdir()
     for frame, z in enumerate((1, -1)):
         (folder / f"{frame}.obj").write_text(sheet_and_triangle(z))
-    swept = ("collide", "--scene", "fall/", "--collider", "leaf", "--samples", "2", "--swept", "--json", "s.json")
+    swept = ("collide", "--scene", "fall/", "--collider", "leaf", "--samples", "2", "--swept", "--json", "s.json", "--force")
 
     def cells() -> tuple[dict, dict]:
         vf, ee = valid("s.json")["cells"]
