@@ -105,6 +105,16 @@ def test_a_result_is_replaced_with_force_only():
         assert not pathlib.Path("kept.csv").read_bytes().startswith(b"{")
 
 
+def test_tuned_values_of_other_targets_are_kept():
+    with folder("tuned"):
+        device = valid("good.json")["run"]["device"]["name"]
+        pathlib.Path("t.json").write_text(json.dumps({"format": "tuning 1", "device": device,
+                                                      "values": {"walk.task_leaves": {"value": 8}}}))
+        for force in ((), ("--force",)):
+            expect(0, "tune", "sort", "--scene", "soup:50", "--quick", "--samples", "3", "--out", "t.json", *force)
+            assert json.loads(pathlib.Path("t.json").read_text())["values"]["walk.task_leaves"]["value"] == 8
+
+
 def test_a_sweep_replaces_no_result_of_others():
     with folder("sweep"):
         sweep = ("sweep", "--name", "s", "--scenes", "soup:50", "--builders", "median-split", "--samples", "1", "--out", ".")

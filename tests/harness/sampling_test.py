@@ -79,7 +79,7 @@ def test_cold_caches_are_emptied_before_each_sample() -> None:
 def test_runs_by_turns_know_each_other_and_are_of_one_time() -> None:
     pathlib.Path("few.json").write_text(json.dumps({
         "experiment": "few", "scenes": ["torus:3000", "soup:500"], "builders": ["perfect", "karras"], "samples": 20}))
-    runs = [subprocess.Popen([PROGRAM, "run", "few.json", "--out", f"{name}.json", "--turns", "turns:2"],
+    runs = [subprocess.Popen([PROGRAM, "run", "few.json", "--out", f"{name}.json", "--force", "--turns", "turns:2"],
                              stdout=subprocess.DEVNULL) for name in ("a", "b")]
     assert [run.wait(timeout=200) for run in runs] == [0, 0]
     a, b = valid("a.json"), valid("b.json")
