@@ -34,7 +34,9 @@ int accuracy(const AccuracyCommand& command, const Options& options)
         for (std::string& read : scene_files(scene, session.scenes()))
             inputs.push_back(std::move(read));
     make_folder(folder);
-    Output output(file, "--out", result_rules(options.common.force, std::move(inputs)));
+    const OutputRules rules = result_rules(options.common.force, std::move(inputs));
+    check_pictures(folder, "--out", rules);
+    Output output(file, "--out", rules);
     ResultFile results(std::move(output), measured_facts(session, options.words));
     Progress progress(axes.size());
     int order = 0;
@@ -47,8 +49,7 @@ int accuracy(const AccuracyCommand& command, const Options& options)
     if (document.cells.empty())
         throw BadUsage("--filter: no cell matches '" + command.filter + "'");
     results.finish(session.programs().compile_ns());
-    std::cout << run_report(document.run) << accuracy_report(document)
-              << "written: " << file.string() << '\n';
+    std::cout << run_report(document.run) << accuracy_report(document) << results.written();
     const int code = exit_code_of(document);
     std::cout << draw("accuracy.py", file, folder) << '\n';
     return code;

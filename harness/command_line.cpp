@@ -222,7 +222,9 @@ void add_run(CLI::App& app, RunCommand& run)
     command
         ->add_option("EXPERIMENT", run.experiment, "a name of `list experiments`, or a .json file")
         ->required();
-    command->add_option("--out", run.out, "the result file; default: <experiment>.json");
+    command->add_option("--out", run.out,
+                        "the result file; default: <experiment>.json, of a file's experiment "
+                        "<experiment>-results.json");
     command->add_option("--filter", run.filter, "only cells whose scene/builder this matches");
     command->add_option("--samples", run.samples, "timed builds a cell")
         ->check(CLI::Range(1, most_samples));

@@ -3,12 +3,15 @@
 
 #include "geometry/error.h"
 #include "harness/commands.h"
+#include "harness/output.h"
 #include "harness/plot.h"
 
 namespace bvhbench {
 
-int plot(const PlotCommand& command, const Options&)
+int plot(const PlotCommand& command, const Options& options)
 {
+    make_folder(command.out);
+    check_pictures(command.out, "--out", {.force = options.common.force, .inputs = command.files});
     const Drawn drawn = draw_all(command.files, command.out);
     if (!drawn.all)
         throw Unavailable(drawn.why);

@@ -47,12 +47,6 @@ private:
     std::vector<std::string> paths_;
 };
 
-/// A page that this command made, and makes again from what it is made of.
-bool is_page(const std::string& text)
-{
-    return text.starts_with("<!DOCTYPE html>") && text.find("bvhbench") != text.npos;
-}
-
 /// Wrong words are found before anything is opened.
 void check_words(const ReportCommand& command)
 {

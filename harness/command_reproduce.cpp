@@ -51,6 +51,7 @@ public:
         const OutputRules rules =
             result_rules(options.common.force, {}, session_.watchdog().run_id());
         make_folder(command.out);
+        check_pictures(command.out, "--out", rules);
         for (const std::string& name : names)
             outputs_.try_emplace(name, std::filesystem::path(command.out) / (name + ".json"), "--out",
                                  rules);
@@ -68,7 +69,7 @@ public:
         run.experiment(task);
         run.finish();
         std::cout << run_report(run.document().run) << shown.front().report(run.document())
-                  << "written: " << file.string() << '\n';
+                  << run.written();
         files_.push_back(file.string());
         try {
             differs_ = exit_code_of(run.document()) == 1 || differs_;
@@ -114,6 +115,7 @@ int reproduce_all(const ReproduceCommand& command, const Options& options)
         for (const Shown& each : shown_in_paper)
             names.emplace_back(each.experiment);
         Reproduction reproduction(command, options, names);
+        Output(page.out, "--out", {.force = options.common.force, .may_replace = is_page});
         for (std::size_t begin = 0, end = 0; begin < shown_in_paper.size(); begin = end) {
             const std::string_view experiment = shown_in_paper[begin].experiment;
             while (end < shown_in_paper.size() && shown_in_paper[end].experiment == experiment)

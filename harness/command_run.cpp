@@ -86,7 +86,7 @@ int run(const RunCommand& command, const Options& options)
               << frames_table(run.document()) << swept_report(run.document())
               << refit_report(run.document()) << quality_report(run.document())
               << roofline_report(run.document()) << yardstick_report(run.document())
-              << "written: " << out << '\n';
+              << run.written();
     return exit_code_of(run.document());
 }
 

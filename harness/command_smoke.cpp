@@ -75,11 +75,7 @@ int smoke(const SmokeCommand& command, const Options& options)
     if (!common.tuning)
         common.tuning = "";  // what is compared must not depend on which device is known
     Session session(common);
-    Run run(session,
-            Output(command.out, "--out",
-                   result_rules(options.common.force, {}, session.watchdog().run_id())),
-            options.words, {});
-    const std::string kind = run.document().run.device.kind;
+    const std::string kind = device_facts(session.device()).kind;
     const std::filesystem::path path =
         command.baseline.empty() ? smoke_path(kind) : std::filesystem::path(command.baseline);
     SmokeBaseline before;
@@ -88,6 +84,10 @@ int smoke(const SmokeCommand& command, const Options& options)
         updated = Output(path, "--baseline", {.force = options.common.force, .may_replace = is_smoke});
     else
         before = read_baseline(path, kind);  // better to know now than after a minute
+    Run run(session,
+            Output(command.out, "--out",
+                   result_rules(options.common.force, {path}, session.watchdog().run_id())),
+            options.words, {});
     run.experiment(experiment, filter);
     run.finish();
     const Document& document = run.document();

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <iostream>
 #include <set>
 
@@ -10,6 +11,7 @@
 #include "harness/report.h"
 #include "harness/result_file.h"
 #include "harness/run.h"
+#include "harness/session.h"
 #include "harness/sweep/described.h"
 #include "harness/sweep/facts_worker.h"
 #include "harness/sweep/run.h"
@@ -76,7 +78,7 @@ void print_cells(const Sweep& sweep, const std::vector<SweepUnit>& units,
 
 /// All that is done of the units, as one file whose run is the sweep's.
 Merged assembled(const Sweep& sweep, const std::vector<SweepUnit>& units, const Shard& shard,
-                 const SweepFolder& folder, RunFacts facts)
+                 const SweepFolder& folder, const Output& output, RunFacts facts)
 {
     std::vector<MergePart> parts(1);  // the first gives the file its run, and is written below
     bool all = true;
@@ -101,7 +103,7 @@ Merged assembled(const Sweep& sweep, const std::vector<SweepUnit>& units, const 
     parts.front() = {"the sweep", document_text(run, {})};
     parts.push_back({"the sweep", document_text(run, skipped)});
     const Merged merged = merge(parts, {.other_commits = true});
-    write_atomically(folder.result_file(), merged.text);
+    output.replace(merged.text);
     return merged;
 }
 
@@ -144,6 +146,29 @@ bool disturb_each_other(const std::vector<std::string>& devices, const RunFacts&
                                   std::set(devices.begin(), devices.end()).size() < devices.size());
 }
 
+/// What the sweep may replace: a file of its own cells, which it wrote before. It reads its description and its scenes.
+OutputRules rules_of(const SweepCommand& command, const Options& options, const Sweep& sweep)
+{
+    OutputRules rules{.force = options.common.force, .inputs = {command.file}};
+    const SceneLibrary library = scene_library(options.common);
+    std::set<std::string> scenes;
+    for (const SweepCell& cell : sweep.cells)
+        scenes.insert(cell.scene_name());
+    for (const std::string& scene : scenes)
+        for (std::string& file : scene_files(scene, library))
+            rules.inputs.push_back(std::move(file));
+    rules.may_replace = [&sweep](const std::string& text) {
+        try {
+            const Document document = read_document(text, "the result file");
+            return std::all_of(document.cells.begin(), document.cells.end(),
+                               [&](const Cell& cell) { return cell.experiment == sweep.name; });
+        } catch (const Unavailable&) {
+            return false;
+        }
+    };
+    return rules;
+}
+
 /// Returns the exit code.
 int measure(const SweepCommand& command, const Options& options, const Sweep& sweep,
             const std::vector<SweepUnit>& all, const std::vector<SweepUnit>& units,
@@ -153,13 +178,14 @@ int measure(const SweepCommand& command, const Options& options, const Sweep& sw
     const RunFacts facts = facts_of(task.devices, options, command.costs);
     const SweepFolder folder(command.out, sweep, command.together == "scene", all, shard, facts,
                              command.continue_other_commit);
+    const Output output(folder.result_file(), "--out", rules_of(command, options, sweep));
     if (disturb_each_other(task.devices, facts))
         say("note: processes share a device, and disturb each other's times");
     if (!folder.note().empty())
         say(folder.note());
     const auto write = [&] {
         const Document document =
-            read_document(assembled(sweep, units, shard, folder, facts).text, "the sweep");
+            read_document(assembled(sweep, units, shard, folder, output, facts).text, "the sweep");
         say(counts_text(document) + "\nwritten: " + folder.result_file().string());
         return document;
     };

@@ -125,14 +125,11 @@ int tune(const TuneCommand& command, const Options& options)
     const Device& device = session.device();
     const std::filesystem::path path = path_of(command, options, device);
     NamedTuning named = tuning_file_for(device, tuning_folder(options.common.tuning));
-    TuningFile file = std::move(named.file);
     const Output output(path, "--out",
-                        {.force = options.common.force,
-                         .inputs = scene_files(command.scene, session.scenes()),
-                         .may_replace = [&](const std::string& text) {
-                             file = parse_tuning(text, path.string());  // whose values are kept
-                             return true;
-                         }});
+                        {.inputs = scene_files(command.scene, session.scenes()),
+                         .may_replace = [](const std::string&) { return true; }});
+    // Values that are there are kept; what is no tuning file is refused.
+    TuningFile file = output.was_there() ? read_tuning(path) : std::move(named.file);
     tuning_of(file, device, path.string());  // refuses another device's now
     file.device = device.name();
     file.driver = device_facts(device).driver;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <fcntl.h>
+
 #include <csignal>
 
 #include "harness/commands.h"
@@ -8,9 +10,23 @@
 #include "scenes/mesh_worker.h"
 #include "scenes/worker/worker.h"
 
+namespace {
+
+/// Standard input, output and error that this process was started without would be taken by the next files it opens: what
+/// is printed would go into those. So their places are taken by what cannot be used.
+void hold_standard_streams()
+{
+    for (int file = 0; file < 3; ++file)
+        if (fcntl(file, F_GETFD) < 0)
+            open("/dev/null", file == 0 ? O_WRONLY : O_RDONLY);
+}
+
+}  // namespace
+
 int main(int argc, char** argv)
 {
     using namespace bvhbench;
+    hold_standard_streams();
     end_with_parent();
     // Files from outside are read, libraries put under stress and sweeps' devices looked at by a process of their own: this
     // program again.

@@ -36,7 +36,7 @@ void add_common(CLI::App& app, CommonOptions& common)
                    "seconds that a single build or query may take before it is given up; 0: no end")
         ->capture_default_str()
         ->check(a_number(most_seconds));
-    app.add_flag("--force", common.force, "replace earlier files of the names that are written to");
+    app.add_flag("--force", common.force, "replace files that are there, but none that is read");
     app.add_flag("--verbose", common.verbose, "say on stderr what is being used");
     app.set_version_flag("--version", std::string("bvhbench ") + build_info.version);
     app.require_subcommand(0, 1);

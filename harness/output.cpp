@@ -26,6 +26,7 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
 constexpr int most_links = 40;  ///< as Linux has it
+constexpr auto patience = 1s;   ///< the system takes a moment to end a process that was killed
 
 [[noreturn]] void fail(const fs::path& path, const std::string& why)
 {
@@ -117,13 +118,16 @@ Output::Output(const fs::path& path, const std::string& option, const OutputRule
     target_ = without_links(path);
     if (!fs::is_directory(folder_of(target_)))
         fail(path, "there is no folder " + folder_of(target_).string());
-    if (is_there && access(target_.c_str(), W_OK) != 0)
+    if ((is_there && access(target_.c_str(), W_OK) != 0) ||
+        access(folder_of(target_).c_str(), W_OK | X_OK) != 0)
         fail(path);
     lock_ = std::make_unique<FileLock>(
         folder_of(target_) / ("." + target_.filename().string() + ".lock"),
-        FileLock::Kind::exclusive, path.string() + " is being written by another process", 200ms);
+        FileLock::Kind::exclusive, path.string() + " is being written by another process",
+        patience);
     lock_->remove_at_end();
-    was_there_ = is_there && about.st_size > 0;
+    // Whoever had the lock may have written the file.
+    was_there_ = stat(target_.c_str(), &about) == 0 && about.st_size > 0;
     if (was_there_)
         check_earlier(rules, option);
 }
@@ -209,6 +213,24 @@ void Output::Writer::finish()
     const int file = std::exchange(file_, -1);
     if (close(file) != 0)
         fail(output_.path_);
+}
+
+void check_pictures(const fs::path& folder, const std::string& option, OutputRules rules)
+{
+    rules.may_replace = [](const std::string& text) {
+        return text.starts_with("\x89PNG\r\n") || text.find("<svg") != text.npos;
+    };
+    std::error_code error;
+    // Of a folder no pictures are read.
+    std::erase_if(rules.inputs, [&](const auto& input) { return fs::is_directory(input, error); });
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
+        if (const fs::path end = entry.path().extension(); end == ".png" || end == ".svg")
+            Output(entry.path(), option, rules);
+}
+
+bool is_page(const std::string& text)
+{
+    return text.starts_with("<!DOCTYPE html>") && text.find("<title>bvhbench") != text.npos;
 }
 
 void make_folder(const fs::path& folder)

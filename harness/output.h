@@ -84,6 +84,14 @@ private:
     std::unique_ptr<FileLock> lock_;
 };
 
+/// Throws BadUsage if a file in `folder`, which a command draws pictures into, is called like a picture and is none, or is an
+/// input. --force lets go what is no input.
+void check_pictures(const std::filesystem::path& folder, const std::string& option,
+                    OutputRules rules);
+
+/// Whether it is the text of a page that this program made.
+bool is_page(const std::string& text);
+
 /// Creates the folder that a command was asked to write into. Throws Unavailable with the system's reason.
 void make_folder(const std::filesystem::path& folder);
 

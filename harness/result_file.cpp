@@ -13,12 +13,25 @@ Document read_result_file(const std::filesystem::path& path)
     return read_document(file_text(path, "the result file"), path.string());
 }
 
+namespace {
+
+bool is_result_of(const std::string& run_id, const std::string& text)
+{
+    try {
+        return !run_id.empty() && read_document(text, "the result file").run.id == run_id;
+    } catch (const Unavailable&) {
+        return false;
+    }
+}
+
+}  // namespace
+
 OutputRules result_rules(bool force, std::vector<std::string> inputs, std::string own_run)
 {
     return {.force = force,
             .inputs = std::move(inputs),
             .may_replace = [own_run = std::move(own_run)](const std::string& text) {
-                return !own_run.empty() && read_document(text, "the result file").run.id == own_run;
+                return is_result_of(own_run, text);
             }};
 }
 
@@ -33,10 +46,9 @@ ResultFile::ResultFile(Output output, RunFacts run, const std::string& goes_on)
 
 void ResultFile::take_over(const std::string& run_id)
 {
-    Document before = read_result_file(output_.path());
-    if (before.run.id != run_id)
+    if (!is_result_of(run_id, file_text(output_.path(), "the result file")))
         return;
-    document_ = std::move(before);
+    document_ = read_result_file(output_.path());
     for (const Cell& cell : document_.cells)
         cell_texts_.push_back(cell_text(cell));
     has_measured_ = true;  // the earlier file is this run's own
@@ -120,10 +132,21 @@ void ResultFile::finish(std::int64_t compile_ns)
     write();
 }
 
+std::string ResultFile::written() const
+{
+    return (is_worth_writing() ? "written: " : "nothing was measured, so it stays as it was: ") +
+           output_.path().string() + '\n';
+}
+
+/// Cells that say why nothing was measured are worth a file, but not one that was there.
+bool ResultFile::is_worth_writing() const
+{
+    return has_measured_ || (!document_.cells.empty() && !output_.was_there());
+}
+
 void ResultFile::write()
 {
-    const bool is_empty = cell_texts_.empty() && stress_texts_.empty();
-    if (!output_.is_nowhere() && !is_empty && (has_measured_ || !output_.was_there()))
+    if (!output_.is_nowhere() && is_worth_writing())
         output_.replace(document_text(run_text(document_.run), cell_texts_, stress_texts_));
     written_at_ = std::chrono::steady_clock::now();
     is_written_ = true;

@@ -54,9 +54,13 @@ public:
     /// Not while another thread adds cells.
     const Document& document() const { return document_; }
 
+    /// "written: r.json", or that it stays as it was, a line.
+    std::string written() const;
+
 private:
     void take_over(const std::string& run_id);
     void write_if_due();
+    bool is_worth_writing() const;
     void write();
 
     Output output_;

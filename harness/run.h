@@ -36,7 +36,7 @@ RunFacts measured_facts(Session& session, std::vector<std::string> command,
 /// A builder or scene that fails is a cell that says so, and the run goes on.
 class Run {
 public:
-    /// Measures the device's copy rate, the yardstick of the run. Without `out` no file is written.
+    /// Measures the device's copy rate, the yardstick of the run. To nowhere no file is written.
     Run(Session& session, Output output, std::vector<std::string> command,
         const NodeCosts& costs);
 
@@ -47,6 +47,9 @@ public:
     void finish();
 
     const Document& document() const { return results_.document(); }
+
+    /// What became of its file, a line.
+    std::string written() const { return results_.written(); }
 
 private:
     struct Prepared;

@@ -175,6 +175,11 @@ Scene from_data_set(const ManifestEntry& entry, const SceneLibrary& library)
                    "or a path to a mesh file");
 }
 
+std::string_view before_last_colon(std::string_view words)
+{
+    return words.substr(0, std::min(words.rfind(':'), words.size()));
+}
+
 bool looks_like_path(std::string_view text)
 {
     std::error_code error;
@@ -229,22 +234,22 @@ Scene load_any(std::string_view text, const SceneLibrary& library)
 
 }  // namespace
 
-/// A scene may be made of another one, as in "refine:a.obj:1000": its file is one of the parts between colons.
 std::vector<std::string> scene_files(std::string_view text, const SceneLibrary& library)
 {
-    std::vector<std::string> files;
-    for (std::size_t begin = 0; begin <= text.size(); begin = text.find(':', begin) + 1) {
-        for (std::size_t end = begin; end <= text.size(); ++end) {
-            end = std::min(text.find(':', end), text.size());
-            const std::string_view part = text.substr(begin, end - begin);
-            files.emplace_back(part);
-            if (const ManifestEntry* const entry = manifest_entry(part))
-                files.push_back(located(*entry, library.data).string());
-        }
-        if (text.find(':', begin) == text.npos)
-            break;
-    }
-    return files;
+    const std::size_t colon = std::min(text.find(':'), text.size());
+    const std::string_view head = text.substr(0, colon);
+    const std::string_view rest = text.substr(std::min(colon + 1, text.size()));
+    if (head == "refine")
+        return scene_files(before_last_colon(rest), library);
+    if (head == "outlier")
+        return scene_files(before_last_colon(before_last_colon(rest)), library);
+    if (head == "bend")
+        return scene_files(rest, library);
+    if (const ManifestEntry* const entry = manifest_entry(text))
+        return {located(*entry, library.data).string()};
+    if (is_sized_generator(head))
+        return {};
+    return {std::string(text)};
 }
 
 std::size_t triangles_said(std::string_view text)
@@ -252,9 +257,6 @@ std::size_t triangles_said(std::string_view text)
     const std::size_t colon = std::min(text.find(':'), text.size());
     const std::string_view head = text.substr(0, colon);
     const std::string_view rest = text.substr(std::min(colon + 1, text.size()));
-    const auto before_last_colon = [](std::string_view words) {
-        return words.substr(0, std::min(words.rfind(':'), words.size()));
-    };
     if (head == "refine") {
         const std::string_view inner = before_last_colon(rest);
         triangles_said(inner);

@@ -3,7 +3,7 @@
 
 Usage: faults_test.py <bvhbench> <result schema> <opencl_shim.so> <source root>
 
-FAULT_KILLS is how often it is killed (10), FAULT_SEED when (1).
+FAULT_KILLS is how often it is killed in a test (10), FAULT_SEED when (1).
 """
 import contextlib
 import json
@@ -27,6 +27,49 @@ def experiment(path: str, **keys) -> str:
     pathlib.Path(path).write_text(json.dumps({"experiment": "faults", "question": "?", "samples": 1,
                                               "warm_up": 0, **keys}))
     return path
+
+
+def whole(path: pathlib.Path) -> bool:
+    """Whether a file is in one piece, by how its kind ends."""
+    content = path.read_bytes()
+    if path.suffix == ".json":
+        json.loads(content)
+    return path.suffix not in (".png", ".svg") or content.endswith((b"IEND\xaeB`\x82", b"</svg>\n"))
+
+
+def test_killed_at_any_time_every_file_that_was_there_is_old_or_new():
+    """A fifth of the kills each of run, sweep, tune, accuracy and merge, in a folder that holds what was left before."""
+    kills, draw = int(os.environ.get("FAULT_KILLS", 10)) // 5, random.Random(int(os.environ.get("FAULT_SEED", 1)))
+    plan = experiment("replaced.json", scenes=["soup:9", "soup:99", "soup:999"], builders=["perfect", "median-split"])
+    product = ("--scenes", "soup:9,soup:99", "--builders", "perfect,median-split", "--samples", "1")
+    commands = {"run": ("run", plan, "--out", "run/r.json", "--force"),
+                "sweep": ("sweep", *product, "--out", "sweep", "--retry-failed"),
+                "tune": ("tune", "sort", "--scene", "soup:999", "--quick", "--samples", "3", "--out", "tune/t.json"),
+                "accuracy": ("accuracy", "--axis", "sums", "--scene", "soup:99", "--samples", "1", "--out", "accuracy", "--force"),
+                "merge": ("merge", "run/r.json", "sweep/sweep.json", "-o", "merge/m.json", "--force", "--other-commits")}
+    for name, words in commands.items():
+        folder = pathlib.Path(name)
+        folder.mkdir()
+        began = time.time()
+        expect(0, *words)
+        seconds, old, new = time.time() - began, 0, 0
+        for _ in range(kills):
+            if name == "sweep":  # some of its cells are to be measured again
+                for cell in sorted(folder.glob("cells/*.json"))[::2]:
+                    cell.unlink()
+            before = {path: path.read_bytes() for path in folder.rglob("*") if path.suffix in (".json", ".png", ".svg")}
+            with subprocess.Popen([PROGRAM, *words], stdout=subprocess.PIPE, stderr=subprocess.STDOUT) as process:
+                time.sleep(draw.uniform(0, 1.1 * seconds))
+                process.kill()
+                process.communicate(timeout=60)  # what it had begun to have drawn ends, too
+            for path, content in before.items():
+                now = path.read_bytes()
+                assert now == content or whole(path), (name, path)
+            old += all(path.read_bytes() == content for path, content in before.items())
+            new += any(path.read_bytes() != content for path, content in before.items())
+        if kills > 10:
+            print(f"{name}: {kills} kills, {old} left all as it was, {new} replaced something", flush=True)
+        expect(0, *words)  # what kills have left beside it does not disturb the next one
 
 
 def test_a_frame_too_large_for_the_host_is_refused_before_anything_is_taken():
@@ -56,7 +99,7 @@ def test_killed_at_any_time_it_leaves_a_whole_result_file():
                       builders=["perfect", "median-split"])
     written, oldest = 0, 0.0
     for number in range(kills):
-        path = pathlib.Path(f"killed-{number}/r.json")
+        path = pathlib.Path(f"killed-{number}.json")
         with subprocess.Popen([PROGRAM, "run", plan, "--out", str(path)], stderr=subprocess.DEVNULL) as process:
             # A quarter of them at any time from the start on, the others while cells are written.
             if draw.random() < 0.25:
@@ -138,7 +181,7 @@ def test_a_crash_costs_the_cell_that_it_was_in():
     cache = pathlib.Path("cache").resolve()
     cache.mkdir()
     plan = experiment("crash.json", scenes=["soup:300"], builders=["oibvh-multi", "median-split"])
-    crash = ("run", plan, "--out", "crashed.json", "--memory-limit", "16M")
+    crash = ("run", plan, "--out", "crashed.json", "--force", "--memory-limit", "16M")
     expect(0, *crash, says="2 agree", POCL_CACHE_DIR=str(cache))
     programs = list(cache.rglob("program.bc"))
     assert programs
@@ -154,7 +197,7 @@ def test_a_crash_costs_the_cell_that_it_was_in():
 
 
 def test_a_full_disk_is_one_sentence_and_keeps_what_was_there():
-    expect(3, *BUILD, "--json", "/dev/full/r.json", says="/dev/full/r.json cannot be written: Not a directory")
+    expect(3, *BUILD, "--json", "/dev/full/r.json", says="/dev/full/r.json cannot be written: there is no folder /dev/full")
     with small_disk(8) as disk:
         if disk is None:
             return
@@ -162,7 +205,7 @@ def test_a_full_disk_is_one_sentence_and_keeps_what_was_there():
         expect(0, *BUILD, "--json", str(old))
         text = old.read_text()
         (disk / "fill").write_bytes(bytes(4096 * (2 - -(-len(text) // 4096))))
-        expect(3, *BUILD, "--json", str(old), says="r.json cannot be written: No space left on device")
+        expect(3, *BUILD, "--json", str(old), "--force", says="r.json cannot be written: No space left on device")
         expect(3, *BUILD, "--dump", str(disk / "d.json"), says="d.json cannot be written: No space left on device")
         collide = ("collide", "--collider", "leaf", "--scene", "soup:3000", "--samples", "1", "--narrow", "exact")
         for option in ("--pairs", "--contacts"):

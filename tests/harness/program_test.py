@@ -97,13 +97,13 @@ def test_build_writes_a_valid_result_and_the_tree():
 
 def test_quality_has_no_number_where_it_has_no_value():
     expect(0, "build", "--builder", "oibvh-multi", "--scene", "grid:300", "--samples", "1", "--epo",
-           "--json", "q.json", says="epo")
+           "--json", "q.json", "--force", says="epo")
     cell, = valid("q.json")["cells"]
     assert {"epo", "epo_inner", "epo_leaf", "sibling_overlap", "sah_cost"} <= set(cell["counters"])
     assert "left_out" not in cell
     pathlib.Path("line.obj").write_text("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\nf 3 2 1\n")
     expect(0, "build", "--builder", "oibvh-multi", "--scene", "line.obj", "--samples", "1", "--quality",
-           "--json", "q.json")
+           "--json", "q.json", "--force")
     cell, = valid("q.json")["cells"]
     assert not {"epo", "sibling_overlap", "sah_cost", "sah_inner", "sah_leaf"} & set(cell["counters"])
     assert set(cell["left_out"]) == {"epo", "sibling_overlap", "sah_cost"}
@@ -133,6 +133,7 @@ def test_run_and_show_agree():
     pathlib.Path("few.json").write_text(json.dumps({
         "experiment": "few", "scenes": ["torus:2048", "soup:1000", "soup:1"],
         "builders": ["perfect", "karras", "oibvh-reference"], "samples": 2, "warm_up": 1}))
+    pathlib.Path("folder").mkdir()
     out = expect(0, "run", "few.json", "--out", "folder/s.json", says="9 agree")
     result = valid("folder/s.json")
     assert len(result["cells"]) == 9 and "finished_at" in result["run"]

@@ -21,7 +21,7 @@ def only(path: str) -> dict:
 
 
 def test_a_fixed_number_is_what_was_asked_for() -> None:
-    said = expect(0, *BUILD, "--samples", "40", "--json", "a.json", says="40 samples")
+    said = expect(0, *BUILD, "--samples", "40", "--json", "a.json", "--force", says="40 samples")
     cell = only("a.json")
     assert len(cell["samples"]) == 40 and cell["sampling"] == {"stopped": "number", "caches": "hot"}
     assert all(sample["calibration_ns"] > 0 for sample in cell["samples"])
@@ -32,23 +32,23 @@ def test_a_fixed_number_is_what_was_asked_for() -> None:
 
 
 def test_a_target_stops_and_says_why() -> None:
-    expect(0, *BUILD, "--until", "100%", "--min-samples", "10", "--json", "a.json", says="within 100.0 %")
+    expect(0, *BUILD, "--until", "100%", "--min-samples", "10", "--json", "a.json", "--force", says="within 100.0 %")
     cell = only("a.json")
     assert cell["sampling"] == {"stopped": "steady", "caches": "hot", "until": 1}
     assert 10 <= len(cell["samples"]) < 200
-    expect(0, *BUILD, "--until", "0.01%", "--max-samples", "20", "--json", "a.json", says="no more are allowed")
+    expect(0, *BUILD, "--until", "0.01%", "--max-samples", "20", "--json", "a.json", "--force", says="no more are allowed")
     cell = only("a.json")
     assert cell["sampling"]["stopped"] == "most" and len(cell["samples"]) == 20
     expect(0, *BUILD, "--until", "0.01%", "--min-samples", "9", "--max-samples", "100000", "--time-budget", "0.2",
-           "--json", "a.json")
+           "--json", "a.json", "--force")
     assert only("a.json")["sampling"]["stopped"] in ("budget", "noisy")
     pathlib.Path("until.json").write_text(json.dumps({
         "experiment": "until", "scenes": ["soup:500"], "builders": ["perfect"], "until": 0.9, "caches": "cold",
         "pipelines": [{"builder": "karras", "collider": "leaf"}]}))
-    expect(0, "run", "until.json", "--out", "a.json")
+    expect(0, "run", "until.json", "--out", "a.json", "--force")
     for cell in valid("a.json")["cells"]:
         assert cell["sampling"]["caches"] == "cold" and cell["sampling"]["until"] == 0.9, cell
-    expect(0, "run", "until.json", "--samples", "2", "--out", "a.json")
+    expect(0, "run", "until.json", "--samples", "2", "--out", "a.json", "--force")
     assert all(len(cell["samples"]) == 2 for cell in valid("a.json")["cells"])
 
 
@@ -69,7 +69,7 @@ def test_cold_caches_are_emptied_before_each_sample() -> None:
     assert walks == 1
     planted.write_text(text)
     for words, times in (((), 0), (("--cold",), 1)):
-        said = expect(0, *BUILD, "--samples", "5", "--kernels", "kernels", "--json", "a.json", *words)
+        said = expect(0, *BUILD, "--samples", "5", "--kernels", "kernels", "--json", "a.json", "--force", *words)
         cell = only("a.json")
         assert cell["sampling"]["caches"] == ("cold" if words else "hot") and len(cell["samples"]) == 5
         # Before each sample and each of the 3 builds that warm up, and once when the buffer is made.
@@ -79,7 +79,7 @@ def test_cold_caches_are_emptied_before_each_sample() -> None:
 def test_runs_by_turns_know_each_other_and_are_of_one_time() -> None:
     pathlib.Path("few.json").write_text(json.dumps({
         "experiment": "few", "scenes": ["torus:3000", "soup:500"], "builders": ["perfect", "karras"], "samples": 20}))
-    runs = [subprocess.Popen([PROGRAM, "run", "few.json", "--out", f"{name}.json", "--turns", "turns:2"],
+    runs = [subprocess.Popen([PROGRAM, "run", "few.json", "--out", f"{name}.json", "--force", "--turns", "turns:2"],
                              stdout=subprocess.DEVNULL) for name in ("a", "b")]
     assert [run.wait(timeout=200) for run in runs] == [0, 0]
     a, b = valid("a.json"), valid("b.json")

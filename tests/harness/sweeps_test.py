@@ -307,6 +307,7 @@ def test_what_cannot_be_is_one_sentence():
     expect(2, "sweep", *soup, says="--out is required")
     expect(2, "sweep", *soup, "--out", "whole", says="whole holds another sweep, 'sweep' of 2 scenes x 2 builders x 2 orders: "
                                                      "8 of the 8 cells that it measures are none of these; choose another --out")
+    pathlib.Path("taken").mkdir()
     expect(0, "build", "--builder", "perfect", "--scene", "soup:70", "--samples", "1", "--json", "taken/sweep.json")
     expect(2, "sweep", *soup, "--out", "taken", says="taken/sweep.json is there and no sweep's")
     expect(3, "sweep", *soup, "--out", "/proc/sweep", says="/proc/sweep/cells cannot be made")
@@ -373,11 +374,11 @@ def test_merge_refuses_what_is_not_alike():
     build = ("build", "--builder", "perfect", "--scene", "soup:70", "--samples", "1", "--json")
     expect(0, *build, "a.json")
     expect(0, *build, "b.json")
-    expect(2, "merge", "a.json", "b.json", "-o", "m.json",
+    expect(2, "merge", "a.json", "b.json", "-o", "m.json", "--force",
            says="a.json and b.json both have soup:70, perfect, and not the same of it")
-    expect(0, "merge", "a.json", "a.json", "-o", "m.json", says="1 cell of 1 run; in more than one file, the same in each: 1\n")
-    expect(3, "merge", "a.json", "nowhere.json", "-o", "m.json", says="the result file 'nowhere.json' cannot be read")
-    expect(3, "merge", "a.json", str(SCHEMA), "-o", "m.json", says="is no result file")
+    expect(0, "merge", "a.json", "a.json", "-o", "m.json", "--force", says="1 cell of 1 run; in more than one file, the same in each: 1\n")
+    expect(3, "merge", "a.json", "nowhere.json", "-o", "m.json", "--force", says="the result file 'nowhere.json' cannot be read")
+    expect(3, "merge", "a.json", str(SCHEMA), "-o", "m.json", "--force", says="is no result file")
     document = valid("b.json")
 
     def changed(name: str, change) -> str:
@@ -387,25 +388,25 @@ def test_merge_refuses_what_is_not_alike():
         return name
 
     old = changed("old.json", lambda other: other.update(format="1.7"))
-    expect(2, "merge", "a.json", old, "-o", "m.json", says=f"a.json has format {document['format']} and old.json 1.7")
-    expect(0, "merge", old, "-o", "m.json", says="1 cell of 1 run")
+    expect(2, "merge", "a.json", old, "-o", "m.json", "--force", says=f"a.json has format {document['format']} and old.json 1.7")
+    expect(0, "merge", old, "-o", "m.json", "--force", says="1 cell of 1 run")
     assert float(valid("m.json")["format"].split(".")[1]) >= 8
     device = changed("device.json", lambda other: other["run"]["device"].update(name="other"))
-    expect(2, "merge", "a.json", device, "-o", "m.json", says="--other-devices merges them all the same")
-    expect(0, "merge", "a.json", device, "-o", "m.json", "--other-devices", says="2 cells of 2 runs")
+    expect(2, "merge", "a.json", device, "-o", "m.json", "--force", says="--other-devices merges them all the same")
+    expect(0, "merge", "a.json", device, "-o", "m.json", "--force", "--other-devices", says="2 cells of 2 runs")
     expect(0, "show", "m.json", says="of several devices: ")
     assert sorted(source["device"] for source in valid("m.json")["merged_from"])[0] == "other"
     refused = run("plot", "m.json", "--out", "pictures", BVHBENCH_HOME=str(SOURCE))
     assert refused.returncode == 3 and "merged from several devices" in refused.stderr, refused
     commit = changed("commit.json", lambda other: (other["run"]["program"].update(commit="0" * 40),
                                                    other["cells"][0]["builder"].update(name="karras")))
-    expect(2, "merge", "a.json", commit, "-o", "m.json", says="--other-commits merges them all the same")
-    expect(0, "merge", "a.json", commit, "-o", "m.json", "--other-commits", says="2 cells of 2 runs")
+    expect(2, "merge", "a.json", commit, "-o", "m.json", "--force", says="--other-commits merges them all the same")
+    expect(0, "merge", "a.json", commit, "-o", "m.json", "--force", "--other-commits", says="2 cells of 2 runs")
     wrong = changed("wrong.json", lambda other: other["cells"][0]["check"].update(verdict="differs"))
-    expect(1, "merge", wrong, "-o", "m.json", says="")
+    expect(1, "merge", wrong, "-o", "m.json", "--force", says="")
     # What a newer program has put into a cell stays there.
     newer = changed("newer.json", lambda other: other["cells"][0].update(colour="red"))
-    expect(0, "merge", newer, "-o", "m.json")
+    expect(0, "merge", newer, "-o", "m.json", "--force")
     assert json.loads(pathlib.Path("m.json").read_text())["cells"][0]["colour"] == "red"
 
 

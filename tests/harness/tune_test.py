@@ -23,6 +23,7 @@ def tuned_file(folder: str, **values: int) -> pathlib.Path:
 
 def test_tune_searches_checks_and_writes_what_is_then_used():
     tune = ("tune", "--scene", "torus:2000", "--quick", "--samples", "3", "--out", "tuned/t.json")
+    pathlib.Path("tuned").mkdir()
     for target, parameter in (("sort", "sort.chunk_digit_bits"), ("oibvh-multi", "chunks.per_core"),
                               ("leaf", "walk.task_leaves")):
         out = expect(0, *tune, target, says=f"tuned: {target} over torus:2000")
@@ -39,7 +40,7 @@ def test_tune_searches_checks_and_writes_what_is_then_used():
 
 def test_tuned_values_are_used_named_and_turned_off():
     path = tuned_file("mine", sort__chunk_digit_bits=11, chunks__per_core=2)
-    build = ("build", "--builder", "oibvh-multi", "--scene", "soup:3000", "--samples", "1", "--json", "t.json")
+    build = ("build", "--builder", "oibvh-multi", "--scene", "soup:3000", "--samples", "1", "--json", "t.json", "--force")
 
     def launches(*words: str, **environment: str) -> tuple[int, dict]:
         expect(0, *build, *words, says="verdict: agrees", **environment)
