@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <iostream>
+#include <optional>
 
 #include "builders/orders.h"
 #include "collide/narrow_methods.h"
@@ -8,6 +9,7 @@
 #include "harness/collide.h"
 #include "harness/commands.h"
 #include "harness/pairs_file.h"
+#include "harness/progress.h"
 #include "harness/report.h"
 #include "harness/report_skips.h"
 #include "harness/report_swept.h"
@@ -72,9 +74,12 @@ int collide(const CollideCommand& command, const Options& options)
     session.watchdog().keep_by(results.document().run.id, [&] { results.keep(); });
     Found last;
     int order = results.next_order();
+    std::optional<Progress> progress(command.scenes.size());
+    task.note = [&](const std::string& what) { progress->note(task.scene + ", " + what); };
     for (std::size_t i = 0; i < command.scenes.size(); ++i) {
         task.scene = command.scenes[i];
         task.number = std::to_string(i);
+        progress->step(task.scene);
         collide_frames(
             session, task, order,
             [&](std::vector<Cell>&& cells, const Found& found) {
@@ -84,6 +89,7 @@ int collide(const CollideCommand& command, const Options& options)
             },
             [&](std::size_t cells) { return results.pass(cells); });
     }
+    progress.reset();  // its line goes before the report comes
     results.finish(session.programs().compile_ns());
     const Document& document = results.document();
     std::cout << run_report(document.run);

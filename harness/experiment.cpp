@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
-#include <iterator>
 
 #include "geometry/error.h"
 #include "harness/experiment_pipelines.h"
 #include "harness/json_keys.h"
+#include "harness/output.h"
 #include "harness/scene_range.h"
 
 namespace bvhbench {
@@ -220,11 +219,7 @@ Experiment find_experiment(const std::string& name_or_path, bool quick)
     if (!name_or_path.ends_with(".json"))
         throw BadUsage("no experiment is called '" + name_or_path +
                        "'; there are: " + joined(names) + ", or the path of a .json file");
-    std::ifstream file(name_or_path, std::ios::binary);
-    const std::string text(std::istreambuf_iterator<char>(file), {});
-    if (!file.is_open() || file.bad())
-        throw Unavailable("the experiment file '" + name_or_path + "' cannot be read");
-    return parse_experiment(text, name_or_path, quick);
+    return parse_experiment(file_text(name_or_path, "the experiment file"), name_or_path, quick);
 }
 
 }  // namespace bvhbench

@@ -110,6 +110,7 @@ void ResultFile::finish(std::int64_t compile_ns)
 
 void ResultFile::write()
 {
+    note_memory(document_.run);
     const bool is_empty = cell_texts_.empty() && stress_texts_.empty();
     if (!output_.is_nowhere() && !is_empty && (has_measured_ || !output_.was_there()))
         output_.replace(document_text(run_text(document_.run), cell_texts_, stress_texts_));

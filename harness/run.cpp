@@ -6,6 +6,7 @@
 #include "device/copy_rate.h"
 #include "device/launch_cost.h"
 #include "geometry/error.h"
+#include "geometry/host_memory.h"
 #include "harness/check.h"
 #include "harness/failure.h"
 #include "harness/frames.h"
@@ -169,6 +170,9 @@ void Run::collisions(CollideTask task, const CellFilter& filter, Progress& progr
     progress.step(task.experiment + ": " + task.scene);
     task.number = std::to_string(scenes_++);
     task.pipelines = chosen(task, filter);
+    task.note = [&](const std::string& what) {
+        progress.note(task.experiment + ": " + task.scene + ", " + what);
+    };
     if (task.pipelines.empty())
         return;
     const std::string no_scene = reason_of_failure([&] {
@@ -249,7 +253,7 @@ Run::Prepared Run::prepare(const Experiment& experiment, const Frames& frames, C
     const std::string failure = reason_of_failure([&] {
         const bool refits = prepared.cell.operation == Operation::refit;
         const std::size_t triangles = frames.now().triangle_count();
-        session_.require_host_memory("checking the tree", check_bytes(triangles));
+        require_host_memory("checking the tree", check_bytes(triangles));
         Oracle& oracle = refits ? oracles.before : oracles.now;
         // While the builder is compiled and builds for the first time.
         if (const auto reference = find_builder(prepared.cell.builder.name).oracle;
@@ -262,7 +266,7 @@ Run::Prepared Run::prepare(const Experiment& experiment, const Frames& frames, C
             return;
         }
         if (builder.card().runs == BuilderCard::Runs::on_host)
-            session_.require_host_memory("the tree", builder.footprint(triangles).total());
+            require_host_memory("the tree", builder.footprint(triangles).total());
         builder.reserve(triangles);
         if (refits)
             judge_refit(experiment, frames, builder, prepared, oracle);

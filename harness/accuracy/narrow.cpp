@@ -8,6 +8,7 @@
 #include "collide/narrow.h"
 #include "geometry/error.h"
 #include "geometry/hash.h"
+#include "geometry/host_memory.h"
 #include "harness/accuracy/axes.h"
 #include "harness/accuracy/axis.h"
 #include "harness/accuracy/differences.h"
@@ -202,7 +203,7 @@ void measure_class(const AxisRun& run, const PairClass& of, std::size_t pairs)
              done += run.task.pairs_at_once) {
             throw_if_interrupted();
             const std::size_t count = std::min(run.task.pairs_at_once, pairs - done);
-            run.session.require_host_memory("a class of pairs", host_bytes_a_pair * count);
+            require_host_memory("a class of pairs", host_bytes_a_pair * count);
             const Piece piece(run.session, of, static_cast<uint>(count), seed++);
             hash.values(std::span<const Point>(piece.mesh.points));
             meeting += piece.meeting.size();
