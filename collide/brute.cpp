@@ -2,6 +2,7 @@
 #include "collide/colliders.h"
 #include "collide/host_collider.h"
 #include "collide/sweep.h"
+#include "geometry/host_memory.h"
 
 namespace bvhbench {
 namespace {
@@ -17,10 +18,11 @@ public:
     void query(const Tree*, const Input& input, Queue& queue) override
     {
         queue.on_host("broad", [&] {
-            const PairList all =
-                touching_pairs(leaf_boxes(input), input.faces, options_.keep_adjacent);
-            const PairList chosen = among_objects(all, input.objects, options_.among);
-            found_.assign(chosen.pairs().begin(), chosen.pairs().end());
+            const PairList found =
+                touching_pairs(leaf_boxes(input), input.faces, options_.keep_adjacent,
+                               input.objects, options_.among);
+            require_host_memory("collider brute", found.size() * sizeof(Pair));
+            found_.assign(found.pairs().begin(), found.pairs().end());
         });
     }
 };

@@ -56,6 +56,7 @@ struct QueryCounts {
 struct DevicePairs {
     Buffer<Pair> pairs;
     Buffer<uint> counters;
+    MemoryShare memory = {};  ///< if it is nobody else's
 };
 
 /// Finds the pairs of triangles of a frame whose closed boxes overlap: the smaller id first, each once.

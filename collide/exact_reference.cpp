@@ -11,6 +11,8 @@
 #include <set>
 #include <variant>
 
+#include "geometry/host_memory.h"
+
 namespace bvhbench {
 namespace {
 
@@ -151,12 +153,26 @@ bool contact(std::span<const Point> points, Face a, Face b, bool keep_adjacent)
 }  // namespace
 
 PairList intersecting_pairs(std::span<const Point> points, std::span<const Face> faces,
-                            const PairList& candidates, bool keep_adjacent)
+                            const PairList& candidates, bool keep_adjacent,
+                            const std::function<void()>& between)
 {
+    require_host_memory("checking the contacts", candidates.size() / 8);
+    std::vector<bool> is_contact(candidates.size());
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        const Pair pair = candidates.pairs()[k];
+        is_contact[k] = contact(points, faces[pair.a], faces[pair.b], keep_adjacent);
+        count += is_contact[k] ? 1 : 0;
+        if (between)
+            between();
+    }
+    require_host_memory("checking the contacts, " + std::to_string(count) + " of them,",
+                        count * sizeof(Pair));
     std::vector<Pair> found;
-    for (const Pair pair : candidates.pairs())
-        if (contact(points, faces[pair.a], faces[pair.b], keep_adjacent))
-            found.push_back(pair);
+    found.reserve(count);
+    for (std::size_t k = 0; k < candidates.size(); ++k)
+        if (is_contact[k])
+            found.push_back(candidates.pairs()[k]);
     return PairList(std::move(found));
 }
 

@@ -12,6 +12,7 @@
 #include "collide/sharing.h"
 #include "geometry/bits.h"
 #include "geometry/error.h"
+#include "geometry/host_memory.h"
 
 namespace bvhbench {
 namespace {
@@ -201,7 +202,10 @@ NarrowCounts NarrowPhase::counts(const Queue& queue) const
 
 std::vector<Pair> NarrowPhase::contacts(const Queue& queue) const
 {
-    std::vector<Pair> found(static_cast<std::size_t>(counts(queue).contacts));
+    const auto count = static_cast<std::size_t>(counts(queue).contacts);
+    require_host_memory("the contacts found, " + std::to_string(count) + " of them,",
+                        count * sizeof(Pair));
+    std::vector<Pair> found(count);
     assert(found.size() <= contacts_.size());
     if (!found.empty())
         queue.cl().enqueueReadBuffer(contacts_.cl(), CL_TRUE, 0, found.size() * sizeof(Pair),

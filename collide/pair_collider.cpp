@@ -8,6 +8,7 @@
 
 #include "collide/counters.h"
 #include "geometry/error.h"
+#include "geometry/host_memory.h"
 
 namespace bvhbench {
 namespace {
@@ -109,7 +110,10 @@ QueryCounts PairCollider::counts(const Queue& queue) const
 
 std::vector<Pair> PairCollider::pairs(const Queue& queue) const
 {
-    std::vector<Pair> found(static_cast<std::size_t>(counters(queue)[PAIRS_COUNT / 2]));
+    const auto count = static_cast<std::size_t>(counters(queue)[PAIRS_COUNT / 2]);
+    require_host_memory("the pairs found, " + std::to_string(count) + " of them,",
+                        count * sizeof(Pair));
+    std::vector<Pair> found(count);
     assert(found.size() <= pairs_.size());
     if (!found.empty())
         queue.cl().enqueueReadBuffer(pairs_.cl(), CL_TRUE, 0, found.size() * sizeof(Pair),

@@ -14,22 +14,24 @@ Relation relation_of(Pair pair, const Family& family)
                                                                       : Relation::apart;
 }
 
-PairList among_objects(const PairList& pairs, std::span<const FaceRange> objects, Among among)
+bool is_among(Pair pair, std::span<const FaceRange> objects, Among among)
 {
     if (among == Among::all)
-        return pairs;
+        return true;
     const auto object_of = [&](uint face) {
         return std::upper_bound(objects.begin(), objects.end(), face,
                                 [](uint value, const FaceRange& range) {
                                     return value < range.first;
                                 });
     };
+    return (object_of(pair.a) != object_of(pair.b)) == (among == Among::between_objects);
+}
+
+PairList among_objects(const PairList& pairs, std::span<const FaceRange> objects, Among among)
+{
     std::vector<Pair> chosen;
     std::copy_if(pairs.pairs().begin(), pairs.pairs().end(), std::back_inserter(chosen),
-                 [&](Pair pair) {
-                     return (object_of(pair.a) != object_of(pair.b)) ==
-                            (among == Among::between_objects);
-                 });
+                 [&](Pair pair) { return is_among(pair, objects, among); });
     return PairList(std::move(chosen));
 }
 

@@ -26,6 +26,9 @@ Relation relation_of(Pair pair, const Family& family);
 /// Which pairs are looked for, by the objects their triangles are of.
 enum class Among { all, between_objects, within_objects };
 
+/// Whether a pair is one of those, of triangles of these objects.
+bool is_among(Pair pair, std::span<const FaceRange> objects, Among among);
+
 /// The pairs among those objects.
 PairList among_objects(const PairList& pairs, std::span<const FaceRange> objects, Among among);
 

@@ -1,18 +1,26 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <span>
 
 #include "collide/pairs.h"
+#include "collide/relation.h"
 #include "geometry/mesh.h"
 
 namespace bvhbench {
 
+/// Whether a pair of boxes is wanted, by their numbers; an empty one wants all.
+using Wanted = std::function<bool(uint a, uint b)>;
+
 /// Every pair of boxes that share a point; touching counts. Box k is triangle k.
 ///
-/// Sweep and prune on one core, without any tree: the oracle that trees are held to. Takes O(n log n) and
-/// one test for each pair of boxes that overlap along the axis swept, the longest.
-PairList overlapping_pairs(std::span<const Aabb> boxes);
+/// Sweep and prune on one core, without any tree: the oracle that trees are held to. The boxes are swept along the axis on
+/// which they are shortest for the extent of all, in strips across the next such axis. It sweeps twice: once to count,
+/// so that memory is asked for before it is taken, and once to list. Throws Unavailable when the host has not so
+/// much, and what `between` throws, which is called every few microseconds.
+PairList overlapping_pairs(std::span<const Aabb> boxes, const Wanted& wanted = {},
+                           const std::function<void()>& between = {});
 
 /// The same; without `keep_adjacent`, only pairs of triangles that share no vertex index.
 PairList touching_pairs(std::span<const Aabb> boxes, std::span<const Face> faces,
@@ -22,10 +30,9 @@ PairList touching_pairs(std::span<const Aabb> boxes, std::span<const Face> faces
 PairList touching_pairs(std::span<const Point> points, std::span<const Face> faces,
                         bool keep_adjacent);
 
-/// Bytes of the host's memory that a sweep takes besides the pairs that it finds.
-constexpr std::size_t sweep_bytes(std::size_t boxes)
-{
-    return boxes * (2 * sizeof(Aabb) + sizeof(uint));
-}
+/// Of triangles of several objects, those that lie among them so.
+PairList touching_pairs(std::span<const Aabb> boxes, std::span<const Face> faces,
+                        bool keep_adjacent, std::span<const FaceRange> objects, Among among,
+                        const std::function<void()>& between = {});
 
 }  // namespace bvhbench

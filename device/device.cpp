@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <cctype>
-#include <optional>
 #include <sstream>
 
-#include "device/host_memory.h"
 #include "device/loops.h"
 #include "geometry/error.h"
+#include "geometry/host_memory.h"
 
 namespace bvhbench {
 namespace {
@@ -88,9 +87,8 @@ MemoryShare Device::take_memory(std::size_t bytes) const
         std::min<std::size_t>(cl.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>(), memory_limit);
     if (bytes > all - std::min(all, *taken))
         refuse_memory(bytes, "", all);
-    if (const auto available = is_cpu() ? available_host_memory() : std::nullopt;
-        available && bytes > *available)
-        refuse_memory(bytes, " of the host's", *available);
+    if (is_cpu())
+        require_host_memory("memory of " + name(), bytes);
     *taken += bytes;
     return {new std::size_t(bytes), [account = taken](const std::size_t* share) {
                 *account -= *share;

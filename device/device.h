@@ -72,9 +72,8 @@ struct Device {
             std::max(needed, std::min<std::uint64_t>(wanted, most_at_once() / bytes_each)));
     }
 
-    /// Count `bytes` as taken. Throws Unavailable when they will not fit: beside what is taken, or, on a CPU, into what
-    /// the host has left. Asked before memory is allocated: PoCL never reports that it ran out, the process is killed
-    /// instead.
+    /// Count `bytes` as taken. Throws Unavailable when they will not fit: beside what is taken, or, on a CPU, whose memory
+    /// is the host's, into what the host has left (geometry/host_memory.h). Asked before memory is allocated.
     MemoryShare take_memory(std::size_t bytes) const;
 
     /// Throws Unavailable if one allocation cannot be of `bytes`.

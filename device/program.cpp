@@ -3,6 +3,8 @@
 
 #include <chrono>
 
+#include "geometry/host_memory.h"
+
 namespace bvhbench {
 namespace {
 
@@ -12,6 +14,9 @@ bool can_round_division(const cl::Device& device)
     return (device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) !=
            0;
 }
+
+/// What a driver's compiler takes for a program, about. LLVM ends the process where an allocation fails.
+constexpr std::size_t compiler_bytes = std::size_t{64} << 20;
 
 /// Whether the driver is the one that device/builtins.clh was written for.
 bool is_slow_to_declare(const cl::Device& device)
@@ -81,6 +86,7 @@ cl::Program Programs::build(std::string_view path, const std::string& text,
 {
     using clock = std::chrono::steady_clock;
     const auto start = clock::now();
+    require_host_memory("compiling kernels", compiler_bytes);
     cl::Program program;
     try {
         program = built(text, options);

@@ -45,6 +45,8 @@ struct CollideTask {
     int samples = 20;
     int warm_up = 3;
     SamplingRules sampling = {};
+    /// Told what is being done where that takes long, for a line of progress; may be empty.
+    std::function<void(const std::string& what)> note = {};
 };
 
 /// What a pipeline found in a frame, in canonical order, by the numbers triangles have in the file.

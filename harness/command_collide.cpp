@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <iostream>
+#include <optional>
 
 #include "builders/orders.h"
 #include "collide/narrow_methods.h"
@@ -7,6 +8,7 @@
 #include "harness/collide.h"
 #include "harness/commands.h"
 #include "harness/pairs_file.h"
+#include "harness/progress.h"
 #include "harness/report.h"
 #include "harness/report_skips.h"
 #include "harness/report_swept.h"
@@ -90,9 +92,12 @@ int collide(const CollideCommand& command, const Options& options)
         contacts_file.discard();
     });
     int order = results.next_order();
+    std::optional<Progress> progress(command.scenes.size());
+    task.note = [&](const std::string& what) { progress->note(task.scene + ", " + what); };
     for (std::size_t i = 0; i < command.scenes.size(); ++i) {
         task.scene = command.scenes[i];
         task.number = std::to_string(i);
+        progress->step(task.scene);
         collide_frames(
             session, task, order,
             [&](std::vector<Cell>&& cells, const Found& found) {
@@ -106,6 +111,7 @@ int collide(const CollideCommand& command, const Options& options)
             },
             [&](std::size_t cells) { return results.pass(cells); });
     }
+    progress.reset();  // its line goes before the report comes
     results.finish(session.programs().compile_ns());
     const Document& document = results.document();
     std::cout << run_report(document.run);

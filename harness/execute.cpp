@@ -2,6 +2,7 @@
 #include <iostream>
 
 #include "geometry/error.h"
+#include "geometry/host_memory.h"
 #include "harness/commands.h"
 #include "harness/failure.h"
 #include "harness/printable.h"
@@ -49,7 +50,9 @@ int run_program(int argc, const char* const* argv)
 {
     const PrintableOutput output(std::cout), errors(std::cerr);
     try {
-        const int code = execute(parse_options(argc, argv));
+        const Options options = parse_options(argc, argv);
+        limit_host_memory(options.common.memory_limit);
+        const int code = execute(options);
         if (!std::cout.flush())
             throw Unavailable("standard output cannot be written: what was printed is lost");
         return code;

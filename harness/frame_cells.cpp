@@ -2,6 +2,7 @@
 #include "harness/frame_cells.h"
 
 #include <algorithm>
+#include <chrono>
 #include <future>
 #include <memory>
 #include <optional>
@@ -11,47 +12,68 @@
 #include "collide/narrow_methods.h"
 #include "collide/sweep.h"
 #include "geometry/hash.h"
+#include "geometry/host_memory.h"
 #include "harness/accuracy/differences.h"
 #include "harness/failure.h"
+#include "harness/interrupt.h"
 #include "harness/sampler.h"
 #include "harness/session_samples.h"
 
 namespace bvhbench {
 namespace {
 
-/// What a frame's pairs and contacts are, found out when first asked for; pairs on another core.
+/// What a frame's pairs and contacts are, found out when first asked for, on another core.
 class FrameOracle {
 public:
-    explicit FrameOracle(const Input& input) : input_(input) {}
+    /// `note` is told, for a line of progress, that it takes long.
+    FrameOracle(const Input& input, std::function<void(const std::string&)> note)
+        : input_(input), note_(std::move(note))
+    {}
 
     /// Begin with the pairs. Nothing may be timed before wait().
     void begin(const ColliderChoice& choice) { entry(choice); }
 
-    /// Until all that was begun is there.
+    /// Until all that was begun is there. Throws Interrupted.
     void wait() const
     {
         for (const auto& one : entries_)
-            one->pairs.wait();
+            wait_for(one->pairs);
     }
 
-    const PairList& pairs(const ColliderChoice& choice) { return entry(choice).pairs.get(); }
+    const PairList& pairs(const ColliderChoice& choice)
+    {
+        return wait_for(entry(choice).pairs).get();
+    }
 
     const PairList& contacts(const ColliderChoice& choice)
     {
         Entry& found = entry(choice);
-        if (!found.contacts)
-            found.contacts = intersecting_pairs(input_.points, input_.faces, found.pairs.get(),
-                                                choice.keep_adjacent);
-        return *found.contacts;
+        if (!found.contacts.valid())
+            found.contacts = std::async(std::launch::async, [this, &found, of = &pairs(choice)] {
+                return intersecting_pairs(input_.points, input_.faces, *of, found.keep_adjacent,
+                                          throw_if_interrupted);
+            });
+        return wait_for(found.contacts).get();
     }
 
 private:
+    using Later = std::shared_future<PairList>;
     struct Entry {
         Among among;
         bool keep_adjacent;
-        std::shared_future<PairList> pairs;
-        std::optional<PairList> contacts;
+        Later pairs, contacts = {};
     };
+
+    const Later& wait_for(const Later& later) const
+    {
+        for (int seconds = 1; later.wait_for(std::chrono::seconds(1)) != std::future_status::ready;
+             ++seconds) {
+            throw_if_interrupted();
+            if (note_)
+                note_("the oracle is checking, " + std::to_string(seconds) + " s");
+        }
+        return later;
+    }
 
     Entry& entry(const ColliderChoice& choice)
     {
@@ -59,15 +81,17 @@ private:
             if (one->among == choice.among && one->keep_adjacent == choice.keep_adjacent)
                 return *one;
         const auto found = [this, among = choice.among, keep_adjacent = choice.keep_adjacent] {
-            return among_objects(touching_pairs(leaf_boxes(input_), input_.faces, keep_adjacent),
-                                 input_.objects, among);
+            require_host_memory("checking the pairs", input_.faces.size() * sizeof(Aabb));
+            return touching_pairs(leaf_boxes(input_), input_.faces, keep_adjacent, input_.objects,
+                                  among, throw_if_interrupted);
         };
         entries_.push_back(std::make_unique<Entry>(
-            Entry{choice.among, choice.keep_adjacent, std::async(std::launch::async, found), {}}));
+            Entry{choice.among, choice.keep_adjacent, std::async(std::launch::async, found)}));
         return *entries_.back();
     }
 
     const Input& input_;
+    std::function<void(const std::string&)> note_;
     std::vector<std::unique_ptr<Entry>> entries_;
 };
 
@@ -184,21 +208,17 @@ void fail(Running& running, Session& session, const std::string& why)
     running.cell.samples.clear();
 }
 
-/// What is known before anything is made: the collider's own, and the oracle's sweep.
-void require_memory(const Session& session, const ColliderChoice& choice, std::size_t triangles)
+/// Of the host: what a library takes for its trees, and for the pairs, which the oracle has counted: as it finds them, and
+/// in a list that has grown.
+void require_memory(const ColliderChoice& choice, std::size_t triangles, FrameOracle& oracle)
 {
-    if (const std::size_t bytes = find_collider(choice.name).host_bytes; bytes > 0)
-        session.require_host_memory("collider " + choice.name, bytes * triangles);
-    session.require_host_memory("checking the pairs", sweep_bytes(triangles));
-}
-
-/// What is known once they are counted: those found, and the oracle's.
-void require_memory_for_pairs(const Session& session, const std::map<std::string, double>& counters)
-{
-    for (const char* counted : {"pairs_count", "contacts_count"})
-        if (const auto count = counters.find(counted); count != counters.end())
-            session.require_host_memory("checking the pairs",
-                                        2 * sizeof(Pair) * static_cast<std::size_t>(count->second));
+    const std::size_t bytes = find_collider(choice.name).host_bytes;
+    if (bytes == 0)
+        return;
+    require_host_memory("collider " + choice.name, bytes * triangles);
+    const std::size_t count = oracle.pairs(choice).size();
+    require_host_memory("collider " + choice.name + " for " + std::to_string(count) + " pairs",
+                        bytes * triangles + 4 * sizeof(Pair) * count);
 }
 
 void sample(std::span<Running> all, const CollideTask& task, const FrameOfPipelines& frame,
@@ -263,7 +283,7 @@ void find_wrong(Check& check, const std::string& detail)
 std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span<Running> all,
                             const FrameOfPipelines& frame, int& order, Found& found)
 {
-    FrameOracle oracle(frame.input);
+    FrameOracle oracle(frame.input, task.note);
     oracle.begin(all.front().choice.collider);  // while the first one is compiled and settles
     for (std::size_t k = 0; k < all.size(); ++k) {
         Running& one = all[k];
@@ -275,7 +295,7 @@ std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span
             one.failure = session.watchdog().given_up(one.number);
         if (one.failure.empty())
             one.failure = reason_of_failure(one.cannot_be, [&] {
-                require_memory(session, one.cell.collider, frame.input.triangle_count());
+                require_memory(one.cell.collider, frame.input.triangle_count(), oracle);
                 session.watchdog().watch([&] {
                     if (one.pipeline == nullptr)
                         one.pipeline = std::make_unique<Pipeline>(session, one.cell.builder,
@@ -287,9 +307,7 @@ std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span
                         host_ns([&] { one.pipeline->settle(frame.input); });
                 });
                 one.cell.first.compile_ns = session.programs().compile_ns() - compiled_ns;
-                std::map<std::string, double> counters = one.pipeline->counters();
-                require_memory_for_pairs(session, counters);
-                one.cell.counters = std::move(counters);
+                one.cell.counters = one.pipeline->counters();
                 judge(*one.pipeline, one.cell, oracle, frame, found);
             });
         if (!one.failure.empty())

@@ -2,6 +2,9 @@
 #include "harness/options.h"
 
 #include <CLI/CLI.hpp>
+#include <cctype>
+#include <charconv>
+#include <cstdint>
 #include <map>
 #include <sstream>
 
@@ -14,6 +17,28 @@ namespace bvhbench {
 namespace {
 
 constexpr int most_seconds = 1000000;
+
+/// "2G" and the like: a whole number of bytes, or of as many as the letter says, with or without a B.
+std::size_t bytes_of(const std::string& text)
+{
+    constexpr std::string_view letters = "KMGT";
+    const char* const end = text.data() + text.size();
+    std::uint64_t number = 0;
+    const auto read = std::from_chars(text.data(), end, number);
+    std::string unit(read.ptr, end);
+    for (char& letter : unit)
+        letter = static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
+    if (!unit.empty() && unit.back() == 'B')
+        unit.pop_back();
+    const std::size_t place = unit.empty() ? 0 : letters.find(unit) + 1;
+    const bool is_unit = unit.size() <= 1 && place <= letters.size() && (unit.empty() || place > 0);
+    const unsigned shift = static_cast<unsigned>(10 * place);
+    if (read.ec != std::errc() || !is_unit || number == 0 || number > (UINT64_MAX >> shift))
+        throw CLI::ValidationError(
+            "--memory-limit",
+            "must be a number of bytes from 1 on, as 512M or 2G, not '" + text + "'");
+    return number << shift;
+}
 
 void add_common(CLI::App& app, CommonOptions& common)
 {
@@ -28,10 +53,11 @@ void add_common(CLI::App& app, CommonOptions& common)
         "--tuning", common.tuning,
         "a folder to read tuned values from, '' for none; default: BVHBENCH_TUNING, else "
         "those in the program");
-    app.add_option(
-           "--memory-limit", common.memory_limit,
-           "bytes that device and host may each take, as 512M or 2G; default: all there are")
-        ->transform(CLI::AsSizeValue(false));
+    app.add_option_function<std::string>(
+        "--memory-limit",
+        [&common](const std::string& text) { common.memory_limit = bytes_of(text); },
+        "bytes that the program may take in all, and the device, as 512M or 2G; default: all there "
+        "are");
     app.add_option("--time-limit", common.time_limit_s,
                    "seconds that a single build or query may take before it is given up; 0: no end")
         ->capture_default_str()

@@ -24,7 +24,7 @@ struct CommonOptions {
         "recentred";  ///< what becomes of coordinates that floats cannot hold: doubles_name
     std::optional<std::string>
         tuning;  ///< the folder of tuned values; empty: none; not given: BVHBENCH_TUNING
-    std::size_t memory_limit = 0;  ///< bytes of the device and of the host each; 0: what there is
+    std::size_t memory_limit = 0;  ///< bytes of this process in all, and of the device; 0: what there is
     double time_limit_s = 600;     ///< of a single build or query; 0: none
     bool force = false;            ///< whether earlier files are replaced
     bool verbose = false;

@@ -17,10 +17,14 @@
 
 #include "geometry/error.h"
 #include "geometry/hash.h"
+#include "geometry/host_memory.h"
 #include "harness/result_file.h"
 
 namespace bvhbench {
 namespace {
+
+/// What a byte of JSON takes while it is read, about: itself, and its share of the document.
+constexpr std::uint64_t bytes_a_text_byte = 8;
 
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
@@ -253,6 +257,8 @@ std::string file_text(const fs::path& path, const std::string& what)
     std::error_code error;
     if (fs::is_directory(path, error))
         throw Unavailable(what + " '" + path.string() + "' cannot be read: it is a folder");
+    if (const std::uintmax_t size = fs::file_size(path, error); !error)  // a pipe has none
+        require_host_memory("reading '" + path.string() + '\'', bytes_a_text_byte * size);
     errno = 0;
     std::ifstream file(path, std::ios::binary);
     std::string text;

@@ -98,7 +98,8 @@ void make_folder(const std::filesystem::path& folder);
 /// Replaces `path` by `text`, for files of the program's own that no user names. Throws as Output does.
 void write_atomically(const std::filesystem::path& path, std::string_view text);
 
-/// All of a file. Throws Unavailable, "WHAT 'path' cannot be read: REASON".
+/// All of a file. Throws Unavailable, "WHAT 'path' cannot be read: REASON", and before it is read if the host has not the
+/// memory for it and what is made of it.
 std::string file_text(const std::filesystem::path& path, const std::string& what);
 
 }  // namespace bvhbench

@@ -4,6 +4,7 @@
 #include <dlfcn.h>
 #include <sys/utsname.h>
 
+#include <algorithm>
 #include <array>
 #include <ctime>
 #include <filesystem>
@@ -83,6 +84,14 @@ std::string run_id(const std::string& host)
 }
 
 }  // namespace
+
+void note_memory(RunFacts& run)
+{
+    const HostMemoryFacts now = host_memory_facts();
+    run.memory = {.given = now.given,
+                  .predicted = std::max(run.memory.predicted, now.predicted),
+                  .peak = std::max(run.memory.peak, now.peak)};
+}
 
 std::string utc_now()
 {

@@ -196,6 +196,10 @@ std::string run_text(const RunFacts& run)
     json["node_costs"] = {{"inner", run.costs.inner}, {"triangle", run.costs.triangle}};
     if (run.conditions != HostConditions{})
         json["conditions"] = json_of(run.conditions);
+    if (run.memory.peak > 0)
+        json["host_memory"] = {{"given_bytes", run.memory.given},
+                               {"predicted_bytes", run.memory.predicted},
+                               {"peak_bytes", run.memory.peak}};
     if (!run.turns_with.empty())
         json["turns_with"] = run.turns_with;
     if (!run.test_hooks.empty())

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "device/queue.h"
+#include "geometry/host_memory.h"
 #include "harness/catalog.h"
 #include "harness/collider_catalog.h"
 #include "harness/conditions.h"
@@ -137,6 +138,7 @@ struct RunFacts {
     std::int64_t compile_ns = 0;
     NodeCosts costs;  ///< in the counters sah_cost and epo
     HostConditions conditions = {};
+    HostMemoryFacts memory = {};  ///< of the process; of a peak of 0: not known
     std::vector<std::string> turns_with = {};  ///< ids of runs that sampled by turns with this one
     std::map<std::string, std::string> test_hooks = {};  ///< of any: this is no result
 };
@@ -149,7 +151,7 @@ struct SourceRun {
 };
 
 /// The minor number of the format that is written.
-constexpr int newest_minor = 8;
+constexpr int newest_minor = 9;
 
 /// The format that is written.
 inline const std::string result_format = "1." + std::to_string(newest_minor);

@@ -297,6 +297,10 @@ RunFacts run_of(const Json& json)
         run.costs = {.inner = json["node_costs"].at("inner").get<double>(),
                      .triangle = json["node_costs"].at("triangle").get<double>()};
     run.conditions = conditions_of(json.value("conditions", Json::object()));
+    const Json memory = json.value("host_memory", Json::object());  // since 1.9
+    run.memory = {.given = get<std::uint64_t>(memory, "given_bytes"),
+                  .predicted = get<std::uint64_t>(memory, "predicted_bytes"),
+                  .peak = get<std::uint64_t>(memory, "peak_bytes")};
     run.turns_with = get<std::vector<std::string>>(json, "turns_with");
     run.test_hooks = get<std::map<std::string, std::string>>(json, "test_hooks");
     return run;
@@ -315,7 +319,7 @@ SourceRun source_of(const Json& json)
             .copy_rate_bytes_per_s = get<double>(json, "copy_rate_bytes_per_s")};
 }
 
-/// Of "1.8".
+/// Of "1.9".
 int minor_of(const std::string& format)
 {
     int minor = 0;

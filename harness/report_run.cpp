@@ -6,6 +6,11 @@
 #include "harness/table.h"
 
 namespace bvhbench {
+namespace {
+
+std::string mebibytes(std::uint64_t bytes) { return std::to_string(bytes >> 20); }
+
+}  // namespace
 
 std::string costs_text(const NodeCosts& costs)
 {
@@ -25,6 +30,10 @@ std::string run_report(const RunFacts& run)
         text += "warning: " + warning + '\n';
     for (const auto& [hook, value] : run.test_hooks)
         text += "NO RESULT: made under the test hook " + hook + '=' + value + '\n';
+    if (run.memory.peak > 0)
+        text += "memory: " + mebibytes(run.memory.peak) + " MiB at most, " +
+                mebibytes(run.memory.predicted) + " predicted, " + mebibytes(run.memory.given) +
+                " given\n";
     if (run.launch_cost_ns > 0)
         text += "launch cost: " + duration_text(run.launch_cost_ns) + '\n';
     if (!run.tuning.empty()) {

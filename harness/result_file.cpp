@@ -146,6 +146,7 @@ bool ResultFile::is_worth_writing() const
 
 void ResultFile::write()
 {
+    note_memory(document_.run);
     if (!output_.is_nowhere() && is_worth_writing())
         output_.replace(document_text(run_text(document_.run), cell_texts_, stress_texts_));
     written_at_ = std::chrono::steady_clock::now();

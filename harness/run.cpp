@@ -6,6 +6,7 @@
 #include "device/copy_rate.h"
 #include "device/launch_cost.h"
 #include "geometry/error.h"
+#include "geometry/host_memory.h"
 #include "harness/check.h"
 #include "harness/failure.h"
 #include "harness/frames.h"
@@ -170,6 +171,9 @@ void Run::collisions(CollideTask task, const CellFilter& filter, Progress& progr
     progress.step(task.experiment + ": " + task.scene);
     task.number = std::to_string(scenes_++);
     task.pipelines = chosen(task, filter);
+    task.note = [&](const std::string& what) {
+        progress.note(task.experiment + ": " + task.scene + ", " + what);
+    };
     if (task.pipelines.empty())
         return;
     collide_frames(
@@ -242,7 +246,7 @@ Run::Prepared Run::prepare(const Experiment& experiment, const Frames& frames, C
     const std::string failure = reason_of_failure(cannot_be, [&] {
         const bool refits = prepared.cell.operation == Operation::refit;
         const std::size_t triangles = frames.now().triangle_count();
-        session_.require_host_memory("checking the tree", check_bytes(triangles));
+        require_host_memory("checking the tree", check_bytes(triangles));
         Oracle& oracle = refits ? oracles.before : oracles.now;
         // While the builder is compiled and builds for the first time.
         if (const auto reference = find_builder(prepared.cell.builder.name).oracle;
@@ -253,7 +257,7 @@ Run::Prepared Run::prepare(const Experiment& experiment, const Frames& frames, C
         if (refits && !builder.can_refit())
             throw BadUsage(std::string(builder.card().name) + " cannot refit");
         if (builder.card().runs == BuilderCard::Runs::on_host)
-            session_.require_host_memory("the tree", builder.footprint(triangles).total());
+            require_host_memory("the tree", builder.footprint(triangles).total());
         builder.reserve(triangles);
         if (refits)
             judge_refit(experiment, frames, builder, prepared, oracle);

@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <iostream>
 
-#include "device/host_memory.h"
 #include "geometry/error.h"
+#include "geometry/host_memory.h"
 #include "harness/tuning_file.h"
 
 namespace bvhbench {
@@ -17,7 +17,6 @@ SceneLibrary scene_library(const CommonOptions& common)
 {
     SceneLibrary library;
     const char* variable = std::getenv("BVHBENCH_DATA");
-    library.host_memory_bytes = common.memory_limit;
     library.data = !common.data.empty() ? common.data : variable != nullptr ? variable : "";
     library.doubles = doubles_called(common.doubles);
     library.tell = [](const std::string& line) { std::cerr << line << '\n'; };
@@ -31,6 +30,8 @@ Device open_device_of(const CommonOptions& common)
     Device device =
         open_device(common.device,
                     common.kernels.empty() ? Sources::preferred() : Sources::tree(common.kernels));
+    // Again, with the stacks of the driver's threads: they are mapped, and little of them is ever in memory.
+    limit_host_memory(common.memory_limit);
     if (common.memory_limit > 0)
         device.memory_limit = common.memory_limit;
     const auto [file, origin] = tuning_file_for(device, tuning_folder(common.tuning));
@@ -38,10 +39,8 @@ Device open_device_of(const CommonOptions& common)
     return device;
 }
 
-Session::Session(Device device, SceneLibrary library, std::uint64_t host_memory_limit,
-                 double time_limit_s)
+Session::Session(Device device, SceneLibrary library, double time_limit_s)
     : watchdog_(time_limit_s)
-    , host_memory_limit_(host_memory_limit)
     , device_(std::move(device))
     , programs_(device_)
     , queue_(std::make_unique<Queue>(device_))
@@ -52,25 +51,13 @@ Session::Session(const CommonOptions& common) : Session(std::make_unique<PoclCac
 
 /// The cache first: drivers look for it when they are asked for their devices.
 Session::Session(std::unique_ptr<PoclCache> cache, const CommonOptions& common)
-    : Session(open_device_of(common), scene_library(common), common.memory_limit,
-              common.time_limit_s)
+    : Session(open_device_of(common), scene_library(common), common.time_limit_s)
 {
     cache_ = std::move(cache);
     if (common.verbose)
         std::cerr << "device: " << device_.platform() << '/' << device_.name()
                   << "\nkernels: " << device_.sources.origin()
                   << "\ntuning: " << device_.tuning.origin() << '\n';
-}
-
-void Session::require_host_memory(std::string_view what, std::uint64_t bytes) const
-{
-    std::uint64_t given = available_host_memory().value_or(bytes);
-    if (host_memory_limit_ > 0)
-        given = std::min(given, host_memory_limit_);
-    if (bytes > given)
-        throw Unavailable("out of host memory: " + std::string(what) + " takes about " +
-                          std::to_string(bytes) + " bytes, and the host gives " +
-                          std::to_string(given));
 }
 
 /// In its place: trees that stand were built through it and are read through it.

@@ -27,8 +27,7 @@ public:
     explicit Session(const CommonOptions& common);
 
     /// The same of a device that is open, its programs compiled anew: for one that is tuned otherwise.
-    Session(Device device, SceneLibrary library, std::uint64_t host_memory_limit,
-            double time_limit_s = 0);
+    Session(Device device, SceneLibrary library, double time_limit_s = 0);
 
     const Device& device() const { return device_; }
     Programs& programs() { return programs_; }
@@ -41,11 +40,6 @@ public:
     {
         library_.doubles = how.value_or(doubles_asked_);
     }
-    std::uint64_t host_memory_limit() const { return host_memory_limit_; }
-
-    /// Throws Unavailable if the host has not so many bytes for `what`. Asked before they are needed, as it is of
-    /// the device.
-    void require_host_memory(std::string_view what, std::uint64_t bytes) const;
 
     /// Forget what a failed build left in the queue.
     void renew_queue();
@@ -89,7 +83,6 @@ private:
 
     Watchdog watchdog_;
     std::unique_ptr<PoclCache> cache_;  ///< outlives all that runs kernels
-    std::uint64_t host_memory_limit_;
     Device device_;
     Programs programs_;
     std::unique_ptr<Queue> queue_;

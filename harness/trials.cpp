@@ -37,7 +37,7 @@ Device tuned(Device device, const Tuning& tuning)
 class OwnSession : public Trial {
 public:
     OwnSession(Session& session, const Tuning& tuning)
-        : session_(tuned(session.device(), tuning), session.scenes(), session.host_memory_limit())
+        : session_(tuned(session.device(), tuning), session.scenes())
     {}
     std::set<const Parameter*> asked() const override { return session_.device().tuning.asked(); }
 

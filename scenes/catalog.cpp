@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "scenes/catalog.h"
 
+#include <algorithm>
 #include <cmath>
 #include <new>
 
 #include "geometry/error.h"
+#include "geometry/host_memory.h"
 #include "scenes/finish.h"
 #include "scenes/formats/text.h"
 #include "scenes/generate/bend.h"
@@ -12,7 +14,6 @@
 #include "scenes/generate/outlier.h"
 #include "scenes/generate/refine.h"
 #include "scenes/manifest.h"
-#include "scenes/memory.h"
 #include "scenes/sequence.h"
 
 namespace bvhbench {
@@ -25,9 +26,17 @@ WorkerLimits limits_of(const SceneLibrary& library)
     WorkerLimits limits;
     if (library.memory_limit_bytes != 0)
         limits.memory_bytes = library.memory_limit_bytes;
+    // What it reads is in its memory and in this process's.
+    limits.memory_bytes = std::min<std::uint64_t>(limits.memory_bytes, host_memory_left() / 2);
     if (library.time_limit_s > 0)
         limits.time_s = library.time_limit_s;
     return limits;
+}
+
+/// Throws Unavailable if the host has not so many bytes for `scene`, as the user typed it.
+void require_memory(std::string_view scene, std::uint64_t bytes)
+{
+    require_host_memory("scene " + in_quotes(scene), bytes);
 }
 
 /// The N of "torus:N".
@@ -41,12 +50,10 @@ uint triangle_count(std::string_view scene, std::string_view number, uint most)
     return static_cast<uint>(*value);
 }
 
-Scene generated(std::string_view text, const Generator& generator, std::string_view number,
-                const SceneLibrary& library)
+Scene generated(std::string_view text, const Generator& generator, std::string_view number)
 {
     const uint count = triangle_count(text, number, generator.most);
-    check_memory(text, std::uint64_t{count} * generator.bytes_a_triangle,
-                 library.host_memory_bytes);
+    require_memory(text, std::uint64_t{count} * generator.bytes_a_triangle);
     Mesh mesh = generator.make(count);
     Scene scene;
     scene.faces = std::move(mesh.faces);
@@ -56,8 +63,7 @@ Scene generated(std::string_view text, const Generator& generator, std::string_v
 }
 
 /// "N" or "N:F", what follows "cloth-ball:".
-Scene moving(std::string_view text, const MovingGenerator& generator, std::string_view rest,
-             const SceneLibrary& library)
+Scene moving(std::string_view text, const MovingGenerator& generator, std::string_view rest)
 {
     const std::size_t colon = rest.find(':');
     const uint count = triangle_count(text, rest.substr(0, colon), generator.most);
@@ -76,7 +82,7 @@ Scene moving(std::string_view text, const MovingGenerator& generator, std::strin
     }
     const std::uint64_t bytes_each =
         generator.bytes_a_triangle + generator.bytes_a_frame * static_cast<std::uint64_t>(frames);
-    check_memory(text, count * bytes_each, library.host_memory_bytes);
+    require_memory(text, count * bytes_each);
     Scene scene = generator.make(count, static_cast<uint>(frames));
     scene.has_meshes = true;
     return scene;
@@ -90,7 +96,7 @@ Scene refinement(std::string_view text, std::string_view rest, const SceneLibrar
         throw BadUsage("scene " + in_quotes(text) + " is not of the form refine:SCENE:N");
     constexpr uint most = 0xffffffffu / 3;  // three half-edges a triangle
     const uint count = triangle_count(text, rest.substr(colon + 1), most);
-    check_memory(text, std::uint64_t{count} * 90, library.host_memory_bytes);
+    require_memory(text, std::uint64_t{count} * 90);
     return refined(load_any(rest.substr(0, colon), library), count);
 }
 
@@ -217,9 +223,9 @@ Scene unfinished(std::string_view text, const SceneLibrary& library)
     if (const ManifestEntry* const entry = manifest_entry(text))
         return from_data_set(*entry, library);
     if (const Generator* const generator = called(head, generators()))
-        return generated(text, *generator, rest, library);
+        return generated(text, *generator, rest);
     if (const MovingGenerator* const generator = called(head, moving_generators()))
-        return moving(text, *generator, rest, library);
+        return moving(text, *generator, rest);
     if (looks_like_path(text))
         return from_path(text, library);
     unknown(text);

@@ -15,7 +15,6 @@ namespace bvhbench {
 struct SceneLibrary {
     std::filesystem::path data;            ///< --data, else BVHBENCH_DATA, else empty
     std::size_t memory_limit_bytes = 0;    ///< for the process that reads a file; 0: a default
-    std::uint64_t host_memory_bytes = 0;   ///< that a scene may take; 0: all that the machine has
     double time_limit_s = 0;               ///< likewise
     Doubles doubles = Doubles::recentred;  ///< what becomes of coordinates that floats cannot hold
     /// Told, in one line, what became of them; may be empty.

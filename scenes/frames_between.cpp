@@ -2,8 +2,9 @@
 #include "scenes/frames_between.h"
 
 #include "geometry/error.h"
+#include "geometry/host_memory.h"
 #include "scenes/finish.h"
-#include "scenes/memory.h"
+#include "scenes/formats/text.h"
 
 namespace bvhbench {
 namespace {
@@ -29,7 +30,8 @@ Scene with_frames_between(Scene scene, uint between)
         throw BadUsage("scene '" + scene.name + "' has one frame, and none lies between");
     const std::uint64_t parts = std::uint64_t{between} + 1;
     const std::uint64_t frames = (scene.frames.size() - 1) * parts + 1;
-    check_memory(scene.name, frames * scene.frames.front().size() * sizeof(Point));
+    require_host_memory("scene " + in_quotes(scene.name) + " with the frames between",
+                        frames * scene.frames.front().size() * sizeof(Point));
 
     std::vector<std::vector<Point>> all;
     std::vector<std::string> labels;

@@ -5,7 +5,9 @@
 #include <fstream>
 
 #include "geometry/error.h"
+#include "geometry/host_memory.h"
 #include "scenes/face_order.h"
+#include "scenes/formats/text.h"
 #include "scenes/worker/assimp_reader.h"
 
 namespace bvhbench {
@@ -22,6 +24,10 @@ constexpr PlainFormat plain_formats[] = {
     {".ply", read_ply},
     {".stl", read_stl},
 };
+
+/// The share of a mesh that a byte of its file stands for: a vertex in doubles, as a float and, while arrays grow, once more
+/// takes about three bytes for one of text, beside that. What a file of short numbers takes besides meets RLIMIT_DATA.
+constexpr std::uint64_t bytes_a_file_byte = 4;
 
 std::string lower_extension(const std::filesystem::path& path)
 {
@@ -53,13 +59,15 @@ void check_is_file(const std::filesystem::path& path)
 
 }  // namespace
 
-std::string file_bytes(const std::filesystem::path& path)
+std::string file_bytes(const std::filesystem::path& path, std::uint64_t times)
 {
     check_is_file(path);
     std::ifstream file(path, std::ios::binary | std::ios::ate);
     if (!file)
         throw Unavailable(path.string() + " cannot be read");
-    std::string bytes(static_cast<std::size_t>(file.tellg()), '\0');
+    const auto size = static_cast<std::uint64_t>(file.tellg());
+    require_host_memory("reading " + in_quotes(path.string()), times * size);
+    std::string bytes(size, '\0');
     file.seekg(0);
     file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     if (!file)
@@ -78,12 +86,15 @@ FileMesh read_mesh_file(const std::filesystem::path& path, const WorkerLimits& l
     check_is_file(path);
     const std::string extension = lower_extension(path);
     FileMesh file;
-    if (const PlainFormat* const plain = plain_format(extension))
-        file = plain->read(file_bytes(path), path.string());
-    else if (assimp_knows(extension))
+    if (const PlainFormat* const plain = plain_format(extension)) {
+        file = plain->read(file_bytes(path, bytes_a_file_byte), path.string());
+    } else if (assimp_knows(extension)) {
+        require_host_memory("reading " + in_quotes(path.string()),
+                            bytes_a_file_byte * std::filesystem::file_size(path));
         file = read_in_worker(path, limits);
-    else
+    } else {
         throw Unavailable(path.string() + " is of a format that is not read, '" + extension + "'");
+    }
     if (file.mesh.faces.empty())
         throw Unavailable(path.string() + " has no triangles");
     return file;

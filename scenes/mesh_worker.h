@@ -17,7 +17,7 @@ namespace bvhbench {
 
 /// What the worker may use.
 struct WorkerLimits {
-    std::size_t memory_bytes = std::size_t{8} << 30;  ///< address space; not under a sanitizer
+    std::size_t memory_bytes = std::size_t{8} << 30;  ///< in all
     double time_s = 120;
 };
 

@@ -15,7 +15,7 @@ namespace {
 
 std::vector<std::vector<Point>> read_frames(const std::filesystem::path& path, std::size_t vertices)
 {
-    const std::string bytes = file_bytes(path);
+    const std::string bytes = file_bytes(path, 2);  // once more as points
     const std::size_t frame_size = vertices * sizeof(Point);
     if (bytes.empty() || bytes.size() % frame_size != 0)
         throw Unavailable(path.string() + " has " + std::to_string(bytes.size()) +

@@ -8,6 +8,7 @@
 #include "collide/narrow.h"
 #include "geometry/error.h"
 #include "geometry/hash.h"
+#include "geometry/host_memory.h"
 #include "harness/accuracy/axes.h"
 #include "harness/accuracy/axis.h"
 #include "harness/accuracy/differences.h"
@@ -200,7 +201,7 @@ void measure_class(const AxisRun& run, const PairClass& of, std::size_t pairs)
         for (std::size_t done = 0; has_exact_reference && done < pairs;
              done += run.task.pairs_at_once) {
             const std::size_t count = std::min(run.task.pairs_at_once, pairs - done);
-            run.session.require_host_memory("a class of pairs", host_bytes_a_pair * count);
+            require_host_memory("a class of pairs", host_bytes_a_pair * count);
             const Piece piece(run.session, of, static_cast<uint>(count), seed++);
             hash.values(std::span<const Point>(piece.mesh.points));
             meeting += piece.meeting.size();

@@ -2,6 +2,7 @@
 #include "harness/accuracy/scene_input.h"
 
 #include "builders/device_tree.h"
+#include "geometry/host_memory.h"
 #include "harness/accuracy/differences.h"
 #include "harness/check.h"
 #include "harness/failure.h"
@@ -43,7 +44,7 @@ void for_each_scene(const AxisRun& run, std::string_view axis,
 HostTree built_tree(Session& session, const BuilderChoice& choice, const Input& input)
 {
     Builder& builder = session.builder(choice);
-    session.require_host_memory("a tree", check_bytes(input.triangle_count()));
+    require_host_memory("a tree", check_bytes(input.triangle_count()));
     builder.reserve(input.triangle_count());
     const Tree* tree = nullptr;
     session.build_once(builder, input, Start::from_triangles, &tree);

@@ -64,7 +64,7 @@ class Trial {
 public:
     Trial(Session& session, const StressQuestion& question, const Asker& asker,
           const Tuning& tuning)
-        : session_(tuned(session.device(), tuning), session.scenes(), session.host_memory_limit())
+        : session_(tuned(session.device(), tuning), session.scenes())
         , question_(question)
         , asker_(asker)
     {}

@@ -6,8 +6,8 @@
 #include <thread>
 
 #include "collide/sweep.h"
-#include "device/host_memory.h"
 #include "geometry/error.h"
+#include "geometry/host_memory.h"
 #include "harness/check.h"
 #include "harness/failure.h"
 #include "harness/stress/parts.h"
@@ -29,7 +29,7 @@ class LateChecks {
 public:
     LateChecks(std::size_t triangles, const AddStressCell& add) : add_(add)
     {
-        const std::size_t given = available_host_memory().value_or(0) / 2;
+        const std::uint64_t given = host_memory_left() / 2;
         const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
         most_ = std::clamp<std::size_t>(given / std::max<std::size_t>(1, check_bytes(triangles)), 1,
                                         cores);

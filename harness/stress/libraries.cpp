@@ -28,7 +28,7 @@ namespace {
 using enum Finding::Verdict;
 
 constexpr std::string_view argument = "--plain-library";
-constexpr std::size_t memory_limit = std::size_t{12} << 30;  ///< address space of a worker
+constexpr std::size_t memory_limit = std::size_t{12} << 30;  ///< of a worker
 constexpr std::string_view answer_mark = "PAIRS 1\n", refusal_mark = "ERROR 1\n";
 
 template <class T>
@@ -130,9 +130,9 @@ bool is_library_worker(int argc, char** argv) { return argc == 4 && argv[1] == a
 
 int library_worker_main(int, char** argv)
 {
-    limit_worker(memory_limit);
     std::ofstream answer("/dev/fd/" + std::to_string(take_standard_output()), std::ios::binary);
     const std::string failure = reason_of_failure([&] {
+        limit_worker(memory_limit);
         const PlainLibrary& library = library_called(argv[2]);
         std::ifstream in(argv[3], std::ios::binary);
         const auto points = taken<Point>(in);

@@ -18,9 +18,10 @@ constexpr const char* argument = "--read-mesh";
 // A program whose main forgets to ask is_mesh_worker would start itself again and again.
 constexpr const char* marker = "BVHBENCH_MESH_WORKER";
 
-std::string answer_for(const std::string& path)
+std::string answer_for(const std::string& path, std::size_t memory_bytes)
 {
     try {
+        limit_worker(memory_bytes);
         return mesh_message(read_with_assimp(path));
     } catch (const std::bad_alloc&) {
         return refusal_message("it takes more memory than the reader may use");
@@ -40,9 +41,8 @@ bool is_mesh_worker(int argc, char** argv)
 
 int mesh_worker_main(int, char** argv)
 {
-    limit_worker(std::strtoull(argv[3], nullptr, 10));
     const int answer = take_standard_output();
-    return write_all(answer, answer_for(argv[2])) ? 0 : 1;
+    return write_all(answer, answer_for(argv[2], std::strtoull(argv[3], nullptr, 10))) ? 0 : 1;
 }
 
 FileMesh read_in_worker(const std::filesystem::path& path, const WorkerLimits& limits)

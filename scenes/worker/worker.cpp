@@ -6,9 +6,12 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
+
+#include "geometry/host_memory.h"
 
 namespace bvhbench {
 namespace {
@@ -34,15 +37,12 @@ void end_with_parent()
         _exit(128 + SIGKILL);
 }
 
-void limit_worker([[maybe_unused]] std::size_t memory_bytes)
+void limit_worker(std::size_t memory_bytes)
 {
     end_with_parent();
-#if !defined(__SANITIZE_ADDRESS__)  // its shadow memory takes terabytes of address space
-    const rlimit limit{memory_bytes, memory_bytes};
-    setrlimit(RLIMIT_AS, &limit);
-#endif
     const rlimit no_core{0, 0};
     setrlimit(RLIMIT_CORE, &no_core);
+    limit_host_memory(std::min<std::uint64_t>(memory_bytes, host_memory_left()));
 }
 
 int take_standard_output()

@@ -16,8 +16,8 @@ std::string ends_with_this_process();
 /// At the beginning of main: from here on end with the process that started this one, if that wants it so.
 void end_with_parent();
 
-/// What a worker begins with: it ends with its parent, has no more than so much address space (but under a sanitizer), and
-/// leaves no core file.
+/// What a worker begins with: it ends with its parent, leaves no core file, and takes no more than so much memory, nor than
+/// its parent may. Throws Unavailable if it has more already.
 void limit_worker(std::size_t memory_bytes);
 
 /// Keeps standard output for the worker's answer alone: whatever is written there, or to standard error, is thrown away from

@@ -32,7 +32,7 @@ inline Session& waiting_session()
     static Session& waiting = *[] {
         Device device = session().device();
         device.tuning.set(implicit_waits, 1);
-        return new Session(std::move(device), session().scenes(), session().host_memory_limit());
+        return new Session(std::move(device), session().scenes());
     }();
     return waiting;
 }

@@ -14,27 +14,6 @@ import time
 from program import PROGRAM, expect, main, valid
 
 
-def test_memory_that_will_not_do_is_told_before_it_is_taken():
-    build = ("build", "--builder", "oibvh-multi", "--scene", "torus:500000", "--samples", "1", "--memory-limit")
-    expect(3, *build, "1M", says="scene 'torus:500000' takes about 8 MiB of memory, and the limit is 1")
-    expect(4, *build, "60M", says="nothing was measured: out of host memory: checking the tree takes about 204000000 bytes, "
-                                  "and the host gives 62914560")
-    expect(0, *build, "1G", says="agrees")
-    expect(2, *build, "much", says="--memory-limit")
-    pathlib.Path("memory.json").write_text(json.dumps({
-        "experiment": "memory", "question": "?", "scenes": ["torus:115000", "torus:1000"],
-        "builders": ["oibvh-multi", "perfect", "karras", "sah-binned", "oibvh-single",
-                     {"name": "oibvh-wide8", "order": "morton63"}, {"name": "apetrei", "order": "morton63"}],
-        "samples": 1, "warm_up": 0}))
-    expect(0, "run", "memory.json", "--memory-limit", "48M", "--out", "memory-out.json", says="14 cells, 13 agree")
-    cells = {(cell["scene"]["name"], cell["builder"]["name"]): cell for cell in valid("memory-out.json")["cells"]}
-    # There is room beside the scene for some trees, for no more of that size with so much scratch, and for what is small.
-    failed = cells["torus:115000", "apetrei"]
-    assert failed["status"] == "failed" and "out of device memory: " in failed["reason"], failed
-    assert " taken, " in failed["reason"] and failed["reason"].endswith(" gives 50331648"), failed
-    assert all(cell["status"] == "measured" for cell in cells.values() if cell is not failed), cells
-
-
 def test_exit_codes():
     expect(2, says="name a command: list, build")
     expect(2, "paint", says="paint")

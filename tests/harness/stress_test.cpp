@@ -267,7 +267,7 @@ TEST(StressRun, TellsOfASceneThatTheDeviceHasNoRoomForAndGoesOn)
 {
     Device device = open_device("");
     device.memory_limit = 65536;
-    Session full(std::move(device), SceneLibrary{}, std::numeric_limits<std::uint64_t>::max());
+    Session full(std::move(device), SceneLibrary{});
     StressTask task;
     task.size = {false, 1};  // 5,000 triangles
     task.filter = Pattern("^scale/1e(10|17)/(oibvh-multi|device)$", "--filter");

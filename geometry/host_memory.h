@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+//
+// The memory of the host that this process may take. The kernel promises more than there is and ends the process that uses
+// it, so whoever needs much asks here first. What nobody foresaw, as in a library, meets RLIMIT_DATA: an allocation fails,
+// and that is a sentence too.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace bvhbench {
+
+/// From here on this process takes no more than `limit` bytes in all, what it has already among them; of 0, no more than
+/// there is. Sets RLIMIT_DATA, so that allocations beyond fail; not under a sanitizer. May be called again, when more
+/// is known of what the process has before it measures. Throws Unavailable if the process has more already.
+void limit_host_memory(std::uint64_t limit);
+
+/// Bytes that this process can still take: the least of what its limit, the machine, its control groups and RLIMIT_AS
+/// leave. A tenth of what the machine and the groups have is left to others. Memory that is mapped and was never written
+/// counts as taken.
+std::uint64_t host_memory_left();
+
+/// Throws Unavailable, naming `what`, if that is less than `bytes`. Asked before they are taken.
+void require_host_memory(std::string_view what, std::uint64_t bytes);
+
+/// What a process was given, foresaw and took, in bytes.
+struct HostMemoryFacts {
+    std::uint64_t given = 0;      ///< in all, when it was limited last
+    std::uint64_t predicted = 0;  ///< the most that it had and asked for at once
+    std::uint64_t peak = 0;       ///< the most that was in memory: VmHWM
+};
+HostMemoryFacts host_memory_facts();
+
+}  // namespace bvhbench

@@ -1,0 +1,223 @@
+#!/usr/bin/env python3
+"""Give the program too little memory, and hold it to what docs/measuring.md promises: a sentence or a cell that says so, the
+scenes behind it measured, the limit kept, and no process ended by the kernel.
+
+Usage: memory_test.py <bvhbench> <result schema>
+
+MEMORY_SIZES=full runs the sizes that take minutes, too.
+"""
+import contextlib
+import json
+import os
+import pathlib
+import re
+import resource
+import struct
+import subprocess
+import time
+
+from program import PROGRAM, expect, main, valid
+
+FULL = os.environ.get("MEMORY_SIZES") == "full"
+MIB = 1 << 20
+LIMIT = 500 * MIB
+# What may be in memory beyond a limit: parts of the program's own files, which the kernel maps and drops as it likes.
+BEYOND = 70 * MIB
+peaks: list[tuple[str, int, int]] = []
+
+
+def copies(count: int) -> str:
+    """A binary PLY file of so many triangles in one place that share no vertex: all of them meet."""
+    path = f"copies-{count}.ply"
+    if not os.path.exists(path):
+        header = (f"ply\nformat binary_little_endian 1.0\nelement vertex {3 * count}\nproperty float x\nproperty float y\n"
+                  f"property float z\nelement face {count}\nproperty list uchar int vertex_indices\nend_header\n")
+        faces = b"".join(struct.pack("<Biii", 3, 3 * k, 3 * k + 1, 3 * k + 2) for k in range(count))
+        pathlib.Path(path).write_bytes(header.encode() + struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0) * count + faces)
+    return path
+
+
+def own_cgroup() -> pathlib.Path | None:
+    """The folder of the control group that limits this process's memory."""
+    groups = [line.split(":", 2) for line in pathlib.Path("/proc/self/cgroup").read_text().splitlines()]
+    for _, controllers, path in groups:
+        root = {"memory": "/sys/fs/cgroup/memory", "": "/sys/fs/cgroup"}.get(controllers)
+        folder = pathlib.Path(f"{root}{path}") if root else None
+        if folder and any((folder / name).exists() for name in ("memory.limit_in_bytes", "memory.max")):
+            return folder
+    return None
+
+
+@contextlib.contextmanager
+def group_of(limit: int):
+    """A control group of so much memory; None where none can be made."""
+    group, made = None, None
+    try:
+        parent = own_cgroup()
+        if parent:
+            made = parent / f"bvhbench-test-{os.getpid()}"
+            made.mkdir()
+            limits = [made / name for name in ("memory.limit_in_bytes", "memory.max") if (made / name).exists()]
+            limits[0].write_text(str(limit))
+            group = made
+    except (OSError, IndexError):
+        pass
+    try:
+        yield group
+    finally:
+        if made and made.is_dir():
+            for _ in range(50):  # processes leave a group a moment after they have ended
+                try:
+                    made.rmdir()
+                    break
+                except OSError:
+                    time.sleep(0.1)
+
+
+def measured(*words: str, limit: int = 0, group: pathlib.Path | None = None, ulimit: int = 0):
+    """What the program says, and the most memory that it had, which must be within `limit`."""
+    def enter():
+        if group:
+            (group / "cgroup.procs").write_text(str(os.getpid()))
+        if ulimit:
+            resource.setrlimit(resource.RLIMIT_AS, (ulimit, ulimit))
+    with open("out.txt", "w+") as out, open("err.txt", "w+") as err:
+        process = subprocess.Popen([PROGRAM, *words], stdout=out, stderr=err, preexec_fn=enter)
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = code = os.waitstatus_to_exitcode(status)
+        out.seek(0), err.seek(0)
+        done = subprocess.CompletedProcess(words, code, out.read(), err.read())
+    peaks.append((" ".join(words), usage.ru_maxrss // 1024, limit // MIB))
+    assert code >= 0, ("a signal ended it", done)
+    if limit:
+        assert usage.ru_maxrss * 1024 < limit + BEYOND, (usage.ru_maxrss // 1024, done)
+    return done
+
+
+def refused(done: subprocess.CompletedProcess, *says: str):
+    assert done.returncode == 3, done
+    assert done.stderr.startswith("bvhbench: ") and done.stderr.count("\n") == 1, done
+    assert any(words in done.stderr for words in says), done
+
+
+def plan(name: str, **keys) -> str:
+    pathlib.Path(f"{name}.json").write_text(json.dumps(
+        {"experiment": name, "question": "?", "samples": 1, "warm_up": 0, **keys}))
+    return f"{name}.json"
+
+
+def test_a_limit_must_be_a_number_of_bytes():
+    build = ("build", "--builder", "perfect", "--scene", "soup:5", "--samples", "1", "--memory-limit")
+    for wrong in ("much", "-1", "0", "18446744073709551616", "17179869184G", "1.5G", "5X", ""):
+        expect(2, *build, wrong, says=f"--memory-limit: must be a number of bytes from 1 on, as 512M or 2G, not '{wrong}'")
+    for right in ("4000000000", "4g", "4GB", "2T"):
+        expect(0, *build, right, says="agrees")
+
+
+def test_what_the_program_takes_itself_is_within_its_limit():
+    done = measured("build", "--builder", "perfect", "--scene", "soup:5", "--memory-limit", "1000")
+    refused(done, "out of host memory: the program itself takes ")
+    assert done.stderr.endswith(" bytes, and the limit is 1000\n"), done
+
+
+def test_a_scene_is_refused_before_it_is_made():
+    done = measured("build", "--builder", "karras", "--scene", "torus:60000000", "--memory-limit", "500M", limit=LIMIT)
+    refused(done, "out of host memory: scene 'torus:60000000' takes about ")
+    assert re.search(r"about \d+ bytes, and the host gives \d+\n$", done.stderr), done
+
+
+def test_pairs_are_counted_before_they_are_listed():
+    for count in (10000, 30000, 100000) if FULL else (10000,):
+        for collider, says in (("leaf", "out of "), ("brute", "checking the pairs"), ("embree", "checking the pairs")):
+            if count > 10000 and collider != "leaf":
+                continue
+            done = measured("collide", "--collider", collider, "--scene", copies(count), "--samples", "1", "--memory-limit",
+                            "500M", limit=LIMIT)
+            if "built without" not in done.stderr:
+                refused(done, says)
+    # Where there is room they are listed.
+    done = measured("collide", "--collider", "leaf", "--scene", copies(2000), "--samples", "1", "--memory-limit", "500M",
+                    "--json", "room.json", limit=LIMIT)
+    assert done.returncode == 0 and "agrees" in done.stdout, done
+    assert valid("room.json")["cells"][0]["counters"]["pairs_count"] == 2000 * 1999 / 2
+    if FULL:
+        measured("collide", "--collider", "leaf", "--scene", copies(10000), "--samples", "1", "--memory-limit", "1G",
+                 limit=1024 * MIB)
+        refused(measured("collide", "--collider", "leaf", "--scene", copies(100000), "--samples", "1", "--memory-limit",
+                         "2G", limit=2048 * MIB), "out of ")
+
+
+def scenes_around_one_too_large(name: str) -> str:
+    return plan(name, scenes=["torus:1000", copies(10000), "torus:1200"], builders=["karras"], colliders=["leaf", "grid"])
+
+
+def test_a_run_goes_on_behind_a_scene_that_is_too_large():
+    path = scenes_around_one_too_large("too-large")
+    done = measured("run", path, "--out", "too-large-out.json", "--memory-limit", "500M", limit=LIMIT)
+    result = valid("too-large-out.json")
+    assert "finished_at" in result["run"], done
+    states = [(cell["scene"]["name"], cell["status"]) for cell in result["cells"]]
+    assert states == [("torus:1000", "measured")] * 2 + [(copies(10000), "failed")] * 2 + [("torus:1200", "measured")] * 2, states
+    assert all("out of " in cell["reason"] and " memory: " in cell["reason"] for cell in result["cells"][2:4]), result["cells"]
+    memory = result["run"]["host_memory"]
+    assert 64 * MIB < memory["predicted_bytes"] <= LIMIT and memory["given_bytes"] == LIMIT, memory
+    assert abs(memory["peak_bytes"] // MIB - peaks[-1][1]) <= 1, (memory, peaks[-1])
+    assert f"memory: {memory['peak_bytes'] // MIB} MiB at most, " in expect(0, "show", "too-large-out.json")
+
+
+def test_every_command_keeps_its_limit():
+    many = copies(10000)
+    for words in (("sweep", "--scenes", f"{many},torus:1000", "--builders", "karras", "--colliders", "leaf", "--samples", "1",
+                   "--out", "swept"),
+                  ("tune", "leaf", "--scene", many, "--builder", "karras", "--quick", "--samples", "3", "--out", "tuned.json"),
+                  ("accuracy", "--axis", "codes", "--scene", many, "--samples", "1", "--out", ".")):
+        done = measured(*words, "--memory-limit", "500M", limit=LIMIT)
+        assert done.returncode in (0, 3, 4) and "memory" in done.stderr + done.stdout, done
+
+
+def test_files_are_refused_by_their_size():
+    sizes = {"3G": 3 << 30, "6G": 6 << 30} if FULL else {"3G": 3 << 30}
+    for name, size in sizes.items():
+        for ending in ("obj", "ply", "stl", "off", "gltf", "json"):
+            path = f"sparse-{name}.{ending}"
+            with open(path, "wb") as file:
+                file.truncate(size)
+            words = ("show", path) if ending == "json" else ("build", "--builder", "perfect", "--scene", path)
+            refused(measured(*words, "--memory-limit", "500M", limit=LIMIT),
+                    f"out of host memory: reading '{path}' takes about ")
+            with group_of(2 << 30) as group:
+                refused(measured(*words, group=group, ulimit=0 if group else 2 << 30),
+                        f"out of host memory: reading '{path}' takes about ")
+
+
+def test_files_of_numbers_that_are_short_meet_the_limit():
+    # 150 MB of text in which a vertex takes 8 bytes, and 36 in memory and more while arrays grow.
+    with open("short.obj", "w") as file:
+        for _ in range(20):
+            file.write("v 1 2 3\n" * 400000)
+        file.write("f 1 2 3\n")
+    done = measured("build", "--builder", "perfect", "--scene", "short.obj", "--memory-limit", "500M", limit=LIMIT)
+    refused(done, "out of host memory", "there is not enough memory for scene 'short.obj'")
+
+
+def test_a_group_of_processes_limits_without_being_asked():
+    for limit, words in ((1536, ("build", "--builder", "karras", "--scene", "torus:6000000", "--samples", "1")),
+                         (600, ("collide", "--collider", "leaf", "--scene", copies(10000), "--samples", "1"))):
+        with group_of(limit * MIB) as group:
+            # Address space is more than memory: what drivers map they hardly use.
+            done = measured(*words, group=group, ulimit=0 if group else (limit + 600) * MIB)
+            refused(done, "out of host memory: ", "out of device memory: ")
+    with group_of(700 * MIB) as group:
+        path = scenes_around_one_too_large("grouped")
+        done = measured("run", path, "--out", "grouped-out.json", group=group, ulimit=0 if group else 1300 * MIB)
+        states = [cell["status"] for cell in valid("grouped-out.json")["cells"]]
+        assert states == ["measured"] * 2 + ["failed"] * 2 + ["measured"] * 2, (states, done)
+        if not group:
+            print("  no control group can be made here: RLIMIT_AS in its place")
+
+
+if __name__ == "__main__":
+    ended = main(globals())
+    for words, peak, limit in peaks if FULL else []:
+        print(f"{peak:6} MiB of {limit or '-':>5}  {words}")
+    raise SystemExit(ended)
