@@ -49,7 +49,7 @@ int accuracy(const AccuracyCommand& command, const Options& options)
     results.finish(session.programs().compile_ns());
     std::cout << run_report(document.run) << accuracy_report(document)
               << "written: " << file.string() << '\n'
-              << draw("accuracy.py", file, folder) << '\n';
+              << draw("accuracy.py", file, folder, options.common.force) << '\n';
     for (const Cell& cell : document.cells)
         if (cell.status == Cell::Status::failed)
             throw Unavailable(cell.scene.name + ", " + cell.accuracy.method + ": " + cell.reason);

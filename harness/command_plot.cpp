@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <iostream>
 
-#include "geometry/error.h"
 #include "harness/commands.h"
 #include "harness/plot.h"
 
 namespace bvhbench {
 
-int plot(const PlotCommand& command, const Options&)
+int plot(const PlotCommand& command, const Options& options)
 {
-    const Drawn drawn = draw_all(command.files, command.out);
-    if (!drawn.all)
-        throw Unavailable(drawn.why);
+    draw_all(command.files, command.out, options.common.force);
     std::cout << "drawn into " << command.out << '\n';
     return 0;
 }

@@ -70,7 +70,9 @@ public:
         std::cout << run_report(run.document().run) << shown.front().report(run.document())
                   << "written: " << file.string() << '\n';
         for (const Shown& each : shown)
-            std::cout << draw(std::string(each.name) + ".py", file, folder) << '\n';
+            std::cout << draw(std::string(each.name) + ".py", file, folder,
+                              options_.common.force)
+                      << '\n';
         files_.push_back(file.string());
         differs_ = differs_ || has_differing_cell(run.document());
     }
