@@ -72,7 +72,7 @@ def save_all(run: results.Run, figures: Figures, folder: pathlib.Path, inputs: l
     for name, draw in figures.items():
         try:
             yield from style.save(draw(), folder, name, inputs, force)
-        except (ArithmeticError, LookupError, RuntimeError, TypeError, ValueError) as error:
+        except (ArithmeticError, LookupError, RuntimeError, TypeError, UserWarning, ValueError) as error:
             raise results.Refused(f"{run.path}: the figure {name} cannot be drawn of it: {output.described(error)}") from error
 
 

@@ -34,7 +34,7 @@ def check(path: pathlib.Path, inputs: Iterable[pathlib.Path], force: bool, is_ou
     """Raises WrongUsage for a folder, for a file that is read too, and, without `force`, for one that somebody else made."""
     if path.is_dir():
         raise WrongUsage(f"{path} is a folder; name a file in it")
-    if not path.is_file():
+    if not path.is_file() or standard_stream(path.stat()):
         return
     if any(other.exists() and path.samefile(other) for other in inputs):
         raise WrongUsage(f"{path} is read by this command; it is not replaced, choose another file")

@@ -190,10 +190,11 @@ def length(least: int, most: float) -> Check:
                  if most == math.inf else f"has more than {most:g} entries")
 
 
+SILENT = {"$schema", "$id", "$defs", "title", "description", "format", "then"}
 # By keyword: what the schema asks, the schema around it, the whole schema.
 MAKERS: dict[str, Callable[[Any, dict[str, Any], dict[str, Any]], Check]] = {
     "$ref": lambda asked, _, root: same_as(asked, root),
-    "type": lambda asked, _, root: of_type(asked),
+    "type": lambda asked, schema, root: all_of([of_type(asked)] + [check_any] * (schema.keys() <= {"type", *SILENT})),
     "properties": lambda asked, schema, root: of_properties(asked, schema.get("additionalProperties", True), root),
     "additionalProperties": lambda asked, schema, root: of_properties({}, asked, root),
     "propertyNames": lambda asked, _, root: of_names(asked, root),
@@ -212,4 +213,3 @@ MAKERS: dict[str, Callable[[Any, dict[str, Any], dict[str, Any]], Check]] = {
     "oneOf": lambda asked, _, root: fitting(asked, root, 1),
     "if": lambda asked, schema, root: conditional(asked, schema["then"], root),
 }
-SILENT = {"$schema", "$id", "$defs", "title", "description", "format", "then"}

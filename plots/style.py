@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import io
 import pathlib
+import warnings
 from collections.abc import Iterable
 from dataclasses import dataclass
 
@@ -95,6 +96,8 @@ def label(series: Series, among: list[Series]) -> str:
 
 
 def set_up() -> None:
+    warnings.simplefilter("error", UserWarning)  # as of panels that have no room: no figure is made
+    warnings.filterwarnings("ignore", "Glyph")  # a letter that the font lacks is a box
     plt.rcParams.update({
         "font.family": "DejaVu Sans", "font.size": 8, "axes.titlesize": 8, "axes.labelsize": 8,
         "xtick.labelsize": 7, "ytick.labelsize": 7, "legend.fontsize": 7, "legend.frameon": False,

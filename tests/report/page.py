@@ -25,7 +25,7 @@ import results  # noqa: E402
 from browser import Browser  # noqa: E402
 
 FILES = ("table1", "quality", "table2", "accuracy", "stress")
-DETAIL = "box 7 is not its children's"
+DETAIL = "=7 is not its children's box"  # as a formula begins
 
 
 def with_faults(document: dict) -> dict:
