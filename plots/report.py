@@ -55,14 +55,17 @@ def make(files: list[pathlib.Path], views: list[pathlib.Path]) -> tuple[str, boo
     blobs, sections, is_wrong, summary = [], [], False, []
     for number, (path, title) in enumerate(zip(files, titles_of(files))):
         document = results.document_of(path)
-        data = file_data(path, document) | {"title": title}
+        try:
+            data = file_data(path, document) | {"title": title}
+            blobs.append(report_page.json_blob(f"file-{number}", data))
+        except (ArithmeticError, ValueError) as error:
+            raise results.Refused(f"{path}: no page can be made of its numbers: {error}") from error
         is_wrong |= data["states"]["differs"] > 0
         summary.append({key: value for key, value in data.items() if key not in ("cells", "looks", "tables")}
                        | {"count": len(data["cells"]) or len(document.get("stress", []))})
         sections.append(report_page.section(number, title, report_facts.sentence_of(document),
                                             report_facts.warnings_of(document),
                                             report_facts.facts_of(document)))
-        blobs.append(report_page.json_blob(f"file-{number}", data))
         blobs.append(report_page.json_blob(f"samples-{number}", [report_cells.samples_data(cell) for cell in document["cells"]]))
     shown = []
     for number, path in enumerate(views):
