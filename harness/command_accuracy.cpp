@@ -51,7 +51,7 @@ int accuracy(const AccuracyCommand& command, const Options& options)
     results.finish(session.programs().compile_ns());
     std::cout << run_report(document.run) << accuracy_report(document) << results.written();
     const int code = exit_code_of(document);
-    std::cout << draw("accuracy.py", file, folder) << '\n';
+    std::cout << draw("accuracy.py", file, folder, options.common.force) << '\n';
     return code;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <iostream>
 
-#include "geometry/error.h"
 #include "harness/commands.h"
 #include "harness/output.h"
 #include "harness/plot.h"
@@ -12,9 +11,7 @@ int plot(const PlotCommand& command, const Options& options)
 {
     make_folder(command.out);
     check_pictures(command.out, "--out", {.force = options.common.force, .inputs = command.files});
-    const Drawn drawn = draw_all(command.files, command.out);
-    if (!drawn.all)
-        throw Unavailable(drawn.why);
+    draw_all(command.files, command.out, options.common.force);
     std::cout << "drawn into " << command.out << '\n';
     return 0;
 }

@@ -81,6 +81,8 @@ int report(const ReportCommand& command, const Options& options)
         }
     }
     std::vector<std::string> words = {"--out", command.out};
+    if (options.common.force)
+        words.push_back("--force");
     for (const std::string& path : views.paths())
         words.insert(words.end(), {"--view", path});
     words.push_back("--");

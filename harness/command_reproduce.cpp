@@ -80,7 +80,8 @@ public:
             return;
         }
         for (const Shown& each : shown)
-            std::cout << draw(std::string(each.name) + ".py", file, folder) << '\n';
+            std::cout << draw(std::string(each.name) + ".py", file, folder, options_.common.force)
+                      << '\n';
     }
 
     const std::vector<std::string>& files() const { return files_; }

@@ -101,7 +101,7 @@ int run_plots_script(const std::string& script, std::vector<std::string> words)
 }
 
 std::string draw(const std::string& script, const std::filesystem::path& file,
-                 const std::filesystem::path& folder)
+                 const std::filesystem::path& folder, bool force)
 {
     const std::string elsewhere =
         "; where Python and matplotlib are, draw it with: python3 plots/" + script + ' ' +
@@ -110,30 +110,42 @@ std::string draw(const std::string& script, const std::filesystem::path& file,
     if (!std::filesystem::exists(path))
         return "nothing was drawn, " + path.string() +
                " is not there (BVHBENCH_HOME names the folder with plots/)" + elsewhere;
+    std::vector<std::string> words = {python(), path.string(), file.string(), "--out",
+                                      folder.string()};
+    if (force)
+        words.push_back("--force");
     std::string errors;
-    const int status =
-        run_command({python(), path.string(), file.string(), "--out", folder.string()}, errors);
+    const int status = run_command(std::move(words), errors);
     if (status != 0)
         return "nothing was drawn, " + how_it_ended(path.string(), status, errors) + elsewhere;
     std::cerr << errors;
     return "drawn into " + folder.string();
 }
 
-Drawn draw_all(const std::vector<std::string>& files, const std::filesystem::path& folder)
+void draw_all(const std::vector<std::string>& files, const std::filesystem::path& folder,
+              bool force)
 {
     const std::filesystem::path path = home() / "plots" / "all.py";
     if (!std::filesystem::exists(path))
-        return {.why =
-                    path.string() + " is not there (BVHBENCH_HOME names the folder with plots/)"};
-    std::vector<std::string> words = {python(), path.string(), "--out", folder.string(), "--"};
+        throw Unavailable(path.string() +
+                          " is not there (BVHBENCH_HOME names the folder with plots/)");
+    std::vector<std::string> words = {python(), path.string(), "--out", folder.string()};
+    if (force)
+        words.push_back("--force");
+    words.push_back("--");
     words.insert(words.end(), files.begin(), files.end());
     std::string errors;
     const int status = run_command(std::move(words), errors);
-    if (status == 0)
-        return {.all = true};
-    if (status == 1 && !errors.empty() && missing_module(errors).empty())
-        return {.why = joined_lines(errors)};
-    return {.why = how_it_ended(path.string(), status, errors)};
+    if (status == 0) {
+        std::cerr << errors;
+        return;
+    }
+    const bool says_why = (status == 2 || status == 3) && !errors.empty();
+    const std::string why =
+        says_why ? joined_lines(errors) : how_it_ended(path.string(), status, errors);
+    if (status == 2)
+        throw BadUsage(why);
+    throw Unavailable(why);
 }
 
 }  // namespace bvhbench

@@ -12,17 +12,14 @@ namespace bvhbench {
 int run_plots_script(const std::string& script, std::vector<std::string> words);
 
 /// Have plots/<script> draw `file` into `folder`. Returns one sentence: what was drawn, or why nothing was and
-/// how to draw it elsewhere. The plots are found under BVHBENCH_HOME, else where the program was built.
+/// how to draw it elsewhere. The plots are found under BVHBENCH_HOME, else where the program was built. `force` replaces files
+/// that are no pictures.
 std::string draw(const std::string& script, const std::filesystem::path& file,
-                 const std::filesystem::path& folder);
+                 const std::filesystem::path& folder, bool force = false);
 
-/// What became of drawing everything that files have the cells for.
-struct Drawn {
-    bool all = false;      ///< whether each file made a figure
-    std::string why = {};  ///< else one sentence: which did not, and why
-};
-
-/// Have plots/all.py draw them into `folder`; it prints the pictures' names.
-Drawn draw_all(const std::vector<std::string>& files, const std::filesystem::path& folder);
+/// Have plots/all.py draw everything that files have the cells for into `folder`; it prints the pictures' names. `force` as above.
+/// Throws Unavailable with one sentence: which made no figure, and why; and BadUsage if a file would be replaced that is no picture.
+void draw_all(const std::vector<std::string>& files, const std::filesystem::path& folder,
+              bool force = false);
 
 }  // namespace bvhbench

@@ -12,7 +12,6 @@ front), and those points are filled.
 from __future__ import annotations
 
 import math
-import pathlib
 import sys
 from collections.abc import Callable
 from typing import NamedTuple
@@ -339,18 +338,17 @@ FIGURES = {"narrow": draw_narrow, "sums": draw_sums, "codes": draw_codes, "input
            "swept": draw_swept}
 
 
-def figures_of(run: results.Run) -> dict[str, Callable[[], plt.Figure]]:
+def figures_of(run: results.Run) -> figure.Figures:
     """Of each axis that a file has cells of, by the name of its picture."""
     return {style.stem(run.path, axis): lambda axis=axis, draw=draw: draw(run, cells_of(run, axis))
             for axis, draw in FIGURES.items() if cells_of(run, axis)}
 
 
-def draw_all(path: pathlib.Path, folder: pathlib.Path) -> list[pathlib.Path]:
-    found = figures_of(results.load(path))
-    if not found:
-        raise results.Refused(f"{path}: no measured cell of an axis of accuracy")
-    return [picture for name, draw in found.items() for picture in style.save(draw(), folder, name)]
+def some_figures_of(run: results.Run) -> figure.Figures:
+    if not (found := figures_of(run)):
+        raise results.Refused(f"{run.path}: no measured cell of an axis of accuracy")
+    return found
 
 
 if __name__ == "__main__":
-    sys.exit(figure.draw_from(__doc__, draw_all))
+    sys.exit(figure.draw_from(__doc__, some_figures_of))

@@ -4,7 +4,8 @@
     plots/all.py FILE_OR_FOLDER... --out DIR
 
 A folder stands for all result files below it; their pictures go into folders of the same names below DIR.
-Other JSON files are passed over, and so are files of a folder that no figure is made of.
+Other JSON files are passed over, and so are files of a folder that no figure is made of. Exits 0; 2 for wrong usage; 3 if a
+file cannot be read or drawn.
 """
 from __future__ import annotations
 
@@ -13,9 +14,7 @@ import collections
 import functools
 import pathlib
 import sys
-from collections.abc import Callable, Iterator
-
-import matplotlib.pyplot as plt
+from collections.abc import Iterator
 
 import accuracy
 import fig10
@@ -24,6 +23,7 @@ import fig8
 import fig9
 import figure
 import frames
+import output
 import pareto_orders
 import results
 import roofline
@@ -68,7 +68,7 @@ def files_of(given: pathlib.Path, out: pathlib.Path) -> Iterator[tuple[pathlib.P
             yield path, out / path.parent.relative_to(given)
 
 
-def pictures_of(run: results.Run) -> dict[str, Callable[[], plt.Figure]]:
+def pictures_of(run: results.Run) -> figure.Figures:
     """Every figure that the file has cells for, by the name of its picture."""
     path = run.path
     figures = {style.stem(path, name): functools.partial(draw, run) for name, draw in FIGURES.items() if run.of(name)}
@@ -89,27 +89,35 @@ def held(run: results.Run) -> str:
     return ", ".join(named) or "no cells"
 
 
+def drawn(path: pathlib.Path, folder: pathlib.Path, is_of_folder: bool, arguments: argparse.Namespace) -> None:
+    """Raises results.Refused and output.WrongUsage."""
+    run = results.load(path)
+    pictures = pictures_of(run)
+    if not pictures and not is_of_folder:
+        raise results.Refused(f"{path}: there is no figure of what it holds: {held(run)}")
+    for picture in figure.save_all(run, pictures, folder, [path, *arguments.given], arguments.force):
+        print(picture)
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("given", nargs="+", type=pathlib.Path, metavar="FILE_OR_FOLDER")
-    parser.add_argument("--out", type=pathlib.Path, required=True, metavar="DIR")
+    figure.add_output(parser, required=True)
     arguments = parser.parse_args()
     style.set_up()
-    refused = 0
-    for given in arguments.given:
-        for path, folder in files_of(given, arguments.out):
-            try:
-                run = results.load(path)
-                pictures = pictures_of(run)
-                if not pictures and not given.is_dir():
-                    raise results.Refused(f"{path}: there is no figure of what it holds: {held(run)}")
-                for name, draw in pictures.items():
-                    for picture in style.save(draw(), folder, name):
-                        print(picture)
-            except results.Refused as refusal:
-                print(refusal, file=sys.stderr)
-                refused = 1
-    return refused
+
+    def draw_all() -> int:
+        code = 0
+        for given in arguments.given:
+            for path, folder in files_of(given, arguments.out):
+                try:
+                    drawn(path, folder, given.is_dir(), arguments)
+                except results.Refused as refusal:
+                    output.say(str(refusal))
+                    code = 3
+        return code
+
+    return output.to_an_end(draw_all)
 
 
 if __name__ == "__main__":

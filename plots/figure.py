@@ -2,21 +2,23 @@
 from __future__ import annotations
 
 import argparse
+import functools
 import math
 import pathlib
-import sys
 import textwrap
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 import matplotlib.pyplot as plt
 from matplotlib.axis import Axis
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
+import output
 import results
 import style
 
 MISSING_SHOWN = 4
 Draw = Callable[[results.Run], plt.Figure]
+Figures = dict[str, Callable[[], plt.Figure]]  # by the name of the picture
 
 
 def listed(names: list[str]) -> str:
@@ -65,37 +67,49 @@ def footer(figure: plt.Figure, run: results.Run, experiment: str, extra: tuple[s
                 linespacing=1.25)
 
 
-def draw_from(description: str | None, draw_all: Callable[[pathlib.Path, pathlib.Path], list[pathlib.Path]]) -> int:
-    """What a command line asks for. Exits 1 with a sentence if a picture cannot be made."""
+def save_all(run: results.Run, figures: Figures, folder: pathlib.Path, inputs: list[pathlib.Path], force: bool) -> Iterator[pathlib.Path]:
+    """Raises what style.save does, and results.Refused where a figure cannot be made of the file's numbers."""
+    for name, draw in figures.items():
+        try:
+            yield from style.save(draw(), folder, name, inputs, force)
+        except (ArithmeticError, LookupError, RuntimeError, TypeError, UserWarning, ValueError) as error:
+            raise results.Refused(f"{run.path}: the figure {name} cannot be drawn of it: {output.described(error)}") from error
+
+
+def add_output(parser: argparse.ArgumentParser, **folder: object) -> None:
+    parser.add_argument("--out", type=pathlib.Path, metavar="DIR", **folder)
+    parser.add_argument("--force", action="store_true", help="replace files of the pictures' names that are no pictures")
+
+
+def draw_from(description: str | None, figures_of: Callable[[results.Run], Figures]) -> int:
+    """What a command line asks for: exits as output.to_an_end."""
     parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("files", nargs="+", type=pathlib.Path, metavar="FILE", help="result files")
-    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("."), metavar="DIR",
-                        help="where the pictures go (default: here)")
+    add_output(parser, default=pathlib.Path("."), help="where the pictures go (default: here)")
     arguments = parser.parse_args()
     style.set_up()
-    try:
+
+    def draw_all() -> int:
         for path in arguments.files:
-            for picture in draw_all(path, arguments.out):
+            run = results.load(path)
+            for picture in save_all(run, figures_of(run), arguments.out, arguments.files, arguments.force):
                 print(picture)
-    except results.Refused as refusal:
-        print(refusal, file=sys.stderr)
-        return 1
-    return 0
+        return 0
+
+    return output.to_an_end(draw_all)
 
 
 def command_line(name: str, description: str | None, draw: Draw) -> int:
     """One picture per file, called after it."""
-    return draw_from(description, lambda path, folder: style.save(draw(results.load(path)), folder,
-                                                                  style.stem(path, name)))
+    return draw_from(description, lambda run: {style.stem(run.path, name): lambda: draw(run)})
 
 
 def command_line_of_frames(figures: dict[str, Draw], description: str | None) -> int:
     """A picture for each of these experiments that a file has frames of."""
-    def draw_all(path: pathlib.Path, folder: pathlib.Path) -> list[pathlib.Path]:
-        run = results.load(path)
-        found = [name for name in figures if run.has_frames(name)]
+    def figures_of(run: results.Run) -> Figures:
+        found = {style.stem(run.path, name): functools.partial(draw, run) for name, draw in figures.items() if run.has_frames(name)}
         if not found:
-            raise results.Refused(f"{path}: no measured frame of {' or '.join(figures)}")
-        return [picture for name in found for picture in style.save(figures[name](run), folder, style.stem(path, name))]
+            raise results.Refused(f"{run.path}: no measured frame of {' or '.join(figures)}")
+        return found
 
-    return draw_from(description, draw_all)
+    return draw_from(description, figures_of)

@@ -9,11 +9,13 @@ for wrong usage; 3 if a file or library is missing or a file is no result.
 from __future__ import annotations
 
 import argparse
+import os
 import pathlib
 import sys
 from collections import Counter
 from typing import Any
 
+import output
 import report_cells
 import report_facts
 import report_looks
@@ -29,7 +31,7 @@ def file_data(path: pathlib.Path, document: dict[str, Any]) -> dict[str, Any]:
     stress = document.get("stress", [])
     states = Counter(cell["state"] for cell in cells)
     states.update(finding["verdict"] for cell in stress for finding in cell["findings"].values())
-    return {"name": path.stem, "path": path.name, "cells": cells, "looks": report_looks.looks_of(cells),
+    return {"name": text_of(path.stem), "path": text_of(path.name), "cells": cells, "looks": report_looks.looks_of(cells),
             "tables": report_tables.tables_of(cells, stress), "states": states,
             "experiments": list(dict.fromkeys(cell["experiment"] for cell in cells)) or ["stress"],
             "device": run["device"]["name"], "driver": run["device"]["driver"], "machine": run["host"]["name"],
@@ -37,10 +39,15 @@ def file_data(path: pathlib.Path, document: dict[str, Any]) -> dict[str, Any]:
             "options": " ".join(run["command"][1:])}
 
 
+def text_of(name: str) -> str:
+    """A file's name as text: it may be any bytes."""
+    return os.fsencode(name).decode("utf-8", "replace")
+
+
 def titles_of(files: list[pathlib.Path]) -> list[str]:
     """A file's name, with its folder where another file has that name too."""
     names = Counter(path.stem for path in files)
-    return [path.stem if names[path.stem] == 1 else f"{path.resolve().parent.name}/{path.stem}" for path in files]
+    return [text_of(path.stem if names[path.stem] == 1 else f"{path.resolve().parent.name}/{path.stem}") for path in files]
 
 
 def make(files: list[pathlib.Path], views: list[pathlib.Path]) -> tuple[str, bool]:
@@ -48,14 +55,17 @@ def make(files: list[pathlib.Path], views: list[pathlib.Path]) -> tuple[str, boo
     blobs, sections, is_wrong, summary = [], [], False, []
     for number, (path, title) in enumerate(zip(files, titles_of(files))):
         document = results.document_of(path)
-        data = file_data(path, document) | {"title": title}
+        try:
+            data = file_data(path, document) | {"title": title}
+            blobs.append(report_page.json_blob(f"file-{number}", data))
+        except (ArithmeticError, ValueError) as error:
+            raise results.Refused(f"{path}: no page can be made of its numbers: {error}") from error
         is_wrong |= data["states"]["differs"] > 0
         summary.append({key: value for key, value in data.items() if key not in ("cells", "looks", "tables")}
                        | {"count": len(data["cells"]) or len(document.get("stress", []))})
         sections.append(report_page.section(number, title, report_facts.sentence_of(document),
                                             report_facts.warnings_of(document),
                                             report_facts.facts_of(document)))
-        blobs.append(report_page.json_blob(f"file-{number}", data))
         blobs.append(report_page.json_blob(f"samples-{number}", [report_cells.samples_data(cell) for cell in document["cells"]]))
     shown = []
     for number, path in enumerate(views):
@@ -73,17 +83,19 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("files", nargs="*", type=pathlib.Path, metavar="FILE", help="result files")
     parser.add_argument("-o", "--out", type=pathlib.Path, default=pathlib.Path("report.html"), help="the page")
+    parser.add_argument("--force", action="store_true", help="replace a file that is no page")
     parser.add_argument("--view", action="append", default=[], type=pathlib.Path, help="a scene, as harness/view.h writes it")
     arguments = parser.parse_args()
-    try:
+
+    def write_page() -> int:
+        output.check(arguments.out, [*arguments.files, *arguments.view], arguments.force, output.is_page)
         text, is_wrong = make(arguments.files, arguments.view)
-        arguments.out.parent.mkdir(parents=True, exist_ok=True)
-        arguments.out.write_text(text, encoding="utf-8")
-    except (results.Refused, OSError) as refusal:
-        print(f"bvhbench: {refusal}", file=sys.stderr)
-        return 3
-    print(f"written: {arguments.out}, {arguments.out.stat().st_size / 1e6:.1f} MB")
-    return 1 if is_wrong else 0
+        content = text.encode("utf-8")
+        if output.write(arguments.out, content):
+            print(f"written: {arguments.out}, {len(content) / 1e6:.1f} MB")
+        return 1 if is_wrong else 0
+
+    return output.to_an_end(write_page, "bvhbench: ")
 
 
 if __name__ == "__main__":

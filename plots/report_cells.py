@@ -54,8 +54,9 @@ def asked(raw: dict[str, Any]) -> str:
 
 def scene_name(scene: dict[str, Any]) -> str:
     """A stand-in says for what it stands."""
-    other = scene.get("stand_in_for")
-    return f"{scene['name']} (for {other})" if other not in (None, "", scene["name"]) else scene["name"]
+    if not (other := scene.get("stand_in_for")):
+        return scene["name"]
+    return f"{scene['name']} ({'a stand-in' if other == scene['name'] else f'for {other}'})"
 
 
 def quantiles_ns(seconds: Any) -> list[float]:

@@ -28,8 +28,8 @@ def facts_of(document: dict[str, Any]) -> list[tuple[str, str]]:
         ("Driver", f"{device['platform']}, {device['driver']}, {device['opencl']}, {device['opencl_c']}"),
         ("Libraries", ", ".join(f"{name} {version}" for name, version in run["libraries"].items()))]
     if "copy_rate_bytes_per_s" in run:
-        facts.append(("Copy rate", f"{run['copy_rate_bytes_per_s'] / 1e9:,.4g} GB/s read and written, "
-                                   f"over buffers of {binary(run['copy_rate_buffer_bytes'])}"))
+        over = f", over buffers of {binary(run['copy_rate_buffer_bytes'])}" if "copy_rate_buffer_bytes" in run else ""
+        facts.append(("Copy rate", f"{run['copy_rate_bytes_per_s'] / 1e9:,.4g} GB/s read and written{over}"))
     if "launch_cost_ns" in run:
         facts.append(("A launch", f"{run['launch_cost_ns'] / 1e3:.4g} µs with next to nothing to do"))
     if "compile_ns" in run:

@@ -2,7 +2,6 @@
 from __future__ import annotations
 
 import array
-import json
 import pathlib
 from typing import Any
 
@@ -19,20 +18,28 @@ def packed(kind: str, values: list) -> bytes:
 
 def load(path: pathlib.Path) -> tuple[dict[str, Any], dict[str, bytes]]:
     """What is said of a scene, and its arrays by name. Raises results.Refused for a file that is none."""
+    view = results.parsed(path)
     try:
-        view = json.loads(path.read_text(encoding="utf-8"))
-        arrays = {"points": packed("f", view["points"]), "faces": packed("I", view["faces"]),
-                  "pairs": packed("I", view["pairs"]), "contacts": packed("I", view["contacts"]),
-                  "boxes": packed("f", [side for level in view["levels"] for side in level["boxes"]])}
-        cell, run = view["cell"], view["run"]
-    except (OSError, ValueError, KeyError, TypeError) as error:
+        results.check(path, view["cell"], "cell")
+        results.check(path, view["run"], "run")
+        return facts_of(view), arrays_of(view)
+    except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
         raise results.Refused(f"{path}: no scene of a report: {error}") from error
+
+
+def arrays_of(view: dict[str, Any]) -> dict[str, bytes]:
+    return {"points": packed("f", view["points"]), "faces": packed("I", view["faces"]),
+            "pairs": packed("I", view["pairs"]), "contacts": packed("I", view["contacts"]),
+            "boxes": packed("f", [side for level in view["levels"] for side in level["boxes"]])}
+
+
+def facts_of(view: dict[str, Any]) -> dict[str, Any]:
+    cell, run = view["cell"], view["run"]
     levels = [{"count": len(level["boxes"]) // 6, "leaves": level["leaves"]} for level in view["levels"]]
-    facts = {"scene": scene_name(cell["scene"]), "frame": cell["scene"].get("frame", 0), "who": who(cell),
-             "triangles": len(view["faces"]) // 3, "state": state_of(cell), "against": cell["check"].get("against", ""),
-             "why": cell["check"].get("detail", ""), "hashes": {key: value for key, value in cell["check"].items()
-                                                                if key.endswith("_hash")},
-             "device": run["device"]["name"], "driver": run["device"]["driver"], "commit": run["program"]["commit"],
-             "dirty": run["program"]["dirty"], "pairs": len(view["pairs"]) // 2, "contacts": len(view["contacts"]) // 2,
-             "levels": levels}
-    return facts, arrays
+    return {"scene": scene_name(cell["scene"]), "frame": cell["scene"].get("frame", 0), "who": who(cell),
+            "triangles": len(view["faces"]) // 3, "state": state_of(cell), "against": cell["check"].get("against", ""),
+            "why": cell["check"].get("detail", ""), "hashes": {key: value for key, value in cell["check"].items()
+                                                               if key.endswith("_hash")},
+            "device": run["device"]["name"], "driver": run["device"]["driver"], "commit": run["program"]["commit"],
+            "dirty": run["program"]["dirty"], "pairs": len(view["pairs"]) // 2, "contacts": len(view["contacts"]) // 2,
+            "levels": levels}

@@ -4,17 +4,24 @@ Files hold raw samples; medians and quantiles are taken here and nowhere else.
 """
 from __future__ import annotations
 
+import functools
 import json
+import math
 import pathlib
+import re
+import stat
 from dataclasses import dataclass
 from typing import Any
 
 import numpy
 
 import names
+import shape
 
 MAJOR = "1"
-PAPER = pathlib.Path(__file__).resolve().parent.parent / "results" / "paper"
+FOLDER = pathlib.Path(__file__).resolve().parent.parent / "results"
+PAPER = FOLDER / "paper"
+SCHEMA = FOLDER / "schema" / "result-1.schema.json"
 
 
 class Refused(Exception):
@@ -180,26 +187,74 @@ def quantiles(values: numpy.ndarray) -> Quantiles:
 def is_result(path: pathlib.Path) -> bool:
     """Whether a JSON file means to be a result file, of any format. One that cannot be read may be one."""
     try:
-        document = json.loads(path.read_text(encoding="utf-8"))
-    except ValueError:
+        document = parsed(path)
+    except Refused:
         return True
     return isinstance(document, dict) and {"format", "run", "cells"} <= document.keys()
 
 
-def document_of(path: pathlib.Path) -> dict[str, Any]:
-    """A result file as it is, wrong answers and all. Raises Refused for another format."""
+def parsed(path: pathlib.Path) -> Any:
+    """What a JSON file holds. Raises Refused."""
     try:
-        document = json.loads(path.read_text(encoding="utf-8"))
+        kind = path.stat().st_mode
+        if not stat.S_ISREG(kind) and not stat.S_ISFIFO(kind):
+            raise Refused(f"{path}: it is a {'folder' if stat.S_ISDIR(kind) else 'device'}, not a result file")
+        text = path.read_text(encoding="utf-8")
+        if not text.strip():
+            raise Refused(f"{path}: it is empty")
+        document = json.loads(text, parse_constant=no_number, parse_float=finite)
+        if re.search(r"\\u[dD]", text):
+            json.dumps(document, ensure_ascii=False).encode("utf-8")
     except OSError as error:
         raise Refused(f"{path}: {error.strerror}") from error
+    except UnicodeDecodeError as error:
+        raise Refused(f"{path}: not text in UTF-8, at byte {error.start}") from error
+    except UnicodeEncodeError as error:
+        raise Refused(f"{path}: a text in it has half a character, {error.object[error.start]!a}") from error
     except ValueError as error:
-        raise Refused(f"{path}: {error}") from error
-    if not isinstance(document, dict) or "format" not in document:
+        raise Refused(f"{path}: not JSON: {error}") from error
+    except RecursionError as error:
+        raise Refused(f"{path}: nested too deeply") from error
+    return document
+
+
+def no_number(word: str) -> float:
+    raise ValueError(f"{word} is no number")
+
+
+def finite(text: str) -> float:
+    if math.isinf(value := float(text)):
+        raise ValueError(f"{text} is too large a number")
+    return value
+
+
+@functools.cache
+def schema() -> dict[str, Any]:
+    return json.loads(SCHEMA.read_text(encoding="utf-8"))
+
+
+@functools.cache
+def check_of(part: str) -> shape.Check:
+    """Of a part that the schema defines, or of the whole file."""
+    return shape.check_of(schema()["$defs"][part] if part else schema(), schema())
+
+
+def check(path: pathlib.Path, value: Any, part: str = "") -> None:
+    """Raises Refused if it is not as results/schema says."""
+    try:
+        check_of(part)(value)
+    except shape.Wrong as wrong:
+        raise Refused(f"{path}: not a result file: {wrong}") from wrong
+
+
+def document_of(path: pathlib.Path) -> dict[str, Any]:
+    """A result file as it is, wrong answers and all. Raises Refused for another format and for what the schema does not allow."""
+    document = parsed(path)
+    if not isinstance(document, dict) or not isinstance(document.get("format"), str):
         raise Refused(f"{path}: not a result file")
     if document["format"].split(".")[0] != MAJOR:
         raise Refused(f"{path}: format {document['format']}, while this reader knows {MAJOR}.x")
-    if not {"run", "cells"} <= document.keys():
-        raise Refused(f"{path}: not a result file")
+    check(path, document)
     return document
 
 

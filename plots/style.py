@@ -1,7 +1,9 @@
 """How every figure looks: one colour, marker and hatch per builder, type sizes, and how pictures are written."""
 from __future__ import annotations
 
+import io
 import pathlib
+import warnings
 from collections.abc import Iterable
 from dataclasses import dataclass
 
@@ -11,6 +13,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (the backend is chosen first)
 from matplotlib.colors import to_rgb  # noqa: E402
 
+import output  # noqa: E402
 from results import Cell, Refused  # noqa: E402
 
 PAGE_WIDTH = 7.0  # inches: the text width of a two-column page
@@ -93,6 +96,8 @@ def label(series: Series, among: list[Series]) -> str:
 
 
 def set_up() -> None:
+    warnings.simplefilter("error", UserWarning)  # as of panels that have no room: no figure is made
+    warnings.filterwarnings("ignore", "Glyph")  # a letter that the font lacks is a box
     plt.rcParams.update({
         "font.family": "DejaVu Sans", "font.size": 8, "axes.titlesize": 8, "axes.labelsize": 8,
         "xtick.labelsize": 7, "ytick.labelsize": 7, "legend.fontsize": 7, "legend.frameon": False,
@@ -116,13 +121,21 @@ def settle(figure: plt.Figure) -> None:
         axes.set_position([round(length, 5) for length in axes.get_position().bounds])
 
 
-def save(figure: plt.Figure, folder: pathlib.Path, name: str) -> list[pathlib.Path]:
-    """Write PNG and SVG. The same numbers give the same bytes: no dates, no random names."""
-    folder.mkdir(parents=True, exist_ok=True)
+def save(figure: plt.Figure, folder: pathlib.Path, name: str, inputs: list[pathlib.Path], force: bool) -> list[pathlib.Path]:
+    """Write PNG and SVG. The same numbers give the same bytes: no dates, no random names. Raises what output does."""
+    pictures = {folder / f"{name}.png": {"dpi": 200, "metadata": {"Software": None}},
+                folder / f"{name}.svg": {"metadata": {"Date": None, "Creator": None}}}
+    for path in pictures:
+        output.check(path, inputs, force, output.is_picture)
     if figure.get_layout_engine() is not None:
         settle(figure)
-    written = [folder / f"{name}.png", folder / f"{name}.svg"]
-    figure.savefig(written[0], dpi=200, metadata={"Software": None})
-    figure.savefig(written[1], metadata={"Date": None, "Creator": None})
+    contents = {}
+    for path, how in pictures.items():
+        with io.BytesIO() as content:
+            figure.savefig(content, format=path.suffix[1:], **how)
+            contents[path] = content.getvalue()
     plt.close(figure)
-    return written
+    output.make_folder(folder)
+    for path, content in contents.items():
+        output.write(path, content)
+    return list(contents)

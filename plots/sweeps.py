@@ -93,13 +93,11 @@ def figures_of(run: results.Run) -> dict[str, figure.Draw]:
     return found
 
 
-def draw_all(path: pathlib.Path, folder: pathlib.Path) -> list[pathlib.Path]:
-    run = results.load(path)
-    found = figures_of(run)
-    if not found:
-        raise results.Refused(f"{path}: no builds in several sizes or orders, and no frames, of an experiment of one's own")
-    return [picture for name, draw in found.items() for picture in style.save(draw(run), folder, style.stem(path, name))]
+def some_figures_of(run: results.Run) -> figure.Figures:
+    if not (found := figures_of(run)):
+        raise results.Refused(f"{run.path}: no builds in several sizes or orders, and no frames, of an experiment of one's own")
+    return {style.stem(run.path, name): functools.partial(draw, run) for name, draw in found.items()}
 
 
 if __name__ == "__main__":
-    sys.exit(figure.draw_from(__doc__, draw_all))
+    sys.exit(figure.draw_from(__doc__, some_figures_of))

@@ -68,16 +68,15 @@ function download(name, lines) {
   setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }
 
+/** A text that a spreadsheet would take for a formula begins with an apostrophe; numbers are left as they are. */
+function csvCell(value) {
+  const text = String(value ?? "");
+  const harmless = typeof value === "string" && /^[=+\-@\t\r]/.test(text) ? "'" + text : text;
+  return /[",\r\n]/.test(harmless) ? `"${harmless.replace(/"/g, '""')}"` : harmless;
+}
+
 function csvLine(values) {
-  return values
-    .map((value) =>
-      value === null || value === undefined
-        ? ""
-        : /[",\n]/.test(value)
-        ? `"${String(value).replace(/"/g, '""')}"`
-        : value
-    )
-    .join(",");
+  return values.map(csvCell).join(",");
 }
 
 function plural(count, word) {

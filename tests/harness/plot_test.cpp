@@ -74,7 +74,7 @@ TEST(Plot, APythonThatLacksAModuleIsASentenceAndOtherErrorsAreTold)
     testing::internal::CaptureStderr();
     EXPECT_NE(draw("one.py", "r.json", folder).find(lacks + "; where Python and"),
               std::string::npos);
-    EXPECT_TRUE(draw_all({"r.json"}, folder).why.ends_with(lacks));
+    EXPECT_TRUE(sentence([&] { draw_all({"r.json"}, folder); }).ends_with(lacks));
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
     EXPECT_TRUE(sentence([] { run_plots_script("one.py", {}); }).ends_with(lacks));
     EXPECT_EQ(sentence([] { run_plots_script("one.py", {}); }).find("Traceback"),

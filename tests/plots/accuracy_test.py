@@ -94,7 +94,7 @@ class Figures(unittest.TestCase):
 
     def test_of_a_file_without_any_are_refused(self) -> None:
         with self.assertRaisesRegex(results.Refused, "no measured cell of an axis"):
-            accuracy.draw_all(ROOT / "tests" / "golden" / "table1.json", self.folder)
+            accuracy.some_figures_of(results.load(ROOT / "tests" / "golden" / "table1.json"))
 
 
 if __name__ == "__main__":

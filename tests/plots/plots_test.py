@@ -114,7 +114,7 @@ class Scripts(TemporaryFolder):
     def test_a_wrong_answer_makes_no_picture(self) -> None:
         self.document["cells"][4]["check"] = {"verdict": "differs", "detail": "box 7"}
         done = self.run_script("all.py", self.written(self.document), "--out", self.folder / "out")
-        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.returncode, 3)
         self.assertIn("gave a wrong answer on bunny: box 7", done.stderr)
         self.assertFalse((self.folder / "out").exists())
 
@@ -145,7 +145,7 @@ class Scripts(TemporaryFolder):
             cell["experiment"] = "smoke"
         path = self.written(self.document, "no.json")
         done = self.run_script("all.py", path, "--out", self.folder / "out")
-        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.returncode, 3)
         self.assertIn(f"{path}: there is no figure of what it holds: smoke ({len(self.document['cells'])} cells)", done.stderr)
         (self.folder / "table1.json").unlink(missing_ok=True)
         done = self.run_script("all.py", self.folder, "--out", self.folder / "out")
@@ -155,7 +155,7 @@ class Scripts(TemporaryFolder):
         source = {"id": "a", "started_at": "", "command": [], "commit": "", "host": "", "device": "one", "driver": "1"}
         self.document["merged_from"] = [source, source | {"id": "b", "driver": "2"}]
         done = self.run_script("all.py", self.written(self.document), "--out", self.folder / "out")
-        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.returncode, 3)
         self.assertIn("merged from several devices, which no figure tells apart: one, driver 1; one, driver 2", done.stderr)
 
     def test_other_costs_are_named_and_not_held_against_the_papers(self) -> None:
@@ -222,7 +222,7 @@ class Frames(TemporaryFolder):
             who = results.called(document["cells"][3])
             for script in those:
                 done = self.run_script(script, self.written(document, f"{name}.json"), "--out", self.folder / "out")
-                self.assertEqual(done.returncode, 1)
+                self.assertEqual(done.returncode, 3)
                 self.assertIn(f"{who} gave a wrong answer on", done.stderr)
                 self.assertIn("pair 7", done.stderr)
                 self.assertFalse((self.folder / "out").exists())
@@ -230,7 +230,7 @@ class Frames(TemporaryFolder):
     def test_a_file_without_frames_makes_no_picture(self) -> None:
         for script in ("table2.py", "fig9.py", "fig10.py", "frames.py"):
             done = self.run_script(script, GOLDEN / "table1.json", "--out", self.folder / "out")
-            self.assertEqual(done.returncode, 1)
+            self.assertEqual(done.returncode, 3)
             self.assertIn("no measured frame of ", done.stderr)
             self.assertFalse((self.folder / "out").exists())
 
@@ -456,7 +456,7 @@ class Swept(TemporaryFolder):
     def test_frames_that_are_not_swept_make_no_picture(self) -> None:
         for cell in self.document["cells"]:
             cell.pop("swept", None)
-        self.assertEqual(self.run_script("swept.py", self.written(self.document), "--out", self.folder).returncode, 1)
+        self.assertEqual(self.run_script("swept.py", self.written(self.document), "--out", self.folder).returncode, 3)
 
 
 class Looks(unittest.TestCase):

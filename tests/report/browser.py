@@ -9,9 +9,22 @@ from typing import Any
 from selenium import webdriver
 from selenium.webdriver.chrome.options import Options
 from selenium.webdriver.chrome.service import Service
+from selenium.webdriver.common import utils
 
 PATIENCE_S = 60
 SCHEMES_OF_THE_PAGE = ("file:", "data:", "blob:")
+ADDRESS = "127.0.0.1"
+
+
+class ServiceByAddress(Service):
+    """Selenium asks for its driver at localhost, a name that a container may not know."""
+
+    @property
+    def service_url(self) -> str:
+        return f"http://{utils.join_host_port(ADDRESS, self.port)}"
+
+    def is_connectable(self) -> bool:
+        return utils.is_connectable(self.port, ADDRESS)
 
 
 class Browser:
@@ -20,13 +33,13 @@ class Browser:
     def __init__(self) -> None:
         options = Options()
         options.binary_location = "/usr/bin/chromium"
-        # Without a sandbox: in containers, as CI's, the user is root.
+        # Without a sandbox: in containers, as CI's, the user is root. By a pipe: else the driver asks for the browser at localhost.
         for argument in ("--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--hide-scrollbars",
                          "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-background-networking", "--disable-extensions",
-                         "--disable-component-update", "--no-first-run", "--force-color-profile=srgb"):
+                         "--disable-component-update", "--no-first-run", "--remote-debugging-pipe", "--force-color-profile=srgb"):
             options.add_argument(argument)
         options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-        self.driver = webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
+        self.driver = webdriver.Chrome(service=ServiceByAddress("/usr/bin/chromedriver"), options=options)
         self.driver.execute_cdp_cmd("Network.enable", {})
         self.driver.execute_cdp_cmd("Network.emulateNetworkConditions",
                                     {"offline": True, "latency": 0, "downloadThroughput": 0, "uploadThroughput": 0})

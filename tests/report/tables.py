@@ -73,6 +73,19 @@ class Tables(Page):
         agreeing = len(self.report.faulty["cells"]) - 3
         self.assertEqual(tally.split(), ["agrees", str(agreeing), "differs", "1", "failed", "1", "skipped", "1"])
 
+    def test_a_text_of_the_csv_is_no_formula_of_a_spreadsheet(self) -> None:
+        self.show("faulty")
+        text = self.table("Without a time, and why", """const [create, click] = [URL.createObjectURL, HTMLAnchorElement.prototype.click];
+            const buttons = [...titled.querySelectorAll("button")];
+            let saved;
+            URL.createObjectURL = (blob) => { saved = blob; return "#"; };
+            HTMLAnchorElement.prototype.click = () => {};
+            buttons.find((button) => button.textContent === "CSV").click();
+            [URL.createObjectURL, HTMLAnchorElement.prototype.click] = [create, click];
+            return saved.text();""")
+        self.assertIn(f",'{DETAIL}\n", text)
+        self.assertNotIn(f",{DETAIL}", text)
+
     def test_stress_shows_what_broke(self) -> None:
         self.show("stress")
         document = golden("stress")

@@ -1,0 +1,173 @@
+#!/usr/bin/env python3
+"""Malformed result files, of which `report` and `plot` make something or say in one sentence why not.
+
+Usage: results_fuzz.py <source root> [--cases N] [--seconds S] [--seed N]
+
+Each case is a small result file with some of its cells, changed in its tree of values or in its bytes. A page is made of each
+and figures of every tenth: what ends with another code than 0, 3, or 1 for a wrong answer, or says anything but one sentence, is
+a find. Finds lie in build/fuzz/results; make one a test, and then a seed in tests/fuzz/corpus/result.
+"""
+from __future__ import annotations
+
+import argparse
+import collections
+import contextlib
+import copy
+import io
+import json
+import os
+import pathlib
+import random
+import shutil
+import sys
+import tempfile
+import time
+import traceback
+from collections.abc import Callable
+from typing import Any
+
+ROOT = pathlib.Path(sys.argv[1]).resolve()
+sys.path.insert(0, str(ROOT / "plots"))
+
+import all as all_figures  # noqa: E402
+import report  # noqa: E402
+import report_page  # noqa: E402
+
+NUMBERS = (0, 1, -1, 2, 2**31, 2**53 + 1, 2**63, 2**64, 10**30, 10**400, 0.0, -0.0, 1e-320, 1e-17, 0.5, 1e99, 1e101, 1e308,
+           -1e308, float("inf"), float("nan"))
+TEXTS = ("", " ", "\ud800", "\0", "\n", "\x1b[31m", "$a$", "$\\frac$", "<script>", "</script>", "=1+1", "1.0", "2.0", "a" * 5000, "𝕊", "none",
+         "build", "collide", "accuracy", "measured", "failed", "skipped", "differs", "counted", "karras", "leaf", "table1", "fig8")
+OTHERS = (None, True, False, [], {}, [[]], {"": {}}, [None], [1, "a"])
+KEPT = 4  # cells
+FIGURES_EVERY = 10
+
+
+def deep() -> Any:
+    value: Any = []
+    for _ in range(60):
+        value = [value]
+    return value
+
+
+def nodes(value: Any) -> list[tuple[Any, Any]]:
+    """The container and key of every value in a tree."""
+    found = []
+    waiting = [value]
+    while waiting:
+        container = waiting.pop()
+        items = container.items() if isinstance(container, dict) else enumerate(container)
+        for key, item in items:
+            found.append((container, key))
+            if isinstance(item, (dict, list)):
+                waiting.append(item)
+    return found
+
+
+def of_its_kind(value: Any, chance: random.Random) -> Any:
+    """Another value that a reader may take."""
+    if isinstance(value, str):
+        return chance.choice(TEXTS)
+    if isinstance(value, (int, float)) and not isinstance(value, bool):
+        return chance.choice((*NUMBERS, value * 10**6, -value))
+    return chance.choice(OTHERS)
+
+
+def changed(document: Any, chance: random.Random) -> Any:
+    """One thing in it: a value, a key, or where something is."""
+    container, key = chance.choice(nodes(document) or [({"": document}, "")])
+    way = chance.randrange(8)
+    if way < 4:
+        container[key] = of_its_kind(container[key], chance)
+    elif way == 4:
+        container[key] = chance.choice((*NUMBERS, *TEXTS, *OTHERS, deep()))
+    elif way == 5:
+        del container[key]
+    elif way == 6:
+        other, place = chance.choice(nodes(document))
+        container[key] = copy.deepcopy(other[place])
+    elif isinstance(container, list):
+        container += copy.deepcopy(container)
+    else:
+        container[chance.choice(TEXTS)] = container.pop(key)
+    return document
+
+
+def bytes_changed(text: bytes, chance: random.Random) -> bytes:
+    first, last = sorted(chance.randrange(len(text) + 1) for _ in range(2))
+    last = min(last, first + 200)
+    return chance.choice((text[:first], text[:first] + text[last:], text[:last] + text[first:],
+                          text[:first] + chance.randbytes(1 + chance.randrange(4)) + text[last:],
+                          text[:first] + bytes([chance.choice(b"[]{},:\"\\-+e0")]) + text[first + 1:]))
+
+
+def case(seeds: list[dict[str, Any]], chance: random.Random) -> bytes:
+    document = copy.deepcopy(chance.choice(seeds))
+    for part in ("cells", "stress"):
+        if document.get(part) and chance.random() < 0.8:
+            document[part] = chance.sample(document[part], min(len(document[part]), chance.randint(1, KEPT)))
+    for _ in range(chance.choice((1, 1, 1, 2, 4))):
+        document = changed(document, chance)
+    text = json.dumps(document).encode()
+    return bytes_changed(text, chance) if chance.random() < 0.2 else text
+
+
+def ended(main: Callable[[], int], words: list[str]) -> tuple[object, str]:
+    """As from a shell: the exit code, or what was thrown, and standard error."""
+    errors = io.TextIOWrapper(io.BytesIO(), encoding="utf-8", errors="surrogateescape")
+    sys.argv = words
+    with contextlib.redirect_stdout(io.TextIOWrapper(io.BytesIO(), encoding="utf-8")), contextlib.redirect_stderr(errors):
+        try:
+            code: object = main()
+        except BaseException:
+            code = traceback.format_exc()
+    errors.seek(0)
+    return code, errors.read()
+
+
+def is_find(code: object, said: str, wrong_is_1: bool) -> bool:
+    is_sentence = said.count("\n") == 1 and len(said) > 20
+    return not (code == 3 and is_sentence or (code == 0 or code == 1 and wrong_is_1) and said == "")
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser()
+    parser.add_argument("root")
+    parser.add_argument("--cases", type=int, default=10**9)
+    parser.add_argument("--seconds", type=float, default=float("inf"))
+    parser.add_argument("--seed", type=int, default=1)
+    arguments = parser.parse_args()
+    paths = [*sorted((ROOT / "tests" / "golden").glob("*.json")), *sorted((ROOT / "tests" / "fuzz" / "corpus" / "result").iterdir())]
+    seeds = [json.loads(path.read_text(encoding="utf-8")) for path in paths]
+    codes: collections.Counter[str] = collections.Counter()
+    finds = 0
+    end = time.monotonic() + arguments.seconds
+    memory = "/dev/shm" if os.access("/dev/shm", os.W_OK) else None  # where fsync takes no time
+    with tempfile.TemporaryDirectory(dir=memory) as name:
+        folder = pathlib.Path(name)
+        (folder / "plotly.js").write_text("", encoding="utf-8")
+        report_page.plotly_file = lambda: folder / "plotly.js"  # of a page's time it would be the most
+        file, page, pictures = folder / "case.json", folder / "r.html", folder / "pictures"
+        for number in range(arguments.cases):
+            if time.monotonic() > end:
+                break
+            file.write_bytes(case(seeds, random.Random(f"{arguments.seed} {number}")))
+            runs = [("report", report.main, ["report.py", str(file), "-o", str(page)])]
+            if number % FIGURES_EVERY == 0:
+                runs.append(("plot", all_figures.main, ["all.py", str(file), "--out", str(pictures)]))
+            for what, script, words in runs:
+                code, said = ended(script, words)
+                codes[f"{what} {code if isinstance(code, int) else 'an exception'}"] += 1
+                if is_find(code, said, what == "report"):
+                    finds += 1
+                    kept = ROOT / "build" / "fuzz" / "results" / f"{arguments.seed}-{number}.json"
+                    kept.parent.mkdir(parents=True, exist_ok=True)
+                    shutil.copy(file, kept)
+                    print(f"find: {what} of {kept}: {code}\n{said}")
+                page.unlink(missing_ok=True)
+                shutil.rmtree(pictures, ignore_errors=True)
+    print(f"{sum(codes.values())} runs, {finds} finds: " + ", ".join(f"{count} {what}" for what, count in sorted(codes.items())))
+    return 1 if finds else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

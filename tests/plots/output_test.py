@@ -1,0 +1,170 @@
+#!/usr/bin/env python3
+"""What becomes of files that pages and pictures are written to, and of files that are no results.
+
+Usage: output_test.py <source root>
+"""
+import json
+import os
+import pathlib
+import resource
+import stat
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from plots_test import GOLDEN, ROOT, TemporaryFolder
+
+TABLE1 = GOLDEN / "table1.json"
+DEEP = "[" * 100_000
+MALFORMED = {
+    "it is empty": b"",
+    "not a result file": b"[]",
+    "not JSON": b"{\"format\": \"1.0\", ",
+    "NaN is no number": b"[NaN]",
+    "1e999 is too large a number": b"[1e999]",
+    "nested too deeply": DEEP.encode(),
+    "not text in UTF-8, at byte 2": b"[\"\xff\"]",
+    "half a character": b"[\"\\ud800\"]",
+}
+CHANGES = {  # of a cell
+    "cells[0] has no 'scene'": lambda cell: cell.pop("scene"),
+    "cells[0].scene is no object": lambda cell: cell.update(scene=[]),
+    "cells[0].scene.name is no string": lambda cell: cell["scene"].update(name=7),
+    "cells[0].samples[1].stages[0].span_ns is no integer": lambda cell: cell["samples"][1]["stages"][0].update(span_ns="1"),
+    "cells[0].samples[0].stages[0].span_ns is too large": lambda cell: cell["samples"][0]["stages"][0].update(span_ns=10**400),
+    "cells[0] has no 'check'": lambda cell: cell.pop("check"),
+    "cells[0].builder.options is nested more than": lambda cell: cell["builder"].update(options={"order": json.loads("[" * 50 + "]" * 50)}),
+}
+
+
+class Malformed(TemporaryFolder):
+    def assert_told(self, path: pathlib.Path, words: str) -> None:
+        for script, out in (("report.py", self.folder / "r.html"), ("all.py", self.folder / "out")):
+            done = self.run_script(script, path, "--out", out)
+            self.assertEqual((done.returncode, done.stdout), (3, ""), done)
+            self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+            self.assertIn(f"{path}: ", done.stderr)
+            self.assertIn(words, done.stderr)
+            self.assertFalse(out.exists())
+
+    def test_files_that_are_no_results_are_told_in_a_sentence(self) -> None:
+        path = self.folder / "bad.json"
+        for words, content in MALFORMED.items():
+            path.write_bytes(content)
+            self.assert_told(path, words)
+
+    def test_what_is_wrong_in_a_result_is_told_with_its_place(self) -> None:
+        for words, change in CHANGES.items():
+            document = json.loads(TABLE1.read_text(encoding="utf-8"))
+            change(document["cells"][0])
+            self.assert_told(self.written(document, "bad.json"), words)
+
+    def test_devices_are_no_results(self) -> None:
+        self.assert_told(pathlib.Path("/dev/null"), "it is a device, not a result file")
+
+    def test_a_folder_has_no_page(self) -> None:
+        done = self.run_script("report.py", self.folder, "--out", self.folder / "r.html")
+        self.assertEqual((done.returncode, done.stderr), (3, f"bvhbench: {self.folder}: it is a folder, not a result file\n"))
+
+    def test_control_characters_of_a_name_do_not_reach_the_terminal(self) -> None:
+        done = self.run_script("report.py", self.folder / "a\x1b[31m\nb", "--out", self.folder / "r.html")
+        self.assertEqual((done.returncode, done.stderr.count("\n")), (3, 1))
+        self.assertIn("a\\x1b[31m\\nb: No such file", done.stderr)
+
+    def test_a_name_may_be_any_bytes(self) -> None:
+        path = pathlib.Path(os.fsdecode(os.fsencode(self.folder) + b"/\xff.json"))
+        path.write_bytes(TABLE1.read_bytes())
+        done = subprocess.run([sys.executable, ROOT / "plots" / "report.py", path, "-o", path.with_suffix(".html")], capture_output=True, check=False)
+        self.assertEqual((done.returncode, done.stderr), (0, b""))
+        self.assertIn(b"\xff.html", done.stdout)
+
+
+class Outputs(TemporaryFolder):
+    """A page and a picture, each over what stood there."""
+
+    def setUp(self) -> None:
+        super().setUp()
+        self.page, self.picture = self.folder / "r.html", self.folder / "table1.svg"
+        self.made = (("report.py", self.page, self.page), ("table1.py", self.picture, self.folder))
+
+    def make(self, code: int, script: str, out: pathlib.Path, *more: str) -> str:
+        """What is said of it on standard error."""
+        done = self.run_script(script, TABLE1, "--out", out, *more)
+        self.assertEqual((done.returncode, done.stderr.count("\n")), (code, 1 if code else 0), done)
+        return done.stderr
+
+    def assert_made(self, path: pathlib.Path) -> None:
+        self.assertTrue(path.read_text(encoding="utf-8").rstrip().endswith(("</html>", "</svg>")), path)
+
+    def test_a_file_too_large_leaves_what_was_there(self) -> None:
+        for script, path, out in self.made:
+            self.make(0, script, out)
+            before = path.read_bytes()
+            _, hard = limit = resource.getrlimit(resource.RLIMIT_FSIZE)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, hard))
+            self.addCleanup(resource.setrlimit, resource.RLIMIT_FSIZE, limit)
+            self.assertIn("cannot be written: File too large", self.make(3, script, out))
+            resource.setrlimit(resource.RLIMIT_FSIZE, limit)
+            self.assertEqual(path.read_bytes(), before)
+        self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["r.html", "table1.png", "table1.svg"])
+
+    def test_a_full_device_is_a_sentence(self) -> None:
+        self.assertIn("/dev/full cannot be written: No space left on device", self.make(3, "report.py", pathlib.Path("/dev/full")))
+        self.assertTrue(stat.S_ISCHR(os.stat("/dev/full").st_mode))
+
+    def test_a_full_standard_output_is_a_sentence(self) -> None:
+        with open("/dev/full", "wb") as full:
+            done = subprocess.run([sys.executable, ROOT / "plots" / "report.py", TABLE1, "-o", self.page], stdout=full, stderr=subprocess.PIPE, check=False)
+        self.assertEqual((done.returncode, done.stderr), (3, b"bvhbench: standard output cannot be written: No space left on device\n"))
+
+    def test_a_page_goes_to_standard_output_if_asked(self) -> None:
+        with tempfile.TemporaryFile() as out:
+            out.write(b"before\n")
+            out.flush()
+            subprocess.run([sys.executable, ROOT / "plots" / "report.py", TABLE1, "-o", "/dev/stdout"], stdout=out, check=True)
+            out.seek(0)
+            text = out.read()
+        self.assertTrue(text.startswith(b"before\n<!DOCTYPE html>"), text[:40])
+        self.assertTrue(text.endswith(b"</html>\n"))
+
+    def test_links_are_followed_and_modes_kept(self) -> None:
+        (self.folder / "real").mkdir()
+        for script, path, out in self.made:
+            real = self.folder / "real" / path.name
+            real.touch()
+            real.chmod(0o640)
+            path.symlink_to(pathlib.Path("real") / path.name)
+            self.make(0, script, out)
+            self.assertTrue(path.is_symlink())
+            self.assert_made(real)
+            self.assertEqual(stat.S_IMODE(real.stat().st_mode), 0o640)
+
+    def test_only_pages_and_pictures_are_replaced_without_force(self) -> None:
+        for script, path, out in self.made:
+            path.write_text("my notes\n", encoding="utf-8")
+            self.assertIn(f"{path} is there already; --force replaces it, or choose another file", self.make(2, script, out))
+            self.assertEqual(path.read_text(encoding="utf-8"), "my notes\n")
+            self.make(0, script, out, "--force")
+            self.make(0, script, out)
+            self.assert_made(path)
+
+    def test_an_input_is_no_output(self) -> None:
+        for script, path, out in self.made:
+            path.write_bytes(TABLE1.read_bytes())
+            for more in ((), ("--force",)):
+                done = self.run_script(script, path, "--out", out, *more)
+                self.assertEqual(done.returncode, 2, done)
+                self.assertIn(f"{path} is read by this command; it is not replaced, choose another file", done.stderr)
+            self.assertEqual(path.read_bytes(), TABLE1.read_bytes())
+
+    def test_a_folder_is_made_for_pictures_and_not_for_a_page(self) -> None:
+        self.make(0, "table1.py", self.folder / "a" / "b")
+        self.assert_made(self.folder / "a" / "b" / "table1.svg")
+        self.assertIn("No such file or directory", self.make(3, "report.py", self.folder / "c" / "r.html"))
+        self.assertFalse((self.folder / "c").exists())
+        self.assertIn("cannot be made: ", self.make(3, "table1.py", self.folder / "a" / "b" / "table1.svg" / "d"))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
