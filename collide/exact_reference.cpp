@@ -153,8 +153,7 @@ bool contact(std::span<const Point> points, Face a, Face b, bool keep_adjacent)
 }  // namespace
 
 PairList intersecting_pairs(std::span<const Point> points, std::span<const Face> faces,
-                            const PairList& candidates, bool keep_adjacent,
-                            const std::function<void()>& between)
+                            const PairList& candidates, bool keep_adjacent)
 {
     require_host_memory("checking the contacts", candidates.size() / 8);
     std::vector<bool> is_contact(candidates.size());
@@ -163,8 +162,6 @@ PairList intersecting_pairs(std::span<const Point> points, std::span<const Face>
         const Pair pair = candidates.pairs()[k];
         is_contact[k] = contact(points, faces[pair.a], faces[pair.b], keep_adjacent);
         count += is_contact[k] ? 1 : 0;
-        if (between)
-            between();
     }
     require_host_memory("checking the contacts, " + std::to_string(count) + " of them,",
                         count * sizeof(Pair));

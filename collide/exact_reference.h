@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <functional>
 #include <span>
 
 #include "collide/pairs.h"
@@ -14,9 +13,8 @@ constexpr bool has_exact_reference = BVHBENCH_HAS_CGAL != 0;
 
 /// The candidates whose triangles intersect, as collide/narrow.h says, by CGAL's exact predicates: the oracle that the
 /// narrow phase is held to, and none of its code. On one core. Throws Unavailable in a build without CGAL and when the host
-/// has not the memory, and what `between` throws, which is called every few microseconds.
+/// has not the memory.
 PairList intersecting_pairs(std::span<const Point> points, std::span<const Face> faces,
-                            const PairList& candidates, bool keep_adjacent,
-                            const std::function<void()>& between = {});
+                            const PairList& candidates, bool keep_adjacent);
 
 }  // namespace bvhbench

@@ -4,8 +4,7 @@
 
 namespace bvhbench {
 
-PairList intersecting_pairs(std::span<const Point>, std::span<const Face>, const PairList&, bool,
-                            const std::function<void()>&)
+PairList intersecting_pairs(std::span<const Point>, std::span<const Face>, const PairList&, bool)
 {
     throw Unavailable("this build has no CGAL to tell which triangles intersect");
 }

@@ -70,7 +70,7 @@ public:
 
     /// Calls `found` with every pair of boxes that overlap, once.
     template <class FoundPair>
-    void sweep(const FoundPair& found, const std::function<void()>& between) const
+    void sweep(const FoundPair& found) const
     {
         std::vector<Aabb> swept;  // next to each other in memory in the order they are read
         for (std::size_t k = 0; k < count_; ++k) {
@@ -80,8 +80,6 @@ public:
                 swept.push_back(boxes_[id]);
             // Of two boxes that overlap, the later to begin does so before the earlier ends.
             for (std::size_t i = 0; i < swept.size(); ++i) {
-                if (between)
-                    between();
                 const float end = swept[i].*axes_[0].max;
                 for (std::size_t j = i + 1; j < swept.size() && swept[j].*axes_[0].min <= end; ++j)
                     if (overlap(swept[i], swept[j]) && is_of(k, swept[i], swept[j]))
@@ -131,13 +129,12 @@ private:
 
 }  // namespace
 
-PairList overlapping_pairs(std::span<const Aabb> boxes, const Wanted& wanted,
-                           const std::function<void()>& between)
+PairList overlapping_pairs(std::span<const Aabb> boxes, const Wanted& wanted)
 {
     require_host_memory("checking the pairs", Strips::bytes(boxes.size()));
     const Strips strips(boxes);
     std::uint64_t count = 0;
-    strips.sweep([&](uint a, uint b) { count += !wanted || wanted(a, b) ? 1 : 0; }, between);
+    strips.sweep([&](uint a, uint b) { count += !wanted || wanted(a, b) ? 1 : 0; });
     require_host_memory("checking the pairs, " + std::to_string(count) + " of them,",
                         count * sizeof(Pair));
     std::vector<Pair> found;
@@ -146,7 +143,7 @@ PairList overlapping_pairs(std::span<const Aabb> boxes, const Wanted& wanted,
         if (!wanted || wanted(a, b))
             found.push_back({a, b});
     };
-    strips.sweep(list, between);
+    strips.sweep(list);
     return PairList(std::move(found));
 }
 
@@ -163,14 +160,13 @@ PairList touching_pairs(std::span<const Point> points, std::span<const Face> fac
 }
 
 PairList touching_pairs(std::span<const Aabb> boxes, std::span<const Face> faces,
-                        bool keep_adjacent, std::span<const FaceRange> objects, Among among,
-                        const std::function<void()>& between)
+                        bool keep_adjacent, std::span<const FaceRange> objects, Among among)
 {
     const auto wanted = [&](uint a, uint b) {
         return (keep_adjacent || !share_a_vertex(faces[a], faces[b])) &&
                is_among({a, b}, objects, among);
     };
-    return overlapping_pairs(boxes, wanted, between);
+    return overlapping_pairs(boxes, wanted);
 }
 
 }  // namespace bvhbench

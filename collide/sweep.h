@@ -17,10 +17,8 @@ using Wanted = std::function<bool(uint a, uint b)>;
 ///
 /// Sweep and prune on one core, without any tree: the oracle that trees are held to. The boxes are swept along the axis on
 /// which they are shortest for the extent of all, in strips across the next such axis. It sweeps twice: once to count,
-/// so that memory is asked for before it is taken, and once to list. Throws Unavailable when the host has not so
-/// much, and what `between` throws, which is called every few microseconds.
-PairList overlapping_pairs(std::span<const Aabb> boxes, const Wanted& wanted = {},
-                           const std::function<void()>& between = {});
+/// so that memory is asked for before it is taken, and once to list. Throws Unavailable when the host has not enough.
+PairList overlapping_pairs(std::span<const Aabb> boxes, const Wanted& wanted = {});
 
 /// The same; without `keep_adjacent`, only pairs of triangles that share no vertex index.
 PairList touching_pairs(std::span<const Aabb> boxes, std::span<const Face> faces,
@@ -32,7 +30,6 @@ PairList touching_pairs(std::span<const Point> points, std::span<const Face> fac
 
 /// Of triangles of several objects, those that lie among them so.
 PairList touching_pairs(std::span<const Aabb> boxes, std::span<const Face> faces,
-                        bool keep_adjacent, std::span<const FaceRange> objects, Among among,
-                        const std::function<void()>& between = {});
+                        bool keep_adjacent, std::span<const FaceRange> objects, Among among);
 
 }  // namespace bvhbench

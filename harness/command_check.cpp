@@ -6,6 +6,7 @@
 #include "harness/contract.h"
 #include "harness/failure.h"
 #include "harness/hard_inputs.h"
+#include "harness/portable.h"
 #include "harness/progress.h"
 #include "harness/run.h"
 #include "harness/table.h"
@@ -155,6 +156,10 @@ void check_hard_inputs(Checker& checker)
 
 int check(const CheckCommand& command, const Options& options)
 {
+    if (command.portable) {
+        Session session(options.common);
+        return check_portable(session, options.words);
+    }
     std::vector<BuilderChoice> builders = chosen_builders(command.builder);
     Session session(options.common);
     Checker checker(session, std::move(builders));

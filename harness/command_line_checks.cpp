@@ -9,6 +9,11 @@ void add_check(CLI::App& app, CheckCommand& check)
         app.add_subcommand("check", "Hold builders to every promise, without timing");
     command->add_option("--builder", check.builder, "only this one");
     command->add_option("--scene", check.scene, "over this instead of the hard inputs");
+    command
+        ->add_flag("--portable", check.portable,
+                   "instead: the device, and a verdict on each builder, collider and narrow phase, to be sent")
+        ->excludes("--builder")
+        ->excludes("--scene");
 }
 
 void add_smoke(CLI::App& app, SmokeCommand& smoke)

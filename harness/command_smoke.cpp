@@ -5,6 +5,7 @@
 #include "geometry/error.h"
 #include "harness/commands.h"
 #include "harness/output.h"
+#include "harness/provenance.h"
 #include "harness/report.h"
 #include "harness/run.h"
 #include "harness/smoke.h"

@@ -33,7 +33,7 @@ public:
     /// Begin with the pairs. Nothing may be timed before wait().
     void begin(const ColliderChoice& choice) { entry(choice); }
 
-    /// Until all that was begun is there. Throws Interrupted.
+    /// Until all that was begun is there.
     void wait() const
     {
         for (const auto& one : entries_)
@@ -50,8 +50,7 @@ public:
         Entry& found = entry(choice);
         if (!found.contacts.valid())
             found.contacts = std::async(std::launch::async, [this, &found, of = &pairs(choice)] {
-                return intersecting_pairs(input_.points, input_.faces, *of, found.keep_adjacent,
-                                          throw_if_interrupted);
+                return intersecting_pairs(input_.points, input_.faces, *of, found.keep_adjacent);
             });
         return wait_for(found.contacts).get();
     }
@@ -68,7 +67,6 @@ private:
     {
         for (int seconds = 1; later.wait_for(std::chrono::seconds(1)) != std::future_status::ready;
              ++seconds) {
-            throw_if_interrupted();
             if (note_)
                 note_("the oracle is checking, " + std::to_string(seconds) + " s");
         }
@@ -83,7 +81,7 @@ private:
         const auto found = [this, among = choice.among, keep_adjacent = choice.keep_adjacent] {
             require_host_memory("checking the pairs", input_.faces.size() * sizeof(Aabb));
             return touching_pairs(leaf_boxes(input_), input_.faces, keep_adjacent, input_.objects,
-                                  among, throw_if_interrupted);
+                                  among);
         };
         entries_.push_back(std::make_unique<Entry>(
             Entry{choice.among, choice.keep_adjacent, std::async(std::launch::async, found)}));

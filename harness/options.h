@@ -84,6 +84,7 @@ struct ReproduceCommand {
 struct CheckCommand {
     std::string builder;  ///< empty: all
     std::string scene;    ///< empty: the hard inputs
+    bool portable = false;  ///< instead: what a user of an untried device sends
 };
 struct ShowCommand {
     std::string file;

@@ -1,0 +1,50 @@
+#!/usr/bin/env python3
+"""Hold the program to what it promises of a device that is neither PoCL's nor NVIDIA's: Mesa's llvmpipe, through Rusticl.
+
+Usage: portable_test.py <bvhbench> <result schema>
+"""
+import os
+import sys
+
+from program import SCHEMA, expect, main, run, valid
+
+os.environ["RUSTICL_ENABLE"] = "llvmpipe"
+LLVMPIPE = ("--device", "rusticl llvmpipe")
+BASELINE = SCHEMA.parents[1] / "baseline/smoke-llvmpipe.json"
+ENDS_LOOPS = "ends early"
+
+
+def test_smoke_agrees_in_every_cell_that_is_not_refused_by_name():
+    expect(0, "smoke", *LLVMPIPE, "--baseline", str(BASELINE), "--out", "smoke.json", says="as before")
+    cells = valid("smoke.json")["cells"]
+    refused = [cell for cell in cells if cell["status"] != "measured"]
+    for cell in refused:
+        assert cell["status"] == "skipped" and cell["reason"].endswith(ENDS_LOOPS), cell
+        assert cell["collider"]["name"] in ("leaf", "group") and cell["builder"]["name"] == "karras", cell
+    assert len(refused) == 6 and len(cells) > 100, (len(refused), len(cells))
+    assert {cell["check"]["verdict"] for cell in cells if cell["status"] == "measured"} == {"agrees"}
+
+
+def test_a_scene_whose_loops_would_be_too_long_is_refused():
+    expect(4, "build", "--builder", "oibvh-multi", "--scene", "torus:20000", *LLVMPIPE,
+           says="ends loops after 65,535 steps, so it is given up to 16384 triangles, not 20000")
+
+
+def test_without_the_variable_the_device_is_pocl():
+    del os.environ["RUSTICL_ENABLE"]
+    done = run("build", "--builder", "perfect", "--scene", "soup:10", "--samples", "1", "--json", "pocl.json")
+    assert done.returncode == 0 and not done.stderr, done
+    assert valid("pocl.json")["run"]["device"]["platform"] == "Portable Computing Language"
+    expect(3, "build", "--builder", "perfect", "--scene", "soup:10", *LLVMPIPE, says="no OpenCL device matches 'rusticl llvmpipe'")
+
+
+def test_a_report_on_the_device_names_every_verdict():
+    report = expect(0, "check", "--portable")
+    for words in ("device ", "driver ", "extensions ", "OpenCL ", "end by themselves", "oibvh-multi", "karras", "guigue",
+                  "agrees"):
+        assert words in report, (words, report)
+    assert "differs" not in report and "failed" not in report, report
+
+
+if __name__ == "__main__":
+    sys.exit(main(globals()))
