@@ -9,6 +9,22 @@
 #include "geometry/error.h"
 
 namespace bvhbench {
+namespace {
+
+/// Device memory that is there from now on. PoCL allocates a buffer when it is first used, and ends the process if it then
+/// cannot: so it is used at once, while what was asked for is free.
+cl::Buffer allocated(const Device& device, std::size_t bytes)
+{
+    cl::Buffer memory(device.context, CL_MEM_READ_WRITE, std::max<std::size_t>(1, bytes));
+    if (device.is_cpu()) {
+        const cl_uchar zero = 0;
+        cl::CommandQueue(device.context, device.cl)
+            .enqueueWriteBuffer(memory, CL_TRUE, 0, sizeof zero, &zero);
+    }
+    return memory;
+}
+
+}  // namespace
 
 Arena::Arena(const Device& device, std::size_t capacity)
     : alignment_(device.cl.getInfo<CL_DEVICE_MEM_BASE_ADDR_ALIGN>() / 8), capacity_(capacity)
@@ -26,8 +42,7 @@ Arena Arena::reserved(const Device& device, const Footprint& footprint)
     if (footprint.total() > device.most_at_once())
         arena.pieces_ = device;
     else
-        arena.memory_ = cl::Buffer(device.context, CL_MEM_READ_WRITE,
-                                   std::max<std::size_t>(1, footprint.total()));
+        arena.memory_ = allocated(device, footprint.total());
     return arena;
 }
 
@@ -45,7 +60,7 @@ cl::Buffer Arena::carve(std::size_t bytes, Use use)
         return {};
     if (pieces_) {
         pieces_->require_at_once(bytes);
-        return {pieces_->context, CL_MEM_READ_WRITE, bytes};
+        return allocated(*pieces_, bytes);
     }
     if (!memory_())
         return {};

