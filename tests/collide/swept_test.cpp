@@ -295,6 +295,7 @@ TEST(SweptSteps, OverRoundedBoxesMissNothing)
 TEST(SweptSteps, RefuseWhatHasNoMeaningForThem)
 {
     CollideTask task;
+    task.needs_scene = true;
     task.scene = "cloth-ball:600:2";
     task.pipelines = {{{.name = "oibvh-multi", .order = "kd"}, {.name = "leaf"}}};
     EXPECT_THROW(cells_of(task), BadUsage);
