@@ -88,11 +88,12 @@ public:
 
     int verdict() const
     {
-        std::cout << table_.text() << checked_ << " checks, "
-                  << (broken_ == 0 ? "every promise is kept\n"
-                                   : std::to_string(broken_) + " with a broken promise\n");
+        std::cout << table_.text();
         if (refused_ == checked_)
             throw NothingMeasured("nothing was checked: " + refusal_);
+        std::cout << checked_ << " checks, "
+                  << (broken_ == 0 ? "every promise is kept\n"
+                                   : std::to_string(broken_) + " with a broken promise\n");
         return broken_ == 0 ? 0 : 1;
     }
 

@@ -187,7 +187,7 @@ def test_a_crash_costs_the_cell_that_it_was_in():
     assert other["status"] == "measured", other
     done = run(*BUILD, POCL_CACHE_DIR=str(cache))
     last = done.stderr.splitlines()[-1]  # PoCL's own words come before
-    assert done.returncode == 3 and last.startswith("bvhbench: crashed (signal 6)"), done
+    assert done.returncode == 4 and last.startswith("bvhbench: nothing was measured: crashed (signal 6)"), done
 
 
 def test_a_full_disk_is_one_sentence_and_keeps_what_was_there():

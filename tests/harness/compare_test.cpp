@@ -280,7 +280,7 @@ TEST(Compare, RefusesWhatCannotBeCompared)
     EXPECT_NE(refusal(a, b).find("no cells"), std::string::npos);
     b = a;
     b.minor = 3;
-    EXPECT_NE(refusal(a, b).find("format 1.8 and b.json 1.3"), std::string::npos);
+    EXPECT_NE(refusal(a, b).find("format 1.9 and b.json 1.3"), std::string::npos);
     b.minor = 4;
     EXPECT_EQ(refusal(a, b), "");
     b = a;

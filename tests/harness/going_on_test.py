@@ -92,8 +92,9 @@ def test_what_measured_nothing_ends_with_4_and_says_why():
     expect(4, "accuracy", "--axis", "sums", "--scene", "nonsense", "--out", "none", says=why)
     expect(4, "sweep", "--scenes", "gone.obj", "--builders", "perfect", "--out", "sweep", says="nothing was measured: ")
     assert [cell[1] for cell in cells_of("sweep/sweep.json")] == ["skipped"]
-    expect(4, "check", "--builder", "perfect", "--scene", "torus:3000", "--memory-limit", "200K", says="nothing was checked: out of")
-    expect(4, "reproduce", "table1", "--quick", "--memory-limit", "100K", "--out", "table", says="nothing was measured: ")
+    pathlib.Path("no-kernels").mkdir()
+    expect(4, "check", "--builder", "perfect", "--scene", "torus:300", "--kernels", "no-kernels", says="nothing was checked: kernel source")
+    expect(4, "reproduce", "table1", "--quick", "--kernels", "no-kernels", "--out", "table", says="nothing was measured: kernel source")
     assert {cell[1] for cell in cells_of("table/table1.json")} <= {"skipped", "failed"}
 
 

@@ -136,10 +136,9 @@ class Scene(unittest.TestCase):
 
     def test_a_wrong_scene_is_shown_as_wrong_and_its_boxes_are_not(self) -> None:
         view = self.folder / "wrong.view"
-        facts = self.facts()
         cell = {"experiment": "view", "scene": {"name": SCENE}, "builder": {"name": BUILDER}, "status": "measured", "samples": [],
                 "counters": {}, "check": {"verdict": "differs", "against": "contract", "detail": "box 7 is too small"}}
-        run_facts = {"device": {"name": facts["device"], "driver": ""}, "program": {"commit": "0" * 40, "dirty": False}}
+        run_facts = json.loads((ROOT / "tests" / "golden" / "table4.json").read_text(encoding="utf-8"))["run"]
         view.write_text(json.dumps({"run": run_facts, "cell": cell, "points": [0] * 9, "faces": [0, 1, 2], "levels": [], "pairs": [],
                                     "contacts": []}), encoding="utf-8")
         done = subprocess.run([sys.executable, ROOT / "plots" / "report.py", "--view", view, "--out", self.folder / "wrong.html"],
