@@ -1,36 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "device/device.h"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <cctype>
 #include <sstream>
 
+#include "device/lifted_limit.h"
 #include "device/loops.h"
 #include "geometry/error.h"
 #include "geometry/host_memory.h"
 
 namespace bvhbench {
 namespace {
-
-/// Lifts RLIMIT_DATA while drivers start: PoCL takes it for the memory of the device, and ends the process if that is less
-/// than 128 MiB.
-class LiftedLimit {
-public:
-    LiftedLimit()
-    {
-        getrlimit(RLIMIT_DATA, &before_);
-        const rlimit lifted{before_.rlim_max, before_.rlim_max};
-        setrlimit(RLIMIT_DATA, &lifted);
-    }
-    ~LiftedLimit() { setrlimit(RLIMIT_DATA, &before_); }
-    LiftedLimit(const LiftedLimit&) = delete;
-    LiftedLimit& operator=(const LiftedLimit&) = delete;
-
-private:
-    rlimit before_ = {};
-};
 
 struct Found {
     cl::Device device;

@@ -3,6 +3,7 @@
 
 #include <chrono>
 
+#include "device/lifted_limit.h"
 #include "geometry/host_memory.h"
 
 namespace bvhbench {
@@ -102,6 +103,7 @@ cl::Program Programs::build(std::string_view path, const std::string& text,
 
 cl::Program Programs::built(const std::string& text, const std::string& options) const
 {
+    const LiftedLimit lifted;
     if (declares_builtins_) {
         cl::Program program(device_.context, builtins() + text);
         try {
