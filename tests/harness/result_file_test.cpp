@@ -66,7 +66,7 @@ TEST_F(ResultFileTest, LeavesAnOlderFileAloneUntilThereIsACell)
     const fs::path path = folder_ / "r.json";
     write_atomically(path, "older");
     {
-        const ResultFile file(output_at(path), fake_run());
+        const ResultFile file({path, "--out", {.force = true}}, fake_run());
     }
     EXPECT_EQ(text_of(path), "older");
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);
