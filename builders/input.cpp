@@ -22,8 +22,8 @@ Buffer<T> copied(const Device& device, const Queue& queue, std::span<const T> va
     return buffer;
 }
 
-void copy_faces(Input& input, const Device& device, const Queue& queue,
-                std::span<const Face> faces, std::span<const FaceRange> objects)
+void copy_faces(Input& input, const Device& device, const Queue& queue, std::span<const Face> faces,
+                std::span<const FaceRange> objects)
 {
     if (device.ends_loops && faces.size() > most_triangles_in_short_loops)
         throw Unavailable(device.name() + " ends loops after 65,535 steps, so it is given up to " +

@@ -47,9 +47,10 @@ struct QueryCounts {
     std::uint64_t pairs = 0;
     std::optional<std::uint64_t> box_tests;  ///< of two boxes for overlap, if they are counted
     std::optional<std::uint64_t>
-        bvtt_peak;  ///< most entries in a queue of node pairs, if it has any
+        bvtt_peak;                       ///< most entries in a queue of node pairs, if it has any
     std::optional<std::uint64_t> tasks;  ///< held against other objects' trees, if it has several
-    std::vector<std::pair<std::string_view, std::uint64_t>> more = {};  ///< its own, by counters' names
+    std::vector<std::pair<std::string_view, std::uint64_t>> more =
+        {};  ///< its own, by counters' names
 };
 
 /// Pairs where a query left them, and their number at PAIRS_COUNT of the counters (collide/counters.h).

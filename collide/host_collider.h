@@ -9,7 +9,7 @@
 
 namespace bvhbench {
 
-/// Room on the device for so many pairs, as a query would leave them. Throws Unavailable when there is none.
+/// Room on the device for `count` pairs, as a query would leave them. Throws Unavailable when there is none.
 DevicePairs room_for_pairs(const Device& device, std::size_t count);
 
 /// Put `found` where there is room for them. Waits.

@@ -47,10 +47,9 @@ PairCollider::PairCollider(Programs& programs, const ColliderCard& card,
 
 void PairCollider::take_memory_for(std::size_t triangles)
 {
-    capacity_ =
-        options_.capacity != 0
-            ? options_.capacity
-            : device().room_for(std::max<std::size_t>(1024, 8 * triangles), sizeof(Pair));
+    capacity_ = options_.capacity != 0
+                    ? options_.capacity
+                    : device().room_for(std::max<std::size_t>(1024, 8 * triangles), sizeof(Pair));
     take_memory();
 }
 

@@ -19,10 +19,9 @@ bool is_among(Pair pair, std::span<const FaceRange> objects, Among among)
     if (among == Among::all)
         return true;
     const auto object_of = [&](uint face) {
-        return std::upper_bound(objects.begin(), objects.end(), face,
-                                [](uint value, const FaceRange& range) {
-                                    return value < range.first;
-                                });
+        return std::upper_bound(
+            objects.begin(), objects.end(), face,
+            [](uint value, const FaceRange& range) { return value < range.first; });
     };
     return (object_of(pair.a) != object_of(pair.b)) == (among == Among::between_objects);
 }

@@ -88,7 +88,7 @@ public:
         }
     }
 
-    /// Bytes of the host's memory that a sweep of so many boxes takes besides the pairs, at most about.
+    /// About the most bytes of the host's memory that a sweep of `boxes` boxes takes, without the pairs.
     static std::uint64_t bytes(std::size_t boxes)
     {
         return boxes * (sizeof(Aabb) + 2 * sizeof(uint) + sizeof(uint) / 2);

@@ -38,7 +38,7 @@ CopyRate measure_copy_rate(Programs& programs, Queue& queue)
         programs.kernel("device/limits.cl", device.is_cpu() ? "copy_runs" : "copy_strided");
     set_arguments(copy, from, to, count);
 
-    std::vector<double> rates;
+    std::vector<std::int64_t> times;
     queue.begin("clear");
     queue.clear(from.cl(), from.bytes());  // memory never written may not be there to be read
     for (int i = 0; i <= samples; ++i) {
@@ -46,11 +46,11 @@ CopyRate measure_copy_rate(Programs& programs, Queue& queue)
         queue.launch(copy, global, local, static_cast<std::int64_t>(2 * bytes));
         const StageTime time = queue.finish().back();
         if (i > 0)  // the first one warms up, and is the first to touch what it writes
-            rates.push_back(static_cast<double>(2 * bytes) /
-                            (static_cast<double>(std::max<std::int64_t>(1, time.busy_ns)) * 1e-9));
+            times.push_back(time.busy_ns);
     }
-    std::nth_element(rates.begin(), rates.begin() + samples / 2, rates.end());
-    return {rates[samples / 2], bytes, samples};
+    std::nth_element(times.begin(), times.begin() + samples / 2, times.end());
+    const auto median = static_cast<double>(times[samples / 2]);
+    return {median > 0 ? static_cast<double>(2 * bytes) / (median * 1e-9) : 0, bytes, samples};
 }
 
 }  // namespace bvhbench

@@ -8,8 +8,8 @@ namespace bvhbench {
 
 /// What the device's memory gives at best, measured: the yardstick that stage times are held against.
 struct CopyRate {
-    double bytes_per_s =
-        0;  ///< bytes read plus bytes written, over device time; the median of `samples`
+    /// Bytes read plus bytes written, over the median device time; 0 if the device's clock showed none.
+    double bytes_per_s = 0;
     std::size_t buffer_bytes = 0;  ///< size of the source, larger than the caches
     int samples = 0;
 };

@@ -32,7 +32,8 @@ struct Device {
     uint tuned(const Parameter& parameter) const { return tuning.value(parameter, is_cpu()); }
 
     /// Throws Unavailable, in one sentence that begins with `what`, if the device cannot give a group so much.
-    void require_group(std::string_view what, std::size_t group_size, std::size_t local_bytes) const;
+    void require_group(std::string_view what, std::size_t group_size,
+                       std::size_t local_bytes) const;
 
     /// Whether its driver ends loops early (device/loops.h).
     bool ends_loops = false;
@@ -64,9 +65,10 @@ struct Device {
         return std::min<std::size_t>(cl.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>(), allocation_limit);
     }
 
-    /// `wanted` entries of so many bytes each, or as many as one allocation may hold, but never fewer than are `needed`: what
-    /// is a guess, or room to spare, is no reason to be refused.
-    std::size_t room_for(std::uint64_t wanted, std::size_t bytes_each, std::uint64_t needed = 0) const
+    /// The number of entries to allocate: `wanted`, which may be a guess, unless one allocation cannot hold them; then as many
+    /// as it holds. Never fewer than are `needed`.
+    std::size_t room_for(std::uint64_t wanted, std::size_t bytes_each,
+                         std::uint64_t needed = 0) const
     {
         return static_cast<std::size_t>(
             std::max(needed, std::min<std::uint64_t>(wanted, most_at_once() / bytes_each)));
@@ -80,7 +82,8 @@ struct Device {
     void require_at_once(std::size_t bytes) const;
 
 private:
-    [[noreturn]] void refuse_memory(std::size_t bytes, std::string_view how, std::size_t given) const;
+    [[noreturn]] void refuse_memory(std::size_t bytes, std::string_view how,
+                                    std::size_t given) const;
 
     bool is_nvidia() const
     {

@@ -11,7 +11,7 @@
 
 namespace bvhbench {
 
-/// Where loops end early, a work-item of a kernel for few cores stays below that with scenes of up to so many triangles.
+/// Where loops end early, kernels for few cores still build scenes of up to this size: a work-item has few enough steps.
 constexpr std::size_t most_triangles_in_short_loops = 16384;
 
 /// Whether a loop of 100,000 steps ends early on the device: a probe, which compiles and runs a kernel.

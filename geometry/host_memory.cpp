@@ -52,7 +52,7 @@ std::uint64_t left_by_others()
     return std::min(left / 10 * 9, left_of(RLIMIT_AS, "VmSize:"));
 }
 
-/// That allocations fail once the process has so many bytes more than now.
+/// From now on an allocation fails if the process would have more than `more` bytes beyond what it has now.
 void limit_data(std::uint64_t more)
 {
     const std::uint64_t has = own("VmData:");

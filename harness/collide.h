@@ -39,8 +39,8 @@ struct CollideTask {
     bool needs_scene = false;  ///< as an Experiment's
     ObjectsBy objects = ObjectsBy::automatic;
     unsigned between = 0;  ///< frames put between each two of the scene's
-    bool swept = false;    ///< boxes are around the way from each frame to the next (harness/swept.h)
-    FrameRange frames;     ///< swept: those that ways begin in
+    bool swept = false;  ///< boxes are around the way from each frame to the next (harness/swept.h)
+    FrameRange frames;   ///< swept: those that ways begin in
     std::vector<PipelineChoice> pipelines;
     int samples = 20;
     int warm_up = 3;

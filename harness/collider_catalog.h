@@ -19,8 +19,9 @@ struct ColliderEntry {
     std::string_view absent = {};  ///< then: why, as in "built without Embree"
     std::size_t host_bytes = 0;    ///< a triangle's, about, of what a library takes on the host
     bool is_library = false;       ///< the work is done by somebody else's code
-    bool needs_tree = true;        ///< as its collider says itself: whether it queries a builder's tree
-    bool finds_contacts = false;   ///< as its collider says itself: contacts at once, and no pairs of boxes
+    bool needs_tree = true;  ///< as its collider says itself: whether it queries a builder's tree
+    bool finds_contacts =
+        false;  ///< as its collider says itself: contacts at once, and no pairs of boxes
 };
 
 /// Every collider, in the order tables list them.

@@ -44,9 +44,9 @@ int build(const BuildCommand& command, const Options& options)
     experiment.needs_scene = true;
 
     Session session(options.common);
-    const auto rules = result_rules(options.common.force,
-                                    scene_files(command.scene, session.scenes()),
-                                    session.watchdog().run_id());
+    const auto rules =
+        result_rules(options.common.force, scene_files(command.scene, session.scenes()),
+                     session.watchdog().run_id());
     const Output dumped(command.dump, "--dump", rules);
     Run run(session, Output(command.json, "--json", rules), options.words, command.costs);
     run.experiment(experiment);

@@ -63,8 +63,9 @@ CollideTask task_of(const CollideCommand& command)
     if (task.swept)
         check_swept(task);
     if (task.swept && !command.pairs.empty() && command.collider.among == Among::all)
-        throw BadUsage("--pairs writes one list, and --swept finds two: choose by --pairs-of between, "
-                       "of vertices and faces, or within, of edges");
+        throw BadUsage(
+            "--pairs writes one list, and --swept finds two: choose by --pairs-of between, "
+            "of vertices and faces, or within, of edges");
     return task;
 }
 

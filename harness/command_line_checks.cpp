@@ -11,16 +11,17 @@ void add_check(CLI::App& app, CheckCommand& check)
     command->add_option("--scene", check.scene, "over this instead of the hard inputs");
     command
         ->add_flag("--portable", check.portable,
-                   "instead: the device, and a verdict on each builder, collider and narrow phase, to be sent")
+                   "instead: the device, and a verdict on each builder, collider and narrow phase, "
+                   "to be sent")
         ->excludes("--builder")
         ->excludes("--scene");
 }
 
 void add_smoke(CLI::App& app, SmokeCommand& smoke)
 {
-    CLI::App* command = app.add_subcommand(
-        "smoke",
-        "Run every builder and collider over small scenes and hold all to a baseline; 1 if it differs");
+    CLI::App* command = app.add_subcommand("smoke",
+                                           "Run every builder and collider over small scenes and "
+                                           "hold all to a baseline; 1 if it differs");
     command->add_option("--baseline", smoke.baseline,
                         "the baseline; default: results/baseline/smoke-<device kind>.json");
     command->add_flag("--update", smoke.update, "write the baseline instead of holding to it");

@@ -68,8 +68,9 @@ int report(const ReportCommand& command, const Options& options)
     for (const std::string& scene : command.scenes)
         for (std::string& file : scene_files(scene, library))
             inputs.push_back(std::move(file));
-    const Output page(command.out, "--out",
-                      {.force = options.common.force, .inputs = std::move(inputs), .may_replace = is_page});
+    const Output page(
+        command.out, "--out",
+        {.force = options.common.force, .inputs = std::move(inputs), .may_replace = is_page});
     ViewFiles views;
     if (!command.scenes.empty()) {
         Session session(options.common);

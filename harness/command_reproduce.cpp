@@ -53,8 +53,8 @@ public:
         make_folder(command.out);
         check_pictures(command.out, "--out", rules);
         for (const std::string& name : names)
-            outputs_.try_emplace(name, std::filesystem::path(command.out) / (name + ".json"), "--out",
-                                 rules);
+            outputs_.try_emplace(name, std::filesystem::path(command.out) / (name + ".json"),
+                                 "--out", rules);
     }
 
     /// Measure `experiment` into a file of that `name`, print the table of the first and draw all that are shown of it.
@@ -132,9 +132,8 @@ int reproduce_all(const ReproduceCommand& command, const Options& options)
         const int status = report(page, options);
         return status != 0 ? status : code;
     } catch (const Unavailable& error) {
-        std::cout << "no page was made: " << error.what()
-                  << "; elsewhere: bvhbench report " << command.out << "/*.json -o " << page.out
-                  << '\n';
+        std::cout << "no page was made: " << error.what() << "; elsewhere: bvhbench report "
+                  << command.out << "/*.json -o " << page.out << '\n';
         return code;
     }
 }
@@ -154,8 +153,9 @@ int reproduce(const ReproduceCommand& command, const Options& options)
 {
     if (command.what == "all")
         return reproduce_all(command, options);
-    const Shown& shown = *std::find_if(shown_in_paper.begin(), shown_in_paper.end(),
-                                       [&](const Shown& each) { return each.name == command.what; });
+    const Shown& shown =
+        *std::find_if(shown_in_paper.begin(), shown_in_paper.end(),
+                      [&](const Shown& each) { return each.name == command.what; });
     Reproduction reproduction(command, options, std::span(&command.what, 1));
     reproduction.run(shown.experiment, command.what, std::span(&shown, 1));
     return reproduction.exit_code();

@@ -74,10 +74,11 @@ int run(const RunCommand& command, const Options& options)
     std::vector<std::string> inputs = files_of(experiment, session.scenes());
     if (is_file)
         inputs.push_back(command.experiment);
-    Run run(session,
-            Output(out, "--out",
-                   result_rules(options.common.force, std::move(inputs), session.watchdog().run_id())),
-            options.words, command.costs);
+    Run run(
+        session,
+        Output(out, "--out",
+               result_rules(options.common.force, std::move(inputs), session.watchdog().run_id())),
+        options.words, command.costs);
     session.take_turns(command.turns, run.document().run.id);
     run.experiment(experiment, filter);
     run.finish();

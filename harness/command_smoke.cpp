@@ -82,7 +82,8 @@ int smoke(const SmokeCommand& command, const Options& options)
     SmokeBaseline before;
     Output updated;
     if (command.update)
-        updated = Output(path, "--baseline", {.force = options.common.force, .may_replace = is_smoke});
+        updated =
+            Output(path, "--baseline", {.force = options.common.force, .may_replace = is_smoke});
     else
         before = read_baseline(path, kind);  // better to know now than after a minute
     Run run(session,

@@ -83,8 +83,8 @@ double real_number(const Json& json, const char* key, double least, double most)
 {
     const Json& value = json[key];
     if (!value.is_number() || !(value.get<double>() >= least && value.get<double>() <= most))
-        throw BadUsage("'" + std::string(key) + "' must be a number from " +
-                       Json(least).dump() + " to " + Json(most).dump() + ", not " + value.dump());
+        throw BadUsage("'" + std::string(key) + "' must be a number from " + Json(least).dump() +
+                       " to " + Json(most).dump() + ", not " + value.dump());
     return value.get<double>();
 }
 
@@ -95,7 +95,8 @@ SamplingRules sampling_of(const Json& json)
         rules.until = real_number(json, "until", 0, 1);
     for (const char* key : {"min_samples", "max_samples", "time_budget_s"})
         if (json.contains(key) && rules.until == 0)
-            throw BadUsage("'" + std::string(key) + "' bounds what 'until' begins, which is not there");
+            throw BadUsage("'" + std::string(key) +
+                           "' bounds what 'until' begins, which is not there");
     if (json.contains("min_samples"))
         rules.min_samples =
             static_cast<int>(whole_number(json["min_samples"], "min_samples", 2, 1000000));
@@ -142,12 +143,11 @@ std::vector<Operation> operations_of(const Json& json)
 
 Experiment experiment_of(const Json& json, bool quick)
 {
-    refuse_unknown_keys(
-        json,
-        {"experiment", "question", "paper", "scenes", "builders", "operations", "pipelines",
-         "stages", "samples", "warm_up", "until", "min_samples", "max_samples", "time_budget_s",
-         "caches", "quality", "doubles", "quick"},
-        "an experiment");
+    refuse_unknown_keys(json,
+                        {"experiment", "question", "paper", "scenes", "builders", "operations",
+                         "pipelines", "stages", "samples", "warm_up", "until", "min_samples",
+                         "max_samples", "time_budget_s", "caches", "quality", "doubles", "quick"},
+                        "an experiment");
     const bool collides = json.contains("pipelines");
     for (const char* key : {"experiment", "scenes", collides ? "pipelines" : "builders"})
         if (!json.contains(key))

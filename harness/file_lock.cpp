@@ -25,7 +25,7 @@ bool names(const std::filesystem::path& path, int file)
 
 }  // namespace
 
-FileLock::FileLock(std::filesystem::path path, Kind kind, const std::string& refusal,
+FileLock::FileLock(std::filesystem::path path, Kind kind, const std::string& subject,
                    std::chrono::milliseconds patience)
     : path_(std::move(path))
 {
@@ -34,7 +34,7 @@ FileLock::FileLock(std::filesystem::path path, Kind kind, const std::string& ref
     for (;;) {
         file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
         if (file_ < 0)
-            throw Unavailable(path_.string() + " cannot be written: " + std::strerror(errno));
+            throw Unavailable(subject + " cannot be written: " + std::strerror(errno));
         const bool is_locked = flock(file_, wanted) == 0;
         const bool has_locks = is_locked || errno == EWOULDBLOCK || errno == EINTR;
         if (!has_locks || (is_locked && names(path_, file_)))
@@ -43,7 +43,7 @@ FileLock::FileLock(std::filesystem::path path, Kind kind, const std::string& ref
         if (is_locked)
             continue;
         if (std::chrono::steady_clock::now() >= until)
-            throw Unavailable(refusal);
+            throw Unavailable(subject + " is being written by another process");
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
     }
 }

@@ -13,8 +13,9 @@ class FileLock {
 public:
     enum class Kind { shared, exclusive };
 
-    /// Waits for up to `patience` for a process that holds the lock, then throws Unavailable with the sentence `refusal`.
-    FileLock(std::filesystem::path path, Kind kind, const std::string& refusal,
+    /// Waits for up to `patience` for a process that holds the lock, then throws Unavailable, as where the file cannot be
+    /// made; the sentence speaks of `subject`, what is locked in the user's words.
+    FileLock(std::filesystem::path path, Kind kind, const std::string& subject,
              std::chrono::milliseconds patience);
     ~FileLock();
     FileLock(const FileLock&) = delete;

@@ -240,9 +240,8 @@ void sample(std::span<Running> all, const CollideTask& task, const FrameOfPipeli
     for (std::size_t k = 0; k < ready.size(); ++k) {
         Running& one = *ready[k];
         one.cell.samples = std::move(taken[k].samples);
-        one.cell.sampling = {.stopped = taken[k].stopped,
-                             .until = task.sampling.until,
-                             .cold = task.sampling.cold};
+        one.cell.sampling = {
+            .stopped = taken[k].stopped, .until = task.sampling.until, .cold = task.sampling.cold};
         std::string failure = std::move(taken[k].failure);
         // What the last sample found: another pipeline may have used the same builder's tree since, so once more.
         if (failure.empty())
@@ -301,8 +300,7 @@ std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span
                     if (!one.pipeline->collider().needs_tree())
                         one.cell.builder = {.name = "none"};
                     one.pipeline->begin_frame(frame.motions);
-                    one.cell.first.run_ns =
-                        host_ns([&] { one.pipeline->settle(frame.input); });
+                    one.cell.first.run_ns = host_ns([&] { one.pipeline->settle(frame.input); });
                 });
                 one.cell.first.compile_ns = session.programs().compile_ns() - compiled_ns;
                 one.cell.counters = one.pipeline->counters();

@@ -29,7 +29,8 @@ constexpr Named environment[] = {
     {"BVHBENCH_DATA", "the folder of data sets, where --data names none"},
     {"BVHBENCH_TUNING", "a folder of tuned values, where --tuning names none"},
     {"BVHBENCH_KERNELS", "a source tree to read kernels from, where --kernels names none"},
-    {"BVHBENCH_HOME", "the folder that plots/ is in, where that is not where the program was built"},
+    {"BVHBENCH_HOME",
+     "the folder that plots/ is in, where that is not where the program was built"},
     {"BVHBENCH_PACKAGES", "of the launcher: skip leaves the system's packages alone"},
     {"POCL_CACHE_DIR", "where PoCL keeps compiled kernels, in place of ~/.cache/bvhbench/pocl"},
 };
@@ -99,10 +100,10 @@ public:
             return {};
         const std::string type = option->get_type_name();
         const std::string kind = type.substr(0, type.find(':'));
-        std::string out = kind == "ENUM" || kind == "TEXT"   ? " WORD"
-                          : kind == "FLOAT"                  ? " NUMBER"
+        std::string out = kind == "ENUM" || kind == "TEXT"  ? " WORD"
+                          : kind == "FLOAT"                 ? " NUMBER"
                           : kind == "UINT" || kind == "INT" ? " COUNT"
-                                                             : ' ' + kind;
+                                                            : ' ' + kind;
         if (!option->get_default_str().empty())
             out += '=' + option->get_default_str();
         if (option->get_expected_max() > 1)
@@ -126,8 +127,7 @@ std::string examples_text(std::span<const HelpExample> examples)
     std::string out = "Examples:\n";
     for (const HelpExample& example : examples)
         out += std::string(indent, ' ') + std::string(example.line) + '\n' +
-               std::string(3 * indent, ' ') +
-               wrapped(example.what, 3 * indent, 3 * indent) + '\n';
+               std::string(3 * indent, ' ') + wrapped(example.what, 3 * indent, 3 * indent) + '\n';
     return out;
 }
 
@@ -145,7 +145,8 @@ std::string footer_of_program()
         {"bvhbench reproduce table1 --quick", "a table of the paper"},
         {"bvhbench build --builder oibvh-multi --scene torus:100000", "one tree, stage by stage"},
     };
-    return "Common options may stand before or behind the command. `bvhbench COMMAND --help` has its "
+    return "Common options may stand before or behind the command. `bvhbench COMMAND --help` has "
+           "its "
            "own.\n\n" +
            examples_text(examples) + '\n' + std::string(exit_codes) +
            section("Environment", environment) + section("Files", files) +

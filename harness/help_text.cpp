@@ -9,6 +9,8 @@ constexpr std::string_view looking = "Look at results";
 constexpr std::string_view holding = "Hold to promises";
 constexpr std::string_view knowing = "Know what there is";
 
+// A line of text stays a line.
+// clang-format off
 const std::vector<CommandHelp> helps = {
     {"list",
      knowing,
@@ -22,7 +24,7 @@ const std::vector<CommandHelp> helps = {
      "The tree is held to the builder's oracle, bit for bit, before samples count. Times are of stages on the device's clock, "
      "from first start to last end. The table tells median, percentiles, and the share of the device's copy rate that a "
      "stage reaches.",
-     {{"bvhbench build --builder oibvh-multi --scene torus:100000", "a generated scene of so many triangles"},
+     {{"bvhbench build --builder oibvh-multi --scene torus:100000", "a generated scene of 100,000 triangles"},
       {"bvhbench build --builder karras --scene bunny.ply --json karras.json", "a mesh file, samples kept"},
       {"bvhbench build --builder oibvh-multi --scene bunny --until 2% --cold", "until steady, from empty caches"}},
      "docs/measuring.md"},

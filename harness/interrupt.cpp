@@ -18,7 +18,7 @@
 
 namespace bvhbench {
 
-/// How a signal ends the process. The one global of the program: a signal handler has no other way to leave word.
+/// How a signal ends the process. Global, because a signal handler has no other way to leave word.
 class SignalEnd {
 public:
     void begin()

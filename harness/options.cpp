@@ -172,15 +172,16 @@ Options parse_options(int argc, const char* const* argv)
     if (collide.swept) {
         if (app.get_subcommands().front()->count("--adjacent") > 0 && adjacent == "keep")
             throw BadUsage(
-                "--swept leaves out pairs that share a vertex, which touch all the way: there are none "
+                "--swept leaves out pairs that share a vertex, which touch all the way: there are "
+                "none "
                 "for --adjacent keep");
         collide.collider.keep_adjacent = false;
     }
     const std::map<std::string_view, Command> commands = {
-        {"list", list},         {"build", build},       {"collide", collide}, {"run", run},
-        {"check", check},       {"reproduce", reproduce}, {"show", show},     {"tune", tune},
-        {"accuracy", accuracy}, {"stress", stress},     {"sweep", sweep},     {"merge", merge},
-        {"plot", plot},         {"report", report},     {"compare", compare}, {"smoke", smoke},
+        {"list", list},         {"build", build},         {"collide", collide}, {"run", run},
+        {"check", check},       {"reproduce", reproduce}, {"show", show},       {"tune", tune},
+        {"accuracy", accuracy}, {"stress", stress},       {"sweep", sweep},     {"merge", merge},
+        {"plot", plot},         {"report", report},       {"compare", compare}, {"smoke", smoke},
     };
     options.command = commands.at(app.get_subcommands().front()->get_name());
     return options;

@@ -24,9 +24,10 @@ struct CommonOptions {
         "recentred";  ///< what becomes of coordinates that floats cannot hold: doubles_name
     std::optional<std::string>
         tuning;  ///< the folder of tuned values; empty: none; not given: BVHBENCH_TUNING
-    std::size_t memory_limit = 0;  ///< bytes of this process in all, and of the device; 0: what there is
-    double time_limit_s = 600;     ///< of a single build or query; 0: none
-    bool force = false;            ///< whether earlier files are replaced
+    std::size_t memory_limit =
+        0;  ///< bytes of this process in all, and of the device; 0: what there is
+    double time_limit_s = 600;  ///< of a single build or query; 0: none
+    bool force = false;         ///< whether earlier files are replaced
     bool verbose = false;
 };
 
@@ -55,7 +56,7 @@ struct CollideCommand {
     std::string objects = "auto";
     std::string frames = "0";
     unsigned between = 0;
-    bool swept = false;    ///< boxes are around the way from each frame to the next
+    bool swept = false;  ///< boxes are around the way from each frame to the next
     int samples = 20;
     SamplingWords sampling;
     bool skips = false;    ///< whether each rule is measured switched off as well
@@ -69,7 +70,7 @@ struct RunCommand {
     std::string filter;      ///< regular expression on "scene/builder"
     int samples = 0;         ///< 0: as the experiment says
     SamplingWords sampling;
-    std::string turns;       ///< file and number of runs that sample by turns; may be empty
+    std::string turns;  ///< file and number of runs that sample by turns; may be empty
     bool quick = false;
     bool quality = false;
     NodeCosts costs;
@@ -82,8 +83,8 @@ struct ReproduceCommand {
     NodeCosts costs;
 };
 struct CheckCommand {
-    std::string builder;  ///< empty: all
-    std::string scene;    ///< empty: the hard inputs
+    std::string builder;    ///< empty: all
+    std::string scene;      ///< empty: the hard inputs
     bool portable = false;  ///< instead: what a user of an untried device sends
 };
 struct ShowCommand {
@@ -99,9 +100,10 @@ struct CompareCommand {
     bool allow_test_hooks = false;
 };
 struct SmokeCommand {
-    std::string baseline;  ///< file to hold the run to; empty: the device kind's in results/baseline
-    std::string filter;    ///< regular expression on "scene/builder"
-    std::string out;       ///< result file to write; may be empty
+    std::string
+        baseline;        ///< file to hold the run to; empty: the device kind's in results/baseline
+    std::string filter;  ///< regular expression on "scene/builder"
+    std::string out;     ///< result file to write; may be empty
     double tolerance = 5;  ///< of times, as a ratio
     bool update = false;   ///< write the baseline
 };
@@ -136,8 +138,8 @@ struct SweepCommand {
     std::string file;  ///< the sweep as JSON; empty: the rest says it all
     std::string name;  ///< this and those up to `set` take the place of what is in the file
     std::vector<std::string> scenes, builders, orders, colliders;
-    std::string sizes;             ///< "1000:1000000:x10"
-    std::vector<std::string> set;  ///< "key=v1,v2"
+    std::string sizes;              ///< "1000:1000000:x10"
+    std::vector<std::string> set;   ///< "key=v1,v2"
     int samples = 0, warm_up = -1;  ///< 0 and -1: as the file says
     bool quality = false;
     NodeCosts costs;
@@ -175,8 +177,8 @@ struct ReportCommand {
 
 using Command = std::variant<PrintCommand, ListCommand, BuildCommand, CollideCommand, RunCommand,
                              ReproduceCommand, CheckCommand, ShowCommand, TuneCommand,
-                             AccuracyCommand, StressCommand, SweepCommand, MergeCommand, PlotCommand,
-                             ReportCommand, CompareCommand, SmokeCommand>;
+                             AccuracyCommand, StressCommand, SweepCommand, MergeCommand,
+                             PlotCommand, ReportCommand, CompareCommand, SmokeCommand>;
 
 struct Options {
     CommonOptions common;

@@ -126,13 +126,7 @@ Output::Output(const fs::path& path, const std::string& option, const OutputRule
         access(folder_of(target_).c_str(), W_OK | X_OK) != 0)
         fail(path);
     const fs::path lock = folder_of(target_) / ("." + target_.filename().string() + ".lock");
-    const int tried = open(lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
-    if (tried < 0)
-        fail(path);  // by the name that the user knows
-    close(tried);
-    lock_ = std::make_unique<FileLock>(lock, FileLock::Kind::exclusive,
-                                       path.string() + " is being written by another process",
-                                       patience);
+    lock_ = std::make_unique<FileLock>(lock, FileLock::Kind::exclusive, path.string(), patience);
     lock_->remove_at_end();
     // Whoever had the lock may have written the file.
     was_there_ = stat(target_.c_str(), &about) == 0 && about.st_size > 0;

@@ -60,7 +60,8 @@ bool has_device_scope_acq_rel(const cl::Device& device)
     cl_device_atomic_capabilities can = 0;
     return clGetDeviceInfo(device(), CL_DEVICE_ATOMIC_MEMORY_CAPABILITIES, sizeof can, &can,
                            nullptr) == CL_SUCCESS &&
-           (can & CL_DEVICE_ATOMIC_ORDER_ACQ_REL) != 0 && (can & CL_DEVICE_ATOMIC_SCOPE_DEVICE) != 0;
+           (can & CL_DEVICE_ATOMIC_ORDER_ACQ_REL) != 0 &&
+           (can & CL_DEVICE_ATOMIC_SCOPE_DEVICE) != 0;
 }
 
 std::string kind_of(const cl::Device& device)

@@ -22,10 +22,14 @@ Json json_of(const StageTime& time)
 {
     if (time.wall_ns > 0)  // else a device's, even if it had nothing to launch: one leaf is a tree
         return {{"stage", time.stage}, {"wall_ns", time.wall_ns}};
-    return {
-        {"stage", time.stage},     {"launches", time.launches},       {"busy_ns", time.busy_ns},
-        {"span_ns", time.span_ns}, {"moved_bytes", time.moved_bytes}, {"start_ns", time.start_ns},
-        {"queued_ns", time.queued_ns}, {"submitted_ns", time.submitted_ns}};
+    return {{"stage", time.stage},
+            {"launches", time.launches},
+            {"busy_ns", time.busy_ns},
+            {"span_ns", time.span_ns},
+            {"moved_bytes", time.moved_bytes},
+            {"start_ns", time.start_ns},
+            {"queued_ns", time.queued_ns},
+            {"submitted_ns", time.submitted_ns}};
 }
 
 Json json_of(const Sample& sample)

@@ -58,8 +58,8 @@ struct SceneFacts {
 
 /// Which pairs a step between two frames was asked for, over boxes swept from one to the other.
 struct SweptFacts {
-    std::string pairs;          ///< vertex-face or edge-edge; empty: boxes are of one frame
-    std::int64_t to_frame = 0;  ///< the scene's `frame` is where the step begins
+    std::string pairs;            ///< vertex-face or edge-edge; empty: boxes are of one frame
+    std::int64_t to_frame = 0;    ///< the scene's `frame` is where the step begins
     std::int64_t primitives = 0;  ///< vertices and faces, or edges
 };
 
@@ -132,13 +132,13 @@ struct RunFacts {
     std::map<std::string, std::string> libraries;  ///< name to version
     double copy_rate_bytes_per_s = 0;              ///< 0: not measured
     std::int64_t copy_rate_buffer_bytes = 0;
-    double launch_cost_ns = 0;  ///< 0: not measured
-    std::string tuning_from = "none";         ///< the file of the values below
-    std::map<std::string, uint> tuning;       ///< parameter to value, where it is not the default
+    double launch_cost_ns = 0;           ///< 0: not measured
+    std::string tuning_from = "none";    ///< the file of the values below
+    std::map<std::string, uint> tuning;  ///< parameter to value, where it is not the default
     std::int64_t compile_ns = 0;
     NodeCosts costs;  ///< in the counters sah_cost and epo
     HostConditions conditions = {};
-    HostMemoryFacts memory = {};  ///< of the process; of a peak of 0: not known
+    HostMemoryFacts memory = {};               ///< of the process; of a peak of 0: not known
     std::vector<std::string> turns_with = {};  ///< ids of runs that sampled by turns with this one
     std::map<std::string, std::string> test_hooks = {};  ///< of any: this is no result
 };
@@ -162,7 +162,7 @@ struct Document {
     std::vector<Cell> cells;
     std::vector<StressCell> stress = {};
     std::vector<SourceRun> merged_from = {};  ///< none: all is from `run`
-    int minor = newest_minor;  ///< of its format
+    int minor = newest_minor;                 ///< of its format
 };
 
 /// The copy rate of the run that the cell is from.

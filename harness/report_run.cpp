@@ -66,7 +66,8 @@ std::string merged_report(const Document& document)
             text += (text.empty() ? std::string(what) + ' ' : "; ") + one;
         return text;
     };
-    std::string text = "merged from " + counted(document.merged_from.size(), "run") + said(" on", hosts);
+    std::string text =
+        "merged from " + counted(document.merged_from.size(), "run") + said(" on", hosts);
     if (devices.size() > 1)
         text += "\nof several devices: " + said("", devices);
     if (commits.size() > 1)

@@ -46,7 +46,10 @@ public:
     int next_order() const;
 
     /// The runs that took turns with this one.
-    void took_turns(std::vector<std::string> others) { document_.run.turns_with = std::move(others); }
+    void took_turns(std::vector<std::string> others)
+    {
+        document_.run.turns_with = std::move(others);
+    }
 
     /// Set the end of the run, and write, if there is a cell to keep.
     void finish(std::int64_t compile_ns);

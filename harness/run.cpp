@@ -101,8 +101,7 @@ struct Run::Oracles {
     Oracle now, before;
 };
 
-Run::Run(Session& session, Output output, std::vector<std::string> command,
-         const NodeCosts& costs)
+Run::Run(Session& session, Output output, std::vector<std::string> command, const NodeCosts& costs)
     : session_(session)
     , results_(std::move(output), measured_facts(session, std::move(command), costs),
                session.watchdog().run_id())
@@ -251,8 +250,7 @@ Run::Prepared Run::prepare(const Experiment& experiment, const Frames& frames, C
         // While the builder is compiled and builds for the first time.
         if (const auto reference = find_builder(prepared.cell.builder.name).oracle;
             !reference.empty())
-            oracle.begin(reference, prepared.cell.builder.order,
-                         prepared.cell.builder.boxes);
+            oracle.begin(reference, prepared.cell.builder.order, prepared.cell.builder.boxes);
         Builder& builder = session_.builder(prepared.cell.builder, prepared.cell.operation);
         if (refits && !builder.can_refit())
             throw BadUsage(std::string(builder.card().name) + " cannot refit");
@@ -283,9 +281,8 @@ void Run::judge_build(const Experiment& experiment, const Frames& frames, Builde
                       Prepared& prepared, Oracle& oracle)
 {
     Cell& cell = prepared.cell;
-    cell.first.run_ns = host_ns([&] {
-        session_.build_once(builder, frames.now(), Start::from_triangles, &prepared.tree);
-    });
+    cell.first.run_ns = host_ns(
+        [&] { session_.build_once(builder, frames.now(), Start::from_triangles, &prepared.tree); });
     const HostTree tree = prepared.tree->spelled_out();
     cell.check = check_tree(tree, frames.now(), cell.builder, oracle);
     count_quality(cell, tree, frames.now(), document().run.costs, experiment.quality);

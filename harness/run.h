@@ -37,8 +37,7 @@ RunFacts measured_facts(Session& session, std::vector<std::string> command,
 class Run {
 public:
     /// Measures the device's copy rate, the yardstick of the run. To nowhere no file is written.
-    Run(Session& session, Output output, std::vector<std::string> command,
-        const NodeCosts& costs);
+    Run(Session& session, Output output, std::vector<std::string> command, const NodeCosts& costs);
 
     /// What cannot be measured is a cell that says so.
     void experiment(const Experiment& experiment, const CellFilter& filter = {});

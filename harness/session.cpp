@@ -99,8 +99,9 @@ void Session::take_turns(const std::string& path, const std::string& id)
     const char* end = path.data() + path.size();
     if (colon == path.npos || colon == 0 ||
         std::from_chars(path.data() + colon + 1, end, count).ptr != end || count < 2 || count > 64)
-        throw BadUsage("--turns names a file and how many runs take turns by it, as out/turns:2, not '" +
-                       path + "'");
+        throw BadUsage(
+            "--turns names a file and how many runs take turns by it, as out/turns:2, not '" +
+            path + "'");
     turns_.emplace(path.substr(0, colon), count, id);
 }
 

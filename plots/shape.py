@@ -162,7 +162,7 @@ def wrongs(checks: list[Check], value: Any) -> list[Wrong]:
 
 
 def fitting(schemas: list[dict[str, Any]], root: dict[str, Any], most: int) -> Check:
-    """At least one of them and at most so many."""
+    """A value that fits at least one of the schemas and at most `most` of them."""
     checks = [check_of(schema, root) for schema in schemas]
 
     def check(value: Any) -> None:

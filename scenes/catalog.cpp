@@ -33,7 +33,7 @@ WorkerLimits limits_of(const SceneLibrary& library)
     return limits;
 }
 
-/// Throws Unavailable if the host has not so many bytes for `scene`, as the user typed it.
+/// Throws Unavailable, naming `scene` as the user typed it, if the host has fewer than `bytes` bytes left.
 void require_memory(std::string_view scene, std::uint64_t bytes)
 {
     require_host_memory("scene " + in_quotes(scene), bytes);

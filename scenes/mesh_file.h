@@ -5,8 +5,8 @@
 
 namespace bvhbench {
 
-/// All bytes of a regular file. Throws Unavailable if it is not there, is no file, or cannot be read, and before it is read
-/// if the host has not so many `times` as many bytes as it has: what is made of them counts too.
+/// All bytes of a regular file. Throws Unavailable if it is not there, is no file, or cannot be read. Before it reads, it asks
+/// for `times` the file's size of the host's memory, for the bytes and for what is made of them.
 std::string file_bytes(const std::filesystem::path& path, std::uint64_t times = 1);
 
 /// Whether `read_mesh_file` knows the format, by the extension.

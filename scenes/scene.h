@@ -44,7 +44,8 @@ struct Scene {
     std::vector<std::int64_t> object_ids;
     std::string
         source;  ///< "generated", or the file that was read: its path in the data folder if it is there
-    std::filesystem::path folder;  ///< where these frames were read from and more may be said of them, or empty
+    std::filesystem::path
+        folder;  ///< where these frames were read from and more may be said of them, or empty
     std::string
         stand_in_for;  ///< the data set this one replaces because it is not there; else empty
     Outlier outlier;

@@ -22,7 +22,9 @@ constexpr Axis catalog[] = {
      measure_input, report_input},
     {"boxes", "what do fewer bytes a box cost in false pairs and save in time", measure_boxes,
      report_boxes},
-    {"swept", "who finds the pairs that may meet between two frames, how soon, and how many for each that does",
+    {"swept",
+     "who finds the pairs that may meet between two frames, how soon, and how many for each that "
+     "does",
      measure_swept, report_swept},
 };
 

@@ -105,10 +105,9 @@ private:
         for (const BuilderEntry& entry : builder_catalog())
             for (const BoxFormat& format : box_formats()) {
                 const BuilderChoice choice = in_format(entry.name, format.name);
-                const bool is_had =
-                    format.number == BOX_F32 ||
-                    (entry.takes_formats &&
-                     (!task_.size.quick || entry.name == builder_in_formats));
+                const bool is_had = format.number == BOX_F32 ||
+                                    (entry.takes_formats &&
+                                     (!task_.size.quick || entry.name == builder_in_formats));
                 if (entry.make == nullptr || !is_had ||
                     !begins(system_name(choice), StressCell::Kind::builder,
                             entry.is_library ? library_of(entry.name) : ""))

@@ -97,13 +97,14 @@ SweepFolder::SweepFolder(fs::path folder, const Sweep& sweep, bool together,
         if (fs::create_directories(folder_ / inside, error); error)
             throw Unavailable((folder_ / inside).string() + " cannot be made: " + error.message());
     // Shards work beside each other, a whole sweep alone; whoever looks at the plan and writes it does so alone.
-    const std::string refusal = "another process is at work on the sweep in " + folder_.string();
+    const std::string subject = "the sweep in " + folder_.string();
     lock_.emplace(folder_ / "lock",
-                  shard.is_all() ? FileLock::Kind::exclusive : FileLock::Kind::shared, refusal,
+                  shard.is_all() ? FileLock::Kind::exclusive : FileLock::Kind::shared, subject,
                   patience);
-    const FileLock planning(folder_ / "lock-plan", FileLock::Kind::exclusive, refusal, patience);
+    const FileLock planning(folder_ / "lock-plan", FileLock::Kind::exclusive, subject, patience);
     if (!shard.is_all())
-        shard_lock_.emplace(folder_ / ("lock-" + part), FileLock::Kind::exclusive, refusal, patience);
+        shard_lock_.emplace(folder_ / ("lock-" + part), FileLock::Kind::exclusive, subject,
+                            patience);
     const fs::path plan_file = folder_ / "plan.json";
     const std::optional<Json> plan = plan_in(plan_file);
     if (plan)

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "harness/record.h"
 #include "harness/file_lock.h"
+#include "harness/record.h"
 #include "harness/sweep/units.h"
 
 namespace bvhbench {

@@ -281,8 +281,9 @@ TEST(SweptSteps, OverRoundedBoxesMissNothing)
 {
     CollideTask task;
     task.scene = "cloth-ball:600:3";
-    task.pipelines = {{{.name = "oibvh-single", .order = "hilbert30", .sorted_leaves = true, .boxes = "u8"},
-                       {.name = "group"}}};
+    task.pipelines = {
+        {{.name = "oibvh-single", .order = "hilbert30", .sorted_leaves = true, .boxes = "u8"},
+         {.name = "group"}}};
     const std::vector<Cell> cells = cells_of(task);
     ASSERT_EQ(cells.size(), 2u * 2u);
     for (const Cell& cell : cells) {

@@ -27,7 +27,7 @@ peaks: list[tuple[str, int, int]] = []
 
 
 def copies(count: int) -> str:
-    """A binary PLY file of so many triangles in one place that share no vertex: all of them meet."""
+    """A binary PLY file of `count` triangles in one place that share no vertex: all of them meet."""
     path = f"copies-{count}.ply"
     if not os.path.exists(path):
         header = (f"ply\nformat binary_little_endian 1.0\nelement vertex {3 * count}\nproperty float x\nproperty float y\n"

@@ -101,9 +101,11 @@ TEST(Options, OfQualityAreTwoNamesOfOneFlag)
 
 TEST(Options, OfSweepAreAllUnderstood)
 {
-    const Options options = parsed(
-        {"sweep", "--scenes", "a,b", "s.json", "--sizes", "1:8:x2", "--builders", "karras", "--set", "boxes=f32,u16",
-         "--set", "leaves=sorted", "--out", "folder", "--device", "0", "--device", "big one", "--shard", "1/2"});
+    const Options options =
+        parsed({"sweep",  "--scenes",      "a,b",     "s.json",  "--sizes",
+                "1:8:x2", "--builders",    "karras",  "--set",   "boxes=f32,u16",
+                "--set",  "leaves=sorted", "--out",   "folder",  "--device",
+                "0",      "--device",      "big one", "--shard", "1/2"});
     const auto& sweep = std::get<SweepCommand>(options.command);
     EXPECT_EQ(sweep.file, "s.json") << "and no third scene";
     EXPECT_EQ(sweep.scenes, (std::vector<std::string>{"a", "b"}));
@@ -114,9 +116,12 @@ TEST(Options, OfSweepAreAllUnderstood)
     EXPECT_EQ(sweep.shard, "1/2");
     EXPECT_EQ(sweep.together, "cell");
     EXPECT_EQ(sweep.jobs, 0u);
-    EXPECT_EQ(std::get<SweepCommand>(parsed({"--device", "1", "sweep", "s.json", "--out", "f"}).command).devices.size(),
-              0u);
-    EXPECT_NE(refusal({"sweep", "s.json", "--out", "f", "--together", "all"}).find("there are: cell, scene"),
+    EXPECT_EQ(
+        std::get<SweepCommand>(parsed({"--device", "1", "sweep", "s.json", "--out", "f"}).command)
+            .devices.size(),
+        0u);
+    EXPECT_NE(refusal({"sweep", "s.json", "--out", "f", "--together", "all"})
+                  .find("there are: cell, scene"),
               std::string::npos);
     EXPECT_EQ(std::get<MergeCommand>(parsed({"merge", "a", "b", "-o", "c"}).command).files,
               (std::vector<std::string>{"a", "b"}));
@@ -202,7 +207,8 @@ TEST(Options, InCommonMayStandBeforeOrBehindTheCommand)
 TEST(Options, ThatAskForHelpOnlyPrint)
 {
     const auto whole = std::get<PrintCommand>(parsed({"--help"}).command).text;
-    for (const char* words : {"Exit codes:", "4  nothing was measured", "128 + n", "BVHBENCH_DATA", "--time-limit"})
+    for (const char* words :
+         {"Exit codes:", "4  nothing was measured", "128 + n", "BVHBENCH_DATA", "--time-limit"})
         EXPECT_NE(whole.find(words), std::string::npos) << words;
     for (const CommandHelp& help : command_helps()) {
         const std::string command(help.command);
@@ -210,7 +216,8 @@ TEST(Options, ThatAskForHelpOnlyPrint)
         const auto text = std::get<PrintCommand>(parsed({command.c_str(), "--help"}).command).text;
         EXPECT_NE(text.find("Usage: bvhbench " + command), std::string::npos) << text;
         EXPECT_NE(text.find("Examples:"), std::string::npos) << text;
-        EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(build_info.source_root) / help.see))
+        EXPECT_TRUE(
+            std::filesystem::exists(std::filesystem::path(build_info.source_root) / help.see))
             << help.see;
     }
     EXPECT_TRUE(std::get<PrintCommand>(parsed({"--version"}).command).text.starts_with("bvhbench"));
@@ -237,9 +244,9 @@ TEST(Options, ThatHelpShowsAreUnderstood)
 TEST(Options, OfHelpStayWithinThePage)
 {
     for (const CommandHelp& help : command_helps()) {
-        std::istringstream lines(std::get<PrintCommand>(
-                                     parsed({std::string(help.command).c_str(), "--help"}).command)
-                                     .text);
+        std::istringstream lines(
+            std::get<PrintCommand>(parsed({std::string(help.command).c_str(), "--help"}).command)
+                .text);
         for (std::string line; std::getline(lines, line);)
             EXPECT_TRUE(line.size() <= 100 || line.starts_with("  bvhbench ") ||
                         line.find(' ', 30) == line.npos)

@@ -281,7 +281,8 @@ TEST(StressRun, TellsOfASceneThatTheDeviceHasNoRoomForAndGoesOn)
     for (const StressCell& cell : cells) {
         EXPECT_EQ(cell.system, "device");
         EXPECT_TRUE(is_our_fault(cell));
-        EXPECT_NE(cell.findings.at(Invariant::ends).detail.find("out of device memory"), std::string::npos);
+        EXPECT_NE(cell.findings.at(Invariant::ends).detail.find("out of device memory"),
+                  std::string::npos);
     }
 }
 

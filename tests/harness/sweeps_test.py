@@ -206,7 +206,7 @@ def test_shards_together_are_the_whole():
             fcntl.flock(lock, fcntl.LOCK_SH)  # as another shard has it while it measures
             expect(0, *words, "--out", "part" if shard != "2/3" else "elsewhere", "--shard", shard, says="written: ")
             if shard == "3/3":
-                expect(3, *words, "--out", "part", says="another process is at work")
+                expect(3, *words, "--out", "part", says="part is being written by another process")
         path = f"{'part' if shard != '2/3' else 'elsewhere'}/sweep-{shard.replace('/', 'of')}.json"
         sizes.append(statuses(path)["measured"])
     assert sizes == [2, 2, 2], sizes

@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-
 #include "geometry/error.h"
 
 namespace bvhbench {
