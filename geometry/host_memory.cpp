@@ -21,6 +21,18 @@ constexpr std::uint64_t no_limit = std::numeric_limits<std::uint64_t>::max();
 // A limit is of the process, and so are these.
 std::atomic<std::uint64_t> given = 0, predicted = 0, most_data = no_limit;
 
+/// Bytes that may be asked for before the host is looked at again, a sixteenth of what it had left then: a look reads some
+/// 20 files of /proc and of the control groups, and much that is asked for is small.
+std::atomic<std::uint64_t> unasked = 0;
+
+bool take_unasked(std::uint64_t bytes)
+{
+    for (std::uint64_t there = unasked; bytes <= there;)
+        if (unasked.compare_exchange_weak(there, there - bytes))
+            return true;
+    return false;
+}
+
 /// The value in bytes of a line "VmRSS:  123 kB" of a file of /proc; `otherwise` if there is none.
 std::uint64_t bytes_in(const char* path, std::string_view key, std::uint64_t otherwise)
 {
@@ -77,6 +89,7 @@ void limit_host_memory(std::uint64_t limit)
     const std::uint64_t left = std::min(limit == 0 ? no_limit : limit - has, left_by_others());
     limit_data(left);
     given = has + left;
+    unasked = 0;
 }
 
 std::uint64_t host_memory_left()
@@ -88,6 +101,8 @@ std::uint64_t host_memory_left()
 
 void require_host_memory(std::string_view what, std::uint64_t bytes)
 {
+    if (take_unasked(bytes))
+        return;
     std::uint64_t left = host_memory_left();
     if (bytes > left) {
         malloc_trim(0);  // what was freed and kept
@@ -101,6 +116,7 @@ void require_host_memory(std::string_view what, std::uint64_t bytes)
     for (std::uint64_t most = predicted;
          most < then && !predicted.compare_exchange_weak(most, then);) {
     }
+    unasked = (left - bytes) / 16;
 }
 
 HostMemoryFacts host_memory_facts() { return {given, predicted, own("VmHWM:")}; }
