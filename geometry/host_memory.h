@@ -25,9 +25,10 @@ void require_host_memory(std::string_view what, std::uint64_t bytes);
 
 /// What a process was given, foresaw and took, in bytes.
 struct HostMemoryFacts {
-    std::uint64_t given = 0;      ///< in all, when it was limited last
-    std::uint64_t predicted = 0;  ///< the most that it had and asked for at once, small amounts apart
-    std::uint64_t peak = 0;       ///< the most that was in memory: VmHWM
+    std::uint64_t given = 0;  ///< in all, when it was limited last
+    /// The most that it had and asked for at once; small amounts are left out.
+    std::uint64_t predicted = 0;
+    std::uint64_t peak = 0;  ///< the most that was in memory: VmHWM
 };
 HostMemoryFacts host_memory_facts();
 
