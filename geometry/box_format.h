@@ -16,7 +16,7 @@
 //                 from the middle, is rounded once more, outward, to eleven bits, and stored as its place among all halves
 //     f64         no cells: a float is a double
 //
-// [Ylitie2017] rounds the boxes of a node outward on a grid of its own (oibvh/wide/grid_box.h); here one grid serves a scene.
+// [Ylitie2017] rounds the boxes of a node outward on a grid of its own; here one grid serves a scene.
 #ifndef BVHBENCH_GEOMETRY_BOX_FORMAT_H
 #define BVHBENCH_GEOMETRY_BOX_FORMAT_H
 

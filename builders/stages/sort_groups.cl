@@ -8,10 +8,7 @@
 //     count_tiles     counts[d][t]  how often tile t holds digit d
 //     scan_digits     counts[d][t]  how often the tiles before t do; totals[d] all tiles together
 //     scatter_tiles   pairs, to where smaller digits, earlier tiles and earlier pairs end
-//
-// All of them do nothing where is_idle() says so.
 #include "builders/stages/code.clh"
-#include "builders/stages/idle.clh"
 #include "builders/stages/tile_sort.clh"
 
 #define DIGITS 256u
@@ -26,11 +23,9 @@ static inline uint pairs_here(const uint count)
 /// counts[d][t] of tile t, this group's. `mask` is the largest digit there is.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void count_tiles(
     global const Code* restrict codes, global uint* restrict counts, const uint count,
-    const uint shift, const uint mask, global const uint* unsorted, const uint build)
+    const uint shift, const uint mask)
 {
     local uint histogram[DIGITS];
-    if (is_idle(unsorted, build))
-        return;
     const uint item = (uint)get_local_id(0);
     const uint first = (uint)get_group_id(0) * TILE;
     const uint here = pairs_here(count);
@@ -48,12 +43,9 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void count_tiles(
 /// Row d of `counts`, d this group's number, becomes the sums of what came before in the row; totals[d] the
 /// sum of the row.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void scan_digits(
-    global uint* restrict counts, global uint* restrict totals, const uint tiles,
-    global const uint* unsorted, const uint build)
+    global uint* restrict counts, global uint* restrict totals, const uint tiles)
 {
     local uint scratch[SCAN_SCRATCH];
-    if (is_idle(unsorted, build))
-        return;
     global uint* const row = counts + get_group_id(0) * tiles;
     uint before_round = 0u;
     for (uint first = 0u; first < tiles; first += GROUP_SIZE) {
@@ -96,15 +88,12 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void scatter_tile
     global const Code* restrict codes_in, global const uint* restrict ids_in,
     global Code* restrict codes_out, global uint* restrict ids_out,
     global const uint* restrict counts, global const uint* restrict totals, const uint count,
-    const uint shift, const uint mask, const uint is_first_pass, global const uint* unsorted,
-    const uint build)
+    const uint shift, const uint mask, const uint is_first_pass)
 {
     local uint tile[TILE];
     local uint counters[COUNTER_SCRATCH];
     local uint scratch[SCAN_SCRATCH];
     local uint places[DIGITS];
-    if (is_idle(unsorted, build))
-        return;
     const uint item = (uint)get_local_id(0);
     const uint first = (uint)get_group_id(0) * TILE;
     const uint here = pairs_here(count);

@@ -7,9 +7,6 @@
 // how many pairs of each digit it has, and looks back over what the tiles before it said until it knows how many
 // all of them have. So groups wait for others of the same launch, which must be running already: tiles are
 // handed out in the order in which groups start.
-//
-// All of them do nothing where is_idle() says so, but that counters are cleared.
-#include "builders/stages/idle.clh"
 #include "builders/stages/look_back.clh"
 #include "builders/stages/tile_digits.clh"
 
@@ -18,18 +15,16 @@
 /// Where in `counters` what is: a row of digits a pass, how often each occurs; then how many tiles of each pass are
 /// taken. All are zero before the first launch: of two such tables, which sorts take in turns, the first pass clears the
 /// one that it does not use.
-#define HISTOGRAM(pass) ((pass) * DIGITS)
+#define HISTOGRAM(pass) ((pass)*DIGITS)
 #define TICKETS(pass) (MOST_PASSES * DIGITS + (pass))
 #define COUNTERS (MOST_PASSES * (DIGITS + 1u))
 
 /// Count the digits of all passes, which are those of `bits` bits.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void count_digits(
     global const Code* restrict codes, volatile global uint* counters, const uint count,
-    const uint bits, global const uint* unsorted, const uint build)
+    const uint bits)
 {
     local uint counts[MOST_PASSES * DIGITS];
-    if (is_idle(unsorted, build))
-        return;
     const uint passes = (bits + 7u) / 8u;
     for (uint k = (uint)get_local_id(0); k < passes * DIGITS; k += GROUP_SIZE)
         counts[k] = 0u;
@@ -49,10 +44,9 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void count_digits
 /// the first pass ids are the pairs' own positions and `ids_in` is not read.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void sweep(
     global const Code* restrict codes_in, global const uint* restrict ids_in,
-    global Code* restrict codes_out, global uint* restrict ids_out,
-    volatile global uint* counters, global uint* restrict other_counters,
-    volatile global ulong* restrict states, const uint count, const uint pass, const uint epoch,
-    global const uint* unsorted, const uint build)
+    global Code* restrict codes_out, global uint* restrict ids_out, volatile global uint* counters,
+    global uint* restrict other_counters, volatile global ulong* restrict states, const uint count,
+    const uint pass, const uint epoch)
 {
     const uint shift = 8u * pass;
     // The counters of the teams make way for the tile once pairs know their places.
@@ -69,8 +63,6 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void sweep(
     if (pass == 0u && get_group_id(0) == 0u)
         for (uint k = item; k < COUNTERS; k += GROUP_SIZE)
             other_counters[k] = 0u;
-    if (is_idle(unsorted, build))
-        return;
     if (item == 0u)
         own_tile = atomic_inc(&counters[TICKETS(pass)]);
     for (uint k = item; k < TEAMS * DIGITS; k += GROUP_SIZE)
