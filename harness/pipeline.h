@@ -41,7 +41,7 @@ public:
     bool has_pairs() const { return !collider_->finds_contacts(); }
     bool has_contacts() const { return collider_->finds_contacts() || narrow_.has_value(); }
     PairList pairs() const;     ///< if it has them
-    PairList contacts() const;  ///< likewise
+    PairList contacts() const;  ///< if it has them
     std::map<std::string, double> counters() const;
 
     const Collider& collider() const { return *collider_; }

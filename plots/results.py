@@ -6,10 +6,7 @@ from __future__ import annotations
 
 import functools
 import json
-import math
 import pathlib
-import re
-import stat
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,15 +14,12 @@ import numpy
 
 import names
 import shape
+from json_files import Refused, parsed
 
 MAJOR = "1"
 FOLDER = pathlib.Path(__file__).resolve().parent.parent / "results"
 PAPER = FOLDER / "paper"
 SCHEMA = FOLDER / "schema" / "result-1.schema.json"
-
-
-class Refused(Exception):
-    """A file or cell that no figure may be made of; the text says which and why."""
 
 
 @dataclass(frozen=True)
@@ -191,41 +185,6 @@ def is_result(path: pathlib.Path) -> bool:
     except Refused:
         return True
     return isinstance(document, dict) and {"format", "run", "cells"} <= document.keys()
-
-
-def parsed(path: pathlib.Path) -> Any:
-    """What a JSON file holds. Raises Refused."""
-    try:
-        kind = path.stat().st_mode
-        if not stat.S_ISREG(kind) and not stat.S_ISFIFO(kind):
-            raise Refused(f"{path}: it is a {'folder' if stat.S_ISDIR(kind) else 'device'}, not a result file")
-        text = path.read_text(encoding="utf-8")
-        if not text.strip():
-            raise Refused(f"{path}: it is empty")
-        document = json.loads(text, parse_constant=no_number, parse_float=finite)
-        if re.search(r"\\u[dD]", text):
-            json.dumps(document, ensure_ascii=False).encode("utf-8")
-    except OSError as error:
-        raise Refused(f"{path}: {error.strerror}") from error
-    except UnicodeDecodeError as error:
-        raise Refused(f"{path}: not text in UTF-8, at byte {error.start}") from error
-    except UnicodeEncodeError as error:
-        raise Refused(f"{path}: a text in it has half a character, {error.object[error.start]!a}") from error
-    except ValueError as error:
-        raise Refused(f"{path}: not JSON: {error}") from error
-    except RecursionError as error:
-        raise Refused(f"{path}: nested too deeply") from error
-    return document
-
-
-def no_number(word: str) -> float:
-    raise ValueError(f"{word} is no number")
-
-
-def finite(text: str) -> float:
-    if math.isinf(value := float(text)):
-        raise ValueError(f"{text} is too large a number")
-    return value
 
 
 @functools.cache

@@ -78,7 +78,7 @@ private:
         at_once_;  ///< where there are sweeps, and takes their place for few pairs
     std::size_t size_ = 0;
     std::array<Buffer<uint>, 2> codes_;  ///< pass p goes from [p % 2] to the other
-    std::array<Buffer<uint>, 2> ids_;    ///< likewise
+    std::array<Buffer<uint>, 2> ids_;    ///< pass p reads one and writes the other
     Buffer<uint> aside_;
     Buffer<uint> counts_;  ///< a row a digit, a column a tile or chunk
     Buffer<uint> totals_;  ///< groups only: one a digit

@@ -51,8 +51,8 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void sort_at_once
 {
     local uint words[SCRATCH_WORDS] __attribute__((aligned(8)));
     local uint starts[DIGITS];  // where the digit's pairs start in the sorted tile
-    local uint
-        places[DIGITS];  // of how many there are at all, where those of the tile go, less that
+    local uint places
+        [DIGITS];  // first the pairs of each digit, then where the digit starts in the output, minus starts[digit]
     local uint before[DIGITS];  // how many there are in tiles before
     local uint team_sums[TEAMS];
     const uint item = (uint)get_local_id(0), tile = (uint)get_group_id(0);

@@ -53,7 +53,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void sweep(
     local uint words[SCRATCH_WORDS] __attribute__((aligned(8)));
     local uint* const team_counts = words;
     local uint starts[DIGITS];  // where the digit's pairs start in the sorted tile
-    local uint places[DIGITS];  // where those of the tile go, less that
+    local uint places[DIGITS];  // where the digit starts in the output, minus starts[digit]
     local uint sums[DIGITS];    // how many there are in the tile
     local uint team_sums[TEAMS];
     local uint own_tile;

@@ -38,7 +38,7 @@ std::vector<PairClass> all_classes()
         {"lattice_8", "whole numbers below 8", lattice(8)},
         {"lattice_3", "whole numbers below 3", lattice(3)},
         {"needles", "an edge of 1e-6, through or close by the other's middle", needle_six},
-        {"slivers", "three corners all but in a line, likewise", sliver_six},
+        {"slivers", "three corners all but in a line, through or close by the other's middle", sliver_six},
         {"hairs_breadth", "in one plane but for 1e-30", hairs_breadth_six},
         {"same_place", "a corner at the place of the other's: a shared vertex", same_place_six,
          all},

@@ -65,7 +65,7 @@ TEST_P(RoundedTrees, AreTheSameWhereGroupsWait)
               "");
 }
 
-/// Likewise: inner nodes of radix trees are packed in words of a format's own.
+/// Inner nodes of radix trees are packed too, in words of a format's own.
 TEST_P(RoundedTrees, OfFewAreRadixTreesToo)
 {
     for (const char* builder : {"karras", "apetrei", "apetrei-fused", "lbvh-levels"})
