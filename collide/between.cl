@@ -9,7 +9,8 @@
 #include "collide/task.clh"
 #include "collide/wide_count.clh"
 
-#define OTHERS 16u  // objects that a work-item holds neighbouring leaves against, one after the other
+#define OTHERS \
+    16u  // objects that a work-item holds neighbouring leaves against, one after the other
 
 static inline Aabb root_box(FOREST_PARAMETERS, const uint object)
 {

@@ -41,7 +41,8 @@ private:
         if (!by_groups())  // few cores have no warps: as group
             return lined_up_kernel(tree);
         return kernel(tree, "collide/block.cl", "block_pairs",
-                      {{"TEAMS", teams()}, {"LOOSE", device().tuned(block_loose)}}, Optimise::on_gpus);
+                      {{"TEAMS", teams()}, {"LOOSE", device().tuned(block_loose)}},
+                      Optimise::on_gpus);
     }
 
     uint queue_count(const DeviceTree&) const override { return by_groups() ? 0 : 1; }

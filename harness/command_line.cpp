@@ -135,8 +135,9 @@ void add_build(CLI::App& app, BuildCommand& build, std::string& leaves)
         ->capture_default_str();
     command->add_option("--group-size", build.builder.group_size,
                         "work-items in a group, a power of two; 0: the builder's choice");
-    command->add_option("--items", build.builder.items,
-                        "nodes a work-item merges in registers, a power of two; 0: the builder's choice");
+    command->add_option(
+        "--items", build.builder.items,
+        "nodes a work-item merges in registers, a power of two; 0: the builder's choice");
     add_leaves(*command, leaves, build.builder.boxes);
     command->add_option("--samples", build.samples, "timed builds")
         ->capture_default_str()
