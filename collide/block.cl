@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=0 -DTEAMS=1u -DLOOSE=4u
-// check: -include oibvh/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DTEAMS=4u -DLOOSE=4u
-// check: -include oibvh/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DTEAMS=4u -DLOOSE=4u -DBOX_FORMAT=1u
-// check: -include oibvh/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DTEAMS=4u -DLOOSE=4u -DBOX_FORMAT=2u
+// check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=0 -DTEAMS=1u -DBLOCK=32u -DLOOSE=4u
+// check: -include oibvh/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DTEAMS=4u -DBLOCK=32u -DLOOSE=4u
+// check: -include oibvh/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DTEAMS=4u -DBLOCK=32u -DLOOSE=4u -DBOX_FORMAT=1u
+// check: -include oibvh/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DTEAMS=4u -DBLOCK=32u -DLOOSE=4u -DBOX_FORMAT=2u
 //
 // A block of 32 neighbouring leaves, a subtree, as one query of a team, which takes an implicit tree for one of nodes
 // with 32 children each: five levels are skipped, Eq. (12), and a node's descendants there are neighbours in memory. A
@@ -24,8 +24,7 @@
 #include "collide/sink_teams.clh"
 #include "collide/task.clh"
 
-#define BLOCK 32u
-#define BLOCK_LEVELS 5u
+#define BLOCK_LEVELS 5u                   // of a subtree of BLOCK leaves
 #define WIDE_LEVELS 7u                    // of a tree of 2^31 leaves
 #define STACK (32u * (WIDE_LEVELS - 1u))  // 31 a wide level and one more, and five ancestors
 #define SEEN (2u * BLOCK)

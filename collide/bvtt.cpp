@@ -110,7 +110,9 @@ private:
         const Define label{"LABEL_BITS", bits};
         if (tree.objects.size() > 1)
             roots_ = kernel(tree, "collide/roots.cl", "find_roots",
-                            {label, {"SKIP_APART", skips(skip_apart) ? 1u : 0u}});
+                            {label,
+                             {"SKIP_APART", skips(skip_apart) ? 1u : 0u},
+                             {"OTHERS", others_a_work_item}});
         expand_ = by_groups()
                       ? kernel(tree, "collide/bvtt_groups.cl", "expand",
                                {{"GROUP_SIZE", group_size_}, {"ITEMS", items()}, one_object, label})
@@ -201,12 +203,12 @@ private:
 
     void find_roots(const DeviceTree& tree, Queue& queue)
     {
-        constexpr uint others = 16, group = 64;  // OTHERS of roots.cl
+        constexpr uint group = 64;
         const auto objects = static_cast<uint>(tree.objects.size());
         set_arguments_from(roots_, tree.bind(roots_, 0), objects, within() ? 1u : 0u,
                            between(tree) ? 1u : 0u, queues_[0], static_cast<uint>(queue_capacity_),
                            counters_);
-        const std::size_t lanes = std::size_t{objects} * divided_up(objects, others);
+        const std::size_t lanes = std::size_t{objects} * divided_up(objects, others_a_work_item);
         queue.launch(roots_, (lanes + group - 1) / group * group, group, 0);
     }
 

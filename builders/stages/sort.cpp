@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "builders/stages/tile_digits.h"
 #include "geometry/bits.h"
 
 namespace bvhbench {
@@ -11,7 +12,6 @@ namespace {
 
 constexpr auto groups_path = "builders/stages/sort_groups.cl";
 constexpr auto chunks_path = "builders/stages/sort_chunks.cl";
-constexpr uint group_digit_bits = 8;  // two rounds of sort_tile
 
 std::int64_t bytes(std::size_t words) { return static_cast<std::int64_t>(words * sizeof(uint)); }
 
@@ -42,7 +42,7 @@ RadixSort::RadixSort(Programs& programs, unsigned code_bits, SortShape shape)
     if (shape_.form == KernelForm::groups &&
         (shape.sweeps == always ||
          (shape.sweeps == of_device && programs.device().lets_groups_wait()))) {
-        digit_bits_ = group_digit_bits;
+        digit_bits_ = tile_digit_bits;
         sweeps_.emplace(programs, code_bits, shape.sweep_group_size,
                         std::max(1u, shape.sweep_keys_per_item / words));
         if (shape.at_once)
@@ -56,10 +56,11 @@ RadixSort::RadixSort(Programs& programs, unsigned code_bits, SortShape shape)
             return programs.kernel(groups_path, name,
                                    {{"GROUP_SIZE", shape.group_size},
                                     {"KEYS_PER_ITEM", shape.keys_per_item},
-                                    {"CODE_WORDS", words}},
+                                    {"CODE_WORDS", words},
+                                    {"DIGIT_BITS", tile_digit_bits}},
                                    Optimise::on_gpus);
         };
-        digit_bits_ = group_digit_bits;
+        digit_bits_ = tile_digit_bits;
         count_ = kernel("count_tiles");
         scan_ = kernel("scan_digits");
         scatter_ = kernel("scatter_tiles");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// check: -DGROUP_SIZE=512u -DKEYS_PER_ITEM=4u -DCODE_WORDS=1u
-// check: -DGROUP_SIZE=32u -DKEYS_PER_ITEM=3u -DCODE_WORDS=2u
+// check: -DGROUP_SIZE=512u -DKEYS_PER_ITEM=4u -DCODE_WORDS=1u -DDIGIT_BITS=8u -DSTATE_EPOCH_BITS=31u
+// check: -DGROUP_SIZE=32u -DKEYS_PER_ITEM=3u -DCODE_WORDS=2u -DDIGIT_BITS=8u -DSTATE_EPOCH_BITS=31u
 //
 // The passes of sweep.cl in one launch, for so few pairs that each group has one tile and all of them run at the same
 // time. Nobody counts beforehand and nobody looks back tile by tile: each group reads what every other one says of its
@@ -60,7 +60,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void sort_at_once
     const uint first = tile * TILE, here = min(TILE, count - first);
     for (uint pass = 0u; pass < passes; ++pass) {
         const bool is_even = pass % 2u == 0u;
-        const uint shift = 8u * pass, now = epoch + pass;
+        const uint shift = DIGIT_BITS * pass, now = epoch + pass;
         for (uint k = item; k < TEAMS * DIGITS; k += GROUP_SIZE)
             words[k] = 0u;
         for (OWN_DIGITS(digit))

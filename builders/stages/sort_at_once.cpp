@@ -5,22 +5,21 @@
 #include <cassert>
 
 #include "builders/stages/codes.h"
+#include "builders/stages/tile_digits.h"
 #include "geometry/bits.h"
 
 namespace bvhbench {
 namespace {
 
-constexpr uint digits = 256;  // as in tile_digits.clh
 constexpr uint fewest_keys =
     4;  // a work-item: with fewer, groups read more of each other than they sort
-constexpr uint last_epoch = (1u << 31) - 1;  // STATE_EPOCH_SHIFT of look_back.clh
 
 }  // namespace
 
 SortAtOnce::SortAtOnce(Programs& programs, unsigned code_bits, uint group_size, uint most_keys)
     : programs_(programs)
     , code_bits_(code_bits)
-    , passes_(divided_up(code_bits, 8u))
+    , passes_(divided_up(code_bits, tile_digit_bits))
     , group_size_(group_size)
     , most_keys_(most_keys)
     , most_tiles_(programs.device().lets_groups_wait()
@@ -46,9 +45,12 @@ void SortAtOnce::plan(Arena& arena, std::size_t size)
     sort_ = programs_.kernel("builders/stages/sort_at_once.cl", "sort_at_once",
                              {{"GROUP_SIZE", group_size_},
                               {"KEYS_PER_ITEM", keys},
-                              {"CODE_WORDS", code_words(code_bits_)}},
+                              {"CODE_WORDS", code_words(code_bits_)},
+                              {"DIGIT_BITS", tile_digit_bits},
+                              {"STATE_EPOCH_BITS", state_epoch_bits}},
                              Optimise::on_gpus);
-    states_ = arena.take<ulong>(std::size_t{divided_up(count, tile_)} * (digits + 1), Use::scratch);
+    states_ =
+        arena.take<ulong>(std::size_t{divided_up(count, tile_)} * (tile_digits + 1), Use::scratch);
 }
 
 void SortAtOnce::prepare(const cl::CommandQueue& queue)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// check: -DGROUP_SIZE=256u -DKEYS_PER_ITEM=15u -DCODE_WORDS=1u
-// check: -DGROUP_SIZE=64u -DKEYS_PER_ITEM=3u -DCODE_WORDS=2u
+// check: -DGROUP_SIZE=256u -DKEYS_PER_ITEM=15u -DCODE_WORDS=1u -DDIGIT_BITS=8u
+// check: -DGROUP_SIZE=64u -DKEYS_PER_ITEM=3u -DCODE_WORDS=2u -DDIGIT_BITS=8u
 //
 // One pass of a stable radix sort of (code, id) pairs by a digit of up to eight bits, in groups. A group
 // owns a tile of neighbouring pairs. Three launches a pass:
@@ -11,7 +11,7 @@
 #include "builders/stages/code.clh"
 #include "builders/stages/tile_sort.clh"
 
-#define DIGITS 256u
+#define DIGITS (1u << DIGIT_BITS)
 #define DIGITS_PER_ITEM (DIGITS / GROUP_SIZE)
 
 /// Pairs in this group's tile: TILE in all but the last.
@@ -100,22 +100,23 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void scatter_tile
 
     // What fills up the last tile has the largest digit and comes last, before and after sorting.
     for (uint k = item; k < TILE; k += GROUP_SIZE)
-        tile[k] = k << 8u | (k < here ? digit_of(codes_in[first + k], shift, mask) : DIGITS - 1u);
+        tile[k] =
+            k << DIGIT_BITS | (k < here ? digit_of(codes_in[first + k], shift, mask) : DIGITS - 1u);
     find_places(counts, totals, mask, places, scratch);
     // A loop, not two calls: inlining the second crashes PoCL 3.1.
-    for (uint half_digit = 0u; half_digit < 8u; half_digit += 4u)
+    for (uint half_digit = 0u; half_digit < DIGIT_BITS; half_digit += 4u)
         sort_tile(tile, counters, scratch, half_digit);
 
     // The run of digit d starts at some k of the sorted tile: afterwards places[d] + k is right for all of it.
     for (uint k = item; k < here; k += GROUP_SIZE) {
-        const uint digit = tile[k] & 255u;
-        if (k == 0u || digit != (tile[k - 1u] & 255u))
+        const uint digit = tile[k] & (DIGITS - 1u);
+        if (k == 0u || digit != (tile[k - 1u] & (DIGITS - 1u)))
             places[digit] -= k;
     }
     barrier(CLK_LOCAL_MEM_FENCE);
     for (uint k = item; k < here; k += GROUP_SIZE) {
-        const uint from = first + (tile[k] >> 8u);
-        const uint to = places[tile[k] & 255u] + k;
+        const uint from = first + (tile[k] >> DIGIT_BITS);
+        const uint to = places[tile[k] & (DIGITS - 1u)] + k;
         codes_out[to] = codes_in[from];
         ids_out[to] = is_first_pass != 0u ? from : ids_in[from];
     }

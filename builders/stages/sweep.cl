@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// check: -DGROUP_SIZE=512u -DKEYS_PER_ITEM=16u -DCODE_WORDS=1u
-// check: -DGROUP_SIZE=32u -DKEYS_PER_ITEM=3u -DCODE_WORDS=2u
+// check: -DGROUP_SIZE=512u -DKEYS_PER_ITEM=16u -DCODE_WORDS=1u -DDIGIT_BITS=8u -DMOST_PASSES=8u -DSTATE_EPOCH_BITS=31u
+// check: -DGROUP_SIZE=32u -DKEYS_PER_ITEM=3u -DCODE_WORDS=2u -DDIGIT_BITS=8u -DMOST_PASSES=8u -DSTATE_EPOCH_BITS=31u
 //
 // A stable radix sort of (code, id) pairs that reads and writes each pair once a digit [Adinets2022]. One launch counts
 // the digits of all passes. Then a launch a pass: a group takes the next tile of pairs, sorts it in local memory, says
@@ -9,8 +9,6 @@
 // handed out in the order in which groups start.
 #include "builders/stages/look_back.clh"
 #include "builders/stages/tile_digits.clh"
-
-#define MOST_PASSES 8u
 
 /// Where in `counters` what is: a row of digits a pass, how often each occurs; then how many tiles of each pass are
 /// taken. All are zero before the first launch: of two such tables, which sorts take in turns, the first pass clears the
@@ -25,14 +23,14 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void count_digits
     const uint bits)
 {
     local uint counts[MOST_PASSES * DIGITS];
-    const uint passes = (bits + 7u) / 8u;
+    const uint passes = (bits + DIGIT_BITS - 1u) / DIGIT_BITS;
     for (uint k = (uint)get_local_id(0); k < passes * DIGITS; k += GROUP_SIZE)
         counts[k] = 0u;
     barrier(CLK_LOCAL_MEM_FENCE);
     for (uint k = (uint)get_global_id(0); k < count; k += (uint)get_global_size(0)) {
         const Code code = codes[k];
         for (uint pass = 0u; pass < passes; ++pass)
-            atomic_inc(&counts[pass * DIGITS + digit_of(code, 8u * pass, DIGITS - 1u)]);
+            atomic_inc(&counts[pass * DIGITS + digit_of(code, DIGIT_BITS * pass, DIGITS - 1u)]);
     }
     barrier(CLK_LOCAL_MEM_FENCE);
     for (uint k = (uint)get_local_id(0); k < passes * DIGITS; k += GROUP_SIZE)
@@ -48,7 +46,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void sweep(
     global uint* restrict other_counters, volatile global ulong* restrict states, const uint count,
     const uint pass, const uint epoch)
 {
-    const uint shift = 8u * pass;
+    const uint shift = DIGIT_BITS * pass;
     // The counters of the teams make way for the tile once pairs know their places.
     local uint words[SCRATCH_WORDS] __attribute__((aligned(8)));
     local uint* const team_counts = words;

@@ -6,14 +6,13 @@
 
 #include "builders/parameters.h"
 #include "builders/stages/codes.h"
+#include "builders/stages/tile_digits.h"
 #include "geometry/bits.h"
 
 namespace bvhbench {
 namespace {
 
 constexpr auto path = "builders/stages/sweep.cl";
-constexpr uint digits = 256, most_passes = 8;  // as in sweep.cl
-constexpr uint last_epoch = (1u << 31) - 1;    // STATE_EPOCH_SHIFT of look_back.clh
 
 }  // namespace
 
@@ -21,7 +20,7 @@ DigitSweeps::DigitSweeps(Programs& programs, unsigned code_bits, uint group_size
                          uint keys_per_item)
     : programs_(programs)
     , code_bits_(code_bits)
-    , passes_(divided_up(code_bits, 8u))
+    , passes_(divided_up(code_bits, tile_digit_bits))
     , group_size_(group_size)
     , most_keys_(keys_per_item)
     , units_(programs.device().cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>())
@@ -43,7 +42,10 @@ void DigitSweeps::plan(Arena& arena, std::size_t size)
         return programs_.kernel(path, name,
                                 {{"GROUP_SIZE", group_size_},
                                  {"KEYS_PER_ITEM", keys},
-                                 {"CODE_WORDS", code_words(code_bits_)}},
+                                 {"CODE_WORDS", code_words(code_bits_)},
+                                 {"DIGIT_BITS", tile_digit_bits},
+                                 {"MOST_PASSES", most_tile_passes},
+                                 {"STATE_EPOCH_BITS", state_epoch_bits}},
                                 Optimise::on_gpus);
     };
     count_ = kernel("count_digits");
@@ -52,9 +54,9 @@ void DigitSweeps::plan(Arena& arena, std::size_t size)
     epoch_ = 0;
     turn_ = 0;
     for (Buffer<uint>& counters : counters_)
-        counters = arena.take<uint>(most_passes * (digits + 1), Use::scratch);
-    states_ = arena.take<ulong>(std::size_t{divided_up(static_cast<uint>(size), tile_)} * digits,
-                                Use::scratch);
+        counters = arena.take<uint>(most_tile_passes * (tile_digits + 1), Use::scratch);
+    states_ = arena.take<ulong>(
+        std::size_t{divided_up(static_cast<uint>(size), tile_)} * tile_digits, Use::scratch);
 }
 
 void DigitSweeps::prepare(const cl::CommandQueue& queue)
