@@ -247,7 +247,8 @@ def test_two_commands_do_not_write_one_file():
         expect(0, *BUILD, "--json", "r.json", "--force")  # who was killed does not hold it
         assert len(valid("r.json")["cells"]) == 1
         expect(3, *BUILD, "--json", "new.json", "--dump", "new.json")
-        assert sorted(os.listdir()) == ["a.obj", "good.json", "link.json", "long.json", "r.json"]
+        left = [name for name in sorted(os.listdir()) if not name.startswith("r.json.tmp")]  # a kill may leave one
+        assert left == ["a.obj", "good.json", "link.json", "long.json", "r.json"], left
 
 
 def test_a_temporary_file_cannot_be_put_there_before():
