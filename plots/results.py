@@ -149,7 +149,7 @@ class Run:
         for cell in self.without_numbers:
             if cell["experiment"] == experiment:
                 why = (called(cell), cell["status"], cell["reason"])
-                frames = scenes.setdefault(why, {}).setdefault(cell["scene"]["name"], [])
+                frames = scenes.setdefault(why, {}).setdefault(names.scene(cell["scene"]), [])
                 if "collider" in cell:
                     frames.append(cell["scene"].get("frame", 0))
         builders: dict[tuple[str, str, str], list[str]] = {}
@@ -254,7 +254,7 @@ def cell_of(path: pathlib.Path, cell: dict[str, Any]) -> Cell:
     options, collider_options = (tuple(sorted((key, str(value)) for key, value in choice.get("options", {}).items()))
                                  for choice in (builder, collider))
     samples = [{entry["stage"]: entry for entry in sample["stages"]} for sample in counted(cell["samples"])]
-    return Cell(cell["experiment"], scene["name"], scene.get("triangles", 0), scene.get("stand_in_for"), scene.get("outlier"),
+    return Cell(cell["experiment"], names.scene(scene), scene.get("triangles", 0), scene.get("stand_in_for"), scene.get("outlier"),
                 builder["name"], options, cell.get("operation", "build"), scene.get("frame", 0), collider.get("name"), collider_options,
                 cell["check"]["verdict"] in ("agrees", "counted"), cell["counters"],
                 samples, cell.get("left_out", {}), cell.get("leaves_by_depth", []), cell.get("accuracy", {}),

@@ -77,7 +77,7 @@ def test_accuracy_counts_what_formats_of_boxes_add_and_finds_what_they_lose():
     # A side is rounded alone or three at a time, as the device likes it: inward in both.
     plant("inward", ("geometry", "device", "builders", "oibvh", "collide"),
           ("geometry/box_format.h", "(is_upper ? whole_above(product)", "(!is_upper ? whole_above(product)"),
-          ("builders/stages/stored_box.clh", "whole = is_upper ?", "whole = !is_upper ?"))
+          ("builders/stages/stored_box.clh", "is_upper ? (near < product", "!is_upper ? (near < product"))
     expect(1, *axis, "--filter", "/u8$", "--kernels", "inward", "--out", "inward-out", says="pairs missed")
     cell, = valid("inward-out/accuracy-boxes.json")["cells"]
     assert cell["check"]["verdict"] == "differs" and cell["counters"]["missed_count"] > 100, cell
