@@ -18,7 +18,7 @@ class Refused(Exception):
 
 def name_of(path: pathlib.Path) -> str:
     """A result file's name without what says how it is written."""
-    return path.name.removesuffix(".xz").removesuffix(".json")
+    return pathlib.Path(path.name.removesuffix(".xz")).stem
 
 
 def files_in(folder: pathlib.Path) -> list[pathlib.Path]:

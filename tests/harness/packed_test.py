@@ -2,7 +2,6 @@
 """A result file packed by xz is read as the plain one is, and a damaged one is a sentence."""
 import lzma
 import pathlib
-import re
 import sys
 
 from program import expect, main
@@ -24,7 +23,7 @@ def test_every_reader_takes_both():
     expect(0, "compare", "r.json", "r.json.xz")
     expect(0, "merge", "r.json.xz", "-o", "merged.json")
     expect(0, "report", "r.json.xz", "-o", "r.html")
-    assert re.search(r'"name":\s*"r"', pathlib.Path("r.html").read_text())
+    assert "<h2>r</h2>" in pathlib.Path("r.html").read_text()
 
 
 def test_what_cannot_be_unpacked_is_a_sentence():
