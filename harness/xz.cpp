@@ -56,8 +56,7 @@ std::string unpacked_xz(std::string_view file, const std::string& what)
         text.append(piece.data(), count);
     }
     if (state != LZMA_STREAM_END)
-        throw Unavailable(what + " cannot be unpacked: " +
-                          (state == LZMA_BUF_ERROR ? "it is cut off" : "it is damaged"));
+        throw Unavailable(what + " cannot be unpacked: it is cut off or damaged");
     return text;
 }
 

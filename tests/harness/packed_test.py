@@ -20,7 +20,7 @@ def result() -> bytes:
 def test_every_reader_takes_both():
     packed("r.json.xz", lzma.compress(result()))
     assert expect(0, "show", "r.json.xz").replace("r.json.xz", "r.json") == expect(0, "show", "r.json")
-    expect(0, "compare", "r.json", "r.json.xz")
+    expect(0, "compare", "r.json", "r.json.xz", "--allow-dirty")
     expect(0, "merge", "r.json.xz", "-o", "merged.json")
     expect(0, "report", "r.json.xz", "-o", "r.html")
     assert "<h2>r</h2>" in pathlib.Path("r.html").read_text()
@@ -28,10 +28,9 @@ def test_every_reader_takes_both():
 
 def test_what_cannot_be_unpacked_is_a_sentence():
     whole = lzma.compress(result())
-    for name, data, says in (("cut.json.xz", whole[:-9], "cut off"), ("wrong.json.xz", whole[:40] + b"!" + whole[41:], "damaged"),
-                             ("more.json.xz", whole + b"more", "damaged")):
+    for name, data in (("cut.json.xz", whole[:-9]), ("wrong.json.xz", whole[:40] + b"!" + whole[41:]), ("more.json.xz", whole + b"more")):
         packed(name, data)
-        expect(3, "show", name, says=says)
+        expect(3, "show", name, says="cut off or damaged")
         expect(3, "report", name, "-o", "none.html", says="cut off or damaged")
 
 
