@@ -5,7 +5,7 @@
 
 namespace bvhbench {
 
-std::vector<TreeUpdate> Builder::plan_update(std::span<const TreeUpdate> wanted, bool, Queue&)
+std::vector<TreeUpdate> Builder::plan_update(std::span<const TreeUpdate> wanted, Queue&)
 {
     update_ = update_of_all(wanted, can_refit());
     return std::vector<TreeUpdate>(wanted.size(), update_);
@@ -16,7 +16,5 @@ const Tree& Builder::update(const Input& input, Queue& queue)
     assert(update_ != TreeUpdate::keep);
     return update_ == TreeUpdate::refit ? refit(input, queue) : build(input, queue);
 }
-
-bool Builder::lined_up_anew(const Queue&) const { return update_ == TreeUpdate::rebuild; }
 
 }  // namespace bvhbench

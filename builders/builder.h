@@ -90,21 +90,16 @@ public:
         throw Unavailable(std::string(card().name) + " cannot refit");
     }
 
-    /// What updates from here on do for the tree of each object, wanted at the least; says what they will do, which is
-    /// more where a builder cannot treat objects each in its own way. They begin from the trees that stand now,
-    /// however often they are repeated. With `try_order`, the order that leaves have now is tried first where they
-    /// would be lined up anew, and left as it is if that would change nothing. Takes memory when first called, and
-    /// writes down what updates read: never timed. Waits, and forgets the stages since the queue's last `finish`.
-    virtual std::vector<TreeUpdate> plan_update(std::span<const TreeUpdate> wanted, bool try_order,
-                                                Queue& queue);
+    /// Plans the next updates: what each does for the tree of each object. Returns the plan, which may do more than
+    /// `wanted` asks for where a builder cannot treat each object in its own way. Updates begin from the trees that stand now,
+    /// however often they are repeated. Takes memory when first called, and writes down what updates read: never timed.
+    /// Waits, and forgets the stages since the queue's last `finish`.
+    virtual std::vector<TreeUpdate> plan_update(std::span<const TreeUpdate> wanted, Queue& queue);
 
     /// Enqueue one update as planned, over the same faces with moved points: the stages of a build, of what they are
     /// needed for; for all objects one set of launches. Allocates nothing and does not wait. Where all trees are kept,
     /// there is nothing to call it for.
     virtual const Tree& update(const Input& input, Queue& queue);
-
-    /// Whether the last update has lined leaves up anew. Waits.
-    virtual bool lined_up_anew(const Queue& queue) const;
 
 private:
     TreeUpdate update_ = TreeUpdate::rebuild;  ///< of builders that treat all objects alike

@@ -42,14 +42,12 @@ namespace bvhbench {
 /// BOX_FORMAT (geometry/box_side.h), unless boxes are floats.
 ///
 /// A wide tree is implicit. Its children are tree_left and those next to it instead of tree_right, and their boxes are
-/// tested together. What is stored of them may be larger than they are, but of boxes that tree_box tells too, a child's
-/// always lies within its parent's:
+/// tested together:
 ///
 ///     tree_slot(TREE, node)                     where an inner node is stored
-///     tree_stored_box(TREE, slot, k)            of child k of the node there
-///     tree_children_meeting(TREE, slot, box)    a bit a child: whether its stored box overlaps; of none, anything
+///     tree_child_box(TREE, slot, k)             of child k of the node there
+///     tree_children_meeting(TREE, slot, box)    a bit a child: whether its box overlaps; of none, anything
 ///     tree_children_from(TREE, node, first)     a bit a child: whether it has leaves from place `first` on
-///     TREE_EXACT_LEAVES                         1: stored boxes of leaves are exact; 0: tree_box has to be asked
 class DeviceTree : public Tree {
 public:
     const Queue* queue =
@@ -71,7 +69,7 @@ public:
     virtual bool has_sorted_leaves() const = 0;
 
     virtual std::string_view access_header() const = 0;
-    virtual bool is_implicit() const = 0;           ///< as the header says
+    virtual bool is_implicit() const = 0;          ///< as the header says
     virtual uint child_bits() const { return 1; }  ///< TREE_CHILD_BITS
 
     /// Nodes on the longest way from a root to a leaf, at most, and exactly in the largest implicit tree.

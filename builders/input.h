@@ -18,8 +18,9 @@ struct Input {
     std::span<const Face> faces;
     Buffer<Point> device_points;
     Buffer<Face> device_faces;
-    std::vector<FaceRange> objects;  ///< what gets a tree of its own: at least one, together all faces in order
-    Buffer<uint> device_owners;      ///< the object of each face; one word if there is one object
+    std::vector<FaceRange>
+        objects;  ///< what gets a tree of its own: at least one, together all faces in order
+    Buffer<uint> device_owners;  ///< the object of each face; one word if there is one object
 
     /// The same vertices in the next frame, where boxes are to be swept: around each triangle's way from one frame to
     /// the other. Else empty, and boxes are of one frame.

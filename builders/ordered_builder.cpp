@@ -108,22 +108,20 @@ const Tree& OrderedBuilder::refit(const Input& input, Queue& queue)
     return tree();
 }
 
-void OrderedBuilder::reserve_updates(Queue& queue)
+void OrderedBuilder::reserve_updates()
 {
     const auto plan_all = [&](Arena& arena) {
         leaf_order_.plan_updates(arena);
-        if (sizes_.size() > 1)
-            plan_updates(arena);
+        plan_updates(arena);
     };
     Arena measuring = Arena::measuring(programs_.device());
     plan_all(measuring);
     update_arena_ = Arena::reserved(programs_.device(), measuring.used());
     plan_all(*update_arena_);
-    leaf_order_.prepare_updates(queue.cl());
 }
 
 std::vector<TreeUpdate> OrderedBuilder::plan_update(std::span<const TreeUpdate> wanted,
-                                                    bool try_order, Queue& queue)
+                                                    Queue& queue)
 {
     assert(wanted.size() == sizes_.size());
     queue.finish();
@@ -133,13 +131,12 @@ std::vector<TreeUpdate> OrderedBuilder::plan_update(std::span<const TreeUpdate> 
     std::vector<TreeUpdate> updates(wanted.begin(), wanted.end());
     if (!of_some_)
         std::fill(updates.begin(), updates.end(), update_);
-    if (!of_some_ && update_ != TreeUpdate::rebuild)
-        return updates;  // as refits do it, or nothing to do
-    if (!update_arena_ && (of_some_ || try_order))
-        reserve_updates(queue);
-    leaf_order_.begin_update(queue.cl(), updates, try_order);
-    if (of_some_)
-        begin_update(queue.cl(), updates);
+    if (!of_some_)
+        return updates;  // as builds and refits do it, or nothing to do
+    if (!update_arena_)
+        reserve_updates();
+    leaf_order_.begin_update(queue.cl(), updates);
+    begin_update(queue.cl(), updates);
     return updates;
 }
 
@@ -152,9 +149,7 @@ const Tree& OrderedBuilder::update(const Input& input, Queue& queue)
         return refit(input, queue);
     if (update_ == TreeUpdate::keep)
         return tree();
-    leaf_order_.enqueue_update(input, queue);
-    gather_if_sorted(input, queue);
-    return build(input, queue, Start::from_sorted_leaves);
+    return build(input, queue, Start::from_triangles);
 }
 
 const Tree& OrderedBuilder::update_some(const Input& input, Queue& queue)
@@ -167,11 +162,6 @@ const Tree& OrderedBuilder::update_some(const Input& input, Queue& queue)
     queue.begin(update_ == TreeUpdate::refit ? "refit" : "hierarchy");
     enqueue_update(queue);
     return tree();
-}
-
-bool OrderedBuilder::lined_up_anew(const Queue& queue) const
-{
-    return update_ == TreeUpdate::rebuild && leaf_order_.sorted_anew(queue.cl());
 }
 
 void OrderedBuilder::gather_if_sorted(const Input& input, Queue& queue)

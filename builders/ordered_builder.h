@@ -27,10 +27,8 @@ public:
     const Tree& build(const Input& input, Queue& queue, Start start) final;
     bool can_refit() const final { return true; }
     const Tree& refit(const Input& input, Queue& queue) final;
-    std::vector<TreeUpdate> plan_update(std::span<const TreeUpdate> wanted, bool try_order,
-                                        Queue& queue) final;
+    std::vector<TreeUpdate> plan_update(std::span<const TreeUpdate> wanted, Queue& queue) final;
     const Tree& update(const Input& input, Queue& queue) final;
-    bool lined_up_anew(const Queue& queue) const final;
 
 protected:
     /// Another one like this, without memory.
@@ -85,7 +83,7 @@ protected:
 private:
     Footprint planned(std::span<const uint> sizes) const;
     void gather_if_sorted(const Input& input, Queue& queue);
-    void reserve_updates(Queue& queue);
+    void reserve_updates();
     const Tree& update_some(const Input& input, Queue& queue);
 
     BuilderCard card_;

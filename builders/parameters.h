@@ -72,7 +72,7 @@ inline constexpr Parameter sort_group_size{
     .candidates = {64, 128, 256}};
 inline constexpr Parameter sort_keys_per_item{
     .name = "sort.keys_per_item",
-    .meaning = "pairs a work-item ranks, likewise; odd, against bank conflicts",
+    .meaning = "pairs a work-item ranks where groups do not wait; odd, against bank conflicts",
     .stage = "sort",
     .on_cpu = 15,
     .elsewhere = 15,
@@ -92,7 +92,7 @@ inline constexpr Parameter sweep_group_size{
     .candidates = {128, 256, 512}};
 inline constexpr Parameter sweep_keys_per_item{
     .name = "sweep.keys_per_item",
-    .meaning = "pairs a work-item ranks, likewise; of codes of two words half as many",
+    .meaning = "pairs a work-item ranks where groups wait; of codes of two words half as many",
     .stage = "sort",
     .on_cpu = 8,
     .elsewhere = 8,
@@ -101,7 +101,7 @@ inline constexpr Parameter sweep_keys_per_item{
     .candidates = {4, 6, 8, 10, 12, 16}};
 inline constexpr Parameter sweep_counting_groups_per_unit{
     .name = "sweep.counting_groups_per_unit",
-    .meaning = "groups a compute unit that count digits, likewise",
+    .meaning = "groups a compute unit that count digits, where groups wait",
     .stage = "sort",
     .on_cpu = 2,
     .elsewhere = 2,
@@ -111,7 +111,7 @@ inline constexpr Parameter sweep_counting_groups_per_unit{
 
 inline constexpr Parameter sort_at_once{
     .name = "sort.at_once",
-    .meaning = "1: few pairs are sorted in one launch, likewise; 0: in one a pass",
+    .meaning = "where groups wait, 1: few pairs are sorted in one launch; 0: in one launch a pass",
     .stage = "sort",
     .on_cpu = 0,
     .elsewhere = 1,
@@ -200,17 +200,17 @@ inline constexpr Parameter implicit_handoff_group_size{
     .most = 1024,
     .values = ValueIs::group_size,
     .candidates = {128, 256, 512, 1024}};
-inline constexpr Parameter implicit_waits{
-    .name = "implicit.waits",
-    .meaning =
-        "likewise, 1: a few groups wait for subtrees' roots, where groups may; 0: the last to "
-        "arrive goes on",
-    .stage = "hierarchy",
-    .on_cpu = 0,
-    .elsewhere = 1,
-    .least = 0,
-    .most = 1,
-    .candidates = {0, 1}};
+inline constexpr Parameter implicit_waits{.name = "implicit.waits",
+                                          .meaning =
+                                              "where one launch builds all levels, 1: a few groups "
+                                              "wait for the roots of subtrees, if groups "
+                                              "can wait; 0: the last group to arrive goes on",
+                                          .stage = "hierarchy",
+                                          .on_cpu = 0,
+                                          .elsewhere = 1,
+                                          .least = 0,
+                                          .most = 1,
+                                          .candidates = {0, 1}};
 inline constexpr Parameter implicit_items{
     .name = "implicit.items",
     .meaning = "nodes of the entry level that a work-item merges in registers",

@@ -77,10 +77,8 @@ Breach broken_inner(const HostTree& tree, const HostTree::Node& node, std::size_
         }
     if (node.child[0] == HostTree::none)
         return {leaves, "inner " + node_text(index) + " has no left child"};
-    if (tree.is_tight && !same_bits(node.box, box))
+    if (!same_bits(node.box, box))
         return {boxes, "the box of " + node_text(index) + " is not the union of its children's"};
-    if (!same_bits(node.box, merged(node.box, box)))
-        return {boxes, "the box of " + node_text(index) + " does not contain its children's"};
     return {};
 }
 
@@ -99,16 +97,6 @@ std::uint64_t tree_hash(const HostTree& tree)
         hash.value(which);
     });
     return hash.get();
-}
-
-bool same_refit(const HostTree& a, const HostTree& b)
-{
-    if (a.is_tight && b.is_tight)
-        return tree_hash(a) == tree_hash(b);
-    return std::equal(a.nodes.begin(), a.nodes.end(), b.nodes.begin(), b.nodes.end(),
-                      [](const HostTree::Node& one, const HostTree::Node& other) {
-                          return one.child == other.child && one.primitive == other.primitive;
-                      });
 }
 
 HostTree refitted(HostTree tree, std::span<const Point> points, std::span<const Face> faces)

@@ -22,10 +22,6 @@ HostTree rounded_to(HostTree tree, const BoxFormat& format);
 /// as they were, into the cells of the scene as it is now.
 HostTree refitted(HostTree tree, std::span<const Point> points, std::span<const Face> faces);
 
-/// Whether a refit left what `refitted` does: the same tree, or, of trees whose boxes are not tight, the same topology,
-/// node by node.
-bool same_refit(const HostTree& found, const HostTree& expected);
-
 /// A promise that a tree breaks, and how, as a sentence.
 struct Breach {
     enum class Of { nothing, leaves, boxes } of = Of::nothing;  ///< of its leaves: or of its nodes

@@ -33,10 +33,6 @@ struct HostTree {
 
     std::vector<Node> nodes;  ///< the root is nodes[0]; children come after their parent
 
-    /// Whether an inner node's box is the union of its children's; if not, as where each node rounds them outward on a
-    /// grid of its own, it contains them.
-    bool is_tight = true;
-
     /// What a leaf's box is to its triangle's: that box, if not said otherwise.
     BoxRounding rounding;
 };

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
-// check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DTASK_LEAVES=64u -DSKIP_APART=1 -DSKIP_OVERLAP=1
-// check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DTASK_LEAVES=64u -DSKIP_APART=0 -DSKIP_OVERLAP=0
+// check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DTASK_LEAVES=64u -DSKIP_APART=1 -DSKIP_OVERLAP=1 -DOTHERS=16u
+// check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DTASK_LEAVES=64u -DSKIP_APART=0 -DSKIP_OVERLAP=0 -DOTHERS=16u
 //
 // The tasks between objects: leaves of the object that has more, against every object whose box meets theirs. Their
 // box is that of the subtree over them, Eq. (13); in a tree with pointers it is that of their object. SKIP_OVERLAP and
-// SKIP_APART: whether that box's test, and the whole object's, leave tasks out (skips.h).
+// SKIP_APART: whether that box's test, and the whole object's, leave tasks out (skips.h). A work-item holds its leaves against
+// OTHERS objects, one after the other.
 #include "builders/stages/chunk.clh"
 #include "collide/task.clh"
 #include "collide/wide_count.clh"
-
-#define OTHERS 16u  // objects that a work-item holds neighbouring leaves against, one after the other
 
 static inline Aabb root_box(FOREST_PARAMETERS, const uint object)
 {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=0 -DTEAMS=1u -DLOOSE=4u
-// check: -include oibvh/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DTEAMS=4u -DLOOSE=4u
-// check: -include oibvh/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DTEAMS=4u -DLOOSE=4u -DBOX_FORMAT=1u
-// check: -include oibvh/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DTEAMS=4u -DLOOSE=4u -DBOX_FORMAT=2u
+// check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=0 -DTEAMS=1u -DBLOCK=32u -DLOOSE=4u
+// check: -include oibvh/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DTEAMS=4u -DBLOCK=32u -DLOOSE=4u
+// check: -include oibvh/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DTEAMS=4u -DBLOCK=32u -DLOOSE=4u -DBOX_FORMAT=1u
+// check: -include oibvh/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DTEAMS=4u -DBLOCK=32u -DLOOSE=4u -DBOX_FORMAT=2u
 //
 // A block of 32 neighbouring leaves, a subtree, as one query of a team, which takes an implicit tree for one of nodes
 // with 32 children each: five levels are skipped, Eq. (12), and a node's descendants there are neighbours in memory. A
@@ -24,8 +24,7 @@
 #include "collide/sink_teams.clh"
 #include "collide/task.clh"
 
-#define BLOCK 32u
-#define BLOCK_LEVELS 5u
+#define BLOCK_LEVELS 5u                   // of a subtree of BLOCK leaves
 #define WIDE_LEVELS 7u                    // of a tree of 2^31 leaves
 #define STACK (32u * (WIDE_LEVELS - 1u))  // 31 a wide level and one more, and five ancestors
 #define SEEN (2u * BLOCK)
@@ -33,7 +32,7 @@
 // A node on the stack: its wide level, and its label, which has 26 bits below a tree's last five levels.
 #define ENTRY(wide, node) ((wide) << 27u | (node))
 #define WIDE_OF(entry) ((entry) >> 27u)
-#define NODE_OF(entry) ((entry) & 0x7ffffffu)
+#define NODE_OF(entry) ((entry)&0x7ffffffu)
 
 /// Leaves of a block or children of a node by a team's lanes, each its own.
 #define EACH(k) for (uint k = lane; k < BLOCK; k += LANES)
@@ -43,8 +42,8 @@ typedef struct {
     uint2 kept[KEPT];  ///< first, so that one too many would be seen in what stands behind
     BoxWord own[WORDS_PER_BOX * BLOCK];  ///< boxes of the block's leaves, the last repeated
     BoxWord seen[WORDS_PER_BOX * SEEN];  ///< and of leaves that were met
-    uint own_ids[BLOCK];                ///< triangles
-    uint seen_ids[SEEN];                ///< labels of leaves, then triangles
+    uint own_ids[BLOCK];                 ///< triangles
+    uint seen_ids[SEEN];                 ///< labels of leaves, then triangles
     uint stack[STACK];
     uint rows[WIDE_LEVELS], ends[WIDE_LEVELS];  ///< of the other tree's wide levels
 } Team;
@@ -58,7 +57,7 @@ typedef struct {
 /// Each of a block's leaves against those behind it around the circle, half way. How many pairs are kept.
 static inline uint meet_within(TEAM_PARAMETERS, uint kept, const uint count)
 {
-    EACH(k) {
+    EACH (k) {
         const Aabb box = load_local_box(team->own, k);
         uint behind = 0u;  // bit s: it meets the one s + 1 behind it
 #pragma unroll
@@ -77,11 +76,11 @@ static inline uint meet_within(TEAM_PARAMETERS, uint kept, const uint count)
 static inline uint meet_seen(TEAM_PARAMETERS, TREE_PARAMETERS, uint kept, const uint own_count,
                              const uint first, const uint count)
 {
-    EACH(k)
-    if (k < count)
-        team->seen_ids[first + k] = tree_triangle(TREE, team->seen_ids[first + k]);
+    EACH (k)
+        if (k < count)
+            team->seen_ids[first + k] = tree_triangle(TREE, team->seen_ids[first + k]);
     team_fence();
-    EACH(k) {
+    EACH (k) {
         const Aabb box = load_local_box(team->own, k);
         uint hits = 0u;
         for (uint others = 0u; others < count; others += 4u) {
@@ -113,7 +112,7 @@ static inline bool load_block(FOREST_PARAMETERS, local Team *team, const uint la
                               const QueryTask task, const Aabb common)
 {
     float area = 0.0f;
-    EACH(k) {
+    EACH (k) {
         const uint place = task.first + min(k, task.count - 1u);
         const Aabb box = leaf_box_of(FOREST, task.own, place);
         store_local_box(team->own, k, box);
@@ -135,7 +134,8 @@ static inline uint open_walk(TREE_PARAMETERS, local Team *team, const uint lane,
     for (uint k = lane; k < depth; k += LANES) {
         // The root's descendants are the nodes of a level that has 32 at most: of label 1 the 32, of 0 fewer.
         const uint node = k > 0u ? own_leaf >> (BLOCK_LEVELS * (wide_levels - k))
-                                 : leaf_level > 0u && leaf_level % BLOCK_LEVELS == 0u ? 1u : 0u;
+                          : leaf_level > 0u && leaf_level % BLOCK_LEVELS == 0u ? 1u
+                                                                               : 0u;
         team->stack[k] = ENTRY(wide_levels - k, node);
     }
     for (uint k = lane; k < max(wide_levels, 1u); k += LANES) {
@@ -171,7 +171,7 @@ static inline uint walk_block(FOREST_PARAMETERS, TEAM_PARAMETERS, const QueryTas
         const uint begin = is_ancestor ? own_below + 1u : 1u << (leaf_level - BLOCK_LEVELS * wide);
         tests += min(end, first + BLOCK) - max(begin, first);
         team_fence();
-        EACH(k) {
+        EACH (k) {
             const uint label = first + k;
             bool meets = label >= begin && label < end;
             Aabb box;
@@ -212,7 +212,7 @@ static inline Aabb block_box(FOREST_PARAMETERS, const QueryTask task)
 }
 
 /// `counters` are zero but for the tasks. Afterwards `pairs` begin with all of them, if there was room.
-__attribute__((reqd_work_group_size(TEAMS *LANES, 1, 1))) kernel void block_pairs(
+__attribute__((reqd_work_group_size(TEAMS * LANES, 1, 1))) kernel void block_pairs(
     FOREST_PARAMETERS, global const uint *ropes, global const Face *faces, global uint2 *pairs,
     const uint capacity, volatile global uint *counters, TASKS_PARAMETERS)
 {

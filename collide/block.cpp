@@ -6,7 +6,7 @@
 namespace bvhbench {
 namespace {
 
-constexpr uint block_leaves = 32;  // BLOCK of block.cl
+constexpr uint block_leaves = 32;  // of which a task's subtree has five levels
 constexpr uint warp_lanes = 32;    // LANES of builders/stages/peers.clh, on NVIDIA's
 
 class Block final : public WalkCollider {
@@ -40,8 +40,10 @@ private:
     {
         if (!by_groups())  // few cores have no warps: as group
             return lined_up_kernel(tree);
-        return kernel(tree, "collide/block.cl", "block_pairs",
-                      {{"TEAMS", teams()}, {"LOOSE", device().tuned(block_loose)}}, Optimise::on_gpus);
+        return kernel(
+            tree, "collide/block.cl", "block_pairs",
+            {{"TEAMS", teams()}, {"BLOCK", block_leaves}, {"LOOSE", device().tuned(block_loose)}},
+            Optimise::on_gpus);
     }
 
     uint queue_count(const DeviceTree&) const override { return by_groups() ? 0 : 1; }

@@ -37,8 +37,9 @@ public:
         if (on_device != nullptr && !on_device->is_implicit() &&
             (options_.jump > 1 || options_.start_level > 0))
             return "bvtt can neither jump nor start below the root in a tree with pointers";
-        if (on_device != nullptr && (on_device->child_bits() * options_.jump > most_jump ||
-                                     on_device->child_bits() * options_.start_level > most_start_level))
+        if (on_device != nullptr &&
+            (on_device->child_bits() * options_.jump > most_jump ||
+             on_device->child_bits() * options_.start_level > most_start_level))
             return "bvtt jumps at most " + std::to_string(most_jump / on_device->child_bits()) +
                    " levels and starts on level " +
                    std::to_string(most_start_level / on_device->child_bits()) +
@@ -109,15 +110,18 @@ private:
         const Define label{"LABEL_BITS", bits};
         if (tree.objects.size() > 1)
             roots_ = kernel(tree, "collide/roots.cl", "find_roots",
-                            {label, {"SKIP_APART", skips(skip_apart) ? 1u : 0u}});
-        expand_ = by_groups() ? kernel(tree, "collide/bvtt_groups.cl", "expand",
-                                       {{"GROUP_SIZE", group_size_}, {"ITEMS", items()}, one_object, label})
-                              : kernel(tree, "collide/bvtt_chunks.cl", "expand",
-                                       {{"SINK_BLOCK", block_pairs()}, one_object, label});
-        queue_capacity_ = options_.capacity != 0
-                              ? options_.capacity
-                              : device().room_for(
-                                    std::max<std::size_t>(1024, 8 * std::size_t{tree.leaf_count()}),
+                            {label,
+                             {"SKIP_APART", skips(skip_apart) ? 1u : 0u},
+                             {"OTHERS", others_a_work_item}});
+        expand_ = by_groups()
+                      ? kernel(tree, "collide/bvtt_groups.cl", "expand",
+                               {{"GROUP_SIZE", group_size_}, {"ITEMS", items()}, one_object, label})
+                      : kernel(tree, "collide/bvtt_chunks.cl", "expand",
+                               {{"SINK_BLOCK", block_pairs()}, one_object, label});
+        queue_capacity_ =
+            options_.capacity != 0
+                ? options_.capacity
+                : device().room_for(std::max<std::size_t>(1024, 8 * std::size_t{tree.leaf_count()}),
                                     sizeof(Pair));
     }
 
@@ -199,12 +203,12 @@ private:
 
     void find_roots(const DeviceTree& tree, Queue& queue)
     {
-        constexpr uint others = 16, group = 64;  // OTHERS of roots.cl
+        constexpr uint group = 64;
         const auto objects = static_cast<uint>(tree.objects.size());
         set_arguments_from(roots_, tree.bind(roots_, 0), objects, within() ? 1u : 0u,
                            between(tree) ? 1u : 0u, queues_[0], static_cast<uint>(queue_capacity_),
                            counters_);
-        const std::size_t lanes = std::size_t{objects} * divided_up(objects, others);
+        const std::size_t lanes = std::size_t{objects} * divided_up(objects, others_a_work_item);
         queue.launch(roots_, (lanes + group - 1) / group * group, group, 0);
     }
 
@@ -212,8 +216,8 @@ private:
 
     cl::Kernel roots_, expand_;
     bool has_one_object_ = false;
-    uint launched_ = 0;               ///< steps of the last query
-    uint needed_steps_ = all_steps;   ///< those of the query before that had something to expand
+    uint launched_ = 0;              ///< steps of the last query
+    uint needed_steps_ = all_steps;  ///< those of the query before that had something to expand
     std::size_t queue_capacity_ = 0;
     std::array<Buffer<Pair>, 2> queues_;  ///< of nodes; a step goes from one to the other
     Buffer<Pair> blocks_;

@@ -32,7 +32,7 @@ struct ColliderOptions {
     bool keep_adjacent = true;
     /// Levels a step of a traversal descends, Eq. (12); 0 leaves the choice to the collider.
     unsigned jump = 0;
-    /// The level a traversal starts on, no box above it being tested; 0 likewise, and usually the root.
+    /// The level a traversal starts on, so that no box above it is tested; 0 leaves the choice to the collider, usually the root.
     unsigned start_level = 0;
     unsigned rules_off = 0;  ///< of skips.h: work that is done although it need not be
     /// Work-items in a group, a power of two; 0 leaves the choice to the collider, by kind of device.

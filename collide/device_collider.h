@@ -9,6 +9,9 @@
 
 namespace bvhbench {
 
+/// Objects that a work-item holds one against, where it looks for pairs of objects (between.cl, roots.cl).
+inline constexpr uint others_a_work_item = 16;
+
 class DeviceCollider : public PairCollider {
 public:
     /// Throws BadUsage for a group size that the device does not have.

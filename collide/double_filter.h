@@ -9,7 +9,7 @@
 // As soon as two differ they meet.
 //
 // A shared corner v for origin: the far edges cross the line, n x n', at y and z. With n the normal of a, n' that of b,
-//     y ~ a1 (n'.a2) - a2 (n'.a1) = n' x (a1 x a2) = n' x n   up to the sign of n'.a1, and z ~ n x n' likewise,
+//     y ~ a1 (n'.a2) - a2 (n'.a1) = n' x (a1 x a2) = n' x n   up to the sign of n'.a1, and z ~ n x n' up to that of n.b1,
 // so that they lie on one side of v if n'.a1 and n.b1 have different signs.
 //
 // The bounds are those of geometry/orient.h, with one origin for all differences and the largest of them all.

@@ -138,10 +138,11 @@ private:
         }
         const std::size_t leaves = tree.leaf_count();
         const std::size_t guess =
-            options_.capacity != 0 ? options_.capacity
-                                   : device().room_for(std::clamp<std::size_t>(
-                                                           8 * leaves, 1024, std::max(leaves, many)),
-                                                       sizeof(Pair));
+            options_.capacity != 0
+                ? options_.capacity
+                : device().room_for(
+                      std::clamp<std::size_t>(8 * leaves, 1024, std::max(leaves, many)),
+                      sizeof(Pair));
         queue_capacity_ = guess;
         front_capacity_ = std::max(guess, static_cast<std::size_t>(roots));
         standing_.reset();
@@ -197,8 +198,8 @@ private:
         // Steps behind one that ran over have seen only some of their entries: they, and the front, will need more.
         const bool queues_had_room =
             had_room(queue_capacity_, waiting, waiting < many ? waiting : waiting / 16);
-        const bool front_had_room =
-            had_room(front_capacity_, sizes.front(), sizes.front() / (sizes.front() < many ? 4 : 16));
+        const bool front_had_room = had_room(front_capacity_, sizes.front(),
+                                             sizes.front() / (sizes.front() < many ? 4 : 16));
         if (queues_had_room && front_had_room)
             last_front_ = static_cast<uint>(sizes.front());
         return queues_had_room && front_had_room;
@@ -243,9 +244,8 @@ private:
     /// As many as have something to do, up to what fills the device: an entry has 4 children a level of binary trees.
     std::size_t groups(uint standing, uint levels) const
     {
-        const std::size_t most =
-            device().tuned(bvtt_groups_per_unit) *
-            std::size_t{device().cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()};
+        const std::size_t most = device().tuned(bvtt_groups_per_unit) *
+                                 std::size_t{device().cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()};
         const std::size_t tasks = std::size_t{standing} << std::min(2 * levels, 30u);
         const std::size_t a_group = std::size_t{group_size_} * items();
         return std::clamp<std::size_t>((tasks + a_group - 1) / a_group, 1, most);

@@ -37,8 +37,9 @@ struct Entry {
 class HashedGrid final : public PairCollider {
 public:
     HashedGrid(Programs& programs, const ColliderOptions& options)
-        : PairCollider(programs, {"grid", "Hierarchical hashed grid, after [Fan2011] and [Tang2018]"}, options,
-                       grid_group_size)
+        : PairCollider(programs,
+                       {"grid", "Hierarchical hashed grid, after [Fan2011] and [Tang2018]"},
+                       options, grid_group_size)
         , bounds_(programs, options.form)
         , scan_(programs, options.form)
         , table_group_(std::min<std::size_t>(sum_group,
@@ -100,11 +101,12 @@ void HashedGrid::compile(const Input& input)
                        : options_.among == Among::within_objects  ? 2
                                                                   : 0;
     const auto pairs = [&](const char* name) {
-        return programs().kernel(
-            by_groups() ? "collide/grid_groups.cl" : "collide/grid_chunks.cl", name,
-            {{"AMONG", among},
-             {"KEEP_ADJACENT", options_.keep_adjacent ? 1u : 0u},
-             by_groups() ? Define{"GROUP_SIZE", group_size_} : Define{"SINK_BLOCK", block_pairs()}});
+        return programs().kernel(by_groups() ? "collide/grid_groups.cl" : "collide/grid_chunks.cl",
+                                 name,
+                                 {{"AMONG", among},
+                                  {"KEEP_ADJACENT", options_.keep_adjacent ? 1u : 0u},
+                                  by_groups() ? Define{"GROUP_SIZE", group_size_}
+                                              : Define{"SINK_BLOCK", block_pairs()}});
     };
     cell_pairs_ = pairs("cell_pairs");
     level_pairs_ = pairs("level_pairs");
@@ -127,7 +129,8 @@ void HashedGrid::plan_rest(Arena& arena)
     sides_ =
         arena.take<float>(by_groups() ? sums_per_unit * units * sum_group : chunks_, Use::scratch);
     grid_ = arena.take<HashGrid>(1, Use::scratch);
-    ends_ = arena.take<uint>(std::bit_ceil(std::max<std::size_t>(16, std::size_t{device().tuned(grid_buckets_each)} * triangles_)),
+    ends_ = arena.take<uint>(std::bit_ceil(std::max<std::size_t>(
+                                 16, std::size_t{device().tuned(grid_buckets_each)} * triangles_)),
                              Use::scratch);
     scan_.plan(arena, ends_.size());
     entries_ = arena.take<Entry>(entry_room_, Use::scratch);
@@ -218,7 +221,8 @@ void HashedGrid::query(const Tree*, const Input& input, Queue& queue)
     queue.clear(counters_.cl(), counters_.bytes());
     if (!has_pairs(input))
         return;
-    queue.declare(std::int64_t{triangles_} * std::int64_t{sizeof(Entry)});  // one a triangle, or more
+    queue.declare(std::int64_t{triangles_} *
+                  std::int64_t{sizeof(Entry)});  // one a triangle, or more
     enqueue_pairs(input, queue);
 }
 

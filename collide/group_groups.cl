@@ -94,7 +94,8 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void group_pairs(
         barrier(CLK_LOCAL_MEM_FENCE);
         const uint begin = is_own && turn == 0u ? item + 1u : 0u;
         if (is_testing && item < count)  // in the first turn its own leaves, those behind its own
-            tests[item] += test_boxes(seen, seen_ids, begin, takes, own, own_ids, item, faces, SINK);
+            tests[item] +=
+                test_boxes(seen, seen_ids, begin, takes, own, own_ids, item, faces, SINK);
         if (!is_testing && item < takes) {
             descend(TREE, taken[item], levels, load_local_box(common, 0u), frontier, &waiting[then],
                     met, &met_count[then]);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // check: -include oibvh/wide/wide4_access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=0 -DGROUP_SIZE=64u -DFRONTIER=512u -DRESERVE=97u -DLOOSE=2u
-// check: -include oibvh/wide/wide8_q8_access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DGROUP_SIZE=64u -DFRONTIER=512u -DRESERVE=97u -DLOOSE=2u
+// check: -include oibvh/wide/wide8_access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DGROUP_SIZE=64u -DFRONTIER=512u -DRESERVE=97u -DLOOSE=2u
 //
 // As group_groups.cl over a wide tree: a task's neighbouring leaves as one query, whose common box goes down. As many
 // neighbouring work-items as a node has children take one node, a child each, whose boxes lie side by side.
@@ -39,18 +39,13 @@ static inline void descend_to_child(TREE_PARAMETERS, const uint node, const uint
     const bool is_behind = (tree_children_from(TREE, node, first) >> k & 1u) != 0u;
     if (!is_behind || last_leaf >> (TREE_CHILD_BITS * above_leaves) == child)
         return;
-    Aabb box = tree_stored_box(TREE, tree_slot(TREE, node), k);
+    const Aabb box = tree_child_box(TREE, tree_slot(TREE, node), k);
     if (!overlap(common, box))
         return;
     if (above_leaves != 0u) {
         frontier[atomic_inc(waiting)] = child;
         return;
     }
-#if !TREE_EXACT_LEAVES
-    box = tree_box(TREE, child);
-    if (!overlap(common, box))
-        return;
-#endif
     const uint slot = atomic_inc(met_count);
     store_local_box(met_boxes, slot, box);
     met_ids[slot] = tree_triangle(TREE, child);

@@ -16,9 +16,9 @@ private:
     cl::Kernel walk_kernel(const DeviceTree& tree) const override
     {
         return by_groups() ? kernel(tree, "collide/leaf_groups.cl", "leaf_pairs",
-                                     {{"GROUP_SIZE", group_size_}})
-                            : kernel(tree, "collide/leaf_chunks.cl", "leaf_pairs",
-                                     {{"SINK_BLOCK", block_pairs()}});
+                                    {{"GROUP_SIZE", group_size_}})
+                           : kernel(tree, "collide/leaf_chunks.cl", "leaf_pairs",
+                                    {{"SINK_BLOCK", block_pairs()}});
     }
 };
 

@@ -8,7 +8,7 @@
 #define NARROW_FLOAT_COUNT 2u   // candidates decided by their indices or in floats,
 #define NARROW_DOUBLE_COUNT 4u  // in doubles,
 #define NARROW_EXACT_COUNT 6u   // and neither, so that they wait for exact arithmetic
-#define BATCHES_BEGUN 8u        // of the form for few cores: batches that work-items have taken; one word
+#define BATCHES_BEGUN 8u  // of the form for few cores: batches that work-items have taken; one word
 #define NARROW_COUNTERS 10u
 
 #endif

@@ -28,7 +28,7 @@ class NearTriangles {
 public:
     NearTriangles(Programs& programs, const NearOptions& options);
 
-    /// Of so many triangles, more than these are too many for a frame of their own to be worth making.
+    /// With more near triangles than this, the whole frame is used.
     static std::size_t most_of(std::size_t triangles) { return triangles / 2; }
 
     /// Whether the search may be worth its time on so many triangles. A GPU builds over a million of them sooner than it

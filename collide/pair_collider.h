@@ -23,7 +23,6 @@ public:
     std::vector<Pair> pairs(const Queue& queue) const final;
     DevicePairs device_pairs(Queue&) final { return {pairs_, counters_}; }
 
-
 protected:
     /// Take what else is needed besides counters and pairs. Run twice, first measuring.
     virtual void plan_rest(Arena& arena) = 0;

@@ -11,16 +11,15 @@ namespace bvhbench {
 /// the widest node.
 inline constexpr uint smallest_group = 8;
 
-inline constexpr Parameter leaf_group_size{
-    .name = "leaf.group_size",
-    .meaning = "work-items in a group of leaf",
-    .stage = "broad",
-    .on_cpu = 64,
-    .elsewhere = 256,
-    .least = smallest_group,
-    .most = 256,
-    .values = ValueIs::group_size,
-    .candidates = {32, 64, 128, 256}};
+inline constexpr Parameter leaf_group_size{.name = "leaf.group_size",
+                                           .meaning = "work-items in a group of leaf",
+                                           .stage = "broad",
+                                           .on_cpu = 64,
+                                           .elsewhere = 256,
+                                           .least = smallest_group,
+                                           .most = 256,
+                                           .values = ValueIs::group_size,
+                                           .candidates = {32, 64, 128, 256}};
 inline constexpr Parameter group_group_size{
     .name = "group.group_size",
     .meaning = "work-items in a group of group, and leaves a query of it",
@@ -31,14 +30,15 @@ inline constexpr Parameter group_group_size{
     .most = 256,
     .values = ValueIs::group_size,
     .candidates = {32, 64, 128, 256}};
-inline constexpr Parameter walk_task_leaves{.name = "walk.task_leaves",
-                                            .meaning = "leaves a query of leaf and group in the form for few cores",
-                                            .stage = "broad",
-                                            .on_cpu = 64,
-                                            .elsewhere = 64,
-                                            .least = 1,
-                                            .most = 256,
-                                            .candidates = {8, 16, 32, 64, 128, 256}};
+inline constexpr Parameter walk_task_leaves{
+    .name = "walk.task_leaves",
+    .meaning = "leaves a query of leaf and group in the form for few cores",
+    .stage = "broad",
+    .on_cpu = 64,
+    .elsewhere = 64,
+    .least = 1,
+    .most = 256,
+    .candidates = {8, 16, 32, 64, 128, 256}};
 inline constexpr Parameter walk_block_pairs{
     .name = "walk.block_pairs",
     .meaning =
@@ -51,15 +51,16 @@ inline constexpr Parameter walk_block_pairs{
     .most = 65536,
     .candidates = {128, 256, 512, 1024, 2048}};
 
-inline constexpr Parameter group_loose{
-    .name = "group.loose",
-    .meaning = "times the area of leaves together, from which on their common box says too little",
-    .stage = "broad",
-    .on_cpu = 2,
-    .elsewhere = 2,
-    .least = 1,
-    .most = 64,
-    .candidates = {1, 2, 3, 4, 8}};
+inline constexpr Parameter group_loose{.name = "group.loose",
+                                       .meaning =
+                                           "the common box of leaves is not used if its area "
+                                           "exceeds that of the leaves together this many times",
+                                       .stage = "broad",
+                                       .on_cpu = 2,
+                                       .elsewhere = 2,
+                                       .least = 1,
+                                       .most = 64,
+                                       .candidates = {1, 2, 3, 4, 8}};
 inline constexpr Parameter group_frontier_per_item{
     .name = "group.frontier_per_item",
     .meaning = "nodes a work-item that a group's frontier has room for",
@@ -99,7 +100,7 @@ inline constexpr Parameter bvtt_group_size{.name = "bvtt.group_size",
                                            .values = ValueIs::group_size,
                                            .candidates = {32, 64, 128, 256}};
 inline constexpr Parameter bvtt_items{.name = "bvtt.items",
-                                      .meaning = "tasks a work-item has a turn, likewise",
+                                      .meaning = "tasks a work-item of bvtt and front has a turn",
                                       .stage = "broad",
                                       .on_cpu = 4,
                                       .elsewhere = 4,
@@ -108,7 +109,7 @@ inline constexpr Parameter bvtt_items{.name = "bvtt.items",
                                       .candidates = {1, 2, 4, 8}};
 inline constexpr Parameter bvtt_groups_per_unit{
     .name = "bvtt.groups_per_unit",
-    .meaning = "groups a compute unit at most, likewise",
+    .meaning = "groups of bvtt and front a compute unit, at most",
     .stage = "broad",
     .on_cpu = 16,
     .elsewhere = 16,
@@ -184,7 +185,7 @@ inline constexpr Parameter narrow_group_size{.name = "narrow.group_size",
                                              .candidates = {32, 64, 128, 256}};
 inline constexpr Parameter narrow_groups_per_unit{
     .name = "narrow.groups_per_unit",
-    .meaning = "groups a compute unit at most, likewise",
+    .meaning = "groups of the narrow phase a compute unit, at most",
     .stage = "narrow",
     .on_cpu = 32,
     .elsewhere = 32,
@@ -203,10 +204,25 @@ inline constexpr Parameter narrow_block_pairs{
 
 /// All of them.
 inline constexpr const Parameter* collider_parameters[] = {
-    &leaf_group_size,         &group_group_size,  &walk_task_leaves,  &walk_block_pairs,  &group_loose,
-    &group_frontier_per_item, &block_teams,       &block_loose,       &bvtt_group_size,   &bvtt_items,        &bvtt_groups_per_unit,
-    &bvtt_block_pairs,        &bvtt_jump,         &bvtt_start_level,  &grid_group_size,
-    &grid_block_pairs,        &grid_buckets_each, &narrow_group_size, &narrow_groups_per_unit,
+    &leaf_group_size,
+    &group_group_size,
+    &walk_task_leaves,
+    &walk_block_pairs,
+    &group_loose,
+    &group_frontier_per_item,
+    &block_teams,
+    &block_loose,
+    &bvtt_group_size,
+    &bvtt_items,
+    &bvtt_groups_per_unit,
+    &bvtt_block_pairs,
+    &bvtt_jump,
+    &bvtt_start_level,
+    &grid_group_size,
+    &grid_block_pairs,
+    &grid_buckets_each,
+    &narrow_group_size,
+    &narrow_groups_per_unit,
     &narrow_block_pairs,
 };
 

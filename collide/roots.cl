@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DLABEL_BITS=20 -DSKIP_APART=1
-// check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DLABEL_BITS=32 -DSKIP_APART=0
+// check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DLABEL_BITS=20 -DSKIP_APART=1 -DOTHERS=16u
+// check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DLABEL_BITS=32 -DSKIP_APART=0 -DOTHERS=16u
 //
 // What a simultaneous traversal of several objects begins with: each root with itself, untested, if pairs within
 // objects are wanted, and the roots of two objects whose boxes overlap, if pairs between them are; without SKIP_APART
@@ -8,8 +8,6 @@
 #include "collide/counters.h"
 #include "collide/node_word.clh"
 #include "collide/wide_count.clh"
-
-#define OTHERS 16u  // objects that a work-item holds one against
 
 static inline void push(global uint2* queue, const uint capacity, volatile global uint* counters,
                         const uint2 entry)

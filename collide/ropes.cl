@@ -28,8 +28,7 @@ static inline void rope_line(TREE_PARAMETERS, global uint* ropes, uint node, con
 
 kernel void ropes(FOREST_PARAMETERS, global uint* ropes)
 {
-    PICK_WHOLE_TREE
-    (void)objects;
+    PICK_WHOLE_TREE(void) objects;
     const Chunk chunk = own_chunk(leaves);
     for (uint k = chunk.first; k < chunk.end; ++k) {
         const bool is_root =

@@ -9,14 +9,18 @@ namespace bvhbench {
 namespace {
 
 constexpr SkipRuleEntry rules[] = {
-    {skip_unchanged, "unchanged", "an object of which no vertex has moved since the last frame keeps its tree"},
-    {skip_rigid, "rigid", "an object that has moved rigidly keeps the order of its leaves, its boxes are refitted"},
-    {skip_sorted, "sorted", "leaves whose order still holds after a frame are not sorted again"},
-    {skip_near, "near", "only triangles near another object's box enter a frame of pairs between objects"},
+    {skip_unchanged, "unchanged",
+     "an object of which no vertex has moved since the last frame keeps its tree"},
+    {skip_rigid, "rigid",
+     "an object that has moved rigidly keeps the order of its leaves, its boxes are refitted"},
+    {skip_near, "near",
+     "only triangles near another object's box enter a frame of pairs between objects"},
     {skip_apart, "apart", "objects whose boxes are apart are not held against each other"},
-    {skip_overlap, "overlap", "of two objects, only leaves near the other's box are held against it"},
+    {skip_overlap, "overlap",
+     "of two objects, only leaves near the other's box are held against it"},
     {skip_start_level, "start-level", "levels above the start level are not tested (bvtt)"},
-    {skip_empty_queue, "empty-queue", "steps that found their queue empty in the query before are not launched (bvtt)"},
+    {skip_empty_queue, "empty-queue",
+     "steps that found their queue empty in the query before are not launched (bvtt)"},
 };
 
 }  // namespace

@@ -15,8 +15,7 @@ enum SkipRule : unsigned {
     skip_overlap = 1u << 3,
     skip_start_level = 1u << 4,
     skip_near = 1u << 5,
-    skip_sorted = 1u << 6,
-    skip_empty_queue = 1u << 7,
+    skip_empty_queue = 1u << 6,
 };
 
 struct SkipRuleEntry {

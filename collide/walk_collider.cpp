@@ -40,7 +40,8 @@ void WalkCollider::compile(const DeviceTree& tree)
         between_kernel_ = kernel(tree, "collide/between.cl", "find_between",
                                  {{"TASK_LEAVES", task_leaves},
                                   {"SKIP_APART", skips(skip_apart) ? 1u : 0u},
-                                  {"SKIP_OVERLAP", skips(skip_overlap) ? 1u : 0u}});
+                                  {"SKIP_OVERLAP", skips(skip_overlap) ? 1u : 0u},
+                                  {"OTHERS", others_a_work_item}});
         most_between_ = options_.capacity != 0 ? options_.capacity
                                                : std::max<std::size_t>(256, 2 * own_list_.size());
     }
@@ -72,9 +73,9 @@ void WalkCollider::find_between(const DeviceTree& tree, Queue& queue)
     set_arguments_from(between_kernel_, tree.bind(between_kernel_, 0), own_,
                        static_cast<uint>(own_.size()), static_cast<uint>(tree.objects.size()),
                        between_, static_cast<uint>(most_between_), counters_);
-    constexpr std::size_t others = 16;  // OTHERS of between.cl
     const std::size_t group = by_groups() ? group_size_ : 1;
-    const std::size_t items = own_.size() * ((tree.objects.size() + others - 1) / others);
+    const std::size_t items =
+        own_.size() * divided_up(static_cast<uint>(tree.objects.size()), others_a_work_item);
     queue.launch(between_kernel_, by_groups() ? (items + group - 1) / group * group : chunks_,
                  group, 0);
 }

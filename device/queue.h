@@ -21,8 +21,10 @@ struct StageTime {
     int launches = 0;
     std::int64_t moved_bytes = 0;  ///< the least its launches must read and write, as they declared
     std::int64_t start_ns = 0;  ///< device clock, its first start, from that of the first stage on
-    std::int64_t queued_ns = 0;     ///< device clock, sum of the launches' times from queued to submitted
-    std::int64_t submitted_ns = 0;  ///< the same from submitted to started; from there on it is busy
+    std::int64_t queued_ns =
+        0;  ///< device clock, sum of the launches' times from queued to submitted
+    std::int64_t submitted_ns =
+        0;  ///< the same from submitted to started; from there on it is busy
 
     /// The one duration to quote: the span on the device, else the host clock.
     std::int64_t elapsed_ns() const { return launches > 0 ? span_ns : wall_ns; }

@@ -7,7 +7,7 @@
 //     floor(x * scale) - first     of a lower side, ceil of an upper one
 //
 // `scale` has 8 bits that count, so that its product with a float is exact in a double; floor and ceil are, and `first`,
-// the scene's lower end likewise, is a whole number of the same size. So nothing is rounded but what is meant to be:
+// the scene's lower end, is rounded to such a number too. So nothing is rounded but what is meant to be:
 // cells keep the order of coordinates, a lower side's is never above its coordinate and an upper one's never below it.
 // What overlaps as floats overlaps as cells, and an inner node's box is the union of its children's in either.
 //
@@ -16,7 +16,7 @@
 //                 from the middle, is rounded once more, outward, to eleven bits, and stored as its place among all halves
 //     f64         no cells: a float is a double
 //
-// [Ylitie2017] rounds the boxes of a node outward on a grid of its own (oibvh/wide/grid_box.h); here one grid serves a scene.
+// [Ylitie2017] rounds the boxes of a node outward on a grid of its own; here one grid serves a scene.
 #ifndef BVHBENCH_GEOMETRY_BOX_FORMAT_H
 #define BVHBENCH_GEOMETRY_BOX_FORMAT_H
 

@@ -14,7 +14,7 @@
 //     a minor x y' - x' y     8 u X Y      two products of rounded factors, 3 u each; their difference, 2 u
 //     the sum of three        46 u X Y Z   each 8 + 2 for z + 2 for the product; two sums, 4 u and 6 u
 //
-// up to terms of u^2, which 48 u covers. Likewise 8 u X Y in the plane, and 9 u to cover.
+// up to terms of u^2, which 48 u covers. In the plane the bound is 8 u X Y, which 9 u covers.
 //
 // Otherwise by a sum that is exact, of which there are two. Where all coordinates along an axis are multiples of some g
 // and the differences less than 2^26 g, which holds for most of what is in doubt, all differences and minors are exact

@@ -54,8 +54,6 @@ constexpr BuilderEntry catalog[] = {
      make_oibvh_wide4},
     {"oibvh-wide8", "Oi-BVH with 8 children a node, their boxes side by side", own_tree,
      make_oibvh_wide8},
-    {"oibvh-wide8-q8", "the same in bytes, rounded outward on a grid over the node", own_tree,
-     make_oibvh_wide8_q8},
     in_any_format("oibvh-host",
                   "Oi-BVH by plain threads on the host, from leaves lined up on the device",
                   oi_tree, make_oibvh_host),

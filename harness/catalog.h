@@ -21,7 +21,7 @@ struct BuilderEntry {
     /// Set if the builder may throw Unavailable for some meshes, for the reason given here. It then does so
     /// instead of leaving a wrong tree, and never for an ordinary mesh.
     std::string_view may_refuse = {};
-    bool is_library = false;  ///< the work is done by somebody else's code
+    bool is_library = false;     ///< the work is done by somebody else's code
     bool takes_formats = false;  ///< whether its tree may keep boxes in any of box_formats()
 };
 

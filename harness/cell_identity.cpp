@@ -16,6 +16,7 @@ std::string identity_text(const Cell& cell)
     add(cell.scene.name);
     add(std::to_string(cell.scene.frame));
     add(cell.scene.stand_in_for);
+    add(cell.scene.objects_by + ' ' + std::to_string(cell.scene.between));
     add(std::string(operation_name(cell.operation)));
     add(cell.builder.name + ' ' + cell.builder.order + ' ' + cell.builder.boxes + ' ' +
         (cell.builder.grid == GridOver::scene ? "scene" : "object") + ' ' +
@@ -74,9 +75,15 @@ MatchedCells matched_cells(const std::vector<Cell>& first, const std::vector<Cel
     return matched;
 }
 
+std::string scene_label(const SceneFacts& scene)
+{
+    return scene.name + (scene.objects_by.empty() ? "" : ", objects: " + scene.objects_by) +
+           (scene.between == 0 ? "" : ", " + std::to_string(scene.between) + " between");
+}
+
 std::string cell_label(const Cell& cell)
 {
-    std::string text = cell.scene.name;
+    std::string text = scene_label(cell.scene);
     if (cell.operation == Operation::collide || cell.scene.frame > 0)
         text += ", frame " + std::to_string(cell.scene.frame);
     text += ": " + pipeline_text(cell);

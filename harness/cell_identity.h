@@ -9,7 +9,7 @@
 
 namespace bvhbench {
 
-/// What a cell is, whatever was found: experiment, scene, frame, builder and collider with all their options, operation,
+/// What a cell is, whatever was found: experiment, scene with what was asked of it, frame, builder and collider with all their options, operation,
 /// swept pairs and axis of accuracy. Cells of one text are measurements of one thing.
 std::string identity_text(const Cell& cell);
 
@@ -23,6 +23,9 @@ struct MatchedCells {
     std::vector<const Cell*> only_first, only_second;
 };
 MatchedCells matched_cells(const std::vector<Cell>& first, const std::vector<Cell>& second);
+
+/// A scene's name, with what was asked of it that is not usual: "bunny.ply, objects: mesh, 3 between".
+std::string scene_label(const SceneFacts& scene);
 
 /// What tables call it: scene, frame if there are several, pipeline.
 std::string cell_label(const Cell& cell);

@@ -12,6 +12,15 @@
 namespace bvhbench {
 namespace {
 
+/// What a cell's scene is called, and how it was asked for.
+SceneFacts asked_scene(const CollideTask& task)
+{
+    const bool is_usual = task.objects == ObjectsBy::automatic;
+    return {.name = task.scene,
+            .objects_by = is_usual ? "" : std::string(objects_by_name(task.objects)),
+            .between = task.between};
+}
+
 /// A cell of each pipeline that says why there is none.
 std::vector<Cell> skipped_cells(const CollideTask& task, const std::string& why)
 {
@@ -19,7 +28,7 @@ std::vector<Cell> skipped_cells(const CollideTask& task, const std::string& why)
     for (const PipelineChoice& pipeline : task.pipelines) {
         Cell& cell = cells.emplace_back();
         cell.experiment = task.experiment;
-        cell.scene.name = task.scene;
+        cell.scene = asked_scene(task);
         cell.builder = pipeline.builder;
         cell.collider = pipeline.collider;
         cell.operation = Operation::collide;
@@ -53,17 +62,20 @@ FrameRange frames_of(const CollideTask& task, std::size_t there, const char* wha
 
 SceneFacts facts_of(const CollideTask& task, const Scene& scene, std::size_t frame)
 {
-    return {.name = scene.stand_in_for.empty() ? task.scene : scene.name,
-            .triangles = scene.triangle_count(),
-            .vertices = static_cast<std::int64_t>(scene.frames.front().size()),
-            .objects = static_cast<std::int64_t>(scene.objects.size()),
-            .frame = static_cast<std::int64_t>(frame),
-            .source = scene.source,
-            .stand_in_for = scene.stand_in_for,
-            .outlier = scene.outlier,
-            .rounding = scene.rounding,
-            .bend_of = scene.bend_of,
-            .content_hash = scene.content_hash};
+    SceneFacts facts = asked_scene(task);
+    if (!scene.stand_in_for.empty())
+        facts.name = scene.name;
+    facts.triangles = scene.triangle_count();
+    facts.vertices = static_cast<std::int64_t>(scene.frames.front().size());
+    facts.objects = static_cast<std::int64_t>(scene.objects.size());
+    facts.frame = static_cast<std::int64_t>(frame);
+    facts.source = scene.source;
+    facts.stand_in_for = scene.stand_in_for;
+    facts.outlier = scene.outlier;
+    facts.rounding = scene.rounding;
+    facts.bend_of = scene.bend_of;
+    facts.content_hash = scene.content_hash;
+    return facts;
 }
 
 FrameRange frame_range(const std::string& text)

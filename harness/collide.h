@@ -58,7 +58,7 @@ struct Found {
 /// The task's scene, with its objects and the frames between. Throws what loading it does.
 Scene scene_of(const CollideTask& task, const SceneLibrary& library);
 
-/// The task's range of so many of them: "frames", or what else it counts. Throws BadUsage.
+/// The task's range of the `there` frames of a scene; `what` names them in the error. Throws BadUsage.
 FrameRange frames_of(const CollideTask& task, std::size_t there, const char* what);
 
 SceneFacts facts_of(const CollideTask& task, const Scene& scene, std::size_t frame);
@@ -68,8 +68,8 @@ SceneFacts facts_of(const CollideTask& task, const Scene& scene, std::size_t fra
 /// it is done, and what the last pipeline found. `order` counts samples and goes on.
 ///
 /// A pipeline that fails is a cell that says so, and so is each pipeline where there is no such scene or frame, or all of them
-/// look for pairs between the objects of a scene that is one object. Frames done by then have been handed on. `passes` is
-/// asked once the scene is known whether its cells are there already; then nothing is done.
+/// look for pairs between the objects of a scene that is one object. Frames done by then have been handed on. passes(n)
+/// is true if the n cells of the scene exist already; then nothing is done.
 void collide_frames(Session& session, const CollideTask& task, int& order,
                     const std::function<void(std::vector<Cell>&&, const Found&)>& add,
                     const std::function<bool(std::size_t cells)>& passes = {});

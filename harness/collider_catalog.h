@@ -64,7 +64,7 @@ struct ColliderChoice {
 std::unique_ptr<Collider> make_collider(std::string_view name, Programs& programs,
                                         const ColliderOptions& options);
 
-/// The collider chosen. Throws likewise.
+/// The collider chosen. Throws as the one above.
 std::unique_ptr<Collider> make_collider(const ColliderChoice& choice, Programs& programs);
 
 /// "all", "between" or "within", and back. Throws BadUsage, naming these.

@@ -135,8 +135,9 @@ void add_build(CLI::App& app, BuildCommand& build, std::string& leaves)
         ->capture_default_str();
     command->add_option("--group-size", build.builder.group_size,
                         "work-items in a group, a power of two; 0: the builder's choice");
-    command->add_option("--items", build.builder.items,
-                        "nodes a work-item merges in registers, a power of two; 0: likewise");
+    command->add_option(
+        "--items", build.builder.items,
+        "nodes a work-item merges in registers, a power of two; 0: the builder's choice");
     add_leaves(*command, leaves, build.builder.boxes);
     command->add_option("--samples", build.samples, "timed builds")
         ->capture_default_str()
@@ -198,7 +199,7 @@ void add_collide(CLI::App& app, CollideCommand& collide, std::string& leaves, st
     command->add_option("--jump", collide.collider.jump,
                         "levels a step of a traversal descends; 0: the collider's choice");
     command->add_option("--start-level", collide.collider.start_level,
-                        "the level a traversal starts on; 0: likewise");
+                        "the level a traversal starts on; 0: the collider's choice");
     command->add_option("--group-size", collide.collider.group_size,
                         "work-items in a group, a power of two; 0: the collider's choice");
     command->add_option(

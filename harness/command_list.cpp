@@ -113,7 +113,8 @@ std::string tuning(const CommonOptions& common)
             candidates += (candidates.empty() ? "" : " ") + std::to_string(value);
         table.row({std::string(parameter->name), std::to_string(device.tuned(*parameter)),
                    device.tuning.has(*parameter) ? device.tuning.origin() : "default",
-                   "of " + candidates, parameter->stage.empty() ? "all stages" : std::string(parameter->stage),
+                   "of " + candidates,
+                   parameter->stage.empty() ? "all stages" : std::string(parameter->stage),
                    std::string(parameter->meaning)});
     }
     return table.text();

@@ -32,8 +32,7 @@ int smoke(const SmokeCommand& command, const Options& options);
 /// The command that `options` hold.
 int execute(const Options& options);
 
-/// All of the program but for its signals: understands the words, does what they say and returns the exit code. What
-/// goes wrong is one sentence on standard error. 0 done, 1 a check differs, 2 wrong usage, 3 no device, file, library
+/// Parses `argv`, runs the command and returns the exit code. An error is one sentence on standard error. 0 done, 1 a check differs, 2 wrong usage, 3 no device, file, library
 /// or memory, 4 nothing was measured. May be called again and again.
 int run_program(int argc, const char* const* argv);
 

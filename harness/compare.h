@@ -42,7 +42,7 @@ struct ComparedCell {
     TimeChange time;  ///< of all stages together, which decides
     std::vector<std::pair<std::string, TimeChange>> stages;
     std::vector<std::string> regressions;  ///< of the verdict, the answer and counters
-    std::vector<std::string> changes;      ///< likewise, and nothing to fail for
+    std::vector<std::string> changes;      ///< of the same, where they are no reason to fail
 
     bool is_regression() const
     {

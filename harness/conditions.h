@@ -8,7 +8,7 @@
 
 namespace bvhbench {
 
-/// What of the host may spoil times, as far as it tells. Nothing is known where a value is empty.
+/// Settings of the host that distort times. An empty value is unknown.
 struct HostConditions {
     std::string governor;       ///< of the first core whose is not "performance", else that
     std::optional<bool> turbo;  ///< whether cores may clock higher for a while

@@ -61,9 +61,8 @@ std::vector<PipelineChoice> pipelines_of(const Json& json)
         builders.push_back({.name = "none"});
     std::vector<PipelineChoice> choices;
     for (const BuilderChoice& builder : builders)
-        read_each(json, "collider", [&](const Json& item) {
-            choices.push_back(pipeline_of(json, builder, item));
-        });
+        read_each(json, "collider",
+                  [&](const Json& item) { choices.push_back(pipeline_of(json, builder, item)); });
     return choices;
 }
 

@@ -206,8 +206,8 @@ void fail(Running& running, Session& session, const std::string& why)
     running.cell.samples.clear();
 }
 
-/// Of the host: what a library takes for its trees, and for the pairs, which the oracle has counted: as it finds them, and
-/// in a list that has grown.
+/// Asks the host for the memory of a library's trees, and of its pairs, which the oracle has counted. They are held twice, in
+/// lists that grow by doubling.
 void require_memory(const ColliderChoice& choice, std::size_t triangles, FrameOracle& oracle)
 {
     const std::size_t bytes = find_collider(choice.name).host_bytes;

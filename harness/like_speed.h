@@ -26,8 +26,9 @@ std::vector<SamplePair> at_like_speed(
 std::vector<SamplePair> counted_pairs(
     const std::vector<std::pair<const Cell*, const Cell*>>& cells);
 
-/// By how much a run wavered, as the logarithm of a ratio: its samples are cut into 8 parts by their order, and a part is as slow as
-/// the median of its cells is beside their medians over the whole run. From the fastest part to the slowest, less what chance alone would make of it; 0 of too few.
+/// The logarithm of the ratio of a run's slowest eighth to its fastest, minus what chance alone gives; 0 for too few samples.
+/// Samples are cut into eighths by their order; the speed of one is the median over its cells of their time in it, relative to
+/// their median over the whole run.
 double wavering(const std::vector<std::vector<const Sample*>>& cells);
 
 /// What two runs that took turns had in common: of the cells of a scene, by how much the n-th samples in both files and those

@@ -100,9 +100,11 @@ Json about(const Json& cell)
             key[name] = cell[name];
     key["operation"] = cell.value("operation", "build");
     const Json& scene = cell.at("scene");
-    key["scene"] = scene.is_object() ? Json{scene.at("name"), scene.value("frame", 0),
-                                            scene.value("stand_in_for", "")}
-                                     : scene;
+    key["scene"] =
+        scene.is_object()
+            ? Json{scene.at("name"), scene.value("frame", 0), scene.value("stand_in_for", ""),
+                   scene.value("objects_by", ""), scene.value("between", 0)}
+            : scene;
     if (cell.contains("sampling"))
         key["caches"] = cell["sampling"].value("caches", "hot");
     if (cell.contains("swept"))

@@ -61,8 +61,8 @@ struct CollideCommand {
     SamplingWords sampling;
     bool skips = false;    ///< whether each rule is measured switched off as well
     std::string json;      ///< result file to write; may be empty
-    std::string pairs;     ///< file for the last frame's pairs, .csv or .bin; may be empty
-    std::string contacts;  ///< likewise for its contacts
+    std::string pairs;     ///< file for the pairs of every frame, .csv or .bin; may be empty
+    std::string contacts;  ///< file for the contacts; may be empty
 };
 struct RunCommand {
     std::string experiment;  ///< a name or a path

@@ -19,6 +19,7 @@
 #include "geometry/hash.h"
 #include "geometry/host_memory.h"
 #include "harness/result_file.h"
+#include "harness/xz.h"
 
 namespace bvhbench {
 namespace {
@@ -116,6 +117,9 @@ Output::Output(const fs::path& path, const std::string& option, const OutputRule
     const bool is_there = stat(path.c_str(), &about) == 0;
     if (is_there && S_ISDIR(about.st_mode))
         throw BadUsage(option + ": " + path.string() + " is a folder; name a file in it");
+    if (path.extension() == ".xz")
+        throw BadUsage(option + ": " + path.string() +
+                       " is not written packed; write it without .xz and pack it with xz");
     is_file_ = !is_there || (S_ISREG(about.st_mode) && standard_stream(about) < 0);
     if (!is_file_)
         return;
@@ -265,7 +269,7 @@ std::string file_text(const fs::path& path, const std::string& what)
     if (!file.is_open() || file.bad())
         throw Unavailable(what + " '" + path.string() + "' cannot be read" +
                           (errno != 0 ? std::string(": ") + std::strerror(errno) : ""));
-    return text;
+    return is_xz(text) ? unpacked_xz(text, what + " '" + path.string() + '\'') : text;
 }
 
 }  // namespace bvhbench

@@ -36,7 +36,7 @@ public:
     /// Reserves `path` for this process until the object is destroyed; nowhere if it is empty. `option` is what the user
     /// named it by.
     ///
-    /// Throws BadUsage if it is a folder, an input, or an earlier file that the rules do not let go, and Unavailable if it
+    /// Throws BadUsage if it is a folder, a .xz file, an input, or an earlier file that the rules do not let go, and Unavailable if it
     /// cannot be written or another process has reserved it. No folder is made.
     Output(const std::filesystem::path& path, const std::string& option, const OutputRules& rules);
 
@@ -98,7 +98,7 @@ void make_folder(const std::filesystem::path& folder);
 /// Replaces `path` by `text`, for files of the program's own that no user names. Throws as Output does.
 void write_atomically(const std::filesystem::path& path, std::string_view text);
 
-/// All of a file. Throws Unavailable, "WHAT 'path' cannot be read: REASON", and before it is read if the host has not the
+/// All of a file, unpacked if it is packed by xz. Throws Unavailable, "WHAT 'path' cannot be read: REASON", and before it is read if the host has not the
 /// memory for it and what is made of it.
 std::string file_text(const std::filesystem::path& path, const std::string& what);
 

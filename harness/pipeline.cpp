@@ -18,10 +18,11 @@ Pipeline::Pipeline(Session& session, const BuilderChoice& builder, const Collide
     , collider_(make_collider(collider, session.programs()))
 {
     if (input.is_swept() && (collider.narrow != "none" || collider_->finds_contacts()))
-        throw BadUsage(std::string("swept boxes tell who may meet between two frames, not who does: ") +
-                       (collider_->finds_contacts() ? "the collider " + collider.name
-                                                    : "a narrow phase, " + collider.narrow + ",") +
-                       " looks at one moment");
+        throw BadUsage(
+            std::string("swept boxes tell who may meet between two frames, not who does: ") +
+            (collider_->finds_contacts() ? "the collider " + collider.name
+                                         : "a narrow phase, " + collider.narrow + ",") +
+            " looks at one moment");
     if (collider_->needs_tree())
         builder_ = make_builder(choice_, session.programs());
     reserve_for(input);
@@ -65,10 +66,10 @@ void Pipeline::begin_frame(std::span<const Motion> motions)
     if (builder_ == nullptr)
         return;
     if (collider_->keeps_tree())
-        updates_ = builder_->plan_update(std::vector(updates_.size(), asked), false,
-                                         session_.queue());
+        updates_ = builder_->plan_update(std::vector(updates_.size(), asked), session_.queue());
     else if (entering_)
-        updates_.assign(updates_.size(), keeps_all(motions) ? TreeUpdate::keep : TreeUpdate::rebuild);
+        updates_.assign(updates_.size(),
+                        keeps_all(motions) ? TreeUpdate::keep : TreeUpdate::rebuild);
     else
         updates_ = planned_updates(motions);
 }
@@ -82,19 +83,11 @@ bool Pipeline::keeps_all(std::span<const Motion> motions) const
 
 std::vector<TreeUpdate> Pipeline::planned_updates(std::span<const Motion> motions)
 {
-    Queue& queue = session_.queue();
     std::vector<TreeUpdate> wanted(updates_.size(), TreeUpdate::rebuild);
-    if (trials_.is_trying())
-        trials_.learn(!builder_->lined_up_anew(queue));
-    bool try_order = false;
-    if (!motions.empty()) {
+    if (!motions.empty())
         std::transform(motions.begin(), motions.end(), wanted.begin(),
                        [&](Motion motion) { return update_after(motion); });
-        try_order = skips(skip_sorted) &&
-                    std::count(wanted.begin(), wanted.end(), TreeUpdate::rebuild) > 0 &&
-                    trials_.next();
-    }
-    return builder_->plan_update(wanted, try_order, queue);
+    return builder_->plan_update(wanted, session_.queue());
 }
 
 std::size_t Pipeline::updated(TreeUpdate how) const
@@ -102,7 +95,8 @@ std::size_t Pipeline::updated(TreeUpdate how) const
     const auto objects = std::count(updates_.begin(), updates_.end(), how);
     const bool has_some = objects > 0 && queries();
     return !entering_ ? static_cast<std::size_t>(objects)
-                      : has_some ? entering_->input.objects.size() : 0;
+           : has_some ? entering_->input.objects.size()
+                      : 0;
 }
 
 /// Memory is for as many triangles as enter, and to know how many they are takes the device's work of a frame. So it is
@@ -155,8 +149,8 @@ void Pipeline::enqueue(const Input& input)
 void Pipeline::enqueue_query(const Input& input)
 {
     Queue& queue = session_.queue();
-    if (builder_ != nullptr && std::count(updates_.begin(), updates_.end(), TreeUpdate::keep) <
-                                   std::ssize(updates_))
+    if (builder_ != nullptr &&
+        std::count(updates_.begin(), updates_.end(), TreeUpdate::keep) < std::ssize(updates_))
         tree_ = entering_ ? &builder_->build(input, queue) : &builder_->update(input, queue);
     collider_->query(tree_, input, queue);
 }
@@ -247,9 +241,7 @@ std::map<std::string, double> Pipeline::counters() const
         put("rebuilt_objects_count", updated(TreeUpdate::rebuild));
         put("refitted_objects_count", updated(TreeUpdate::refit));
         put("kept_objects_count", updated(TreeUpdate::keep));
-        const bool sorted = entering_ ? updated(TreeUpdate::rebuild) > 0
-                                      : builder_->lined_up_anew(queue);
-        put("sorts_count", sorted ? 1 : 0);
+        put("sorts_count", updated(TreeUpdate::rebuild) > 0 ? 1 : 0);
         memory += tree.total();
     }
     if (entering_)

@@ -10,7 +10,6 @@
 
 #include "collide/narrow.h"
 #include "collide/near.h"
-#include "harness/order_trials.h"
 #include "harness/record.h"
 #include "harness/session.h"
 #include "scenes/motion.h"
@@ -27,7 +26,7 @@ public:
 
     /// Frames from here on are of other points than those settled last, to which objects have moved so; of the first
     /// frame, and where nothing is known of how they moved, no motions. Trees are brought along as the collider asks
-    /// if it goes on from frame to frame, else as the rules `unchanged`, `rigid` and `sorted` allow (skips.h). What the
+    /// if it goes on from frame to frame, else as the rules `unchanged` and `rigid` allow (skips.h). What the
     /// rule `near` has left stands for a frame of which all is unchanged, and is no tree of all to be brought along.
     void begin_frame(std::span<const Motion> motions);
 
@@ -42,7 +41,7 @@ public:
     bool has_pairs() const { return !collider_->finds_contacts(); }
     bool has_contacts() const { return collider_->finds_contacts() || narrow_.has_value(); }
     PairList pairs() const;     ///< if it has them
-    PairList contacts() const;  ///< likewise
+    PairList contacts() const;  ///< if it has them
     std::map<std::string, double> counters() const;
 
     const Collider& collider() const { return *collider_; }
@@ -75,15 +74,15 @@ private:
     Session& session_;
     BuilderChoice choice_;  ///< a builder may keep looking at its words
     unsigned rules_off_;
-    std::unique_ptr<Builder> builder_;  ///< its own, whose tree stands from frame to frame; null if none is wanted
+    std::unique_ptr<Builder>
+        builder_;  ///< its own, whose tree stands from frame to frame; null if none is wanted
     const Tree* tree_ = nullptr;
     std::vector<TreeUpdate> updates_;  ///< what becomes of each object's tree
-    OrderTrials trials_;
     std::unique_ptr<Collider> collider_;
     std::optional<NarrowPhase> narrow_;
     std::optional<NearTriangles> near_;  ///< if the rule may apply
     std::optional<Entering> entering_;   ///< if it does; else everything enters
-    std::int64_t corner_bytes_ = 0;      ///< of the triangles in the pairs that the frame settled with
+    std::int64_t corner_bytes_ = 0;  ///< of the triangles in the pairs that the frame settled with
 };
 
 }  // namespace bvhbench

@@ -5,13 +5,14 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
+#include <vector>
 
 #include "geometry/error.h"
-#include "harness/cache_seals.h"
 
 namespace bvhbench {
 namespace {
@@ -21,7 +22,7 @@ namespace fs = std::filesystem;
 /// More than what all programs of one run take.
 constexpr std::uintmax_t needed_bytes = std::uintmax_t{16} << 20;
 
-/// Some 400 programs. To hold all of it to its seals takes 0.06 s, and that at every start.
+/// Some 400 programs.
 constexpr std::uintmax_t most_bytes = std::uintmax_t{32} << 20;
 
 fs::path variable(const char* name)
@@ -53,6 +54,47 @@ void remove_leftovers(const fs::path& folder)
     }
 }
 
+/// A program that PoCL keeps, in folder/XX/<hash>.
+struct KeptProgram {
+    fs::path path;
+    std::uintmax_t bytes = 0;
+    fs::file_time_type used;
+};
+
+/// Throws filesystem_error where others remove what is being listed.
+std::vector<KeptProgram> programs_in(const fs::path& folder)
+{
+    std::vector<KeptProgram> programs;
+    for (const auto& group : fs::directory_iterator(folder)) {
+        if (group.path().filename().string().size() != 2 || !group.is_directory())
+            continue;
+        for (const auto& entry : fs::directory_iterator(group)) {
+            KeptProgram program{entry.path(), 0, entry.last_write_time()};
+            for (const auto& file : fs::recursive_directory_iterator(entry)) {
+                if (file.path().filename() == "last_accessed")
+                    program.used = file.last_write_time();  // PoCL empties it at every use
+                else if (!file.is_directory())
+                    program.bytes += file.file_size();
+            }
+            programs.push_back(std::move(program));
+        }
+    }
+    return programs;
+}
+
+/// Removes the programs used longest ago until all take no more than `most_bytes`.
+void remove_oldest(const fs::path& folder)
+try {
+    std::vector<KeptProgram> programs = programs_in(folder);
+    std::sort(programs.begin(), programs.end(),
+              [](const KeptProgram& a, const KeptProgram& b) { return a.used > b.used; });
+    std::uintmax_t bytes = 0;
+    for (const KeptProgram& program : programs)
+        if ((bytes += program.bytes) > most_bytes)
+            fs::remove_all(program.path);
+} catch (const std::exception&) {  // what cannot be removed stays
+}
+
 void tell_pocl(const fs::path& folder) { setenv("POCL_CACHE_DIR", folder.c_str(), 1); }
 
 }  // namespace
@@ -80,18 +122,17 @@ PoclCache::PoclCache()
     const fs::path folder = named.empty() ? own : named;
     std::string problem =
         folder.empty() ? "there is no home folder" : folder_problem(folder, needed_bytes);
-    if (problem.empty() && folder == own && !take(folder))
-        problem = "what is broken there cannot be removed";
-    if (problem.empty())
-        tell_pocl(folder);  // empty counts as unset, PoCL aborts on it
-    else
+    if (!problem.empty()) {
         take_temporary("they cannot be kept in '" + folder.string() + "': " + problem);
+        return;
+    }
+    if (folder == own)
+        tidy(folder);
+    tell_pocl(folder);  // empty counts as unset, PoCL aborts on it
 }
 
 PoclCache::~PoclCache()
 {
-    if (!ours_.empty())
-        seal(ours_);
     if (lock_ >= 0)
         close(lock_);
     std::error_code ignored;
@@ -101,20 +142,17 @@ PoclCache::~PoclCache()
     }
 }
 
-/// Look for what is broken unless others use the folder: then they, or those before them, have.
-bool PoclCache::take(const fs::path& folder)
+/// Nothing is removed while others use the folder.
+void PoclCache::tidy(const fs::path& folder)
 {
     std::error_code ignored;
     fs::permissions(folder, fs::perms::owner_all, ignored);
     lock_ = open((folder / "bvhbench.lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
-    const bool is_alone = lock_ >= 0 && flock(lock_, LOCK_EX | LOCK_NB) == 0;
-    if (is_alone && !remove_broken(folder, most_bytes))
-        return false;
+    if (lock_ >= 0 && flock(lock_, LOCK_EX | LOCK_NB) == 0)
+        remove_oldest(folder);
     if (lock_ >= 0)
-        flock(lock_, LOCK_SH);  // waits for whoever is looking just now
+        flock(lock_, LOCK_SH);  // waits for a process that is removing just now
     remove_leftovers(folder);
-    ours_ = folder;
-    return true;
 }
 
 void PoclCache::take_temporary(const std::string& why)

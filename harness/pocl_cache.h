@@ -10,12 +10,11 @@
 
 namespace bvhbench {
 
-/// Where PoCL keeps compiled kernels while this is there: a folder of ours that can be written and holds nothing broken.
+/// Where PoCL keeps compiled kernels while this object exists: a folder that can be written.
 ///
-/// PoCL ends the process over a folder that it cannot write, and over a file in it that is not whole. So before the
-/// first OpenCL call a folder is found that will do, else an empty one below the folder of temporary files, removed in
-/// the end; and what is in ours is held to seals (harness/cache_seals.h). A folder that POCL_CACHE_DIR names is
-/// somebody else's: it is only asked whether it will do.
+/// PoCL ends the process over a folder that it cannot write. So before the first OpenCL call a folder is found that will do,
+/// else an empty one below the folder of temporary files, which is removed in the end. Our own folder is kept below a size. A
+/// folder that POCL_CACHE_DIR names is somebody else's: it is only asked whether it will do.
 class PoclCache {
 public:
     /// Says in one sentence on stderr when kernels cannot be kept. Throws Unavailable where there is no room at all.
@@ -25,12 +24,11 @@ public:
     PoclCache& operator=(const PoclCache&) = delete;
 
 private:
-    bool take(const std::filesystem::path& folder);
+    void tidy(const std::filesystem::path& folder);
     void take_temporary(const std::string& why);
 
-    std::filesystem::path ours_, temporary_;
-    int lock_ =
-        -1;  ///< held shared by all who use the folder, alone by who looks for what is broken
+    std::filesystem::path temporary_;
+    int lock_ = -1;  ///< held shared by all who use our folder, alone while programs are removed
     std::optional<AtSignal> removed_;  ///< the temporary folder
 };
 

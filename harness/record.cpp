@@ -48,6 +48,9 @@ Json json_of(const Sample& sample)
 Json json_of(const SceneFacts& scene)
 {
     Json json = {{"name", scene.name}};
+    put_if(json, "objects_by", scene.objects_by);
+    if (scene.between > 0)
+        json["between"] = scene.between;
     if (scene.triangles > 0) {
         json["triangles"] = scene.triangles;
         json["vertices"] = scene.vertices;

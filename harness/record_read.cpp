@@ -81,6 +81,8 @@ Rounding rounding_of(const Json& json)
 SceneFacts scene_of(const Json& json)
 {
     return {.name = json.at("name").get<std::string>(),
+            .objects_by = get<std::string>(json, "objects_by"),
+            .between = get<std::int64_t>(json, "between"),
             .triangles = get<std::int64_t>(json, "triangles"),
             .vertices = get<std::int64_t>(json, "vertices"),
             .objects = get<std::int64_t>(json, "objects"),

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "geometry/hash.h"
+#include "harness/cell_identity.h"
 #include "harness/sample_times.h"
 #include "harness/stopping.h"
 #include "harness/table.h"
@@ -141,7 +142,7 @@ std::string verdict_line(const Cell& cell)
 std::vector<std::string> line_of(const Cell& cell, double copy_rate)
 {
     std::vector<std::string> line = {
-        cell.scene.name + (cell.scene.stand_in_for.empty() ? "" : " *"),
+        scene_label(cell.scene) + (cell.scene.stand_in_for.empty() ? "" : " *"),
         cell.scene.triangles > 0 ? grouped(cell.scene.triangles) : "", pipeline_text(cell)};
     if (!has_times(cell)) {
         line.insert(line.end(), {verdict_text(cell), "", "", "", "", "", "", "", "", ""});
@@ -221,7 +222,7 @@ std::string verdict_text(const Cell& cell)
 
 std::string cell_report(const Cell& cell, const RunFacts& run)
 {
-    std::string text = pipeline_text(cell) + " on " + cell.scene.name;
+    std::string text = pipeline_text(cell) + " on " + scene_label(cell.scene);
     if (cell.scene.triangles > 0)
         text += ", " + grouped(cell.scene.triangles) + " triangles";
     if (!cell.scene.stand_in_for.empty())
@@ -298,7 +299,7 @@ std::string frames_report(const Document& document)
             return at == cell.counters.end() ? std::string()
                                              : grouped(static_cast<std::int64_t>(at->second));
         };
-        std::vector<std::string> row = {cell.scene.name, std::to_string(cell.scene.frame),
+        std::vector<std::string> row = {scene_label(cell.scene), std::to_string(cell.scene.frame),
                                         pipeline_text(cell)};
         if (has_times(cell)) {
             for (std::string& text : spread_texts(spread_of(whole_times_ns(cell))))

@@ -55,8 +55,8 @@ std::vector<Frames> frames_of(const Document& document)
     for (const Cell& cell : document.cells) {
         if (cell.operation != Operation::collide || !cell.swept.pairs.empty())
             continue;
-        const auto found =
-            std::find_if(all.begin(), all.end(), [&](const Frames& one) { return one.takes(cell); });
+        const auto found = std::find_if(all.begin(), all.end(),
+                                        [&](const Frames& one) { return one.takes(cell); });
         Frames& frames = found != all.end() ? *found : all.emplace_back(Frames{&cell, {}});
         frames.cells.push_back(&cell);
     }
@@ -118,8 +118,8 @@ std::string frames_table(const Document& document, std::string_view name)
         const Frames& frames = all[k];
         const Cell& first = *frames.first;
         std::vector<std::string> row = {
-            first.scene.name + (first.scene.stand_in_for.empty() ? ""
-                                : " for " + first.scene.stand_in_for),
+            first.scene.name +
+                (first.scene.stand_in_for.empty() ? "" : " for " + first.scene.stand_in_for),
             pipeline_text(first), std::to_string(frames.cells.size())};
         for (std::string& text : time_columns(frames))
             row.push_back(std::move(text));

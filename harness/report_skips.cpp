@@ -64,10 +64,11 @@ std::vector<std::string> row_of(const Cell& with, const Cell& without, std::stri
     const std::int64_t tasks = less("tasks_count"), tests = less("box_tests_count");
     const std::int64_t built = less("rebuilt_objects_count"), sorts = less("sorts_count");
     const std::int64_t touched = -less("kept_objects_count");
-    std::vector<std::string> row = {with.scene.name, std::to_string(with.scene.frame),
-                                    std::string(rule), grouped(triangles),
-                                    std::to_string(launches), grouped(built), grouped(touched),
-                                    grouped(sorts), grouped(tasks), grouped(tests)};
+    std::vector<std::string> row = {with.scene.name,          std::to_string(with.scene.frame),
+                                    std::string(rule),        grouped(triangles),
+                                    std::to_string(launches), grouped(built),
+                                    grouped(touched),         grouped(sorts),
+                                    grouped(tasks),           grouped(tests)};
     // A group takes its nodes in the order in which they turn up: of its box tests a few in a million come and go.
     const bool few = 1000 * std::abs(static_cast<double>(tests)) < counter(with, "box_tests_count");
     if (triangles == 0 && launches == 0 && built == 0 && touched == 0 && sorts == 0 && tasks == 0 &&

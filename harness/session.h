@@ -68,7 +68,7 @@ public:
     std::vector<StageTime> build_once(Builder& builder, const Input& input, Start start,
                                       const Tree** tree = nullptr);
 
-    /// One refit of the tree that stands, likewise.
+    /// One refit of the tree that stands, waited for and watched. Throws what the builder throws.
     std::vector<StageTime> refit_once(Builder& builder, const Input& input,
                                       const Tree** tree = nullptr);
 

@@ -35,7 +35,7 @@ std::string fixed(double value, int digits);
 /// Nanoseconds with three digits and the unit that suits: "950 ns", "71.2 us", "1.30 ms".
 std::string duration_text(double ns);
 
-/// Bytes likewise: "512 B", "6.91 MB".
+/// Bytes with three digits and the unit that suits: "512 B", "6.91 MB".
 std::string bytes_text(double bytes);
 
 /// 1234567 as "1,234,567".

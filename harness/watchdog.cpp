@@ -165,8 +165,10 @@ void Watchdog::crashed(int signal)
     sigset_t all;
     sigfillset(&all);
     sigprocmask(SIG_UNBLOCK, &all, nullptr);
+    const char* cache = std::getenv("POCL_CACHE_DIR");
     watching.load()->end("crashed (signal " + std::to_string(signal) +
-                         "); damaged kernels in the OpenCL driver's cache can be why");
+                         "); damaged kernels in the OpenCL driver's cache can be why" +
+                         (cache != nullptr ? std::string(": remove ") + cache : ""));
 }
 
 void Watchdog::end(const std::string& why) const

@@ -111,7 +111,7 @@ void Tree::Impl::update(const Input& input, std::span<const Update> updates)
     std::vector<TreeUpdate> wanted(updates.size());
     std::transform(updates.begin(), updates.end(), wanted.begin(), internal);
     renew(input, [&](const bvhbench::Input& taken) {
-        builder->plan_update(wanted, false, device->queue);
+        builder->plan_update(wanted, device->queue);
         builder->update(taken, device->queue);
     });
 }

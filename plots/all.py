@@ -23,6 +23,7 @@ import fig8
 import fig9
 import figure
 import frames
+import json_files
 import output
 import pareto_orders
 import results
@@ -63,7 +64,7 @@ def files_of(given: pathlib.Path, out: pathlib.Path) -> Iterator[tuple[pathlib.P
     if not given.is_dir():
         yield given, out
         return
-    for path in sorted(given.rglob("*.json")):
+    for path in json_files.files_in(given):
         if results.is_result(path):
             yield path, out / path.parent.relative_to(given)
 

@@ -20,5 +20,11 @@ def pipeline(collider: str, collider_options: Mapping[str, object], builder: str
     return text if builder == "none" else f"{text} over {variant(builder, options)}"
 
 
+def scene(facts: Mapping[str, object]) -> str:
+    """A scene, with what was asked of it that is not usual."""
+    objects, between = facts.get("objects_by"), facts.get("between", 0)
+    return f"{facts['name']}{f', objects: {objects}' if objects else ''}{f', {between} between' if between else ''}"
+
+
 def frames(numbers: list[int]) -> str:
     return f"frame {numbers[0]}" if len(numbers) == 1 else f"{len(numbers)} frames"

@@ -15,6 +15,7 @@ import sys
 from collections import Counter
 from typing import Any
 
+import json_files
 import output
 import report_cells
 import report_facts
@@ -31,7 +32,7 @@ def file_data(path: pathlib.Path, document: dict[str, Any]) -> dict[str, Any]:
     stress = document.get("stress", [])
     states = Counter(cell["state"] for cell in cells)
     states.update(finding["verdict"] for cell in stress for finding in cell["findings"].values())
-    return {"name": text_of(path.stem), "path": text_of(path.name), "cells": cells, "looks": report_looks.looks_of(cells),
+    return {"name": text_of(json_files.name_of(path)), "path": text_of(path.name), "cells": cells, "looks": report_looks.looks_of(cells),
             "tables": report_tables.tables_of(cells, stress), "states": states,
             "experiments": list(dict.fromkeys(cell["experiment"] for cell in cells)) or ["stress"],
             "device": run["device"]["name"], "driver": run["device"]["driver"], "machine": run["host"]["name"],
@@ -46,8 +47,8 @@ def text_of(name: str) -> str:
 
 def titles_of(files: list[pathlib.Path]) -> list[str]:
     """A file's name, with its folder where another file has that name too."""
-    names = Counter(path.stem for path in files)
-    return [text_of(path.stem if names[path.stem] == 1 else f"{path.resolve().parent.name}/{path.stem}") for path in files]
+    names = [json_files.name_of(path) for path in files]
+    return [text_of(name if names.count(name) == 1 else f"{path.resolve().parent.name}/{name}") for path, name in zip(files, names)]
 
 
 def make(files: list[pathlib.Path], views: list[pathlib.Path]) -> tuple[str, bool]:

@@ -55,7 +55,7 @@ def asked(raw: dict[str, Any]) -> str:
 def scene_name(scene: dict[str, Any]) -> str:
     """A stand-in says for what it stands."""
     if not (other := scene.get("stand_in_for")):
-        return scene["name"]
+        return names.scene(scene)
     return f"{scene['name']} ({'a stand-in' if other == scene['name'] else f'for {other}'})"
 
 

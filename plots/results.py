@@ -6,10 +6,7 @@ from __future__ import annotations
 
 import functools
 import json
-import math
 import pathlib
-import re
-import stat
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,15 +14,12 @@ import numpy
 
 import names
 import shape
+from json_files import Refused, parsed
 
 MAJOR = "1"
 FOLDER = pathlib.Path(__file__).resolve().parent.parent / "results"
 PAPER = FOLDER / "paper"
 SCHEMA = FOLDER / "schema" / "result-1.schema.json"
-
-
-class Refused(Exception):
-    """A file or cell that no figure may be made of; the text says which and why."""
 
 
 @dataclass(frozen=True)
@@ -155,7 +149,7 @@ class Run:
         for cell in self.without_numbers:
             if cell["experiment"] == experiment:
                 why = (called(cell), cell["status"], cell["reason"])
-                frames = scenes.setdefault(why, {}).setdefault(cell["scene"]["name"], [])
+                frames = scenes.setdefault(why, {}).setdefault(names.scene(cell["scene"]), [])
                 if "collider" in cell:
                     frames.append(cell["scene"].get("frame", 0))
         builders: dict[tuple[str, str, str], list[str]] = {}
@@ -191,41 +185,6 @@ def is_result(path: pathlib.Path) -> bool:
     except Refused:
         return True
     return isinstance(document, dict) and {"format", "run", "cells"} <= document.keys()
-
-
-def parsed(path: pathlib.Path) -> Any:
-    """What a JSON file holds. Raises Refused."""
-    try:
-        kind = path.stat().st_mode
-        if not stat.S_ISREG(kind) and not stat.S_ISFIFO(kind):
-            raise Refused(f"{path}: it is a {'folder' if stat.S_ISDIR(kind) else 'device'}, not a result file")
-        text = path.read_text(encoding="utf-8")
-        if not text.strip():
-            raise Refused(f"{path}: it is empty")
-        document = json.loads(text, parse_constant=no_number, parse_float=finite)
-        if re.search(r"\\u[dD]", text):
-            json.dumps(document, ensure_ascii=False).encode("utf-8")
-    except OSError as error:
-        raise Refused(f"{path}: {error.strerror}") from error
-    except UnicodeDecodeError as error:
-        raise Refused(f"{path}: not text in UTF-8, at byte {error.start}") from error
-    except UnicodeEncodeError as error:
-        raise Refused(f"{path}: a text in it has half a character, {error.object[error.start]!a}") from error
-    except ValueError as error:
-        raise Refused(f"{path}: not JSON: {error}") from error
-    except RecursionError as error:
-        raise Refused(f"{path}: nested too deeply") from error
-    return document
-
-
-def no_number(word: str) -> float:
-    raise ValueError(f"{word} is no number")
-
-
-def finite(text: str) -> float:
-    if math.isinf(value := float(text)):
-        raise ValueError(f"{text} is too large a number")
-    return value
 
 
 @functools.cache
@@ -295,7 +254,7 @@ def cell_of(path: pathlib.Path, cell: dict[str, Any]) -> Cell:
     options, collider_options = (tuple(sorted((key, str(value)) for key, value in choice.get("options", {}).items()))
                                  for choice in (builder, collider))
     samples = [{entry["stage"]: entry for entry in sample["stages"]} for sample in counted(cell["samples"])]
-    return Cell(cell["experiment"], scene["name"], scene.get("triangles", 0), scene.get("stand_in_for"), scene.get("outlier"),
+    return Cell(cell["experiment"], names.scene(scene), scene.get("triangles", 0), scene.get("stand_in_for"), scene.get("outlier"),
                 builder["name"], options, cell.get("operation", "build"), scene.get("frame", 0), collider.get("name"), collider_options,
                 cell["check"]["verdict"] in ("agrees", "counted"), cell["counters"],
                 samples, cell.get("left_out", {}), cell.get("leaves_by_depth", []), cell.get("accuracy", {}),

@@ -13,6 +13,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (the backend is chosen first)
 from matplotlib.colors import to_rgb  # noqa: E402
 
+import json_files  # noqa: E402
 import output  # noqa: E402
 from results import Cell, Refused  # noqa: E402
 
@@ -110,7 +111,8 @@ def set_up() -> None:
 
 def stem(path: pathlib.Path, figure: str) -> str:
     """A picture is called like its result file, with the figure's name unless it is in there already."""
-    return path.stem if figure in path.stem else f"{path.stem}-{figure}"
+    name = json_files.name_of(path)
+    return name if figure in name else f"{name}-{figure}"
 
 
 def settle(figure: plt.Figure) -> None:

@@ -22,7 +22,7 @@ import style
 
 STAGE = "hierarchy"
 GROUP_WIDTH = 0.88  # of the distance between two meshes, at most
-BAR_WIDTH = 0.16  # likewise, so that few builders do not make walls
+BAR_WIDTH = 0.16  # of that distance, at most, so that few builders do not make walls
 FOOT = 0.15  # of the panel's height, below the lowest value: where the numbers stand
 PAPER_MARK = {"marker": "d", "markersize": 4.5, "markerfacecolor": "white", "markeredgecolor": "black",
               "markeredgewidth": 0.8, "linestyle": "none"}

@@ -15,7 +15,7 @@ namespace bvhbench {
 struct SceneLibrary {
     std::filesystem::path data;            ///< --data, else BVHBENCH_DATA, else empty
     std::size_t memory_limit_bytes = 0;    ///< for the process that reads a file; 0: a default
-    double time_limit_s = 0;               ///< likewise
+    double time_limit_s = 0;               ///< for that process; 0: a default
     Doubles doubles = Doubles::recentred;  ///< what becomes of coordinates that floats cannot hold
     /// Told, in one line, what became of them; may be empty.
     std::function<void(const std::string& line)> tell = {};

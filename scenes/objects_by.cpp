@@ -28,6 +28,14 @@ ObjectsBy objects_by_called(std::string_view name)
                    std::string(name) + "'");
 }
 
+std::string_view objects_by_name(ObjectsBy by)
+{
+    for (const auto& [name, known] : names)
+        if (by == known)
+            return name;
+    return "";
+}
+
 Scene with_objects(Scene scene, ObjectsBy by)
 {
     switch (by) {

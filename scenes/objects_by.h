@@ -18,6 +18,8 @@ enum class ObjectsBy {
 /// The one called "auto", "one", "mesh" or "components". Throws BadUsage, naming these.
 ObjectsBy objects_by_called(std::string_view name);
 
+std::string_view objects_by_name(ObjectsBy by);
+
 /// `scene` with its objects chosen so, finished again (the content hash covers objects).
 ///
 /// Components are in the order of their first triangles, and their triangles are grouped (scenes/face_order.h); those of

@@ -20,7 +20,7 @@ struct StepFacts {
     std::optional<std::uint64_t> vf_listed, vf_true, ee_listed, ee_true, swept_vf, swept_ee;
 };
 
-/// Of frames that `scene` was read with; nothing if the file is not there or does not say. Throws likewise.
+/// Of frames that `scene` was read with; nothing if the file is not there or does not say. Throws as above.
 std::optional<StepFacts> step_facts(const Scene& scene, const std::filesystem::path& meta);
 
 }  // namespace bvhbench

@@ -8,6 +8,7 @@ Usage: agreement_test.py <source root>
 The second half needs the data sets (BVHBENCH_DATA); without, it is skipped, saying so.
 """
 import json
+import lzma
 import os
 import pathlib
 import sys
@@ -17,11 +18,12 @@ ROOT = pathlib.Path()
 
 
 def result_files() -> list[pathlib.Path]:
-    return sorted((ROOT / "results").glob("*/agreement.json"))
+    return sorted((ROOT / "results").glob("*/agreement.json.xz"))
 
 
 def read(path: pathlib.Path) -> dict:
-    return json.loads(path.read_text(encoding="utf-8"))
+    packed = path.read_bytes()
+    return json.loads(lzma.decompress(packed) if path.suffix == ".xz" else packed)
 
 
 def frame_of(cell: dict) -> tuple[str, int]:

@@ -7,6 +7,7 @@ Checks the golden files, every result file under results/ and those named.
 """
 import copy
 import json
+import lzma
 import pathlib
 import sys
 import unittest
@@ -18,13 +19,14 @@ NAMED: list[pathlib.Path] = []
 
 
 def read(path: pathlib.Path) -> dict:
-    return json.loads(path.read_text(encoding="utf-8"))
+    packed = path.read_bytes()
+    return json.loads(lzma.decompress(packed) if path.suffix == ".xz" else packed)
 
 
 def result_files() -> list[pathlib.Path]:
     """Of every format, so that an older one that is still committed is found out."""
     folders = [ROOT / "tests" / "golden", ROOT / "results"]
-    found = [path for folder in folders for path in sorted(folder.rglob("*.json"))]
+    found = [path for folder in folders for path in sorted([*folder.rglob("*.json"), *folder.rglob("*.json.xz")])]
     return [path for path in found if {"format", "run", "cells"} <= read(path).keys()] + NAMED
 
 

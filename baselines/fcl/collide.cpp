@@ -194,15 +194,18 @@ private:
 std::unique_ptr<Collider> make_fcl_collider(Programs& programs, const ColliderOptions& options)
 {
     return std::make_unique<Fcl>(
-        programs.device(), ColliderCard{"fcl",
+        programs.device(),
+        ColliderCard{"fcl",
                      "FCL in double, trees built each time, on one core of the host [Pan2012]"},
         options, Keep::nothing);
 }
 
-std::unique_ptr<Collider> make_fcl_refit_collider(Programs& programs, const ColliderOptions& options)
+std::unique_ptr<Collider> make_fcl_refit_collider(Programs& programs,
+                                                  const ColliderOptions& options)
 {
     return std::make_unique<Fcl>(
-        programs.device(), ColliderCard{
+        programs.device(),
+        ColliderCard{
             "fcl-refit",
             "FCL in double, trees refit to moved points, on one core of the host [Pan2012]"},
         options, Keep::topology);

@@ -106,7 +106,8 @@ private:
     void hand_over(const Input& input)
     {
         if (input.is_swept())
-            throw BadUsage("FCL builds over triangles of one frame, not over boxes swept to the next");
+            throw BadUsage(
+                "FCL builds over triangles of one frame, not over boxes swept to the next");
         std::vector<fcl::Vector3d> points;
         for (const Point& p : input.points)
             points.emplace_back(p.x, p.y, p.z);

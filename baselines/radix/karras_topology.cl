@@ -22,8 +22,8 @@ static inline uint farthest_with(global const Code* codes, const uint leaves, co
 }
 
 /// Inner node i covers leaf i and those on the side it has more in common with, as far as that lasts.
-static inline void make_node(global const Code* codes, global RadixWord* nodes, global uint* parents,
-                             const uint leaves, const uint i)
+static inline void make_node(global const Code* codes, global RadixWord* nodes,
+                             global uint* parents, const uint leaves, const uint i)
 {
     const uint before = common_of(codes, leaves, i, i - 1u);
     const uint after = common_of(codes, leaves, i, i + 1u);

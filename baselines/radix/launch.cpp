@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <bit>
 
-#include "baselines/radix/hierarchy.h"
 #include "baselines/parameters.h"
+#include "baselines/radix/hierarchy.h"
 #include "builders/stages/kernel_form.h"
 #include "geometry/error.h"
 
@@ -17,8 +17,7 @@ RadixLaunch::RadixLaunch(const Device& device, const BuildOptions& options)
         group_size = 1;
         most_items = chunk_count(device);
     } else if (group_size == 0) {
-        group_size =
-            std::min<std::size_t>(device.tuned(radix_group_size), std::bit_floor(most));
+        group_size = std::min<std::size_t>(device.tuned(radix_group_size), std::bit_floor(most));
     } else if (!std::has_single_bit(group_size) || group_size > most) {
         throw BadUsage("a group size is a power of two up to " + std::to_string(most) + " on " +
                        device.name() + ", not " + std::to_string(group_size));

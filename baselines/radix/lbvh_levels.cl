@@ -60,8 +60,9 @@ static inline uint put_children(global RadixWord* nodes, const uint i, uint slot
 
 /// The nodes of `level` get their children, and the next level its nodes: counts[level + 1], zero before, and
 /// begins[level + 1]. Where a group's children go is settled by one atomic, whatever its size.
-kernel void split_level(global const Code* restrict codes, global RadixWord* nodes, global uint* begins,
-                        volatile global uint* counts, const uint leaves, const uint level)
+kernel void split_level(global const Code* restrict codes, global RadixWord* nodes,
+                        global uint* begins, volatile global uint* counts, const uint leaves,
+                        const uint level)
 {
     local uint group_count, group_slot;
     const uint begin = begins[level], count = counts[level];
@@ -92,8 +93,8 @@ kernel void split_level(global const Code* restrict codes, global RadixWord* nod
 /// The nodes of `level` get the boxes around their children's, which the level below has. counts[level], which
 /// is done with, becomes zero for the next build, all but the root's.
 kernel void box_level(global const BoxWord* restrict leaf_boxes, global const uint* restrict ids,
-                      global RadixWord* nodes, global const uint* restrict begins, global uint* counts,
-                      const uint level)
+                      global RadixWord* nodes, global const uint* restrict begins,
+                      global uint* counts, const uint level)
 {
     const uint begin = begins[level];
     const Chunk chunk = own_chunk(begins[level + 1u] - begin);

@@ -98,8 +98,8 @@ private:
     const RadixLeaves* leaves_ = nullptr;
     uint levels_ = 0;          ///< of inner nodes, at most
     Buffer<std::byte> nodes_;  ///< level by level
-    Buffer<uint> begins_;      ///< one a level and one more
-    Buffer<uint> counts_;      ///< likewise
+    Buffer<uint> begins_;      ///< where each level begins in the nodes, and where the last ends
+    Buffer<uint> counts_;      ///< of nodes, one a level and one more
 };
 
 }  // namespace

@@ -96,8 +96,7 @@ public:
     const Tree& build(const Input& input, Queue& queue, Start start) override
     {
         if (start == Start::from_triangles)
-            queue.on_host("sort",
-                          [&] { leaves_ = host_leaf_order(leaf_boxes(input), order_); });
+            queue.on_host("sort", [&] { leaves_ = host_leaf_order(leaf_boxes(input), order_); });
         queue.on_host("hierarchy", [&] { tree_.tree = radix_tree(leaves_); });
         return tree_;
     }

@@ -19,7 +19,7 @@ std::size_t radix_node_bytes(const BoxFormat& format);
 std::vector<RadixNode> read_radix_nodes(std::span<const std::byte> stored,
                                         const BoxRounding& rounding);
 
-/// Boxes alone, likewise.
+/// The same of boxes that are stored alone.
 std::vector<Aabb> read_boxes(std::span<const std::byte> stored, const BoxRounding& rounding);
 
 /// A node of these parts.

@@ -113,8 +113,8 @@ bool KernelBuilder::may_wait() const
            device.tuned(implicit_waits) != 0;
 }
 
-/// Whether the device can give groups what the kernels were compiled to need. Whose boxes take half of it at most are not
-/// compiled to be asked: compilers add a few bytes.
+/// Whether the device has the local memory that the kernels need. Boxes that take at most half of it fit for sure, since
+/// compilers add only a few bytes; else the kernels are compiled to find out.
 bool KernelBuilder::fits(const Cut& cut) const
 {
     const std::size_t local = programs_.device().cl.getInfo<CL_DEVICE_LOCAL_MEM_SIZE>();

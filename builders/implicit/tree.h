@@ -14,14 +14,14 @@ namespace bvhbench {
 class ImplicitTree final : public DeviceTree {
 public:
     ImplicitLayout layout;
-    uint leaves = 0;  ///< of all objects
+    uint leaves = 0;       ///< of all objects
     uint most_leaves = 0;  ///< of one object
     bool sorted_leaves = false;
     const BoxFormat* format = &float_boxes();
     std::size_t slot_count = 0;  ///< of all objects
     Buffer<std::byte> nodes;     ///< by slot, a box of the format each
     Buffer<SceneCells> cells;    ///< one, of formats with cells
-    Buffer<Aabb> leaf_boxes;  ///< unless sorted
+    Buffer<Aabb> leaf_boxes;     ///< unless sorted
     Buffer<uint> ids;
 
     std::size_t node_count() const override;

@@ -5,17 +5,17 @@
 // Triangles to boxes, and in the same pass the bounds of them all. Every group or chunk leaves the bounds of what it saw
 // in `partials`. Who joins those is the last group to finish, where groups may meet (device/handoff.clh), else a launch of
 // its own. No float atomics.
-#include "device/handoff.clh"
 #include "builders/stages/bounds_parts.clh"
 #include "builders/stages/chunk.clh"
+#include "device/handoff.clh"
 
 /// boxes[k] is the box of faces[k], for all `count`; *result the bounds of them all. The groups together take `rounds`
 /// rounds of a group's size each. *arrivals is zero before and after. Unless they `meet`, nobody joins.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void bounds_groups(
-    POINTS_PARAMETERS(restrict), global const Face* restrict faces,
-    global float2* restrict boxes, global Bounds* partials,
-    global Bounds* restrict result, volatile global Arrivals* restrict arrivals, const uint count,
-    const uint rounds, const uint meet)
+    POINTS_PARAMETERS(restrict), global const Face* restrict faces, global float2* restrict boxes,
+    global Bounds* partials, global Bounds* restrict result,
+    volatile global Arrivals* restrict arrivals, const uint count, const uint rounds,
+    const uint meet)
 {
     local float2 staged[3u * GROUP_SIZE];
     local Bounds parts[GROUP_SIZE];

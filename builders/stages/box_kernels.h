@@ -21,9 +21,9 @@ public:
     template <class... Arguments>
     cl::Kernel& bound(const Input& input, const Arguments&... more)
     {
-        return input.is_swept() ? set_arguments(swept(), input.device_points,
-                                                input.device_end_points, more...)
-                                : set_arguments(of_frame_, input.device_points, more...);
+        return input.is_swept()
+                   ? set_arguments(swept(), input.device_points, input.device_end_points, more...)
+                   : set_arguments(of_frame_, input.device_points, more...);
     }
 
 private:

@@ -43,7 +43,8 @@ private:
 
     MedianShape shape_;
     uint units_;
-    uint local_leaves_ = 0;     ///< a work-item looks at, at a time, in a pass that counts in local memory
+    uint local_leaves_ =
+        0;  ///< a work-item looks at, at a time, in a pass that counts in local memory
     uint pass_group_size_ = 0;  ///< of one that counts in global memory
     uint pass_leaves_ = 0;
     uint chunk_levels_ = 0;  ///< halved by fewer work-items than there are cores, level by level
@@ -53,9 +54,9 @@ private:
     NumberAll number_;
     cl::Kernel clear_, first_pass_, local_pass_, pass_, last_pass_, halve_, halve_small_;
     Buffer<Aabb> cells_;     ///< of the nodes above blocks, numbered level by level
-    Buffer<CellCut> cuts_;   ///< likewise
-    Buffer<uint> lefts_;     ///< likewise: how many of those that wait go left
-    Buffer<uint> waiting_;   ///< likewise: how many wait
+    Buffer<CellCut> cuts_;   ///< one a node above blocks
+    Buffer<uint> lefts_;     ///< of each such node: how many of the leaves that wait go left
+    Buffer<uint> waiting_;   ///< of each such node: how many leaves wait
     Buffer<ulong> lists_;    ///< key and id of those that wait, where their nodes' leaves are
     Buffer<float> centres_;  ///< x of all, then y, then z
     Buffer<uint> nodes_;     ///< of each leaf: the position on its level of the node it is in

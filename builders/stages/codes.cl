@@ -10,42 +10,42 @@
 #include "geometry/box_words.clh"
 #include "geometry/hilbert.h"
 
-#define ORDER(name, Code, code_of_box)                                                          \
-    kernel void name(global const float2* restrict boxes, global const Bounds* restrict bounds, \
-                     global Code* restrict codes, const uint count)                             \
-    {                                                                                           \
-        const uint k = (uint)get_global_id(0);                                                  \
-        if (k < count) {                                                                        \
-            const Aabb box = load_box(boxes, k);                                                \
-            codes[k] = code_of_box;                                                             \
-        }                                                                                       \
-    }                                                                                           \
-                                                                                                \
-    kernel void name##_objects(                                                                 \
-        global const float2* restrict boxes, global const Bounds* restrict all_bounds,          \
-        global const uint* restrict owners, global Code* restrict codes, const uint count,      \
-        const uint dropped, const uint object_shift, const uint bounds_apart)                   \
-    {                                                                                           \
-        const uint k = (uint)get_global_id(0);                                                  \
-        if (k < count) {                                                                        \
-            const Aabb box = load_box(boxes, k);                                                \
-            const uint owner = owners[k];                                                       \
-            global const Bounds* bounds = all_bounds + bounds_apart * owner;                    \
-            codes[k] = ((Code)owner << object_shift) | ((code_of_box) >> dropped);              \
-        }                                                                                       \
-    }                                                                                           \
-                                                                                                \
-    kernel void name##_runs(                                                                    \
-        global const float2* restrict boxes, global const Bounds* restrict all_bounds,          \
-        global const uint4* restrict runs, global Code* restrict codes, const uint dropped,     \
-        const uint object_shift, const uint bounds_apart)                                       \
-    {                                                                                           \
-        const uint4 run = runs[get_group_id(0)];                                                \
-        global const Bounds* bounds = all_bounds + bounds_apart * run.z;                        \
-        for (uint k = run.x + (uint)get_local_id(0); k < run.y; k += (uint)get_local_size(0)) { \
-            const Aabb box = load_box(boxes, k);                                                \
-            codes[k - run.w] = ((Code)run.z << object_shift) | ((code_of_box) >> dropped);      \
-        }                                                                                       \
+#define ORDER(name, Code, code_of_box)                                                            \
+    kernel void name(global const float2* restrict boxes, global const Bounds* restrict bounds,   \
+                     global Code* restrict codes, const uint count)                               \
+    {                                                                                             \
+        const uint k = (uint)get_global_id(0);                                                    \
+        if (k < count) {                                                                          \
+            const Aabb box = load_box(boxes, k);                                                  \
+            codes[k] = code_of_box;                                                               \
+        }                                                                                         \
+    }                                                                                             \
+                                                                                                  \
+    kernel void name##_objects(                                                                   \
+        global const float2* restrict boxes, global const Bounds* restrict all_bounds,            \
+        global const uint* restrict owners, global Code* restrict codes, const uint count,        \
+        const uint dropped, const uint object_shift, const uint bounds_apart)                     \
+    {                                                                                             \
+        const uint k = (uint)get_global_id(0);                                                    \
+        if (k < count) {                                                                          \
+            const Aabb box = load_box(boxes, k);                                                  \
+            const uint owner = owners[k];                                                         \
+            global const Bounds* bounds = all_bounds + bounds_apart * owner;                      \
+            codes[k] = ((Code)owner << object_shift) | ((code_of_box) >> dropped);                \
+        }                                                                                         \
+    }                                                                                             \
+                                                                                                  \
+    kernel void name##_runs(global const float2* restrict boxes,                                  \
+                            global const Bounds* restrict all_bounds,                             \
+                            global const uint4* restrict runs, global Code* restrict codes,       \
+                            const uint dropped, const uint object_shift, const uint bounds_apart) \
+    {                                                                                             \
+        const uint4 run = runs[get_group_id(0)];                                                  \
+        global const Bounds* bounds = all_bounds + bounds_apart * run.z;                          \
+        for (uint k = run.x + (uint)get_local_id(0); k < run.y; k += (uint)get_local_size(0)) {   \
+            const Aabb box = load_box(boxes, k);                                                  \
+            codes[k - run.w] = ((Code)run.z << object_shift) | ((code_of_box) >> dropped);        \
+        }                                                                                         \
     }
 
 ORDER(morton30, uint, morton_30(cubic_cell(box, *bounds, CELLS_30)))

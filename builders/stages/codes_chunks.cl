@@ -66,11 +66,10 @@
                          0u, 0u);                                                                  \
     }                                                                                              \
                                                                                                    \
-    kernel void name##_objects(global const float* restrict boxes,                                 \
-                               global const Bounds* restrict all_bounds,                           \
-                               global const uint* restrict owners, global Code* restrict codes,    \
-                               const uint count, const uint dropped, const uint object_shift,      \
-                               const uint bounds_apart)                                            \
+    kernel void name##_objects(                                                                    \
+        global const float* restrict boxes, global const Bounds* restrict all_bounds,              \
+        global const uint* restrict owners, global Code* restrict codes, const uint count,         \
+        const uint dropped, const uint object_shift, const uint bounds_apart)                      \
     {                                                                                              \
         const Chunk chunk = own_chunk(count);                                                      \
         for (uint k = chunk.first, lanes; k < chunk.end; k += lanes) {                             \

@@ -13,7 +13,6 @@
 #include "builders/stages/number.h"
 #include "builders/stages/object_bounds.h"
 #include "builders/stages/sort.h"
-#include "builders/stages/standing_order.h"
 #include "geometry/bits.h"
 #include "geometry/error.h"
 
@@ -37,16 +36,11 @@ struct LeafOrder::Stages {
         uint dropped;       ///< bits of a box's code for which objects leave no room
         uint object_shift;  ///< where they begin
         ObjectRuns updated;
+        cl::Kernel put_runs;
     };
     std::optional<Several> several;
-    std::optional<StandingOrder> standing;  ///< once there are updates, unless there are medians
-    std::vector<uint> sizes;                ///< of the objects
-    bool reads_codes = false;
+    std::vector<uint> sizes;  ///< of the objects
 
-    /// What updates do.
-    bool is_whole = true;  ///< all objects are lined up
-    bool tries_order = false;
-    bool lines_up = true;  ///< any at all
     Programs& programs;
     KernelForm form;
     GridOver grid;
@@ -80,11 +74,12 @@ struct LeafOrder::Stages {
         several.emplace(
             Several{ObjectBounds(programs, form),
                     RadixSort(programs, kept + object_bits, sort_shape(programs.device(), form)),
-                    order.code_bits - kept, kept, ObjectRuns(programs.device(), form)});
+                    order.code_bits - kept, kept, ObjectRuns(programs.device(), form),
+                    programs.kernel("builders/stages/put_runs.cl", "put_runs")});
     }
 
     /// What follows the boxes, of all objects.
-    void line_up_all(const Input& input, Queue& queue, bool tries);
+    void line_up_all(const Input& input, Queue& queue);
     /// The same of those that are updated.
     void line_up_some(Queue& queue);
 
@@ -109,7 +104,6 @@ void LeafOrder::plan(Arena& arena, std::span<const uint> sizes, Use boxes, bool 
     const std::size_t primitives = std::accumulate(sizes.begin(), sizes.end(), std::size_t{0});
     stages.prepare_for(sizes.size());
     stages.sizes.assign(sizes.begin(), sizes.end());
-    stages.reads_codes = reads_codes;
     if (stages.several)
         stages.several->bounds.plan(arena, sizes, boxes, stages.grid == GridOver::scene);
     else
@@ -141,10 +135,10 @@ void LeafOrder::prepare(const cl::CommandQueue& queue)
 void LeafOrder::enqueue(const Input& input, Queue& queue)
 {
     enqueue_boxes(input, queue);
-    stages_->line_up_all(input, queue, false);
+    stages_->line_up_all(input, queue);
 }
 
-void LeafOrder::Stages::line_up_all(const Input& input, Queue& queue, bool tries)
+void LeafOrder::Stages::line_up_all(const Input& input, Queue& queue)
 {
     if (several)
         codes->enqueue(several->bounds.boxes(), grid_bounds(), input.device_owners,
@@ -152,13 +146,8 @@ void LeafOrder::Stages::line_up_all(const Input& input, Queue& queue, bool tries
                        queue);
     else if (codes)
         codes->enqueue(bounds.boxes(), bounds.bounds(), sort->unsorted_codes(), queue);
-    if (sort) {
-        RadixSort& all = sorting();
-        all.enqueue(queue,
-                    tries ? standing->enqueue_try(all.unsorted_codes(), queue) : SortUnlessIdle{});
-        if (tries && reads_codes)
-            standing->enqueue_codes(all.unsorted_codes(), all.codes(), all.other_codes(), queue);
-    }
+    if (sort)
+        sorting().enqueue(queue);
     if (!blocks)
         return;
     queue.begin("order");
@@ -172,13 +161,12 @@ void LeafOrder::Stages::line_up_all(const Input& input, Queue& queue, bool tries
 void LeafOrder::Stages::line_up_some(Queue& queue)
 {
     const ObjectRuns& runs = several->updated;
-    const Buffer<uint>& unsorted = several->sort.unsorted_codes();
-    codes->enqueue(several->bounds.boxes(), grid_bounds(), runs, unsorted, several->dropped,
-                   several->object_shift, queue);
-    const SortUnlessIdle unless =
-        tries_order ? standing->enqueue_try(unsorted, queue) : SortUnlessIdle{};
-    several->sort.enqueue_aside(queue, runs.lined_up_triangles(), unless);
-    standing->enqueue_put(several->sort.ids_aside(), ids, runs, unless, queue);
+    codes->enqueue(several->bounds.boxes(), grid_bounds(), runs, several->sort.unsorted_codes(),
+                   several->dropped, several->object_shift, queue);
+    several->sort.enqueue_aside(queue, runs.lined_up_triangles());
+    set_arguments(several->put_runs, several->sort.ids_aside(), runs.runs(), ids);
+    queue.launch(several->put_runs, runs.lined_up_count() * runs.group(), runs.group(),
+                 2 * std::int64_t{sizeof(uint)} * runs.lined_up_triangles());
 }
 
 void LeafOrder::enqueue_boxes(const Input& input, Queue& queue)
@@ -191,27 +179,12 @@ void LeafOrder::enqueue_boxes(const Input& input, Queue& queue)
 
 void LeafOrder::plan_updates(Arena& arena)
 {
-    Stages& stages = *stages_;
-    if (!stages.standing && stages.order.medians == Medians::nowhere)
-        stages.standing.emplace(stages.programs, stages.order.code_bits, stages.form);
-    if (stages.standing)
-        stages.standing->plan(arena, stages.ids.size());
-    if (!stages.several)
-        return;
-    stages.several->updated.plan(arena, stages.sizes);
-    stages.several->sort.plan_aside(arena);
+    stages_->several->updated.plan(arena, stages_->sizes);
+    stages_->several->sort.plan_aside(arena);
 }
 
-void LeafOrder::prepare_updates(const cl::CommandQueue& queue)
+void LeafOrder::begin_update(const cl::CommandQueue& queue, std::span<const TreeUpdate> updates)
 {
-    if (stages_->standing)
-        stages_->standing->prepare(queue);
-}
-
-void LeafOrder::begin_update(const cl::CommandQueue& queue, std::span<const TreeUpdate> updates,
-                             bool try_order)
-{
-    Stages& stages = *stages_;
     std::vector<uint> rebuilt, refitted;
     for (uint object = 0; object < updates.size(); ++object) {
         if (updates[object] == TreeUpdate::rebuild)
@@ -219,39 +192,18 @@ void LeafOrder::begin_update(const cl::CommandQueue& queue, std::span<const Tree
         else if (updates[object] == TreeUpdate::refit)
             refitted.push_back(object);
     }
-    stages.lines_up = !rebuilt.empty();
-    stages.is_whole = rebuilt.size() == updates.size();
-    stages.tries_order = try_order && stages.lines_up && stages.standing;
-    assert(stages.is_whole || stages.several);
-    if (!stages.is_whole)
-        stages.several->updated.choose(queue, rebuilt, refitted);
-    if (!stages.tries_order)
-        return;
-    if (stages.is_whole)
-        stages.standing->take(queue, stages.ids, static_cast<uint>(stages.ids.size()));
-    else
-        stages.standing->take(queue, stages.ids, stages.several->updated);
+    stages_->several->updated.choose(queue, rebuilt, refitted);
 }
 
 void LeafOrder::enqueue_update(const Input& input, Queue& queue)
 {
-    Stages& stages = *stages_;
-    if (stages.is_whole) {
-        enqueue_boxes(input, queue);
-        stages.line_up_all(input, queue, stages.tries_order);
-        return;
-    }
-    stages.several->bounds.enqueue(input, stages.several->updated, queue);
-    if (stages.lines_up)
-        stages.line_up_some(queue);
+    LeafOrder::Stages::Several& several = *stages_->several;
+    several.bounds.enqueue(input, several.updated, queue);
+    if (several.updated.lined_up_count() > 0)
+        stages_->line_up_some(queue);
 }
 
 const ObjectRuns& LeafOrder::updated() const { return stages_->several->updated; }
-
-bool LeafOrder::sorted_anew(const cl::CommandQueue& queue) const
-{
-    return stages_->lines_up && !(stages_->tries_order && stages_->standing->held(queue));
-}
 
 const Buffer<Aabb>& LeafOrder::boxes() const
 {

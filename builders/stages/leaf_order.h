@@ -47,24 +47,18 @@ public:
     /// Enqueue the first stage only: new boxes, and the order that was. Does not wait.
     void enqueue_boxes(const Input& input, Queue& queue);
 
-    /// Take what updates need besides, for as many objects as were planned.
+    /// Takes the memory that updates of some of several objects need besides.
     void plan_updates(Arena& arena);
-    void prepare_updates(const cl::CommandQueue& queue);  ///< as `prepare`
 
-    /// What updates from here on do for each object: line up those that are rebuilt, and make the boxes of those that
-    /// are refitted too. If not all are rebuilt, there must be several. With `try_order`, they try the order in which
-    /// leaves are now before they sort; orders with medians do not. Never timed. Waits.
-    void begin_update(const cl::CommandQueue& queue, std::span<const TreeUpdate> updates,
-                      bool try_order);
+    /// Plans the next updates: of objects that are rebuilt, leaves are lined up anew; of those that are refitted, boxes are
+    /// made. Never timed. Waits.
+    void begin_update(const cl::CommandQueue& queue, std::span<const TreeUpdate> updates);
 
-    /// Enqueue the stages of such an update; other objects' boxes and ids stay. Allocates nothing and does not wait.
+    /// Enqueues the stages of such an update; other objects' boxes and ids stay. Allocates nothing and does not wait.
     void enqueue_update(const Input& input, Queue& queue);
 
     /// The triangles that an update of some of several objects is about.
     const ObjectRuns& updated() const;
-
-    /// Whether the last update has put leaves in an order, and not found them in it. Waits.
-    bool sorted_anew(const cl::CommandQueue& queue) const;
 
     const Buffer<Aabb>& boxes() const;     ///< one a triangle, in mesh order
     const Buffer<Bounds>& bounds() const;  ///< one an object: of its boxes and of their centres

@@ -10,9 +10,8 @@
 /// boxes[k] is the box of faces[k]; partials[g] the bounds of runs[g], ROUNDS times a group's size
 /// at most.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void runs_groups(
-    POINTS_PARAMETERS(restrict), global const Face* restrict faces,
-    global float2* restrict boxes, global Bounds* restrict partials,
-    global const uint4* restrict runs)
+    POINTS_PARAMETERS(restrict), global const Face* restrict faces, global float2* restrict boxes,
+    global Bounds* restrict partials, global const uint4* restrict runs)
 {
     local float2 staged[3u * GROUP_SIZE];
     local Bounds parts[GROUP_SIZE];

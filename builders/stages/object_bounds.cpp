@@ -55,8 +55,8 @@ void ObjectBounds::enqueue_chosen(const Input& input, const ObjectRuns& chosen, 
     // Of the points those of the chosen objects, of which an equal share is as good a guess as any.
     const double share =
         static_cast<double>(chosen.triangles()) / static_cast<double>(boxes_.size());
-    const auto moved = static_cast<double>(input.point_bytes() + input.device_faces.bytes() +
-                                           boxes_.bytes());
+    const auto moved =
+        static_cast<double>(input.point_bytes() + input.device_faces.bytes() + boxes_.bytes());
     queue.launch(boxes_kernel_.bound(input, input.device_faces, boxes_, partials_, chosen.runs()),
                  chosen.count() * chosen.group(), chosen.group(),
                  static_cast<std::int64_t>(share * moved));

@@ -40,8 +40,11 @@ public:
     std::size_t group() const { return form_ == KernelForm::groups ? group_size_ : 1; }
 
     std::size_t count() const { return count_; }
-    std::size_t lined_up_count() const { return lined_up_count_; }      ///< so many runs come first
-    std::size_t lined_up_objects() const { return lined_up_objects_; }  ///< likewise objects
+    std::size_t lined_up_count() const
+    {
+        return lined_up_count_;
+    }  ///< runs of objects that are lined up
+    std::size_t lined_up_objects() const { return lined_up_objects_; }  ///< how many of those
     uint triangles() const { return triangles_; }
     uint lined_up_triangles() const { return lined_up_triangles_; }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "builders/stages/tile_digits.h"
 #include "geometry/bits.h"
 
 namespace bvhbench {
@@ -11,7 +12,6 @@ namespace {
 
 constexpr auto groups_path = "builders/stages/sort_groups.cl";
 constexpr auto chunks_path = "builders/stages/sort_chunks.cl";
-constexpr uint group_digit_bits = 8;  // two rounds of sort_tile
 
 std::int64_t bytes(std::size_t words) { return static_cast<std::int64_t>(words * sizeof(uint)); }
 
@@ -42,7 +42,7 @@ RadixSort::RadixSort(Programs& programs, unsigned code_bits, SortShape shape)
     if (shape_.form == KernelForm::groups &&
         (shape.sweeps == always ||
          (shape.sweeps == of_device && programs.device().lets_groups_wait()))) {
-        digit_bits_ = group_digit_bits;
+        digit_bits_ = tile_digit_bits;
         sweeps_.emplace(programs, code_bits, shape.sweep_group_size,
                         std::max(1u, shape.sweep_keys_per_item / words));
         if (shape.at_once)
@@ -56,10 +56,11 @@ RadixSort::RadixSort(Programs& programs, unsigned code_bits, SortShape shape)
             return programs.kernel(groups_path, name,
                                    {{"GROUP_SIZE", shape.group_size},
                                     {"KEYS_PER_ITEM", shape.keys_per_item},
-                                    {"CODE_WORDS", words}},
+                                    {"CODE_WORDS", words},
+                                    {"DIGIT_BITS", tile_digit_bits}},
                                    Optimise::on_gpus);
         };
-        digit_bits_ = group_digit_bits;
+        digit_bits_ = tile_digit_bits;
         count_ = kernel("count_tiles");
         scan_ = kernel("scan_digits");
         scatter_ = kernel("scatter_tiles");
@@ -116,42 +117,36 @@ void RadixSort::prepare(const cl::CommandQueue& queue)
 
 void RadixSort::plan_aside(Arena& arena) { aside_ = arena.take<uint>(size_, Use::scratch); }
 
-void RadixSort::enqueue(Queue& queue, const SortUnlessIdle& unless)
-{
-    enqueue_passes(queue, static_cast<uint>(size_), ids(), unless);
-}
+void RadixSort::enqueue(Queue& queue) { enqueue_passes(queue, static_cast<uint>(size_), ids()); }
 
-void RadixSort::enqueue_aside(Queue& queue, uint count, const SortUnlessIdle& unless)
+void RadixSort::enqueue_aside(Queue& queue, uint count)
 {
     assert(count > 0 && count <= aside_.size());
-    enqueue_passes(queue, count, aside_, unless);
+    enqueue_passes(queue, count, aside_);
 }
 
-void RadixSort::enqueue_passes(Queue& queue, uint count, const Buffer<uint>& result,
-                               const SortUnlessIdle& unless)
+void RadixSort::enqueue_passes(Queue& queue, uint count, const Buffer<uint>& result)
 {
-    if (unless.build == 0)  // else whoever looked has begun it
-        queue.begin("sort");
+    queue.begin("sort");
     if (count == 0)
         return;
     const Buffer<uint>& other = ids_[(passes_ + 1) % 2];
     if (is_at_once()) {
-        at_once_->enqueue(codes_, result, other, count, unless, queue);
+        at_once_->enqueue(codes_, result, other, count, queue);
         return;
     }
     if (sweeps_) {
-        sweeps_->enqueue(codes_, result, other, count, unless, queue);
+        sweeps_->enqueue(codes_, result, other, count, queue);
         return;
     }
     for (uint pass = 0; pass < passes_; ++pass) {
         const bool to_result = (passes_ - pass) % 2 == 1;
-        enqueue_pass(queue, pass, count, to_result ? other : result, to_result ? result : other,
-                     unless);
+        enqueue_pass(queue, pass, count, to_result ? other : result, to_result ? result : other);
     }
 }
 
 void RadixSort::enqueue_pass(Queue& queue, uint pass, uint count, const Buffer<uint>& ids_in,
-                             const Buffer<uint>& ids_out, const SortUnlessIdle& unless)
+                             const Buffer<uint>& ids_out)
 {
     const uint runs = run_count(count);
     const uint shift = pass * digit_bits_;
@@ -159,8 +154,6 @@ void RadixSort::enqueue_pass(Queue& queue, uint pass, uint count, const Buffer<u
     const uint is_first = pass == 0 ? 1 : 0;
     const Buffer<uint>& codes_in = codes_[pass % 2];
     const Buffer<uint>& codes_out = codes_[(pass + 1) % 2];
-    // Of a build that does not look, the number is read and no more.
-    const Buffer<uint>& unsorted = unless.build == 0 ? counts_ : unless.unsorted;
 
     const std::size_t table = (std::size_t{mask} + 1) * runs;
     const std::size_t words = std::size_t{count} * code_words(code_bits_);
@@ -169,19 +162,19 @@ void RadixSort::enqueue_pass(Queue& queue, uint pass, uint count, const Buffer<u
     const std::int64_t scatter_bytes =
         bytes(2 * words + (2 - is_first) * std::size_t{count} + table);
 
-    set_arguments(count_, codes_in, counts_, count, shift, mask, unsorted, unless.build);
+    set_arguments(count_, codes_in, counts_, count, shift, mask);
     if (shape_.form == KernelForm::groups) {
-        set_arguments(scan_, counts_, totals_, runs, unsorted, unless.build);
+        set_arguments(scan_, counts_, totals_, runs);
         set_arguments(scatter_, codes_in, ids_in, codes_out, ids_out, counts_, totals_, count,
-                      shift, mask, is_first, unsorted, unless.build);
+                      shift, mask, is_first);
         const std::size_t group = shape_.group_size;
         queue.launch(count_, runs * group, group, count_bytes);
         queue.launch(scan_, (mask + 1) * group, group, scan_bytes);
         queue.launch(scatter_, runs * group, group, scatter_bytes);
     } else {
-        set_arguments(scan_, counts_, static_cast<uint>(table), unsorted, unless.build);
+        set_arguments(scan_, counts_, static_cast<uint>(table));
         set_arguments(scatter_, codes_in, ids_in, codes_out, ids_out, counts_, count, shift, mask,
-                      is_first, unsorted, unless.build);
+                      is_first);
         queue.launch(count_, runs, 1, count_bytes);
         queue.launch(scan_, 1, 1, scan_bytes);
         queue.launch(scatter_, runs, 1, scatter_bytes);

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "builders/stages/codes.h"
-#include "builders/stages/idle.h"
 #include "builders/stages/kernel_form.h"
 #include "builders/stages/sort_at_once.h"
 #include "builders/stages/sweep.h"
@@ -51,26 +50,22 @@ public:
     const Buffer<uint>& unsorted_codes() const { return codes_[0]; }
 
     /// Enqueue the sort. Allocates nothing and does not wait.
-    void enqueue(Queue& queue, const SortUnlessIdle& unless = {});
+    void enqueue(Queue& queue);
 
     /// The same of the first `count` pairs only, at least one. Their ids go to `ids_aside` and leave those of an
     /// earlier sort as they are.
-    void enqueue_aside(Queue& queue, uint count, const SortUnlessIdle& unless = {});
+    void enqueue_aside(Queue& queue, uint count);
 
     const Buffer<uint>& ids_aside() const { return aside_; }
-    /// Nobody's after an even number of passes; after an odd one, `codes`.
-    const Buffer<uint>& other_codes() const { return codes_[1]; }
-
     const Buffer<uint>& codes() const { return codes_[passes_ % 2]; }  ///< ascending
     const Buffer<uint>& ids() const { return ids_[passes_ % 2]; }      ///< of the sorted codes
 
 private:
     uint run_count(std::size_t size) const;
     bool is_at_once() const { return at_once_ && at_once_->takes(size_); }
-    void enqueue_passes(Queue& queue, uint count, const Buffer<uint>& result,
-                        const SortUnlessIdle& unless);
+    void enqueue_passes(Queue& queue, uint count, const Buffer<uint>& result);
     void enqueue_pass(Queue& queue, uint pass, uint count, const Buffer<uint>& ids_in,
-                      const Buffer<uint>& ids_out, const SortUnlessIdle& unless);
+                      const Buffer<uint>& ids_out);
 
     SortShape shape_;
     uint code_bits_;
@@ -79,10 +74,11 @@ private:
     std::size_t chunks_;
     cl::Kernel count_, scan_, scatter_;  ///< unless it sweeps
     std::optional<DigitSweeps> sweeps_;
-    std::optional<SortAtOnce> at_once_;  ///< where there are sweeps, and takes their place for few pairs
+    std::optional<SortAtOnce>
+        at_once_;  ///< where there are sweeps, and takes their place for few pairs
     std::size_t size_ = 0;
     std::array<Buffer<uint>, 2> codes_;  ///< pass p goes from [p % 2] to the other
-    std::array<Buffer<uint>, 2> ids_;    ///< likewise
+    std::array<Buffer<uint>, 2> ids_;    ///< pass p reads one and writes the other
     Buffer<uint> aside_;
     Buffer<uint> counts_;  ///< a row a digit, a column a tile or chunk
     Buffer<uint> totals_;  ///< groups only: one a digit

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// check: -DGROUP_SIZE=512u -DKEYS_PER_ITEM=4u -DCODE_WORDS=1u
-// check: -DGROUP_SIZE=32u -DKEYS_PER_ITEM=3u -DCODE_WORDS=2u
+// check: -DGROUP_SIZE=512u -DKEYS_PER_ITEM=4u -DCODE_WORDS=1u -DDIGIT_BITS=8u -DSTATE_EPOCH_BITS=31u
+// check: -DGROUP_SIZE=32u -DKEYS_PER_ITEM=3u -DCODE_WORDS=2u -DDIGIT_BITS=8u -DSTATE_EPOCH_BITS=31u
 //
 // The passes of sweep.cl in one launch, for so few pairs that each group has one tile and all of them run at the same
 // time. Nobody counts beforehand and nobody looks back tile by tile: each group reads what every other one says of its
@@ -8,7 +8,6 @@
 // until all have written their pairs, and each goes on with those that stand where its tile is.
 //
 // Buffers change hands within the launch: none is restrict, so that none is read by way of a cache that is not kept up.
-#include "builders/stages/idle.clh"
 #include "builders/stages/look_back.clh"
 #include "builders/stages/tile_digits.clh"
 
@@ -18,8 +17,8 @@
 
 /// Add to totals[d] how many pairs of digit d there are, and to before[d] how many of those are in tiles before `own`.
 static inline void read_tiles(local uint* const totals, local uint* const before,
-                              volatile global const ulong* states, const uint own,
-                              const uint tiles, const uint epoch)
+                              volatile global const ulong* states, const uint own, const uint tiles,
+                              const uint epoch)
 {
     for (uint work = (uint)get_local_id(0); work < DIGITS * PARTS; work += GROUP_SIZE) {
         const uint digit = work % DIGITS;
@@ -48,22 +47,20 @@ static inline void read_tiles(local uint* const totals, local uint* const before
 /// so are the `passes` - 1 behind it, of no earlier pass.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void sort_at_once(
     global Code* codes_a, global uint* ids_a, global Code* codes_b, global uint* ids_b,
-    volatile global ulong* states, const uint count, const uint passes, const uint epoch,
-    global const uint* unsorted, const uint build)
+    volatile global ulong* states, const uint count, const uint passes, const uint epoch)
 {
     local uint words[SCRATCH_WORDS] __attribute__((aligned(8)));
     local uint starts[DIGITS];  // where the digit's pairs start in the sorted tile
-    local uint places[DIGITS];  // of how many there are at all, where those of the tile go, less that
+    local uint places
+        [DIGITS];  // first the pairs of each digit, then where the digit starts in the output, minus starts[digit]
     local uint before[DIGITS];  // how many there are in tiles before
     local uint team_sums[TEAMS];
-    if (is_idle(unsorted, build))
-        return;
     const uint item = (uint)get_local_id(0), tile = (uint)get_group_id(0);
     const uint tiles = (uint)get_num_groups(0);
     const uint first = tile * TILE, here = min(TILE, count - first);
     for (uint pass = 0u; pass < passes; ++pass) {
         const bool is_even = pass % 2u == 0u;
-        const uint shift = 8u * pass, now = epoch + pass;
+        const uint shift = DIGIT_BITS * pass, now = epoch + pass;
         for (uint k = item; k < TEAMS * DIGITS; k += GROUP_SIZE)
             words[k] = 0u;
         for (OWN_DIGITS(digit))

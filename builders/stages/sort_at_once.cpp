@@ -5,21 +5,21 @@
 #include <cassert>
 
 #include "builders/stages/codes.h"
+#include "builders/stages/tile_digits.h"
 #include "geometry/bits.h"
 
 namespace bvhbench {
 namespace {
 
-constexpr uint digits = 256;                 // as in tile_digits.clh
-constexpr uint fewest_keys = 4;              // a work-item: with fewer, groups read more of each other than they sort
-constexpr uint last_epoch = (1u << 31) - 1;  // STATE_EPOCH_SHIFT of look_back.clh
+constexpr uint fewest_keys =
+    4;  // a work-item: with fewer, groups read more of each other than they sort
 
 }  // namespace
 
 SortAtOnce::SortAtOnce(Programs& programs, unsigned code_bits, uint group_size, uint most_keys)
     : programs_(programs)
     , code_bits_(code_bits)
-    , passes_(divided_up(code_bits, 8u))
+    , passes_(divided_up(code_bits, tile_digit_bits))
     , group_size_(group_size)
     , most_keys_(most_keys)
     , most_tiles_(programs.device().lets_groups_wait()
@@ -38,16 +38,19 @@ void SortAtOnce::plan(Arena& arena, std::size_t size)
 {
     assert(takes(size));
     const auto count = static_cast<uint>(size);
-    const uint keys = std::min(
-        most_keys_, std::max(fewest_keys, divided_up(count, group_size_ * most_tiles_)));
+    const uint keys =
+        std::min(most_keys_, std::max(fewest_keys, divided_up(count, group_size_ * most_tiles_)));
     tile_ = group_size_ * keys;
     epoch_ = 1;
     sort_ = programs_.kernel("builders/stages/sort_at_once.cl", "sort_at_once",
                              {{"GROUP_SIZE", group_size_},
                               {"KEYS_PER_ITEM", keys},
-                              {"CODE_WORDS", code_words(code_bits_)}},
+                              {"CODE_WORDS", code_words(code_bits_)},
+                              {"DIGIT_BITS", tile_digit_bits},
+                              {"STATE_EPOCH_BITS", state_epoch_bits}},
                              Optimise::on_gpus);
-    states_ = arena.take<ulong>(std::size_t{divided_up(count, tile_)} * (digits + 1), Use::scratch);
+    states_ =
+        arena.take<ulong>(std::size_t{divided_up(count, tile_)} * (tile_digits + 1), Use::scratch);
 }
 
 void SortAtOnce::prepare(const cl::CommandQueue& queue)
@@ -59,8 +62,7 @@ void SortAtOnce::prepare(const cl::CommandQueue& queue)
 }
 
 void SortAtOnce::enqueue(const std::array<Buffer<uint>, 2>& codes, const Buffer<uint>& result,
-                         const Buffer<uint>& other, uint count, const SortUnlessIdle& unless,
-                         Queue& queue)
+                         const Buffer<uint>& other, uint count, Queue& queue)
 {
     if (epoch_ > last_epoch - passes_) {
         queue.clear(states_.cl(), states_.bytes());
@@ -70,12 +72,9 @@ void SortAtOnce::enqueue(const std::array<Buffer<uint>, 2>& codes, const Buffer<
     const bool is_odd = passes_ % 2 == 1;
     const Buffer<uint>& ids_a = is_odd ? other : result;
     const Buffer<uint>& ids_b = is_odd ? result : other;
-    // Of a build that does not look, the number is read and no more.
-    const Buffer<uint>& unsorted = unless.build == 0 ? codes[0] : unless.unsorted;
     const std::int64_t id_bytes = std::int64_t{count} * sizeof(uint);
     const std::int64_t code_bytes = id_bytes * code_words(code_bits_);
-    set_arguments(sort_, codes[0], ids_a, codes[1], ids_b, states_, count, passes_, epoch_,
-                  unsorted, unless.build);
+    set_arguments(sort_, codes[0], ids_a, codes[1], ids_b, states_, count, passes_, epoch_);
     queue.launch(sort_, std::size_t{divided_up(count, tile_)} * group_size_, group_size_,
                  passes_ * 2 * (code_bytes + id_bytes) - id_bytes);
     epoch_ += passes_;

@@ -3,7 +3,6 @@
 
 #include <array>
 
-#include "builders/stages/idle.h"
 #include "device/arena.h"
 #include "device/program.h"
 #include "device/queue.h"
@@ -27,10 +26,10 @@ public:
     /// Write down what `enqueue` expects and leaves as it was. Waits.
     void prepare(const cl::CommandQueue& queue);
 
-    /// Sort the first `count` from codes[0], with ids 0, 1, 2, …, unless idle. Codes end in the buffer that the number of
+    /// Sort the first `count` from codes[0], with ids 0, 1, 2, …. Codes end in the buffer that the number of
     /// passes leads to, ids in `result`, by way of `other`. Does not wait.
     void enqueue(const std::array<Buffer<uint>, 2>& codes, const Buffer<uint>& result,
-                 const Buffer<uint>& other, uint count, const SortUnlessIdle& unless, Queue& queue);
+                 const Buffer<uint>& other, uint count, Queue& queue);
 
 private:
     Programs& programs_;

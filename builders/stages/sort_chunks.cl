@@ -8,21 +8,15 @@
 //     count_chunks    counts[d][c]  how often chunk c holds digit d
 //     scan_chunks     counts[d][c]  where the first pair of chunk c with digit d goes
 //     scatter_chunks  pairs, to their places
-//
-// All of them do nothing where is_idle() says so.
 #include "builders/stages/chunk.clh"
 #include "builders/stages/code.clh"
-#include "builders/stages/idle.clh"
 
 #define DIGITS (1u << DIGIT_BITS)
 
 /// counts[d][c] of chunk c, this work-item's. `mask` is the largest digit there is.
 kernel void count_chunks(global const Code* restrict codes, global uint* restrict counts,
-                         const uint count, const uint shift, const uint mask,
-                         global const uint* unsorted, const uint build)
+                         const uint count, const uint shift, const uint mask)
 {
-    if (is_idle(unsorted, build))
-        return;
     uint histogram[DIGITS];
     for (uint digit = 0u; digit < DIGITS; ++digit)
         histogram[digit] = 0u;
@@ -34,11 +28,8 @@ kernel void count_chunks(global const Code* restrict codes, global uint* restric
 }
 
 /// Each of the `count_size` counts becomes the sum of all before it. One work-item.
-kernel void scan_chunks(global uint* restrict counts, const uint count_size,
-                        global const uint* unsorted, const uint build)
+kernel void scan_chunks(global uint* restrict counts, const uint count_size)
 {
-    if (is_idle(unsorted, build))
-        return;
     uint before = 0u;
     for (uint k = 0u; k < count_size; ++k) {
         const uint own = counts[k];
@@ -52,11 +43,8 @@ kernel void scan_chunks(global uint* restrict counts, const uint count_size,
 kernel void scatter_chunks(global const Code* restrict codes_in, global const uint* restrict ids_in,
                            global Code* restrict codes_out, global uint* restrict ids_out,
                            global const uint* restrict counts, const uint count, const uint shift,
-                           const uint mask, const uint is_first_pass, global const uint* unsorted,
-                           const uint build)
+                           const uint mask, const uint is_first_pass)
 {
-    if (is_idle(unsorted, build))
-        return;
     uint places[DIGITS];
     for (uint digit = 0u; digit <= mask; ++digit)
         places[digit] = counts[digit * get_global_size(0) + get_global_id(0)];

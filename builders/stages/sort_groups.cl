@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// check: -DGROUP_SIZE=256u -DKEYS_PER_ITEM=15u -DCODE_WORDS=1u
-// check: -DGROUP_SIZE=64u -DKEYS_PER_ITEM=3u -DCODE_WORDS=2u
+// check: -DGROUP_SIZE=256u -DKEYS_PER_ITEM=15u -DCODE_WORDS=1u -DDIGIT_BITS=8u
+// check: -DGROUP_SIZE=64u -DKEYS_PER_ITEM=3u -DCODE_WORDS=2u -DDIGIT_BITS=8u
 //
 // One pass of a stable radix sort of (code, id) pairs by a digit of up to eight bits, in groups. A group
 // owns a tile of neighbouring pairs. Three launches a pass:
@@ -8,13 +8,10 @@
 //     count_tiles     counts[d][t]  how often tile t holds digit d
 //     scan_digits     counts[d][t]  how often the tiles before t do; totals[d] all tiles together
 //     scatter_tiles   pairs, to where smaller digits, earlier tiles and earlier pairs end
-//
-// All of them do nothing where is_idle() says so.
 #include "builders/stages/code.clh"
-#include "builders/stages/idle.clh"
 #include "builders/stages/tile_sort.clh"
 
-#define DIGITS 256u
+#define DIGITS (1u << DIGIT_BITS)
 #define DIGITS_PER_ITEM (DIGITS / GROUP_SIZE)
 
 /// Pairs in this group's tile: TILE in all but the last.
@@ -26,11 +23,9 @@ static inline uint pairs_here(const uint count)
 /// counts[d][t] of tile t, this group's. `mask` is the largest digit there is.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void count_tiles(
     global const Code* restrict codes, global uint* restrict counts, const uint count,
-    const uint shift, const uint mask, global const uint* unsorted, const uint build)
+    const uint shift, const uint mask)
 {
     local uint histogram[DIGITS];
-    if (is_idle(unsorted, build))
-        return;
     const uint item = (uint)get_local_id(0);
     const uint first = (uint)get_group_id(0) * TILE;
     const uint here = pairs_here(count);
@@ -48,12 +43,9 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void count_tiles(
 /// Row d of `counts`, d this group's number, becomes the sums of what came before in the row; totals[d] the
 /// sum of the row.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void scan_digits(
-    global uint* restrict counts, global uint* restrict totals, const uint tiles,
-    global const uint* unsorted, const uint build)
+    global uint* restrict counts, global uint* restrict totals, const uint tiles)
 {
     local uint scratch[SCAN_SCRATCH];
-    if (is_idle(unsorted, build))
-        return;
     global uint* const row = counts + get_group_id(0) * tiles;
     uint before_round = 0u;
     for (uint first = 0u; first < tiles; first += GROUP_SIZE) {
@@ -96,37 +88,35 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void scatter_tile
     global const Code* restrict codes_in, global const uint* restrict ids_in,
     global Code* restrict codes_out, global uint* restrict ids_out,
     global const uint* restrict counts, global const uint* restrict totals, const uint count,
-    const uint shift, const uint mask, const uint is_first_pass, global const uint* unsorted,
-    const uint build)
+    const uint shift, const uint mask, const uint is_first_pass)
 {
     local uint tile[TILE];
     local uint counters[COUNTER_SCRATCH];
     local uint scratch[SCAN_SCRATCH];
     local uint places[DIGITS];
-    if (is_idle(unsorted, build))
-        return;
     const uint item = (uint)get_local_id(0);
     const uint first = (uint)get_group_id(0) * TILE;
     const uint here = pairs_here(count);
 
     // What fills up the last tile has the largest digit and comes last, before and after sorting.
     for (uint k = item; k < TILE; k += GROUP_SIZE)
-        tile[k] = k << 8u | (k < here ? digit_of(codes_in[first + k], shift, mask) : DIGITS - 1u);
+        tile[k] =
+            k << DIGIT_BITS | (k < here ? digit_of(codes_in[first + k], shift, mask) : DIGITS - 1u);
     find_places(counts, totals, mask, places, scratch);
     // A loop, not two calls: inlining the second crashes PoCL 3.1.
-    for (uint half_digit = 0u; half_digit < 8u; half_digit += 4u)
+    for (uint half_digit = 0u; half_digit < DIGIT_BITS; half_digit += 4u)
         sort_tile(tile, counters, scratch, half_digit);
 
     // The run of digit d starts at some k of the sorted tile: afterwards places[d] + k is right for all of it.
     for (uint k = item; k < here; k += GROUP_SIZE) {
-        const uint digit = tile[k] & 255u;
-        if (k == 0u || digit != (tile[k - 1u] & 255u))
+        const uint digit = tile[k] & (DIGITS - 1u);
+        if (k == 0u || digit != (tile[k - 1u] & (DIGITS - 1u)))
             places[digit] -= k;
     }
     barrier(CLK_LOCAL_MEM_FENCE);
     for (uint k = item; k < here; k += GROUP_SIZE) {
-        const uint from = first + (tile[k] >> 8u);
-        const uint to = places[tile[k] & 255u] + k;
+        const uint from = first + (tile[k] >> DIGIT_BITS);
+        const uint to = places[tile[k] & (DIGITS - 1u)] + k;
         codes_out[to] = codes_in[from];
         ids_out[to] = is_first_pass != 0u ? from : ids_in[from];
     }

@@ -6,14 +6,13 @@
 
 #include "builders/parameters.h"
 #include "builders/stages/codes.h"
+#include "builders/stages/tile_digits.h"
 #include "geometry/bits.h"
 
 namespace bvhbench {
 namespace {
 
 constexpr auto path = "builders/stages/sweep.cl";
-constexpr uint digits = 256, most_passes = 8;    // as in sweep.cl
-constexpr uint last_epoch = (1u << 31) - 1;      // STATE_EPOCH_SHIFT of look_back.clh
 
 }  // namespace
 
@@ -21,7 +20,7 @@ DigitSweeps::DigitSweeps(Programs& programs, unsigned code_bits, uint group_size
                          uint keys_per_item)
     : programs_(programs)
     , code_bits_(code_bits)
-    , passes_(divided_up(code_bits, 8u))
+    , passes_(divided_up(code_bits, tile_digit_bits))
     , group_size_(group_size)
     , most_keys_(keys_per_item)
     , units_(programs.device().cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>())
@@ -43,7 +42,10 @@ void DigitSweeps::plan(Arena& arena, std::size_t size)
         return programs_.kernel(path, name,
                                 {{"GROUP_SIZE", group_size_},
                                  {"KEYS_PER_ITEM", keys},
-                                 {"CODE_WORDS", code_words(code_bits_)}},
+                                 {"CODE_WORDS", code_words(code_bits_)},
+                                 {"DIGIT_BITS", tile_digit_bits},
+                                 {"MOST_PASSES", most_tile_passes},
+                                 {"STATE_EPOCH_BITS", state_epoch_bits}},
                                 Optimise::on_gpus);
     };
     count_ = kernel("count_digits");
@@ -52,9 +54,9 @@ void DigitSweeps::plan(Arena& arena, std::size_t size)
     epoch_ = 0;
     turn_ = 0;
     for (Buffer<uint>& counters : counters_)
-        counters = arena.take<uint>(most_passes * (digits + 1), Use::scratch);
-    states_ = arena.take<ulong>(std::size_t{divided_up(static_cast<uint>(size), tile_)} * digits,
-                                Use::scratch);
+        counters = arena.take<uint>(most_tile_passes * (tile_digits + 1), Use::scratch);
+    states_ = arena.take<ulong>(
+        std::size_t{divided_up(static_cast<uint>(size), tile_)} * tile_digits, Use::scratch);
 }
 
 void DigitSweeps::prepare(const cl::CommandQueue& queue)
@@ -68,8 +70,7 @@ void DigitSweeps::prepare(const cl::CommandQueue& queue)
 }
 
 void DigitSweeps::enqueue(const std::array<Buffer<uint>, 2>& codes, const Buffer<uint>& result,
-                          const Buffer<uint>& other, uint count, const SortUnlessIdle& unless,
-                          Queue& queue)
+                          const Buffer<uint>& other, uint count, Queue& queue)
 {
     const uint tiles = divided_up(count, tile_);
     if (epoch_ > last_epoch - passes_) {
@@ -78,21 +79,19 @@ void DigitSweeps::enqueue(const std::array<Buffer<uint>, 2>& codes, const Buffer
     }
     const Buffer<uint>& counters = counters_[turn_];
     turn_ = 1 - turn_;
-    // Of a build that does not look, the number is read and no more.
-    const Buffer<uint>& unsorted = unless.build == 0 ? counters : unless.unsorted;
     const std::size_t id_bytes = count * sizeof(uint);
     const std::size_t code_bytes = id_bytes * code_words(code_bits_);
 
-    set_arguments(count_, codes[0], counters, count, code_bits_, unsorted, unless.build);
+    set_arguments(count_, codes[0], counters, count, code_bits_);
     const std::size_t counting = units_ * programs_.device().tuned(sweep_counting_groups_per_unit);
-    queue.launch(count_, std::min<std::size_t>(tiles, counting) * group_size_,
-                 group_size_, static_cast<std::int64_t>(code_bytes));
+    queue.launch(count_, std::min<std::size_t>(tiles, counting) * group_size_, group_size_,
+                 static_cast<std::int64_t>(code_bytes));
     for (uint pass = 0; pass < passes_; ++pass) {
         const bool to_result = (passes_ - pass) % 2 == 1;
         const Buffer<uint>& from = to_result ? other : result;
         const Buffer<uint>& to = to_result ? result : other;
         set_arguments(sweep_, codes[pass % 2], from, codes[(pass + 1) % 2], to, counters,
-                      counters_[turn_], states_, count, pass, ++epoch_, unsorted, unless.build);
+                      counters_[turn_], states_, count, pass, ++epoch_);
         queue.launch(sweep_, std::size_t{tiles} * group_size_, group_size_,
                      static_cast<std::int64_t>(2 * code_bytes + (pass == 0 ? 1 : 2) * id_bytes));
     }

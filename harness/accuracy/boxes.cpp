@@ -16,29 +16,14 @@ namespace {
 
 using enum Table::Align;
 
-/// Boxes as points of a grid of each node's own: another layout, a rival of the same order.
-constexpr std::string_view node_local = "u8-node-local";
-constexpr double node_local_bytes = 8;  // a child's 6 and its share of the grid
-
-std::vector<std::string_view> methods()
-{
-    std::vector<std::string_view> all;
-    for (const BoxFormat& format : box_formats())
-        all.push_back(format.name);
-    all.push_back(node_local);
-    return all;
-}
-
 /// The same for all methods, but for what a layout cannot do: the collider that is fastest on the kind of device.
 void choose_pipeline(std::string_view method, bool is_cpu, Cell& cell)
 {
-    const bool is_wide = method == node_local;
-    cell.builder = {.name = is_wide ? "oibvh-wide8-q8" : "oibvh-single",
+    cell.builder = {.name = "oibvh-single",
                     .order = "hilbert30",
                     .sorted_leaves = true,
-                    .boxes = is_wide ? "f32" : std::string(method)};
-    cell.collider = {
-        .name = is_cpu || is_wide ? "group" : "block", .keep_adjacent = false, .narrow = "exact"};
+                    .boxes = std::string(method)};
+    cell.collider = {.name = is_cpu ? "group" : "block", .keep_adjacent = false, .narrow = "exact"};
 }
 
 struct Right {
@@ -93,7 +78,8 @@ void measure_boxes(const AxisRun& run)
             const Right right = right_answers(input);
             std::vector<Measured> cells;
             std::vector<std::unique_ptr<Pipeline>> pipelines;
-            for (const std::string_view method : methods()) {
+            for (const BoxFormat& format : box_formats()) {
+                const std::string_view method = format.name;
                 if (!run.task.wants(scene.name, method))
                     continue;
                 Measured& one = cells.emplace_back();
@@ -102,10 +88,7 @@ void measure_boxes(const AxisRun& run)
                 const std::string failure = reason_of_failure([&] {
                     auto& pipeline =
                         pipelines.emplace_back(settled_pipeline(run.session, one.cell, input));
-                    one.cell.counters["node_bytes"] =
-                        method == node_local
-                            ? node_local_bytes
-                            : static_cast<double>(find_box_format(method).box_bytes());
+                    one.cell.counters["node_bytes"] = static_cast<double>(format.box_bytes());
                     one.once = [&input, frame = pipeline.get()] { return frame->once(input); };
                 });
                 if (!failure.empty()) {

@@ -18,7 +18,7 @@ enum class Invariant {
     boxes,   ///< boxes of leaves are their triangles', those above their children's, bit for bit
     layout,  ///< nodes and bytes are as many as the layout says, in no other order than the reference's
     pairs,     ///< the pairs of boxes that overlap, all and no others
-    contacts,  ///< the pairs of triangles that intersect, likewise
+    contacts,  ///< the pairs of triangles that intersect, all and no others
     agree,     ///< the same after triangles are shuffled, and after objects are swapped
     moved,  ///< the same after a scale by a power of two, and after a translation that no float is rounded by
     room,  ///< the same when buffers and queues begin with room for one entry

@@ -134,7 +134,8 @@ StressQuestion question_of(StressScene scene, std::uint64_t seed)
     add(swapped(question.scene));
     add(scaled(question.scene, seed));
     // With as many bits as a translation takes, a scene with an outlier is all but one point: another one.
-    const std::size_t most = 100 * (question.expected.pairs->size() + question.scene.mesh.faces.size());
+    const std::size_t most =
+        100 * (question.expected.pairs->size() + question.scene.mesh.faces.size());
     if (auto translation = translated(question.scene))
         if (PairList pairs = pairs_of(translation->snapped); pairs.size() <= most)
             question.variants.push_back({std::move(translation->moved),

@@ -14,8 +14,8 @@ namespace {
 
 using enum Finding::Verdict;
 
-// Binary, wide in floats and in bytes, with pointers.
-constexpr std::string_view some_builders[] = {"oibvh-multi", "oibvh-wide4", "oibvh-wide8-q8",
+// Binary, wide, with pointers.
+constexpr std::string_view some_builders[] = {"oibvh-multi", "oibvh-wide4", "oibvh-wide8",
                                               "karras"};
 
 /// Who walks boxes in which format: one for each, since formats change what kernels are compiled for and not what they do.

@@ -167,7 +167,9 @@ std::string stress_report(const std::vector<StressCell>& cells,
         }
     }
     text += std::to_string(ours) + " cells of ours, " +
-            (wrong > 0 ? std::to_string(wrong) + " wrong" : refusals > 0 ? "none wrong" : "all right");
+            (wrong > 0      ? std::to_string(wrong) + " wrong"
+             : refusals > 0 ? "none wrong"
+                            : "all right");
     return text + (refusals > 0 ? ", " + std::to_string(refusals) + " refused\n" : "\n");
 }
 

@@ -104,7 +104,7 @@ std::vector<BuilderChoice> builders_of(const Json& json)
     return ordered;
 }
 
-/// Likewise; one without a name where only builders are asked for.
+/// The colliders of a sweep; one without a name where only builders are asked for.
 std::vector<ColliderChoice> colliders_of(const Json& json)
 {
     std::vector<ColliderChoice> colliders;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // check: -include oibvh/wide/wide4.clh -DGROUP_SIZE=64u
 // check: -include oibvh/wide/wide8.clh -DGROUP_SIZE=512u
-// check: -include oibvh/wide/wide8_q8.clh -DGROUP_SIZE=64u
 //
 // Algorithm 1 over a wide tree, for devices with many lanes: a group builds a subtree from GROUP_SIZE children, a power
 // of the children a node, up to its root.
@@ -10,7 +9,7 @@
 //     entry level                    n                 n                  their nodes' boxes, in local memory, are
 //     ...                                                                 the next level's children
 //
-// Compiled behind what says how a node keeps its children's boxes.
+// Compiled behind wide4.clh or wide8.clh.
 #include "geometry/forest.h"
 #include "oibvh/wide/layout.h"
 
@@ -24,21 +23,17 @@ static inline void build_subtree(global uint4* nodes, local float2* boxes, const
     const uint item = (uint)get_local_id(0);
     for (uint width = GROUP_SIZE; width >= LANE_COUNT; width /= LANE_COUNT, --level) {
         const uint node = position * (width / LANE_COUNT) + item / LANE_COUNT;
-        Aabb stored = empty_box();
+        Aabb whole = empty_box();
         if (item < width) {
-            Aabb whole = empty_box();
             for (uint k = 0u; k < LANE_COUNT; ++k)
                 whole = merged(whole, load_local_box(boxes, item / LANE_COUNT * LANE_COUNT + k));
-            if (level >= 0 && node < wide_real_on(leaves, TREE_CHILD_BITS, (uint)level)) {
-                const NodeFrame frame = frame_of(whole);
+            if (level >= 0 && node < wide_real_on(leaves, TREE_CHILD_BITS, (uint)level))
                 store_child(nodes, wide_first_slot(leaves, TREE_CHILD_BITS, (uint)level) + node,
-                            item % LANE_COUNT, load_local_box(boxes, item), frame);
-                stored = stored_box(frame, whole);
-            }
+                            item % LANE_COUNT, load_local_box(boxes, item));
         }
         barrier(CLK_LOCAL_MEM_FENCE);  // all have read
         if (item < width && item % LANE_COUNT == 0u)
-            store_local_box(boxes, item / LANE_COUNT, stored);
+            store_local_box(boxes, item / LANE_COUNT, whole);
         barrier(CLK_LOCAL_MEM_FENCE);
     }
 }

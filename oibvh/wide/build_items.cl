@@ -1,23 +1,19 @@
 // SPDX-License-Identifier: MIT
 // check: -include oibvh/wide/wide4.clh
-// check: -include oibvh/wide/wide8_q8.clh
+// check: -include oibvh/wide/wide8.clh
 //
 // Algorithm 1 over a wide tree, for devices with a few fast cores: a work-item builds a whole subtree, level by level.
 // The same launches and arguments as build_groups.cl, with `levels` a launch chosen at run time.
 //
-// Compiled behind what says how a node keeps its children's boxes.
+// Compiled behind wide4.clh or wide8.clh.
 #include "geometry/forest.h"
 #include "oibvh/wide/layout.h"
 
 /// Store a node of these children.
 static inline void store_node(global uint4* nodes, const uint slot, const Aabb* children)
 {
-    Aabb whole = children[0];
-    for (uint k = 1u; k < LANE_COUNT; ++k)
-        whole = merged(whole, children[k]);
-    const NodeFrame frame = frame_of(whole);
     for (uint k = 0u; k < LANE_COUNT; ++k)
-        store_child(nodes, slot, k, children[k], frame);
+        store_child(nodes, slot, k, children[k]);
 }
 
 /// The nodes of `level` from position `begin` to before `end`, from the level below.

@@ -13,9 +13,9 @@
 namespace bvhbench {
 namespace {
 
-BuildOptions without_idle_gather(BuildOptions options, const WideFormat& format)
+BuildOptions without_gather(BuildOptions options)
 {
-    options.sorted_leaves = options.sorted_leaves && format.on_grid;
+    options.sorted_leaves = false;
     return options;
 }
 
@@ -23,11 +23,10 @@ class WideBuilder final : public OrderedBuilder {
 public:
     WideBuilder(Programs& programs, const BuilderCard& card, const WideFormat& format,
                 const BuildOptions& options)
-        : OrderedBuilder(programs, card, without_idle_gather(options, format))
+        : OrderedBuilder(programs, card, without_gather(options))
     {
         require_floats();
         tree_.format = format;
-        tree_.sorted_leaves = options_.sorted_leaves;
         choose(1);  // refuses bad options now
     }
 
@@ -121,15 +120,8 @@ void WideBuilder::plan(Arena& arena, std::span<const uint> sizes)
 
     tree_.nodes = arena.take<NodeWord>(slots * tree_.format.node_words(), Use::tree);
     tree_.device_objects = arena.take<ForestObject>(sizes.size(), Use::tree);
-    const bool shows_boxes = tree_.format.on_grid && !tree_.sorted_leaves;
-    leaf_order_.plan(arena, sizes, shows_boxes ? Use::tree : Use::scratch, false);
+    leaf_order_.plan(arena, sizes, Use::scratch, false);
     tree_.ids = leaf_order_.ids();
-    tree_.leaf_boxes = shows_boxes ? leaf_order_.boxes() : Buffer<Aabb>{};
-    if (tree_.sorted_leaves) {
-        tree_.leaf_boxes = arena.take<Aabb>(tree_.leaves, Use::tree);
-        gathered_ = {tree_.leaf_boxes.as<std::byte>(), 0,
-                     arena.take<uint>(sizes.size() > 1 ? sizes.size() : 0, Use::scratch)};
-    }
     whole_.subtrees = arena.take<cl_uint2>(whole_.subtree_list.size(), Use::scratch);
 }
 
@@ -190,11 +182,10 @@ void WideBuilder::prepare(const cl::CommandQueue& queue)
         by_groups() ? "oibvh/wide/build_groups.cl" : "oibvh/wide/build_items.cl";
     from_leaves_ = programs_.kernel(tree_.format.text, path, "build_from_leaves", defines);
     // The few nodes that are left: where optimising is in doubt, there is nothing to win.
-    from_nodes_ = programs_.kernel(tree_.format.text, path, "build_from_nodes", defines,
-                                   Optimise::on_gpus);
+    from_nodes_ =
+        programs_.kernel(tree_.format.text, path, "build_from_nodes", defines, Optimise::on_gpus);
     tree_.device_objects.upload(queue, tree_.objects);
     whole_.subtrees.upload(queue, whole_.subtree_list);
-    gathered_.slots.upload(queue, std::vector<uint>(gathered_.slots.size(), 0u));
 }
 
 void WideBuilder::enqueue(const Launches& launches, Queue& queue)

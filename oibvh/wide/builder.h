@@ -6,8 +6,8 @@
 
 namespace bvhbench {
 
-/// A builder of Appendix C's trees, bottom-up in several launches, by kernels that suit the kind of device. Where nodes
-/// hold the leaves' boxes, `sorted_leaves` changes nothing: they are in leaf order as it is.
+/// A builder of Appendix C's trees, bottom-up in several launches, by kernels that suit the kind of device. `sorted_leaves`
+/// changes nothing: nodes hold the leaves' boxes in leaf order.
 std::unique_ptr<Builder> make_wide_builder(Programs& programs, const BuilderCard& card,
                                            const WideFormat& format, const BuildOptions& options);
 

@@ -4,8 +4,6 @@
 #include <cstring>
 #include <span>
 
-#include "oibvh/wide/grid_box.h"
-
 namespace bvhbench {
 namespace {
 
@@ -13,14 +11,6 @@ namespace {
 Aabb child_box(const WideFormat& format, std::span<const NodeWord> node, uint child)
 {
     const uint lanes = format.children();
-    if (format.on_grid) {
-        BoxGrid grid;
-        std::memcpy(&grid, node.data(), sizeof grid);
-        std::array<unsigned char, 6 * HostTree::most_children> points;
-        std::memcpy(points.data(), &node[1], 6 * std::size_t{lanes});
-        const auto point = [&](uint side) { return uint{points[side * lanes + child]}; };
-        return box_between(grid, {point(0), point(1), point(2), point(3), point(4), point(5)});
-    }
     std::array<float, 6 * HostTree::most_children> sides;
     std::memcpy(sides.data(), node.data(), 6 * sizeof(float) * lanes);
     const auto side = [&](uint which) { return sides[which * lanes + child]; };
@@ -58,10 +48,8 @@ HostTree WideTree::spelled_out_object(uint object) const
     const uint bits = format.child_bits, leaf_level = wide_leaf_level(own.leaves, bits);
     const std::vector<Aabb> stored = stored_boxes(object);
     const std::vector<uint> primitives = ids.download(queue->cl());
-    const std::vector<Aabb> boxes = leaf_boxes.download(queue->cl());
 
     HostTree tree;
-    tree.is_tight = !format.on_grid;
     const std::size_t inner = wide_inner_count(own.leaves, bits);
     tree.nodes.resize(inner + own.leaves);
     HostTree::Node& root =
@@ -83,8 +71,6 @@ HostTree WideTree::spelled_out_object(uint object) const
     for (uint place = 0; place < own.leaves; ++place) {
         HostTree::Node& leaf = tree.nodes[inner + place];
         leaf.primitive = static_cast<int>(primitives[own.first + place]);
-        if (format.on_grid)
-            leaf.box = boxes.at(sorted_leaves ? own.first + place : primitives[own.first + place]);
     }
     return tree;
 }

@@ -8,19 +8,14 @@
 
 namespace bvhbench {
 
-/// How wide nodes are kept, oibvh/wide/floats.clh or bytes.clh.
+/// How many children a wide node has; its layout is in oibvh/wide/floats.clh.
 struct WideFormat {
-    uint child_bits;  ///< log2 of the children a node
-    bool
-        on_grid;  ///< children's boxes as points of a grid; leaf boxes are then kept beside the nodes
+    uint child_bits;          ///< log2 of the children a node
     std::string_view text;    ///< header that says so to kernels
     std::string_view access;  ///< header, as builders/device_tree.h says
 
     uint children() const { return 1u << child_bits; }
-    std::size_t node_words() const  ///< of 16 bytes
-    {
-        return on_grid ? 1 + 6 * std::size_t{children()} / 16 : 6 * std::size_t{children()} / 4;
-    }
+    std::size_t node_words() const { return 6 * std::size_t{children()} / 4; }  ///< of 16 bytes
 };
 
 using NodeWord = std::array<uint, 4>;  ///< 16 bytes, the widest access of a lane
@@ -30,12 +25,9 @@ using NodeWord = std::array<uint, 4>;  ///< 16 bytes, the widest access of a lan
 class WideTree final : public DeviceTree {
 public:
     WideFormat format;
-    uint leaves = 0;       ///< of all objects
-    uint most_leaves = 0;  ///< of one object
-    bool sorted_leaves = false;
+    uint leaves = 0;         ///< of all objects
+    uint most_leaves = 0;    ///< of one object
     Buffer<NodeWord> nodes;  ///< inner nodes by slot
-    Buffer<Aabb>
-        leaf_boxes;  ///< where nodes are on grids: in leaf order if sorted, else in mesh order
     Buffer<uint> ids;
 
     std::size_t node_count() const override;
@@ -46,7 +38,7 @@ public:
     std::vector<Aabb> stored_boxes(uint object) const;
 
     uint leaf_count() const override { return leaves; }
-    bool has_sorted_leaves() const override { return sorted_leaves; }
+    bool has_sorted_leaves() const override { return false; }
     std::string_view access_header() const override { return format.access; }
     bool is_implicit() const override { return true; }
     uint child_bits() const override { return format.child_bits; }
@@ -56,7 +48,7 @@ public:
     }
     cl_uint bind(cl::Kernel& kernel, cl_uint first) const override
     {
-        return set_arguments_from(kernel, first, nodes, leaf_boxes, ids, device_objects);
+        return set_arguments_from(kernel, first, nodes, ids, device_objects);
     }
 };
 

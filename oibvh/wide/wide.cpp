@@ -9,8 +9,7 @@ std::unique_ptr<Builder> make_oibvh_wide4(Programs& programs, const BuildOptions
     return make_wide_builder(programs,
                              {"oibvh-wide4", "Oi-BVH, 4 children a node [Chitalu2020, App. C]",
                               BuilderCard::Runs::on_device},
-                             {2, false, "oibvh/wide/wide4.clh", "oibvh/wide/wide4_access.clh"},
-                             options);
+                             {2, "oibvh/wide/wide4.clh", "oibvh/wide/wide4_access.clh"}, options);
 }
 
 std::unique_ptr<Builder> make_oibvh_wide8(Programs& programs, const BuildOptions& options)
@@ -18,18 +17,7 @@ std::unique_ptr<Builder> make_oibvh_wide8(Programs& programs, const BuildOptions
     return make_wide_builder(programs,
                              {"oibvh-wide8", "Oi-BVH, 8 children a node [Chitalu2020, App. C]",
                               BuilderCard::Runs::on_device},
-                             {3, false, "oibvh/wide/wide8.clh", "oibvh/wide/wide8_access.clh"},
-                             options);
-}
-
-std::unique_ptr<Builder> make_oibvh_wide8_q8(Programs& programs, const BuildOptions& options)
-{
-    return make_wide_builder(
-        programs,
-        {"oibvh-wide8-q8",
-         "Oi-BVH, 8 children a node, boxes in bytes [Chitalu2020, App. C] [Ylitie2017]",
-         BuilderCard::Runs::on_device},
-        {3, true, "oibvh/wide/wide8_q8.clh", "oibvh/wide/wide8_q8_access.clh"}, options);
+                             {3, "oibvh/wide/wide8.clh", "oibvh/wide/wide8_access.clh"}, options);
 }
 
 }  // namespace bvhbench

@@ -28,7 +28,8 @@ constexpr MovingGenerator moving_catalog[] = {
     {"cloth-dress", make_cloth_dress, 10, "nine skirts in layers round a dancer; 10 objects"},
     {"n-body", make_n_body, n_body_count,
      "balls fall to their centre and bounce; 305 rigid objects"},
-    {"two-spheres", make_two_spheres, 2, "one sphere sinks into another, both turn; 2 rigid objects"},
+    {"two-spheres", make_two_spheres, 2,
+     "one sphere sinks into another, both turn; 2 rigid objects"},
 };
 
 }  // namespace

@@ -19,7 +19,8 @@ Mesh rows(uint triangles)
     mesh.faces.reserve(triangles);
     const auto row_of = [](uint k) { return k / row < last ? k / row : last; };
     for (uint k = 0; k < triangles; ++k) {
-        const auto x = static_cast<float>(k - row_of(k) * row), y = static_cast<float>(4 * row_of(k));
+        const auto x = static_cast<float>(k - row_of(k) * row),
+                   y = static_cast<float>(4 * row_of(k));
         mesh.points.push_back({x, y, static_cast<float>(k % 3)});
         const uint next = k + 1 < triangles && row_of(k + 1) == row_of(k) ? k + 1 : k;
         mesh.faces.push_back({k, next, k});

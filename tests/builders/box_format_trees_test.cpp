@@ -65,7 +65,7 @@ TEST_P(RoundedTrees, AreTheSameWhereGroupsWait)
               "");
 }
 
-/// Likewise: inner nodes of radix trees are packed in words of a format's own.
+/// Inner nodes of radix trees are packed too, in words of a format's own.
 TEST_P(RoundedTrees, OfFewAreRadixTreesToo)
 {
     for (const char* builder : {"karras", "apetrei", "apetrei-fused", "lbvh-levels"})
@@ -100,7 +100,7 @@ TEST_P(RoundedTrees, OfSeveralObjectsAreUpdatedWithTheirCells)
     input.device_points.upload(session().queue().cl(), many.mesh.points);
     using enum TreeUpdate;
     const std::vector<TreeUpdate> wanted = {rebuild, keep, refit};
-    const std::vector<TreeUpdate> planned = updated->plan_update(wanted, true, session().queue());
+    const std::vector<TreeUpdate> planned = updated->plan_update(wanted, session().queue());
     EXPECT_EQ(planned, GetParam().has_cells() ? std::vector(3, rebuild) : wanted);
     const auto& found = dynamic_cast<const DeviceTree&>(updated->update(input, session().queue()));
     session().queue().finish();

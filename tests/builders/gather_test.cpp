@@ -87,7 +87,7 @@ TEST_P(GatherContract, FillsThePlacesOfChosenObjectsAndNoOthers)
         expected.assign(expected.size(), empty_box());
         runs.choose(queue, {}, chosen);
         gather.enqueue(device_boxes, device_ids, runs, device_slots, sorted.as<std::byte>(),
-                   bench().queue);
+                       bench().queue);
         bench().queue.finish();
         for (const uint object : chosen)
             for (uint k = 0; k < sizes[object]; ++k)

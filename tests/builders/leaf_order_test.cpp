@@ -30,7 +30,8 @@ protected:
         device_order.enqueue(input, bench().queue);
         stages_ = bench().queue.finish();
 
-        const HostLeafOrder host = host_leaf_order(face_boxes(mesh.points, mesh.faces), GetParam().order);
+        const HostLeafOrder host =
+            host_leaf_order(face_boxes(mesh.points, mesh.faces), GetParam().order);
         const cl::CommandQueue& queue = bench().queue.cl();
         EXPECT_TRUE(same_bits(device_order.boxes().download(queue), host.boxes));
         EXPECT_EQ(device_order.ids().download(queue), host.ids);

@@ -238,37 +238,6 @@ TEST_P(RadixSortOfFewSizes, EqualsAStableSort)
     }
 }
 
-/// What is idle leaves everything as it was, the next sort's counters too. Twice, for those that take turns.
-TEST_P(RadixSortOfFewSizes, LeavesAllAloneWhereItIsIdleAndSortsNextTime)
-{
-    constexpr std::size_t size = 1000;
-    Buffer<uint> last_unsorted;
-    reserve([&](Arena& arena) {
-        sort_->plan(arena, size);
-        last_unsorted = arena.take<uint>(1, Use::scratch);
-    });
-    sort_->prepare(bench().queue.cl());
-    const std::vector<ulong> codes = hard_codes(size, GetParam().bits).front().codes;
-    const std::vector<uint> before(size, 7);
-    for (uint build = 2; build < 6; ++build) {
-        SCOPED_TRACE(build);
-        const uint other = build - 1;
-        last_unsorted.upload(bench().queue.cl(), {&other, 1});
-        Buffer<uint> ids = sort_->ids(), unsorted = sort_->unsorted_codes();
-        ids.upload(bench().queue.cl(), before);
-        unsorted.upload(bench().queue.cl(), words_of(codes, GetParam().bits));
-        bench().queue.begin("sort");
-        sort_->enqueue(bench().queue, {last_unsorted, build});
-        bench().queue.finish();
-        EXPECT_TRUE(same_bits(ids.download(bench().queue.cl()), before));
-        EXPECT_TRUE(
-            same_bits(unsorted.download(bench().queue.cl()), words_of(codes, GetParam().bits)));
-        if (build % 2 == 0)
-            expect_equal_to_host(codes);
-    }
-    expect_equal_to_host(codes);
-}
-
 // Small enough for an interpreter that checks every access.
 INSTANTIATE_TEST_SUITE_P(
     Few, RadixSortOfFewSizes,

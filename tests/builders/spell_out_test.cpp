@@ -53,21 +53,6 @@ TEST(BrokenPromise, NamesEachKindOfFault)
     EXPECT_NE(broken_promise(tree, points, faces), "");
 }
 
-TEST(BrokenPromise, AsksBoxesOfTreesThatAreNotTightToContainAndNoMore)
-{
-    HostTree tree = right_tree();
-    tree.is_tight = false;
-    tree.nodes[0].box.max_x = 6;
-    EXPECT_EQ(broken_promise(tree, points, faces), "");
-    tree.nodes[0].box.max_x = 4;
-    EXPECT_NE(broken_promise(tree, points, faces).find("does not contain"), std::string::npos);
-    tree = right_tree();
-    tree.is_tight = false;
-    tree.nodes[1].box.max_x = 2;  // leaves' boxes are exact all the same
-    EXPECT_NE(broken_promise(tree, points, faces).find("not that of its triangle"),
-              std::string::npos);
-}
-
 TEST(BrokenPromise, LooksAtEveryChildOfAWideNode)
 {
     HostTree tree;
@@ -83,17 +68,6 @@ TEST(BrokenPromise, LooksAtEveryChildOfAWideNode)
     fewer.nodes[0].child[7] = HostTree::none;
     EXPECT_EQ(broken_promise(fewer, points, eight), "1 nodes are not reached from the root");
     EXPECT_NE(tree_hash(fewer), tree_hash(tree));
-}
-
-TEST(SameRefit, ComparesBoxesOfTightTreesOnly)
-{
-    HostTree tree = right_tree(), other = right_tree();
-    other.nodes[0].box.max_x = 9;
-    EXPECT_FALSE(same_refit(tree, other));
-    tree.is_tight = false;
-    EXPECT_TRUE(same_refit(tree, other));
-    std::swap(other.nodes[0].child[0], other.nodes[0].child[1]);
-    EXPECT_FALSE(same_refit(tree, other));
 }
 
 TEST(Refitted, ChangesNothingWhileNothingMoves)

@@ -43,6 +43,8 @@ void reserve(const Take& take)
     take(arena);
 }
 
+inline bool same_bits(const Aabb& a, const Aabb& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
 template <class T>
 bool same_bits(const std::vector<T>& a, const std::vector<T>& b)
 {

@@ -135,8 +135,9 @@ class DeviceContraction : public testing::Test {
 protected:
     DeviceContraction()
     {
-        for (const char* name : {"geometry/dialect.h", "geometry/box_side.h", "geometry/aabb.h", "geometry/triangle.h",
-                                 "geometry/vectors.h", "geometry/exact_sum.h", "geometry/orient.h"})
+        for (const char* name :
+             {"geometry/dialect.h", "geometry/box_side.h", "geometry/aabb.h", "geometry/triangle.h",
+              "geometry/vectors.h", "geometry/exact_sum.h", "geometry/orient.h"})
             folder_.write(name, embedded_kernel(name).value());
         folder_.write("contraction.cl", kernel_text);
     }

@@ -62,7 +62,8 @@ TEST(Device, HasRoomForNoMoreThanAnAllocationHoldsUnlessItIsNeeded)
     device.allocation_limit = 4000;
     EXPECT_EQ(device.room_for(100, 16), 100u);
     EXPECT_EQ(device.room_for(1000, 16), 250u) << "a guess is cut";
-    EXPECT_EQ(device.room_for(1000, 16, 300), 300u) << "a need is not: it is refused when it is taken";
+    EXPECT_EQ(device.room_for(1000, 16, 300), 300u)
+        << "a need is not: it is refused when it is taken";
     EXPECT_EQ(device.room_for(std::uint64_t{1} << 40, 1), 4000u);
 }
 

@@ -78,7 +78,8 @@ namespace {
     std::filesystem::create_directories(folder);
     const std::size_t end = std::min(bytes.find("\n\n"), bytes.size());
     std::ofstream(folder / "gt_vf.csv", std::ios::binary) << bytes.substr(0, end);
-    std::ofstream(folder / "gt_ee.csv", std::ios::binary) << bytes.substr(std::min(end + 2, bytes.size()));
+    std::ofstream(folder / "gt_ee.csv", std::ios::binary)
+        << bytes.substr(std::min(end + 2, bytes.size()));
     Scene scene;
     scene.folder = folder;
     scene.frames.assign(2, std::vector<Point>(4));

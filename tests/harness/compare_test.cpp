@@ -201,7 +201,7 @@ TEST(Compare, ListsCellsOfOneFileOnlyAndFailsForThoseThatBLacks)
 TEST(Compare, TellsCellsApartByAllThatTheyAre)
 {
     const Cell cell = timed_cell("karras", 1e6);
-    std::vector<Cell> others(15, cell);
+    std::vector<Cell> others(17, cell);
     others[0].experiment = "fig8";
     others[1].scene.name = "dragon";
     others[2].scene.frame = 1;
@@ -217,6 +217,8 @@ TEST(Compare, TellsCellsApartByAllThatTheyAre)
     others[12].accuracy = {"sums", "float", 1};
     others[13].accuracy = {"sums", "float", 2};
     others[14].samples[0].stages = {fake_stage("hierarchy", 100, 1)};  // from sorted leaves
+    others[15].scene.between = 3;
+    others[16].scene.objects_by = "mesh";
     for (std::size_t i = 0; i < others.size(); ++i) {
         const MatchedCells matched = matched_cells({cell}, {others[i]});
         EXPECT_TRUE(matched.both.empty()) << i;

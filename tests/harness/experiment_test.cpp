@@ -113,14 +113,19 @@ TEST(Experiment, OfWholeFramesMayBeOfBoxesSweptFromOneToTheNext)
                pipeline + "}]}";
     };
     const std::string of_edges = R"(, "pairs_of": "within")";
-    const auto tasks = parse_experiment(text(R"("swept": true)", of_edges), "x.json", false).collisions;
+    const auto tasks =
+        parse_experiment(text(R"("swept": true)", of_edges), "x.json", false).collisions;
     EXPECT_TRUE(tasks.at(0).swept);
-    EXPECT_FALSE(parse_experiment(text(R"("swept": false)", ""), "x.json", false).collisions.at(0).swept);
-    EXPECT_NE(refusal(text(R"("swept": 1)", of_edges)).find("'swept' is true or false"), std::string::npos);
-    EXPECT_NE(refusal(text(R"("swept": true)", "")).find("order kd lines up one object"), std::string::npos);
-    EXPECT_NE(refusal(text(R"("swept": true)", of_edges + R"(, "adjacent": "drop", "narrow": "exact")"))
-                  .find("'exact' looks at one moment"),
+    EXPECT_FALSE(
+        parse_experiment(text(R"("swept": false)", ""), "x.json", false).collisions.at(0).swept);
+    EXPECT_NE(refusal(text(R"("swept": 1)", of_edges)).find("'swept' is true or false"),
               std::string::npos);
+    EXPECT_NE(refusal(text(R"("swept": true)", "")).find("order kd lines up one object"),
+              std::string::npos);
+    EXPECT_NE(
+        refusal(text(R"("swept": true)", of_edges + R"(, "adjacent": "drop", "narrow": "exact")"))
+            .find("'exact' looks at one moment"),
+        std::string::npos);
 }
 
 TEST(Experiment, OfWholeFramesPairsEachBuilderWithEachCollider)
@@ -216,10 +221,11 @@ TEST(Experiment, ReadsEveryKey)
 TEST(Experiment, SaysWhenToStopSamplingAndWhetherCachesAreCold)
 {
     const auto of = [](const std::string& keys) {
-        return parse_experiment(R"({"experiment": "a", "scenes": ["soup:1"], "builders": ["perfect"],
+        return parse_experiment(
+            R"({"experiment": "a", "scenes": ["soup:1"], "builders": ["perfect"],
                                     "pipelines": [{"builder": "perfect", "collider": "leaf"}])" +
-                                    keys + "}",
-                                "x.json", false);
+                keys + "}",
+            "x.json", false);
     };
     EXPECT_EQ(of("").sampling, SamplingRules());
     const Experiment experiment = of(
@@ -231,8 +237,9 @@ TEST(Experiment, SaysWhenToStopSamplingAndWhetherCachesAreCold)
                                                   .cold = true}));
     EXPECT_EQ(experiment.collisions.at(0).sampling, experiment.sampling);
     for (const char* keys :
-         {R"(, "until": -1)", R"(, "until": "2%")", R"(, "caches": "warm")", R"(, "min_samples": 20)",
-          R"(, "until": 0.1, "min_samples": 20, "max_samples": 10)", R"(, "time_budget_s": 3)"})
+         {R"(, "until": -1)", R"(, "until": "2%")", R"(, "caches": "warm")",
+          R"(, "min_samples": 20)", R"(, "until": 0.1, "min_samples": 20, "max_samples": 10)",
+          R"(, "time_budget_s": 3)"})
         EXPECT_THROW(of(keys), BadUsage) << keys;
 }
 
@@ -254,10 +261,11 @@ TEST(Experiment, SmokeHasEveryBuilderAndEveryCollider)
 
 TEST(Experiment, NamesTheKeyThatItDoesNotKnowAndThoseItDoes)
 {
-    EXPECT_EQ(refusal(R"({"experiment": "a", "scene": ["soup:1"], "builders": ["perfect"]})"),
-              "x.json: 'scene' is no key of an experiment; there are: experiment, question, paper, "
-              "scenes, builders, operations, pipelines, stages, samples, warm_up, until, min_samples, "
-              "max_samples, time_budget_s, caches, quality, doubles, quick");
+    EXPECT_EQ(
+        refusal(R"({"experiment": "a", "scene": ["soup:1"], "builders": ["perfect"]})"),
+        "x.json: 'scene' is no key of an experiment; there are: experiment, question, paper, "
+        "scenes, builders, operations, pipelines, stages, samples, warm_up, until, min_samples, "
+        "max_samples, time_budget_s, caches, quality, doubles, quick");
     EXPECT_EQ(
         refusal(R"({"experiment": "a", "scenes": ["soup:1"],
                           "builders": [{"name": "perfect", "size": 3}]})"),

@@ -203,7 +203,7 @@ def test_a_signal_ends_what_compiles():
 def test_a_signal_ends_check_accuracy_stress_and_what_draws():
     pathlib.Path("home/plots").mkdir(parents=True)
     pathlib.Path("home/plots/all.py").write_text("import time\ntime.sleep(60)\n")
-    for words in (("check", "--builder", "perfect"), ("accuracy", "--axis", "narrow", "--out", "stopped"),
+    for words in (("check",), ("accuracy", "--axis", "narrow", "--out", "stopped"),
                   ("stress", "--quick"), ("plot", "scenes-out.json", "--out", "drawn")):
         with at_work(*words, BVHBENCH_HOME=os.path.abspath("home")) as process:
             time.sleep(1.5)

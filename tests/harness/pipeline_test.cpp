@@ -9,41 +9,10 @@
 
 #include "collide/skips.h"
 #include "collide/sweep.h"
-#include "harness/order_trials.h"
 #include "tests/collide/collider_testing.h"
 
 namespace bvhbench {
 namespace {
-
-TEST(OrderTrials, LeaveOutTwiceAsManyFramesEachTimeThatNothingCameOfOne)
-{
-    OrderTrials trials;
-    std::vector<int> pauses;
-    for (int trial = 0; trial < 9; ++trial) {
-        int pause = 0;
-        while (!trials.next())
-            ++pause;
-        pauses.push_back(pause);
-        EXPECT_TRUE(trials.is_trying());
-        trials.learn(false);
-        EXPECT_FALSE(trials.is_trying());
-    }
-    EXPECT_EQ(pauses, (std::vector<int>{0, 1, 2, 4, 8, 16, 32, 64, 64}));
-}
-
-TEST(OrderTrials, GoOnWithoutAPauseOnceOneHeld)
-{
-    OrderTrials trials;
-    EXPECT_TRUE(trials.next());
-    trials.learn(false);
-    EXPECT_FALSE(trials.next());
-    EXPECT_TRUE(trials.next());
-    trials.learn(true);
-    EXPECT_TRUE(trials.next());
-    trials.learn(false);
-    EXPECT_FALSE(trials.next());
-    EXPECT_TRUE(trials.next());
-}
 
 /// A pipeline of some scene's frames, its pairs held to the sweep's.
 class Frames {
@@ -107,7 +76,6 @@ TEST(Pipeline, RebuildsOfAMixedSceneOnlyWhatDeforms)
     for (const char* builder : {"oibvh-multi", "oibvh-single", "perfect"}) {
         expect_counts(scene, builder, 0, {1, 1, 0, 1});
         expect_counts(scene, builder, skip_rigid, {2, 0, 0, 1});
-        expect_counts(scene, builder, skip_sorted, {1, 1, 0, 1});
     }
     expect_counts(scene, "karras", 0, {2, 0, 0, 1});
 }
@@ -122,26 +90,6 @@ TEST(Pipeline, LeavesAloneWhatHasNotMoved)
     expect_counts(scene, "oibvh-multi", 0, {1, 0, 1, 1});
     expect_counts(scene, "oibvh-multi", skip_unchanged, {1, 1, 0, 1});
     expect_counts(scene, "oibvh-multi", skip_unchanged | skip_rigid, {2, 0, 0, 1});
-}
-
-/// The order is tried, holds, is tried again and does not; then a frame goes by.
-TEST(Pipeline, SortsOnlyWhatIsOutOfOrder)
-{
-    Scene scene = load_scene("cloth-ball:4000:3", {});
-    const std::vector<std::vector<Point>> given = scene.frames;
-    scene.frames = {given[0], given[0], given[2], given[2], given[2]};
-    const std::vector<Motion> deforming(2, Motion::deforming);
-    for (const char* builder : {"oibvh-multi", "perfect", "karras", "apetrei"})
-        for (const bool is_off : {false, true}) {
-            SCOPED_TRACE(std::string(builder) + (is_off ? " off" : " on"));
-            Frames frames(scene, builder, is_off ? unsigned{skip_sorted} : 0u);
-            std::vector<double> sorts;
-            for (std::size_t frame = 0; frame < scene.frames.size(); ++frame)
-                sorts.push_back(frames.go_to(
-                    frame, frame == 0 ? std::span<const Motion>() : deforming)["sorts_count"]);
-            EXPECT_EQ(sorts,
-                      is_off ? std::vector<double>(5, 1) : (std::vector<double>{1, 0, 1, 1, 0}));
-        }
 }
 
 TEST(Pipeline, RebuildsOfARealMixedSceneOnlyWhatDeforms)

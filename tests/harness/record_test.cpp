@@ -103,6 +103,8 @@ TEST(Record, ReadsBackWhatItWrote)
     axis.accuracy = {"narrow", "guigue-f64", 7};
     axis.check.verdict = Check::Verdict::counted;
     query.swept = {"edge-edge", 5, 900};
+    query.scene.objects_by = "components";
+    query.scene.between = 3;
     const std::string text = text_of(run, {fake_cell(), failed, host, query, axis});
 
     const Document document = read_document(text, "x");

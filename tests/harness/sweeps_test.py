@@ -225,6 +225,11 @@ def test_cells_from_warm_and_empty_caches_are_two():
     for name, words in (("hot", ()), ("cold", ("--cold",))):
         expect(0, "build", "--builder", "perfect", "--scene", "soup:70", "--samples", "2", "--json", f"{name}.json", *words)
     expect(0, "merge", "hot.json", "cold.json", "-o", "both.json", says="2 cells of 2 runs")
+    frames = ("collide", "--collider", "group", "--scene", "cloth-ball:500:2", "--frames", "1", "--samples", "1")
+    expect(0, *frames, "--json", "two.json")
+    expect(0, *frames, "--between", "3", "--json", "between.json")
+    assert valid("between.json")["cells"][0]["scene"]["between"] == 3
+    expect(0, "merge", "two.json", "between.json", "-o", "frames.json", says="2 cells of 2 runs")
     assert sorted(cell["sampling"]["caches"] for cell in valid("both.json")["cells"]) == ["cold", "hot"]
 
 

@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// Wide trees: the arithmetic is Appendix C's, stored boxes contain what they are made of whatever the numbers, and what
-// the kernels leave is what a literal construction leaves, bit for bit.
+// Wide trees: the arithmetic is Appendix C's, and what the kernels leave is what a literal construction leaves, bit for bit.
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <cstring>
-#include <limits>
+#include <algorithm>
+#include <random>
 
 #include "builders/spell_out.h"
 #include "geometry/error.h"
 #include "oibvh/kary_layout.h"
 #include "oibvh/oibvh.h"
-#include "oibvh/wide/grid_box.h"
 #include "oibvh/wide/layout.h"
 #include "oibvh/wide/tree.h"
 #include "tests/builders/stage_testing.h"
@@ -50,153 +47,32 @@ TEST(WideLayout, PutsANodeAboveASingleLeaf)
     }
 }
 
-bool contains(const Aabb& outer, const Aabb& inner)
-{
-    return outer.min_x <= inner.min_x && outer.min_y <= inner.min_y && outer.min_z <= inner.min_z &&
-           outer.max_x >= inner.max_x && outer.max_y >= inner.max_y && outer.max_z >= inner.max_z;
-}
-
-/// Finite floats of every size, denormals as well; -0 is no coordinate of a box.
-class AnyFloats {
-public:
-    float next()
-    {
-        float value = 0;
-        do {
-            const auto bits = static_cast<std::uint32_t>(random_());
-            std::memcpy(&value, &bits, sizeof value);
-        } while (!(std::abs(value) <= std::numeric_limits<float>::max()));
-        return value == 0 ? 0.0f : value;
-    }
-    /// One of `near`, or a few floats beside it.
-    float beside(float near)
-    {
-        for (int step = static_cast<int>(random_() % 8); step > 0; --step)
-            near = std::nextafter(near, random_() % 2 == 0 ? -1e38f : 1e38f);
-        return near == 0 ? 0.0f : near;
-    }
-    std::uint32_t any() { return static_cast<std::uint32_t>(random_()); }
-
-private:
-    std::mt19937 random_{20200511};
-};
-
-Aabb box_of_sides(float ax, float bx, float ay, float by, float az, float bz)
-{
-    return {std::min(ax, bx), std::min(ay, by), std::min(az, bz),
-            std::max(ax, bx), std::max(ay, by), std::max(az, bz)};
-}
-
-/// The boxes of a node's children, of one of several kinds.
-std::vector<Aabb> some_boxes(AnyFloats& floats, int kind)
-{
-    const float at = floats.next(), scale = 1e-3f * at;
-    const auto number = [&]() -> float {
-        const float unit = static_cast<float>(floats.any() >> 8) * 0x1p-24f;
-        switch (kind) {
-            case 0:
-                return floats.next();  // from one end of the floats to the other
-            case 1:
-                return floats.beside(at);  // a few bits apart
-            case 2:
-                return at + scale * unit;
-            case 3:
-                return unit * std::numeric_limits<float>::denorm_min() * 1000;
-            case 4:
-                return (unit - 0.5f) * 2 * 3.4e38f;
-            case 5:
-                return at;  // flat
-            default:
-                return unit;
-        }
-    };
-    std::vector<Aabb> boxes;
-    for (int k = 0; k < 8; ++k)
-        boxes.push_back(box_of_sides(number(), number(), number(), number(),
-                                     kind == 6 ? 0.25f : number(), kind == 6 ? 0.25f : number()));
-    return boxes;
-}
-
-TEST(GridBox, ContainsTheBoxItIsMadeOfWhateverTheNumbers)
-{
-    AnyFloats floats;
-    for (int round = 0; round < 300000; ++round) {
-        const std::vector<Aabb> boxes = some_boxes(floats, round % 8);
-        Aabb whole = empty_box();
-        for (const Aabb& box : boxes)
-            whole = merged(whole, box);
-        const BoxGrid grid = grid_of(whole);
-        Aabb stored_whole = empty_box();
-        for (const Aabb& box : boxes) {
-            const GridBox points = points_around(grid, box);
-            for (const uint point : {points.min_x, points.min_y, points.min_z, points.max_x,
-                                     points.max_y, points.max_z})
-                ASSERT_LE(point, 255u);
-            const Aabb stored = box_between(grid, points);
-            ASSERT_TRUE(contains(stored, box)) << "round " << round;
-            stored_whole = merged(stored_whole, stored);
-        }
-        const Aabb on_grid = box_between(grid, points_around(grid, whole));
-        ASSERT_EQ(std::memcmp(&on_grid, &stored_whole, sizeof on_grid), 0) << "round " << round;
-    }
-}
-
-TEST(GridBox, IsAStepTooLargeAtMostWhereNothingOverflows)
-{
-    AnyFloats floats;
-    for (int round = 0; round < 100000; ++round) {
-        const std::vector<Aabb> boxes = some_boxes(floats, 7);
-        const Aabb whole = merged(boxes[0], boxes[1]);
-        const BoxGrid grid = grid_of(whole);
-        const float step = as_float(grid_step_x(grid) << 23u);
-        EXPECT_LE(step, (whole.max_x - whole.min_x) / 127);
-        const Aabb stored = box_between(grid, points_around(grid, boxes[0]));
-        EXPECT_LE(boxes[0].min_x - stored.min_x, step);
-        EXPECT_LE(stored.max_x - boxes[0].max_x, step);
-    }
-}
-
 struct Way {
     const char* name;
     MakeBuilder make;
     uint bits;
-    bool on_grid;
 };
 
-constexpr Way ways[] = {{"wide4", make_oibvh_wide4, 2, false},
-                        {"wide8", make_oibvh_wide8, 3, false},
-                        {"wide8_q8", make_oibvh_wide8_q8, 3, true}};
+constexpr Way ways[] = {{"wide4", make_oibvh_wide4, 2}, {"wide8", make_oibvh_wide8, 3}};
 
-/// By definition: rows of nodes from the leaves up, each over the next so many of the row below; the topmost row's
-/// boxes of one node. What a box is stored as depends on its parent, so rows keep exact ones first.
-struct LiteralWide {
-    std::vector<std::vector<Aabb>> exact, stored;  ///< by level, the root's first
-
-    LiteralWide(std::vector<Aabb> leaves, uint children, bool on_grid)
-    {
-        exact = {std::move(leaves)};
-        do {
-            const std::vector<Aabb> below = exact.front();
-            std::vector<Aabb> row, row_stored(below.size());
-            for (std::size_t first = 0; first < below.size(); first += children) {
-                const std::size_t end = std::min(below.size(), first + children);
-                Aabb whole = empty_box(), seen = empty_box();
-                for (std::size_t k = first; k < end; ++k)
-                    whole = merged(whole, below[k]);
-                for (std::size_t k = first; k < end; ++k) {
-                    row_stored[k] = on_grid ? box_between(grid_of(whole),
-                                                          points_around(grid_of(whole), below[k]))
-                                            : below[k];
-                    seen = merged(seen, row_stored[k]);
-                }
-                row.push_back(seen);
-            }
-            exact.insert(exact.begin(), row);
-            stored.insert(stored.begin(), row_stored);
-        } while (exact.front().size() > 1);
-        stored.insert(stored.begin(), exact.front());
-    }
-};
+/// By definition: rows of nodes from the leaves up, each node over the next `children` of the row below. The boxes of each
+/// row, the root's first.
+std::vector<std::vector<Aabb>> literal_rows(std::vector<Aabb> leaves, uint children)
+{
+    std::vector<std::vector<Aabb>> rows = {std::move(leaves)};
+    do {
+        const std::vector<Aabb>& below = rows.front();
+        std::vector<Aabb> row;
+        for (std::size_t first = 0; first < below.size(); first += children) {
+            Aabb whole = empty_box();
+            for (std::size_t k = first; k < std::min(below.size(), first + children); ++k)
+                whole = merged(whole, below[k]);
+            row.push_back(whole);
+        }
+        rows.insert(rows.begin(), std::move(row));
+    } while (rows.front().size() > 1);
+    return rows;
+}
 
 Mesh soup(uint triangles, float size)
 {
@@ -212,7 +88,7 @@ Mesh soup(uint triangles, float size)
     return mesh;
 }
 
-/// Hold a tree, and every box as it is stored, to the literal one over the reference's leaves.
+/// Holds a tree, and every box where its parent keeps it, to the literal one over the reference's leaves.
 void expect_literal(const WideTree& tree, const HostTree& reference, const Way& way)
 {
     const HostTree found = tree.spelled_out();
@@ -223,26 +99,23 @@ void expect_literal(const WideTree& tree, const HostTree& reference, const Way& 
             leaves.push_back(node.box);
             primitives.push_back(node.primitive);
         }
-    const LiteralWide literal(leaves, 1u << way.bits, way.on_grid);
+    const std::vector<std::vector<Aabb>> rows = literal_rows(leaves, 1u << way.bits);
     const std::vector<Aabb> stored = tree.stored_boxes(0);
     std::size_t slot = 0;
-    for (std::size_t level = 0; level < literal.stored.size(); ++level)
-        for (std::size_t k = 0; k < literal.stored[level].size(); ++k, ++slot) {
-            const bool is_leaf = level + 1 == literal.stored.size();
-            const Aabb& box = is_leaf ? leaves[k] : literal.stored[level][k];
+    for (std::size_t level = 0; level < rows.size(); ++level)
+        for (std::size_t k = 0; k < rows[level].size(); ++k, ++slot) {
+            const bool is_leaf = level + 1 == rows.size();
             ASSERT_LT(slot, found.nodes.size());
-            ASSERT_EQ(std::memcmp(&found.nodes[slot].box, &box, sizeof box), 0) << "slot " << slot;
+            ASSERT_TRUE(same_bits(found.nodes[slot].box, rows[level][k])) << "slot " << slot;
             ASSERT_EQ(found.nodes[slot].primitive, is_leaf ? primitives[k] : HostTree::none);
             if (level == 0)
                 continue;
-            const std::size_t parent =
-                slot - k - literal.stored[level - 1].size() + (k >> way.bits);
-            const Aabb& kept = stored[(parent << way.bits) + k % (1u << way.bits)];
-            ASSERT_EQ(std::memcmp(&kept, &literal.stored[level][k], sizeof kept), 0) << slot;
-            ASSERT_TRUE(contains(kept, box));
+            const std::size_t parent = slot - k - rows[level - 1].size() + (k >> way.bits);
+            ASSERT_TRUE(
+                same_bits(stored[(parent << way.bits) + k % (1u << way.bits)], rows[level][k]))
+                << "slot " << slot;
         }
     ASSERT_EQ(slot, found.nodes.size());
-    EXPECT_EQ(found.is_tight, !way.on_grid);
 }
 
 class Wide : public testing::TestWithParam<Way> {
@@ -298,11 +171,7 @@ TEST_P(Wide, TakesLessThanTheBinaryTree)
     const auto wide = GetParam().make(bench().programs, {});
     const double bytes = static_cast<double>(wide->footprint(triangles).tree_bytes) / triangles;
     EXPECT_LT(bytes, static_cast<double>(binary->footprint(triangles).tree_bytes) / triangles);
-    EXPECT_NEAR(bytes,
-                GetParam().on_grid     ? 28 + 64 / 7.0
-                : GetParam().bits == 2 ? 36
-                                       : 4 + 192 / 7.0,
-                0.1);
+    EXPECT_NEAR(bytes, GetParam().bits == 2 ? 36 : 4 + 192 / 7.0, 0.1);
 }
 
 INSTANTIATE_TEST_SUITE_P(Ways, Wide, testing::ValuesIn(ways),

@@ -3,7 +3,7 @@
 
     tests/report/pictures.py --out docs/pictures
 
-Of results/h200/table1.json and orders.json, and of a cloth on a ball, by the program in build/release.
+Of results/h200/table1.json.xz and orders.json.xz, and of a cloth on a ball, by the program in build/release.
 """
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 from browser import Browser  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-SHOWN = ("table1.json", "orders.json")
+SHOWN = ("table1.json.xz", "orders.json.xz")
 PICTURES = (("report-1280.png", 1280, 1260, "#file-1", "header"), ("report-400.png", 400, 1560, "#file-1", "header"),
             ("report-scene.png", 1280, 830, "#overview", ".view"))
 SCENE = ("--scene", "cloth-ball:6000", "--frame", "15")

@@ -196,14 +196,16 @@ TEST(TwoSpheres, SinkIntoEachOtherAndTurn)
         for (const Motion motion : object_motions(scene, frame - 1, frame))
             EXPECT_EQ(motion, Motion::rigid);
     const std::size_t second = scene.faces[scene.objects[1].first_face].a;
-    const auto inside = [&](std::size_t frame) {  // of the standing one, what part of the other's points
-        std::size_t count = 0;
-        for (std::size_t k = second; k < scene.frames[frame].size(); ++k) {
-            const Point p = scene.frames[frame][k];
-            count += std::hypot(p.x, p.y, p.z) < 0.5 ? 1 : 0;
-        }
-        return static_cast<double>(count) / static_cast<double>(scene.frames[frame].size() - second);
-    };
+    const auto inside =
+        [&](std::size_t frame) {  // of the standing one, what part of the other's points
+            std::size_t count = 0;
+            for (std::size_t k = second; k < scene.frames[frame].size(); ++k) {
+                const Point p = scene.frames[frame][k];
+                count += std::hypot(p.x, p.y, p.z) < 0.5 ? 1 : 0;
+            }
+            return static_cast<double>(count) /
+                   static_cast<double>(scene.frames[frame].size() - second);
+        };
     EXPECT_LT(inside(0), 0.01);
     EXPECT_NEAR(inside(3), 0.05, 0.01);
 }
