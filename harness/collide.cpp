@@ -15,10 +15,12 @@ namespace {
 /// What a cell's scene is called, and how it was asked for.
 SceneFacts asked_scene(const CollideTask& task)
 {
-    const bool is_usual = task.objects == ObjectsBy::automatic;
-    return {.name = task.scene,
-            .objects_by = is_usual ? "" : std::string(objects_by_name(task.objects)),
-            .between = task.between};
+    SceneFacts scene;
+    scene.name = task.scene;
+    if (task.objects != ObjectsBy::automatic)
+        scene.objects_by = objects_by_name(task.objects);
+    scene.between = task.between;
+    return scene;
 }
 
 /// A cell of each pipeline that says why there is none.

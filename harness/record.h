@@ -44,8 +44,9 @@ struct Check {
 /// Which triangles were built over.
 struct SceneFacts {
     std::string name;
-    std::string objects_by;    ///< what was asked to be an object; empty: as the scene was loaded
-    std::int64_t between = 0;  ///< frames put between each two of the scene's
+    std::string objects_by =
+        {};                      ///< what was asked to be an object; empty: as the scene was loaded
+    std::int64_t between = 0;    ///< frames put between each two of the scene's
     std::int64_t triangles = 0;  ///< the rest is known only if this is not 0
     std::int64_t vertices = 0;
     std::int64_t objects = 0;
