@@ -8,7 +8,7 @@
 
 namespace bvhbench {
 
-/// What is put into the order of exact median splits (builders/stages/medians.h).
+/// What is put into the order of exact median splits (builders/stages/medians/medians.h).
 enum class Medians {
     nowhere,
     in_blocks,   ///< every aligned block of 2^median_block_height leaves, after the sort

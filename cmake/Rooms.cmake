@@ -1,5 +1,5 @@
 # add_room(<name> [NEEDS <room>...] [OWNS <prefix>...] [LIBRARIES <target>...]
-#          [SOURCES <file>...] [HEADERS <file>...] [KERNELS <file>...])
+#          [FLOORS <folder>...] [SOURCES <file>...] [HEADERS <file>...] [KERNELS <file>...])
 #
 # A room is a folder, a library and a rule. Its files may include, by path from the source root, only
 # their own headers and those of the rooms they NEED. A library's headers (<CL/...>, <assimp/...>) may be
@@ -7,10 +7,13 @@
 # tests/rooms_test.py reads the rules back from rooms.json, so this call is the only place where they are
 # written.
 #
+# FLOORS lists the folders of a large room, the lowest first: a file may include those of its own folder and of folders before
+# it. "." is the room's folder itself.
+#
 # KERNELS lists every file that kernels are made of: .cl entry points and the headers they include.
 # Entry points (.cl) are also syntax-checked, each alone, by cmake/KernelChecks.cmake.
 function(add_room name)
-    cmake_parse_arguments(PARSE_ARGV 1 room "" "" "NEEDS;OWNS;LIBRARIES;SOURCES;HEADERS;KERNELS")
+    cmake_parse_arguments(PARSE_ARGV 1 room "" "" "NEEDS;OWNS;LIBRARIES;FLOORS;SOURCES;HEADERS;KERNELS")
     if(room_SOURCES)
         add_library(${name} STATIC ${room_SOURCES})
         set(visibility PUBLIC)
@@ -27,12 +30,12 @@ function(add_room name)
     set_property(GLOBAL APPEND PROPERTY BVHBENCH_KERNELS ${room_KERNELS})
     set_property(TARGET ${name} PROPERTY BVHBENCH_KERNELS ${room_KERNELS})
 
-    foreach(list NEEDS OWNS)
+    foreach(list NEEDS OWNS FLOORS)
         list(TRANSFORM room_${list} REPLACE "(.+)" "\"\\1\"")
         list(JOIN room_${list} ", " room_${list})
     endforeach()
     set_property(GLOBAL APPEND PROPERTY BVHBENCH_ROOMS
-        "\"${name}\": {\"needs\": [${room_NEEDS}], \"owns\": [${room_OWNS}]}")
+        "\"${name}\": {\"needs\": [${room_NEEDS}], \"owns\": [${room_OWNS}], \"floors\": [${room_FLOORS}]}")
 endfunction()
 
 # Write the rules down and gather the kernels of all rooms into one object library, `kernels`, which

@@ -42,7 +42,7 @@ void DeviceCollider::reserve(const Tree* tree, const Input&)
     tree_ = dynamic_cast<const DeviceTree*>(tree);
     compile(*tree_);
     if (has_ropes(*tree_))
-        ropes_kernel_ = kernel(*tree_, "collide/ropes.cl", "ropes", {});
+        ropes_kernel_ = kernel(*tree_, "collide/walks/ropes.cl", "ropes", {});
     take_memory_for(tree_->leaf_count());
 }
 

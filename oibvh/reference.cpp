@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <vector>
 
-#include "builders/stages/leaf_order.h"
+#include "builders/ordered/leaf_order.h"
 #include "oibvh/layout.h"
 #include "oibvh/oibvh.h"
 

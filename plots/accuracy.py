@@ -21,6 +21,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullLocator
 
 import figure
+import pareto
 import results
 import style
 import swept
@@ -83,17 +84,8 @@ def wrong(cell: results.Cell) -> float:
     return (cell.counters["missed_count"] + cell.counters["false_count"]) / cell.counters["pairs_count"]
 
 
-def front(points: list[Point]) -> list[Point]:
-    """Those that no other is as fast as and as good as, one of them more so; by time."""
-    kept: list[Point] = []
-    for point in sorted(points):
-        if not kept or point.error < kept[-1].error:
-            kept.append(point)
-    return kept
-
-
 def draw_points(axes: plt.Axes, axis: str, points: list[Point]) -> None:
-    best = front(points)
+    best = pareto.front(points)
     axes.plot([point.time for point in best], [point.error for point in best], color="#888888", linewidth=0.8, zorder=1)
     for point in points:
         seen = look(axis, point.method)

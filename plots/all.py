@@ -90,14 +90,27 @@ def held(run: results.Run) -> str:
     return ", ".join(named) or "no cells"
 
 
-def drawn(path: pathlib.Path, folder: pathlib.Path, is_of_folder: bool, arguments: argparse.Namespace) -> None:
+def drawn(path: pathlib.Path, folder: pathlib.Path, is_of_folder: bool, inputs: list[pathlib.Path], force: bool) -> None:
     """Raises results.Refused and output.WrongUsage."""
     run = results.load(path)
     pictures = pictures_of(run)
     if not pictures and not is_of_folder:
         raise results.Refused(f"{path}: there is no figure of what it holds: {held(run)}")
-    for picture in figure.save_all(run, pictures, folder, [path, *arguments.given], arguments.force):
+    for picture in figure.save_all(run, pictures, folder, [path, *inputs], force):
         print(picture)
+
+
+def draw_all(files: list[pathlib.Path], out: pathlib.Path, force: bool) -> list[str]:
+    """What could not be drawn, a sentence each; all else is. Raises output.WrongUsage."""
+    style.set_up()
+    refusals = []
+    for given in files:
+        for path, folder in files_of(given, out):
+            try:
+                drawn(path, folder, given.is_dir(), files, force)
+            except results.Refused as refusal:
+                refusals.append(str(refusal))
+    return refusals
 
 
 def main() -> int:
@@ -105,20 +118,14 @@ def main() -> int:
     parser.add_argument("given", nargs="+", type=pathlib.Path, metavar="FILE_OR_FOLDER")
     figure.add_output(parser, required=True)
     arguments = parser.parse_args()
-    style.set_up()
 
-    def draw_all() -> int:
-        code = 0
-        for given in arguments.given:
-            for path, folder in files_of(given, arguments.out):
-                try:
-                    drawn(path, folder, given.is_dir(), arguments)
-                except results.Refused as refusal:
-                    output.say(str(refusal))
-                    code = 3
-        return code
+    def draw() -> int:
+        refusals = draw_all(arguments.given, arguments.out, arguments.force)
+        for refusal in refusals:
+            output.say(refusal)
+        return 3 if refusals else 0
 
-    return output.to_an_end(draw_all)
+    return output.to_an_end(draw)
 
 
 if __name__ == "__main__":

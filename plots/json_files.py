@@ -9,7 +9,10 @@ import re
 import stat
 from typing import Any
 
+import host_memory
+
 XZ = b"\xfd7zXZ\0"  # how a file packed by xz begins
+MOST_BYTES = 1 << 28  # of a text that was packed
 
 
 class Refused(Exception):
@@ -26,39 +29,73 @@ def files_in(folder: pathlib.Path) -> list[pathlib.Path]:
     return sorted(path for path in folder.rglob("*") if path.name.endswith((".json", ".json.xz")))
 
 
+class Number(float):
+    """A number that is not whole, with the digits it was written with: there is more than one way to tell it from all others."""
+
+    def __new__(cls, text: str) -> Number:
+        number = super().__new__(cls, text)
+        number.text = text
+        if math.isinf(number):
+            raise ValueError(f"{text} is too large a number")
+        return number
+
+
 def parsed(path: pathlib.Path) -> Any:
     """What a JSON file holds. Raises Refused."""
     try:
         kind = path.stat().st_mode
         if not stat.S_ISREG(kind) and not stat.S_ISFIFO(kind):
             raise Refused(f"{path}: it is a {'folder' if stat.S_ISDIR(kind) else 'device'}, not a result file")
-        packed = path.read_bytes()
-        text = (lzma.decompress(packed) if packed.startswith(XZ) else packed).decode("utf-8")
-        if not text.strip():
-            raise Refused(f"{path}: it is empty")
-        document = json.loads(text, parse_constant=no_number, parse_float=finite)
-        if re.search(r"\\u[dD]", text):
-            json.dumps(document, ensure_ascii=False).encode("utf-8")
+        if why := host_memory.refusal(path, path.stat().st_size):
+            raise Refused(why)
+        return value_of(unpacked(path.read_bytes()))
     except OSError as error:
         raise Refused(f"{path}: {error.strerror}") from error
     except lzma.LZMAError as error:
-        raise Refused(f"{path}: cannot be unpacked: it is cut off or damaged") from error
-    except UnicodeDecodeError as error:
-        raise Refused(f"{path}: not text in UTF-8, at byte {error.start}") from error
-    except UnicodeEncodeError as error:
-        raise Refused(f"{path}: a text in it has half a character, {error.object[error.start]!a}") from error
+        raise Refused(f"{path}: cannot be unpacked: {error}") from error
     except ValueError as error:
-        raise Refused(f"{path}: not JSON: {error}") from error
+        raise Refused(f"{path}: {error}") from error
+
+
+def unpacked(text: bytes) -> bytes:
+    """A text that may be packed by xz. Raises lzma.LZMAError, which says what is wrong with it."""
+    if not text.startswith(XZ):
+        return text
+    parts, room = [], MOST_BYTES
+    while text:
+        decoder = lzma.LZMADecompressor(lzma.FORMAT_XZ)
+        try:
+            parts.append(decoder.decompress(text, max_length=room + 1))
+        except lzma.LZMAError as error:
+            raise lzma.LZMAError("it is cut off or damaged") from error
+        room -= len(parts[-1])
+        if room < 0:
+            raise lzma.LZMAError(f"it would be larger than {MOST_BYTES >> 20} MiB")
+        if not decoder.eof:
+            raise lzma.LZMAError("it is cut off or damaged")
+        text = decoder.unused_data
+    return b"".join(parts)
+
+
+def value_of(encoded: bytes) -> Any:
+    """What a JSON text holds. Raises ValueError, which says what is wrong with it."""
+    if not encoded.strip():
+        raise ValueError("it is empty")
+    try:
+        text = encoded.decode("utf-8-sig")  # some editors put a mark before the text
+        value = json.loads(text, parse_constant=no_number, parse_float=Number)
+        if re.search(r"\\u[dD]", text):
+            json.dumps(value, ensure_ascii=False).encode("utf-8")
+        return value
+    except UnicodeDecodeError as error:
+        raise ValueError(f"not text in UTF-8, at byte {error.start}") from error
+    except UnicodeEncodeError as error:
+        raise ValueError(f"a text in it has half a character, {error.object[error.start]!a}") from error
+    except ValueError as error:
+        raise ValueError(f"not JSON: {error}") from error
     except RecursionError as error:
-        raise Refused(f"{path}: nested too deeply") from error
-    return document
+        raise ValueError("nested too deeply") from error
 
 
 def no_number(word: str) -> float:
     raise ValueError(f"{word} is no number")
-
-
-def finite(text: str) -> float:
-    if math.isinf(value := float(text)):
-        raise ValueError(f"{text} is too large a number")
-    return value

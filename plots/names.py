@@ -1,23 +1,38 @@
-"""What pipelines are called: a collider and the builder of its tree, with options that are not the usual ones."""
+"""What scenes, builders, colliders and pipelines are called: by their name and by each option that is not the usual one."""
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 # An option's usual value and how another one is said, in the order in which they are.
 OPTIONS = {"no_skip": ("", "without {}"), "jump": ("0", "jump {}"), "start_level": ("0", "from level {}"),
            "order": ("morton30", "{}"), "grid": ("object", "grid over the {}"), "group_size": ("0", "groups of {}"), "items": ("0", "{} items"),
            "leaves": ("mesh", "{} leaves"), "boxes": ("f32", "{} boxes")}
+# Those that decide what is found. Figures show them elsewhere.
+ANSWERS = {"pairs_of": ("all", "{} objects"), "adjacent": ("keep", "adjacent {}ped"), "narrow": ("none", "contacts {}")}
+USUAL = {key: usual for key, (usual, _) in {**ANSWERS, **OPTIONS}.items()}
+
+
+def said(options: Mapping[str, object], table: Mapping[str, tuple[str, str]]) -> list[str]:
+    return [words.format(options[key]) for key, (usual, words) in table.items() if str(options.get(key, usual)) != usual]
 
 
 def variant(name: str, options: Mapping[str, object]) -> str:
-    said = [words.format(options[key]) for key, (usual, words) in OPTIONS.items()
-            if str(options.get(key, usual)) != usual]
-    return f"{name} ({', '.join(said)})" if said else name
+    """For figures: "bvtt (jump 2)"."""
+    words = said(options, OPTIONS)
+    return f"{name} ({', '.join(words)})" if words else name
 
 
 def pipeline(collider: str, collider_options: Mapping[str, object], builder: str, options: Mapping[str, object]) -> str:
     text = variant(collider, collider_options)
     return text if builder == "none" else f"{text} over {variant(builder, options)}"
+
+
+def in_full(choice: Mapping[str, Any]) -> str:
+    """For the console, a builder or collider as a result file has it: "bvtt, between objects, jump 2"."""
+    options = choice.get("options", {})
+    shown = {key: value for key, value in options.items() if key != "leaves" or options.get("boxes", "f32") == "f32"}
+    return ", ".join([choice["name"], *said(shown, ANSWERS), *said(shown, OPTIONS)])
 
 
 def scene(facts: Mapping[str, object]) -> str:

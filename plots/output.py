@@ -1,9 +1,11 @@
-"""Every file that plots write: checked before it is made, and replaced as a whole. As harness/output.h does it in C++."""
+"""Every file that plots write: checked before it is made, and replaced as a whole. As harness/record/output.h does it in C++."""
 from __future__ import annotations
 
 import errno
 import os
 import pathlib
+import re
+import signal
 import stat
 import sys
 import tempfile
@@ -42,6 +44,15 @@ def check(path: pathlib.Path, inputs: Iterable[pathlib.Path], force: bool, is_ou
         head = file.read(HEAD_BYTES)
     if head and not force and not is_ours(head):
         raise WrongUsage(f"{path} is there already; --force replaces it, or choose another file")
+
+
+def check_pictures(folder: pathlib.Path, inputs: Iterable[pathlib.Path], force: bool) -> None:
+    """Raises WrongUsage, before anything is drawn into the folder, if a file there is called like a picture and is none of ours,
+    or is an input."""
+    files = [path for path in inputs if not path.is_dir()]
+    for path in sorted(folder.iterdir()):
+        if path.suffix in (".png", ".svg"):
+            check(path, files, force, lambda head: head.startswith(b"\x89PNG") or b"<svg" in head)
 
 
 def make_folder(folder: pathlib.Path) -> None:
@@ -113,8 +124,7 @@ def take_mode(descriptor: int, about: os.stat_result | None) -> None:
 def to_an_end(main: Callable[[], int], prefix: str = "") -> int:
     """What a script exits with: that of `main`, or, with a sentence, 2 for wrong usage and 3 for what cannot be read, drawn or
     written."""
-    for stream in (sys.stdout, sys.stderr):
-        stream.reconfigure(errors="surrogateescape")  # names of files are bytes
+    prepare_streams()
     try:
         status = main()
         sys.stdout.flush()
@@ -126,10 +136,23 @@ def to_an_end(main: Callable[[], int], prefix: str = "") -> int:
         say(f"{prefix}{refusal}")
     except MemoryError:
         say(f"{prefix}there is too little memory")
+    except BrokenPipeError:  # nobody reads what is printed any more
+        signal.signal(signal.SIGPIPE, signal.SIG_DFL)
+        os.kill(os.getpid(), signal.SIGPIPE)
     except OSError as error:
         say(f"{prefix}standard output cannot be written: {error.strerror}")
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # what is left in its buffer
     return 3
+
+
+def prepare_streams() -> None:
+    """One that was closed is there again: standard output then cannot be written. Control characters are spelled out."""
+    sys.stdout = sys.stdout or os.fdopen(os.open(os.devnull, os.O_RDONLY), "w")
+    sys.stderr = sys.stderr or os.fdopen(os.open(os.devnull, os.O_WRONLY), "w")
+    for stream in (sys.stdout, sys.stderr):
+        stream.reconfigure(encoding="utf-8", errors="surrogateescape")  # in any locale; names of files are bytes
+    write = sys.stdout.write
+    sys.stdout.write = lambda text: write(printable(text))
 
 
 def described(error: Exception) -> str:
@@ -137,6 +160,11 @@ def described(error: Exception) -> str:
     if isinstance(error, KeyError):
         return f"it has no {error}"
     return f"{error}" or type(error).__name__
+
+
+def printable(text: str) -> str:
+    """With control characters but the ends of lines and tabs spelled out: a terminal obeys them."""
+    return re.sub(r"[\x00-\x08\x0b-\x1f\x7f]", lambda letter: f"\\x{ord(letter[0]):02x}", text)
 
 
 def say(sentence: str) -> None:

@@ -20,6 +20,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 import figure
 import labels
+import pareto
 import results
 import style
 
@@ -34,15 +35,6 @@ Point = tuple[float, float, results.Cell]  # milliseconds, measure
 def points_of(cells: list[results.Cell], measure: str = "sah_cost") -> list[Point]:
     return [(1e3 * results.quantiles(cell.whole_times_s()).median, cell.counters[measure], cell) for cell in cells
             if cell.samples and measure in cell.counters]
-
-
-def front(points: list[Point]) -> list[Point]:
-    """Those that no other is as fast as and as good as, one of them more so; by time."""
-    kept: list[Point] = []
-    for point in sorted(points, key=lambda p: p[:2]):
-        if not kept or point[1] < kept[-1][1]:
-            kept.append(point)
-    return kept
 
 
 def order_of(cell: results.Cell) -> str | None:
@@ -112,7 +104,7 @@ class Panels:
     def draw(self, pair: list[plt.Axes], cells: list[results.Cell], measure: str, is_first: bool) -> list[plt.Axes]:
         """One scene and measure; answers the axes that show something."""
         points = points_of(cells, measure)
-        best = front(points)
+        best = pareto.front(points)
         used = []
         for axes, on_host in zip(pair, (False, True)):
             here = [point for point in points if point[2].on_host == on_host]

@@ -18,6 +18,7 @@ from typing import Any
 import json_files
 import output
 import report_cells
+import report_compared
 import report_facts
 import report_looks
 import report_page
@@ -29,10 +30,12 @@ import results
 def file_data(path: pathlib.Path, document: dict[str, Any]) -> dict[str, Any]:
     run, raw = document["run"], document["cells"]
     cells = [report_cells.cell_data(path, cell, run.get("copy_rate_bytes_per_s")) for cell in raw]
+    report_compared.mark_fronts(cells)
     stress = document.get("stress", [])
     states = Counter(cell["state"] for cell in cells)
     states.update(finding["verdict"] for cell in stress for finding in cell["findings"].values())
-    return {"name": text_of(json_files.name_of(path)), "path": text_of(path.name), "cells": cells, "looks": report_looks.looks_of(cells),
+    return {"name": text_of(json_files.name_of(path)), "path": text_of(path.name), "cells": cells,
+            "bars": report_compared.bars_of(cells), "looks": report_looks.looks_of(cells),
             "tables": report_tables.tables_of(cells, stress), "states": states,
             "experiments": list(dict.fromkeys(cell["experiment"] for cell in cells)) or ["stress"],
             "device": run["device"]["name"], "driver": run["device"]["driver"], "machine": run["host"]["name"],
@@ -62,7 +65,7 @@ def make(files: list[pathlib.Path], views: list[pathlib.Path]) -> tuple[str, boo
         except (ArithmeticError, ValueError) as error:
             raise results.Refused(f"{path}: no page can be made of its numbers: {error}") from error
         is_wrong |= data["states"]["differs"] > 0
-        summary.append({key: value for key, value in data.items() if key not in ("cells", "looks", "tables")}
+        summary.append({key: value for key, value in data.items() if key not in ("cells", "bars", "looks", "tables")}
                        | {"count": len(data["cells"]) or len(document.get("stress", []))})
         sections.append(report_page.section(number, title, report_facts.sentence_of(document),
                                             report_facts.warnings_of(document),
@@ -80,23 +83,25 @@ def make(files: list[pathlib.Path], views: list[pathlib.Path]) -> tuple[str, boo
     return report_page.page(title, sections, [report_page.json_blob("head", head), *blobs], bool(shown)), is_wrong
 
 
+def write(files: list[pathlib.Path], views: list[pathlib.Path], out: pathlib.Path, force: bool) -> int:
+    """The exit code: 1 if an answer was wrong. Raises output.WrongUsage and results.Refused."""
+    output.check(out, [*files, *views], force, output.is_page)
+    text, is_wrong = make(files, views)
+    content = text.encode("utf-8")
+    if output.write(out, content):
+        print(f"written: {out}, {len(content) / 1e6:.1f} MB")
+    return 1 if is_wrong else 0
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("files", nargs="*", type=pathlib.Path, metavar="FILE", help="result files")
     parser.add_argument("-o", "--out", type=pathlib.Path, default=pathlib.Path("report.html"), help="the page")
     parser.add_argument("--force", action="store_true", help="replace a file that is no page")
-    parser.add_argument("--view", action="append", default=[], type=pathlib.Path, help="a scene, as harness/view.h writes it")
+    parser.add_argument("--view", action="append", default=[], type=pathlib.Path, help="a scene, as harness/measure/view.h writes it")
     arguments = parser.parse_args()
 
-    def write_page() -> int:
-        output.check(arguments.out, [*arguments.files, *arguments.view], arguments.force, output.is_page)
-        text, is_wrong = make(arguments.files, arguments.view)
-        content = text.encode("utf-8")
-        if output.write(arguments.out, content):
-            print(f"written: {arguments.out}, {len(content) / 1e6:.1f} MB")
-        return 1 if is_wrong else 0
-
-    return output.to_an_end(write_page, "bvhbench: ")
+    return output.to_an_end(lambda: write(arguments.files, arguments.view, arguments.out, arguments.force), "bvhbench: ")
 
 
 if __name__ == "__main__":

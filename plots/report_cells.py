@@ -11,9 +11,13 @@ from typing import Any
 import accuracy
 import names
 import results
+from cells import whole_ns
 
 WITHOUT_TIMES = ("differs", "skipped", "failed")
 WHOLE = "whole"
+# What tells how good a tree is, by counter, and what the page calls it.
+GOODNESS = {"sah_cost": "surface area cost", "epo": "end-point overlap", "sibling_overlap": "overlap of siblings",
+            "box_tests_count": "box tests of a query", "tree_bytes": "bytes of the tree"}
 FINDS_CONTACTS = ("fcl", "fcl-refit")  # in their broad phase, and are held to the exact ones
 
 
@@ -95,6 +99,12 @@ def errors_of(cell: results.Cell) -> dict[str, float]:
     return errors
 
 
+def measures_of(cell: results.Cell) -> dict[str, float]:
+    """What its time may be weighed against: errors, and how good a tree is."""
+    goodness = GOODNESS if cell.operation != "collide" else {}
+    return errors_of(cell) | {text: cell.counters[key] for key, text in goodness.items() if key in cell.counters}
+
+
 def cell_data(path: pathlib.Path, raw: dict[str, Any], copy_rate: float | None) -> dict[str, Any]:
     scene, state = raw["scene"], state_of(raw)
     data = {
@@ -107,13 +117,13 @@ def cell_data(path: pathlib.Path, raw: dict[str, Any], copy_rate: float | None) 
         cell = results.cell_of(path, raw)
         times = data["times"] = times_of(cell)
         data |= {"on_host": cell.on_host, "copy_share": copy_share(cell, times, copy_rate) if times else None,
-                 "errors": errors_of(cell)}
+                 "errors": errors_of(cell), "measures": measures_of(cell)}
     return data
 
 
 def column(values: list[Any]) -> Any:
     """One value in place of a list of equal ones."""
-    return values[0] if all(value == values[0] for value in values) else values
+    return values[0] if values and all(value == values[0] for value in values) else values
 
 
 def samples_data(raw: dict[str, Any]) -> dict[str, Any]:
@@ -129,6 +139,7 @@ def samples_data(raw: dict[str, Any]) -> dict[str, Any]:
     own = {key: column([sample.get(key) for sample in samples])
            for key in dict.fromkeys(key for sample in samples for key in sample if key != "stages")}
     return {"count": len(samples), "own": own,
+            "whole": column([whole_ns({entry["stage"]: entry for entry in sample["stages"]}) for sample in samples]),
             "stages": {stage: {key: column(values) for key, values in columns.items()}
                        for stage, columns in stages.items()},
             "facts": {key: value for key, value in raw.items() if key != "samples"}}

@@ -6,20 +6,21 @@ from __future__ import annotations
 
 import functools
 import json
+import os
 import pathlib
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy
 
+import documents
 import names
 import shape
+from cells import Cell
+from documents import FOLDER, MAJOR, check_of
 from json_files import Refused, parsed
 
-MAJOR = "1"
-FOLDER = pathlib.Path(__file__).resolve().parent.parent / "results"
 PAPER = FOLDER / "paper"
-SCHEMA = FOLDER / "schema" / "result-1.schema.json"
 
 
 @dataclass(frozen=True)
@@ -31,64 +32,7 @@ class Quantiles:
     p90: float
 
 
-@dataclass(frozen=True)
-class Cell:
-    """One builder measured on one scene."""
-
-    experiment: str
-    scene: str
-    triangles: int
-    stand_in_for: str | None
-    outlier: dict[str, Any] | None  # which triangle of which scene was moved, and how far
-    builder: str
-    options: tuple[tuple[str, str], ...]
-    operation: str  # what was timed: build, refit, collide or, along an axis, accuracy
-    frame: int  # of the scene, from 0
-    collider: str | None  # what queried the tree; its builder is "none" if it wants no tree
-    collider_options: tuple[tuple[str, str], ...]
-    checked: bool  # held to an answer that is right, be it that errors are counted
-    counters: dict[str, float]
-    samples: list[dict[str, dict[str, Any]]]  # per sample: stage name to its numbers
-    left_out: dict[str, str]  # a counter that has no value, and why
-    leaves_by_depth: list[int]  # from the root's level on; empty before format 1.3
-    accuracy: dict[str, Any]  # on which axis, by which method, of which seed; empty if on none
-    swept: dict[str, Any]  # which pairs, to which frame, of how many boxes; empty if boxes are of one frame
-
-    def times_s(self, stage: str) -> numpy.ndarray:
-        """Seconds per sample: first start to last end on the device's clock, else the host's clock."""
-        stages = (sample[stage] for sample in self.samples if stage in sample)
-        times = [entry["span_ns"] if "span_ns" in entry else entry["wall_ns"] for entry in stages]
-        return numpy.array(times, dtype=float) * 1e-9
-
-    def whole_times_s(self) -> numpy.ndarray:
-        """Seconds per sample from the first start to the last end: on the device's clock as it tells since format 1.4,
-        and host stages, which run by themselves, added."""
-        times = []
-        for sample in self.samples:
-            entries = sample.values()
-            on_device = [entry.get("start_ns", 0) + entry["span_ns"] for entry in entries if "span_ns" in entry]
-            on_host = [entry["wall_ns"] for entry in entries if "wall_ns" in entry]
-            spans = sum(entry["span_ns"] for entry in entries if "span_ns" in entry)
-            times.append((max(spans, *on_device, 0) if on_device and not on_host else spans) + sum(on_host))
-        return numpy.array(times, dtype=float) * 1e-9
-
-    @property
-    def called(self) -> str:
-        """The pipeline of a frame, the builder of a build."""
-        if self.collider is None:
-            return self.builder
-        return names.pipeline(self.collider, dict(self.collider_options), self.builder, dict(self.options))
-
-    @property
-    def on_host(self) -> bool:
-        return any("wall_ns" in entry for sample in self.samples for entry in sample.values())
-
-    def moved_bytes(self, stage: str) -> float | None:
-        """The least the stage must read and write; host stages do not say."""
-        return self.samples[0].get(stage, {}).get("moved_bytes") if self.samples else None
-
-
-@dataclass(frozen=True)
+@dataclass
 class Run:
     """A result file: its circumstances and its cells, with those that have no numbers apart."""
 
@@ -97,6 +41,18 @@ class Run:
     cells: list[Cell]
     without_numbers: list[dict[str, Any]]
     stress: list[dict[str, Any]]  # what `bvhbench stress` found, as in the file; empty before format 1.6
+
+    document: dict[str, Any] = field(default_factory=dict, repr=False)  # as it is in the file
+
+    @functools.cached_property
+    def all_cells(self) -> list[Cell]:
+        """In the file's order, skipped, failed and wrong ones too."""
+        return [Cell(cell) for cell in self.document["cells"]]
+
+    def copy_rate_of(self, cell: Cell) -> float:
+        """Of the run that the cell is from; 0 if it was not measured."""
+        rates = {source["id"]: source.get("copy_rate_bytes_per_s", 0) for source in self.document.get("merged_from", [])}
+        return rates.get(cell.raw.get("run"), 0) or self.copy_rate or 0
 
     @property
     def device(self) -> str:
@@ -187,17 +143,6 @@ def is_result(path: pathlib.Path) -> bool:
     return isinstance(document, dict) and {"format", "run", "cells"} <= document.keys()
 
 
-@functools.cache
-def schema() -> dict[str, Any]:
-    return json.loads(SCHEMA.read_text(encoding="utf-8"))
-
-
-@functools.cache
-def check_of(part: str) -> shape.Check:
-    """Of a part that the schema defines, or of the whole file."""
-    return shape.check_of(schema()["$defs"][part] if part else schema(), schema())
-
-
 def check(path: pathlib.Path, value: Any, part: str = "") -> None:
     """Raises Refused if it is not as results/schema says."""
     try:
@@ -228,37 +173,28 @@ def load(path: pathlib.Path) -> Run:
     measured = [cell for cell in document["cells"] if cell["status"] == "measured"]
     without = [cell for cell in document["cells"] if cell["status"] != "measured"]
     return Run(path, document["run"], [cell_of(path, cell) for cell in measured], without,
-               document.get("stress", []))
+               document.get("stress", []), document)
 
 
-def called(cell: dict[str, Any]) -> str:
+def everything(path: str | os.PathLike[str]) -> Run:
+    """Read a result file with what no figure may be made of: wrong answers, merged devices, runs under test hooks. Raises Refused
+    for what is no result file."""
+    document = documents.read(os.fspath(path))
+    return Run(pathlib.Path(path), document["run"], [], [], document.get("stress", []), document)
+
+
+def called(raw: dict[str, Any]) -> str:
     """As Cell.called, of a cell that may have no numbers."""
-    builder, collider = cell["builder"], cell.get("collider")
-    if collider is None:
-        return builder["name"]
-    return names.pipeline(collider["name"], collider.get("options", {}), builder["name"], builder.get("options", {}))
+    return Cell(raw).called
 
 
-def counted(samples: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    """Those that statistics are made of: no drift of the device was near, unless it was near most of them."""
-    steady = [sample for sample in samples if not sample.get("drifted", False)]
-    return steady if 2 * len(steady) >= len(samples) else samples
-
-
-def cell_of(path: pathlib.Path, cell: dict[str, Any]) -> Cell:
-    scene, builder = cell["scene"], cell["builder"]
-    if cell["check"]["verdict"] == "differs":
-        detail = cell["check"].get("detail", "no detail given")
-        raise Refused(f"{path}: {called(cell)} gave a wrong answer on {scene['name']}: {detail}")
-    collider = cell.get("collider", {})
-    options, collider_options = (tuple(sorted((key, str(value)) for key, value in choice.get("options", {}).items()))
-                                 for choice in (builder, collider))
-    samples = [{entry["stage"]: entry for entry in sample["stages"]} for sample in counted(cell["samples"])]
-    return Cell(cell["experiment"], names.scene(scene), scene.get("triangles", 0), scene.get("stand_in_for"), scene.get("outlier"),
-                builder["name"], options, cell.get("operation", "build"), scene.get("frame", 0), collider.get("name"), collider_options,
-                cell["check"]["verdict"] in ("agrees", "counted"), cell["counters"],
-                samples, cell.get("left_out", {}), cell.get("leaves_by_depth", []), cell.get("accuracy", {}),
-                cell.get("swept", {}))
+def cell_of(path: pathlib.Path, raw: dict[str, Any]) -> Cell:
+    """Raises Refused for a wrong answer."""
+    cell = Cell(raw)
+    if cell.verdict == "differs":
+        detail = cell.check.get("detail", "no detail given")
+        raise Refused(f"{path}: {cell.called} gave a wrong answer on {cell.scene_facts['name']}: {detail}")
+    return cell
 
 
 def printed(name: str) -> dict[str, Any]:

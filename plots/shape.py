@@ -71,7 +71,7 @@ def of_type(name: str) -> Check:
 
 
 def check_number(value: Any) -> None:
-    if type(value) is not int and type(value) is not float:
+    if type(value) is not int and not isinstance(value, float):
         raise Wrong("is no number")
     if not -LARGEST <= value <= LARGEST:
         raise Wrong("is too large a number")

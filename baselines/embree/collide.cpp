@@ -13,8 +13,8 @@
 #include "baselines/colliders.h"
 #include "baselines/embree/device.h"
 #include "baselines/embree/thread_pairs.h"
-#include "collide/host_collider.h"
-#include "collide/sweep.h"
+#include "collide/oracles/host_collider.h"
+#include "collide/oracles/sweep.h"
 #include "geometry/error.h"
 
 namespace bvhbench {

@@ -16,8 +16,8 @@
 #include <limits>
 
 #include "baselines/colliders.h"
-#include "collide/host_collider.h"
-#include "collide/sweep.h"
+#include "collide/oracles/host_collider.h"
+#include "collide/oracles/sweep.h"
 #include "geometry/error.h"
 
 namespace bvhbench {

@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "baselines/radix/hierarchy.h"
-#include "builders/ordered_builder.h"
+#include "builders/ordered/ordered_builder.h"
 #include "geometry/bits.h"
 
 namespace bvhbench {

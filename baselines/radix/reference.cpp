@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "baselines/baselines.h"
-#include "builders/stages/leaf_order.h"
+#include "builders/ordered/leaf_order.h"
 
 namespace bvhbench {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "builders/implicit/tree.h"
-#include "builders/ordered_builder.h"
+#include "builders/ordered/ordered_builder.h"
 
 namespace bvhbench {
 

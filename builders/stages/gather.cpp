@@ -43,7 +43,7 @@ GatherStage::GatherStage(Programs& programs, KernelForm form, uint group_size,
     runs_kernel_ = kernel("gather_runs_groups", "gather_runs_chunks");
     if (format.has_cells())
         cells_kernel_ = programs.kernel(
-            "builders/stages/scene_cells.cl", "find_cells",
+            "builders/stages/medians/scene_cells.cl", "find_cells",
             {{"GROUP_SIZE", groups ? cells_group_size : 1u}, {"CELLS_OF", format.number}});
 }
 

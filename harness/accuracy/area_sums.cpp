@@ -5,8 +5,8 @@
 #include <limits>
 #include <vector>
 
-#include "harness/compensated_sum.h"
-#include "harness/metrics.h"
+#include "harness/judge/compensated_sum.h"
+#include "harness/judge/metrics.h"
 
 namespace bvhbench {
 namespace {

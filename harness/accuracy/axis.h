@@ -10,10 +10,11 @@
 #include <string_view>
 #include <vector>
 
-#include "harness/progress.h"
-#include "harness/record.h"
-#include "harness/run.h"
-#include "harness/session.h"
+#include "harness/base/progress.h"
+#include "harness/measure/engine.h"
+#include "harness/measure/run.h"
+#include "harness/record/record.h"
+#include "harness/session/session.h"
 
 namespace bvhbench {
 
@@ -44,8 +45,6 @@ struct Axis {
     std::string_view question;  ///< one line
     /// Cells that cannot be had, for want of a scene or a reference, say so.
     void (*measure)(const AxisRun& run);
-    /// Its cells of a document as a table; empty if there are none.
-    std::string (*report)(const Document& document);
 };
 
 /// Every axis, in the order in which they are run.
@@ -54,28 +53,13 @@ std::span<const Axis> accuracy_axes();
 /// By name. Throws BadUsage with the known names when there is none.
 const Axis& find_axis(std::string_view name);
 
-/// The tables of all axes that a document has cells of.
-std::string accuracy_report(const Document& document);
-
 /// A cell that says what is measured: on which axis, of what, by which method.
 Cell accuracy_cell(std::string axis, std::string method, SceneFacts input);
 
-/// A cell on its way to being measured, and what one sample of it is; without, it is finished already.
-struct Measured {
-    Cell cell;
-    std::function<std::vector<StageTime>()> once;
+/// The cell has no numbers, and why, and is not sampled. What it left in the queue is forgotten.
+void fail(Session& session, Subject& subject, const std::string& why);
 
-    /// It has no numbers, and why. What it left in the queue is forgotten.
-    void fail(Session& session, const std::string& why);
-};
-
-/// Sample all of them interleaved, after warm_up samples that do not count. One that fails says so.
-void take_samples_of(const AxisRun& run, std::span<Measured> cells);
-
-/// The first line of why a cell has no numbers, or what is wrong with it; for tables.
-std::string why_text(const Cell& cell);
-
-/// The cells of a document that are on an axis and have times, or a reason for having none.
-std::vector<const Cell*> cells_of(const Document& document, std::string_view axis);
+/// Samples all that have something to sample, interleaved, after a warm-up sample. One that fails says so, as fail() does.
+void take_samples_of(const AxisRun& run, std::span<Subject> cells);
 
 }  // namespace bvhbench

@@ -3,18 +3,14 @@
 // The axis boxes: what fewer bytes a box cost in false pairs and save in time, of trees in one layout, built, queried and
 // followed by the exact narrow phase alike. Rounded outward, boxes may add pairs and must take none away.
 #include "builders/box_format.h"
-#include "collide/exact_reference.h"
-#include "collide/sweep.h"
+#include "collide/oracles/exact_reference.h"
+#include "collide/oracles/sweep.h"
 #include "harness/accuracy/axes.h"
 #include "harness/accuracy/scene_input.h"
-#include "harness/failure.h"
-#include "harness/report.h"
-#include "harness/table.h"
+#include "harness/base/failure.h"
 
 namespace bvhbench {
 namespace {
-
-using enum Table::Align;
 
 /// The same for all methods, but for what a layout cannot do: the collider that is fastest on the kind of device.
 void choose_pipeline(std::string_view method, bool is_cpu, Cell& cell)
@@ -57,17 +53,6 @@ void judge(const Pipeline& pipeline, const Right& right, Cell& cell)
                    std::to_string(contacts.size());
 }
 
-double counter(const Cell& cell, const char* name)
-{
-    const auto at = cell.counters.find(name);
-    return at == cell.counters.end() ? 0 : at->second;
-}
-
-std::string stage_text(const Cell& cell, std::string_view stage)
-{
-    return duration_text(spread_of(stage_times_ns(cell, stage)).median);
-}
-
 }  // namespace
 
 void measure_boxes(const AxisRun& run)
@@ -76,13 +61,13 @@ void measure_boxes(const AxisRun& run)
         run, "boxes", {"torus:100000", "hairball:100000"},
         [&](const SceneFacts& scene, const Input& input) {
             const Right right = right_answers(input);
-            std::vector<Measured> cells;
+            std::vector<Subject> cells;
             std::vector<std::unique_ptr<Pipeline>> pipelines;
             for (const BoxFormat& format : box_formats()) {
                 const std::string_view method = format.name;
                 if (!run.task.wants(scene.name, method))
                     continue;
-                Measured& one = cells.emplace_back();
+                Subject& one = cells.emplace_back();
                 one.cell = accuracy_cell("boxes", std::string(method), scene);
                 choose_pipeline(method, run.session.device().is_cpu(), one.cell);
                 const std::string failure = reason_of_failure([&] {
@@ -93,7 +78,7 @@ void measure_boxes(const AxisRun& run)
                 });
                 if (!failure.empty()) {
                     pipelines.resize(cells.size());
-                    one.fail(run.session, failure);
+                    fail(run.session, one, failure);
                 }
             }
             take_samples_of(run, cells);
@@ -106,43 +91,6 @@ void measure_boxes(const AxisRun& run)
                 run.add(std::move(cells[k].cell));
             }
         });
-}
-
-std::string report_boxes(const Document& document)
-{
-    Table table({{"scene", left},
-                 {"boxes", left},
-                 {"bytes a box"},
-                 {"gather"},
-                 {"hierarchy"},
-                 {"query"},
-                 {"narrow"},
-                 {"frame"},
-                 {"box tests"},
-                 {"missed"},
-                 {"false"},
-                 {"times as many"},
-                 {"verdict", left}});
-    const std::vector<const Cell*> cells = cells_of(document, "boxes");
-    for (const Cell* cell : cells) {
-        if (!has_times(*cell)) {
-            table.row({cell->scene.name, cell->accuracy.method, "", "", "", "", "", "", "", "", "",
-                       "", why_text(*cell)});
-            continue;
-        }
-        const auto count = [&](const char* name) {
-            return grouped(static_cast<std::int64_t>(counter(*cell, name)));
-        };
-        const double right = counter(*cell, "right_pairs_count");
-        table.row({cell->scene.name, cell->accuracy.method, count("node_bytes"),
-                   stage_text(*cell, "gather"), stage_text(*cell, "hierarchy"),
-                   stage_text(*cell, "broad"), stage_text(*cell, "narrow"),
-                   duration_text(spread_of(whole_times_ns(*cell)).median), count("box_tests_count"),
-                   count("missed_count"), count("false_count"),
-                   right > 0 ? fixed(counter(*cell, "pairs_count") / right, 3) : "",
-                   verdict_text(*cell)});
-    }
-    return cells.empty() ? "" : table.text();
 }
 
 }  // namespace bvhbench

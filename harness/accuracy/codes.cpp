@@ -2,19 +2,15 @@
 //
 // The axis codes: what more bits a code and other cells buy, in the tree and in a query of it, against the pairs that a
 // sweep finds.
-#include "collide/sweep.h"
+#include "collide/oracles/sweep.h"
 #include "harness/accuracy/axes.h"
 #include "harness/accuracy/code_counts.h"
 #include "harness/accuracy/scene_input.h"
-#include "harness/failure.h"
-#include "harness/metrics.h"
-#include "harness/report.h"
-#include "harness/table.h"
+#include "harness/base/failure.h"
+#include "harness/judge/metrics.h"
 
 namespace bvhbench {
 namespace {
-
-using enum Table::Align;
 
 /// A way to put leaves in order: on the axis codes, and what they are held against.
 struct Method {
@@ -44,7 +40,7 @@ std::vector<Method> methods(std::size_t objects)
     return all;
 }
 
-void prepare(Session& session, const Method& method, const Input& input, Measured& one,
+void prepare(Session& session, const Method& method, const Input& input, Subject& one,
              std::unique_ptr<Pipeline>& pipeline)
 {
     Cell& cell = one.cell;
@@ -62,46 +58,25 @@ void prepare(Session& session, const Method& method, const Input& input, Measure
     one.once = [&input, frame = pipeline.get()] { return frame->once(input); };
 }
 
-std::string count_text(const Cell& cell, const char* counter)
-{
-    const auto at = cell.counters.find(counter);
-    return at == cell.counters.end() ? "" : grouped(static_cast<std::int64_t>(at->second));
-}
-
-double stage_median(const Cell& cell, std::string_view stage)
-{
-    return spread_of(stage_times_ns(cell, stage)).median;
-}
-
-/// Of all stages but the query.
-double build_median(const Cell& cell)
-{
-    std::vector<double> all = whole_times_ns(cell);
-    const std::vector<double> query = stage_times_ns(cell, "broad");
-    for (std::size_t k = 0; k < all.size(); ++k)
-        all[k] -= query[k];
-    return spread_of(all).median;
-}
-
 }  // namespace
 
 void measure_codes(const AxisRun& run)
 {
     const auto measure = [&](const SceneFacts& scene, const Input& input) {
         const PairList right = touching_pairs(input.points, input.faces, true);
-        std::vector<Measured> cells;
+        std::vector<Subject> cells;
         std::vector<std::unique_ptr<Pipeline>> pipelines;
         for (const Method& method : methods(input.objects.size())) {
             if (!run.task.wants(scene.name, method.name))
                 continue;
-            Measured& one = cells.emplace_back();
+            Subject& one = cells.emplace_back();
             one.cell = accuracy_cell("codes", method.name, scene);
             one.cell.builder = method.builder;
             one.cell.collider = {.name = "leaf"};
             const std::string failure = reason_of_failure(
                 [&] { prepare(run.session, method, input, one, pipelines.emplace_back()); });
             if (!failure.empty())
-                one.fail(run.session, failure);
+                fail(run.session, one, failure);
         }
         take_samples_of(run, cells);
         for (std::size_t k = 0; k < cells.size(); ++k) {
@@ -114,40 +89,6 @@ void measure_codes(const AxisRun& run)
                    {"torus:100000", "hairball:100000", "grid:100000",
                     "outlier:sphere:100000:0:1000", "n-body:100000"},
                    measure, true);
-}
-
-std::string report_codes(const Document& document)
-{
-    Table table({{"scene", left},
-                 {"codes", left},
-                 {"duplicates"},
-                 {"longest run"},
-                 {"surface area cost"},
-                 {"box tests"},
-                 {"codes and sort"},
-                 {"build"},
-                 {"query"},
-                 {"missed"},
-                 {"false"},
-                 {"verdict", left}});
-    const std::vector<const Cell*> cells = cells_of(document, "codes");
-    for (const Cell* cell : cells) {
-        if (!has_times(*cell)) {
-            table.row({cell->scene.name, cell->accuracy.method, "", "", "", "", "", "", "", "", "",
-                       why_text(*cell)});
-            continue;
-        }
-        const auto cost = cell->counters.find("sah_cost");
-        table.row({cell->scene.name, cell->accuracy.method, count_text(*cell, "duplicates_count"),
-                   count_text(*cell, "longest_run_count"),
-                   cost == cell->counters.end() ? "" : fixed(cost->second, 2),
-                   count_text(*cell, "box_tests_count"),
-                   duration_text(stage_median(*cell, "codes") + stage_median(*cell, "sort")),
-                   duration_text(build_median(*cell)), duration_text(stage_median(*cell, "broad")),
-                   count_text(*cell, "missed_count"), count_text(*cell, "false_count"),
-                   verdict_text(*cell)});
-    }
-    return cells.empty() ? "" : table.text();
 }
 
 }  // namespace bvhbench

@@ -8,14 +8,10 @@
 #include "harness/accuracy/axes.h"
 #include "harness/accuracy/scene_input.h"
 #include "harness/accuracy/turned_scene.h"
-#include "harness/failure.h"
-#include "harness/report.h"
-#include "harness/table.h"
+#include "harness/base/failure.h"
 
 namespace bvhbench {
 namespace {
-
-using enum Table::Align;
 
 /// How far off, in sizes of the scene. A float has 24 bits: at 1e7 sizes little is left.
 constexpr double distances[] = {0, 1e2, 1e3, 1e4, 1e5, 1e6};
@@ -53,14 +49,14 @@ void measure_input(const AxisRun& run)
         for (const double sizes : distances) {
             const std::vector<WidePoint> wide = turned_and_moved(input.points, sizes);
             const PairList right = overlapping_pairs_in_doubles(wide, input.faces);
-            std::vector<Measured> cells;
+            std::vector<Subject> cells;
             std::list<Rounded> all;  // which stay where they are
             for (const std::string_view method : methods) {
                 SceneFacts facts = scene;
                 facts.name = name_at(scene.name, sizes);
                 if (!run.task.wants(facts.name, method))
                     continue;
-                Measured& one = cells.emplace_back();
+                Subject& one = cells.emplace_back();
                 one.cell = accuracy_cell("input", std::string(method), facts);
                 one.cell.builder = {.name = "oibvh-multi"};
                 one.cell.collider = {.name = "leaf"};
@@ -75,11 +71,11 @@ void measure_input(const AxisRun& run)
                     one.once = [&floats] { return floats.pipeline->once(floats.input); };
                 });
                 if (!failure.empty())
-                    one.fail(run.session, failure);
+                    fail(run.session, one, failure);
             }
             take_samples_of(run, cells);
             auto floats = all.begin();
-            for (Measured& one : cells) {
+            for (Subject& one : cells) {
                 if (one.once)
                     judge(*floats, right, one.cell);
                 ++floats;
@@ -87,35 +83,6 @@ void measure_input(const AxisRun& run)
             }
         }
     });
-}
-
-std::string report_input(const Document& document)
-{
-    Table table({{"scene", left},
-                 {"vertices", left},
-                 {"pairs of doubles"},
-                 {"missed"},
-                 {"false"},
-                 {"times as many"},
-                 {"frame"},
-                 {"verdict", left}});
-    const std::vector<const Cell*> cells = cells_of(document, "input");
-    for (const Cell* cell : cells) {
-        if (!has_times(*cell)) {
-            table.row(
-                {cell->scene.name, cell->accuracy.method, "", "", "", "", "", why_text(*cell)});
-            continue;
-        }
-        const auto count = [&](const char* counter) {
-            return grouped(static_cast<std::int64_t>(cell->counters.at(counter)));
-        };
-        const double right = cell->counters.at("right_pairs_count");
-        table.row({cell->scene.name, cell->accuracy.method, count("right_pairs_count"),
-                   count("missed_count"), count("false_count"),
-                   right > 0 ? fixed(cell->counters.at("pairs_count") / right, 3) : "",
-                   duration_text(spread_of(whole_times_ns(*cell)).median), verdict_text(*cell)});
-    }
-    return cells.empty() ? "" : table.text();
 }
 
 }  // namespace bvhbench

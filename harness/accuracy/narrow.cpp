@@ -3,18 +3,18 @@
 // The axis narrow: narrow phases over classes of pairs of triangles, against CGAL's exact predicates.
 #include <algorithm>
 
-#include "collide/exact_reference.h"
-#include "collide/host_collider.h"
-#include "collide/narrow.h"
+#include "collide/narrow/narrow.h"
+#include "collide/oracles/exact_reference.h"
+#include "collide/oracles/host_collider.h"
 #include "geometry/error.h"
 #include "geometry/hash.h"
 #include "geometry/host_memory.h"
 #include "harness/accuracy/axes.h"
 #include "harness/accuracy/axis.h"
-#include "harness/accuracy/differences.h"
 #include "harness/accuracy/narrow_truth.h"
-#include "harness/failure.h"
-#include "harness/query_bytes.h"
+#include "harness/base/failure.h"
+#include "harness/judge/differences.h"
+#include "harness/judge/query_bytes.h"
 #include "scenes/generate/pair_classes.h"
 
 namespace bvhbench {
@@ -97,7 +97,7 @@ void add_samples(std::vector<Sample>& to, std::vector<Sample>&& more, std::int64
 }
 
 /// Each is held to the right answer before it is timed, and to that answer after: a race may strike only sometimes.
-void measure_piece(const AxisRun& run, std::span<Measured> cells, std::span<Phase> phases,
+void measure_piece(const AxisRun& run, std::span<Subject> cells, std::span<Phase> phases,
                    const Piece& piece)
 {
     Session& session = run.session;
@@ -110,7 +110,7 @@ void measure_piece(const AxisRun& run, std::span<Measured> cells, std::span<Phas
             judge(phase, piece, session);
         });
         if (!failure.empty())
-            cells[k].fail(session, failure);
+            fail(session, cells[k], failure);
         else
             cells[k].once = [&] { return query_once(*phase.narrow, piece, session); };
     }
@@ -129,7 +129,7 @@ void measure_piece(const AxisRun& run, std::span<Measured> cells, std::span<Phas
                         corners + static_cast<std::int64_t>(pairs * sizeof(Pair)));
         });
         if (!failure.empty())
-            cells[k].fail(session, failure);
+            fail(session, cells[k], failure);
     }
 }
 
@@ -160,7 +160,7 @@ void conclude(Cell& cell, Phase& phase, std::size_t pairs, std::size_t meeting)
 
 /// What doubles are needed for is skipped where there are none, and all of it where there is no reference; what cannot be
 /// compiled has failed.
-Phase compiled(Session& session, const NarrowMethod& method, Measured& one)
+Phase compiled(Session& session, const NarrowMethod& method, Subject& one)
 {
     Phase phase;
     std::string lacking =
@@ -176,7 +176,7 @@ Phase compiled(Session& session, const NarrowMethod& method, Measured& one)
         }
     });
     if (!failure.empty() || !lacking.empty())
-        one.fail(session, failure + lacking);
+        fail(session, one, failure + lacking);
     if (!lacking.empty())
         one.cell.status = Cell::Status::skipped;
     return phase;
@@ -184,12 +184,12 @@ Phase compiled(Session& session, const NarrowMethod& method, Measured& one)
 
 void measure_class(const AxisRun& run, const PairClass& of, std::size_t pairs)
 {
-    std::vector<Measured> cells;
+    std::vector<Subject> cells;
     std::vector<Phase> phases;
     for (const NarrowMethod& method : narrow_methods()) {
         if (!run.task.wants(of.name, method.name))
             continue;
-        Measured& one = cells.emplace_back();
+        Subject& one = cells.emplace_back();
         one.cell = accuracy_cell("narrow", std::string(method.name), {});
         one.cell.accuracy.seed = run.task.seed;
         phases.push_back(compiled(run.session, method, one));
@@ -218,7 +218,7 @@ void measure_class(const AxisRun& run, const PairClass& of, std::size_t pairs)
         cell.scene.source = "pairs: " + of.summary;
         cell.scene.content_hash = hash.get();
         if (!no_piece.empty())
-            cells[k].fail(run.session, no_piece);
+            fail(run.session, cells[k], no_piece);
         conclude(cell, phases[k], pairs, meeting);
         run.add(std::move(cell));
     }

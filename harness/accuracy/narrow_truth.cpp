@@ -5,7 +5,7 @@
 #include <future>
 #include <thread>
 
-#include "collide/exact_reference.h"
+#include "collide/oracles/exact_reference.h"
 
 namespace bvhbench {
 

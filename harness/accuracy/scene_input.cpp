@@ -3,10 +3,10 @@
 
 #include "builders/device_tree.h"
 #include "geometry/host_memory.h"
-#include "harness/accuracy/differences.h"
-#include "harness/check.h"
-#include "harness/failure.h"
-#include "harness/metrics.h"
+#include "harness/base/failure.h"
+#include "harness/judge/check.h"
+#include "harness/judge/differences.h"
+#include "harness/judge/metrics.h"
 
 namespace bvhbench {
 

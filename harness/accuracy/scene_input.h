@@ -8,8 +8,8 @@
 #include <string>
 
 #include "harness/accuracy/axis.h"
-#include "harness/frames.h"
-#include "harness/pipeline.h"
+#include "harness/measure/frames.h"
+#include "harness/measure/pipeline.h"
 
 namespace bvhbench {
 

@@ -8,19 +8,15 @@
 #include "harness/accuracy/area_sums.h"
 #include "harness/accuracy/axes.h"
 #include "harness/accuracy/scene_input.h"
-#include "harness/report.h"
-#include "harness/table.h"
 
 namespace bvhbench {
 namespace {
 
-using enum Table::Align;
-
 /// What our own sum may be off by: a few roundings of doubles, however many nodes.
 constexpr double most_of_ours = 1e-14;
 
-Measured summed(const AxisRun& run, const SceneFacts& scene, const SumMethod& method,
-                const HostTree& tree, long double right)
+Subject summed(const AxisRun& run, const SceneFacts& scene, const SumMethod& method,
+               const HostTree& tree, long double right)
 {
     Cell cell = accuracy_cell("sums", std::string(method.name), scene);
     const double cost = method.cost(tree);
@@ -35,20 +31,14 @@ Measured summed(const AxisRun& run, const SceneFacts& scene, const SumMethod& me
     if (cell.check.verdict == Check::Verdict::differs)
         cell.check.detail = "off by more than a few roundings";
     Queue& queue = run.session.queue();
-    return {std::move(cell), [&queue, &method, &tree, cost] {
-                queue.on_host("sum", [&] {
-                    if (method.cost(tree) != cost)
-                        throw Unavailable("another sum the second time");
-                });
-                return queue.finish();
-            }};
-}
-
-std::string error_text(double error)
-{
-    char text[32];
-    std::snprintf(text, sizeof text, "%.1e", error);
-    return error == 0 ? "0" : text;
+    const auto once = [&queue, &method, &tree, cost] {
+        queue.on_host("sum", [&] {
+            if (method.cost(tree) != cost)
+                throw Unavailable("another sum the second time");
+        });
+        return queue.finish();
+    };
+    return {.cell = std::move(cell), .once = once};
 }
 
 }  // namespace
@@ -62,39 +52,14 @@ void measure_sums(const AxisRun& run)
             const long double right = cost_in_long_double(tree);
             if (!(right > 0))
                 throw Unavailable(scene.name + " has no surface area cost: its box has no area");
-            std::vector<Measured> cells;
+            std::vector<Subject> cells;
             for (const SumMethod& method : sum_methods())
                 if (run.task.wants(scene.name, method.name))
                     cells.push_back(summed(run, scene, method, tree, right));
             take_samples_of(run, cells);
-            for (Measured& one : cells)
+            for (Subject& one : cells)
                 run.add(std::move(one.cell));
         });
-}
-
-std::string report_sums(const Document& document)
-{
-    Table table({{"scene", left},
-                 {"sum", left},
-                 {"nodes"},
-                 {"surface area cost"},
-                 {"relative error"},
-                 {"ns/node"},
-                 {"verdict", left}});
-    const std::vector<const Cell*> cells = cells_of(document, "sums");
-    for (const Cell* cell : cells) {
-        if (!has_times(*cell)) {
-            table.row({cell->scene.name, cell->accuracy.method, "", "", "", "", why_text(*cell)});
-            continue;
-        }
-        const double nodes = cell->counters.at("nodes_count");
-        table.row({cell->scene.name, cell->accuracy.method,
-                   grouped(static_cast<std::int64_t>(nodes)),
-                   fixed(cell->counters.at("sah_cost"), 6),
-                   error_text(cell->counters.at("relative_error")),
-                   fixed(spread_of(whole_times_ns(*cell)).median / nodes, 2), verdict_text(*cell)});
-    }
-    return cells.empty() ? "" : table.text();
 }
 
 }  // namespace bvhbench

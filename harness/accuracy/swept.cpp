@@ -4,9 +4,8 @@
 // are known to collide on the way, and counts of who made the data.
 #include "harness/accuracy/axes.h"
 #include "harness/accuracy/axis.h"
-#include "harness/collide.h"
-#include "harness/failure.h"
-#include "harness/report_swept.h"
+#include "harness/base/failure.h"
+#include "harness/measure/collide.h"
 #include "scenes/catalog.h"
 #include "scenes/manifest.h"
 
@@ -65,21 +64,32 @@ std::vector<PipelineChoice> pipelines()
     return all;
 }
 
+/// "group over oibvh-single, hilbert30, sorted leaves"
+std::string method_of(const BuilderChoice& builder, const ColliderChoice& collider)
+{
+    std::string text = collider.name;
+    if (builder.name != "none")
+        text += " over " + builder.name;
+    if (builder.order != BuilderChoice{}.order)
+        text += ", " + builder.order;
+    return text + (builder.sorted_leaves ? ", sorted leaves" : "");
+}
+
 }  // namespace
 
 void measure_swept(const AxisRun& run)
 {
     for (const auto& [scene, in_place_of] : scenes_of(run)) {
-        CollideTask task{.experiment = "accuracy",
-                         .scene = scene,
-                         .may_stand_in = true,
-                         .swept = true,
-                         .frames = {},
-                         .pipelines = pipelines(),
-                         .samples = run.task.samples,
-                         .warm_up = 1};
+        CollideTask task;
+        task.experiment = "accuracy";
+        task.scene = scene;
+        task.may_stand_in = true;
+        task.swept = true;
+        task.pipelines = pipelines();
+        task.samples = run.task.samples;
+        task.warm_up = 1;
         std::erase_if(task.pipelines, [&](const PipelineChoice& one) {
-            return !run.task.wants(task.scene, swept_method(one.builder, one.collider));
+            return !run.task.wants(task.scene, method_of(one.builder, one.collider));
         });
         if (task.pipelines.empty())
             continue;
@@ -90,17 +100,11 @@ void measure_swept(const AxisRun& run)
                 cell.operation = Operation::accuracy;
                 if (!missing.empty())
                     cell.scene.stand_in_for = missing;
-                cell.accuracy = {.axis = "swept",
-                                 .method = swept_method(cell.builder, cell.collider)};
+                cell.accuracy = {.axis = "swept", .method = method_of(cell.builder, cell.collider)};
                 run.add(std::move(cell));
             }
         });
     }
-}
-
-std::string report_swept(const Document& document)
-{
-    return swept_report(document, Operation::accuracy);
 }
 
 }  // namespace bvhbench

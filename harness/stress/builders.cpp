@@ -5,8 +5,8 @@
 #include "geometry/bits.h"
 #include "geometry/error.h"
 #include "geometry/hash.h"
-#include "harness/contract.h"
-#include "harness/failure.h"
+#include "harness/base/failure.h"
+#include "harness/judge/contract.h"
 #include "harness/stress/systems.h"
 #include "oibvh/layout.h"
 

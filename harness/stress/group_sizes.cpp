@@ -9,7 +9,7 @@
 #include "builders/parameters.h"
 #include "collide/parameters.h"
 #include "geometry/error.h"
-#include "harness/failure.h"
+#include "harness/base/failure.h"
 #include "harness/stress/parts.h"
 
 namespace bvhbench {

@@ -5,9 +5,9 @@
 #include <iterator>
 
 #include "builders/spell_out.h"
-#include "collide/exact_reference.h"
+#include "collide/oracles/exact_reference.h"
+#include "collide/oracles/sweep.h"
 #include "collide/relation.h"
-#include "collide/sweep.h"
 #include "geometry/hash.h"
 
 namespace bvhbench {

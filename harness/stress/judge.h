@@ -9,7 +9,7 @@
 
 #include "builders/tree.h"
 #include "collide/pairs.h"
-#include "harness/stress/finding.h"
+#include "harness/record/finding.h"
 #include "harness/stress/variants.h"
 
 namespace bvhbench {

@@ -5,11 +5,11 @@
 #include <map>
 #include <thread>
 
-#include "collide/sweep.h"
+#include "collide/oracles/sweep.h"
 #include "geometry/error.h"
 #include "geometry/host_memory.h"
-#include "harness/check.h"
-#include "harness/failure.h"
+#include "harness/base/failure.h"
+#include "harness/judge/check.h"
 #include "harness/stress/parts.h"
 
 namespace bvhbench {

@@ -13,12 +13,12 @@
 #include <iterator>
 #include <span>
 
-#include "collide/exact_reference.h"
+#include "collide/oracles/exact_reference.h"
+#include "collide/oracles/sweep.h"
 #include "collide/relation.h"
-#include "collide/sweep.h"
 #include "geometry/error.h"
-#include "harness/failure.h"
-#include "harness/interrupt.h"
+#include "harness/base/failure.h"
+#include "harness/base/interrupt.h"
 #include "scenes/worker/process.h"
 #include "scenes/worker/worker.h"
 

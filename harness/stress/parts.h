@@ -6,7 +6,7 @@
 #include <functional>
 #include <optional>
 
-#include "harness/pattern.h"
+#include "harness/base/pattern.h"
 #include "harness/stress/systems.h"
 #include "scenes/stress/stress_scene.h"
 

@@ -5,8 +5,8 @@
 
 #include "builders/device_tree.h"
 #include "geometry/error.h"
-#include "harness/failure.h"
-#include "harness/pipeline.h"
+#include "harness/base/failure.h"
+#include "harness/measure/pipeline.h"
 #include "harness/stress/systems.h"
 
 namespace bvhbench {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "harness/failure.h"
+#include "harness/base/failure.h"
 #include "harness/stress/parts.h"
 
 namespace bvhbench {

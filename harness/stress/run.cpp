@@ -5,9 +5,9 @@
 #include <future>
 
 #include "geometry/error.h"
-#include "harness/failure.h"
-#include "harness/hard_inputs.h"
-#include "harness/progress.h"
+#include "harness/base/failure.h"
+#include "harness/base/progress.h"
+#include "harness/judge/hard_inputs.h"
 #include "harness/stress/libraries.h"
 #include "scenes/finish.h"
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "harness/check.h"
-#include "harness/session.h"
+#include "harness/judge/check.h"
+#include "harness/session/session.h"
 #include "harness/stress/judge.h"
 
 namespace bvhbench {
@@ -26,7 +26,7 @@ inline constexpr std::string_view builder_in_formats = "oibvh-multi";
 /// Whether it is there and its kernels run on the device.
 bool builds_on_device(Session& session, const BuilderEntry& entry);
 
-/// A builder over all triangles as one object: every promise of harness/contract.h, and what is about its layout.
+/// A builder over all triangles as one object: every promise of harness/judge/contract.h, and what is about its layout.
 /// A failure is a finding. `repeats` more builds must leave the same tree.
 Findings judge_builder(Session& session, const BuilderChoice& builder, const Input& input,
                        Oracle& oracle, int repeats);

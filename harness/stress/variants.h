@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "collide/pairs.h"
-#include "harness/stress/finding.h"
+#include "harness/record/finding.h"
 #include "scenes/stress/stress_scene.h"
 
 namespace bvhbench {

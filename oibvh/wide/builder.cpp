@@ -6,7 +6,7 @@
 #include <string>
 
 #include "builders/implicit/cut.h"
-#include "builders/ordered_builder.h"
+#include "builders/ordered/ordered_builder.h"
 #include "geometry/error.h"
 #include "oibvh/kary_layout.h"
 

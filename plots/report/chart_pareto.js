@@ -1,34 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Time against how good or how wrong: what no other is as good as in both is filled and joined.
-const GOODNESS = {
-  sah_cost: "surface area cost",
-  epo: "end-point overlap",
-  sibling_overlap: "overlap of siblings",
-  box_tests_count: "box tests of a query",
-  tree_bytes: "bytes of the tree",
-};
-
-/** Places of the points that no other is as fast as and as good as, one of them more so; by time. */
-function frontOf(points) {
-  const kept = [];
-  for (const point of [...points].sort((a, b) => a.x - b.x || a.y - b.y)) {
-    if (!kept.length || point.y < kept[kept.length - 1].y) {
-      kept.push(point);
-    }
-  }
-  return kept;
-}
-
-function measuresOf(cell) {
-  const found = {...cell.errors};
-  for (const [key, text] of Object.entries(GOODNESS)) {
-    if (cell.counters[key] !== undefined && cell.operation !== "collide") {
-      found[text] = cell.counters[key];
-    }
-  }
-  return found;
-}
-
 /** A logarithmic axis has no 0: it is drawn a step below the least that is none, and called 0. */
 function withZero(values) {
   const least = Math.min(...values.filter((value) => value > 0));
@@ -66,7 +37,7 @@ function paretoChart(file) {
   for (const [scene, cells] of scenes) {
     const byMeasure = {};
     for (const cell of cells.filter((one) => one.times.whole)) {
-      for (const [measure, y] of Object.entries(measuresOf(cell))) {
+      for (const [measure, y] of Object.entries(cell.measures)) {
         (byMeasure[measure] = byMeasure[measure] || []).push({x: cell.times.whole[1], y, cell});
       }
     }
@@ -93,7 +64,7 @@ function paretoChart(file) {
         return {traces: [], legend: [], layout: {height: 120}, notes: [`Nothing on ${scene} says its ${measure}.`]};
       }
       const unit = unitFor(here.map((point) => point.x));
-      const front = frontOf(here);
+      const front = here.filter((point) => point.cell.front.includes(measure)).sort((a, b) => a.x - b.x);
       const times = here.map((point) => point.x);
       const zero = withZero(here.map((point) => point.y));
       const line = {

@@ -1,31 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Where the time goes: a bar a builder or pipeline, its stages stacked. Of several frames, means over them.
+// Where the time goes: a bar a builder or pipeline, its stages stacked, as plots/report_compared.py has made them.
 const LONGEST = 12; // times the shortest bar: the axis ends there at first
 const ROW = 38;
-
-function mean(values) {
-  return values.reduce((sum, value) => sum + value, 0) / values.length;
-}
-
-/** One bar: its name, stages in nanoseconds and the whole, or why it has none. */
-function barOf(name, cells) {
-  const bad = cells.find((cell) => !cell.times.whole);
-  if (bad) {
-    const where = cells.length > 1 ? ` on frame ${bad.frame}` : "";
-    return {name, said: `${bad.state.replace("_", " ")}${where}${bad.why ? ": " + bad.why : ""}`};
-  }
-  const whole = mean(cells.map((cell) => cell.times.whole[1]));
-  const stages = {};
-  for (const stage of new Set(cells.flatMap((cell) => Object.keys(cell.times)))) {
-    stages[stage] = mean(cells.map((cell) => (cell.times[stage] ? cell.times[stage][1] : 0)));
-  }
-  delete stages.whole;
-  const between = whole - Object.values(stages).reduce((sum, value) => sum + value, 0);
-  if (cells[0].operation === "collide" && between > 0) {
-    stages.between = between;
-  }
-  return {name, whole, stages, cell: cells.length === 1 ? cells[0] : null};
-}
 
 function shortened(text, most) {
   return text.length > most ? text.slice(0, most - 1) + "…" : text;
@@ -48,19 +24,20 @@ function broken(name, most) {
 function stagesChart(file, stageLooks) {
   const question = questionOf(file.cells);
   const scenes = grouped(file.cells, question);
+  const barsOf = grouped(file.bars, question);
   const useful = [...scenes].filter(([, cells]) => cells.some((cell) => cell.times.whole));
   if (!useful.length) {
     return null;
   }
   return new Chart("Time by stage", [{label: "Scene", options: useful.map(([name]) => [name, name])}], (scene) => {
     const cells = scenes.get(scene);
-    const bars = [...grouped(cells, (cell) => cell.who)].map(([name, group]) => barOf(name, group));
+    const bars = barsOf.get(scene);
     const timed = bars.filter((bar) => bar.stages);
     const unit = unitFor(timed.map((bar) => bar.whole));
     const limit = LONGEST * Math.min(...timed.map((bar) => bar.whole));
     const longest = Math.max(...timed.map((bar) => bar.whole));
     const there = Object.keys(stageLooks).filter((stage) => timed.some((bar) => bar.stages[stage]));
-    const labels = bars.map((bar) => broken(bar.name, narrow.matches ? 18 : 40));
+    const labels = bars.map((bar) => broken(bar.who, narrow.matches ? 18 : 40));
     const traces = there.map((stage) => ({
       type: "bar",
       orientation: "h",
@@ -68,9 +45,9 @@ function stagesChart(file, stageLooks) {
       y: timed.map((bar) => bars.indexOf(bar)),
       x: timed.map((bar) => (bar.stages[stage] || 0) / unit[1]),
       width: 0.7,
-      customdata: timed.map((bar) => bar.name),
+      customdata: timed.map((bar) => bar.who),
       ...samplesOf(
-        timed.map((bar) => bar.cell),
+        timed.map((bar) => file.cells[bar.cell]),
         stage === "between" ? "whole" : stage
       ),
       marker: {

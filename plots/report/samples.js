@@ -19,15 +19,6 @@ function nanosecondsOf(stage, place) {
   return span !== undefined && span !== null ? span : at(stage.wall_ns, place);
 }
 
-/** As results.Cell.whole_times_s in plots/results.py. */
-function wholeOf(samples, place) {
-  const stages = Object.values(samples.stages);
-  const sum = stages.reduce((total, stage) => total + (nanosecondsOf(stage, place) || 0), 0);
-  const isOnHost = stages.some((stage) => stage.wall_ns !== undefined);
-  const ends = stages.map((stage) => (at(stage.start_ns, place) || 0) + (at(stage.span_ns, place) || 0));
-  return isOnHost ? sum : Math.max(...ends, sum);
-}
-
 /** Facts of a cell, nested ones spelled out: [name, text]. */
 function factsOf(value, prefix) {
   return Object.entries(value).flatMap(([key, entry]) => {
@@ -51,7 +42,7 @@ function samplesTable(samples, key, marked) {
   ];
   const rows = Array.from({length: samples.count}, (_, place) => [
     ...own.map((name) => at(samples.own[name], place)),
-    ...(key === "span_ns" ? [wholeOf(samples, place)] : []),
+    ...(key === "span_ns" ? [at(samples.whole, place)] : []),
     ...stages.map((stage) =>
       key === "span_ns" ? nanosecondsOf(samples.stages[stage], place) : at(samples.stages[stage][key], place)
     ),
@@ -78,7 +69,7 @@ async function drawSamples(plot, samples, stage, quantiles, colour) {
   await libraryOf("plotly");
   const isWhole = stage === "whole" || !samples.stages[stage];
   const times = Array.from({length: samples.count}, (_, place) =>
-    isWhole ? wholeOf(samples, place) : nanosecondsOf(samples.stages[stage], place)
+    isWhole ? at(samples.whole, place) : nanosecondsOf(samples.stages[stage], place)
   );
   const unit = unitFor(times.filter((time) => time !== undefined && time !== null));
   const order =

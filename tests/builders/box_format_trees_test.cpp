@@ -6,8 +6,8 @@
 
 #include "builders/spell_out.h"
 #include "geometry/error.h"
-#include "harness/contract.h"
-#include "harness/hard_inputs.h"
+#include "harness/judge/contract.h"
+#include "harness/judge/hard_inputs.h"
 #include "tests/collide/many_objects.h"
 
 namespace bvhbench {

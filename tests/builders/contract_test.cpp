@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
 // Every builder of the catalog keeps the same promises. A new one is tested the moment it is listed.
-#include "harness/contract.h"
+#include "harness/judge/contract.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "builders/orders.h"
-#include "harness/hard_inputs.h"
+#include "harness/judge/hard_inputs.h"
 
 namespace bvhbench {
 namespace {

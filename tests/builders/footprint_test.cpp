@@ -4,9 +4,9 @@
 // its bytes or words in 32 bits asks for too few.
 #include <gtest/gtest.h>
 
-#include "harness/catalog.h"
-#include "harness/check.h"
-#include "harness/session.h"
+#include "harness/choice/catalog.h"
+#include "harness/judge/check.h"
+#include "harness/session/session.h"
 
 namespace bvhbench {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "builders/stages/leaf_order.h"
+#include "builders/ordered/leaf_order.h"
 
 #include <gtest/gtest.h>
 

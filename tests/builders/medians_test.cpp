@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "builders/stages/medians.h"
+#include "builders/stages/medians/medians.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <ranges>
 
 #include "builders/input.h"
-#include "builders/stages/cells.h"
+#include "builders/stages/medians/cells.h"
 #include "geometry/bounds.h"
 #include "tests/builders/stage_testing.h"
 

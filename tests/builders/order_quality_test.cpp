@@ -7,7 +7,7 @@
 #include <iostream>
 #include <numbers>
 
-#include "builders/stages/leaf_order.h"
+#include "builders/ordered/leaf_order.h"
 
 namespace bvhbench {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "builders/stages/sort.h"
+#include "builders/stages/sort/sort.h"
 
 #include <gtest/gtest.h>
 

@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "builders/parameters.h"
-#include "collide/sweep.h"
+#include "collide/oracles/sweep.h"
 #include "geometry/error.h"
-#include "harness/catalog.h"
-#include "harness/collider_catalog.h"
-#include "harness/hard_inputs.h"
-#include "harness/session.h"
+#include "harness/choice/catalog.h"
+#include "harness/choice/collider_catalog.h"
+#include "harness/judge/hard_inputs.h"
+#include "harness/session/session.h"
 #include "scenes/catalog.h"
 
 namespace bvhbench {

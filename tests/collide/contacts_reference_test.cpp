@@ -6,8 +6,8 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "collide/exact_reference.h"
-#include "collide/narrow.h"
+#include "collide/narrow/narrow.h"
+#include "collide/oracles/exact_reference.h"
 #include "geometry/hash.h"
 #include "tests/collide/collider_testing.h"
 #include "tests/collide/data_set.h"

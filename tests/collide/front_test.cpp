@@ -6,7 +6,7 @@
 #include <map>
 
 #include "collide/relation.h"
-#include "harness/pipeline.h"
+#include "harness/measure/pipeline.h"
 #include "tests/collide/collider_testing.h"
 
 namespace bvhbench {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <random>
 
-#include "collide/hash_grid.h"
+#include "collide/grid/hash_grid.h"
 #include "collide/relation.h"
 #include "tests/collide/collider_testing.h"
 

@@ -8,8 +8,8 @@
 #include <iterator>
 
 #include "collide/counters.h"
-#include "collide/exact_reference.h"
-#include "collide/narrow.h"
+#include "collide/narrow/narrow.h"
+#include "collide/oracles/exact_reference.h"
 #include "tests/builders/stage_testing.h"
 
 namespace bvhbench {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Whole frames of nothing but triangles that are near another object: the pairs between objects are the oracle's.
-#include "harness/pipeline.h"
+#include "harness/measure/pipeline.h"
 #include "tests/collide/near_objects.h"
 
 namespace bvhbench {

@@ -7,8 +7,8 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "collide/oracles/sweep.h"
 #include "collide/relation.h"
-#include "collide/sweep.h"
 #include "geometry/hash.h"
 #include "geometry/mesh.h"
 #include "tests/collide/data_set.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "collide/sweep.h"
+#include "collide/oracles/sweep.h"
 
 #include <gtest/gtest.h>
 

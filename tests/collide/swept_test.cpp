@@ -5,9 +5,9 @@
 #include <cstdlib>
 #include <random>
 
-#include "harness/collide.h"
-#include "harness/pipeline.h"
-#include "harness/swept.h"
+#include "harness/measure/collide.h"
+#include "harness/measure/pipeline.h"
+#include "harness/measure/swept.h"
 #include "scenes/finish.h"
 #include "scenes/frames_between.h"
 #include "scenes/swept_parts.h"

@@ -18,8 +18,8 @@ flags=(-std=c++20 -O1 -g1 -march=x86-64-v3 -fsanitize=address,undefined -fno-san
     -DBVHBENCH_HAS_CGAL=1 -DBVHBENCH_HAS_EMBREE=1 -DBVHBENCH_HAS_FCL=1)
 objects=()
 for source in scenes/formats/{obj,off,ply,ply_header,ply_values,stl,text}.cpp scenes/{ground_truth,sequence_facts}.cpp \
-    harness/{experiment,experiment_pipelines,json_keys,record,record_read,tuning_file,options}.cpp \
-    harness/sweep/{experiment,plan,set_keys,sizes,units}.cpp; do
+    harness/choice/{choices,collide_task,experiment,experiment_pipelines,scene_choice}.cpp \
+    harness/base/json_keys.cpp harness/commands/{program,words}.cpp harness/session/tuning_file.cpp; do
     object=$to/${source//\//_}.o
     objects+=("$object")
     [[ $object -nt $source ]] || clang++-14 "${flags[@]}" -fsanitize=fuzzer-no-link -c "$source" -o "$object"
@@ -28,7 +28,7 @@ libraries=()
 for room in harness scenes baselines collide oibvh builders device geometry; do
     libraries+=("$from/$room/lib$room.a")
 done
-libraries+=("$from"/CMakeFiles/kernels.dir/*.o -lOpenCL -lassimp -lembree3 -lfcl -lgmp -lmpfr -lpthread -ldl)
+libraries+=("$from"/CMakeFiles/kernels.dir/*.o -lOpenCL -llzma -lre2 -lassimp -lembree3 -lfcl -lgmp -lmpfr -lpthread -ldl)
 found=0
 for reader in "$@"; do
     clang++-14 "${flags[@]}" -fsanitize=fuzzer -DREADER="$reader" tests/fuzz/reader.cpp "${objects[@]}" "${libraries[@]}" \

@@ -6,11 +6,9 @@
 #include <functional>
 
 #include "geometry/error.h"
-#include "harness/experiment.h"
-#include "harness/options.h"
-#include "harness/record.h"
-#include "harness/sweep/units.h"
-#include "harness/tuning_file.h"
+#include "harness/choice/experiment.h"
+#include "harness/commands/program.h"
+#include "harness/session/tuning_file.h"
 #include "scenes/formats/formats.h"
 #include "scenes/ground_truth.h"
 #include "scenes/sequence_facts.h"
@@ -21,21 +19,6 @@ namespace {
 [[maybe_unused]] void experiment(const std::string& bytes)
 {
     parse_experiment(bytes, "fuzz", bytes.size() % 2 == 0);
-}
-
-[[maybe_unused]] void result(const std::string& bytes)
-{
-    for (const Cell& cell : read_document(bytes, "fuzz").cells)
-        cell_text(cell);
-}
-
-/// As command_sweep.cpp reads them.
-[[maybe_unused]] void sweep(const std::string& bytes)
-{
-    try {
-        units_of(sweep_of(Json::parse(bytes)), bytes.size() % 2 == 0, "");
-    } catch (const Json::exception&) {
-    }
 }
 
 [[maybe_unused]] void tuning(const std::string& bytes) { tuning_text(parse_tuning(bytes, "fuzz")); }
@@ -50,7 +33,7 @@ namespace {
     std::vector<const char*> argv;
     for (const std::string& word : words)
         argv.push_back(word.c_str());
-    parse_options(static_cast<int>(argv.size()), argv.data());
+    check_words(static_cast<int>(argv.size()), argv.data());
 }
 
 [[maybe_unused]] void ply(const std::string& bytes) { read_ply(bytes, "fuzz"); }

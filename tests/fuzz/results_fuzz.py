@@ -5,7 +5,7 @@ Usage: results_fuzz.py <source root> [--cases N] [--seconds S] [--seed N]
 
 Each case is a small result file with some of its cells, changed in its tree of values or in its bytes. A page is made of each
 and figures of every tenth: what ends with another code than 0, 3, or 1 for a wrong answer, or says anything but one sentence, is
-a find. Finds lie in build/fuzz/results; make one a test, and then a seed in tests/fuzz/corpus/result.
+a find. Finds lie in build/fuzz/results; make one a test, and then a seed in tests/fuzz/results.
 """
 from __future__ import annotations
 
@@ -136,7 +136,7 @@ def main() -> int:
     parser.add_argument("--seconds", type=float, default=float("inf"))
     parser.add_argument("--seed", type=int, default=1)
     arguments = parser.parse_args()
-    paths = [*sorted((ROOT / "tests" / "golden").glob("*.json")), *sorted((ROOT / "tests" / "fuzz" / "corpus" / "result").iterdir())]
+    paths = [*sorted((ROOT / "tests" / "golden").glob("*.json")), *sorted((ROOT / "tests" / "fuzz" / "results").iterdir())]
     seeds = [json.loads(path.read_text(encoding="utf-8")) for path in paths]
     codes: collections.Counter[str] = collections.Counter()
     finds = 0

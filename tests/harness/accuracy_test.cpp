@@ -5,16 +5,16 @@
 
 #include <map>
 
-#include "collide/exact_reference.h"
-#include "collide/narrow_methods.h"
-#include "collide/sweep.h"
+#include "collide/narrow/narrow_methods.h"
+#include "collide/oracles/exact_reference.h"
+#include "collide/oracles/sweep.h"
 #include "geometry/error.h"
 #include "harness/accuracy/area_sums.h"
 #include "harness/accuracy/axis.h"
 #include "harness/accuracy/code_counts.h"
-#include "harness/accuracy/differences.h"
 #include "harness/accuracy/turned_scene.h"
-#include "harness/metrics.h"
+#include "harness/judge/differences.h"
+#include "harness/judge/metrics.h"
 #include "scenes/generate/pair_classes.h"
 #include "scenes/generate/random.h"
 

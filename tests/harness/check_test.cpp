@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "harness/check.h"
+#include "harness/judge/check.h"
 
 #include <gtest/gtest.h>
 

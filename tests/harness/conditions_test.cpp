@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "harness/conditions.h"
+#include "harness/record/conditions.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "harness/end_point_overlap.h"
+#include "harness/judge/end_point_overlap.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "harness/clip.h"
+#include "harness/judge/clip.h"
 #include "scenes/generate/generators.h"
 #include "tests/harness/host_lbvh.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "harness/experiment.h"
+#include "harness/choice/experiment.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "collide/skips.h"
 #include "geometry/error.h"
-#include "harness/scene_range.h"
+#include "harness/choice/scene_range.h"
 
 namespace bvhbench {
 namespace {
@@ -118,7 +118,7 @@ TEST(Experiment, OfWholeFramesMayBeOfBoxesSweptFromOneToTheNext)
     EXPECT_TRUE(tasks.at(0).swept);
     EXPECT_FALSE(
         parse_experiment(text(R"("swept": false)", ""), "x.json", false).collisions.at(0).swept);
-    EXPECT_NE(refusal(text(R"("swept": 1)", of_edges)).find("'swept' is true or false"),
+    EXPECT_NE(refusal(text(R"("swept": 1)", of_edges)).find("'swept' takes true or false"),
               std::string::npos);
     EXPECT_NE(refusal(text(R"("swept": true)", "")).find("order kd lines up one object"),
               std::string::npos);
@@ -266,11 +266,11 @@ TEST(Experiment, NamesTheKeyThatItDoesNotKnowAndThoseItDoes)
         "x.json: 'scene' is no key of an experiment; there are: experiment, question, paper, "
         "scenes, builders, operations, pipelines, stages, samples, warm_up, until, min_samples, "
         "max_samples, time_budget_s, caches, quality, doubles, quick");
-    EXPECT_EQ(
-        refusal(R"({"experiment": "a", "scenes": ["soup:1"],
+    EXPECT_EQ(refusal(R"({"experiment": "a", "scenes": ["soup:1"],
                           "builders": [{"name": "perfect", "size": 3}]})"),
-        "x.json: 'size' is no key of a builder; there are: name, order, grid, group_size, items, "
-        "leaves, boxes");
+              "x.json: 'size' is no key of a builder; there are: name, order, grid, group_size, "
+              "items, boxes, "
+              "leaves");
     EXPECT_EQ(refusal(R"({"experiment": "a", "scenes": [{"scene": "soup:{t}", "t": {"til": 3}}],
                           "builders": ["perfect"]})"),
               "x.json: 'til' is no key of the sizes 't'; there are: from, to, powers_of_two_from, "

@@ -3,7 +3,7 @@
 // Made-up results with numbers that are easy to recognise.
 #pragma once
 
-#include "harness/record.h"
+#include "harness/record/record.h"
 
 namespace bvhbench {
 
@@ -12,7 +12,6 @@ inline RunFacts fake_run()
     RunFacts run;
     run.id = "20251130T081542Z-host-00ff";
     run.started_at = "2025-11-30T08:15:42Z";
-    run.finished_at = "2025-11-30T08:16:00Z";
     run.command = {"bvhbench", "run", "table1"};
     run.version = "0.1.0";
     run.commit = "unknown";

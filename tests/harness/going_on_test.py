@@ -7,13 +7,14 @@ import contextlib
 import json
 import os
 import pathlib
+import shutil
 import signal
 import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
 
-from program import PROGRAM, expect, main, run, valid
+from program import PROGRAM, SCHEMA, expect, main, run, valid
 
 AT_ONCE_S = 2  # 0.05 where nothing else runs; generous, for machines that are busy
 
@@ -201,7 +202,7 @@ def test_a_signal_ends_what_compiles():
 
 
 def test_a_signal_ends_check_accuracy_stress_and_what_draws():
-    pathlib.Path("home/plots").mkdir(parents=True)
+    shutil.copytree(SCHEMA.parents[2] / "plots", "home/plots")
     pathlib.Path("home/plots/all.py").write_text("import time\ntime.sleep(60)\n")
     for words in (("check",), ("accuracy", "--axis", "narrow", "--out", "stopped"),
                   ("stress", "--quick"), ("plot", "scenes-out.json", "--out", "drawn")):

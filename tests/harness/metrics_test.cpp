@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "harness/metrics.h"
+#include "harness/judge/metrics.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdlib>
 
-#include "harness/compensated_sum.h"
-#include "harness/end_point_overlap.h"
+#include "harness/judge/compensated_sum.h"
+#include "harness/judge/end_point_overlap.h"
 #include "scenes/catalog.h"
 #include "scenes/generate/generators.h"
 #include "tests/collide/data_set.h"

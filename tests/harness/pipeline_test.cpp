@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
 // What a frame's pipeline leaves out, and that it finds the same pairs all the same.
-#include "harness/pipeline.h"
+#include "harness/measure/pipeline.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 
+#include "collide/oracles/sweep.h"
 #include "collide/skips.h"
-#include "collide/sweep.h"
 #include "tests/collide/collider_testing.h"
 
 namespace bvhbench {

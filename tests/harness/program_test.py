@@ -103,7 +103,7 @@ def test_options_reach_the_builder():
            "--group-size", "64", "--items", "2", "--samples", "2", "--json", "o.json",
            says="oibvh-multi, groups of 64, 2 items, sorted leaves on soup:300")
     cell, = valid("o.json")["cells"]
-    assert cell["builder"]["options"] == {"order": "morton30", "group_size": 64, "items": 2,
+    assert cell["builder"]["options"] == {"order": "morton30", "grid": "object", "group_size": 64, "items": 2,
                                           "leaves": "sorted", "boxes": "f32"}
     assert "gather" in [stage["stage"] for stage in cell["samples"][0]["stages"]]
 
@@ -125,7 +125,7 @@ def test_run_and_show_agree():
     orders = [s["order"] for cell in result["cells"] for s in cell["samples"]]
     assert len(set(orders)) == len(orders)
     assert expect(0, "show", "folder/s.json") in out
-    expect(0, "run", "few.json", "--filter", "soup:1/perfect", "--out", "f.json", says="1 cells, 1 agree")
+    expect(0, "run", "few.json", "--filter", "soup:1/perfect", "--out", "f.json", says="verdict: agrees")
     assert os.listdir("folder") == ["s.json"]
 
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "harness/query_bytes.h"
+#include "harness/judge/query_bytes.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "harness/result_file.h"
+#include "harness/record/result_file.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "geometry/error.h"
+#include "harness/base/json_keys.h"
 #include "tests/harness/fakes.h"
 
 namespace bvhbench {
@@ -33,6 +34,11 @@ protected:
         return {std::istreambuf_iterator<char>(file), {}};
     }
 
+    static void write_atomically(const fs::path& path, const std::string& text)
+    {
+        Output(path, "--out", {.force = true}).replace(text);
+    }
+
     static Output output_at(const fs::path& path) { return {path, "--out", {}}; }
 
     fs::path folder_;
@@ -45,9 +51,12 @@ TEST_F(ResultFileTest, IsCompleteAfterFinish)
     for (int i = 0; i < 20; ++i)
         file.add(fake_cell());
     file.finish(77);
-    const Document document = read_document(text_of(path), "r");
-    EXPECT_EQ(document.cells.size(), 20u);
-    EXPECT_EQ(document.run.compile_ns, 77);
+    const Json document = Json::parse(text_of(path));
+    EXPECT_EQ(document["cells"].size(), 20u);
+    EXPECT_EQ(document["run"]["compile_ns"], 77);
+    EXPECT_TRUE(document["run"].contains("finished_at"));
+    EXPECT_EQ(file.text(), text_of(path));
+    EXPECT_EQ(file.exit_code(), 0);
 }
 
 TEST_F(ResultFileTest, IsCompleteWhenTheRunEndsEarly)
@@ -58,7 +67,40 @@ TEST_F(ResultFileTest, IsCompleteWhenTheRunEndsEarly)
         for (int i = 0; i < 20; ++i)
             file.add(fake_cell());
     }
-    EXPECT_EQ(read_document(text_of(path), "r").cells.size(), 20u);
+    EXPECT_EQ(Json::parse(text_of(path))["cells"].size(), 20u);
+}
+
+TEST_F(ResultFileTest, GoesOnWithTheCellsThatAnEarlierProcessOfTheRunHasLeft)
+{
+    const fs::path path = folder_ / "r.json";
+    RunFacts run = fake_run();
+    {
+        ResultFile file(output_at(path), run);
+        Cell wrong = fake_cell();
+        wrong.check.verdict = Check::Verdict::differs;
+        file.add(wrong);
+        file.add(fake_cell());
+        file.finish(1);
+    }
+    run.started_at = "later";
+    ResultFile file({path, "--out", result_rules(false, {}, run.id)}, run, run.id);
+    EXPECT_EQ(file.next_order(), 10);
+    EXPECT_TRUE(file.pass(1));
+    EXPECT_FALSE(file.pass(2)) << "one of these is missing, so both are made anew";
+    EXPECT_EQ(file.size(), 1u);
+    EXPECT_EQ(file.exit_code(), 1);
+    EXPECT_EQ(Json::parse(file.text())["run"]["started_at"], "2025-11-30T08:15:42Z");
+}
+
+TEST_F(ResultFileTest, OfCellsThatWereNotMeasuredSaysWhy)
+{
+    ResultFile file({}, fake_run());
+    Cell cell = fake_cell();
+    cell.status = Cell::Status::skipped;
+    cell.reason = "no such scene";
+    file.add(cell);
+    EXPECT_THROW(file.exit_code(), NothingMeasured);
+    EXPECT_THROW(Output(folder_, "--out", {}), BadUsage);
 }
 
 TEST_F(ResultFileTest, LeavesAnOlderFileAloneUntilThereIsACell)

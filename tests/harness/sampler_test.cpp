@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "harness/sampler.h"
+#include "harness/session/sampler.h"
 
 #include <gtest/gtest.h>
 

@@ -7,6 +7,7 @@ SWEEP_SEED is when it is killed (1).
 """
 import collections
 import fcntl
+import hashlib
 import json
 import os
 import pathlib
@@ -109,7 +110,7 @@ def test_killed_three_times_it_has_the_cells_of_one_that_was_not():
     assert "[" not in done and cells_of("killed/sweep.json") == wanted, done
     # As a process leaves it that is killed between its last cell and the end of its run.
     cut = pathlib.Path("killed/cells", min(now))
-    cut.write_text(re.sub(r'"finished_at":"[^"]*",', "", now[cut.name]))
+    cut.write_text(re.sub(r',"finished_at":"[^"]*"', "", now[cut.name]))
     done = expect(0, "sweep", *PRODUCT, "--out", "killed", says="8 cells: 8 measured")
     assert done.count("\n[") == 1 and cells_of("killed/sweep.json") == wanted, done
 
@@ -291,20 +292,20 @@ def test_what_cannot_be_is_one_sentence():
     refused("--scenes", "soup", "--builders", "perfect", says="where a triangle count from 1 to")
     for shard in ("4/3", "0/3", "1", "1/3/5", "a/b", "1/0"):
         refused(*soup, "--shard", shard, says=f"--shard is i/n with i from 1 to n, not '{shard}'")
-    refused(*soup, "--set", "boxes=u15", says="'boxes' takes names of `list formats`: no format of boxes is called 'u15'")
+    refused(*soup, "--set", "boxes=u15", says="no format of boxes is called 'u15'; there are: f32, ")
     refused(*soup, "--set", "colour=red", says="a sweep sets no 'colour'; there are: grid, ")
     refused(*soup, "--set", "boxes", says="--set is KEY=V1,V2, not 'boxes'")
     refused(*soup, "--set", "narrow=exact", says="'narrow' is for colliders, and the sweep has none")
-    refused(*soup, "--colliders", "leaf", "--set", "between=1,2", says="'between' may have one value")
-    refused(*soup, "--colliders", "leaf", "--set", "frames=2:1", says="'frames' takes a:b")
-    refused(*soup, "--set", "builder.group_size=3", says="'3' is no power of two")
+    refused(*soup, "--colliders", "leaf", "--set", "frames=0:1,1:2", says="'frames' may have one value")
+    refused(*soup, "--colliders", "leaf", "--set", "frames=2:1", says="frames 2:1 are none")
+    refused(*soup, "--set", "builder.group_size=3", says="'group_size' takes a power of two up to 65536, 0 for the builder's choice, not '3'")
     refused(*soup, "--name", "a b", says="'sweep' must be letters, digits, - and _, not 'a b'")
     refused("nowhere.json", says="the sweep's file 'nowhere.json' cannot be read", code=3)
     for text, why in (('{"scenes": ["soup:70"], "builders": []}', "'builders' must be a list of at least one"),
                       ('{"scenes": [], "builders": ["perfect"]}', "'scenes' must be a list of at least one"),
                       ('{"scenes": ["soup:70"], "builders": ["perfect"], "set": {"boxes": []}}', "'boxes' must be a list"),
                       ('{"scene": ["soup:70"]}', "'scene' is no key of a sweep; there are: sweep, question, scenes"),
-                      ('{"scenes": ["soup:70", {"scene": "soup:70", "objects": "one"}], "colliders": ["leaf"]}',
+                      ('{"scenes": ["soup:70", {"scene": "soup:70", "frames": "0:1"}], "colliders": ["leaf"]}',
                        "the scene 'soup:70' is there twice"), ("[]", "must be an object"), ("{", "parse error")):
         pathlib.Path("bad.json").write_text(text)
         refused("bad.json", says=why)
@@ -335,11 +336,8 @@ def test_the_documented_examples_work():
     assert alone.returncode != 0 and "submit it as an array" in alone.stderr, alone
 
 
-def fnv(*parts: bytes) -> str:
-    state = 1469598103934665603
-    for byte in b"".join(parts):
-        state = (state ^ byte) * 1099511628211 % 2**64
-    return f"{state:016x}"
+def name_of(*parts: str) -> str:
+    return hashlib.sha256(b"".join(part.encode() + b"\0" for part in parts)).hexdigest()[:16] + ".json"
 
 
 def of_another_commit(folder: str) -> str:
@@ -351,8 +349,7 @@ def of_another_commit(folder: str) -> str:
     plan["programs"] = [other]
     path.write_text(json.dumps(plan))
     for number, what in enumerate(plan["units"]):
-        one, two = (pathlib.Path(folder, "cells", fnv(int(what, 16).to_bytes(8, "little"), name.encode(), b"\0",
-                                                      plan["device"].encode(), b"\0") + ".json") for name in (program, other))
+        one, two = (pathlib.Path(folder, "cells", name_of(what, name, plan["device"])) for name in (program, other))
         one.rename(two) if number == 0 else one.unlink()
     return other
 
@@ -422,7 +419,7 @@ def test_plot_draws_what_there_is_or_says_what_there_is():
     expect(3, "plot", "a.json", "--out", "pictures", says="a.json: there is no figure of what it holds: build (1 cell)",
            **environment)
     expect(3, "plot", "nowhere.json", "--out", "pictures", says="nowhere.json", **environment)
-    expect(3, "plot", "a.json", BVHBENCH_HOME="/nowhere", says="/nowhere/plots/all.py is not there")
+    expect(3, "plot", "a.json", BVHBENCH_HOME="/nowhere", says="/nowhere/plots/__main__.py is not there")
 
 
 if __name__ == "__main__":

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
 // What can be tuned is right with every value that its parameters may have, one at a time, and says so if it is not.
-#include "harness/trials.h"
+#include "harness/tune/trials.h"
 
 #include <gtest/gtest.h>
 
 #include "builders/parameters.h"
 #include "collide/parameters.h"
 #include "geometry/error.h"
-#include "harness/failure.h"
+#include "harness/base/failure.h"
 
 namespace bvhbench {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The search over made-up trials, whose times and answers are known.
-#include "harness/tuner.h"
+#include "harness/tune/tuner.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "harness/tuning_file.h"
+#include "harness/session/tuning_file.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "builders/parameters.h"
-#include "builders/stages/sort.h"
+#include "builders/stages/sort/sort.h"
 #include "geometry/error.h"
 
 namespace bvhbench {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "harness/turns.h"
+#include "harness/session/turns.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Write the files of the worked example in docs/adding-a-builder.md, new and changed, into a folder.
+"""Write the files of an example in a document, new and changed, into a folder.
 
-Usage: worked_example.py <source root> <folder>
+Usage: worked_example.py <source root> <document> <folder>
 
 A block of the page that is no diff is the file whose name is the last in backticks before it; a diff changes that file.
 """
@@ -9,33 +9,33 @@ import pathlib
 import re
 import sys
 
-PAGE = "docs/adding-a-builder.md"
 BLOCK = re.compile(r"^```(c|cpp|diff)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 FILE = re.compile(r"`(\w+/[\w./]+\.\w+)`")
 
 
 def changed(text: str, diff: str, path: str) -> str:
+    """The text with the lines of a diff in it, which must be there once."""
     lines = diff.splitlines()
     before = "\n".join(line[1:] for line in lines if not line.startswith("+"))
     after = "\n".join(line[1:] for line in lines if not line.startswith("-"))
-    assert text.count(before) == 1, f"{PAGE}: {path} has {text.count(before)} times:\n{before}"
+    assert text.count(before) == 1, f"{path} has {text.count(before)} times:\n{before}"
     return text.replace(before, after)
 
 
-def files_of(root: pathlib.Path) -> dict[str, str]:
-    page, files = (root / PAGE).read_text(), {}
+def files_of(root: pathlib.Path, document: str) -> dict[str, str]:
+    page, files = (root / document).read_text(), {}
     for block in BLOCK.finditer(page):
         path = FILE.findall(page[:block.start()])[-1]
         if block[1] == "diff":
             files[path] = changed(files.get(path) or (root / path).read_text(), block[2], path)
         else:
-            assert not (root / path).exists(), f"{PAGE}: {path} is there already"
+            assert not (root / path).exists(), f"{document}: {path} is there already"
             files[path] = block[2]
     return files
 
 
-def make(root: pathlib.Path, folder: pathlib.Path) -> None:
-    for path, text in files_of(root).items():
+def make(root: pathlib.Path, document: str, folder: pathlib.Path) -> None:
+    for path, text in files_of(root, document).items():
         to = folder / path
         to.parent.mkdir(parents=True, exist_ok=True)
         if not to.exists() or to.read_text() != text:
@@ -43,4 +43,4 @@ def make(root: pathlib.Path, folder: pathlib.Path) -> None:
 
 
 if __name__ == "__main__":
-    make(pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]))
+    make(pathlib.Path(sys.argv[1]), sys.argv[2], pathlib.Path(sys.argv[3]))

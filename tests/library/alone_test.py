@@ -65,7 +65,7 @@ def main() -> int:
         assert unasked == set(OTHERS), set(OTHERS) - unasked
         here, whole = sources_of(alone / "compile_commands.json"), sources_of(pathlib.Path(BUILD) / "compile_commands.json")
         # CGAL's file is there where CGAL is, and its stand-in where it is not.
-        only_one = {"collide/exact_reference.cpp", "collide/no_exact_reference.cpp"}
+        only_one = {"collide/oracles/exact_reference.cpp", "collide/oracles/no_exact_reference.cpp"}
         assert set(here) - only_one == set(whole) - only_one, set(here) ^ set(whole)
         march = [path for path, command in here.items() if "-march" in command]
         assert not march, f"compiled for one kind of processor only: {march}"

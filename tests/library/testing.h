@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "collide/oracles/sweep.h"
 #include "collide/relation.h"
-#include "collide/sweep.h"
 #include "device/device.h"
 #include "geometry/error.h"
 #include "library/include/bvhbench/oibvh.h"

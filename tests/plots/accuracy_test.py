@@ -14,6 +14,7 @@ GOLDEN = ROOT / "tests" / "golden" / "accuracy.json"
 sys.path.insert(0, str(ROOT / "plots"))
 
 import accuracy  # noqa: E402
+import pareto  # noqa: E402
 import results  # noqa: E402
 import style  # noqa: E402
 from accuracy import Cost, Point  # noqa: E402
@@ -22,7 +23,7 @@ from accuracy import Cost, Point  # noqa: E402
 class Front(unittest.TestCase):
     def test_keeps_what_no_other_is_as_good_as(self) -> None:
         points = [Point(3, 0, "a"), Point(1, 5, "b"), Point(2, 5, "c"), Point(4, 0, "d"), Point(2.5, 1, "e")]
-        self.assertEqual([point.method for point in accuracy.front(points)], ["b", "e", "a"])
+        self.assertEqual([point.method for point in pareto.front(points)], ["b", "e", "a"])
 
 
 class Cheapest(unittest.TestCase):

@@ -18,6 +18,7 @@ GOLDEN = ROOT / "tests" / "golden" / "quality.json"
 sys.path.insert(0, str(ROOT / "plots"))
 
 import labels  # noqa: E402
+import pareto  # noqa: E402
 import pareto_orders  # noqa: E402
 import results  # noqa: E402
 import style  # noqa: E402
@@ -120,7 +121,7 @@ class Figure(unittest.TestCase):
     def test_fills_what_no_other_is_as_good_as(self) -> None:
         run = self.many(with_tests=False)
         points = pareto_orders.points_of([cell for cell in run.cells if cell.scene == run.cells[0].scene])
-        best = pareto_orders.front(points)
+        best = pareto.front(points)
         for time, cost, cell in points:
             beaten = any(t <= time and c <= cost and other is not cell for t, c, other in points)
             self.assertEqual(any(cell is other for _, _, other in best), not beaten)

@@ -261,7 +261,7 @@ class Frames(TemporaryFolder):
                 self.assertEqual(len({one.label for one in shown}), len(shown))
 
     def test_every_collider_has_a_look(self) -> None:
-        catalog = (ROOT / "harness" / "collider_catalog.cpp").read_text(encoding="utf-8")
+        catalog = (ROOT / "harness" / "choice" / "collider_catalog.cpp").read_text(encoding="utf-8")
         colliders = re.findall(r"^    (?:of_library\(|\{)\"([a-z-]+)\"", catalog, re.MULTILINE)
         self.assertGreater(len(colliders), 8)
         for collider in colliders:

@@ -1,4 +1,5 @@
 """Charts draw what the reader of result files says, a mark a cell, in the colours of figures."""
+import pareto
 import pareto_orders
 import pipelines
 import results
@@ -31,7 +32,7 @@ class Charts(Page):
             const isFilled = (trace) => (_, k) => !trace.marker.symbol[k].endsWith("-open");
             return {front: front.y, filled: points.flatMap((trace) => trace.y.filter(isFilled(trace))),
                 all: points.flatMap((trace) => trace.y)};""")
-        front = [cost for _, cost, _ in pareto_orders.front(points)]
+        front = [cost for _, cost, _ in pareto.front(points)]
         self.assertEqual(drawn["front"], front)
         self.assertEqual(sorted(drawn["filled"]), sorted(front))
         self.assertEqual(sorted(drawn["all"]), sorted(cost for _, cost, _ in points))
@@ -48,6 +49,22 @@ class Charts(Page):
             found_all = [found for found in drawn[1][pipeline.label] if found is not None]  # a frame without a time is a gap
             for found, expected in zip(found_all, pipeline.frame_ms(), strict=True):
                 self.assertAlmostEqual(found * unit[drawn[0].split(", ")[1]], expected, delta=1e-4 * expected)
+
+    def test_a_bar_of_several_frames_is_the_mean_of_their_medians(self) -> None:
+        run = self.show("table2")
+        scene, shown = next((scene, shown) for scene, shown in pipelines.of(run, "table2").items() if len(shown[0].cells) > 1)
+        label = self.chart("Time by stage", """return [...chart.querySelectorAll("option")].map((one) => one.value).find(
+            (one) => one.includes(arguments[0]));""", scene)
+        self.choose("Time by stage", "Scene", label)
+        title, bars = self.chart("Time by stage", """return [drawing.layout.xaxis.title.text,
+            drawing.data.flatMap((trace) => trace.customdata.map((name, k) => [name, trace.x[k]]))];""")
+        unit = {"s": 1e3, "ms": 1.0, "µs": 1e-3}[title.split(", ")[1]]
+        there = {name for name, _ in bars}
+        self.assertTrue(there)
+        for pipeline in shown:
+            if pipeline.label in there:
+                drawn, expected = unit * sum(x for name, x in bars if name == pipeline.label), pipeline.frame_ms()
+                self.assertAlmostEqual(drawn, sum(expected) / len(expected), delta=1e-4 * drawn)
 
     def test_the_slowest_frame_is_the_readers_and_leads_to_its_samples(self) -> None:
         run = self.show("table2")

@@ -11,7 +11,7 @@ import unittest
 from page import FILES, Page, report  # first: it takes the command line's words, and says where figures are
 
 from charts import Charts  # noqa: F401
-from tables import Tables  # noqa: F401
+from page_tables import Tables  # noqa: F401
 
 WIDTHS = (1280, 400)
 

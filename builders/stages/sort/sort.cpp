@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#include "builders/stages/sort/sort.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "builders/stages/sort/tile_digits.h"
+#include "geometry/bits.h"
+
+namespace bvhbench {
+namespace {
+
+constexpr auto groups_path = "builders/stages/sort/sort_groups.cl";
+constexpr auto chunks_path = "builders/stages/sort/sort_chunks.cl";
+
+std::int64_t bytes(std::size_t words) { return static_cast<std::int64_t>(words * sizeof(uint)); }
+
+}  // namespace
+
+SortShape sort_shape(const Device& device, KernelForm form)
+{
+    SortShape shape{.form = chosen_form(device, form)};
+    if (shape.form == KernelForm::chunks) {
+        shape.chunk_digit_bits = device.tuned(sort_chunk_digit_bits);
+    } else if (device.lets_groups_wait()) {
+        shape.sweep_group_size = device.tuned(sweep_group_size);
+        shape.sweep_keys_per_item = device.tuned(sweep_keys_per_item);
+        shape.at_once = device.tuned(sort_at_once) != 0;
+    } else {
+        shape.group_size = device.tuned(sort_group_size);
+        shape.keys_per_item = device.tuned(sort_keys_per_item);
+    }
+    return shape;
+}
+
+RadixSort::RadixSort(Programs& programs, unsigned code_bits, SortShape shape)
+    : shape_(shape), code_bits_(code_bits), chunks_(chunk_count(programs.device()))
+{
+    shape_.form = chosen_form(programs.device(), shape.form);
+    const uint words = code_words(code_bits);
+    using enum SortShape::Sweeps;
+    if (shape_.form == KernelForm::groups &&
+        (shape.sweeps == always ||
+         (shape.sweeps == of_device && programs.device().lets_groups_wait()))) {
+        digit_bits_ = tile_digit_bits;
+        sweeps_.emplace(programs, code_bits, shape.sweep_group_size,
+                        std::max(1u, shape.sweep_keys_per_item / words));
+        if (shape.at_once)
+            at_once_.emplace(programs, code_bits, shape.sweep_group_size,
+                             std::max(1u, shape.sweep_keys_per_item / words));
+    } else if (shape_.form == KernelForm::groups) {
+        assert(shape.group_size >= 16 && shape.group_size <= 256);
+        assert(shape.keys_per_item % 2 == 1 && shape.keys_per_item <= 15);
+        // Where a whole group may return before a barrier, PoCL 3.1 makes code that crashes.
+        const auto kernel = [&](const char* name) {
+            return programs.kernel(groups_path, name,
+                                   {{"GROUP_SIZE", shape.group_size},
+                                    {"KEYS_PER_ITEM", shape.keys_per_item},
+                                    {"CODE_WORDS", words},
+                                    {"DIGIT_BITS", tile_digit_bits}},
+                                   Optimise::on_gpus);
+        };
+        digit_bits_ = tile_digit_bits;
+        count_ = kernel("count_tiles");
+        scan_ = kernel("scan_digits");
+        scatter_ = kernel("scatter_tiles");
+    } else {
+        const auto kernel = [&](const char* name) {
+            return programs.kernel(chunks_path, name,
+                                   {{"DIGIT_BITS", shape.chunk_digit_bits}, {"CODE_WORDS", words}});
+        };
+        digit_bits_ = shape.chunk_digit_bits;
+        count_ = kernel("count_chunks");
+        scan_ = kernel("scan_chunks");
+        scatter_ = kernel("scatter_chunks");
+    }
+    passes_ = divided_up(code_bits, digit_bits_);
+}
+
+/// Tiles or chunks the pairs are cut into.
+uint RadixSort::run_count(std::size_t size) const
+{
+    const auto count = static_cast<uint>(size);
+    if (shape_.form == KernelForm::groups)
+        return divided_up(count, shape_.group_size * shape_.keys_per_item);
+    return std::min(count, static_cast<uint>(chunks_));
+}
+
+void RadixSort::plan(Arena& arena, std::size_t size)
+{
+    size_ = size;
+    const std::size_t words = size * code_words(code_bits_);
+    const std::size_t digits = std::size_t{1} << digit_bits_;
+    ids_[passes_ % 2] = arena.take<uint>(size, Use::tree);
+    ids_[(passes_ + 1) % 2] = arena.take<uint>(size, Use::scratch);
+    for (Buffer<uint>& codes : codes_)
+        codes = arena.take<uint>(words, Use::scratch);
+    if (is_at_once()) {
+        at_once_->plan(arena, size);
+        return;
+    }
+    if (sweeps_) {
+        sweeps_->plan(arena, size);
+        return;
+    }
+    counts_ = arena.take<uint>(digits * run_count(size), Use::scratch);
+    totals_ = arena.take<uint>(digits, Use::scratch);
+}
+
+void RadixSort::prepare(const cl::CommandQueue& queue)
+{
+    if (is_at_once())
+        at_once_->prepare(queue);
+    else if (sweeps_)
+        sweeps_->prepare(queue);
+}
+
+void RadixSort::plan_aside(Arena& arena) { aside_ = arena.take<uint>(size_, Use::scratch); }
+
+void RadixSort::enqueue(Queue& queue) { enqueue_passes(queue, static_cast<uint>(size_), ids()); }
+
+void RadixSort::enqueue_aside(Queue& queue, uint count)
+{
+    assert(count > 0 && count <= aside_.size());
+    enqueue_passes(queue, count, aside_);
+}
+
+void RadixSort::enqueue_passes(Queue& queue, uint count, const Buffer<uint>& result)
+{
+    queue.begin("sort");
+    if (count == 0)
+        return;
+    const Buffer<uint>& other = ids_[(passes_ + 1) % 2];
+    if (is_at_once()) {
+        at_once_->enqueue(codes_, result, other, count, queue);
+        return;
+    }
+    if (sweeps_) {
+        sweeps_->enqueue(codes_, result, other, count, queue);
+        return;
+    }
+    for (uint pass = 0; pass < passes_; ++pass) {
+        const bool to_result = (passes_ - pass) % 2 == 1;
+        enqueue_pass(queue, pass, count, to_result ? other : result, to_result ? result : other);
+    }
+}
+
+void RadixSort::enqueue_pass(Queue& queue, uint pass, uint count, const Buffer<uint>& ids_in,
+                             const Buffer<uint>& ids_out)
+{
+    const uint runs = run_count(count);
+    const uint shift = pass * digit_bits_;
+    const uint mask = (1u << std::min(digit_bits_, code_bits_ - shift)) - 1;
+    const uint is_first = pass == 0 ? 1 : 0;
+    const Buffer<uint>& codes_in = codes_[pass % 2];
+    const Buffer<uint>& codes_out = codes_[(pass + 1) % 2];
+
+    const std::size_t table = (std::size_t{mask} + 1) * runs;
+    const std::size_t words = std::size_t{count} * code_words(code_bits_);
+    const std::int64_t count_bytes = bytes(words + table);
+    const std::int64_t scan_bytes = bytes(2 * table);
+    const std::int64_t scatter_bytes =
+        bytes(2 * words + (2 - is_first) * std::size_t{count} + table);
+
+    set_arguments(count_, codes_in, counts_, count, shift, mask);
+    if (shape_.form == KernelForm::groups) {
+        set_arguments(scan_, counts_, totals_, runs);
+        set_arguments(scatter_, codes_in, ids_in, codes_out, ids_out, counts_, totals_, count,
+                      shift, mask, is_first);
+        const std::size_t group = shape_.group_size;
+        queue.launch(count_, runs * group, group, count_bytes);
+        queue.launch(scan_, (mask + 1) * group, group, scan_bytes);
+        queue.launch(scatter_, runs * group, group, scatter_bytes);
+    } else {
+        set_arguments(scan_, counts_, static_cast<uint>(table));
+        set_arguments(scatter_, codes_in, ids_in, codes_out, ids_out, counts_, count, shift, mask,
+                      is_first);
+        queue.launch(count_, runs, 1, count_bytes);
+        queue.launch(scan_, 1, 1, scan_bytes);
+        queue.launch(scatter_, runs, 1, scatter_bytes);
+    }
+}
+
+}  // namespace bvhbench

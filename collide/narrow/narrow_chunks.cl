@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+// check: -DSINK_BLOCK=512u -DKEEP_ADJACENT=0 -DWITH_DOUBLES=1
+// check: -DSINK_BLOCK=512u -DKEEP_ADJACENT=1 -DWITH_DOUBLES=1
+// check: -DSINK_BLOCK=512u -DKEEP_ADJACENT=1 -DWITH_DOUBLES=0 -Xclang -cl-ext=-cl_khr_fp64,-__opencl_c_fp64
+//
+// Candidates in batches, which work-items take from a counter and each keeps contacts and unsure ones in a block of.
+//
+// Each look at a batch is a loop of its own over coordinates that lie side by side, and has no branch, so that the
+// compiler makes wide registers of it:
+//
+//     batch         corners, gathered            -> open: neither plane parts the two
+//     open ones     their corners, moved up      -> verdicts, in doubles
+//     unsure ones   for exact arithmetic
+#include "collide/narrow/verdict.clh"
+#include "collide/sinks/sink_chunks.clh"
+
+#define BATCH 256u
+
+/// Corners of pairs of triangles, a coordinate after the other: corner c of pair k has its x at [3 c][k].
+typedef struct {
+    float at[18][BATCH];
+} Batch;
+
+static inline Point corner(const Batch* batch, const uint c, const uint k)
+{
+    const Point p = {batch->at[3u * c][k], batch->at[3u * c + 1u][k], batch->at[3u * c + 2u][k]};
+    return p;
+}
+
+static inline void set_corner(Batch* batch, const uint c, const uint k, const Point p)
+{
+    batch->at[3u * c][k] = p.x;
+    batch->at[3u * c + 1u][k] = p.y;
+    batch->at[3u * c + 2u][k] = p.z;
+}
+
+/// The corners of `count` candidates, and which of them share one.
+static inline void gather_pairs(global const Point* points, global const Face* faces,
+                                global const uint2* candidates, const uint count, Batch* batch,
+                                uint* adjacent)
+{
+    for (uint k = 0u; k < count; ++k) {
+        const uint2 pair = candidates[k];
+        const Face a = faces[pair.x], b = faces[pair.y];
+        adjacent[k] = share_a_vertex(a, b) ? 1u : 0u;
+        set_corner(batch, 0u, k, points[a.a]);
+        set_corner(batch, 1u, k, points[a.b]);
+        set_corner(batch, 2u, k, points[a.c]);
+        set_corner(batch, 3u, k, points[b.a]);
+        set_corner(batch, 4u, k, points[b.b]);
+        set_corner(batch, 5u, k, points[b.c]);
+    }
+}
+
+/// The pairs that floats leave open, and adjacent ones if those are kept: into `list`, how many.
+static inline uint open_pairs(const Batch* batch, const uint count, const uint* adjacent,
+                              uint* list)
+{
+    uint open[BATCH];
+    for (uint k = 0u; k < count; ++k) {
+        const Point a = corner(batch, 0u, k), b = corner(batch, 1u, k), c = corner(batch, 2u, k);
+        const Point p = corner(batch, 3u, k), q = corner(batch, 4u, k), r = corner(batch, 5u, k);
+        const bool parted = plane_parts(a, b, c, p, q, r) || plane_parts(p, q, r, a, b, c);
+        open[k] = adjacent[k] != 0u ? (uint)KEEP_ADJACENT : (parted ? 0u : 1u);
+    }
+    uint found = 0u;
+    for (uint k = 0u; k < count; ++k) {
+        list[found] = k;
+        found += open[k];
+    }
+    return found;
+}
+
+/// What the open pairs are, as if none were adjacent. Moves their corners up.
+static inline void verdicts_of(Batch* batch, const uint* list, const uint count, uint* verdicts)
+{
+#if FILTER_DOUBLES
+    for (uint c = 0u; c < 18u; ++c)
+        for (uint k = 0u; k < count; ++k)
+            batch->at[c][k] = batch->at[c][list[k]];
+    for (uint k = 0u; k < count; ++k) {
+        const Corners a = {{corner(batch, 0u, k), corner(batch, 1u, k), corner(batch, 2u, k)}};
+        const Corners b = {{corner(batch, 3u, k), corner(batch, 4u, k), corner(batch, 5u, k)}};
+        const uint verdict = likely_meet_unbranched(a, b);
+        verdicts[k] = verdict == VERDICT_UNSURE ? verdict : verdict | BY_DOUBLES;
+    }
+#else
+    (void)batch, (void)list;
+    for (uint k = 0u; k < count; ++k)
+        verdicts[k] = VERDICT_UNSURE;
+#endif
+}
+
+/// As in narrow_groups.cl. `blocks` has room for 2 SINK_BLOCK pairs a work-item.
+kernel void filter_pairs(global const Point* points, global const Face* faces,
+                         global const uint2* candidates, global const uint* candidate_counters,
+                         const uint candidate_room, global uint2* contacts, const uint contact_room,
+                         global uint2* unsure, const uint unsure_room,
+                         volatile global uint* counters, global uint2* blocks)
+{
+    const uint count = candidate_count(candidate_counters, candidate_room);
+    global uint2* const meeting = blocks + 2u * SINK_BLOCK * get_global_id(0);
+    global uint2* const doubtful = meeting + SINK_BLOCK;
+    uint meeting_count = 0u, doubtful_count = 0u;
+    uint by_floats = 0u, by_doubles = 0u;
+    Batch batch;
+    uint adjacent[BATCH], list[BATCH], verdicts[BATCH];
+    for (ulong first = (ulong)BATCH * atomic_inc(counters + BATCHES_BEGUN); first < count;
+         first = (ulong)BATCH * atomic_inc(counters + BATCHES_BEGUN)) {
+        const uint in_batch = (uint)min((ulong)BATCH, count - first);
+        gather_pairs(points, faces, candidates + first, in_batch, &batch, adjacent);
+        const uint open = open_pairs(&batch, in_batch, adjacent, list);
+        by_floats += in_batch - open;
+        verdicts_of(&batch, list, open, verdicts);
+        for (uint k = 0u; k < open; ++k) {
+            const uint2 pair = candidates[first + list[k]];
+            const uint verdict = adjacent[list[k]] != 0u
+                                     ? second_verdict(points, faces[pair.x], faces[pair.y])
+                                     : verdicts[k];
+            by_doubles += verdict & BY_DOUBLES ? 1u : 0u;
+            by_floats += verdict == VERDICT_MEET ? 1u : 0u;
+            if ((verdict & VERDICT_MEET) != 0u)
+                put(meeting, &meeting_count, contacts, contact_room, counters + CONTACTS_COUNT,
+                    pair);
+            if ((verdict & VERDICT_UNSURE) != 0u)
+                put(doubtful, &doubtful_count, unsure, unsure_room, counters + NARROW_EXACT_COUNT,
+                    pair);
+        }
+    }
+    empty_block(meeting, &meeting_count, contacts, contact_room, counters + CONTACTS_COUNT);
+    empty_block(doubtful, &doubtful_count, unsure, unsure_room, counters + NARROW_EXACT_COUNT);
+    add_wide(counters + NARROW_FLOAT_COUNT, by_floats);
+    add_wide(counters + NARROW_DOUBLE_COUNT, by_doubles);
+}

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// check: -DKEEP_ADJACENT=0
+// check: -DKEEP_ADJACENT=1
+//
+// The pairs that no filter could decide, in exact arithmetic. One kernel for both forms: without barriers, which many
+// helpers in one kernel and PoCL 3.1 do not go together with, and with an atomic a contact, which is little beside
+// what it takes to find one.
+#include "collide/narrow/corners.clh"
+#include "collide/narrow/exact_adjacent.h"
+#include "collide/narrow/narrow_counters.h"
+#include "collide/narrow/sharing.h"
+#include "collide/wide_count.clh"
+
+/// Behind filter_pairs, whose `unsure` and `counters` these are. Adds to `contacts`.
+kernel void decide_exactly(global const Point* points, global const Face* faces,
+                           global const uint2* unsure, const uint unsure_room,
+                           global uint2* contacts, const uint contact_room,
+                           volatile global uint* counters)
+{
+    const uint count = min(counters[NARROW_EXACT_COUNT], unsure_room);
+    for (ulong place = get_global_id(0); place < count; place += get_global_size(0)) {
+        const uint2 pair = unsure[place];
+        Shared shared = {0u, faces[pair.x], faces[pair.y]};
+        if (KEEP_ADJACENT)
+            shared = sharing(shared.a, shared.b);
+        if (!corners_meet(corners_of(points, shared.a), corners_of(points, shared.b),
+                          KEEP_ADJACENT ? shared.count : 0u))
+            continue;
+        const uint slot = add_wide(counters + CONTACTS_COUNT, 1u);
+        if (slot < contact_room)
+            contacts[slot] = pair;
+    }
+}

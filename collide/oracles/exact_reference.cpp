@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+#include "collide/oracles/exact_reference.h"
+
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/intersections.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <set>
+#include <variant>
+
+#include "geometry/host_memory.h"
+
+namespace bvhbench {
+namespace {
+
+using Predicates = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Constructions = CGAL::Exact_predicates_exact_constructions_kernel;
+
+template <class Kernel>
+using Corners3 = std::array<typename Kernel::Point_3, 3>;
+
+template <class Kernel>
+Corners3<Kernel> corners(std::span<const Point> points, Face face)
+{
+    const auto at = [&](uint index) {
+        const Point p = points[index];
+        return typename Kernel::Point_3(p.x, p.y, p.z);
+    };
+    return {at(face.a), at(face.b), at(face.c)};
+}
+
+/// CGAL wants triangles with area, and segments with length.
+template <class Kernel>
+using Shape =
+    std::variant<typename Kernel::Triangle_3, typename Kernel::Segment_3, typename Kernel::Point_3>;
+
+template <class Kernel>
+Shape<Kernel> shape(Corners3<Kernel> at)
+{
+    if (!CGAL::collinear(at[0], at[1], at[2]))
+        return typename Kernel::Triangle_3(at[0], at[1], at[2]);
+    std::sort(at.begin(), at.end());  // along the line
+    if (at[0] == at[2])
+        return at[0];
+    return typename Kernel::Segment_3(at[0], at[2]);
+}
+
+bool meet(const Shape<Predicates>& a, const Shape<Predicates>& b)
+{
+    return std::visit(
+        [](const auto& first, const auto& second) { return CGAL::do_intersect(first, second); }, a,
+        b);
+}
+
+/// The indices that both name, each once.
+std::vector<uint> common(Face a, Face b)
+{
+    std::vector<uint> shared;
+    for (const uint index : std::set<uint>{a.a, a.b, a.c})
+        if (index == b.a || index == b.b || index == b.c)
+            shared.push_back(index);
+    return shared;
+}
+
+/// The two indices of a face without one that it names.
+std::array<uint, 2> others(Face face, uint index)
+{
+    if (face.a == index)
+        return {face.b, face.c};
+    if (face.b == index)
+        return {face.a, face.c};
+    return {face.a, face.b};
+}
+
+/// What is left for two with area that share one corner: the edge opposite, and the other triangle.
+bool far_edge_meets(std::span<const Point> points, Face face, uint corner, Face other)
+{
+    const auto [p, q] = others(face, corner);
+    const Corners3<Predicates> edge = corners<Predicates>(points, {p, q, q});
+    const Corners3<Predicates> at = corners<Predicates>(points, other);
+    return CGAL::do_intersect(Predicates::Segment_3(edge[0], edge[1]),
+                              Predicates::Triangle_3(at[0], at[1], at[2]));
+}
+
+/// The third corner of a face that has area and names u and v.
+uint third(Face face, uint u, uint v)
+{
+    return others(face, u)[0] == v ? others(face, u)[1] : others(face, u)[0];
+}
+
+/// Two with area that share the edge u, v: folded onto each other?
+bool folded(std::span<const Point> points, Face a, Face b, uint u, uint v)
+{
+    const Corners3<Predicates> edge = corners<Predicates>(points, {u, v, v});
+    const Corners3<Predicates> tips =
+        corners<Predicates>(points, {third(a, u, v), third(b, u, v), v});
+    return CGAL::coplanar(edge[0], edge[1], tips[0], tips[1]) &&
+           CGAL::coplanar_orientation(edge[0], edge[1], tips[0], tips[1]) == CGAL::POSITIVE;
+}
+
+/// What a segment has in common with `other`, constructed: more than what lies between `ends`?
+template <class Other>
+bool more_than(const Constructions::Segment_3& segment, const Other& other,
+               const Corners3<Constructions>& ends)
+{
+    const auto all = CGAL::intersection(segment, other);
+    const auto* const line = all ? boost::get<Constructions::Segment_3>(&*all) : nullptr;
+    if (line == nullptr || ends[0] == ends[1])
+        return line != nullptr;
+    return *line != Constructions::Segment_3(ends[0], ends[1]) &&
+           *line != Constructions::Segment_3(ends[1], ends[0]);
+}
+
+/// Where one has no area. One that is a point is the shared corner, and has no more.
+bool more_in_common(std::span<const Point> points, Face a, Face b, const std::vector<uint>& shared)
+{
+    using Segment = Constructions::Segment_3;
+    const Shape<Constructions> first = shape<Constructions>(corners<Constructions>(points, a));
+    const Shape<Constructions> second = shape<Constructions>(corners<Constructions>(points, b));
+    if (first.index() == 2 || second.index() == 2)
+        return false;
+    const auto ends =
+        corners<Constructions>(points, {shared.front(), shared.back(), shared.back()});
+    const auto* const one = std::get_if<Segment>(&first);
+    const auto* const other = std::get_if<Segment>(&second);
+    if (one != nullptr && other != nullptr)
+        return more_than(*one, *other, ends);
+    return one != nullptr ? more_than(*one, std::get<Constructions::Triangle_3>(second), ends)
+                          : more_than(*other, std::get<Constructions::Triangle_3>(first), ends);
+}
+
+bool contact(std::span<const Point> points, Face a, Face b, bool keep_adjacent)
+{
+    const Corners3<Predicates> at_a = corners<Predicates>(points, a);
+    const Corners3<Predicates> at_b = corners<Predicates>(points, b);
+    if (!share_a_vertex(a, b))
+        return meet(shape<Predicates>(at_a), shape<Predicates>(at_b));
+    if (!keep_adjacent)
+        return false;
+    const std::vector<uint> shared = common(a, b);
+    if (shared.size() == 3)
+        return true;
+    if (CGAL::collinear(at_a[0], at_a[1], at_a[2]) || CGAL::collinear(at_b[0], at_b[1], at_b[2]))
+        return more_in_common(points, a, b, shared);
+    if (shared.size() == 2)
+        return folded(points, a, b, shared[0], shared[1]);
+    return far_edge_meets(points, a, shared[0], b) || far_edge_meets(points, b, shared[0], a);
+}
+
+}  // namespace
+
+PairList intersecting_pairs(std::span<const Point> points, std::span<const Face> faces,
+                            const PairList& candidates, bool keep_adjacent)
+{
+    require_host_memory("checking the contacts", candidates.size() / 8);
+    std::vector<bool> is_contact(candidates.size());
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+        const Pair pair = candidates.pairs()[k];
+        is_contact[k] = contact(points, faces[pair.a], faces[pair.b], keep_adjacent);
+        count += is_contact[k] ? 1 : 0;
+    }
+    require_host_memory("checking the contacts, " + std::to_string(count) + " of them,",
+                        count * sizeof(Pair));
+    std::vector<Pair> found;
+    found.reserve(count);
+    for (std::size_t k = 0; k < candidates.size(); ++k)
+        if (is_contact[k])
+            found.push_back(candidates.pairs()[k]);
+    return PairList(std::move(found));
+}
+
+}  // namespace bvhbench

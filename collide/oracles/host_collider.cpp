@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#include "collide/oracles/host_collider.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "collide/counters.h"
+
+namespace bvhbench {
+
+DevicePairs room_for_pairs(const Device& device, std::size_t count)
+{
+    const auto buffer = [&](std::size_t bytes) {
+        return cl::Buffer(device.context, CL_MEM_READ_WRITE, bytes);
+    };
+    const std::size_t room = std::max<std::size_t>(1, count);
+    MemoryShare memory = device.take_memory(room * sizeof(Pair));
+    return {.pairs = {buffer(room * sizeof(Pair)), room},
+            .counters = {buffer(QUEUES_COUNT * sizeof(uint)), QUEUES_COUNT},
+            .memory = std::move(memory)};
+}
+
+void copy_pairs(std::span<const Pair> found, DevicePairs& to, const Queue& queue)
+{
+    std::vector<uint> counters(QUEUES_COUNT, 0u);
+    counters[PAIRS_COUNT] = static_cast<uint>(found.size());
+    to.counters.upload(queue.cl(), counters);
+    to.pairs.upload(queue.cl(), found);
+}
+
+DevicePairs HostCollider::device_pairs(Queue& queue)
+{
+    if (copied_.pairs.size() < std::max<std::size_t>(1, found_.size())) {
+        copied_ = {};  // the old memory goes before the new comes
+        copied_ = room_for_pairs(device_, found_.size() + found_.size() / 8 + 1);
+    }
+    queue.on_host("copy", [&] { copy_pairs(found_, copied_, queue); });
+    return copied_;
+}
+
+}  // namespace bvhbench

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#include "collide/oracles/exact_reference.h"
+#include "geometry/error.h"
+
+namespace bvhbench {
+
+PairList intersecting_pairs(std::span<const Point>, std::span<const Face>, const PairList&, bool)
+{
+    throw Unavailable("this build has no CGAL to tell which triangles intersect");
+}
+
+}  // namespace bvhbench

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#include "collide/oracles/sweep.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <string>
+
+#include "geometry/host_memory.h"
+
+namespace bvhbench {
+namespace {
+
+struct Axis {
+    float Aabb::*min;
+    float Aabb::*max;
+    double low = 0;     ///< where the first box begins
+    double length = 0;  ///< from there to where the last one ends
+    double share = 0;   ///< of it that a box takes, on average
+};
+
+/// The axes, those first along which a box takes the smallest share: the fewest overlap along it, as a rule.
+std::array<Axis, 3> axes_of(std::span<const Aabb> boxes)
+{
+    Aabb all = empty_box();
+    for (const Aabb& box : boxes)
+        all = merged(all, box);
+    std::array<Axis, 3> axes = {
+        {{&Aabb::min_x, &Aabb::max_x}, {&Aabb::min_y, &Aabb::max_y}, {&Aabb::min_z, &Aabb::max_z}}};
+    for (Axis& axis : axes) {
+        double sum = 0;
+        for (const Aabb& box : boxes)
+            sum += static_cast<double>(box.*axis.max) - static_cast<double>(box.*axis.min);
+        axis.low = all.*axis.min;
+        axis.length = static_cast<double>(all.*axis.max) - axis.low;
+        axis.share = sum / static_cast<double>(boxes.size()) / axis.length;
+        if (!std::isfinite(axis.share))
+            axis.share = std::numeric_limits<double>::infinity();
+    }
+    std::stable_sort(axes.begin(), axes.end(),
+                     [](const Axis& a, const Axis& b) { return a.share < b.share; });
+    return axes;
+}
+
+/// Boxes in strips, each strip swept along the first axis. A box is in every strip that it reaches into.
+class Strips {
+public:
+    explicit Strips(std::span<const Aabb> boxes) : boxes_(boxes), axes_(axes_of(boxes))
+    {
+        // So wide that a box reaches into one and a half, on average.
+        const double count = std::min(0.5 / axes_[1].share, static_cast<double>(boxes.size()) / 16);
+        count_ = count > 1 ? static_cast<std::size_t>(count) : 1;
+        ends_.assign(count_ + 1, 0);
+        for (const Aabb& box : boxes_)
+            for (std::size_t k = first_of(box); k <= last_of(box); ++k)
+                ++ends_[k];
+        std::exclusive_scan(ends_.begin(), ends_.end(), ends_.begin(), std::size_t{0});
+        ids_.resize(ends_.back());
+        for (uint id = 0; id < boxes_.size(); ++id)
+            for (std::size_t k = first_of(boxes_[id]); k <= last_of(boxes_[id]); ++k)
+                ids_[ends_[k]++] = id;
+        const auto begins_first = [&](uint a, uint b) {
+            return boxes_[a].*axes_[0].min < boxes_[b].*axes_[0].min;
+        };
+        for (std::size_t k = 0; k < count_; ++k)
+            std::sort(ids_.begin() + begin_of(k), ids_.begin() + end_of(k), begins_first);
+    }
+
+    /// Calls `found` with every pair of boxes that overlap, once.
+    template <class FoundPair>
+    void sweep(const FoundPair& found) const
+    {
+        std::vector<Aabb> swept;  // next to each other in memory in the order they are read
+        for (std::size_t k = 0; k < count_; ++k) {
+            const std::span ids(ids_.begin() + begin_of(k), ids_.begin() + end_of(k));
+            swept.clear();
+            for (const uint id : ids)
+                swept.push_back(boxes_[id]);
+            // Of two boxes that overlap, the later to begin does so before the earlier ends.
+            for (std::size_t i = 0; i < swept.size(); ++i) {
+                const float end = swept[i].*axes_[0].max;
+                for (std::size_t j = i + 1; j < swept.size() && swept[j].*axes_[0].min <= end; ++j)
+                    if (overlap(swept[i], swept[j]) && is_of(k, swept[i], swept[j]))
+                        found(ids[i], ids[j]);
+            }
+        }
+    }
+
+    /// About the most bytes of the host's memory that a sweep of `boxes` boxes takes, without the pairs.
+    static std::uint64_t bytes(std::size_t boxes)
+    {
+        return boxes * (sizeof(Aabb) + 2 * sizeof(uint) + sizeof(uint) / 2);
+    }
+
+private:
+    std::ptrdiff_t begin_of(std::size_t strip) const
+    {
+        return static_cast<std::ptrdiff_t>(strip == 0 ? 0 : ends_[strip - 1]);
+    }
+    std::ptrdiff_t end_of(std::size_t strip) const
+    {
+        return static_cast<std::ptrdiff_t>(ends_[strip]);
+    }
+
+    /// The strip of a place: never a smaller one for a larger place. What is no number is in the first.
+    std::size_t strip_of(float place) const
+    {
+        const double at = (static_cast<double>(place) - axes_[1].low) / axes_[1].length *
+                          static_cast<double>(count_);
+        return at > 0 ? static_cast<std::size_t>(std::min(at, static_cast<double>(count_ - 1))) : 0;
+    }
+    std::size_t first_of(const Aabb& box) const { return strip_of(box.*axes_[1].min); }
+    std::size_t last_of(const Aabb& box) const { return strip_of(box.*axes_[1].max); }
+
+    /// Two boxes may meet in several strips. They are a pair of the one in which their common part begins.
+    bool is_of(std::size_t strip, const Aabb& a, const Aabb& b) const
+    {
+        return count_ == 1 || strip_of(std::max(a.*axes_[1].min, b.*axes_[1].min)) == strip;
+    }
+
+    std::span<const Aabb> boxes_;
+    std::array<Axis, 3> axes_;
+    std::size_t count_ = 1;
+    std::vector<std::size_t> ends_;  ///< of each strip, in `ids_`
+    std::vector<uint> ids_;
+};
+
+}  // namespace
+
+PairList overlapping_pairs(std::span<const Aabb> boxes, const Wanted& wanted)
+{
+    require_host_memory("checking the pairs", Strips::bytes(boxes.size()));
+    const Strips strips(boxes);
+    std::uint64_t count = 0;
+    strips.sweep([&](uint a, uint b) { count += !wanted || wanted(a, b) ? 1 : 0; });
+    require_host_memory("checking the pairs, " + std::to_string(count) + " of them,",
+                        count * sizeof(Pair));
+    std::vector<Pair> found;
+    found.reserve(count);
+    const auto list = [&](uint a, uint b) {
+        if (!wanted || wanted(a, b))
+            found.push_back({a, b});
+    };
+    strips.sweep(list);
+    return PairList(std::move(found));
+}
+
+PairList touching_pairs(std::span<const Aabb> boxes, std::span<const Face> faces,
+                        bool keep_adjacent)
+{
+    return touching_pairs(boxes, faces, keep_adjacent, {}, Among::all);
+}
+
+PairList touching_pairs(std::span<const Point> points, std::span<const Face> faces,
+                        bool keep_adjacent)
+{
+    return touching_pairs(face_boxes(points, faces), faces, keep_adjacent);
+}
+
+PairList touching_pairs(std::span<const Aabb> boxes, std::span<const Face> faces,
+                        bool keep_adjacent, std::span<const FaceRange> objects, Among among)
+{
+    const auto wanted = [&](uint a, uint b) {
+        return (keep_adjacent || !share_a_vertex(faces[a], faces[b])) &&
+               is_among({a, b}, objects, among);
+    };
+    return overlapping_pairs(boxes, wanted);
+}
+
+}  // namespace bvhbench

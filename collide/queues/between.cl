@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DTASK_LEAVES=64u -DSKIP_APART=1 -DSKIP_OVERLAP=1 -DOTHERS=16u
+// check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DTASK_LEAVES=64u -DSKIP_APART=0 -DSKIP_OVERLAP=0 -DOTHERS=16u
+//
+// The tasks between objects: leaves of the object that has more, against every object whose box meets theirs. Their
+// box is that of the subtree over them, Eq. (13); in a tree with pointers it is that of their object. SKIP_OVERLAP and
+// SKIP_APART: whether that box's test, and the whole object's, leave tasks out (skips.h). A work-item holds its leaves against
+// OTHERS objects, one after the other.
+#include "builders/stages/chunk.clh"
+#include "collide/walks/task.clh"
+#include "collide/wide_count.clh"
+
+static inline Aabb root_box(FOREST_PARAMETERS, const uint object)
+{
+    PICK_TREE(object)
+    return tree_box(TREE, tree_root(TREE));
+}
+
+static inline Aabb task_box(FOREST_PARAMETERS, const QueryTask task)
+{
+#if TREE_IMPLICIT
+    PICK_TREE(task.own)
+    const uint levels = divided_up(floor_log2(TASK_LEAVES), TREE_CHILD_BITS);
+    return tree_box(TREE, tree_ancestor(TREE, tree_leaf(TREE, task.first), levels));
+#else
+    return root_box(FOREST, task.own);
+#endif
+}
+
+/// Whether the leaves of `a` are held against `b`, and not the other way round: many short walks end sooner than a
+/// few long ones. A ball's 760 leaves against a cloth's 91,470 took 7 times as long as the cloth's against the ball's.
+static inline bool asks(const ForestObject a, const ForestObject b, const bool comes_first)
+{
+    return a.leaves > b.leaves || (a.leaves == b.leaves && comes_first);
+}
+
+/// `chunks` has the neighbouring leaves of all objects. What finds no room in `between` is counted and not written.
+kernel void find_between(FOREST_PARAMETERS, global const QueryTask* chunks, const uint chunk_count,
+                         const uint object_count, global QueryTask* between,
+                         const uint most_between, volatile global uint* counters)
+{
+    const uint blocks = (object_count + OTHERS - 1u) / OTHERS;
+    const Chunk part = own_chunk(chunk_count * blocks);
+    ulong tests = 0ul;
+    for (uint k = part.first; k < part.end; ++k) {
+        QueryTask task = chunks[k / blocks];
+        const ForestObject own = objects[task.own];
+        const Aabb box __attribute__((unused)) = task_box(FOREST, task);
+        const Aabb whole __attribute__((unused)) = root_box(FOREST, task.own);
+        const uint first = k % blocks * OTHERS, end = min(object_count, first + OTHERS);
+        for (uint other = first; other < end; ++other) {
+            if (other == task.own || !asks(own, objects[other], task.own < other))
+                continue;
+            ++tests;
+            const Aabb others __attribute__((unused)) = root_box(FOREST, other);
+#if SKIP_OVERLAP
+            if (!overlap(box, others))
+                continue;
+#endif
+#if SKIP_APART
+            if (!overlap(whole, others))
+                continue;
+#endif
+            const uint slot = add_wide(counters + TASKS_COUNT, 1ul);
+            task.other = other;
+            if (slot < most_between)
+                between[slot] = task;
+        }
+    }
+    add_wide(counters + BOX_TESTS_COUNT, tests);
+}

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+// check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=0 -DTASK_LEAVES=64u -DSKIP_OVERLAP=1
+// check: -include oibvh/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=0 -DTASK_LEAVES=64u -DSKIP_OVERLAP=1
+// check: -include oibvh/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=0 -DTASK_LEAVES=64u -DSKIP_OVERLAP=1 -DBOX_FORMAT=1u
+// check: -include oibvh/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=0 -DTASK_LEAVES=64u -DSKIP_OVERLAP=1 -DBOX_FORMAT=3u
+// check: -include oibvh/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=0 -DTASK_LEAVES=64u -DSKIP_OVERLAP=1 -DBOX_FORMAT=4u
+// check: -include oibvh/wide/wide8_access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=1 -DTASK_LEAVES=64u -DSKIP_OVERLAP=0
+// check: -include oibvh/wide/wide4_access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=1 -DTASK_LEAVES=64u -DSKIP_OVERLAP=0
+// check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DTASK_LEAVES=64u -DSKIP_OVERLAP=1
+//
+// A task's neighbouring leaves as one query, for few cores with wide registers. Their common box walks the tree, and
+// what it meets is lined up; eight of the leaves after the other take the steps of the line that their own common box
+// meets, and hold each of their boxes against eight boxes of a step at once.
+//
+//     task's leaves    | block | block | ...            line    | step | step | step | ...
+//     block x line     the steps that meet the block's box
+//     leaf x step      a hit: the lanes that the leaf meets; then those that share no corner with it; then pairs
+//
+// Each of these is a loop without a branch on what was found: entries are written always and counted only if wanted.
+#include "collide/sinks/wanted.clh"
+#include "collide/walks/line_walk.clh"
+#include "collide/wide_count.clh"
+#include "geometry/bits.h"
+
+/// What leaf `leaf` of the task's, of 256 at most, meets in a step: lanes lowest, then the step, then the leaf.
+static inline uint hit_of(const uint leaf, const uint step, const uint lanes)
+{
+    return leaf << (LANES + 8u) | step << LANES | lanes;
+}
+static inline uint lanes_of(const uint hit) { return hit & ALL_LANES; }
+static inline uint step_of(const uint hit) { return hit >> LANES & 0xffu; }
+static inline uint leaf_of(const uint hit) { return hit >> (LANES + 8u); }
+
+/// The steps of `line`, from `first` on, that a block meets: into `steps`, how many.
+static inline uint near_steps(const Line* own, const uint begin, const uint end, const Line* line,
+                              const uint first, const uint count, uchar* steps)
+{
+    Aabb common = box_at(own, begin);
+    for (uint k = begin + 1u; k < end; ++k)
+        common = merged(common, box_at(own, k));
+    uint found = 0u;
+    for (uint step = first; step * LANES < count; ++step) {
+        steps[found] = (uchar)step;
+        found += lanes_that_meet(line, step, common) != 0u ? 1u : 0u;
+    }
+    return found;
+}
+
+/// The hits of a block's leaves in these steps; of the task's own line, only with leaves behind each.
+static inline uint hits_of(const Line* own, const uint begin, const uint end, const Line* line,
+                           const uchar* steps, const uint step_count, uint* hits)
+{
+    uint found = 0u;
+    for (uint k = begin; k < end; ++k) {
+        const Aabb box = box_at(own, k);
+        for (uint s = 0u; s < step_count; ++s) {
+            const uint step = steps[s];
+            uint lanes = lanes_that_meet(line, step, box);
+            if (own == line && step == k / LANES)
+                lanes &= (ALL_LANES - 1u) << k % LANES;
+            hits[found] = hit_of(k, step, lanes);
+            found += lanes != 0u ? 1u : 0u;
+        }
+    }
+    return found;
+}
+
+/// Those without lanes that share a corner. In place.
+static inline uint without_adjacent(const Line* own, const Line* line, uint* hits, const uint count)
+{
+    uint found = 0u;
+    for (uint h = 0u; h < count; ++h) {
+        const uint hit = hits[h];
+        const uint kept = hit & ~lanes_that_share(line, step_of(hit), own, leaf_of(hit));
+        hits[found] = kept;
+        found += lanes_of(kept) != 0u ? 1u : 0u;
+    }
+    return found;
+}
+
+/// A pair a lane, as many as there is room for: one loop over all lanes of all hits, behind which stands an empty one.
+static inline void put_hits(const Line* own, const Line* line, const uint* hits,
+                            global uint2* pairs, const uint count)
+{
+    uint h = 0u, lanes = lanes_of(hits[0]);
+    for (uint k = 0u; k < count; ++k) {
+        const uint hit = hits[h], next = lanes_of(hits[h + 1u]);
+        const uint other = step_of(hit) * LANES + lowest_lane(lanes);
+        pairs[k] = pair_of(own->triangle[leaf_of(hit)], line->triangle[other]);
+        lanes &= lanes - 1u;
+        h += lanes == 0u ? 1u : 0u;
+        lanes = lanes == 0u ? next : lanes;
+    }
+}
+
+/// The pairs of the task's `own_count` leaves with those of a line; both may be the same. How many boxes it tested.
+static inline uint hold_against(Line* own, const uint own_count, Line* line, const uint count,
+                                global const Face* faces, global uint2* pairs, const uint capacity,
+                                volatile global uint* counters)
+{
+    uchar steps[LINE_STEPS];
+    uint hits[TASK_LEAVES * LINE_STEPS + 1u];
+    uint tests = 0u, found = 0u;
+    for (uint begin = 0u; begin < own_count; begin += LANES) {
+        const uint end = min(own_count, begin + LANES), first = own == line ? begin / LANES : 0u;
+        const uint near = near_steps(own, begin, end, line, first, count, steps);
+        found += hits_of(own, begin, end, line, steps, near, hits + found);
+        tests += divided_up(count, LANES) - first + near * (end - begin);
+    }
+    if (!KEEP_ADJACENT && found != 0u) {
+        set_corners(own, own_count, faces);
+        set_corners(line, count, faces);
+        found = without_adjacent(own, line, hits, found);
+    }
+    hits[found] = 0u;
+    uint pair_count = 0u;
+    for (uint h = 0u; h < found; ++h)
+        pair_count += (uint)popcount(lanes_of(hits[h]));
+    if (pair_count != 0u) {
+        const uint slot = add_wide(counters + PAIRS_COUNT, pair_count);
+        const uint room = capacity - min(capacity, slot);
+        put_hits(own, line, hits, pairs + slot, min(pair_count, room));
+    }
+    return LANES * tests;
+}
+
+/// The task's leaves, or `some`, those that meet `whole`: into `own`, how many, and around them `common`.
+static inline uint line_up(FOREST_PARAMETERS, const QueryTask task, const bool some,
+                           const Aabb whole, Line* own, Aabb* common)
+{
+    uint count = 0u;
+    *common = empty_box();
+    for (uint place = task.first; place < task.first + task.count; ++place) {
+        const Aabb box = leaf_box_of(FOREST, task.own, place);
+        if (some && !overlap(box, whole))
+            continue;
+        own->triangle[count] = leaf_triangle_of(FOREST, task.own, place);
+        set_box(own, count++, box);
+        *common = merged(*common, box);
+    }
+    close_line(own, count);
+    return count;
+}
+
+/// As in leaf_chunks.cl.
+kernel void group_pairs(FOREST_PARAMETERS, global const uint* ropes, global const Face* faces,
+                        global uint2* pairs, const uint capacity, volatile global uint* counters,
+                        TASKS_PARAMETERS)
+{
+    const uint count = task_count(TASKS, counters);
+    ulong tests = 0ul;
+    Line own, line;
+    Walk walk;
+    for (uint k = atomic_inc(counters + TASKS_BEGUN); k < count;
+         k = atomic_inc(counters + TASKS_BEGUN)) {
+        const QueryTask task = task_of(TASKS, counters, k);
+        PICK_TREE(task.other)
+        const bool is_own = task.own == task.other;
+        const bool some = SKIP_OVERLAP && !is_own;
+        const Aabb whole = tree_box(TREE, tree_root(TREE));
+        Aabb common;
+        const uint near = line_up(FOREST, task, some, whole, &own, &common);
+        tests += some ? task.count : 0u;
+        if (is_own)
+            tests += hold_against(&own, near, &own, near, faces, pairs, capacity, counters);
+        begin_walk(TREE, ropes, task, common, &walk);
+        while (near != 0u && has_more(&walk)) {
+            const uint met = fill_line(TREE, ropes, &walk, &line, &tests);
+            tests += hold_against(&own, near, &line, met, faces, pairs, capacity, counters);
+        }
+    }
+    add_wide(counters + BOX_TESTS_COUNT, tests);
+}

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+// check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=0 -DGROUP_SIZE=64u -DFRONTIER=512u -DRESERVE=97u -DLOOSE=4u
+// check: -include oibvh/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=0 -DGROUP_SIZE=64u -DFRONTIER=512u -DRESERVE=97u -DLOOSE=4u -DBOX_FORMAT=2u
+// check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DGROUP_SIZE=64u -DFRONTIER=512u -DRESERVE=97u -DLOOSE=4u
+//
+// A task's neighbouring leaves as one query: their common box goes down the tree, so that a node is fetched once a
+// group, and each leaf that it meets is tested by every work-item against its own. Where the order of leaves jumps, a
+// common box is that of places far apart and meets all between: leaves whose box is more than LOOSE times as large,
+// by area, as they are together walk each by itself.
+//
+//     frontier   nodes to be tested, the last first; at the start what lies behind the task's leaves, a chain of
+//                whole subtrees that next_node leads along: as many as the tree has levels, at most
+//     met        leaves that the common box meets, at most two groups full; at the start its own
+//
+// No tree makes the frontier run over: work-items take no more nodes than there is room for the children of, and
+// where there is hardly any they take one, the last, until its subtree is done, for which RESERVE is kept: one more
+// than a tree has levels.
+//
+// A turn has one barrier between taking and doing and one behind it. Everything it hands on is in local memory.
+#include "collide/sinks/sink_groups.clh"
+#include "collide/sinks/sum_tests.clh"
+
+#include "collide/walks/group_descent.clh"
+
+/// `counters` are zero but for the tasks. Afterwards `pairs` begin with all of them, if there was room.
+__attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void group_pairs(
+    FOREST_PARAMETERS, global const uint* ropes, global const Face* faces, global uint2* pairs,
+    const uint capacity, volatile global uint* counters, TASKS_PARAMETERS)
+{
+    SINK_LOCAL
+    local uint tests[GROUP_SIZE];
+    local float areas[GROUP_SIZE];
+    local BoxWord own[3 * GROUP_SIZE], seen[3 * GROUP_SIZE], common[3];
+    local uint own_ids[GROUP_SIZE], seen_ids[GROUP_SIZE], taken[GROUP_SIZE];
+    local uint frontier[FRONTIER], met[2 * GROUP_SIZE];
+    local uint waiting[2], met_count[2];  // before turn t in [t % 2]
+    const uint item = (uint)get_local_id(0);
+    const QueryTask task = task_of(TASKS, counters, (uint)get_group_id(0));
+    const uint count = task.count;
+    const bool is_own = task.own == task.other;
+    PICK_TREE(task.other)
+
+    // Own leaves; items without one repeat the last, and meet nothing.
+    const uint last = task.first + max(count, 1u) - 1u;
+    const uint place = min(task.first + item, last);
+    const Aabb box = leaf_box_of(FOREST, task.own, place);
+    store_local_box(own, item, box);
+    store_local_box(seen, item, box);
+    own_ids[item] = leaf_triangle_of(FOREST, task.own, place);
+    areas[item] = half_surface(box);
+    tests[item] = 0u;
+    open_sink(&kept_count);
+    barrier(CLK_LOCAL_MEM_FENCE);
+    for (uint half_size = GROUP_SIZE / 2u; half_size > 0u; half_size /= 2u) {
+        if (item < half_size) {
+            store_local_box(
+                seen, item,
+                merged(load_local_box(seen, item), load_local_box(seen, item + half_size)));
+            areas[item] += areas[item + half_size];
+        }
+        barrier(CLK_LOCAL_MEM_FENCE);
+    }
+    if (item < 3u)
+        common[item] = seen[item];
+    barrier(CLK_LOCAL_MEM_FENCE);
+    const bool is_loose = half_surface(load_local_box(common, 0u)) > LOOSE * areas[0];
+    if (item == 0u) {
+        waiting[0] = is_loose || count == 0u
+                         ? 0u
+                         : chain_from(TREE, ropes, first_node(TREE, ropes, task, last), frontier);
+        met_count[0] = is_own ? count : 0u;
+    }
+    met[item] = is_own ? tree_leaf(TREE, place) : 0u;
+    barrier(CLK_LOCAL_MEM_FENCE);
+
+    for (uint turn = 0u; waiting[turn % 2u] + met_count[turn % 2u] != 0u; ++turn) {
+        const uint now = turn % 2u, then = 1u - now;
+        const uint nodes_there = waiting[now], leaves_there = met_count[now];
+        const bool is_testing =
+            leaves_there >= GROUP_SIZE || (nodes_there == 0u && leaves_there > 0u);
+        const uint levels = levels_down(nodes_there);
+        const uint takes = is_testing ? min(leaves_there, GROUP_SIZE) : nodes_taken(nodes_there);
+        if (item < takes && is_testing) {
+            const uint leaf = met[leaves_there - takes + item];
+            store_local_box(seen, item, tree_box(TREE, leaf));
+            seen_ids[item] = tree_triangle(TREE, leaf);
+        } else if (item < takes) {
+            taken[item] = frontier[nodes_there - takes + item];
+        }
+        if (item == 0u) {
+            waiting[then] = nodes_there - (is_testing ? 0u : takes);
+            met_count[then] = leaves_there - (is_testing ? takes : 0u);
+        }
+        barrier(CLK_LOCAL_MEM_FENCE);
+        const uint begin = is_own && turn == 0u ? item + 1u : 0u;
+        if (is_testing && item < count)  // in the first turn its own leaves, those behind its own
+            tests[item] +=
+                test_boxes(seen, seen_ids, begin, takes, own, own_ids, item, faces, SINK);
+        if (!is_testing && item < takes) {
+            descend(TREE, taken[item], levels, load_local_box(common, 0u), frontier, &waiting[then],
+                    met, &met_count[then]);
+            ++tests[item];
+        }
+        barrier(CLK_LOCAL_MEM_FENCE);
+    }
+    if (is_loose && item < count)
+        tests[item] += walk_from(TREE, ropes, faces, SINK, load_local_box(own, item), own_ids[item],
+                                 first_node(TREE, ropes, task, last));
+    barrier(CLK_LOCAL_MEM_FENCE);
+    count_tests(tests, counters);
+    close_sink(SINK);
+}

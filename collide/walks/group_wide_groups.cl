@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+// check: -include oibvh/wide/wide4_access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=0 -DGROUP_SIZE=64u -DFRONTIER=512u -DRESERVE=97u -DLOOSE=2u
+// check: -include oibvh/wide/wide8_access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DGROUP_SIZE=64u -DFRONTIER=512u -DRESERVE=97u -DLOOSE=2u
+//
+// As group_groups.cl over a wide tree: a task's neighbouring leaves as one query, whose common box goes down. As many
+// neighbouring work-items as a node has children take one node, a child each, whose boxes lie side by side.
+//
+//     frontier   inner nodes that the common box meets, the last first; at the start, of the leaves' own tree, all those
+//                above the last leaf, none of which has to be tested, so that the first turn is on all levels at once
+//     met        leaves that the common box meets, boxes and triangles, two groups full at most
+//
+// The frontier cannot run over, as there: a node that is taken leaves TREE_CHILDREN - 1 more at most, and RESERVE is
+// that on every level. A turn has one barrier between taking and doing and one behind it.
+#include "collide/sinks/sink_groups.clh"
+#include "collide/sinks/sum_tests.clh"
+
+#include "collide/walks/group_descent.clh"
+
+#define GROUP_KERNEL __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel
+
+/// How many nodes a turn takes.
+static inline uint wide_nodes_taken(const uint nodes_there)
+{
+    const uint kept_free = nodes_there + RESERVE;
+    const uint room = kept_free < FRONTIER ? (FRONTIER - kept_free) / (TREE_CHILDREN - 1u) : 0u;
+    return min(min(nodes_there, GROUP_SIZE / TREE_CHILDREN), max(room, 1u));
+}
+
+/// Child k of a node, if it is behind place `first` and not above `last_leaf`, whose ancestors wait for themselves: if
+/// it meets the common box it is met or waits.
+static inline void descend_to_child(TREE_PARAMETERS, const uint node, const uint k,
+                                    const uint first, const uint last_leaf, const Aabb common,
+                                    local uint* frontier, volatile local uint* waiting,
+                                    local float2* met_boxes, local uint* met_ids,
+                                    volatile local uint* met_count)
+{
+    const uint child = (node << TREE_CHILD_BITS) + k;
+    const uint above_leaves = tree_leaf_level(TREE) - tree_level(TREE, child);
+    const bool is_behind = (tree_children_from(TREE, node, first) >> k & 1u) != 0u;
+    if (!is_behind || last_leaf >> (TREE_CHILD_BITS * above_leaves) == child)
+        return;
+    const Aabb box = tree_child_box(TREE, tree_slot(TREE, node), k);
+    if (!overlap(common, box))
+        return;
+    if (above_leaves != 0u) {
+        frontier[atomic_inc(waiting)] = child;
+        return;
+    }
+    const uint slot = atomic_inc(met_count);
+    store_local_box(met_boxes, slot, box);
+    met_ids[slot] = tree_triangle(TREE, child);
+}
+
+/// `counters` are zero but for the tasks. Afterwards `pairs` begin with all of them, if there was room.
+GROUP_KERNEL void group_pairs(FOREST_PARAMETERS, global const uint* ropes, global const Face* faces,
+                              global uint2* pairs, const uint capacity,
+                              volatile global uint* counters, TASKS_PARAMETERS)
+{
+    SINK_LOCAL
+    local uint tests[GROUP_SIZE];
+    local float areas[GROUP_SIZE];
+    local float2 own[3 * GROUP_SIZE], met_boxes[6 * GROUP_SIZE], common[3];
+    local uint own_ids[GROUP_SIZE], met_ids[2 * GROUP_SIZE], taken[GROUP_SIZE / TREE_CHILDREN];
+    local uint frontier[FRONTIER];
+    local uint waiting[2], met_count[2];  // before turn t in [t % 2]
+    const uint item = (uint)get_local_id(0);
+    const QueryTask task = task_of(TASKS, counters, (uint)get_group_id(0));
+    const uint count = task.count;
+    const bool is_own = task.own == task.other;
+    PICK_TREE(task.other)
+
+    // Own leaves; items without one repeat the last, and meet nothing.
+    const uint last = task.first + max(count, 1u) - 1u;
+    const uint place = min(task.first + item, last);
+    const Aabb box = leaf_box_of(FOREST, task.own, place);
+    store_local_box(own, item, box);
+    store_local_box(met_boxes, item, box);
+    own_ids[item] = leaf_triangle_of(FOREST, task.own, place);
+    areas[item] = half_surface(box);
+    tests[item] = 0u;
+    open_sink(&kept_count);
+    barrier(CLK_LOCAL_MEM_FENCE);
+    for (uint half_size = GROUP_SIZE / 2u; half_size > 0u; half_size /= 2u) {
+        if (item < half_size) {
+            store_local_box(met_boxes, item,
+                            merged(load_local_box(met_boxes, item),
+                                   load_local_box(met_boxes, item + half_size)));
+            areas[item] += areas[item + half_size];
+        }
+        barrier(CLK_LOCAL_MEM_FENCE);
+    }
+    if (item < 3u)
+        common[item] = met_boxes[item];
+    barrier(CLK_LOCAL_MEM_FENCE);
+    const bool is_loose = half_surface(load_local_box(common, 0u)) > LOOSE * areas[0];
+    const uint first = is_own ? last + 1u : 0u, last_leaf = is_own ? tree_leaf(TREE, last) : 0u;
+    const uint levels_above = is_own ? tree_leaf_level(TREE) : 1u;  // other trees start at the root
+    if (item == 0u) {
+        waiting[0] = is_loose || count == 0u ? 0u : levels_above;
+        met_count[0] = 0u;
+    }
+    for (uint level = item; level < levels_above; level += GROUP_SIZE)
+        frontier[level] =
+            is_own ? last_leaf >> (TREE_CHILD_BITS * (levels_above - level)) : tree_root(TREE);
+    if (is_own && item < count)
+        tests[item] += test_boxes(own, own_ids, item + 1u, count, own, own_ids, item, faces, SINK);
+    barrier(CLK_LOCAL_MEM_FENCE);
+
+    for (uint turn = 0u; waiting[turn % 2u] + met_count[turn % 2u] != 0u; ++turn) {
+        const uint now = turn % 2u, then = 1u - now;
+        const uint nodes_there = waiting[now], leaves_there = met_count[now];
+        const bool is_testing =
+            leaves_there >= GROUP_SIZE || (nodes_there == 0u && leaves_there > 0u);
+        const uint takes =
+            is_testing ? min(leaves_there, GROUP_SIZE) : wide_nodes_taken(nodes_there);
+        if (item < takes && !is_testing)
+            taken[item] = frontier[nodes_there - takes + item];
+        if (item == 0u) {
+            waiting[then] = nodes_there - (is_testing ? 0u : takes);
+            met_count[then] = leaves_there - (is_testing ? takes : 0u);
+        }
+        barrier(CLK_LOCAL_MEM_FENCE);
+        if (is_testing && item < count)
+            tests[item] += test_boxes(met_boxes, met_ids, leaves_there - takes, leaves_there, own,
+                                      own_ids, item, faces, SINK);
+        if (!is_testing && item < takes * TREE_CHILDREN) {
+            descend_to_child(TREE, taken[item / TREE_CHILDREN], item % TREE_CHILDREN, first,
+                             last_leaf, load_local_box(common, 0u), frontier, &waiting[then],
+                             met_boxes, met_ids, &met_count[then]);
+            ++tests[item];
+        }
+        barrier(CLK_LOCAL_MEM_FENCE);
+    }
+    if (is_loose && item < count)
+        tests[item] +=
+            walk_of(TREE, ropes, faces, SINK, load_local_box(own, item), own_ids[item], task, last);
+    barrier(CLK_LOCAL_MEM_FENCE);
+    count_tests(tests, counters);
+    close_sink(SINK);
+}

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "harness/base/json_keys.h"
+
+#include <algorithm>
+
+#include "geometry/error.h"
+
+namespace bvhbench {
+
+std::string joined(std::span<const std::string_view> words)
+{
+    std::string text;
+    for (const std::string_view word : words)
+        text += (text.empty() ? "" : ", ") + std::string(word);
+    return text;
+}
+
+void refuse_unknown_keys(const Json& json, const std::vector<std::string_view>& known,
+                         const std::string& where)
+{
+    if (!json.is_object())
+        throw BadUsage(where + " must be an object");
+    for (const auto& [key, value] : json.items())
+        if (std::find(known.begin(), known.end(), key) == known.end())
+            throw BadUsage("'" + key + "' is no key of " + where + "; there are: " + joined(known));
+}
+
+std::string text_at(const Json& json, const char* key)
+{
+    const Json& value = json.at(key);
+    if (!value.is_string())
+        throw BadUsage("'" + std::string(key) + "' must be text");
+    return value.get<std::string>();
+}
+
+bool truth_at(const Json& json, const char* key)
+{
+    if (!json.at(key).is_boolean())
+        throw BadUsage("'" + std::string(key) + "' is true or false, not " + json[key].dump());
+    return json[key].get<bool>();
+}
+
+std::int64_t whole_number(const Json& value, const std::string& what, std::int64_t least,
+                          std::int64_t most)
+{
+    if (!value.is_number_integer() || value.get<std::int64_t>() < least ||
+        value.get<std::int64_t>() > most)
+        throw BadUsage(what + " must be a whole number from " + std::to_string(least) + " to " +
+                       std::to_string(most) + ", not " + value.dump());
+    return value.get<std::int64_t>();
+}
+
+void read_list(const Json& json, const char* key, const std::function<void(const Json&)>& add)
+{
+    if (!json.at(key).is_array() || json.at(key).empty())
+        throw BadUsage("'" + std::string(key) + "' must be a list of at least one");
+    for (const Json& item : json.at(key))
+        add(item);
+}
+
+}  // namespace bvhbench

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include "harness/choice/catalog.h"
+
+#include "baselines/baselines.h"
+#include "baselines/libraries.h"
+#include "geometry/error.h"
+#include "oibvh/oibvh.h"
+
+namespace bvhbench {
+namespace {
+
+// Whose tree an entry must leave. Padding and pointers aside, all implicit trees are one, all radix trees another.
+constexpr std::string_view oi_tree = "oibvh-reference";
+constexpr std::string_view radix_tree = "radix-reference";
+constexpr std::string_view own_tree = {};  // no other builder makes it: its promises decide alone
+
+constexpr BuilderEntry of_embree(std::string_view name, std::string_view summary, MakeBuilder make)
+{
+    return {name, summary,       own_tree,
+            make, embree_absent, "Embree takes no coordinates beyond 1.8e18",
+            true};
+}
+
+constexpr BuilderEntry of_fcl(std::string_view name, std::string_view summary, MakeBuilder make)
+{
+    return {name, summary, own_tree, make, fcl_absent, {}, true};
+}
+
+constexpr BuilderEntry in_any_format(std::string_view name, std::string_view summary,
+                                     std::string_view tree, MakeBuilder make)
+{
+    return {name, summary, tree, make, {}, {}, false, true};
+}
+
+// To add a builder, add its line here. Nothing registers itself.
+constexpr BuilderEntry catalog[] = {
+    in_any_format("perfect", "perfect implicit tree, padded to a power of two leaves", oi_tree,
+                  make_perfect),
+    in_any_format("karras", "radix tree, topology from all nodes at once, then boxes", radix_tree,
+                  make_karras),
+    in_any_format("apetrei", "radix tree bottom-up as printed: ranges and counters in memory",
+                  radix_tree, make_apetrei),
+    in_any_format("apetrei-fused",
+                  "radix tree, topology and boxes in one launch, one exchange a node", radix_tree,
+                  make_apetrei_fused),
+    in_any_format("lbvh-levels",
+                  "radix tree, a launch a level: topology from the root down, boxes back up",
+                  radix_tree, make_lbvh_levels),
+    in_any_format("oibvh-single", "Oi-BVH in one launch, groups meet through global atomics",
+                  oi_tree, make_oibvh_single),
+    in_any_format("oibvh-multi", "Oi-BVH in several launches, groups meet between them", oi_tree,
+                  make_oibvh_multi),
+    {"oibvh-wide4", "Oi-BVH with 4 children a node, their boxes side by side", own_tree,
+     make_oibvh_wide4},
+    {"oibvh-wide8", "Oi-BVH with 8 children a node, their boxes side by side", own_tree,
+     make_oibvh_wide8},
+    in_any_format("oibvh-host",
+                  "Oi-BVH by plain threads on the host, from leaves lined up on the device",
+                  oi_tree, make_oibvh_host),
+    {"oibvh-reference", "Oi-BVH on one core of the host, slowly: the oracle", oi_tree,
+     make_oibvh_reference},
+    {"radix-reference", "radix tree on one core of the host, slowly: the oracle", radix_tree,
+     make_radix_reference},
+    {"heap-median", "left-balanced heap, split at medians, on a host core", own_tree,
+     make_heap_median},
+    {"median-split", "halves along the longest axis, on a host core", own_tree, make_median_split},
+    {"sah-binned", "binned surface area heuristic, on a host core", own_tree, make_sah_binned},
+    of_embree("embree-low", "Embree's Morton builder, on all host threads", make_embree_low),
+    of_embree("embree-medium", "Embree's binned SAH, on all host threads", make_embree_medium),
+    of_embree("embree-high", "Embree's best without splitting triangles: as embree-medium",
+              make_embree_high),
+    of_fcl("fcl-aabb", "FCL's tree of axis-aligned boxes, on a host core", make_fcl_aabb),
+    of_fcl("fcl-obbrss",
+           "FCL's tree of oriented boxes, on a host core, shown with axis-aligned ones",
+           make_fcl_obbrss),
+};
+
+}  // namespace
+
+std::span<const BuilderEntry> builder_catalog() { return catalog; }
+
+const BuilderEntry& find_builder(std::string_view name)
+{
+    std::string known;
+    for (const BuilderEntry& entry : catalog) {
+        if (entry.name == name)
+            return entry;
+        known += (known.empty() ? "" : ", ") + std::string(entry.name);
+    }
+    throw BadUsage("no builder is called '" + std::string(name) + "'; there are: " + known);
+}
+
+void check_boxes(const BuilderChoice& choice)
+{
+    const BoxFormat& format = find_box_format(choice.boxes);
+    if (format.number == BOX_F32)
+        return;
+    if (!find_builder(choice.name).takes_formats) {
+        std::string others;
+        for (const BuilderEntry& entry : catalog)
+            if (entry.takes_formats)
+                others += (others.empty() ? "" : ", ") + std::string(entry.name);
+        throw BadUsage(choice.name + " keeps its boxes in its own way, not as " + choice.boxes +
+                       "; these do as they are told: " + others);
+    }
+    if (!choice.sorted_leaves)
+        throw BadUsage("boxes of " + choice.boxes +
+                       " are made where leaves are lined up, so leaves must be sorted, not left "
+                       "in mesh order");
+}
+
+std::unique_ptr<Builder> make_builder(const BuilderChoice& choice, Programs& programs)
+{
+    const BuilderEntry& entry = find_builder(choice.name);
+    if (entry.make == nullptr)
+        throw Unavailable(std::string(entry.absent));
+    check_boxes(choice);
+    return entry.make(programs, choice.options());
+}
+
+}  // namespace bvhbench

@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: MIT
+#include "harness/choice/choices.h"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+
+#include "builders/box_format.h"
+#include "builders/orders.h"
+#include "collide/narrow/narrow_methods.h"
+#include "geometry/error.h"
+
+namespace bvhbench {
+namespace {
+
+using Of = Choice::Of;
+
+constexpr unsigned most_levels = 32, most_group = 1 << 16, most_items = 8, most_between = 1000;
+
+bool read_number(const std::string& word, unsigned most, unsigned& value)
+{
+    unsigned read = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), read);
+    if (error != std::errc() || end != word.data() + word.size() || read > most)
+        return false;
+    value = read;
+    return true;
+}
+
+/// One of two words; `value` tells whether it is the second.
+bool read_either(const std::string& word, std::string_view first, std::string_view second,
+                 bool& value)
+{
+    if (word != first && word != second)
+        return false;
+    value = word == second;
+    return true;
+}
+
+// Boxes before leaves: boxes of another format want sorted leaves, unless something is said of leaves.
+constexpr Choice table[] = {
+    {"order", Of::builder, "a name of `list orders`", "a name of `list orders`",
+     [](CellChoice& choice, const std::string& word) {
+         find_order(word);
+         choice.builder.order = word;
+         return true;
+     },
+     [](const CellChoice& choice) { return Json(choice.builder.order); }},
+    {"grid", Of::builder, "object or scene",
+     "object or scene: what codes are measured against, of several objects",
+     [](CellChoice& choice, const std::string& word) {
+         bool is_scene = false;
+         const bool is_known = read_either(word, "object", "scene", is_scene);
+         choice.builder.grid = is_scene ? GridOver::scene : GridOver::object;
+         return is_known;
+     },
+     [](const CellChoice& choice) {
+         return Json(choice.builder.grid == GridOver::scene ? "scene" : "object");
+     }},
+    {"group_size", Of::builder, "a power of two up to 65536, 0 for the builder's choice",
+     "lanes in a work-group, a power of two; 0: the builder's choice",
+     [](CellChoice& choice, const std::string& word) {
+         return read_number(word, most_group, choice.builder.group_size);
+     },
+     [](const CellChoice& choice) { return Json(choice.builder.group_size); }, true},
+    {"items", Of::builder, "a power of two up to 8, 0 for the builder's choice",
+     "nodes a lane merges in registers, a power of two; 0: the builder's choice",
+     [](CellChoice& choice, const std::string& word) {
+         return read_number(word, most_items, choice.builder.items);
+     },
+     [](const CellChoice& choice) { return Json(choice.builder.items); }, true},
+    {"boxes", Of::builder, "a name of `list formats`",
+     "what nodes keep their boxes in: a name of `list formats`",
+     [](CellChoice& choice, const std::string& word) {
+         find_box_format(word);
+         choice.builder.boxes = word;
+         choice.builder.sorted_leaves = choice.builder.sorted_leaves || word != "f32";
+         return true;
+     },
+     [](const CellChoice& choice) { return Json(choice.builder.boxes); }},
+    {"leaves", Of::builder, "mesh or sorted",
+     "mesh or sorted: where leaf boxes are kept; default: mesh, and sorted for boxes other than "
+     "f32",
+     [](CellChoice& choice, const std::string& word) {
+         return read_either(word, "mesh", "sorted", choice.builder.sorted_leaves);
+     },
+     [](const CellChoice& choice) {
+         return Json(choice.builder.sorted_leaves ? "sorted" : "mesh");
+     }},
+    {"pairs_of", Of::query, "all, between or within",
+     "pairs of all triangles, between objects or within",
+     [](CellChoice& choice, const std::string& word) {
+         for (const Among among : {Among::all, Among::between_objects, Among::within_objects})
+             if (among_name(among) == word) {
+                 choice.collider.among = among;
+                 return true;
+             }
+         return false;
+     },
+     [](const CellChoice& choice) { return Json(among_name(choice.collider.among)); }},
+    {"adjacent", Of::query, "keep or drop", "keep or drop pairs that share a vertex index",
+     [](CellChoice& choice, const std::string& word) {
+         return read_either(word, "drop", "keep", choice.collider.keep_adjacent);
+     },
+     [](const CellChoice& choice) {
+         return Json(choice.collider.keep_adjacent ? "keep" : "drop");
+     }},
+    {"narrow", Of::query, "none, or a name of `list narrow`",
+     "which pairs intersect: a name of `list narrow`, or none, to stop at their boxes",
+     [](CellChoice& choice, const std::string& word) {
+         if (word != "none")
+             find_narrow_method(word);
+         choice.collider.narrow = word;
+         return true;
+     },
+     [](const CellChoice& choice) { return Json(choice.collider.narrow); }},
+    {"no_skip", Of::query, "none, all, or a name of `list skips`",
+     "a rule of `list skips` that is not used, or all: work is done that need not be",
+     [](CellChoice& choice, const std::string& word) {
+         choice.collider.rules_off =
+             word == "none" ? 0 : choice.collider.rules_off | skip_rules_called({&word, 1});
+         return true;
+     },
+     [](const CellChoice& choice) { return Json(skip_rules_text(choice.collider.rules_off)); }},
+    {"jump", Of::collider, "a number of levels up to 32, 0 for the collider's choice",
+     "levels a step of a traversal descends; 0: the collider's choice",
+     [](CellChoice& choice, const std::string& word) {
+         return read_number(word, most_levels, choice.collider.jump);
+     },
+     [](const CellChoice& choice) { return Json(choice.collider.jump); }},
+    {"start_level", Of::collider, "a level up to 32, 0 for the collider's choice",
+     "the level a traversal starts on; 0: the collider's choice",
+     [](CellChoice& choice, const std::string& word) {
+         return read_number(word, most_levels, choice.collider.start_level);
+     },
+     [](const CellChoice& choice) { return Json(choice.collider.start_level); }},
+    {"group_size", Of::collider, "a power of two up to 65536, 0 for the collider's choice",
+     "lanes in a work-group, a power of two; 0: the collider's choice",
+     [](CellChoice& choice, const std::string& word) {
+         return read_number(word, most_group, choice.collider.group_size);
+     },
+     [](const CellChoice& choice) { return Json(choice.collider.group_size); }, true},
+    {"frames", Of::scene, "a:b, from frame a to before b", "a:b, from frame a to before b",
+     [](CellChoice& choice, const std::string& word) {
+         choice.scene.frames = frame_range(word);
+         return true;
+     },
+     [](const CellChoice& choice) { return Json(frame_range_text(choice.scene.frames)); }},
+    {"between", Of::scene, "a number of frames up to 1000",
+     "frames put between each two of the scene's, in a straight line",
+     [](CellChoice& choice, const std::string& word) {
+         return read_number(word, most_between, choice.scene.between);
+     },
+     [](const CellChoice& choice) { return Json(choice.scene.between); }},
+    {"objects", Of::scene, "auto, one, mesh or components",
+     "what gets a tree of its own: auto, one, mesh or components",
+     [](CellChoice& choice, const std::string& word) {
+         choice.scene.objects = objects_by_called(word);
+         return true;
+     },
+     [](const CellChoice& choice) { return Json(objects_by_name(choice.scene.objects)); }},
+    {"swept", Of::scene, "true or false",
+     "boxes around the way from each frame to the next: vertices against faces, and edges against "
+     "edges; "
+     "--pairs-of between or within has one of the two",
+     [](CellChoice& choice, const std::string& word) {
+         return read_either(word, "false", "true", choice.scene.swept);
+     },
+     [](const CellChoice& choice) { return Json(choice.scene.swept); }},
+};
+
+/// A value of JSON as the command line says it.
+std::string word_of(const Json& value)
+{
+    return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+[[noreturn]] void refuse(const Choice& option, const std::string& word)
+{
+    throw BadUsage("'" + std::string(option.key) + "' takes " + std::string(option.values) +
+                   ", not '" + word + "'");
+}
+
+/// "start_level" as an option of the command line.
+std::string option_of(const Choice& choice)
+{
+    std::string option = "--" + std::string(choice.key);
+    std::replace(option.begin(), option.end(), '_', '-');
+    return option;
+}
+
+}  // namespace
+
+std::span<const Choice> choices() { return table; }
+
+void choose(const Choice& option, CellChoice& choice, const std::string& word)
+{
+    if (!option.set(choice, word))
+        refuse(option, word);
+}
+
+void check_powers(const CellChoice& choice)
+{
+    for (const Choice& option : table)
+        if (option.is_power_of_two)
+            if (const auto value = option.get(choice).get<unsigned>(); (value & (value - 1)) != 0)
+                refuse(option, std::to_string(value));
+}
+
+void read_choices(const Json& json, Choice::Of of, CellChoice& choice)
+{
+    for (const Choice& option : table)
+        if (option.of == of && json.contains(option.key))
+            choose(option, choice, word_of(json[std::string(option.key)]));
+}
+
+std::vector<std::string_view> choice_keys(Choice::Of of,
+                                          std::initializer_list<std::string_view> others)
+{
+    std::vector<std::string_view> keys(others);
+    for (const Choice& option : table)
+        if (option.of == of)
+            keys.push_back(option.key);
+    return keys;
+}
+
+Json choices_json(const CellChoice& choice, Choice::Of of)
+{
+    Json json = Json::object();
+    for (const Choice& option : table)
+        if (option.of == of)
+            json[std::string(option.key)] = option.get(choice);
+    return json;
+}
+
+void add_choices(CLI::App& command, CellChoice& choice,
+                 const std::function<bool(const Choice&)>& wanted)
+{
+    for (const Choice& option : table) {
+        if (!wanted(option))
+            continue;
+        const Json usual = option.get(choice);
+        const std::string name = option_of(option);
+        if (usual.is_boolean()) {
+            command.add_flag_callback(
+                name, [&] { choose(option, choice, "true"); }, std::string(option.help));
+            continue;
+        }
+        CLI::Option* added =
+            command
+                .add_option_function<std::vector<std::string>>(
+                    name,
+                    [&](const std::vector<std::string>& words) {
+                        for (const std::string& word : words)
+                            choose(option, choice, word);
+                    },
+                    std::string(option.help))
+                ->allow_extra_args(false)
+                ->type_name(usual.is_number() ? "UINT" : "TEXT")
+                ->default_str(usual.is_string() && option.key != "leaves" ? usual.get<std::string>()
+                                                                          : "");
+        if (option.key != "no_skip")  // which may be said again, for another rule
+            added->expected(1);
+    }
+}
+
+void check_choice(const CellChoice& choice)
+{
+    if (choice.builder.name != "none")
+        find_builder(choice.builder.name);
+    check_boxes(choice.builder);
+    if (choice.collider.name.empty())
+        return;
+    find_collider(choice.collider.name);
+    check_narrow(choice.collider.narrow, choice.collider.keep_adjacent);
+}
+
+}  // namespace bvhbench

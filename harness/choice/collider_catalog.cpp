@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include "harness/choice/collider_catalog.h"
+
+#include "baselines/colliders.h"
+#include "baselines/libraries.h"
+#include "collide/colliders.h"
+#include "collide/narrow/narrow_methods.h"
+#include "geometry/error.h"
+
+namespace bvhbench {
+namespace {
+
+// A triangle's share of what the libraries take. Embree: its box, and 104 bytes by which the process was larger than that of
+// `brute` from torus:60000 to torus:160000. FCL, by its structures: two nodes of 64 bytes, a triangle of three 64-bit
+// indices, half a vertex of 24, twice with its copy for the frame before, and a number.
+constexpr std::size_t embree_bytes = 128;
+constexpr std::size_t fcl_bytes = 180;
+
+// To add a collider, add its line here. Nothing registers itself.
+constexpr ColliderEntry catalog[] = {
+    {"leaf", "each leaf against the tree, without a stack: by arithmetic, or by ropes", make_leaf},
+    {"bvtt", "pairs of nodes a level after the other, in queues between launches: the paper's",
+     make_bvtt},
+    {"group", "neighbouring leaves as one query with their common box, then leaf by leaf",
+     make_group},
+    {"block", "blocks of neighbouring leaves against blocks, then their leaves: implicit trees",
+     make_block},
+    {"front", "where the frame before stopped, moved to where this one does, over refitted boxes",
+     make_front},
+    {"grid",
+     "no tree: boxes hashed by the cells they cover, on levels by their size",
+     make_grid,
+     {},
+     0,
+     false,
+     false},
+    {"brute",
+     "sweep and prune on one core of the host, without the tree: the oracle",
+     make_brute,
+     {},
+     0,
+     false,
+     false},
+    {"embree", "Embree's rtcCollide over trees of its own, on all host threads",
+     make_embree_collider, embree_absent, embree_bytes, true, false},
+    {"fcl", "triangles that intersect, by FCL, its trees built each time, on a host core",
+     make_fcl_collider, fcl_absent, fcl_bytes, true, false, true},
+    {"fcl-refit", "the same, its trees refit to moved points", make_fcl_refit_collider, fcl_absent,
+     fcl_bytes, true, false, true},
+};
+
+}  // namespace
+
+std::span<const ColliderEntry> collider_catalog() { return catalog; }
+
+const ColliderEntry& find_collider(std::string_view name)
+{
+    std::string known;
+    for (const ColliderEntry& entry : catalog) {
+        if (entry.name == name)
+            return entry;
+        known += (known.empty() ? "" : ", ") + std::string(entry.name);
+    }
+    throw BadUsage("no collider is called '" + std::string(name) + "'; there are: " + known);
+}
+
+std::unique_ptr<Collider> make_collider(const ColliderChoice& choice, Programs& programs)
+{
+    check_narrow(choice.narrow, choice.keep_adjacent);
+    return make_collider(choice.name, programs, choice.options());
+}
+
+std::unique_ptr<Collider> make_collider(std::string_view name, Programs& programs,
+                                        const ColliderOptions& options)
+{
+    const ColliderEntry& entry = find_collider(name);
+    if (entry.make == nullptr)
+        throw Unavailable(std::string(entry.absent));
+    return entry.make(programs, options);
+}
+
+std::string_view among_name(Among among)
+{
+    switch (among) {
+        case Among::between_objects:
+            return "between";
+        case Among::within_objects:
+            return "within";
+        default:
+            return "all";
+    }
+}
+
+}  // namespace bvhbench

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include "harness/choice/experiment_pipelines.h"
+
+#include "geometry/error.h"
+#include "harness/choice/choices.h"
+
+namespace bvhbench {
+namespace {
+
+/// The value at `key`, or each of the list there.
+void read_each(const Json& json, const char* key, const std::function<void(const Json&)>& add)
+{
+    if (json[key].is_array())
+        read_list(json, key, add);
+    else
+        add(json[key]);
+}
+
+/// The object's name, or the name that stands in its place.
+std::string name_of(const Json& json)
+{
+    return json.is_string() ? json.get<std::string>() : text_at(json, "name");
+}
+
+PipelineChoice pipeline_of(const Json& json, const BuilderChoice& builder, const Json& collider)
+{
+    CellChoice choice{.builder = builder};
+    if (!collider.is_string()) {
+        refuse_unknown_keys(collider, choice_keys(Choice::Of::collider, {"name"}), "a collider");
+        read_choices(collider, Choice::Of::collider, choice);
+    }
+    choice.collider.name = name_of(collider);
+    read_choices(json, Choice::Of::query, choice);
+    check_choice(choice);
+    return {choice.builder, choice.collider};
+}
+
+/// Each of the builders with each of the colliders.
+std::vector<PipelineChoice> pipelines_of(const Json& json)
+{
+    refuse_unknown_keys(json, choice_keys(Choice::Of::query, {"builder", "collider"}),
+                        "a pipeline");
+    if (!json.contains("collider"))
+        throw BadUsage("a pipeline needs 'collider'");
+    std::vector<BuilderChoice> builders;
+    if (json.contains("builder"))
+        read_each(json, "builder",
+                  [&](const Json& item) { builders.push_back(builder_choice(item)); });
+    else
+        builders.push_back({.name = "none"});
+    std::vector<PipelineChoice> choices;
+    for (const BuilderChoice& builder : builders)
+        read_each(json, "collider",
+                  [&](const Json& item) { choices.push_back(pipeline_of(json, builder, item)); });
+    return choices;
+}
+
+/// A scene may say which pairs all its pipelines look for.
+CollideTask task_of(const Json& json, const std::vector<PipelineChoice>& pipelines)
+{
+    CollideTask task;
+    task.may_stand_in = true;
+    task.pipelines = pipelines;
+    if (json.is_string()) {
+        task.scene = json.get<std::string>();
+        return task;
+    }
+    refuse_unknown_keys(json, choice_keys(Choice::Of::scene, {"scene", "pairs_of"}), "a scene");
+    task.scene = text_at(json, "scene");
+    CellChoice choice;
+    read_choices(json, Choice::Of::scene, choice);
+    static_cast<SceneChoice&>(task) = choice.scene;
+    if (json.contains("pairs_of")) {
+        read_choices({{"pairs_of", json["pairs_of"]}}, Choice::Of::query, choice);
+        for (PipelineChoice& pipeline : task.pipelines)
+            pipeline.collider.among = choice.collider.among;
+    }
+    if (task.swept)
+        check_swept(task);
+    return task;
+}
+
+}  // namespace
+
+BuilderChoice builder_choice(const Json& json)
+{
+    CellChoice choice;
+    if (!json.is_string()) {
+        refuse_unknown_keys(json, choice_keys(Choice::Of::builder, {"name"}), "a builder");
+        read_choices(json, Choice::Of::builder, choice);
+    }
+    choice.builder.name = name_of(json);
+    find_builder(choice.builder.name);
+    check_choice(choice);
+    return choice.builder;
+}
+
+std::vector<CollideTask> collisions_of(const Json& json, const std::string& experiment, bool quick)
+{
+    const Json none = Json::object();
+    const Json& quicker = quick && json.contains("quick") ? json["quick"] : none;
+    if (!json.contains("builders"))
+        refuse_unknown_keys(quicker, {"scenes", "pipelines", "samples", "warm_up"}, "'quick'");
+    const auto of = [&](const char* key) -> const Json& {
+        return quicker.contains(key) ? quicker : json;
+    };
+    std::vector<PipelineChoice> pipelines;
+    read_list(of("pipelines"), "pipelines", [&](const Json& item) {
+        for (PipelineChoice& choice : pipelines_of(item))
+            pipelines.push_back(std::move(choice));
+    });
+    std::vector<CollideTask> tasks;
+    read_list(of("scenes"), "scenes", [&](const Json& item) {
+        CollideTask task = task_of(item, pipelines);
+        task.experiment = experiment;
+        if (of("samples").contains("samples"))
+            task.samples =
+                static_cast<int>(whole_number(of("samples")["samples"], "samples", 1, 1000000));
+        if (of("warm_up").contains("warm_up"))
+            task.warm_up =
+                static_cast<int>(whole_number(of("warm_up")["warm_up"], "warm_up", 0, 1000000));
+        tasks.push_back(std::move(task));
+    });
+    return tasks;
+}
+
+}  // namespace bvhbench

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include <filesystem>
+#include <iostream>
+
+#include "geometry/error.h"
+#include "harness/accuracy/axis.h"
+#include "harness/base/python.h"
+#include "harness/commands/command.h"
+#include "harness/commands/words.h"
+#include "harness/record/result_file.h"
+
+namespace bvhbench {
+namespace {
+
+class Accuracy final : public Command {
+public:
+    void add_options(CLI::App& app) override
+    {
+        app.add_option("--axis", axis_, "a name of `list accuracy`; default: all in turn");
+        app.add_option("--scene", task_.scenes,
+                       "scenes, data sets or mesh files, of axes that are about scenes");
+        app.add_option("--pairs", task_.pairs,
+                       "pairs of triangles in all, of the axis narrow, at least one a class")
+            ->capture_default_str()
+            ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 32));
+        app.add_option("--seed", task_.seed, "of what is generated")
+            ->capture_default_str()
+            ->check(CLI::Range(1u, 1000000000u));
+        app.add_option("--filter", filter_, "only cells whose input/method this matches");
+        app.add_option("--samples", task_.samples, "timed runs a cell")
+            ->capture_default_str()
+            ->check(CLI::Range(1, most_samples));
+        app.add_option("--out", out_, "folder for the result file and figures")
+            ->capture_default_str();
+    }
+
+    int run(const Invocation& invocation) override
+    {
+        const std::vector<const Axis*> axes = this->axes();
+        task_.filter = cell_filter(filter_);
+        const std::filesystem::path folder = out_;
+        const std::filesystem::path file =
+            folder / (axis_.empty() ? "accuracy.json" : "accuracy-" + axis_ + ".json");
+        const CommonOptions& common = invocation.common;
+        Session session(common);
+        std::vector<std::string> inputs;
+        for (const std::string& scene : task_.scenes)
+            for (std::string& read : scene_files(scene, session.scenes()))
+                inputs.push_back(std::move(read));
+        make_folder(folder);
+        const OutputRules rules = result_rules(common.force, std::move(inputs));
+        check_pictures(folder, "--out", rules);
+        ResultFile results(Output(file, "--out", rules), measured_facts(session, invocation.words));
+        Progress progress(axes.size());
+        int order = 0;
+        for (const Axis* axis : axes) {
+            progress.step("accuracy, " + std::string(axis->name));
+            axis->measure(
+                {session, task_, order, progress, [&](Cell&& cell) { results.add(cell); }});
+        }
+        if (results.size() == 0)
+            throw BadUsage("--filter: no cell matches '" + filter_ + "'");
+        results.finish(session.programs().compile_ns());
+        if (!common.quiet)
+            print_tables(results.text());
+        std::cout << results.written();
+        const int code = results.exit_code();
+        std::cout << draw("accuracy.py", file, folder, common.force) << '\n';
+        return code;
+    }
+
+private:
+    std::vector<const Axis*> axes() const
+    {
+        if (!axis_.empty())
+            return {&find_axis(axis_)};
+        std::vector<const Axis*> axes;
+        for (const Axis& axis : accuracy_axes())
+            axes.push_back(&axis);
+        return axes;
+    }
+
+    std::string axis_;  ///< empty: all
+    AxisTask task_;
+    std::string filter_;
+    std::string out_ = "out";
+};
+
+}  // namespace
+
+extern const CommandEntry accuracy_command = {
+    "accuracy",
+    measuring,
+    "Measure run time against error, along an axis at a time, print and draw it",
+    "Errors are counted against exact arithmetic on the stored coordinates: how many were missed, "
+    "how many were false.",
+    {{"bvhbench accuracy --axis narrow --pairs 1000000",
+      "narrow phases: how often is each wrong, and how fast?"},
+     {"bvhbench accuracy --axis boxes --scene bunny --out out/boxes", "boxes in fewer bits"}},
+    "docs/accuracy.md",
+    make_command<Accuracy>};
+
+}  // namespace bvhbench

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "harness/base/python.h"
+#include "harness/choice/choices.h"
+#include "harness/commands/command.h"
+#include "harness/commands/words.h"
+#include "harness/measure/run.h"
+#include "harness/record/dump.h"
+#include "scenes/face_order.h"
+
+namespace bvhbench {
+namespace {
+
+class Build final : public Command {
+public:
+    void add_options(CLI::App& app) override
+    {
+        app.add_option("--builder", choice_.builder.name, "a name of `list builders`")->required();
+        app.add_option("--scene", scene_, "a scene, data set or mesh file")->required();
+        add_choices(app, choice_,
+                    [](const Choice& option) { return option.of == Choice::Of::builder; });
+        app.add_option("--samples", samples_, "timed builds")
+            ->capture_default_str()
+            ->check(CLI::Range(1, most_samples));
+        add_sampling(app, sampling_);
+        add_quality(app, quality_, costs_);
+        app.add_option("--json", json_, "write the result file");
+        app.add_option("--dump", dump_, "write the tree, spelled out, as JSON");
+    }
+
+    int run(const Invocation& invocation) override
+    {
+        find_builder(choice_.builder.name);  // wrong words are found before anything is opened
+        check_choice(choice_);
+        check_powers(choice_);
+        const CommonOptions& common = invocation.common;
+        Session session(common);
+        const auto rules = result_rules(common.force, scene_files(scene_, session.scenes()),
+                                        session.watchdog().run_id());
+        const Output dumped(dump_, "--dump", rules);
+        Run run(session, Output(json_, "--json", rules), invocation.words, costs_);
+        run.experiment(experiment());
+        run.finish();
+        const int code = run.results().exit_code();
+        if (!common.quiet)
+            print_tables(run.results().text());
+        if (!dumped.is_nowhere())
+            dump(session, dumped);
+        return code;
+    }
+
+private:
+    Experiment experiment() const
+    {
+        Experiment experiment;
+        experiment.name = "build";
+        experiment.scenes = {scene_};
+        experiment.builders = {choice_.builder};
+        experiment.samples = samples_;
+        sampling_.apply(experiment.sampling);
+        experiment.quality = quality_;
+        experiment.may_stand_in = false;  // who names a mesh means that mesh
+        experiment.needs_scene = true;
+        return experiment;
+    }
+
+    /// Builds once more and writes the tree: measuring has its own copy of the scene, which is gone by now.
+    void dump(Session& session, const Output& output) const
+    {
+        const Scene scene = in_file_order(load_scene(scene_, session.scenes()));
+        const Input input =
+            upload(session.device(), session.queue(), scene.frames.front(), scene.faces);
+        Builder& builder = session.builder(choice_.builder);
+        builder.reserve(input.triangle_count());
+        const Tree* tree = nullptr;
+        session.build_once(builder, input, Start::from_triangles, &tree);
+        output.replace(dump_text(tree->spelled_out()));
+    }
+
+    CellChoice choice_;
+    std::string scene_;
+    int samples_ = 20;
+    SamplingWords sampling_;
+    bool quality_ = false;
+    NodeCosts costs_;
+    std::string json_, dump_;
+};
+
+}  // namespace
+
+extern const CommandEntry build_command = {
+    "build",
+    measuring,
+    "Build one tree, check it and time its stages",
+    "The tree is held to the builder's oracle, bit for bit, before samples count. Times are of "
+    "stages on the device's clock, "
+    "from first start to last end. The table has the median, percentiles, and the share of the "
+    "device's copy rate that a "
+    "stage reaches.",
+    {{"bvhbench build --builder oibvh-multi --scene torus:100000",
+      "a generated scene of 100,000 triangles"},
+     {"bvhbench build --builder karras --scene bunny.ply --json karras.json",
+      "a mesh file, samples kept"},
+     {"bvhbench build --builder oibvh-multi --scene bunny --until 2% --cold",
+      "until steady, from empty caches"}},
+    "docs/measuring.md",
+    make_command<Build>};
+
+}  // namespace bvhbench

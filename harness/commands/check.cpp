@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+#include <iostream>
+
+#include "geometry/error.h"
+#include "harness/base/failure.h"
+#include "harness/base/progress.h"
+#include "harness/base/table.h"
+#include "harness/commands/command.h"
+#include "harness/commands/words.h"
+#include "harness/judge/contract.h"
+#include "harness/judge/hard_inputs.h"
+#include "harness/measure/portable.h"
+#include "harness/measure/run.h"
+#include "scenes/face_order.h"
+
+namespace bvhbench {
+namespace {
+
+using enum Table::Align;
+
+std::vector<BuilderChoice> chosen_builders(const std::string& name)
+{
+    if (!name.empty())
+        find_builder(name);
+    std::vector<BuilderChoice> builders;
+    for (const BuilderEntry& entry : builder_catalog())
+        if ((name.empty() || name == entry.name) && entry.make != nullptr) {
+            builders.emplace_back();
+            builders.back().name = entry.name;
+        }
+    if (builders.empty())
+        throw Unavailable(std::string(find_builder(name).absent));
+    return builders;
+}
+
+/// What came of one builder over one kind of input.
+struct Tally {
+    std::size_t checked = 0;
+    std::size_t broken = 0;
+    std::size_t refused = 0;
+    std::string first;    ///< the first promise broken
+    std::string refusal;  ///< why the first was refused
+
+    std::string verdict() const
+    {
+        return broken > 0    ? std::to_string(broken) + " broken"
+               : refused > 0 ? "refuses " + std::to_string(refused)
+                             : "keeps";
+    }
+};
+
+class Checker {
+public:
+    Checker(Session& session, std::vector<BuilderChoice> builders)
+        : session_(session), builders_(std::move(builders))
+    {}
+
+    /// Hold every builder to its promises over one mesh; the tallies are in the builders' order.
+    void over(std::span<const Point> points, std::span<const Face> faces,
+              std::vector<Tally>& tallies)
+    {
+        const Input input = upload(session_.device(), session_.queue(), points, faces);
+        Oracle oracle(session_, input);
+        for (std::size_t i = 0; i < builders_.size(); ++i) {
+            std::string wrong, refusal;
+            const std::string failure = reason_of_failure(
+                [&] { wrong = wrong_or_refused(builders_[i], input, oracle, refusal); });
+            if (!failure.empty() || !refusal.empty())
+                session_.renew_queue();
+            count(tallies[i], failure.empty() ? wrong : failure, refusal, faces.size());
+        }
+    }
+
+    void report(const std::string& input, const std::vector<Tally>& tallies)
+    {
+        for (std::size_t i = 0; i < builders_.size(); ++i) {
+            const Tally& tally = tallies[i];
+            table_.row({builders_[i].name, input, std::to_string(tally.checked), tally.verdict(),
+                        tally.broken == 0 ? tally.refusal : tally.first});
+            broken_ += tally.broken;
+            checked_ += tally.checked;
+            refused_ += tally.refused;
+            if (refusal_.empty())
+                refusal_ = tally.refusal;
+        }
+    }
+
+    std::vector<Tally> none() const { return std::vector<Tally>(builders_.size()); }
+
+    int verdict() const
+    {
+        std::cout << table_.text();
+        if (refused_ == checked_)
+            throw NothingMeasured("nothing was checked: " + refusal_);
+        std::cout << checked_ << " checks, "
+                  << (broken_ == 0 ? "every promise is kept\n"
+                                   : std::to_string(broken_) + " with a broken promise\n");
+        return broken_ == 0 ? 0 : 1;
+    }
+
+private:
+    /// The promise that is broken, or why the builder cannot be had over this input.
+    std::string wrong_or_refused(const BuilderChoice& builder, const Input& input, Oracle& oracle,
+                                 std::string& refusal)
+    {
+        try {
+            bool refused = false;
+            const std::string wrong = broken_contract(session_, builder, input, oracle, &refused);
+            if (refused)
+                refusal = find_builder(builder.name).may_refuse;
+            return wrong;
+        } catch (const BadUsage& error) {
+            refusal = error.what();
+        } catch (const Unavailable& error) {
+            refusal = error.what();
+        }
+        return {};
+    }
+
+    static void count(Tally& tally, const std::string& wrong, const std::string& refusal,
+                      std::size_t triangles)
+    {
+        ++tally.checked;
+        tally.refused += refusal.empty() ? 0 : 1;
+        if (tally.refusal.empty())
+            tally.refusal = refusal;
+        if (wrong.empty())
+            return;
+        ++tally.broken;
+        if (tally.first.empty())
+            tally.first = std::to_string(triangles) + " triangles: " + wrong;
+    }
+
+    Session& session_;
+    std::vector<BuilderChoice> builders_;
+    Table table_{{{"builder", left}, {"input", left}, {"checks"}, {"promises", left}, {"", left}}};
+    std::size_t checked_ = 0;
+    std::size_t broken_ = 0;
+    std::size_t refused_ = 0;
+    std::string refusal_;
+};
+
+void check_hard_inputs(Checker& checker)
+{
+    Progress progress(hard_inputs().size() * telling_sizes().size());
+    for (const HardInput& input : hard_inputs()) {
+        std::vector<Tally> tallies = checker.none();
+        for (const std::size_t size : telling_sizes()) {
+            progress.step(std::string(input.name) + ", " + std::to_string(size) + " triangles");
+            const Mesh mesh = input.make(size);
+            checker.over(mesh.points, mesh.faces, tallies);
+        }
+        checker.report(std::string(input.name), tallies);
+    }
+}
+
+class CheckBuilders final : public Command {
+public:
+    void add_options(CLI::App& app) override
+    {
+        app.add_option("--builder", builder_, "only this one");
+        app.add_option("--scene", scene_, "over this instead of the hard inputs");
+        app.add_flag("--portable", portable_,
+                     "instead: the device, and a verdict on each builder, collider and narrow "
+                     "phase, to be sent")
+            ->excludes("--builder")
+            ->excludes("--scene");
+    }
+
+    int run(const Invocation& invocation) override
+    {
+        if (portable_) {
+            Session session(invocation.common);
+            return check_portable(session, invocation.words);
+        }
+        std::vector<BuilderChoice> builders = chosen_builders(builder_);
+        Session session(invocation.common);
+        Checker checker(session, std::move(builders));
+        if (scene_.empty()) {
+            check_hard_inputs(checker);
+        } else {
+            const Scene scene = in_file_order(load_scene(scene_, session.scenes()));
+            std::vector<Tally> tallies = checker.none();
+            for (const std::vector<Point>& points : scene.frames)
+                checker.over(points, scene.faces, tallies);
+            checker.report(scene.name, tallies);
+        }
+        return checker.verdict();
+    }
+
+private:
+    std::string builder_;  ///< empty: all
+    std::string scene_;    ///< empty: the hard inputs
+    bool portable_ = false;
+};
+
+}  // namespace
+
+extern const CommandEntry check_command = {
+    "check",
+    holding,
+    "Hold builders to every promise, without timing",
+    "Every promise of builders/builder.h, over inputs that are hard on builders.",
+    {{"bvhbench check", "all builders"},
+     {"bvhbench check --builder oibvh-single --scene bunny", "one, over a scene"},
+     {"bvhbench check --portable --device 1", "what works on a device that nobody has tried"}},
+    "docs/reliability.md",
+    make_command<CheckBuilders>};
+
+}  // namespace bvhbench

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+#include "harness/measure/collide.h"
+
+#include <optional>
+
+#include "geometry/error.h"
+#include "harness/base/progress.h"
+#include "harness/base/python.h"
+#include "harness/choice/choices.h"
+#include "harness/commands/command.h"
+#include "harness/commands/words.h"
+#include "harness/measure/run.h"
+#include "harness/record/pairs_file.h"
+
+namespace bvhbench {
+namespace {
+
+class Collide final : public Command {
+public:
+    void add_options(CLI::App& app) override
+    {
+        choice_.builder.name = "oibvh-multi";
+        app.add_option("--builder", choice_.builder.name, "a name of `list builders`")
+            ->capture_default_str();
+        app.add_option("--collider", choice_.collider.name, "a name of `list colliders`")
+            ->required();
+        app.add_option("--scene", scenes_, "scenes, data sets, mesh files or folders")->required();
+        add_choices(app, choice_, [](const Choice& option) {
+            return option.of != Choice::Of::builder ||
+                   option.key != "group_size";  // the collider's
+        });
+        adjacent_ = app.get_option("--adjacent");
+        app.add_flag("--skips", skips_,
+                     "measure each rule switched off as well, and what it saves");
+        app.add_option("--samples", samples_, "timed builds and queries")
+            ->capture_default_str()
+            ->check(CLI::Range(1, most_samples));
+        add_sampling(app, sampling_);
+        app.add_option("--json", json_, "write the result file");
+        app.add_option("--pairs", pairs_,
+                       "write the pairs of every frame: .csv, or of one frame .bin of 32-bit ids");
+        app.add_option("--contacts", contacts_, "the same of the pairs that intersect");
+    }
+
+    int run(const Invocation& invocation) override
+    {
+        CollideTask task = this->task();  // wrong words are found before anything is opened
+        const CommonOptions& common = invocation.common;
+        Session session(common);
+        std::vector<std::string> inputs;
+        for (const std::string& scene : scenes_)
+            for (std::string& file : scene_files(scene, session.scenes()))
+                inputs.push_back(std::move(file));
+        const OutputRules rules =
+            result_rules(common.force, std::move(inputs), session.watchdog().run_id());
+        const Output pairs(pairs_, "--pairs", rules), contacts(contacts_, "--contacts", rules);
+        Output json(json_, "--json", rules);
+        ResultFile results(std::move(json), measured_facts(session, invocation.words),
+                           session.watchdog().run_id());
+        PairsFile pairs_file(pairs, task.swept), contacts_file(contacts, task.swept);
+        session.watchdog().keep_by(results.run_id(), [&] {
+            results.keep();
+            pairs_file.discard();  // the program begins anew
+            contacts_file.discard();
+        });
+        collide(session, task, results, pairs_file, contacts_file);
+        results.finish(session.programs().compile_ns());
+        if (!common.quiet)
+            print_tables(results.text());
+        const int code = results.exit_code();
+        pairs_file.finish();
+        contacts_file.finish();
+        return code;
+    }
+
+private:
+    /// Throws BadUsage unless --pairs and --contacts have something to write.
+    void check_lists(const FrameRange& frames) const
+    {
+        for (const std::string& path : {pairs_, contacts_})
+            if (!path.empty()) {
+                check_pairs_path(path, frames);
+                if (scenes_.size() > 1)
+                    throw BadUsage(
+                        "--pairs and --contacts write those of one scene, and there are " +
+                        std::to_string(scenes_.size()));
+            }
+        const bool finds_contacts = find_collider(choice_.collider.name).finds_contacts;
+        if (!pairs_.empty() && finds_contacts)
+            throw BadUsage("collider " + choice_.collider.name +
+                           " finds contacts and no pairs of boxes: --contacts, not --pairs");
+        if (!contacts_.empty() && !finds_contacts && choice_.collider.narrow == "none")
+            throw BadUsage("--contacts needs a narrow phase: --narrow exact");
+    }
+
+    /// Throws BadUsage for what has no meaning with swept boxes.
+    void check_swept_words(const CollideTask& task) const
+    {
+        if (adjacent_->count() > 0 && choice_.collider.keep_adjacent)
+            throw BadUsage(
+                "--swept leaves out pairs that share a vertex, which touch all the way: there are "
+                "none for "
+                "--adjacent keep");
+        check_swept(task);
+        if (!pairs_.empty() && choice_.collider.among == Among::all)
+            throw BadUsage(
+                "--pairs writes one list, and --swept finds two: choose by --pairs-of between, of "
+                "vertices and "
+                "faces, or within, of edges");
+    }
+
+    CollideTask task() const
+    {
+        check_choice(choice_);
+        check_powers(choice_);
+        CollideTask task;
+        static_cast<SceneChoice&>(task) = choice_.scene;
+        check_lists(task.frames);
+        task.pipelines = {{choice_.builder, choice_.collider}};
+        for (const SkipRuleEntry& entry : skip_rules())
+            if (skips_ && (choice_.collider.rules_off & entry.rule) == 0) {
+                task.pipelines.push_back(task.pipelines.front());
+                task.pipelines.back().collider.rules_off |= entry.rule;
+            }
+        task.needs_scene = scenes_.size() == 1;
+        task.samples = samples_;
+        sampling_.apply(task.sampling);
+        if (task.swept) {
+            check_swept_words(task);
+            for (PipelineChoice& pipeline : task.pipelines)
+                pipeline.collider.keep_adjacent = false;
+        }
+        return task;
+    }
+
+    void collide(Session& session, CollideTask& task, ResultFile& results, PairsFile& pairs,
+                 PairsFile& contacts) const
+    {
+        int order = results.next_order();
+        Progress progress(scenes_.size());
+        task.note = [&](const std::string& what) { progress.note(task.scene + ", " + what); };
+        for (std::size_t i = 0; i < scenes_.size(); ++i) {
+            task.scene = scenes_[i];
+            task.number = std::to_string(i);
+            progress.step(task.scene);
+            collide_frames(
+                session, task, order,
+                [&](std::vector<Cell>&& cells, const Found& found) {
+                    for (const Cell& cell : cells)
+                        results.add(cell);
+                    if (found.scene == nullptr)
+                        return;
+                    const auto frame = static_cast<std::size_t>(cells.front().scene.frame);
+                    pairs.add(found.pairs, frame, *found.scene);
+                    contacts.add(found.contacts, frame, *found.scene);
+                },
+                [&](std::size_t cells) { return results.pass(cells); });
+        }
+    }
+
+    CellChoice choice_;
+    std::vector<std::string> scenes_;
+    const CLI::Option* adjacent_ = nullptr;
+    bool skips_ = false;
+    int samples_ = 20;
+    SamplingWords sampling_;
+    std::string json_, pairs_, contacts_;
+};
+
+}  // namespace
+
+extern const CommandEntry collide_command = {
+    "collide",
+    measuring,
+    "Find the pairs of triangles that overlap or intersect, frame by frame, check them and time "
+    "the stages",
+    "A frame is timed whole: vertices to tree to pairs, and with --narrow exact to triangles that "
+    "intersect. Each frame's "
+    "pairs are compared with an oracle's. Buffers that overflow are grown and the frame is done "
+    "again; the table says so.",
+    {{"bvhbench collide --collider leaf --scene bunny.obj --pairs pairs.csv", "a mesh with itself"},
+     {"bvhbench collide --collider group --scene cloth-ball:20000 --frames 0: --adjacent drop "
+      "--narrow exact",
+      "an animation, to exact contacts"},
+     {"bvhbench collide --collider bvtt --scene n-body:61000 --frames 0:4 --pairs-of between "
+      "--skips",
+      "between objects, and what leaving work out saves"},
+     {"bvhbench collide --collider block --scene cloth-ball:20000:20 --swept",
+      "what may meet between frames"}},
+    "docs/collisions.md",
+    make_command<Collide>};
+
+}  // namespace bvhbench

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#include "harness/commands/help.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <string>
+
+#include "harness/commands/command.h"
+
+namespace bvhbench {
+namespace {
+
+constexpr std::size_t page_width = 100;
+constexpr std::size_t indent = 2;
+constexpr std::size_t column = 30;  ///< where descriptions begin
+
+constexpr std::string_view exit_codes =
+    "Exit codes:\n"
+    "  0  done\n"
+    "  1  a check differs, or something got worse\n"
+    "  2  wrong usage\n"
+    "  3  no device, file, library or memory to begin with\n"
+    "  4  nothing was measured: every cell was skipped or failed, and says why\n"
+    "  128 + n  stopped by signal n; what was finished is in the result file\n";
+
+struct Named {
+    std::string_view name, what;
+};
+
+constexpr Named environment[] = {
+    {"BVHBENCH_DATA", "the folder of data sets, where --data names none"},
+    {"BVHBENCH_TUNING", "a folder of tuned values, where --tuning names none"},
+    {"BVHBENCH_KERNELS", "a source tree to read kernels from, where --kernels names none"},
+    {"BVHBENCH_HOME",
+     "the folder that plots/ is in, where that is not where the program was built"},
+    {"BVHBENCH_PACKAGES", "of the launcher: skip leaves the system's packages alone"},
+    {"POCL_CACHE_DIR", "where PoCL keeps compiled kernels, in place of ~/.cache/bvhbench/pocl"},
+};
+
+constexpr Named files[] = {
+    {"*.json", "results: every raw sample, with machine, commit and verdicts; docs/results.md"},
+    {"results/baseline/", "what `smoke` holds this version to"},
+    {"results/tuning/", "tuned values of known devices, also in the program"},
+};
+
+/// Words of `text` in lines that end before the page does, all but the first behind `margin` blanks.
+std::string wrapped(std::string_view text, std::size_t margin, std::size_t used)
+{
+    std::string out;
+    while (!text.empty()) {
+        const std::size_t length = std::min(text.find(' '), text.size());
+        const bool is_first = out.empty();
+        if (!is_first && used + 1 + length > page_width) {
+            out += '\n' + std::string(margin, ' ');
+            used = margin;
+        } else if (!is_first) {
+            out += ' ';
+            ++used;
+        }
+        out += text.substr(0, length);
+        used += length;
+        text.remove_prefix(std::min(length + 1, text.size()));
+    }
+    return out;
+}
+
+/// A name and, from the column on, what it is.
+std::string entry(const std::string& name, std::string_view what)
+{
+    std::string out = std::string(indent, ' ') + name;
+    if (what.empty())
+        return out + '\n';
+    if (out.size() + indent > column)
+        out += '\n' + std::string(column, ' ');
+    else
+        out.resize(column, ' ');
+    return out + wrapped(what, column, column) + '\n';
+}
+
+template <class List>
+std::string section(std::string_view title, const List& list)
+{
+    std::string out = '\n' + std::string(title) + ":\n";
+    for (const Named& each : list)
+        out += entry(std::string(each.name), each.what);
+    return out;
+}
+
+/// Options and commands below one another, their descriptions wrapped.
+class PageFormatter : public CLI::Formatter {
+public:
+    std::string make_option(const CLI::Option* option, bool is_positional) const override
+    {
+        return entry(make_option_name(option, is_positional) + make_option_opts(option),
+                     make_option_desc(option));
+    }
+
+    /// What kind of value it takes, without the ranges that an answer to a wrong one tells.
+    std::string make_option_opts(const CLI::Option* option) const override
+    {
+        if (option->get_type_size() == 0)
+            return {};
+        const std::string type = option->get_type_name();
+        const std::string kind = type.substr(0, type.find(':'));
+        std::string out = kind == "ENUM" || kind == "TEXT"  ? " WORD"
+                          : kind == "FLOAT"                 ? " NUMBER"
+                          : kind == "UINT" || kind == "INT" ? " COUNT"
+                                                            : ' ' + kind;
+        if (!option->get_default_str().empty())
+            out += '=' + option->get_default_str();
+        if (option->get_expected_max() > 1)
+            out += " ...";
+        return option->get_required() ? out + ", required" : out;
+    }
+
+    std::string make_subcommand(const CLI::App* command) const override
+    {
+        return entry(command->get_name(), command->get_description());
+    }
+
+    std::string make_description(const CLI::App* app) const override
+    {
+        return wrapped(app->get_description(), 0, 0) + "\n\n";
+    }
+};
+
+std::string examples_text(std::span<const HelpExample> examples)
+{
+    std::string out = "Examples:\n";
+    for (const HelpExample& example : examples)
+        out += std::string(indent, ' ') + std::string(example.line) + '\n' +
+               std::string(3 * indent, ' ') + wrapped(example.what, 3 * indent, 3 * indent) + '\n';
+    return out;
+}
+
+std::string footer_of(const CommandEntry& help)
+{
+    return wrapped(help.more, 0, 0) + "\n\n" + examples_text(help.examples) +
+           "\nOptions that all commands have, exit codes and environment: bvhbench --help\nMore: " +
+           std::string(help.see);
+}
+
+std::string footer_of_program()
+{
+    static constexpr HelpExample examples[] = {
+        {"bvhbench smoke", "does everything run here?"},
+        {"bvhbench reproduce table1 --quick", "a table of the paper"},
+        {"bvhbench build --builder oibvh-multi --scene torus:100000", "one tree, stage by stage"},
+    };
+    return "Common options may stand before or behind the command. `bvhbench COMMAND --help` has "
+           "its "
+           "own.\n\n" +
+           examples_text(examples) + '\n' + std::string(exit_codes) +
+           section("Environment", environment) + section("Files", files) +
+           "\nSee also: docs/getting-started.md, docs/faq.md, docs/README.md";
+}
+
+}  // namespace
+
+void add_help(CLI::App& app)
+{
+    app.formatter(std::make_shared<PageFormatter>());
+    app.footer(footer_of_program());
+    for (const CommandEntry& entry : commands()) {
+        CLI::App* command = app.get_subcommand(std::string(entry.name));
+        command->formatter(app.get_formatter());
+        command->group(std::string(entry.group));
+        command->footer(footer_of(entry));
+    }
+}
+
+}  // namespace bvhbench

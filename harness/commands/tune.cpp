@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT
+#include <filesystem>
+#include <iostream>
+#include <mutex>
+
+#include "geometry/error.h"
+#include "harness/base/build_info.h"
+#include "harness/base/failure.h"
+#include "harness/base/interrupt.h"
+#include "harness/base/progress.h"
+#include "harness/base/test_hooks.h"
+#include "harness/choice/choices.h"
+#include "harness/commands/command.h"
+#include "harness/commands/words.h"
+#include "harness/record/provenance.h"
+#include "harness/record/result_file.h"
+#include "harness/session/tuning_file.h"
+#include "harness/tune/trials.h"
+
+namespace bvhbench {
+namespace {
+
+/// What the search settled takes the place of what the file had of it.
+void put(const SearchResult& result, const TuneTask& task, int samples, TuningFile& file)
+{
+    for (const Parameter* parameter : result.searched)
+        file.values.erase(std::string(parameter->name));
+    for (const Kept& kept : result.kept)
+        file.values[std::string(kept.parameter->name)] = {
+            .value = kept.value,
+            .target = task.target,
+            .scene = task.scene,
+            .ratio = kept.ratio,
+            .samples = samples,
+            .found_at = utc_now(),
+            .commit = build_info.commit + std::string(build_info.dirty ? "+" : "")};
+}
+
+/// Search, say what was found, and write it; as much as was found so far when a signal ends the program. Throws what loading
+/// the scene and the search do, and BadUsage where there is no parameter.
+void tune_target(Session& session, const TuneTask& task, const SearchOptions& options,
+                 const Output& output, TuningFile& file,
+                 const std::function<void(const std::string&)>& note)
+{
+    TuneTarget over(session, task);
+    const Tuning in_effect = tuning_of(file, session.device(), output.path().string());
+    const auto keep = [&](const SearchResult& found) {
+        std::cout << "tuned: " << task.target << " over " << task.scene << " on "
+                  << session.device().name() << '\n'
+                  << search_report(found) << std::flush;
+        put(found, task, options.samples, file);
+        output.replace(tuning_text(file));
+    };
+    SearchResult result, so_far;
+    std::mutex mutex;  // of what is so far
+    {
+        const AtSignal kept(
+            [&] {
+                const std::lock_guard lock(mutex);
+                keep(so_far);
+            },
+            "what was found is kept");
+        search([&](const Tuning& tuning) { return over.trial(tuning); }, in_effect,
+               [&](const Parameter& parameter) { return over.wants(parameter); }, options,
+               [&](const std::string& what) {
+                   const std::lock_guard lock(mutex);
+                   so_far = result;
+                   note(", " + what);
+               },
+               result);
+    }
+    if (result.searched.empty())
+        throw BadUsage(task.target + " asks " + session.device().name() +
+                       " for no parameter: there is nothing to tune");
+    keep(result);
+}
+
+class Tune final : public Command {
+public:
+    void add_options(CLI::App& app) override
+    {
+        choice_.builder.name = "oibvh-multi";
+        app.add_option("TARGET", target_,
+                       "sort, a name of `list builders` or of `list colliders`; default: sort, "
+                       "oibvh-multi, leaf, group and "
+                       "bvtt in turn");
+        app.add_option("--scene", scene_, "a scene, data set or mesh file")->required();
+        app.add_option("--builder", choice_.builder.name, "whose trees a collider is tuned over")
+            ->capture_default_str();
+        add_choices(app, choice_, [](const Choice& option) {
+            return option.key == "order" || option.key == "boxes" || option.key == "leaves" ||
+                   option.key == "adjacent" || option.key == "narrow";
+        });
+        app.add_option("--samples", samples_, "timed runs a value and turn")
+            ->check(CLI::Range(3, most_samples));
+        app.add_flag("--quick", quick_, "one round, and fewer samples");
+        app.add_option(
+            "--out", out_,
+            "the tuning file; default: the device's in --tuning, else in results/tuning");
+    }
+
+    int run(const Invocation& invocation) override
+    {
+        check_words();
+        const CommonOptions& common = invocation.common;
+        Session session(common);
+        const Device& device = session.device();
+        const std::filesystem::path path = path_of(common, device);
+        NamedTuning named = tuning_file_for(device, tuning_folder(common.tuning));
+        const Output output(path, "--out",
+                            {.inputs = scene_files(scene_, session.scenes()),
+                             .may_replace = [](const std::string&) { return true; }});
+        // Values that are there are kept; what is no tuning file is refused.
+        TuningFile file = output.was_there() ? read_tuning(path) : std::move(named.file);
+        tuning_of(file, device, path.string());  // refuses another device's now
+        file.device = device.name();
+        file.driver = device_facts(device).driver;
+        tune_all(session, output, file);
+        std::cout << "written: " << path.string() << '\n';
+        return 0;
+    }
+
+private:
+    std::vector<std::string> targets() const
+    {
+        if (!target_.empty())
+            return {target_};
+        return {"sort", "oibvh-multi", "leaf", "group", "bvtt"};
+    }
+
+    /// Wrong words are found before anything is opened.
+    void check_words() const
+    {
+        if (!test_hooks().empty())
+            throw BadUsage(test_hooks().begin()->first +
+                           " is set, which changes times for tests: nothing is tuned by such");
+        for (const std::string& target : targets())
+            check_target(target);
+        check_choice(choice_);
+        check_powers(choice_);
+        if (choice_.collider.narrow != "none" && choice_.collider.narrow != "exact")
+            throw BadUsage("'narrow' takes none or exact here, not '" + choice_.collider.narrow +
+                           "'");
+    }
+
+    SearchOptions search_options(const Device& device) const
+    {
+        SearchOptions options;
+        options.is_cpu = device.is_cpu();
+        if (quick_) {
+            options.samples = 5;
+            options.warm_up = 1;
+            options.rounds = 1;
+        }
+        if (samples_ > 0)
+            options.samples = samples_;
+        return options;
+    }
+
+    /// Where the device's file is: as --out says, else in the folder that values are read from, else where the sources
+    /// keep them.
+    std::filesystem::path path_of(const CommonOptions& common, const Device& device) const
+    {
+        if (!out_.empty())
+            return out_;
+        const std::string folder = tuning_folder(common.tuning).value_or("");
+        return std::filesystem::path(folder.empty() ? "results/tuning" : folder) /
+               (device_slug(device.name()) + ".json");
+    }
+
+    /// One target that fails is said; throws if all do.
+    void tune_all(Session& session, const Output& output, TuningFile& file) const
+    {
+        const std::vector<std::string> all = targets();
+        Progress progress(all.size());
+        std::string first_reason;
+        std::size_t failed = 0;
+        for (const std::string& target : all) {
+            const TuneTask task{target, scene_, choice_.builder, choice_.collider};
+            progress.step("tune: " + target);
+            const auto tune = [&] {
+                tune_target(
+                    session, task, search_options(session.device()), output, file,
+                    [&](const std::string& what) { progress.note("tune: " + target + what); });
+            };
+            if (all.size() == 1) {
+                tune();
+                continue;
+            }
+            const std::string failure = reason_of_failure(tune);
+            if (failure.empty())
+                continue;
+            session.renew_queue();
+            std::cout << "not tuned: " << target << ": " << failure << '\n';
+            if (failed++ == 0)
+                first_reason = failure;
+        }
+        if (failed == all.size())
+            throw NothingMeasured("nothing was tuned: " + first_reason);
+    }
+
+    std::string target_;  ///< sort, a builder or a collider; empty: the usual ones
+    std::string scene_;
+    CellChoice choice_;  ///< of a builder, or of a collider and its trees
+    std::string out_;
+    int samples_ = 0;  ///< 0: as many as suit
+    bool quick_ = false;
+};
+
+}  // namespace
+
+extern const CommandEntry tune_command = {
+    "tune",
+    measuring,
+    "Search what numbers suit the device, check each answer, and write a tuning file",
+    "No value changes what is built or found, and each answer is checked. Later runs read the file "
+    "from --tuning.",
+    {{"bvhbench tune sort --scene torus:144046", "the sort alone"},
+     {"bvhbench tune --scene bunny --device nvidia --out tuning/mine.json", "all in turn"}},
+    "docs/tuning.md",
+    make_command<Tune>};
+
+}  // namespace bvhbench

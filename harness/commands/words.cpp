@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include "harness/commands/words.h"
+
+#include <cctype>
+#include <charconv>
+#include <cstdint>
+
+#include "geometry/error.h"
+
+namespace bvhbench {
+namespace {
+
+constexpr int most_cost = 1000000;
+constexpr int most_seconds = 1000000;
+
+/// "2G" and the like: a whole number of bytes, or of as many as the letter says, with or without a B.
+std::size_t bytes_of(const std::string& text)
+{
+    constexpr std::string_view letters = "KMGT";
+    const char* const end = text.data() + text.size();
+    std::uint64_t number = 0;
+    const auto read = std::from_chars(text.data(), end, number);
+    std::string unit(read.ptr, end);
+    for (char& letter : unit)
+        letter = static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
+    if (!unit.empty() && unit.back() == 'B')
+        unit.pop_back();
+    const std::size_t place = unit.empty() ? 0 : letters.find(unit) + 1;
+    const bool is_unit = unit.size() <= 1 && place <= letters.size() && (unit.empty() || place > 0);
+    const unsigned shift = static_cast<unsigned>(10 * place);
+    if (read.ec != std::errc() || !is_unit || number == 0 || number > (UINT64_MAX >> shift))
+        throw CLI::ValidationError(
+            "--memory-limit",
+            "must be a number of bytes from 1 on, as 512M or 2G, not '" + text + "'");
+    return number << shift;
+}
+
+}  // namespace
+
+CLI::Validator a_number(int most)
+{
+    const auto check = [most](const std::string& word) {
+        double value = -1;
+        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+        const bool is_read = error == std::errc() && end == word.data() + word.size();
+        return is_read && value >= 0 && value <= most
+                   ? std::string()
+                   : "must be a number from 0 to " + std::to_string(most) + ", not '" + word + "'";
+    };
+    return {check, "", "a number"};
+}
+
+CLI::Validator one_of(std::vector<std::string> known)
+{
+    const auto check = [known = std::move(known)](const std::string& word) {
+        std::string there;
+        for (const std::string& each : known) {
+            if (each == word)
+                return std::string();
+            there += (there.empty() ? "" : ", ") + each;
+        }
+        return "there is no '" + word + "'; there are: " + there;
+    };
+    return {check, "", "one of"};
+}
+
+CLI::Validator a_share(double most)
+{
+    const auto read = [most](std::string& word) {
+        const bool is_percent = word.ends_with('%');
+        const std::size_t digits = word.size() - (is_percent ? 1 : 0);
+        double value = -1;
+        const auto [end, error] = std::from_chars(word.data(), word.data() + digits, value);
+        if (is_percent)
+            value /= 100;
+        if (error != std::errc() || end != word.data() + digits || !(value >= 0 && value <= most))
+            return "must be a share from 0 to " + std::to_string(static_cast<int>(100 * most)) +
+                   "%, as 5% or 0.05, not '" + word + "'";
+        char text[40];
+        word.assign(text, std::to_chars(text, text + sizeof text, value).ptr);
+        return std::string();
+    };
+    return {read, "", "a share"};
+}
+
+void add_common(CLI::App& app, CommonOptions& common)
+{
+    app.add_option("--device", common.device, "words of its name, or its index in `list devices`");
+    app.add_option("--kernels", common.kernels, "a source tree to read kernels from");
+    app.add_option("--data", common.data, "the folder of data sets; default: BVHBENCH_DATA");
+    app.add_option(
+           "--doubles", common.doubles,
+           "recentred or as-is: how coordinates of a file that floats cannot hold are rounded")
+        ->capture_default_str();
+    app.add_option(
+        "--tuning", common.tuning,
+        "a folder to read tuned values from, '' for none; default: BVHBENCH_TUNING, else "
+        "those in the program");
+    app.add_option_function<std::string>(
+        "--memory-limit",
+        [&common](const std::string& text) { common.memory_limit = bytes_of(text); },
+        "bytes that the program may take in all, and the device, as 512M or 2G; default: all there "
+        "are");
+    app.add_option("--time-limit", common.time_limit_s,
+                   "seconds that a single build or query may take before it is given up; 0: no end")
+        ->capture_default_str()
+        ->check(a_number(most_seconds));
+    app.add_flag("--force", common.force, "replace files that are there, but none that is read");
+    app.add_flag("--quiet", common.quiet, "print no tables of results");
+    app.add_flag("--verbose", common.verbose, "say on stderr what is being used");
+}
+
+void add_sampling(CLI::App& app, SamplingWords& sampling)
+{
+    app.add_option("--until", sampling.until,
+                   "sample each cell until the range between its quartiles is this share of the "
+                   "median, as 2%")
+        ->transform(a_share(1))
+        ->excludes("--samples");
+    app.add_option("--min-samples", sampling.min_samples, "with --until: at least so many; 15")
+        ->check(CLI::Range(2, most_samples));
+    app.add_option("--max-samples", sampling.max_samples, "with --until: at most so many; 1000")
+        ->check(CLI::Range(2, most_samples));
+    app.add_option("--time-budget", sampling.time_budget_s,
+                   "with --until: seconds for the samples of a scene or frame; 60")
+        ->check(a_number(most_seconds));
+    app.add_flag("--cold", sampling.cold, "empty the device's caches before each sample");
+    app.add_option("--calibrate-every", sampling.calibrate_every,
+                   "samples between two looks at how fast the device is; 0: none; 16")
+        ->check(CLI::Range(0, most_samples));
+    app.add_option("--drift-limit", sampling.drift_limit,
+                   "mark samples beside a look that is further off its median; 25%")
+        ->transform(a_share(1000));
+}
+
+void add_quality(CLI::App& app, bool& quality, NodeCosts& costs)
+{
+    app.add_flag("--epo,--quality", quality, "compute end-point overlap, which takes long");
+    app.add_option("--sah-inner", costs.inner, "what visiting an inner node costs")
+        ->capture_default_str()
+        ->check(a_number(most_cost));
+    app.add_option("--sah-triangle", costs.triangle, "what testing a triangle costs")
+        ->capture_default_str()
+        ->check(a_number(most_cost));
+    app.final_callback([&costs] {
+        if (costs == NodeCosts{0, 0})
+            throw BadUsage("--sah-inner and --sah-triangle must not both be 0");
+    });
+}
+
+}  // namespace bvhbench

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "harness/judge/hard_inputs.h"
+
+#include <random>
+
+namespace bvhbench {
+namespace {
+
+/// Same numbers everywhere: the engine is fixed by the standard, the distributions are not.
+class Random {
+public:
+    /// From 0 to below 1, a multiple of 2^-24.
+    float next() { return static_cast<float>(engine_() >> 8) * 0x1p-24f; }
+    Point point() { return {next(), next(), next()}; }
+
+private:
+    std::mt19937 engine_{20200511};
+};
+
+void add(Mesh& mesh, Point a, Point b, Point c)
+{
+    const auto first = static_cast<uint>(mesh.points.size());
+    mesh.points.insert(mesh.points.end(), {a, b, c});
+    mesh.faces.push_back({first, first + 1, first + 2});
+}
+
+Point moved(Point p, Point by, float size)
+{
+    return {p.x + size * by.x, p.y + size * by.y, p.z + size * by.z};
+}
+
+/// Small triangles anywhere in the unit cube, then `change` on every vertex.
+template <class Change>
+Mesh soup(std::size_t triangles, const Change& change)
+{
+    Random random;
+    Mesh mesh;
+    for (std::size_t i = 0; i < triangles; ++i) {
+        const Point at = random.point();
+        const Point a = moved(at, random.point(), 0.05f);
+        const Point b = moved(at, random.point(), 0.05f);
+        add(mesh, change(at), change(a), change(b));
+    }
+    return mesh;
+}
+
+Point scaled(Point p, float size, float shift)
+{
+    return {shift + size * p.x, shift + size * p.y, shift + size * p.z};
+}
+
+Mesh random_soup(std::size_t n)
+{
+    return soup(n, [](Point p) { return p; });
+}
+
+Mesh all_identical(std::size_t n)
+{
+    Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 1}}, {}};
+    mesh.faces.assign(n, {0, 1, 2});
+    return mesh;
+}
+
+/// Boxes of different sizes around one centre, exactly: every code is the same.
+Mesh same_centre(std::size_t n)
+{
+    Mesh mesh;
+    for (std::size_t i = 0; i < n; ++i) {
+        const float half = static_cast<float>(i % 64 + 1) * 0.125f;
+        add(mesh, {-half, -half, -half}, {half, half, half}, {0, half, 0});
+    }
+    return mesh;
+}
+
+Mesh flat(std::size_t n)
+{
+    return soup(n, [](Point p) { return Point{p.x, 3.25f, p.z}; });
+}
+
+/// Triangles that are points.
+Mesh points_only(std::size_t n)
+{
+    Random random;
+    Mesh mesh;
+    for (std::size_t i = 0; i < n; ++i) {
+        const Point p = random.point();
+        add(mesh, p, p, p);
+    }
+    return mesh;
+}
+
+/// All but one triangle share a cell of the Morton grid.
+Mesh far_outlier(std::size_t n)
+{
+    Mesh mesh = random_soup(n);
+    for (std::size_t vertex = mesh.points.size() - 3; vertex < mesh.points.size(); ++vertex)
+        mesh.points[vertex] = scaled(mesh.points[vertex], 1, 1e7f);
+    return mesh;
+}
+
+/// Where floats are a sixteenth apart.
+Mesh near_a_million(std::size_t n)
+{
+    return soup(n, [](Point p) { return scaled(p, 8, 1e6f); });
+}
+
+Mesh denormal(std::size_t n)
+{
+    return soup(n, [](Point p) { return scaled(p, 1e-39f, 0); });
+}
+
+/// Extents and sums of coordinates reach the end of what a float holds.
+Mesh huge(std::size_t n)
+{
+    return soup(n, [](Point p) { return scaled(p, 3e38f, -1.5e38f); });
+}
+
+Mesh negative_zeros(std::size_t n)
+{
+    return soup(n, [](Point p) {
+        return Point{p.x < 0.5f ? -0.0f : 0.0f, p.y < 0.5f ? -0.0f : p.y, -0.0f};
+    });
+}
+
+constexpr HardInput inputs[] = {
+    {"random", random_soup},
+    {"identical", all_identical},
+    {"same-centre", same_centre},
+    {"flat", flat},
+    {"points", points_only},
+    {"outlier", far_outlier},
+    {"near-1e6", near_a_million},
+    {"denormal", denormal},
+    {"huge", huge},
+    {"negative-zero", negative_zeros},
+};
+
+constexpr std::size_t sizes[] = {1, 2, 3, 4, 5, 7, 8, 9, 63, 64, 65, 255, 256, 257, 1000, 4097};
+
+}  // namespace
+
+std::span<const HardInput> hard_inputs() { return inputs; }
+
+std::span<const std::size_t> telling_sizes() { return sizes; }
+
+}  // namespace bvhbench

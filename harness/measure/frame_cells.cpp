@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: MIT
+#include "harness/measure/frame_cells.h"
+
+#include <algorithm>
+#include <chrono>
+#include <future>
+#include <memory>
+#include <optional>
+
+#include "builders/box_format.h"
+#include "collide/narrow/narrow_methods.h"
+#include "collide/oracles/exact_reference.h"
+#include "collide/oracles/sweep.h"
+#include "geometry/hash.h"
+#include "geometry/host_memory.h"
+#include "harness/base/failure.h"
+#include "harness/base/interrupt.h"
+#include "harness/judge/differences.h"
+#include "harness/measure/engine.h"
+#include "harness/session/session_samples.h"
+
+namespace bvhbench {
+namespace {
+
+/// What a frame's pairs and contacts are, found out when first asked for, on another core.
+class FrameOracle {
+public:
+    /// `note` is told, for a line of progress, that it takes long.
+    FrameOracle(const Input& input, std::function<void(const std::string&)> note)
+        : input_(input), note_(std::move(note))
+    {}
+
+    /// Begin with the pairs. Nothing may be timed before wait().
+    void begin(const ColliderChoice& choice) { entry(choice); }
+
+    /// Until all that was begun is there.
+    void wait() const
+    {
+        for (const auto& one : entries_)
+            wait_for(one->pairs);
+    }
+
+    const PairList& pairs(const ColliderChoice& choice)
+    {
+        return wait_for(entry(choice).pairs).get();
+    }
+
+    const PairList& contacts(const ColliderChoice& choice)
+    {
+        Entry& found = entry(choice);
+        if (!found.contacts.valid())
+            found.contacts = std::async(std::launch::async, [this, &found, of = &pairs(choice)] {
+                return intersecting_pairs(input_.points, input_.faces, *of, found.keep_adjacent);
+            });
+        return wait_for(found.contacts).get();
+    }
+
+private:
+    using Later = std::shared_future<PairList>;
+    struct Entry {
+        Among among;
+        bool keep_adjacent;
+        Later pairs, contacts = {};
+    };
+
+    const Later& wait_for(const Later& later) const
+    {
+        for (int seconds = 1; later.wait_for(std::chrono::seconds(1)) != std::future_status::ready;
+             ++seconds) {
+            if (note_)
+                note_("the oracle is checking, " + std::to_string(seconds) + " s");
+        }
+        return later;
+    }
+
+    Entry& entry(const ColliderChoice& choice)
+    {
+        for (const auto& one : entries_)
+            if (one->among == choice.among && one->keep_adjacent == choice.keep_adjacent)
+                return *one;
+        const auto found = [this, among = choice.among, keep_adjacent = choice.keep_adjacent] {
+            require_host_memory("checking the pairs", input_.faces.size() * sizeof(Aabb));
+            return touching_pairs(leaf_boxes(input_), input_.faces, keep_adjacent, input_.objects,
+                                  among);
+        };
+        entries_.push_back(std::make_unique<Entry>(
+            Entry{choice.among, choice.keep_adjacent, std::async(std::launch::async, found)}));
+        return *entries_.back();
+    }
+
+    const Input& input_;
+    std::function<void(const std::string&)> note_;
+    std::vector<std::unique_ptr<Entry>> entries_;
+};
+
+/// Pairs by the numbers that a file's triangles have in it, where objects have put them into another order.
+PairList numbered_as_in_file(PairList pairs, std::span<const uint> file_faces)
+{
+    if (file_faces.empty())
+        return pairs;
+    std::vector<Pair> numbered;
+    numbered.reserve(pairs.size());
+    for (const Pair pair : pairs.pairs())
+        numbered.push_back({file_faces[pair.a], file_faces[pair.b]});
+    return PairList(std::move(numbered));
+}
+
+/// Hold a list to the oracle's. What differs is added to the check.
+void hold(const PairList& found, const PairList& expected, const std::string& what,
+          std::span<const uint> file_faces, Check& check)
+{
+    std::string detail;
+    if (found.surplus() > 0)
+        detail = std::to_string(found.surplus()) + ' ' + what + " were found twice";
+    else if (found != expected)
+        detail = "the oracle has " + std::to_string(expected.size()) + ' ' + what +
+                 " of the hash " + hex(numbered_as_in_file(expected, file_faces).hash());
+    if (detail.empty())
+        return;
+    find_wrong(check, detail);
+}
+
+/// How many are wrong, to the cell's counters.
+Differences counted_errors(const PairList& found, const PairList& expected, Cell& cell)
+{
+    const Differences wrong = differences(found, expected);
+    cell.counters["missed_count"] = static_cast<double>(wrong.missed);
+    cell.counters["false_count"] = static_cast<double>(wrong.false_ones);
+    return wrong;
+}
+
+/// Of contacts by a narrow phase that promises none to be right.
+void count_errors(const PairList& found, const PairList& expected, Cell& cell)
+{
+    const Differences wrong = counted_errors(found, expected, cell);
+    if (cell.check.verdict == Check::Verdict::agrees)
+        cell.check.verdict = Check::Verdict::counted;
+    cell.check.detail += std::to_string(wrong.missed) + " contacts missed, " +
+                         std::to_string(wrong.false_ones) + " false";
+}
+
+/// Hold pairs of boxes that were rounded outward to the oracle's: there may be more of them, and none may be missing. Where
+/// a narrow phase goes on, they are candidates and no answer; else the answer is counted.
+void hold_candidates(const PairList& found, const PairList& expected, bool is_answer, Cell& cell)
+{
+    const Differences wrong = differences(found, expected);
+    cell.counters["missed_pairs_count"] = static_cast<double>(wrong.missed);
+    cell.counters["false_pairs_count"] = static_cast<double>(wrong.false_ones);
+    Check& check = cell.check;
+    if (found.surplus() > 0 || wrong.missed > 0) {
+        check.verdict = Check::Verdict::differs;
+        check.detail = std::to_string(found.surplus()) + " pairs were found twice, " +
+                       std::to_string(wrong.missed) + " missed";
+    } else if (is_answer) {
+        check.verdict = Check::Verdict::counted;
+        check.detail = "0 pairs missed, " + std::to_string(wrong.false_ones) + " false";
+    }
+}
+
+/// The verdict on what a pipeline found.
+void judge(const Pipeline& pipeline, Cell& cell, FrameOracle& oracle, const FrameOfPipelines& frame,
+           Found& found)
+{
+    const ColliderChoice& choice = cell.collider;
+    Check& check = cell.check;
+    check = {.verdict = Check::Verdict::agrees, .against = {}, .detail = {}};
+    found = {};
+    if (pipeline.has_pairs()) {
+        PairList pairs = pipeline.pairs();
+        check.against = "brute";
+        if (find_box_format(cell.builder.boxes).has_cells())
+            hold_candidates(pairs, oracle.pairs(choice), !pipeline.has_contacts(), cell);
+        else
+            hold(pairs, oracle.pairs(choice), "pairs", frame.file_faces, check);
+        if (!cell.swept.pairs.empty())
+            counted_errors(pairs, oracle.pairs(choice), cell);
+        found.pairs = numbered_as_in_file(std::move(pairs), frame.file_faces);
+        check.pairs_hash = found.pairs.hash();
+    }
+    if (pipeline.has_contacts()) {
+        PairList contacts = pipeline.contacts();
+        if (has_exact_reference) {
+            check.against += check.against.empty() ? "CGAL" : ", CGAL";
+            const bool by_collider = pipeline.collider().finds_contacts();
+            if (by_collider || find_narrow_method(choice.narrow).is_exact)
+                hold(contacts, oracle.contacts(choice), "contacts", frame.file_faces, check);
+            else
+                count_errors(contacts, oracle.contacts(choice), cell);
+        } else if (check.verdict == Check::Verdict::agrees) {
+            check.verdict = Check::Verdict::not_checked;
+            check.detail = "contacts: built without CGAL";
+        }
+        found.contacts = numbered_as_in_file(std::move(contacts), frame.file_faces);
+        check.contacts_hash = found.contacts.hash();
+    }
+    if (frame.judge_more)
+        frame.judge_more(found, cell);
+}
+
+/// Asks the host for the memory of a library's trees, and of its pairs, which the oracle has counted. They are held twice, in
+/// lists that grow by doubling.
+void require_memory(const ColliderChoice& choice, std::size_t triangles, FrameOracle& oracle)
+{
+    const std::size_t bytes = find_collider(choice.name).host_bytes;
+    if (bytes == 0)
+        return;
+    require_host_memory("collider " + choice.name, bytes * triangles);
+    const std::size_t count = oracle.pairs(choice).size();
+    require_host_memory("collider " + choice.name + " for " + std::to_string(count) + " pairs",
+                        bytes * triangles + 4 * sizeof(Pair) * count);
+}
+
+/// Of the frame, by the pipeline, and of nothing found yet.
+Cell empty_cell(const CollideTask& task, const PipelineChoice& pipeline,
+                const FrameOfPipelines& frame)
+{
+    Cell cell;
+    cell.experiment = task.experiment;
+    cell.scene = frame.scene;
+    cell.swept = frame.swept;
+    cell.builder = pipeline.builder;
+    cell.collider = pipeline.collider;
+    cell.operation = Operation::collide;
+    cell.warm_up = task.warm_up;
+    return cell;
+}
+
+}  // namespace
+
+void find_wrong(Check& check, const std::string& detail)
+{
+    check.verdict = Check::Verdict::differs;
+    check.detail += (check.detail.empty() ? "" : "; ") + detail;
+}
+
+std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span<Running> all,
+                            const FrameOfPipelines& frame, int& order, Found& found)
+{
+    const Input& input = frame.input;
+    FrameOracle oracle(input, task.note);
+    oracle.begin(all.front().choice.collider);  // while the first one is compiled and settles
+    Engine engine(session, {task.samples, task.warm_up, task.sampling}, order);
+    std::vector<Subject> subjects(all.size());
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        Running& one = all[k];
+        Subject& subject = subjects[k];
+        subject = {.cell = empty_cell(task, one.choice, frame),
+                   .number = frame.number + '/' + std::to_string(k)};
+        if (!one.failure.empty()) {
+            engine.refuse(subject, one.cannot_be ? Cell::Status::skipped : Cell::Status::failed,
+                          one.failure);
+            continue;
+        }
+        Cell& cell = subject.cell;
+        engine.settle(subject, [&] {
+            require_memory(cell.collider, input.triangle_count(), oracle);
+            session.watchdog().watch([&] {
+                if (one.pipeline == nullptr)
+                    one.pipeline =
+                        std::make_unique<Pipeline>(session, cell.builder, cell.collider, input);
+                if (!one.pipeline->collider().needs_tree())
+                    cell.builder = {.name = "none"};
+                one.pipeline->begin_frame(frame.motions);
+                cell.first.run_ns = host_ns([&] { one.pipeline->settle(input); });
+            });
+            cell.counters = one.pipeline->counters();
+            judge(*one.pipeline, cell, oracle, frame, found);
+        });
+        subject.once = [&] {
+            return session.watchdog().watch([&] { return one.pipeline->once(input); });
+        };
+        // Another pipeline may have used the same builder's tree since the last sample, so once more.
+        subject.judge_again = [&] {
+            one.pipeline->once(input);
+            judge(*one.pipeline, cell, oracle, frame, found);
+        };
+    }
+    oracle.wait();  // if none has asked, too
+    engine.sample(subjects);
+    std::vector<Cell> cells;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        Cell& cell = subjects[k].cell;
+        all[k].failure = cell.status == Cell::Status::measured ? "" : cell.reason;
+        all[k].cannot_be = cell.status == Cell::Status::skipped;
+        cells.push_back(std::move(cell));
+    }
+    return cells;
+}
+
+}  // namespace bvhbench

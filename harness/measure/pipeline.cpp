@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: MIT
+#include "harness/measure/pipeline.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "geometry/error.h"
+#include "harness/judge/query_bytes.h"
+
+namespace bvhbench {
+
+Pipeline::Pipeline(Session& session, const BuilderChoice& builder, const ColliderChoice& collider,
+                   const Input& input)
+    : session_(session)
+    , choice_(builder)
+    , rules_off_(collider.rules_off)
+    , updates_(input.objects.size(), TreeUpdate::rebuild)
+    , collider_(make_collider(collider, session.programs()))
+{
+    if (input.is_swept() && (collider.narrow != "none" || collider_->finds_contacts()))
+        throw BadUsage(
+            std::string("swept boxes tell who may meet between two frames, not who does: ") +
+            (collider_->finds_contacts() ? "the collider " + collider.name
+                                         : "a narrow phase, " + collider.narrow + ",") +
+            " looks at one moment");
+    if (collider_->needs_tree())
+        builder_ = make_builder(choice_, session.programs());
+    reserve_for(input);
+    if (collider.narrow != "none" && !collider_->finds_contacts()) {
+        narrow_.emplace(session.programs(), NarrowOptions{.method = collider.narrow,
+                                                          .keep_adjacent = collider.keep_adjacent,
+                                                          .form = collider.form});
+        narrow_->reserve(input.triangle_count());
+    }
+    // Swept, objects are vertices and the faces that they are corners of: all of them are near.
+    if (skips(skip_near) && collider.among == Among::between_objects && input.objects.size() > 1 &&
+        !input.is_swept() && builder_ != nullptr && !collider_->keeps_tree() &&
+        NearTriangles::may_pay(session.device(), input.triangle_count())) {
+        near_.emplace(session.programs(), NearOptions{});
+        near_->reserve(input);
+    }
+}
+
+void Pipeline::reserve_for(const Input& input)
+{
+    if (builder_ != nullptr) {
+        builder_->reserve_objects(object_sizes(input));
+        session_.build_once(*builder_, input, Start::from_triangles, &tree_);
+    }
+    collider_->reserve(tree_, input);
+}
+
+TreeUpdate Pipeline::update_after(Motion motion) const
+{
+    if (skips(skip_unchanged) && motion == Motion::unchanged)
+        return TreeUpdate::keep;
+    return skips(skip_rigid) && motion <= Motion::rigid && builder_->can_refit()
+               ? TreeUpdate::refit
+               : TreeUpdate::rebuild;
+}
+
+void Pipeline::begin_frame(std::span<const Motion> motions)
+{
+    const TreeUpdate asked =
+        collider_->keeps_tree() ? collider_->next_frame() : TreeUpdate::rebuild;
+    if (builder_ == nullptr)
+        return;
+    if (collider_->keeps_tree())
+        updates_ = builder_->plan_update(std::vector(updates_.size(), asked), session_.queue());
+    else if (entering_)
+        updates_.assign(updates_.size(),
+                        keeps_all(motions) ? TreeUpdate::keep : TreeUpdate::rebuild);
+    else
+        updates_ = planned_updates(motions);
+}
+
+bool Pipeline::keeps_all(std::span<const Motion> motions) const
+{
+    return skips(skip_unchanged) && queries() && !motions.empty() &&
+           std::all_of(motions.begin(), motions.end(),
+                       [](Motion motion) { return motion == Motion::unchanged; });
+}
+
+std::vector<TreeUpdate> Pipeline::planned_updates(std::span<const Motion> motions)
+{
+    std::vector<TreeUpdate> wanted(updates_.size(), TreeUpdate::rebuild);
+    if (!motions.empty())
+        std::transform(motions.begin(), motions.end(), wanted.begin(),
+                       [&](Motion motion) { return update_after(motion); });
+    return builder_->plan_update(wanted, session_.queue());
+}
+
+std::size_t Pipeline::updated(TreeUpdate how) const
+{
+    const auto objects = std::count(updates_.begin(), updates_.end(), how);
+    const bool has_some = objects > 0 && queries();
+    return !entering_ ? static_cast<std::size_t>(objects)
+           : has_some ? entering_->input.objects.size()
+                      : 0;
+}
+
+/// Memory is for as many triangles as enter, and to know how many they are takes the device's work of a frame. So it is
+/// found out here, where nothing is timed, whether this frame is worth it; a simulation would go by the frame before.
+void Pipeline::choose_entering(const Input& input)
+{
+    if (!near_ || std::count(updates_.begin(), updates_.end(), TreeUpdate::rebuild) == 0)
+        return;
+    Queue& queue = session_.queue();
+    std::vector<uint> counts = near_->find(input, queue);
+    queue.finish();
+    const std::size_t total = std::accumulate(counts.begin(), counts.end(), std::size_t{0});
+    if (total > NearTriangles::most_of(input.triangle_count())) {
+        if (entering_) {
+            entering_.reset();
+            reserve_for(input);
+            updates_ = planned_updates({});
+        }
+        return;
+    }
+    updates_.assign(updates_.size(), TreeUpdate::rebuild);
+    const bool has_memory = entering_ && entering_->counts == counts;
+    entering_.emplace();
+    entering_->input = near_->frame(input, counts, entering_->faces, queue);
+    entering_->counts = std::move(counts);
+    if (!has_memory && entering_->has_pairs())
+        reserve_for(entering_->input);
+}
+
+void Pipeline::enqueue(const Input& input)
+{
+    Queue& queue = session_.queue();
+    if (!entering_) {
+        enqueue_query(input);
+    } else {
+        if (updates_.front() != TreeUpdate::keep && near_->find(input, queue) != entering_->counts)
+            throw Unavailable("other triangles enter the frame than when memory was taken for it");
+        if (!entering_->has_pairs())
+            return;
+        entering_->input.points = input.points;
+        enqueue_query(entering_->input);
+        near_->map_back(collider_->device_pairs(queue), queue);
+    }
+    if (!narrow_)
+        return;
+    const DevicePairs found = collider_->device_pairs(queue);
+    narrow_->query(input, found.pairs, found.counters, queue);
+}
+
+void Pipeline::enqueue_query(const Input& input)
+{
+    Queue& queue = session_.queue();
+    if (builder_ != nullptr &&
+        std::count(updates_.begin(), updates_.end(), TreeUpdate::keep) < std::ssize(updates_))
+        tree_ = entering_ ? &builder_->build(input, queue) : &builder_->update(input, queue);
+    collider_->query(tree_, input, queue);
+}
+
+bool Pipeline::complete()
+{
+    const Queue& queue = session_.queue();
+    return !queries() || (collider_->complete(queue) && (!narrow_ || narrow_->complete(queue)));
+}
+
+void Pipeline::settle(const Input& input)
+{
+    choose_entering(input);
+    do {
+        enqueue(input);
+        session_.queue().finish();
+    } while (!complete());
+    corner_bytes_ =
+        narrow_ && queries() ? corner_bytes(collider_->pairs(session_.queue()), input) : 0;
+}
+
+/// How much is written, and how much of it read again, is known only now.
+void Pipeline::declare_found(std::vector<StageTime>& stages) const
+{
+    if (!queries())
+        return;
+    const Queue& queue = session_.queue();
+    const auto bytes = [](std::uint64_t pairs) {
+        return static_cast<std::int64_t>(pairs * sizeof(Pair));
+    };
+    const std::int64_t pairs = bytes(collider_->counts(queue).pairs);
+    add_moved_bytes(stages, "broad", pairs);
+    if (narrow_)
+        add_moved_bytes(stages, "narrow",
+                        pairs + bytes(narrow_->counts(queue).contacts) + corner_bytes_);
+}
+
+std::vector<StageTime> Pipeline::once(const Input& input)
+{
+    session_.give_head_start();
+    enqueue(input);
+    std::vector<StageTime> stages = session_.queue().finish();
+    if (!complete())
+        throw Unavailable("a query found more than the one before it over the same triangles");
+    declare_found(stages);
+    return stages;
+}
+
+PairList Pipeline::pairs() const
+{
+    return queries() ? PairList(collider_->pairs(session_.queue())) : PairList();
+}
+
+PairList Pipeline::contacts() const
+{
+    return narrow_ && queries() ? PairList(narrow_->contacts(session_.queue())) : pairs();
+}
+
+std::map<std::string, double> Pipeline::counters() const
+{
+    std::map<std::string, double> counters;
+    const auto put = [&](const char* name, auto value) {
+        counters[name] = static_cast<double>(value);
+    };
+    const Queue& queue = session_.queue();
+    QueryCounts counts;
+    if (queries())
+        counts = collider_->counts(queue);
+    else
+        counts.box_tests = counts.tasks = 0;
+    if (entering_ && updates_.front() != TreeUpdate::keep)
+        *counts.box_tests += near_->box_tests(queue);
+    put(collider_->finds_contacts() ? "contacts_count" : "pairs_count", counts.pairs);
+    if (counts.box_tests)
+        put("box_tests_count", *counts.box_tests);
+    if (counts.bvtt_peak)
+        put("bvtt_peak_count", *counts.bvtt_peak);
+    if (counts.tasks)
+        put("tasks_count", *counts.tasks);
+    for (const auto& [name, value] : counts.more)
+        put(std::string(name).c_str(), value);
+    std::size_t memory = collider_->reserved().total();
+    put("query_bytes", memory);
+    if (builder_ != nullptr) {
+        const Footprint tree = builder_->reserved();
+        put("tree_bytes", tree.tree_bytes);
+        put("scratch_bytes", tree.scratch_bytes);
+        put("rebuilt_objects_count", updated(TreeUpdate::rebuild));
+        put("refitted_objects_count", updated(TreeUpdate::refit));
+        put("kept_objects_count", updated(TreeUpdate::keep));
+        put("sorts_count", updated(TreeUpdate::rebuild) > 0 ? 1 : 0);
+        memory += tree.total();
+    }
+    if (entering_)
+        put("entered_count", entering_->input.triangle_count());
+    if (near_) {
+        put("near_bytes", near_->reserved().total());
+        memory += near_->reserved().total();
+    }
+    if (narrow_) {
+        const NarrowCounts narrow = queries() ? narrow_->counts(queue) : NarrowCounts{};
+        put("contacts_count", narrow.contacts);
+        put("narrow_float_count", narrow.by_floats);
+        put("narrow_double_count", narrow.by_doubles);
+        put("narrow_exact_count", narrow.exactly);
+        put("narrow_bytes", narrow_->reserved().total());
+        memory += narrow_->reserved().total();
+    }
+    put("memory_bytes", memory);
+    return counters;
+}
+
+}  // namespace bvhbench

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+#include "harness/measure/swept.h"
+#include "builders/box_format.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "builders/orders.h"
+#include "geometry/error.h"
+#include "harness/measure/frame_cells.h"
+#include "scenes/ground_truth.h"
+
+namespace bvhbench {
+namespace {
+
+/// The two questions of a step: who, of which pairs of objects, and what is known of the answer.
+struct Question {
+    const char* name;
+    Among among;
+    SweptParts parts;
+    GroundTruth::Pairs listed = {};
+    std::optional<std::uint64_t> counted = {};
+    Input input = {};
+    std::vector<Running> running = {};
+
+    /// The task's pipelines that ask it.
+    void ask(const CollideTask& task)
+    {
+        for (PipelineChoice pipeline : task.pipelines) {
+            if (pipeline.collider.among != Among::all && pipeline.collider.among != among)
+                continue;
+            pipeline.collider.among = among;
+            pipeline.collider.keep_adjacent = false;
+            running.push_back({std::move(pipeline)});
+        }
+    }
+};
+
+/// How many of `listed` are not among those found.
+std::uint64_t missed_of(const GroundTruth::Pairs& listed, const PairList& found)
+{
+    const auto is_missed = [&](const std::array<uint, 2>& one) {
+        const Pair pair = {std::min(one[0], one[1]), std::max(one[0], one[1])};
+        return !std::binary_search(found.pairs().begin(), found.pairs().end(), pair);
+    };
+    return static_cast<std::uint64_t>(std::count_if(listed.begin(), listed.end(), is_missed));
+}
+
+/// Hold what was found to what the folder says of this step.
+void judge_step(const Question& question, const PairList& found, Cell& cell)
+{
+    if (!question.listed.empty()) {
+        const std::uint64_t missed = missed_of(question.listed, found);
+        cell.counters["ground_truth_pairs"] = static_cast<double>(question.listed.size());
+        cell.counters["ground_truth_missed"] = static_cast<double>(missed);
+        cell.check.against += ", ground truth";
+        if (missed > 0)
+            find_wrong(cell.check,
+                       std::to_string(missed) + " pairs of the ground truth are missed");
+    }
+    if (question.counted) {
+        cell.counters["reference_pairs_count"] = static_cast<double>(*question.counted);
+        cell.check.against += ", meta.json";
+        const bool may_be_more = find_box_format(cell.builder.boxes).has_cells();
+        if (may_be_more ? found.size() < *question.counted : found.size() != *question.counted)
+            find_wrong(cell.check,
+                       "meta.json counts " + std::to_string(*question.counted) + " pairs");
+    }
+}
+
+/// Both questions go on from the step they were at. Points that are on the device already are not copied again.
+void go_on(Question (&questions)[2], const Scene& scene, std::size_t frame, const Queue& queue)
+{
+    Input& first = questions[0].input;
+    std::swap(first.device_points, first.device_end_points);
+    first.device_end_points.upload(queue.cl(), scene.frames[frame + 1]);
+    for (Question& question : questions) {
+        question.input.points = scene.frames[frame];
+        question.input.end_points = scene.frames[frame + 1];
+        question.input.device_points = first.device_points;
+        question.input.device_end_points = first.device_end_points;
+    }
+}
+
+}  // namespace
+
+void collide_swept(Session& session, const CollideTask& task, int& order,
+                   const std::function<void(std::vector<Cell>&&, const Found&)>& add,
+                   const std::function<bool(std::size_t cells)>& passes)
+{
+    check_swept(task);
+    const Scene scene = scene_of(task, session.scenes());
+    if (scene.frames.size() < 2)
+        throw Unavailable("swept boxes need two frames, and scene '" + task.scene +
+                          "' has one; bend:" + task.scene + " has two");
+    const FrameRange steps = frames_of(task, scene.frames.size() - 1, "steps");
+
+    Question questions[] = {{"vertex-face", Among::between_objects, vertices_and_faces(scene)},
+                            {"edge-edge", Among::within_objects, unique_edges(scene)}};
+    for (Question& question : questions)
+        question.ask(task);
+    const std::size_t cells_a_step = questions[0].running.size() + questions[1].running.size();
+    if (passes && passes((steps.end - steps.first) * cells_a_step))
+        return;
+    const std::optional<GroundTruth> truth = ground_truth_of(scene, questions[1].parts);
+    Input& first = questions[0].input;
+    first = upload(session.device(), session.queue(), scene.frames[steps.first],
+                   questions[0].parts.faces, questions[0].parts.objects);
+    upload_end(first, session.device(), session.queue(), scene.frames[steps.first + 1]);
+    questions[1].input = upload_over(first, session.device(), session.queue(),
+                                     questions[1].parts.faces, questions[1].parts.objects);
+
+    for (std::size_t step = steps.first; step < steps.end; ++step) {
+        if (step > steps.first)
+            go_on(questions, scene, step, session.queue());
+        const bool is_known = truth && truth->from_frame == step;
+        for (Question& question : questions) {
+            if (question.running.empty())
+                continue;
+            const bool of_edges = question.among == Among::within_objects;
+            question.listed = {};
+            question.counted = {};
+            if (is_known) {
+                question.listed = of_edges ? truth->edge_edge : truth->vertex_face;
+                question.counted = of_edges ? truth->swept_edge_edge : truth->swept_vertex_face;
+            }
+            FrameOfPipelines now{
+                .input = question.input,
+                .number = task.number + '/' + std::to_string(step) + '/' + question.name,
+                .scene = facts_of(task, scene, step)};
+            now.swept = {.pairs = question.name,
+                         .to_frame = static_cast<std::int64_t>(step + 1),
+                         .primitives = question.input.triangle_count()};
+            now.judge_more = [&](const Found& found, Cell& cell) {
+                judge_step(question, found.pairs, cell);
+            };
+            Found found;
+            std::vector<Cell> cells = run_frame(session, task, question.running, now, order, found);
+            found.scene = &scene;
+            add(std::move(cells), found);
+        }
+    }
+}
+
+}  // namespace bvhbench

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "harness/record/conditions.h"
+
+#include <algorithm>
+#include <fstream>
+
+#include "harness/base/table.h"
+
+namespace bvhbench {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Other processes take so large a share of the cores that times are theirs too.
+constexpr double much_load = 0.25;
+
+/// The first word of a file; empty if it is not there.
+std::string word_in(const fs::path& path)
+{
+    std::string word;
+    std::ifstream(path) >> word;
+    return word;
+}
+
+/// Folders in `folder` whose names begin with `start`, by name.
+std::vector<fs::path> entries(const fs::path& folder, const std::string& start)
+{
+    std::vector<fs::path> found;
+    std::error_code error;
+    for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
+        if (at->path().filename().string().starts_with(start))
+            found.push_back(at->path());
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
+std::string governor_of(const fs::path& cpus)
+{
+    std::string governor;
+    for (const fs::path& cpu : entries(cpus, "cpu"))
+        if (const std::string word = word_in(cpu / "cpufreq/scaling_governor"); !word.empty()) {
+            governor = word;
+            if (word != "performance")
+                break;
+        }
+    return governor;
+}
+
+std::optional<bool> turbo_of(const fs::path& cpus)
+{
+    if (const std::string off = word_in(cpus / "intel_pstate/no_turbo"); !off.empty())
+        return off == "0";
+    if (const std::string on = word_in(cpus / "cpufreq/boost"); !on.empty())
+        return on == "1";
+    return std::nullopt;
+}
+
+/// A laptop's: a battery that is being drawn from. Desktops have none.
+std::optional<bool> on_battery(const fs::path& supplies)
+{
+    std::optional<bool> drawn;
+    for (const fs::path& supply : entries(supplies, ""))
+        if (word_in(supply / "type") == "Battery" && word_in(supply / "scope") != "Device")
+            drawn = drawn.value_or(false) || word_in(supply / "status") == "Discharging";
+    return drawn;
+}
+
+std::optional<double> load_of(const fs::path& path)
+{
+    double load = 0;
+    std::ifstream file(path);
+    return file >> load ? std::optional(load) : std::nullopt;
+}
+
+}  // namespace
+
+HostConditions host_conditions(int threads, const std::string& build_type, const fs::path& root)
+{
+    const fs::path cpus = root / "sys/devices/system/cpu";
+    HostConditions found{.governor = governor_of(cpus),
+                         .turbo = turbo_of(cpus),
+                         .on_battery = on_battery(root / "sys/class/power_supply"),
+                         .load = load_of(root / "proc/loadavg"),
+                         .warnings = {}};
+    const auto warn = [&](std::string text) { found.warnings.push_back(std::move(text)); };
+    if (build_type != "Release")
+        warn("this is a " + (build_type.empty() ? "untyped" : build_type) +
+             " build: times are those of Release builds only");
+    if (found.on_battery.value_or(false))
+        warn("the host is on battery, which slows it down");
+    if (!found.governor.empty() && found.governor != "performance")
+        warn("the clock's governor is " + found.governor + ", not performance");
+    if (found.turbo.value_or(false))
+        warn("turbo is on: clocks depend on temperature and on what other cores do");
+    if (found.load.value_or(0) > much_load * threads)
+        warn("other processes are running: load " + fixed(*found.load, 1) + " on " +
+             std::to_string(threads) + " threads when it began");
+    return found;
+}
+
+}  // namespace bvhbench

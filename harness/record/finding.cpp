@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "harness/record/finding.h"
+
+#include <algorithm>
+
+namespace bvhbench {
+namespace {
+
+/// How much a verdict says: a broken promise stands above all.
+int weight(Finding::Verdict verdict)
+{
+    return verdict == Finding::Verdict::broken ? 2 : verdict == Finding::Verdict::refused ? 1 : 0;
+}
+
+}  // namespace
+
+void join(Finding& all, const Finding& more)
+{
+    if (weight(more.verdict) > weight(all.verdict)) {
+        all.verdict = more.verdict;
+        all.detail = more.detail;
+    }
+    all.checked += more.checked;
+    all.wrong += more.wrong;
+    all.missed += more.missed;
+}
+
+void join(Findings& all, const Findings& more)
+{
+    for (const auto& [invariant, finding] : more)
+        if (const auto [at, is_new] = all.try_emplace(invariant, finding); !is_new)
+            join(at->second, finding);
+}
+
+Findings with_words(std::string_view words, Findings findings)
+{
+    for (auto& [invariant, finding] : findings)
+        if (!finding.detail.empty())
+            finding.detail = std::string(words) + ": " + finding.detail;
+    return findings;
+}
+
+bool is_refused(const StressCell& cell)
+{
+    return cell.kind != StressCell::Kind::host && !cell.findings.empty() &&
+           std::all_of(cell.findings.begin(), cell.findings.end(), [](const auto& entry) {
+               return entry.second.verdict == Finding::Verdict::refused;
+           });
+}
+
+bool is_our_fault(const StressCell& cell)
+{
+    return cell.library.empty() &&
+           std::any_of(cell.findings.begin(), cell.findings.end(), [](const auto& entry) {
+               return entry.second.verdict == Finding::Verdict::broken;
+           });
+}
+
+}  // namespace bvhbench

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: MIT
+#include "harness/record/output.h"
+#include "harness/base/file_text.h"
+
+#include <fcntl.h>
+#include <sys/random.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "geometry/error.h"
+#include "geometry/hash.h"
+#include "geometry/host_memory.h"
+
+namespace bvhbench {
+namespace {
+
+/// What a byte of JSON takes while it is read, about: itself, and its share of the document.
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+constexpr int most_links = 40;  ///< as Linux has it
+constexpr auto patience = 1s;   ///< the system takes a moment to end a process that was killed
+
+[[noreturn]] void fail(const fs::path& path, const std::string& why)
+{
+    throw Unavailable(path.string() + " cannot be written: " + why);
+}
+
+[[noreturn]] void fail(const fs::path& path) { fail(path, std::strerror(errno)); }
+
+fs::path folder_of(const fs::path& path)
+{
+    return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+/// The file that `path` names after all links, which need not be there.
+fs::path without_links(fs::path path)
+{
+    std::error_code error;
+    for (int link = 0; fs::is_symlink(path, error); ++link) {
+        if (link == most_links)
+            fail(path, "too many links");
+        path = folder_of(path) / fs::read_symlink(path, error);
+    }
+    return path;
+}
+
+/// Standard output or standard error, if one of them is the file that `about` describes; else -1. Written through another
+/// descriptor, the two would overwrite each other.
+int standard_stream(const struct stat& about)
+{
+    for (const int file : {STDOUT_FILENO, STDERR_FILENO}) {
+        struct stat opened = {};
+        if (fstat(file, &opened) == 0 && opened.st_dev == about.st_dev &&
+            opened.st_ino == about.st_ino)
+            return file;
+    }
+    return -1;
+}
+
+/// Whether `file`, which is there, is `input` or lies in that folder.
+bool is_input(const fs::path& file, const fs::path& input)
+{
+    std::error_code error;
+    if (fs::equivalent(file, input, error))
+        return true;
+    if (!fs::is_directory(input, error))
+        return false;
+    const fs::path inside = fs::canonical(file, error);
+    const fs::path folder = fs::canonical(input, error);
+    return std::mismatch(folder.begin(), folder.end(), inside.begin(), inside.end()).first ==
+           folder.end();
+}
+
+/// "is a result of 3 cells" or what else it is.
+std::string contents_of(const std::string& text)
+{
+    const auto json = nlohmann::json::parse(text, nullptr, false);
+    std::size_t cells = 0;
+    if (!json.is_object() || !json.contains("format") || !json.contains("cells"))
+        return "is there already";
+    for (const char* list : {"cells", "stress"})
+        cells += json.contains(list) ? json[list].size() : 0;
+    return "is a result of " + std::to_string(cells) + (cells == 1 ? " cell" : " cells");
+}
+
+std::string random_name()
+{
+    std::uint64_t number = 0;
+    if (getrandom(&number, sizeof number, 0) != sizeof number)
+        number =
+            static_cast<std::uint64_t>(getpid()) ^
+            static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch().count());
+    return hex(number);
+}
+
+}  // namespace
+
+Output::Output(const fs::path& path, const std::string& option, const OutputRules& rules)
+    : path_(path)
+{
+    if (path.empty())
+        return;
+    struct stat about = {};
+    const bool is_there = stat(path.c_str(), &about) == 0;
+    if (is_there && S_ISDIR(about.st_mode))
+        throw BadUsage(option + ": " + path.string() + " is a folder; name a file in it");
+    if (path.extension() == ".xz")
+        throw BadUsage(option + ": " + path.string() +
+                       " is not written packed; write it without .xz and pack it with xz");
+    is_file_ = !is_there || (S_ISREG(about.st_mode) && standard_stream(about) < 0);
+    if (!is_file_)
+        return;
+    target_ = without_links(path);
+    if (!fs::is_directory(folder_of(target_)))
+        fail(path, "there is no folder " + folder_of(target_).string());
+    if ((is_there && access(target_.c_str(), W_OK) != 0) ||
+        access(folder_of(target_).c_str(), W_OK | X_OK) != 0)
+        fail(path);
+    const fs::path lock = folder_of(target_) / ("." + target_.filename().string() + ".lock");
+    lock_ = std::make_unique<FileLock>(lock, FileLock::Kind::exclusive, path.string(), patience);
+    lock_->remove_at_end();
+    // Whoever had the lock may have written the file.
+    was_there_ = stat(target_.c_str(), &about) == 0 && about.st_size > 0;
+    if (was_there_)
+        check_earlier(rules, option);
+}
+
+void Output::check_earlier(const OutputRules& rules, const std::string& option)
+{
+    for (const std::string& input : rules.inputs)
+        if (is_input(target_, input))
+            throw BadUsage(option + ": " + path_.string() +
+                           " is read by this command; it is not replaced, choose another file");
+    if (rules.force)
+        return;
+    const std::string text = file_text(target_, "the earlier file");
+    if (!rules.may_replace || !rules.may_replace(text))
+        throw BadUsage(option + ": " + path_.string() + ' ' + contents_of(text) +
+                       "; --force replaces it, or choose another file");
+}
+
+void Output::replace(std::string_view text) const
+{
+    Writer writer(*this);
+    writer.append(text);
+    writer.finish();
+}
+
+Output::Writer::Writer(const Output& output) : output_(output)
+{
+    struct stat about = {};
+    const bool is_there = stat(output.path_.c_str(), &about) == 0;
+    if (!output.is_file_) {
+        std::cout.flush();
+        const int stream = is_there ? standard_stream(about) : -1;
+        file_ = stream >= 0 ? fcntl(stream, F_DUPFD_CLOEXEC, 0)
+                            : open(output.path_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+    } else {
+        temporary_ = output.target_;
+        temporary_ += ".tmp" + random_name();
+        file_ =
+            open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    }
+    if (file_ < 0)
+        fail(output.path_);
+    if (output.is_file_ && is_there) {
+        // Only root may give a file away; for others it is theirs already, or becomes theirs.
+        [[maybe_unused]] const int given = fchown(file_, about.st_uid, about.st_gid);
+        fchmod(file_, about.st_mode & 07777);
+    }
+}
+
+Output::Writer::~Writer()
+{
+    if (file_ < 0)
+        return;
+    close(file_);
+    if (!temporary_.empty())
+        unlink(temporary_.c_str());
+}
+
+void Output::Writer::append(std::string_view text)
+{
+    while (!text.empty()) {
+        const ssize_t count = write(file_, text.data(), text.size());
+        if (count < 0 && errno != EINTR)
+            fail(output_.path_);
+        text.remove_prefix(count > 0 ? static_cast<std::size_t>(count) : 0);
+    }
+}
+
+void Output::Writer::finish()
+{
+    if (!temporary_.empty()) {
+        if (fsync(file_) != 0 || std::rename(temporary_.c_str(), output_.target_.c_str()) != 0)
+            fail(output_.path_);
+        if (const int folder =
+                open(folder_of(output_.target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+            folder >= 0) {
+            fsync(
+                folder);  // a file system that cannot sync a folder has renamed the file all the same
+            close(folder);
+        }
+        temporary_.clear();
+    }
+    const int file = std::exchange(file_, -1);
+    if (close(file) != 0)
+        fail(output_.path_);
+}
+
+void check_pictures(const fs::path& folder, const std::string& option, OutputRules rules)
+{
+    rules.may_replace = [](const std::string& text) {
+        return text.starts_with("\x89PNG\r\n") || text.find("<svg") != text.npos;
+    };
+    std::error_code error;
+    // Of a folder no pictures are read.
+    std::erase_if(rules.inputs, [&](const auto& input) { return fs::is_directory(input, error); });
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
+        if (const fs::path end = entry.path().extension(); end == ".png" || end == ".svg")
+            Output(entry.path(), option, rules);
+}
+
+void make_folder(const fs::path& folder)
+{
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (!fs::is_directory(folder))
+        throw Unavailable("the folder " + folder.string() + " cannot be made: " +
+                          (error ? error.message() : "a file is in its place"));
+}
+
+}  // namespace bvhbench

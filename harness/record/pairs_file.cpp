@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "harness/record/pairs_file.h"
+
+#include <algorithm>
+
+#include "geometry/error.h"
+#include "scenes/face_order.h"
+
+namespace bvhbench {
+
+void check_pairs_path(const std::filesystem::path& path, const FrameRange& frames)
+{
+    if (path.extension() != ".csv" && path.extension() != ".bin")
+        throw BadUsage("pairs are written to .csv or .bin, not to '" + path.string() + "'");
+    if (path.extension() == ".bin" && frames.end != frames.first + 1)
+        throw BadUsage("'" + path.string() +
+                       "' would hold the pairs of several frames: choose one by --frames, or .csv");
+}
+
+PairsFile::PairsFile(const Output& output, bool is_swept)
+    : is_csv_(output.path().extension() == ".csv"), is_swept_(is_swept)
+{
+    if (output.is_nowhere())
+        return;
+    writer_.emplace(output);
+    if (is_csv_)
+        writer_->append(is_swept ? "frame,a,b\n" : "frame,object_a,object_b,a,b\n");
+}
+
+std::string PairsFile::lines(std::span<const Pair> pairs, std::size_t frame) const
+{
+    std::string text;
+    for (const Pair pair : pairs) {
+        text += std::to_string(frame) + ',';
+        if (!is_swept_)
+            text += std::to_string(objects_[pair.a]) + ',' + std::to_string(objects_[pair.b]) + ',';
+        text += std::to_string(pair.a) + ',' + std::to_string(pair.b) + '\n';
+    }
+    return text;
+}
+
+void PairsFile::add(const PairList& pairs, std::size_t frame, const Scene& scene)
+{
+    if (!writer_)
+        return;
+    if (!is_csv_) {
+        writer_->append(
+            {reinterpret_cast<const char*>(pairs.pairs().data()), pairs.pairs().size_bytes()});
+        return;
+    }
+    if (objects_.empty() && !is_swept_)
+        objects_ = objects_in_file(scene);
+    constexpr std::size_t at_once = 1 << 16;  // 2 MB of text or so
+    for (std::size_t k = 0; k < pairs.size(); k += at_once)
+        writer_->append(
+            lines(pairs.pairs().subspan(k, std::min(at_once, pairs.size() - k)), frame));
+}
+
+void PairsFile::finish()
+{
+    if (writer_)
+        writer_->finish();
+}
+
+}  // namespace bvhbench

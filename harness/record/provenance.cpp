@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#include "harness/record/provenance.h"
+
+#include <dlfcn.h>
+#include <sys/utsname.h>
+
+#include <algorithm>
+#include <array>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <thread>
+
+#include "harness/base/build_info.h"
+#include "harness/base/test_hooks.h"
+
+namespace bvhbench {
+namespace {
+
+/// The value after the colon of the first line of `path` that starts with `key`; empty if there is none.
+std::string value_in(const char* path, const std::string& key)
+{
+    std::ifstream file(path);
+    for (std::string line; std::getline(file, line);)
+        if (line.starts_with(key))
+            if (const std::size_t colon = line.find(':'); colon != std::string::npos)
+                if (const std::size_t start = line.find_first_not_of(" \t", colon + 1);
+                    start != std::string::npos)
+                    return line.substr(start);
+    return {};
+}
+
+/// "ocl-icd 2.3.1" where the loader tells its name; only ocl-icd does, through a function of its own.
+std::string loader_version()
+{
+    using Info = int (*)(int what, std::size_t size, void* value, std::size_t* size_needed);
+    constexpr int loader_version_text = 2;
+    constexpr int loader_name = 3;
+    const auto info = reinterpret_cast<Info>(dlsym(RTLD_DEFAULT, "clGetICDLoaderInfoOCLICD"));
+    std::array<char, 128> name{};
+    std::array<char, 128> version{};
+    if (info == nullptr || info(loader_name, name.size() - 1, name.data(), nullptr) != 0 ||
+        info(loader_version_text, version.size() - 1, version.data(), nullptr) != 0)
+        return "unknown, headers " BVHBENCH_OPENCL_VERSION;
+    return std::string(name.data()) + ' ' + version.data();
+}
+
+/// Without the blanks that some drivers put at the end.
+std::string trimmed(std::string text)
+{
+    text.erase(text.find_last_not_of(' ') + 1);
+    return text;
+}
+
+/// Whether OpenCL C 3.0 programs may hand data from one group to another with acquire and release. A driver older than
+/// OpenCL 3.0 does not know the question.
+bool has_device_scope_acq_rel(const cl::Device& device)
+{
+    cl_device_atomic_capabilities can = 0;
+    return clGetDeviceInfo(device(), CL_DEVICE_ATOMIC_MEMORY_CAPABILITIES, sizeof can, &can,
+                           nullptr) == CL_SUCCESS &&
+           (can & CL_DEVICE_ATOMIC_ORDER_ACQ_REL) != 0 &&
+           (can & CL_DEVICE_ATOMIC_SCOPE_DEVICE) != 0;
+}
+
+std::string kind_of(const cl::Device& device)
+{
+    const auto type = device.getInfo<CL_DEVICE_TYPE>();
+    return (type & CL_DEVICE_TYPE_CPU) != 0   ? "cpu"
+           : (type & CL_DEVICE_TYPE_GPU) != 0 ? "gpu"
+                                              : "other";
+}
+
+std::string run_id(const std::string& host)
+{
+    std::array<char, 32> time{};
+    const std::time_t now = std::time(nullptr);
+    std::tm parts{};
+    gmtime_r(&now, &parts);
+    std::strftime(time.data(), time.size(), "%Y%m%dT%H%M%SZ", &parts);
+    std::array<char, 8> digits{};
+    std::snprintf(digits.data(), digits.size(), "%04x", std::random_device{}() & 0xffffu);
+    return std::string(time.data()) + '-' + host + '-' + digits.data();
+}
+
+}  // namespace
+
+std::string utc_now()
+{
+    std::array<char, 32> text{};
+    const std::time_t now = std::time(nullptr);
+    std::tm parts{};
+    gmtime_r(&now, &parts);
+    std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts);
+    return text.data();
+}
+
+DeviceFacts device_facts(const Device& device)
+{
+    const cl::Device& cl = device.cl;
+    const auto whole = [](auto value) { return static_cast<std::int64_t>(value); };
+    return {
+        .name = device.name(),
+        .platform = device.platform(),
+        .driver = cl.getInfo<CL_DRIVER_VERSION>(),
+        .opencl = trimmed(cl.getInfo<CL_DEVICE_VERSION>()),
+        .opencl_c = trimmed(cl.getInfo<CL_DEVICE_OPENCL_C_VERSION>()),
+        .kind = kind_of(cl),
+        .compute_units = whole(cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()),
+        .global_memory_bytes = whole(cl.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>()),
+        .max_allocation_bytes = whole(cl.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>()),
+        .local_memory_bytes = whole(cl.getInfo<CL_DEVICE_LOCAL_MEM_SIZE>()),
+        .max_group_size = whole(cl.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>()),
+        .timer_resolution_ns = whole(cl.getInfo<CL_DEVICE_PROFILING_TIMER_RESOLUTION>()),
+        .correctly_rounded_division =
+            (cl.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) != 0,
+        .device_scope_acq_rel_atomics = has_device_scope_acq_rel(cl),
+    };
+}
+
+RunFacts run_facts(const Device& device, std::vector<std::string> command)
+{
+    utsname system{};
+    uname(&system);
+    RunFacts run;
+    run.host_name = system.nodename;
+    run.host_os = std::string(system.sysname) + ' ' + system.release;
+    run.host_cpu = value_in("/proc/cpuinfo", "model name");
+    run.host_threads = static_cast<int>(std::thread::hardware_concurrency());
+    run.id = run_id(run.host_name);
+    run.started_at = utc_now();
+    run.command = std::move(command);
+    if (!run.command.empty())  // where the program lay says nothing to who reads the file elsewhere
+        run.command.front() = std::filesystem::path(run.command.front()).filename().string();
+    run.version = build_info.version;
+    run.commit = build_info.commit;
+    run.dirty = build_info.dirty;
+    run.build_type = build_info.build_type;
+    run.compiler = build_info.compiler;
+    run.arch = build_info.arch;
+    run.kernels = device.sources.origin();
+    run.device = device_facts(device);
+    run.test_hooks = test_hooks();
+    run.conditions = host_conditions(run.host_threads, run.build_type);
+    run.tuning_from = device.tuning.origin();
+    for (const auto& [name, value] : device.tuning.values())
+        run.tuning[std::string(name)] = value;
+    run.libraries = {{"assimp", BVHBENCH_ASSIMP_VERSION},
+                     {"nlohmann_json", BVHBENCH_JSON_VERSION},
+                     {"CLI11", BVHBENCH_CLI11_VERSION},
+                     {"OpenCL loader", loader_version()}};
+    // Only those that are compiled in: of the others there are no results.
+#if BVHBENCH_HAS_EMBREE
+    run.libraries["Embree"] = BVHBENCH_EMBREE_VERSION;
+#endif
+#if BVHBENCH_HAS_FCL
+    run.libraries["FCL"] = BVHBENCH_FCL_VERSION;
+#endif
+    return run;
+}
+
+}  // namespace bvhbench

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+#include "harness/record/result_file.h"
+#include "harness/base/file_text.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "geometry/error.h"
+#include "geometry/host_memory.h"
+#include "harness/record/provenance.h"
+
+namespace bvhbench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The document of an earlier process of the run; nothing if the text is something else.
+std::optional<Json> document_of(const std::string& run_id, const std::string& text)
+{
+    Json json = Json::parse(text, nullptr, false);
+    const bool is_own = !run_id.empty() && json.is_object() &&
+                        json.value("format", "") == result_format && json.contains("run") &&
+                        json["run"].is_object() && json["run"].value("id", "") == run_id &&
+                        json.contains("cells");
+    return is_own ? std::optional(std::move(json)) : std::nullopt;
+}
+
+Cell::Status status_called(const std::string& name)
+{
+    return name == "measured"  ? Cell::Status::measured
+           : name == "skipped" ? Cell::Status::skipped
+                               : Cell::Status::failed;
+}
+
+int order_after(const Json& cell)
+{
+    int next = 0;
+    if (cell.contains("samples"))
+        for (const Json& sample : cell["samples"])
+            next = std::max(next, sample.value("order", 0) + 1);
+    return next;
+}
+
+/// What the process took up to now; what an earlier process of the run took stays where it is more.
+void note_memory(Json& run)
+{
+    const HostMemoryFacts now = host_memory_facts();
+    const Json before = run.value("host_memory", Json::object());
+    const auto most = [&](const char* key, std::uint64_t bytes) {
+        return std::max(bytes, before.value(key, std::uint64_t{0}));
+    };
+    if (now.peak > 0)
+        run["host_memory"] = {{"given_bytes", now.given},
+                              {"predicted_bytes", most("predicted_bytes", now.predicted)},
+                              {"peak_bytes", most("peak_bytes", now.peak)}};
+}
+
+}  // namespace
+
+OutputRules result_rules(bool force, std::vector<std::string> inputs, std::string own_run)
+{
+    return {.force = force,
+            .inputs = std::move(inputs),
+            .may_replace = [own_run = std::move(own_run)](const std::string& text) {
+                return document_of(own_run, text).has_value();
+            }};
+}
+
+ResultFile::ResultFile(Output output, const RunFacts& run, const std::string& goes_on)
+    : output_(std::move(output)), run_id_(run.id), run_(run_text(run))
+{
+    if (!goes_on.empty() && output_.was_there())
+        take_over(goes_on);
+    if (output_.is_file())
+        at_signal_.emplace([this] { keep(); }, "finished cells are kept");
+}
+
+void ResultFile::take_over(const std::string& run_id)
+{
+    const std::optional<Json> json =
+        document_of(run_id, file_text(output_.path(), "the result file"));
+    if (!json)
+        return;
+    run_id_ = run_id;
+    run_ = (*json)["run"].dump();
+    for (const Json& cell : (*json)["cells"]) {
+        cells_.push_back({.text = cell.dump(),
+                          .status = status_called(cell.value("status", "")),
+                          .differs = cell.value("/check/verdict"_json_pointer, "") == "differs",
+                          .reason = cell.value("reason", "")});
+        next_order_ = std::max(next_order_, order_after(cell));
+    }
+    has_measured_ = true;  // the earlier file is this run's own
+    goes_on_ = true;
+}
+
+bool ResultFile::pass(std::size_t count)
+{
+    const std::lock_guard lock(mutex_);
+    if (goes_on_ && cells_.size() >= passed_ + count) {
+        passed_ += count;
+        return true;
+    }
+    if (goes_on_)
+        cells_.resize(passed_);
+    goes_on_ = false;
+    return false;
+}
+
+void ResultFile::keep()
+{
+    using namespace std::chrono_literals;
+    const std::unique_lock lock(mutex_, 1s);
+    if (!lock)
+        throw Unavailable(output_.path().string() + " takes too long to write");
+    if (!is_written_ && output_.is_file())
+        write();
+}
+
+int ResultFile::next_order() const { return next_order_; }
+
+ResultFile::~ResultFile()
+{
+    at_signal_.reset();
+    try {
+        keep();
+    } catch (const std::exception&) {  // a destructor must not throw
+    }
+}
+
+void ResultFile::add(const Cell& cell)
+{
+    const std::lock_guard lock(mutex_);
+    has_measured_ = has_measured_ || cell.status == Cell::Status::measured;
+    cells_.push_back({.text = cell_text(cell),
+                      .status = cell.status,
+                      .differs = cell.check.verdict == Check::Verdict::differs,
+                      .reason = cell.reason});
+    write_if_due();
+}
+
+void ResultFile::add(const StressCell& cell)
+{
+    const std::lock_guard lock(mutex_);
+    has_measured_ = true;
+    stress_.push_back(cell_text(cell));
+    write_if_due();
+}
+
+void ResultFile::write_if_due()
+{
+    using namespace std::chrono_literals;
+    is_written_ = false;
+    if (output_.is_file() && std::chrono::steady_clock::now() - written_at_ >= 500ms)
+        write();
+}
+
+void ResultFile::took_turns(const std::vector<std::string>& others)
+{
+    Json run = Json::parse(run_);
+    run["turns_with"] = others;
+    run_ = run.dump();
+}
+
+void ResultFile::finish(std::int64_t compile_ns)
+{
+    const std::lock_guard lock(mutex_);
+    Json run = Json::parse(run_);
+    run["compile_ns"] = compile_ns;
+    run["finished_at"] = utc_now();
+    run_ = run.dump();
+    write();
+}
+
+std::string ResultFile::text() const
+{
+    std::vector<std::string> texts;
+    for (const Kept& cell : cells_)
+        texts.push_back(cell.text);
+    return document_text(run_, texts, stress_);
+}
+
+int ResultFile::exit_code() const
+{
+    const auto is_measured = [](const Kept& cell) { return cell.status == Cell::Status::measured; };
+    if (!cells_.empty() && std::none_of(cells_.begin(), cells_.end(), is_measured))
+        throw NothingMeasured("nothing was measured: " + cells_.front().reason +
+                              (cells_.size() > 1
+                                   ? " (the first of " + std::to_string(cells_.size()) + " cells)"
+                                   : ""));
+    return std::any_of(cells_.begin(), cells_.end(),
+                       [&](const Kept& cell) { return is_measured(cell) && cell.differs; })
+               ? 1
+               : 0;
+}
+
+std::string ResultFile::written() const
+{
+    return (is_worth_writing() ? "written: " : "nothing was measured, so it stays as it was: ") +
+           output_.path().string() + '\n';
+}
+
+/// Cells that say why nothing was measured are worth a file, but not one that was there.
+bool ResultFile::is_worth_writing() const
+{
+    return has_measured_ || (!cells_.empty() && !output_.was_there());
+}
+
+void ResultFile::write()
+{
+    Json run = Json::parse(run_);
+    note_memory(run);
+    run_ = run.dump();
+    if (!output_.is_nowhere() && is_worth_writing())
+        output_.replace(text());
+    written_at_ = std::chrono::steady_clock::now();
+    is_written_ = true;
+}
+
+}  // namespace bvhbench

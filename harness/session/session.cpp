@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include "harness/session/session.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+
+#include "geometry/error.h"
+#include "geometry/host_memory.h"
+#include "harness/session/tuning_file.h"
+
+namespace bvhbench {
+
+SceneLibrary scene_library(const CommonOptions& common)
+{
+    SceneLibrary library;
+    const char* variable = std::getenv("BVHBENCH_DATA");
+    library.data = !common.data.empty() ? common.data : variable != nullptr ? variable : "";
+    library.doubles = doubles_called(common.doubles);
+    library.tell = [](const std::string& line) { std::cerr << line << '\n'; };
+    return library;
+}
+
+Device open_device_of(const CommonOptions& common)
+{
+    if (!common.kernels.empty() && !std::filesystem::is_directory(common.kernels))
+        throw Unavailable("--kernels: there is no folder '" + common.kernels + "'");
+    Device device =
+        open_device(common.device,
+                    common.kernels.empty() ? Sources::preferred() : Sources::tree(common.kernels));
+    // Again, with the stacks of the driver's threads: they are mapped, and little of them is ever in memory.
+    limit_host_memory(common.memory_limit);
+    if (common.memory_limit > 0)
+        device.memory_limit = common.memory_limit;
+    const auto [file, origin] = tuning_file_for(device, tuning_folder(common.tuning));
+    device.tuning = tuning_of(file, device, origin);
+    return device;
+}
+
+Session::Session(Device device, SceneLibrary library, double time_limit_s)
+    : watchdog_(time_limit_s)
+    , device_(std::move(device))
+    , programs_(device_)
+    , queue_(std::make_unique<Queue>(device_))
+    , library_(std::move(library))
+{}
+
+Session::Session(const CommonOptions& common) : Session(std::make_unique<PoclCache>(), common) {}
+
+/// The cache first: drivers look for it when they are asked for their devices.
+Session::Session(std::unique_ptr<PoclCache> cache, const CommonOptions& common)
+    : Session(open_device_of(common), scene_library(common), common.time_limit_s)
+{
+    cache_ = std::move(cache);
+    if (common.verbose)
+        std::cerr << "device: " << device_.platform() << '/' << device_.name()
+                  << "\nkernels: " << device_.sources.origin()
+                  << "\ntuning: " << device_.tuning.origin() << '\n';
+}
+
+/// In its place: trees that stand were built through it and are read through it.
+void Session::renew_queue()
+{
+    Queue fresh(device_);
+    std::swap(*queue_, fresh);
+}
+
+Builder& Session::builder(const BuilderChoice& choice, Operation operation)
+{
+    for (const Made& made : builders_)
+        if (made.choice == choice && made.operation == operation)
+            return *made.builder;
+    // The choice is stored first: the builder may keep looking at its words.
+    builders_.push_back({choice, operation, nullptr});
+    try {
+        builders_.back().builder = make_builder(builders_.back().choice, programs_);
+    } catch (...) {
+        builders_.pop_back();
+        throw;
+    }
+    return *builders_.back().builder;
+}
+
+void Session::empty_caches(bool before_each)
+{
+    if (before_each && !cache_flush_)
+        cache_flush_.emplace(programs_, queue());
+    cold_ = before_each;
+}
+
+void Session::take_turns(const std::string& path, const std::string& id)
+{
+    if (path.empty())
+        return;
+    const std::size_t colon = path.rfind(':');
+    int count = 0;
+    const char* end = path.data() + path.size();
+    if (colon == path.npos || colon == 0 ||
+        std::from_chars(path.data() + colon + 1, end, count).ptr != end || count < 2 || count > 64)
+        throw BadUsage(
+            "--turns names a file and how many runs take turns by it, as out/turns:2, not '" +
+            path + "'");
+    turns_.emplace(path.substr(0, colon), count, id);
+}
+
+std::int64_t Session::calibrate()
+{
+    try {
+        return watchdog_.watch([&] {
+            if (!calibration_)
+                calibration_.emplace(programs_, queue());
+            return calibration_->take(queue());
+        });
+    } catch (...) {
+        renew_queue();  // else the next sample finds what is left of this
+        throw;
+    }
+}
+
+void Session::give_head_start()
+{
+    if (cold_)
+        cache_flush_->flush(queue());
+    if (!head_start_)
+        head_start_.emplace(programs_, queue());
+    head_start_->give(queue());
+}
+
+std::vector<StageTime> Session::build_once(Builder& builder, const Input& input, Start start,
+                                           const Tree** tree)
+{
+    return watchdog_.watch([&] {
+        give_head_start();
+        const Tree& built = builder.build(input, queue(), start);
+        if (tree != nullptr)
+            *tree = &built;
+        return queue().finish();
+    });
+}
+
+std::vector<StageTime> Session::refit_once(Builder& builder, const Input& input, const Tree** tree)
+{
+    return watchdog_.watch([&] {
+        give_head_start();
+        const Tree& refitted = builder.refit(input, queue());
+        if (tree != nullptr)
+            *tree = &refitted;
+        return queue().finish();
+    });
+}
+
+}  // namespace bvhbench

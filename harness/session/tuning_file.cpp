@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+#include "harness/session/tuning_file.h"
+#include "harness/base/file_text.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <vector>
+
+#include "baselines/parameters.h"
+#include "builders/parameters.h"
+#include "collide/parameters.h"
+#include "geometry/error.h"
+#include "harness/base/json_keys.h"
+#include "harness/base/json_reason.h"
+#include "harness/record/output.h"
+
+namespace bvhbench {
+namespace {
+
+constexpr auto format = "tuning 1";
+
+TunedValue value_of(const Json& json, const Parameter& parameter)
+{
+    if (!json.is_object() || !json.contains("value"))
+        throw BadUsage("'" + std::string(parameter.name) + "' must be an object with a 'value'");
+    refuse_unknown_keys(json,
+                        {"value", "target", "scene", "ratio", "samples", "found_at", "commit"},
+                        std::string(parameter.name));
+    if (!json["value"].is_number_unsigned() || json["value"].get<std::uint64_t>() > parameter.most)
+        throw BadUsage(std::string(parameter.name) + " must be from " +
+                       std::to_string(parameter.least) + " to " + std::to_string(parameter.most) +
+                       ", not " + json["value"].dump());
+    TunedValue value;
+    value.value = json["value"].get<uint>();
+    if (const std::string why = parameter.refusal(value.value); !why.empty())
+        throw BadUsage(std::string(parameter.name) + ' ' + why);
+    const auto text = [&](const char* key) {
+        return json.contains(key) ? text_at(json, key) : std::string();
+    };
+    value.target = text("target");
+    value.scene = text("scene");
+    value.found_at = text("found_at");
+    value.commit = text("commit");
+    if (json.contains("ratio")) {
+        if (!json["ratio"].is_number())
+            throw BadUsage("'ratio' must be a number, not " + json["ratio"].dump());
+        value.ratio = json["ratio"].get<double>();
+    }
+    if (json.contains("samples"))
+        value.samples = static_cast<int>(whole_number(json["samples"], "samples", 0, 1000000));
+    return value;
+}
+
+TuningFile file_of(const Json& json, const std::string& origin)
+{
+    if (!json.is_object() || !json.contains("format") || json["format"] != format)
+        throw BadUsage("'format' is not \"" + std::string(format) + '"');
+    refuse_unknown_keys(json, {"format", "device", "driver", "values"}, "a tuning file");
+    TuningFile file;
+    file.device = json.contains("device") ? text_at(json, "device") : "";
+    file.driver = json.contains("driver") ? text_at(json, "driver") : "";
+    if (!json.contains("values") || !json["values"].is_object())
+        throw BadUsage("'values' must be an object of parameters");
+    for (const auto& [name, value] : json["values"].items())
+        file.values[name] = value_of(value, find_parameter(name, origin));
+    return file;
+}
+
+}  // namespace
+
+std::span<const Parameter* const> tuning_parameters()
+{
+    static const std::vector<const Parameter*> all = [] {
+        std::vector<const Parameter*> list;
+        list.insert(list.end(), std::begin(builder_parameters), std::end(builder_parameters));
+        list.insert(list.end(), std::begin(baseline_parameters), std::end(baseline_parameters));
+        list.insert(list.end(), std::begin(collider_parameters), std::end(collider_parameters));
+        return list;
+    }();
+    return all;
+}
+
+const Parameter& find_parameter(std::string_view name, const std::string& origin)
+{
+    for (const Parameter* parameter : tuning_parameters())
+        if (parameter->name == name)
+            return *parameter;
+    throw Unavailable(origin + ": no parameter is called '" + std::string(name) +
+                      "'; `bvhbench list tuning` shows them");
+}
+
+std::string device_slug(std::string_view device)
+{
+    std::string slug;
+    for (const unsigned char c : device)
+        if (std::isalnum(c) != 0)
+            slug += static_cast<char>(std::tolower(c));
+        else if (!slug.empty() && slug.back() != '-')
+            slug += '-';
+    while (slug.ends_with('-'))
+        slug.pop_back();
+    return slug.empty() ? "device" : slug;
+}
+
+TuningFile parse_tuning(std::string_view text, const std::string& origin)
+{
+    try {
+        return file_of(Json::parse(text), origin);
+    } catch (const Json::exception& error) {
+        throw Unavailable(origin + ": " + json_reason(error));
+    } catch (const BadUsage& error) {
+        throw Unavailable(origin + ": " + error.what());
+    }
+}
+
+TuningFile read_tuning(const std::filesystem::path& path)
+{
+    return parse_tuning(file_text(path, "the tuning file"), path.string());
+}
+
+std::string tuning_text(const TuningFile& file)
+{
+    Json json = {{"format", format}, {"device", file.device}, {"driver", file.driver}};
+    json["values"] = Json::object();
+    for (const auto& [name, value] : file.values)
+        json["values"][name] = {{"value", value.value},     {"target", value.target},
+                                {"scene", value.scene},     {"ratio", value.ratio},
+                                {"samples", value.samples}, {"found_at", value.found_at},
+                                {"commit", value.commit}};
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+Tuning tuning_of(const TuningFile& file, const Device& device, const std::string& origin)
+{
+    if (!file.values.empty() && file.device != device.name())
+        throw Unavailable(origin + ": its values are of '" + file.device +
+                          "', and the device is '" + device.name() + "'");
+    Tuning tuning(origin);
+    for (const auto& [name, found] : file.values) {
+        const Parameter& parameter = find_parameter(name, origin);
+        if (parameter.values == ValueIs::group_size)
+            device.require_group(origin + ": " + name, found.value, 0);
+        tuning.set(parameter, found.value);
+    }
+    return tuning;
+}
+
+std::optional<std::string> tuning_folder(const std::optional<std::string>& option)
+{
+    if (option)
+        return option;
+    if (const char* variable = std::getenv("BVHBENCH_TUNING"))
+        return std::string(variable);
+    return std::nullopt;
+}
+
+NamedTuning tuning_file_for(const Device& device, const std::optional<std::string>& folder)
+{
+    const std::string name = device_slug(device.name()) + ".json";
+    if (!folder) {
+        const std::string path = "results/tuning/" + name;
+        if (const auto text = embedded_tuning(path))
+            return {parse_tuning(*text, path), path};
+        return {{}, "none"};
+    }
+    if (folder->empty())
+        return {{}, "none"};
+    if (!std::filesystem::is_directory(*folder))
+        throw Unavailable("tuning: there is no folder '" + *folder + "'");
+    const std::filesystem::path path = std::filesystem::path(*folder) / name;
+    if (!std::filesystem::exists(path))
+        return {{}, "none"};
+    return {read_tuning(path), path.string()};
+}
+
+}  // namespace bvhbench

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include "harness/session/turns.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <fstream>
+#include <thread>
+#include <vector>
+
+#include "geometry/error.h"
+
+namespace bvhbench {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto longest_wait = 120s;
+constexpr auto longest_yield = 20ms;  // the others may have samples enough, and be gone
+
+std::vector<std::string> lines_of(const std::string& path)
+{
+    std::vector<std::string> lines;
+    std::ifstream file(path);
+    for (std::string line; std::getline(file, line);)
+        lines.push_back(line);
+    return lines;
+}
+
+}  // namespace
+
+Turns::Turns(std::string path, int count, std::string id)
+    : path_(std::move(path)), count_(count), id_(std::move(id))
+{
+    if (lines_of(path_).size() >= static_cast<std::size_t>(count_))
+        throw BadUsage("--turns: " + path_ +
+                       " has been used by others; name a file that is not there");
+    descriptor_ = open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+    if (descriptor_ < 0)
+        throw Unavailable("--turns: " + path_ + " cannot be written: " + std::strerror(errno));
+}
+
+Turns::~Turns() { close(descriptor_); }
+
+void Turns::meet()
+{
+    if (!all_come())
+        throw Unavailable("--turns: not all of " + std::to_string(count_) + " runs came to " +
+                          path_ + " within two minutes");
+}
+
+void Turns::part()
+{
+    try {
+        all_come();
+    } catch (const Unavailable&) {  // a full disk: the next meeting says so
+    }
+}
+
+bool Turns::all_come()
+{
+    const std::string line = id_ + '\n';
+    if (write(descriptor_, line.data(), line.size()) != static_cast<ssize_t>(line.size()))
+        throw Unavailable("--turns: " + path_ + " cannot be written: " + std::strerror(errno));
+    ++meetings_;
+    const auto start = std::chrono::steady_clock::now();
+    for (;;) {
+        const std::vector<std::string> lines = lines_of(path_);
+        if (lines.size() >=
+            static_cast<std::size_t>(count_) * static_cast<std::size_t>(meetings_)) {
+            others_.insert(lines.begin(), lines.end());
+            others_.erase(id_);
+            return true;
+        }
+        if (std::chrono::steady_clock::now() - start > longest_wait)
+            return false;
+        std::this_thread::sleep_for(2ms);
+    }
+}
+
+Turns::Turn::Turn(Turns* turns) : turns_(turns)
+{
+    if (turns_ == nullptr)
+        return;
+    const std::string last_file = turns_->path_ + ".last";
+    const auto lock = [&] {
+        while (flock(turns_->descriptor_, LOCK_EX) != 0 && errno == EINTR) {
+        }
+    };
+    lock();
+    // A lock is given to whoever runs first, which is who has just given it back. Whoever waits is woken, and needs a moment.
+    const auto start = std::chrono::steady_clock::now();
+    while (lines_of(last_file) == std::vector{turns_->id_} &&
+           std::chrono::steady_clock::now() - start < longest_yield) {
+        flock(turns_->descriptor_, LOCK_UN);
+        std::this_thread::sleep_for(200us);
+        lock();
+    }
+    std::ofstream(last_file) << turns_->id_ << '\n';
+}
+
+Turns::Turn::~Turn()
+{
+    if (turns_ != nullptr)
+        flock(turns_->descriptor_, LOCK_UN);
+}
+
+}  // namespace bvhbench

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+//
+// What can be tuned: the sort, a builder, a collider over a builder's trees.
+#pragma once
+
+#include <string>
+
+#include "harness/choice/collider_catalog.h"
+#include "harness/session/session.h"
+#include "harness/tune/tuner.h"
+
+namespace bvhbench {
+
+/// What is tuned, and over what.
+struct TuneTask {
+    std::string target;  ///< "sort", a builder's name or a collider's
+    std::string scene;
+    BuilderChoice
+        builder;  ///< of a collider's trees, or with the options of the builder that is tuned
+    ColliderChoice collider;  ///< with the collider's options
+};
+
+/// Names of targets, and whether there is one called so. Throws BadUsage with what there are.
+void check_target(const std::string& target);
+
+/// A target over its scene, read and uploaded once; answers are worked out once, by the references.
+class TuneTarget {
+public:
+    /// Throws what loading a scene throws, and BadUsage for a target that nothing tunes.
+    TuneTarget(Session& session, TuneTask task);
+    ~TuneTarget();
+    TuneTarget(const TuneTarget&) = delete;
+    TuneTarget& operator=(const TuneTarget&) = delete;
+
+    /// One trial with such values, on the session's device. It must not outlive this.
+    std::unique_ptr<Trial> trial(const Tuning& tuning);
+
+    /// Whether a parameter is this target's own: a collider leaves builders' alone.
+    bool wants(const Parameter& parameter) const;
+
+private:
+    struct Over;  ///< the scene, the input and the answers
+    Session& session_;
+    TuneTask task_;
+    std::unique_ptr<Over> over_;
+};
+
+}  // namespace bvhbench

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: MIT
+#include "harness/tune/tuner.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "geometry/error.h"
+#include "harness/base/failure.h"
+#include "harness/base/table.h"
+#include "harness/session/sampler.h"
+#include "harness/session/statistics.h"
+
+namespace bvhbench {
+namespace {
+
+/// The times of one stage in all samples, or of all stages together, in nanoseconds.
+std::vector<double> times_of(const std::vector<Sample>& samples, std::string_view stage)
+{
+    std::vector<double> times;
+    for (const Sample& sample : samples) {
+        double ns = 0;
+        for (const StageTime& time : sample.stages)
+            if (time.stage == stage)
+                ns += static_cast<double>(time.elapsed_ns());
+        times.push_back(stage.empty() ? whole_ns(sample.stages) : ns);
+    }
+    return times;
+}
+
+double median(const std::vector<double>& values) { return quantile(values, 0.5); }
+
+/// The standard error of a median, from the median distance to it, as of a normal distribution.
+double standard_error(const std::vector<double>& values)
+{
+    const double middle = median(values);
+    std::vector<double> distances;
+    for (const double value : values)
+        distances.push_back(std::fabs(value - middle));
+    return 1.2533 * 1.4826 * median(distances) / std::sqrt(static_cast<double>(values.size()));
+}
+
+/// A value with its trial, if it can be run and is right.
+struct Contender {
+    Tried tried;
+    std::unique_ptr<Trial> trial;
+    std::vector<double> times;
+};
+
+class Search {
+public:
+    Search(const MakeTrial& make, const SearchOptions& options,
+           const std::function<void(const std::string&)>& note, SearchResult& result)
+        : make_(make), options_(options), note_(note), result_(result)
+    {}
+
+    /// Settle one parameter. Whether another value was kept.
+    bool settle(const Parameter& parameter)
+    {
+        std::vector<Contender> all;
+        const uint current = result_.best.value(parameter, options_.is_cpu);
+        all.push_back(contender(parameter, current));
+        if (all.front().trial == nullptr)
+            throw Unavailable(std::string(parameter.name) + ": the value it has is " +
+                              all.front().tried.detail);
+        all.front().tried.verdict = Tried::Verdict::current;
+        for (const uint value : parameter.candidates)
+            if (value != current && parameter.refusal(value).empty())
+                all.push_back(contender(parameter, value));
+        const bool found = measured(all);
+        for (Contender& one : all)
+            result_.tries.push_back(std::move(one.tried));
+        result_.searched.insert(&parameter);
+        return found;
+    }
+
+    /// Medians of whole runs of what was found and of what it began with. What is not faster is given up.
+    void compare_whole(const Tuning& start)
+    {
+        if (result_.kept.empty())
+            return;
+        note_("comparing with what it began with");
+        const std::unique_ptr<Trial> before = make_(start), after = make_(result_.best);
+        const std::vector<std::vector<double>> times = sampled({before.get(), after.get()}, "");
+        result_.start_ns = median(times[0]);
+        result_.best_ns = median(times[1]);
+        if (result_.best_ns < result_.start_ns && after->wrong().empty())
+            return;
+        result_.best = start;
+        result_.kept.clear();
+    }
+
+private:
+    Contender contender(const Parameter& parameter, uint value)
+    {
+        note_(std::string(parameter.name) + " = " + std::to_string(value));
+        Contender one;
+        one.tried.parameter = &parameter;
+        one.tried.value = value;
+        Tuning tuning = result_.best;
+        tuning.set(parameter, value);
+        const std::string failure = reason_of_failure([&] {
+            one.trial = make_(tuning);
+            if (const std::string why = one.trial->wrong(); !why.empty())
+                reject(one, Tried::Verdict::wrong, why);
+        });
+        if (!failure.empty())
+            reject(one, Tried::Verdict::impossible, failure);
+        return one;
+    }
+
+    static void reject(Contender& one, Tried::Verdict verdict, const std::string& why)
+    {
+        one.tried.verdict = verdict;
+        one.tried.detail = why.substr(0, why.find('\n'));  // a compiler's log goes on
+        one.tried.median_ns = one.tried.ratio = 0;
+        one.trial.reset();
+    }
+
+    /// Sample those there are, and keep the fastest if it is faster than the first, twice.
+    bool measured(std::vector<Contender>& all)
+    {
+        const Parameter& parameter = *all.front().tried.parameter;
+        std::vector<Contender*> there;
+        std::vector<Trial*> trials;
+        for (Contender& one : all)
+            if (one.trial != nullptr) {
+                there.push_back(&one);
+                trials.push_back(one.trial.get());
+            }
+        std::vector<std::vector<double>> times = sampled(trials, parameter.stage);
+        Contender* best = nullptr;
+        for (std::size_t k = 0; k < there.size(); ++k) {
+            Contender& one = *there[k];
+            if (times[k].empty()) {
+                reject(one, Tried::Verdict::impossible, failure_);
+                continue;
+            }
+            one.times = std::move(times[k]);
+            one.tried.median_ns = median(one.times);
+            one.tried.ratio = one.tried.median_ns / there.front()->tried.median_ns;
+            if (k > 0 && is_faster(one.times, there.front()->times) &&
+                (best == nullptr || one.tried.median_ns < best->tried.median_ns))
+                best = &one;
+        }
+        return best != nullptr && is_confirmed(*best, all.front());
+    }
+
+    /// The best of several is partly luck: it has to be faster once more, and what it left while timed must be right.
+    bool is_confirmed(Contender& best, Contender& current)
+    {
+        const Parameter& parameter = *best.tried.parameter;
+        const std::vector<std::vector<double>> times =
+            sampled({current.trial.get(), best.trial.get()}, parameter.stage);
+        if (const std::string why = best.trial->wrong(); !why.empty()) {
+            reject(best, Tried::Verdict::wrong, why);
+            return false;
+        }
+        best.tried.verdict = Tried::Verdict::not_again;
+        if (times[0].empty() || times[1].empty() || !is_faster(times[1], times[0]))
+            return false;
+        best.tried.verdict = Tried::Verdict::better;
+        best.tried.median_ns = median(times[1]);
+        best.tried.ratio = best.tried.median_ns / median(times[0]);
+        result_.best.set(parameter, best.tried.value);
+        std::erase_if(result_.kept, [&](const Kept& kept) { return kept.parameter == &parameter; });
+        result_.kept.push_back({&parameter, best.tried.value, best.tried.ratio});
+        return true;
+    }
+
+    /// Times of each, sampled interleaved; none of one that failed.
+    std::vector<std::vector<double>> sampled(const std::vector<Trial*>& trials,
+                                             std::string_view stage)
+    {
+        std::vector<Timed> timed;
+        for (Trial* trial : trials)
+            timed.push_back({"trial", [trial] { return trial->once(); }});
+        const std::vector<Taken> taken =
+            take_samples(timed, options_.samples, options_.warm_up, order_);
+        std::vector<std::vector<double>> times;
+        for (const Taken& one : taken) {
+            times.push_back(one.failure.empty() ? times_of(one.samples, stage)
+                                                : std::vector<double>{});
+            if (!one.failure.empty())
+                failure_ = one.failure;
+        }
+        return times;
+    }
+
+    const MakeTrial& make_;
+    const SearchOptions& options_;
+    const std::function<void(const std::string&)>& note_;
+    SearchResult& result_;
+    int order_ = 0;
+    std::string failure_;  ///< of the last sampling
+};
+
+std::string verdict_of(const Tried& tried)
+{
+    switch (tried.verdict) {
+        case Tried::Verdict::current:
+            return "current";
+        case Tried::Verdict::better:
+            return "better, kept";
+        case Tried::Verdict::not_again:
+            return "not better again";
+        case Tried::Verdict::wrong:
+            return "wrong: " + tried.detail;
+        case Tried::Verdict::impossible:
+            return "impossible: " + tried.detail;
+        default:
+            return "not better";
+    }
+}
+
+}  // namespace
+
+bool is_faster(const std::vector<double>& times, const std::vector<double>& than)
+{
+    const double gain = median(than) - median(times);
+    const double noise = std::hypot(standard_error(times), standard_error(than));
+    return gain > 3 * noise && gain > 0.01 * median(than);
+}
+
+void search(const MakeTrial& make, const Tuning& start,
+            const std::function<bool(const Parameter&)>& wanted, const SearchOptions& options,
+            const std::function<void(const std::string&)>& note, SearchResult& result)
+{
+    result = {};
+    result.best = start;
+    std::set<const Parameter*> asked;
+    {
+        const std::unique_ptr<Trial> first = make(start);
+        if (const std::string why = first->wrong(); !why.empty())
+            throw Unavailable("the answer is wrong before anything is tuned: " + why);
+        asked = first->asked();
+    }
+    std::vector<const Parameter*> parameters(asked.begin(), asked.end());
+    std::erase_if(parameters, [&](const Parameter* one) { return !wanted(*one); });
+    std::sort(parameters.begin(), parameters.end(),
+              [](const Parameter* a, const Parameter* b) { return a->name < b->name; });
+    for (const Parameter* parameter : parameters)
+        result.best.unset(*parameter);
+    const Tuning defaults = result.best;
+    Search turn(make, options, note, result);
+    for (int round = 0; round < options.rounds; ++round) {
+        int kept = 0;
+        for (const Parameter* parameter : parameters)
+            kept += turn.settle(*parameter) ? 1 : 0;
+        if (kept == 0)
+            break;
+    }
+    turn.compare_whole(defaults);
+}
+
+std::string search_report(const SearchResult& result)
+{
+    using enum Table::Align;
+    Table table({{"parameter", left},
+                 {"value"},
+                 {"stage", left},
+                 {"median"},
+                 {"to current"},
+                 {"verdict", left}});
+    for (const Tried& tried : result.tries)
+        table.row({std::string(tried.parameter->name), std::to_string(tried.value),
+                   tried.parameter->stage.empty() ? "all" : std::string(tried.parameter->stage),
+                   tried.median_ns > 0 ? duration_text(tried.median_ns) : "",
+                   tried.median_ns > 0 ? fixed(tried.ratio, 3) : "", verdict_of(tried)});
+    std::string text = table.text();
+    if (result.best_ns > 0)
+        text += "whole run: " + duration_text(result.start_ns) + " before, " +
+                duration_text(result.best_ns) + " after, ratio " +
+                fixed(result.best_ns / result.start_ns, 3) +
+                (result.kept.empty() ? ": not faster, nothing is kept\n" : "\n");
+    return text;
+}
+
+}  // namespace bvhbench

@@ -1,0 +1,19 @@
+#!/usr/bin/env python3
+"""The commands that read result files; the program hands them over.
+
+    python3 plots COMMAND ARGUMENTS...
+"""
+from __future__ import annotations
+
+import importlib
+import sys
+
+import command
+
+
+def main(words: list[str]) -> int:
+    return importlib.import_module(f"commands.{words[0]}").main(words[1:])
+
+
+if __name__ == "__main__":
+    sys.exit(command.run(main, sys.argv[1:]))

@@ -1,0 +1,56 @@
+"""Result files as a table of pandas, for notebooks and scripts; plots must be on PYTHONPATH.
+
+    import bvhbench_results
+    samples = bvhbench_results.read("run.json")
+    samples[samples.stage == "hierarchy"].groupby(["scene", "builder"]).ns.median()
+"""
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING, Any
+
+import results
+from cells import Cell, elapsed_ns
+
+if TYPE_CHECKING:
+    import pandas
+
+Path = str | os.PathLike[str]
+CELL = ("file", "experiment", "scene", "triangles", "frame", "builder", "collider", "operation")
+SAMPLE = ("status", "verdict", "order", "drifted", "stage", "ns", "launches", "moved_bytes", "start_ns")
+
+
+def read(paths: Path | Iterable[Path], counters: bool = False) -> pandas.DataFrame:
+    """A row for each stage of each sample of result files, packed or not, wrong answers too. The builder's options are in columns
+    option_NAME, the collider's in collider_NAME, counters in columns of their own. A cell without samples has one row, without
+    times. Raises json_files.Refused for what is no result file."""
+    import pandas
+
+    files = [paths] if isinstance(paths, (str, os.PathLike)) else paths
+    frame = pandas.DataFrame([row for path in files for row in rows(os.fspath(path), counters)])
+    options = sorted(name for name in frame if name.startswith(("option_", "collider_")))
+    first = (*CELL, *options, *SAMPLE)
+    return frame.reindex(columns=[*first, *(name for name in frame if name not in first)])
+
+
+def rows(path: str, counters: bool) -> Iterator[dict[str, Any]]:
+    for cell in results.everything(path).all_cells:
+        about = {"file": path, **facts(cell), **(cell.counters if counters else {})}
+        if not cell.all_samples:
+            yield about
+        for sample in cell.all_samples:
+            for stage in sample["stages"]:
+                said = {key: stage[key] for key in SAMPLE if key in stage}
+                yield {**about, "order": sample["order"], "drifted": sample.get("drifted", False), **said,
+                       "ns": elapsed_ns(stage)}
+
+
+def facts(cell: Cell) -> dict[str, Any]:
+    """What a cell is, and how it ended; what it does not have is left out."""
+    known = {"experiment": cell.experiment, "scene": cell.scene, "triangles": cell.scene_facts.get("triangles"),
+             "frame": cell.frame, "builder": cell.builder, "collider": cell.collider, "operation": cell.operation,
+             "status": cell.status, "verdict": cell.verdict if cell.status == "measured" else None}
+    for part, prefix in (("builder", "option"), ("collider", "collider")):
+        known |= {f"{prefix}_{name}": value for name, value in cell.raw.get(part, {}).get("options", {}).items()}
+    return {key: value for key, value in known.items() if value is not None}

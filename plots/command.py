@@ -1,0 +1,166 @@
+"""The command lines of the commands that read result files: their words, their help and how they end."""
+from __future__ import annotations
+
+import argparse
+import math
+import os
+import re
+import signal
+import sys
+import textwrap
+from collections.abc import Callable, Sequence
+from typing import Any, NoReturn
+
+import host_memory
+import output
+
+WIDTH, COLUMN = 100, 30  # of a page of help, and where descriptions begin
+PROGRAM = os.environ.get("BVHBENCH_PROGRAM", "bvhbench")  # what measures
+MOST_COST = 1000000
+SEE = "Options that all commands have, exit codes and environment: bvhbench --help"
+
+# Options of the whole program: they may stand before or behind the command, and go on to processes that measure.
+COMMON = ("--device", "--kernels", "--data", "--doubles", "--tuning", "--memory-limit", "--time-limit")
+COMMON_FLAGS = ("--force", "--verbose")
+
+
+class Parser(argparse.ArgumentParser):
+    """`more` are sentences that the help has besides the options; `examples` are command lines with what each does. A command
+    that takes several devices adds --device itself."""
+
+    def __init__(self, command: str, description: str, more: str, examples: Sequence[tuple[str, str]], see: str,
+                 several_devices: bool = False) -> None:
+        super().__init__(prog=f"bvhbench {command}", description=description, allow_abbrev=False, add_help=False)
+        self.more, self.examples, self.see = more, examples, see
+        self._negative_number_matcher = re.compile(r"-\.?\d")  # -1% too is a value, which its type refuses
+        self.add_argument("-h", "--help", action="help", help="Print this help message and exit")
+        for option in COMMON:
+            if option != "--device" or not several_devices:
+                self.add_argument(option, help=argparse.SUPPRESS)
+        for flag in COMMON_FLAGS:
+            self.add_argument(flag, action="store_true", help=argparse.SUPPRESS)
+
+    def parse_args(self, words: Sequence[str], namespace: None = None) -> argparse.Namespace:
+        arguments = super().parse_args(words, namespace)
+        if arguments.memory_limit is not None:
+            try:
+                host_memory.limit = host_memory.bytes_of(arguments.memory_limit)
+            except ValueError as error:
+                self.error(f"--memory-limit: {error}")
+        return arguments
+
+    def error(self, message: str) -> NoReturn:
+        """As the program's other commands say it."""
+        message = re.sub(r"^the following arguments are required: (.*)", r"\1 is required", message.removeprefix("argument "))
+        message = message.replace("unrecognized arguments:", "The following argument was not expected:")
+        raise output.WrongUsage(f"{message}; `bvhbench --help` lists what there is")
+
+    def format_help(self) -> str:
+        shown = [action for action in self._actions if action.help is not argparse.SUPPRESS]
+        positionals = [action for action in shown if not action.option_strings]
+        words = [self.prog, "[OPTIONS]", *(positional_usage(action) for action in positionals)]
+        parts = [f"{wrapped(self.description)}\n\nUsage: {' '.join(words)}\n"]
+        for title, actions in (("Positionals", positionals), ("Options", [action for action in shown if action.option_strings])):
+            if actions:
+                parts.append(f"{title}:\n{''.join(entry(action) for action in actions)}")
+        parts.append(f"{wrapped(self.more)}\n")
+        parts.append("Examples:\n" + "".join(f"  {line}\n      {wrapped(what, 6)}\n" for line, what in self.examples))
+        return "\n".join(parts) + f"\n{SEE}\nMore: {self.see}\n"
+
+
+def wrapped(text: str, margin: int = 0) -> str:
+    """In lines that end before the page does, all but the first behind a margin."""
+    return textwrap.fill(text, WIDTH - margin, break_long_words=False, break_on_hyphens=False).replace("\n", "\n" + " " * margin)
+
+
+def positional_usage(action: argparse.Action) -> str:
+    name = f"{action.metavar}{'...' if action.nargs in ('*', '+') else ''}"
+    return f"[{name}]" if action.nargs in ("?", "*") else name
+
+
+def entry(action: argparse.Action) -> str:
+    """A name, what kind of value it takes and, from the column on, what it is."""
+    name = "  " + (",".join(action.option_strings) or action.metavar)
+    if action.nargs != 0:
+        is_number = action.type in (number, cost) or isinstance(action.type, Share)
+        name += " COUNT" if action.type is int else " NUMBER" if is_number else " WORD"
+        if action.default not in (None, [], "", argparse.SUPPRESS):
+            name += f"={action.default}"
+        if action.nargs in ("*", "+") or isinstance(action, argparse._AppendAction):
+            name += " ..."
+        if action.required and action.nargs not in ("?", "*"):
+            name += ", required"
+    if len(name) + 2 > COLUMN:
+        name += "\n" + " " * COLUMN
+    return f"{name:{COLUMN}}{wrapped(action.help, COLUMN)}\n"
+
+
+def number(text: str) -> float:
+    """A number from 0 on that is finite."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not 0 <= value < math.inf:
+        raise argparse.ArgumentTypeError(f"must be a number from 0 on, not '{text}'")
+    return value
+
+
+def cost(text: str) -> float:
+    """What a visit costs; the program takes none that is larger."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not 0 <= value <= MOST_COST:
+        raise argparse.ArgumentTypeError(f"must be a number from 0 to {MOST_COST}, not '{text}'")
+    return value
+
+
+class Share:
+    """A share from 0 to `most`, as 5% or 0.05."""
+
+    def __init__(self, most: float) -> None:
+        self.most = most
+
+    def __call__(self, text: str) -> float:
+        try:
+            value = float(text.removesuffix("%")) / (100 if text.endswith("%") else 1)
+        except ValueError:
+            value = math.nan
+        if not 0 <= value <= self.most:
+            raise argparse.ArgumentTypeError(f"must be a share from 0 to {100 * self.most:.0f}%, as 5% or 0.05, not '{text}'")
+        return value
+
+
+def common_words(arguments: argparse.Namespace, *without: str) -> list[str]:
+    """The common options that were said, for a process that measures."""
+    words = []
+    for option in COMMON:
+        value = getattr(arguments, option[2:].replace("-", "_"))
+        if value is not None and option not in without:
+            words += [option, value]
+    return words + [flag for flag in COMMON_FLAGS if getattr(arguments, flag[2:]) and flag not in without]
+
+
+class Ended(BaseException):
+    """A signal has asked this process to end."""
+
+
+def end(number: int, _frame: Any) -> NoReturn:
+    raise Ended(number)
+
+
+def run(main: Callable[[list[str]], int], words: list[str]) -> int:
+    """The exit code, as the program's; a sentence on standard error says why."""
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        if signal.getsignal(number) != signal.SIG_IGN:  # as under nohup
+            signal.signal(number, end)
+    try:
+        return output.to_an_end(lambda: main(words), "bvhbench: ")
+    except ModuleNotFoundError as error:
+        output.say(f"bvhbench: {sys.executable} has no module {error.name}")
+        return 3
+    except Ended as ended:
+        output.say("bvhbench: stopped")
+        return 128 + ended.args[0]

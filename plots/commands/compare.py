@@ -1,0 +1,41 @@
+"""bvhbench compare: holds a result file to an earlier one."""
+from __future__ import annotations
+
+import pathlib
+
+import command
+import documents
+from comparing import comparison, report
+from comparing.refusals import require_comparable
+from comparing.rules import Rules
+
+
+def parser() -> command.Parser:
+    words = command.Parser(
+        "compare", "Hold a result file to an earlier one, cell by cell; 1 if anything got worse",
+        "Times by an interval of the ratio of medians and by the Mann-Whitney test: SAME, FASTER, SLOWER or UNSURE. Verdicts, "
+        "counters and errors exactly. 1 if anything is slower, larger or wrong, so that CI can gate on it.",
+        [("bvhbench compare before.json after.json", "what got worse?"),
+         ("bvhbench compare before.json after.json --threshold 10% --all", "coarser, and every cell")], "docs/comparing.md")
+    words.add_argument("first", metavar="A", type=pathlib.Path, help="the earlier result file")
+    words.add_argument("second", metavar="B", type=pathlib.Path, help="the later one")
+    words.add_argument("--threshold", type=command.Share(10), default="5%",
+                       help="the smallest change of time that counts, as 5% or 0.05")
+    words.add_argument("--all", action="store_true", help="show cells that are unchanged, too")
+    words.add_argument("--allow-missing", action="store_true", help="cells and counters that only A has are no regression")
+    words.add_argument("--allow-dirty", action="store_true", help="files of programs with changes that no commit has")
+    words.add_argument("--other-devices", action="store_true",
+                       help="files of two devices: compare verdicts, and times as ratios within a scene")
+    words.add_argument("--test-hooks", action="store_true", help=command.argparse.SUPPRESS)  # for the tests of this command
+    return words
+
+
+def main(words: list[str]) -> int:
+    arguments = parser().parse_args(words)
+    rules = Rules(threshold=arguments.threshold, allow_missing=arguments.allow_missing, allow_dirty=arguments.allow_dirty,
+                  other_devices=arguments.other_devices, allow_test_hooks=arguments.test_hooks)
+    first, second = documents.read(str(arguments.first)), documents.read(str(arguments.second))
+    require_comparable((arguments.first, first), (arguments.second, second), rules)
+    compared = comparison.compare(first, second, rules)
+    print(report.text(compared, arguments.all), end="")
+    return 1 if compared.regressions else 0

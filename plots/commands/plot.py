@@ -1,0 +1,34 @@
+"""bvhbench plot: draws every figure that result files have the cells for."""
+from __future__ import annotations
+
+import pathlib
+
+import command
+import json_files
+import output
+
+
+def parser() -> command.Parser:
+    words = command.Parser(
+        "plot", "Draw every figure that result files have the cells for",
+        "Finds out which figures the cells of a file can make. PNG and SVG; equal numbers give equal bytes.",
+        [("bvhbench plot out/sizes/sweep.json", "beside where you are"),
+         ("bvhbench plot results --out pictures", "of every file below a folder")], "docs/sweeps.md")
+    words.add_argument("files", nargs="+", metavar="FILE", help="result files, or folders of them")
+    words.add_argument("--out", default="out", help="the folder for pictures")
+    return words
+
+
+def main(words: list[str]) -> int:
+    arguments = parser().parse_args(words)
+    if not arguments.out:
+        raise output.WrongUsage("--out names no file or folder")
+    import all  # what draws: only now, so that help needs no matplotlib
+
+    folder = pathlib.Path(arguments.out)
+    output.make_folder(folder)
+    output.check_pictures(folder, [pathlib.Path(file) for file in arguments.files], arguments.force)
+    if refusals := all.draw_all([pathlib.Path(file) for file in arguments.files], folder, arguments.force):
+        raise json_files.Refused("; ".join(refusals))
+    print(f"drawn into {arguments.out}")
+    return 0

@@ -1,0 +1,76 @@
+"""bvhbench report: makes one page of result files, and of small scenes in three dimensions."""
+from __future__ import annotations
+
+import argparse
+import pathlib
+import tempfile
+
+import child
+import command
+import output
+import report
+from json_files import Refused
+from reserved import reserved
+
+BUILDER = ("order", "leaves", "boxes")  # options of the builder
+
+
+def parser() -> command.Parser:
+    words = command.Parser(
+        "report", "Make one page of result files, and of small scenes in three dimensions",
+        "The page needs no network and no server: tables to sort and filter, charts, and behind each number its samples. "
+        "1 if an answer in a file was wrong, which the page shows.",
+        [("bvhbench report peers.json -o report.html", "one file"),
+         ("bvhbench report a.json b.json --scene torus:3000 -o report.html", "two, and a scene in three dimensions")],
+        "docs/report.md")
+    words.add_argument("files", nargs="*", metavar="FILE", help="result files")
+    words.add_argument("-o", "--out", default="report.html", help="the page")
+    words.add_argument("--scene", action="append", default=[],
+                       help="small scenes to show: their triangles, the boxes of each level of a tree, and what collides")
+    words.add_argument("--frame", type=int, default=0, help="of those scenes, from 0")
+    words.add_argument("--builder", default="oibvh-multi", help="whose tree: a name of `list builders`")
+    words.add_argument("--order", help="a name of `list orders`")
+    words.add_argument("--leaves", help="mesh or sorted: where leaf boxes are kept; default: mesh, and sorted for boxes other than f32")
+    words.add_argument("--boxes", help="what nodes keep their boxes in: a name of `list formats`")
+    words.add_argument("--collider", default="leaf", help="what finds the pairs: a name of `list colliders`")
+    return words
+
+
+def main(words: list[str]) -> int:
+    arguments = parser().parse_args(words)
+    if not arguments.files and not arguments.scene:
+        raise output.WrongUsage("name result files, or a --scene to show")
+    options = {key: getattr(arguments, key) for key in BUILDER if getattr(arguments, key) is not None}
+    inputs = [*arguments.files, *scene_files(arguments, options)]
+    with reserved(arguments.out, "--out", arguments.force, inputs, output.is_page), \
+            tempfile.TemporaryDirectory(prefix="bvhbench-") as folder:
+        views = [view(arguments, scene, options, pathlib.Path(folder, str(number)))
+                 for number, scene in enumerate(arguments.scene)]
+        return report.write([pathlib.Path(file) for file in arguments.files], views, pathlib.Path(arguments.out), True)
+
+
+def scene_files(arguments: argparse.Namespace, options: dict[str, str]) -> list[str]:
+    """The files that the scenes are read from. Wrong words are found here, before anything is opened."""
+    scenes = arguments.scene or ["soup:1"]
+    experiments = [{"experiment": "view", "scenes": [scene],
+                    "pipelines": [{"builder": {"name": arguments.builder, **options}, "collider": arguments.collider,
+                                   "adjacent": "drop", "narrow": "exact"}]} for scene in scenes]
+    files: list[str] = []
+    for answer in child.settled(experiments, command.common_words(arguments)):
+        if "error" in answer:
+            raise output.WrongUsage(answer["error"])
+        files += answer.get("files", [])
+    return files if arguments.scene else []
+
+
+def view(arguments: argparse.Namespace, scene: str, options: dict[str, str], file: pathlib.Path) -> pathlib.Path:
+    """A file of what the program shows of the scene. Ends this process as the program ended if it shows nothing."""
+    words = ["view", "--scene", scene, "--frame", str(arguments.frame), "--builder", arguments.builder,
+             "--collider", arguments.collider, *(word for key, value in options.items() for word in (f"--{key}", value))]
+    code, text = child.run([*words, *command.common_words(arguments)], is_kept=True)
+    if code != 0:
+        raise SystemExit(code)
+    if not text.startswith(b"{"):
+        raise Refused(f"the scene {scene} cannot be shown: a driver has printed something else")
+    file.write_bytes(text)
+    return file

@@ -1,0 +1,155 @@
+"""bvhbench reproduce: measures, prints and draws what the paper shows."""
+from __future__ import annotations
+
+import argparse
+import contextlib
+import os
+import pathlib
+import subprocess
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import child
+import command
+import output
+import results
+from console import frames, paper, run as run_page, tree_costs
+from json_files import Refused
+from reserved import reserved
+
+HERE = pathlib.Path(__file__).resolve().parent.parent
+PAGE_SCENE = ("--scene", "cloth-funnel:2000:4", "--frame", "3")  # small, and with contacts
+CANNOT, NOTHING = 3, 4  # exit codes: something cannot be had, and nothing was measured
+
+# A table or figure of the paper, the experiment that measures it, and how it is printed.
+SHOWN: dict[str, tuple[str, Callable[[results.Run], str]]] = {
+    "table1": ("table1", paper.table1),
+    "fig8": ("fig8", paper.fig8),
+    "table2": ("table2", frames.table2),
+    "fig9": ("table2", frames.table2),
+    "fig10": ("table2", frames.table2),
+    "table3": ("table3", frames.table3),
+    "table4": ("table4", tree_costs.table4),
+    "fig13": ("fig13", tree_costs.fig13),
+}
+
+
+def parser() -> command.Parser:
+    words = command.Parser(
+        "reproduce", "Measure, print and draw what the paper shows",
+        "Writes result file and figure into --out, and prints our numbers beside the paper's. `all` goes through all of them "
+        "and makes report.html, one page of everything. Meshes that are not there are replaced by generated ones of as many "
+        "triangles; table, figure and file say so.",
+        [("bvhbench reproduce table1", "construction times, out/table1.json and pictures"),
+         ("bvhbench reproduce all --quick", "every table and figure, small, and out/report.html"),
+         ("bvhbench reproduce fig8 --device nvidia --data meshes", "on a GPU, with real meshes")], "docs/paper.md")
+    words.add_argument("what", metavar="WHAT", help="table1 to table4, fig8, fig9, fig10, fig13; or all, and a page of all")
+    words.add_argument("--out", default="out", help="folder for result files, figures and the page")
+    words.add_argument("--quick", action="store_true", help="fewer scenes and samples")
+    words.add_argument("--epo", "--quality", dest="quality", action="store_true",
+                       help="compute end-point overlap, which takes long")
+    words.add_argument("--sah-inner", type=command.cost, default=1.2, help="what visiting an inner node costs")
+    words.add_argument("--sah-triangle", type=command.cost, default=1, help="what testing a triangle costs")
+    return words
+
+
+@dataclass
+class Outcome:
+    """How the runs ended: the worst exit code of those that measured something."""
+
+    codes: list[int]
+
+    @property
+    def code(self) -> int:
+        measured = [code for code in self.codes if code != NOTHING]
+        return max(measured) if measured else NOTHING
+
+
+def main(words: list[str]) -> int:
+    arguments = parser().parse_args(words)
+    if arguments.what not in (*SHOWN, "all"):
+        raise output.WrongUsage(f"WHAT: there is no '{arguments.what}'; there are: {', '.join(SHOWN)}, all; "
+                                "`bvhbench --help` lists what there is")
+    if not arguments.out:
+        raise output.WrongUsage("--out names no file or folder")
+    if arguments.sah_inner == arguments.sah_triangle == 0:
+        raise output.WrongUsage("--sah-inner and --sah-triangle must not both be 0")
+    is_all = arguments.what == "all"
+    # A run is called after its experiment where figures share it, else after what was asked for.
+    runs = {experiment: [name for name, (other, _) in SHOWN.items() if other == experiment]
+            for experiment, _ in SHOWN.values()} if is_all else {arguments.what: [arguments.what]}
+    child.facts(command.common_words(arguments))  # ends here if there is no such device: no folder is made for nothing
+    folder = pathlib.Path(arguments.out)
+    output.make_folder(folder)
+    output.check_pictures(folder, [], arguments.force)
+    report_file = os.path.join(arguments.out, "report.html")
+    files = {name: os.path.join(arguments.out, f"{name}.json") for name in runs}
+    with contextlib.ExitStack() as kept:
+        if is_all:
+            kept.enter_context(reserved(report_file, "--out", arguments.force, may_replace=output.is_page))
+        for file in files.values():  # all before anything is measured
+            with reserved(file, "--out", arguments.force):
+                pass
+        outcome = Outcome([reproduced(arguments, files[name], shown) for name, shown in runs.items()])
+    if outcome.code == NOTHING or not is_all:
+        return outcome.code
+    return page(arguments, list(files.values()), report_file) or outcome.code
+
+
+def reproduced(arguments: argparse.Namespace, file: str, shown: list[str]) -> int:
+    """Measures what is shown, prints its table and draws its figures. Ends this process as the program did if it was stopped."""
+    experiment, table = SHOWN[shown[0]]
+    words = ["run", experiment, "--out", file, "--quiet", "--sah-inner", str(arguments.sah_inner),
+             "--sah-triangle", str(arguments.sah_triangle)]
+    words += ["--quick"] * arguments.quick + ["--epo"] * arguments.quality
+    code, printed = child.run([*words, *command.common_words(arguments)], is_kept=True)
+    if code not in (0, 1, NOTHING):
+        raise SystemExit(code)
+    run = results.everything(pathlib.Path(file))
+    print(run_page.text(run) + table(run) + printed.decode(errors="surrogateescape"), end="", flush=True)
+    if code != NOTHING:
+        for name in shown:
+            print(drawn(name, file, arguments), flush=True)
+    return code
+
+
+def drawn(name: str, file: str, arguments: argparse.Namespace) -> str:
+    """Draws a figure, and says what became of it. What was measured counts without it."""
+    script = HERE / f"{name}.py"
+    words = [sys.executable, str(script), file, "--out", arguments.out, *["--force"] * arguments.force]
+    with child.handed_on() as children:
+        drawing = subprocess.Popen(words, stderr=subprocess.PIPE, text=True, errors="surrogateescape")
+        children(drawing)
+        _, said = drawing.communicate()
+    code = drawing.returncode
+    if -code in child.ENDING:
+        raise SystemExit(128 - code)
+    _, is_missing, module = said.rpartition("\nModuleNotFoundError: No module named '")
+    if not is_missing:
+        print(said, end="", file=sys.stderr)
+    if code == 0:
+        return f"drawn into {arguments.out}"
+    end = f"ended with {code}" if code > 0 else "could not be run to its end"
+    named = module.partition("'")[0]
+    why = f"{sys.executable} has no module {named}" if is_missing else f"{sys.executable} {script} {end}"
+    return (f"nothing was drawn, {why}; where Python and matplotlib are, draw it with: python3 plots/{name}.py {file} "
+            f"--out {arguments.out}")
+
+
+def page(arguments: argparse.Namespace, files: list[str], out: str) -> int:
+    """The page of everything. Without it what was measured is there, and can be shown elsewhere."""
+    try:
+        from commands import report  # which needs matplotlib
+
+        return report.main([*files, "-o", out, *PAGE_SCENE, *command.common_words(arguments)])
+    except ModuleNotFoundError as error:
+        why = f"{sys.executable} has no module {error.name}"
+    except Refused as refusal:
+        why = str(refusal)
+    except SystemExit as end:
+        if end.code != CANNOT:
+            raise
+        why = "its scene cannot be shown"
+    print(f"no page was made: {why}; elsewhere: bvhbench report {arguments.out}/*.json -o {out}")
+    return 0

@@ -1,0 +1,38 @@
+"""bvhbench show: prints a result file as tables."""
+from __future__ import annotations
+
+import command
+import results
+from console import accuracy, cell, cells, frames, quality, refit, roofline, skips, stress, swept, yardstick
+from console import run as run_page
+
+
+def parser() -> command.Parser:
+    words = command.Parser("show", "Print a result file as tables", "Prints what the command that wrote the file did.",
+                           [("bvhbench show peers.json", "its tables")], "docs/results.md")
+    words.add_argument("file", metavar="FILE", help="a result file")
+    return words
+
+
+def main(words: list[str]) -> int:
+    file = parser().parse_args(words).file
+    run = results.everything(file)
+    try:
+        print(run_page.text(run), run_page.merged(run), pages(run), sep="", end="")
+    except KeyError as missing:
+        raise results.Refused(f"{file}: a cell has no {missing}") from missing
+    return 0
+
+
+def pages(run: results.Run) -> str:
+    """By what the file holds: axes of accuracy, stress, frames of `collide`, one cell, or cells of an experiment."""
+    if axes := accuracy.text(run):
+        return axes
+    if run.stress:
+        return stress.text(run)
+    if run.all_cells and all(one.experiment == "collide" for one in run.all_cells):
+        whole = cell.text(run.all_cells[0], run) if len(run.all_cells) == 1 else frames.each(run)
+        return whole + swept.text(run) + skips.text(run)
+    if len(run.all_cells) == 1:
+        return cell.text(run.all_cells[0], run)
+    return cells.text(run) + "".join(page.text(run) for page in (frames, swept, refit, quality, roofline, yardstick))

@@ -1,0 +1,124 @@
+"""Two result files, cell by cell: what became faster, slower, larger or wrong."""
+from __future__ import annotations
+
+import functools
+from dataclasses import dataclass, field
+from typing import Any
+
+from cells import Cell
+from comparing import scenes, times
+from comparing.drift import CellPair
+from comparing.facts import fact_changes, run_remarks
+from comparing.rules import Rules
+from comparing.scenes import SceneChange
+
+
+@dataclass
+class ComparedCell:
+    """A cell that is in both files."""
+
+    first: Cell
+    second: Cell
+    regressions: list[str]  # of the verdict, the answer and counters
+    changes: list[str]  # of the same, where they are no reason to fail
+    time: times.TimeChange = times.TimeChange()  # of all stages together, which decides
+    stages: dict[str, times.TimeChange] = field(default_factory=dict)
+
+    @property
+    def has_times(self) -> bool:
+        return self.first.has_times and self.second.has_times
+
+    @property
+    def verdict(self) -> str:
+        """Of a cell without samples there are facts, which are compared."""
+        return self.time.verdict if self.first.all_samples or self.second.all_samples else times.SAME
+
+    @property
+    def is_regression(self) -> bool:
+        return self.verdict == times.SLOWER or bool(self.regressions)
+
+
+@dataclass
+class Comparison:
+    rules: Rules
+    cells: list[ComparedCell]  # in the first file's order
+    only_first: list[Cell]
+    only_second: list[Cell]
+    remarks: list[str]  # what else the two runs do not have in common
+    by_turns: bool  # whether the runs sampled by turns: nothing has drifted between them
+    scenes: list[SceneChange] = field(default_factory=list)  # those with cells enough to tell what they have in common
+
+    @functools.cached_property
+    def error_of_each(self) -> float:
+        """What a single cell's error must be under, after Bonferroni: a gate that goes off once in twenty comparisons of hundreds
+        of cells is one that nobody looks at."""
+        return self.rules.error / max(1, sum(cell.has_times for cell in self.cells))
+
+    @property
+    def regressions(self) -> int:
+        return (sum(cell.is_regression for cell in self.cells) + sum(scene.verdict == times.SLOWER for scene in self.scenes)
+                + (0 if self.rules.allow_missing else len(self.only_first)))
+
+
+def compare(first: dict[str, Any], second: dict[str, Any], rules: Rules) -> Comparison:
+    """Two documents that may be compared."""
+    both, only_first, only_second = matched_cells(*([Cell(raw) for raw in document["cells"]] for document in (first, second)))
+    cells = [ComparedCell(*pair, *fact_changes(*pair, rules.other_devices, rules.allow_missing)) for pair in both]
+    runs = first["run"], second["run"]
+    by_turns = all(one["id"] in other.get("turns_with", []) for one, other in (runs, runs[::-1]))
+    comparison = Comparison(rules, cells, only_first, only_second, run_remarks(*runs), by_turns)
+    groups: dict[tuple[str, ...], list[ComparedCell]] = {}
+    for cell in cells:
+        if cell.has_times:
+            groups.setdefault(group_of(cell.first), []).append(cell)
+    for group in sorted(groups):
+        compare_scene(groups[group], comparison)
+    return comparison
+
+
+def compare_scene(cells: list[ComparedCell], comparison: Comparison) -> None:
+    """All timed cells of one scene."""
+    rules, error = comparison.rules, comparison.error_of_each
+    pairs = [(cell.first, cell.second) for cell in cells]
+    if comparison.by_turns:
+        against = scenes.by_turns(pairs)
+    elif rules.other_devices:
+        against = scenes.of_other_devices(pairs)
+    else:
+        against, scene = scenes.beside_the_others(pairs, rules.threshold)
+        comparison.scenes += [scene] if scene else []
+    for cell, series in zip(cells, against.pairs if against else []):
+        cell.time = scenes.change_of(series, "", against, rules.threshold, error)
+        stages = [entry["stage"] for entry in cell.first.all_samples[0]["stages"]]
+        if len(stages) > 1:
+            cell.stages = {stage: scenes.change_of(series, stage, against, rules.threshold, error)
+                           for stage in stages if len(series[1].times_ns(stage))}
+
+
+def matched_cells(first: list[Cell], second: list[Cell]) -> tuple[list[CellPair], list[Cell], list[Cell]]:
+    """Cells of one identity, the first with the first, and those of one file only."""
+    there: dict[str, list[Cell]] = {}
+    for cell in second:
+        there.setdefault(cell.identity, []).append(cell)
+    both, only_first = [], []
+    for cell in first:
+        candidates = there.get(cell.identity, [])
+        place = next((place for place, other in enumerate(candidates) if begin_alike(cell, other)), None)
+        if place is None:
+            only_first.append(cell)
+        else:
+            both.append((cell, candidates.pop(place)))
+    left = {id(cell) for candidates in there.values() for cell in candidates}
+    return both, only_first, [cell for cell in second if id(cell) in left]
+
+
+def begin_alike(one: Cell, other: Cell) -> bool:
+    """A cell without samples does not tell what they would have begun with."""
+    return not one.all_samples or not other.all_samples or one.starts_from_leaves == other.starts_from_leaves
+
+
+def group_of(cell: Cell) -> tuple[str, ...]:
+    """Cells whose times may be held against each other have the same: those of one scene and frame, by other builders or
+    colliders."""
+    return (cell.experiment, cell.scene_facts["name"], str(cell.frame), cell.operation, cell.swept.get("pairs", ""),
+            cell.accuracy.get("axis", ""), "leaves" if cell.starts_from_leaves else "")

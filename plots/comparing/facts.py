@@ -1,0 +1,77 @@
+"""What of two cells and of two runs is no time."""
+from __future__ import annotations
+
+from typing import Any
+
+from cells import Cell
+from console.cell import depths
+from counters import is_better_smaller, is_exact
+from tables import exact
+
+WORST_FIRST = ("failed", "skipped", "differs", "not checked", "counted", "agrees")  # verdicts
+OF_ANSWERS = {"pairs_hash": "pairs", "contacts_hash": "contacts"}
+NO_HASH = "0" * 16
+# What a remark calls a circumstance, and where it is in the facts of a run.
+CIRCUMSTANCES = {"device": ("device", "name"), "driver": ("device", "driver"), "host": ("host", "name"),
+                 "operating system": ("host", "os"), "compiler": ("program", "compiler"), "build": ("program", "build_type"),
+                 "architecture": ("program", "arch"), "kernels": ("program", "kernels")}
+
+Found = tuple[list[str], list[str]]  # sentences: those to fail for, and others
+
+
+def fact_changes(first: Cell, second: Cell, other_devices: bool, allow_missing: bool) -> Found:
+    """Of two cells of one identity: verdicts, hashes of answers, counters that are exact. Of other devices verdicts only."""
+    found: Found = [], []
+    compare_verdicts(first, second, found)
+    if first.status != "measured" or second.status != "measured":
+        return found
+    scenes = [cell.scene_facts.get("content_hash", NO_HASH) for cell in (first, second)]
+    if scenes[0] != scenes[1]:
+        found[0].append(f"another scene of the same name: content {scenes[1]}, was {scenes[0]}")
+    elif not other_devices:
+        compare_hashes(first.check, second.check, found)
+        compare_counters(first, second, allow_missing, found)
+    return found
+
+
+def compare_verdicts(first: Cell, second: Cell, found: Found) -> None:
+    before, after = WORST_FIRST.index(first.verdict), WORST_FIRST.index(second.verdict)
+    if before != after:
+        why = second.reason or second.check.get("detail", "")
+        found[after > before].append(f"{second.verdict}{f' ({why})' if why else ''}, was {first.verdict}")
+
+
+def compare_hashes(first: dict[str, Any], second: dict[str, Any], found: Found) -> None:
+    for key, what in OF_ANSWERS.items():
+        if key in first and key in second and first[key] != second[key]:
+            found[0].append(f"other {what}: {second[key]}, were {first[key]}")
+    if "tree_hash" in first and "tree_hash" in second and first["tree_hash"] != second["tree_hash"]:
+        found[1].append(f"another tree: {second['tree_hash']}, was {first['tree_hash']}")
+
+
+def compare_counters(first: Cell, second: Cell, allow_missing: bool, found: Found) -> None:
+    for counter, value in sorted(first.counters.items()):
+        other = second.counters.get(counter)
+        if other is None:
+            why = second.left_out.get(counter)
+            found[allow_missing].append(f"no {counter}{'' if why is None else f' ({why})'}, was {exact(value)}")
+        elif float(other) != float(value) and is_exact(counter, first):
+            is_better = is_better_smaller(counter) and other < value
+            found[is_better].append(f"{counter} {exact(other)}, was {exact(value)}")
+    before, after = first.leaves_by_depth, second.leaves_by_depth
+    if before and after and before != after:
+        found[1].append(f"leaves by depth {depths(after)}, were {depths(before)}")
+
+
+def run_remarks(first: dict[str, Any], second: dict[str, Any]) -> list[str]:
+    """Circumstances that two runs do not share."""
+    remarks = [f"{what}: {first[part][key]} and {second[part][key]}" for what, (part, key) in CIRCUMSTANCES.items()
+               if first[part][key] != second[part][key]]
+    tuned = [run.get("tuning", {}).get("values", {}) for run in (first, second)]
+    if tuned[0] != tuned[1]:
+        remarks.append("tuned values")
+    for which, run in (("first", first), ("second", second)):
+        if not run.get("finished_at"):
+            remarks.append(f"the {which} run was stopped before its end")
+        remarks += [f"the {which} run was under {hook}={value}" for hook, value in sorted(run.get("test_hooks", {}).items())]
+    return remarks

@@ -1,0 +1,55 @@
+"""What two result files must have in common before anything is compared."""
+from __future__ import annotations
+
+import pathlib
+from typing import Any
+
+from comparing.rules import Rules
+from output import WrongUsage
+
+USUAL_COSTS = {"inner": 1.2, "triangle": 1.0}  # before format 1.2 there were no others
+Named = tuple[pathlib.Path, dict[str, Any]]  # a file's name and what it holds
+
+
+def require_comparable(first: Named, second: Named, rules: Rules) -> None:
+    """Raises WrongUsage, in a sentence with the files' names, if they cannot be compared so."""
+    for name, document in (first, second):
+        require_file(name, document, rules)
+    (name, one), (other_name, other) = first, second
+    minors = [int(document["format"].partition(".")[2]) for document in (one, other)]
+    if (minors[0] >= 4) != (minors[1] >= 4):
+        raise WrongUsage(f"{name} has format 1.{minors[0]} and {other_name} 1.{minors[1]}: before 1.4 the time of a frame is "
+                         "another, without the gaps between stages")
+    costs = [costs_text(document["run"]) for document in (one, other)]
+    if costs[0] != costs[1]:
+        raise WrongUsage(f"{name} counts {costs[0]} and {other_name} {costs[1]}, so their sah_cost are not of one kind")
+    if not rules.other_devices and machine(one["run"]) != machine(other["run"]):
+        raise WrongUsage(f"{name} was measured on {device_text(one['run'])} and {other_name} on {device_text(other['run'])}; "
+                         "--other-devices compares only ratios between the cells of a scene")
+
+
+def require_file(name: pathlib.Path, document: dict[str, Any], rules: Rules) -> None:
+    run = document["run"]
+    if not document["cells"]:
+        raise WrongUsage(f"{name} has no cells to compare")
+    if run["program"]["dirty"] and not rules.allow_dirty:
+        raise WrongUsage(f"{name} was made by a program with changes that no commit has, so nobody can say what was compared; "
+                         "--allow-dirty compares it all the same")
+    for hook, value in sorted(run.get("test_hooks", {}).items()):
+        if not rules.allow_test_hooks:
+            raise WrongUsage(f"{name} was made under {hook}={value}, which changes times for tests: it is no result")
+
+
+def costs_text(run: dict[str, Any]) -> str:
+    costs = run.get("node_costs", USUAL_COSTS)
+    return f"an inner node {costs['inner']:.10g}, a triangle {costs['triangle']:.10g}"
+
+
+def machine(run: dict[str, Any]) -> tuple[Any, ...]:
+    device, host = run["device"], run["host"]
+    return device["name"], device["platform"], device["compute_units"], host["cpu"], host["threads"]
+
+
+def device_text(run: dict[str, Any]) -> str:
+    name, _, units, cpu, threads = machine(run)
+    return f"{name} ({units} units, host {cpu} of {threads} threads)"

@@ -1,0 +1,45 @@
+"""How times of the second of two files relate to the first's."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy
+
+from comparing.intervals import NOTHING_KNOWN, Interval, median_interval, ratio_interval
+from comparing.u_test import p_value
+
+SAME, FASTER, SLOWER, UNSURE = "SAME", "FASTER", "SLOWER", "UNSURE"
+FEWEST_SAMPLES = 9  # of each file that times are judged by
+
+
+@dataclass(frozen=True)
+class TimeChange:
+    """Of one cell or stage. Medians are in nanoseconds; the ratio is the second's over the first's, over what the scene's have in
+    common."""
+
+    first: Interval = NOTHING_KNOWN
+    second: Interval = NOTHING_KNOWN
+    ratio: Interval = NOTHING_KNOWN
+    p: float = 1.0  # of Mann and Whitney
+    counts: tuple[int, int] = (0, 0)  # samples
+    verdict: str = UNSURE
+
+
+def time_change(first: numpy.ndarray, second: numpy.ndarray, threshold: float, error: float,
+                common: Interval = Interval(1, 1, 1)) -> TimeChange:
+    """Judge times in the order taken; `common` is a ratio that has nothing to do with the cell. Faster and slower need all of: 9
+    samples of each; a median that is off by the threshold; an interval of the ratio without 1; and a p of Mann and Whitney below
+    `error`. Same is an interval within the threshold. The rest is unsure."""
+    medians = median_interval(first, error), median_interval(second, error)
+    ratio = ratio_interval(ratio_interval(medians[1], medians[0]), common)
+    p, counts = p_value(first, second / common.value), (len(first), len(second))
+    enough = min(counts) >= FEWEST_SAMPLES
+    return TimeChange(*medians, ratio, p, counts, verdict_of(ratio, threshold, p < error) if enough else UNSURE)
+
+
+def verdict_of(ratio: Interval, threshold: float, differs: bool = True) -> str:
+    if differs and ratio.low > 1 and ratio.value >= 1 + threshold:
+        return SLOWER
+    if differs and ratio.high < 1 and ratio.value <= 1 / (1 + threshold):
+        return FASTER
+    return SAME if ratio.low > 1 / (1 + threshold) and ratio.high < 1 + threshold else UNSURE

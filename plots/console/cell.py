@@ -1,0 +1,94 @@
+"""One cell in full: its stages as a table, its counters and its verdict."""
+from __future__ import annotations
+
+import results
+from cells import Cell
+from console import spread
+from tables import Table, duration, size
+
+HASHES = (("tree_hash", "tree"), ("pairs_hash", "pairs"), ("contacts_hash", "contacts"))
+# Why there are no more samples, said between how far the quartiles are apart and the target.
+STOPPED = {"steady": "; quartiles {} apart, within {}", "noisy": "; quartiles {} apart and staying so, above {}",
+           "most": "; no more are allowed, quartiles {} apart, above {}",
+           "budget": "; the time is over, quartiles {} apart, above {}"}
+
+
+def text(cell: Cell, run: results.Run) -> str:
+    head = f"{cell.pipeline} on {cell.scene}"
+    head += f", {cell.triangles:,} triangles" if cell.triangles else ""
+    head += f", standing in for {cell.stand_in_for}" if cell.stand_in_for else ""
+    parts = [f"{head}\n"]
+    if cell.has_times:
+        parts += [stages(cell, run.copy_rate or 0), f"{samples(cell)}\n"]
+    if first := cell.raw.get("first"):
+        parts.append(f"first run {duration(first['run_ns'])} on the host's clock, kernels compiled in "
+                     f"{duration(first['compile_ns'])}\n")
+    if cell.counters:
+        parts.append("counters: " + ", ".join(f"{key} {number(value)}" for key, value in sorted(cell.counters.items())) + "\n")
+    parts += [f"no {counter}: {why}\n" for counter, why in sorted(cell.left_out.items())]
+    if cell.leaves_by_depth:
+        parts.append(f"levels of leaves: {depths(cell.leaves_by_depth)}\n")
+    return "".join([*parts, f"verdict: {verdict(cell)}\n"])
+
+
+def number(value: float) -> str:
+    return f"{int(value):,}" if value == int(value) else f"{value:.3f}"
+
+
+def stages(cell: Cell, copy_rate: float) -> str:
+    """A line a stage, and one of all together."""
+    table = Table("<stage", *spread.TITLES, "launches", "bytes", "GB/s", "% of copy", "queued", "submitted")
+
+    def row(name: str, times: list[float], launches: int, moved: float, wanted: str | None) -> None:
+        middle = spread.median(times)
+        table.row([name, *spread.of(times), str(launches) if launches else "host", size(moved) if moved else "",
+                   spread.rate(moved, middle), spread.copy_share(moved, middle, copy_rate),
+                   waited(cell, wanted, "queued_ns"), waited(cell, wanted, "submitted_ns")])
+
+    first = cell.all_samples[0]["stages"]
+    for entry in first:
+        row(entry["stage"], cell.times_ns(entry["stage"]), entry.get("launches", 0), entry.get("moved_bytes", 0), entry["stage"])
+    if len(first) > 1:
+        row("all", cell.whole_times_ns(), sum(entry.get("launches", 0) for entry in first),
+            sum(entry.get("moved_bytes", 0) for entry in first), None)
+    return table.text()
+
+
+def waited(cell: Cell, stage: str | None, state: str) -> str:
+    """The median of what a stage's launches, or all, waited in that state; blank before format 1.8."""
+    middle = spread.median([sum(entry.get(state, 0) for name, entry in sample.items() if stage in (None, name))
+                            for sample in cell.samples])
+    return duration(middle) if middle > 0 else ""
+
+
+def samples(cell: Cell) -> str:
+    """How many samples there are, and why no more."""
+    sampling, count = cell.raw.get("sampling", {}), len(cell.all_samples)
+    line = f"{count} samples{', caches emptied before each' if sampling.get('caches') == 'cold' else ''}"
+    if drifted := sum(sample.get("drifted", False) for sample in cell.all_samples):
+        line += f", {drifted} of them beside drift of the device{' and left out here' if len(cell.samples) < count else ''}"
+    noise = f"{100 * spread.quartile_range(cell.whole_times_ns()):.1f} %"
+    words = STOPPED.get(sampling.get("stopped", ""), "; quartiles {} apart")
+    return line + words.format(noise, f"{100 * sampling.get('until', 0):.1f} %")
+
+
+def verdict(cell: Cell) -> str:
+    against = cell.check.get("against") if cell.verdict == "agrees" else ""
+    line = cell.verdict + (f" with {against}" if against else "")
+    line += "".join(f", {word} {cell.check[key]}" for key, word in HASHES if key in cell.check)
+    return line + "".join(f": {words}" for words in (cell.check.get("detail"), cell.reason) if words)
+
+
+def depths(leaves_by_depth: list[int]) -> str:
+    """Where the leaves are: "14–38, half by 19"; "17" if all are on one level."""
+    there = [depth for depth, leaves in enumerate(leaves_by_depth) if leaves > 0]
+    if not there:
+        return ""
+    if there[0] + 1 == len(leaves_by_depth):
+        return str(there[0])
+    met, whole = 0, sum(leaves_by_depth)
+    for depth, leaves in enumerate(leaves_by_depth):
+        met += leaves
+        if 2 * met >= whole:
+            break
+    return f"{there[0]}–{len(leaves_by_depth) - 1}, half by {depth}"

@@ -1,0 +1,98 @@
+"""Times of the hierarchy beside those that the paper prints: Table 1 and Fig. 8."""
+from __future__ import annotations
+
+import math
+
+import results
+from cells import Cell
+from tables import Table, size
+
+STAGE = "hierarchy"
+
+
+def table1(run: results.Run) -> str:
+    printed = results.printed("table1")
+    rows = {(row["scene"], row["builder"]): row for row in printed["rows"]}
+    table = Table("<mesh", "triangles", "<builder", "nodes", "padding %", "paper", "ms", "p10–p90", "Mtris/s", "moved",
+                  "% of copy", "paper ms")
+    for cell in run.all_cells:
+        mesh = cell.stand_in_for or cell.scene
+        row, nodes = rows.get((mesh, cell.builder)), int(cell.counters.get("nodes_count", 0))
+        table.row([mesh + (" *" if cell.stand_in_for else ""), f"{cell.triangles:,}", cell.builder, f"{nodes:,}" if nodes else "",
+                   padding_text(padding_percent(cell)) if nodes else "", row["padding_percent"] if row else "",
+                   *time_columns(cell, run.copy_rate), f"{row['hierarchy_ms']:.3f}" if row else ""])
+    stand_in = "* a generated stand-in with the mesh's triangle count: the mesh itself is not there\n"
+    return (f"{table.text()}ms: the stage hierarchy from sorted leaves, median; paper ms: {printed['device']}\n"
+            f"{stand_in if any(cell.stand_in_for for cell in run.all_cells) else ''}")
+
+
+def fig8(run: results.Run) -> str:
+    table = Table("triangles", "<builder", "ms", "p10–p90", "Mtris/s", "moved", "% of copy", "Gnodes/s")
+    for cell in run.all_cells:
+        ns = hierarchy_ns(cell)
+        table.row([f"{cell.triangles:,}", cell.builder, *time_columns(cell, run.copy_rate),
+                   f"{cell.counters.get('nodes_count', 0) / ns:.2f}" if ns else ""])
+    crossing = crossing_triangles(run.all_cells)
+    return table.text() + (f"oibvh-multi is the faster one from {crossing:,} triangles on; in the paper, from about 131,072\n" if crossing
+                           else "oibvh-single and oibvh-multi do not cross here; in the paper they do at about 131,072 triangles\n")
+
+
+def hierarchy_ns(cell: Cell) -> float:
+    """The median of the stage; 0 of a cell that has no time to be shown."""
+    times = cell.times_ns(STAGE) if cell.verdict == "agrees" else ()
+    return results.quantiles(times).median if len(times) else 0.0
+
+
+def time_columns(cell: Cell, copy_rate: float | None) -> list[str]:
+    """Time, rate and memory traffic of the stage; or the word why there is none."""
+    median = hierarchy_ns(cell)
+    if not median:
+        return [cell.verdict, "", "", "", ""]
+    spread, moved = results.quantiles(cell.times_ns(STAGE)), cell.moved_bytes(STAGE) or 0
+    share = f"{100 * (moved / (median * 1e-9)) / copy_rate:.1f} %" if moved and copy_rate else ""
+    return [f"{median * 1e-6:.4f}", f"{spread.p10 * 1e-6:.4f}–{spread.p90 * 1e-6:.4f}", f"{cell.triangles * 1e3 / median:.0f}",
+            size(moved), share]
+
+
+def perfect_padding(triangles: int, nodes: float) -> float:
+    """The nodes of an implicit tree that are not real are those of the perfect tree that it leaves out: for each level, the
+    virtual ones (paper, Section 4.1)."""
+    virtual = (1 << max(triangles - 1, 0).bit_length()) - triangles
+    real = nodes - sum(virtual >> level for level in range(virtual.bit_length()))
+    return 100 * (nodes - real) / nodes
+
+
+def padding_percent(cell: Cell) -> float:
+    """The share of nodes that hold no box: of the perfect tree's, or beyond the 2n - 1 that there must be."""
+    nodes = cell.counters["nodes_count"]
+    if cell.builder == "perfect":
+        return perfect_padding(cell.triangles, nodes)
+    least = 2 * cell.triangles - 1
+    return 100 * (nodes - least) / least
+
+
+def padding_text(percent: float) -> str:
+    """As Table 1 prints it: two digits after the point, or two that count, the rest cut off."""
+    if percent == 0:
+        return "0"
+    if percent >= 0.1:
+        return f"{percent:.2f}"
+    exponent = math.floor(math.log10(percent))
+    return f"{math.floor(percent / 10 ** (exponent - 1) + 1e-9) / 10:.1f}e{exponent}"
+
+
+def crossing_triangles(cells: list[Cell]) -> int | None:
+    """From which size on oibvh-multi is no slower than oibvh-single, having been slower before."""
+    times: dict[int, dict[str, float]] = {}
+    for cell in cells:
+        if ns := hierarchy_ns(cell):
+            times.setdefault(cell.triangles, {})[cell.builder] = ns
+    crossing, was_slower = None, False
+    for triangles, by_builder in sorted(times.items()):
+        if not {"oibvh-single", "oibvh-multi"} <= by_builder.keys():
+            continue
+        if by_builder["oibvh-multi"] > by_builder["oibvh-single"]:
+            crossing, was_slower = None, True
+        elif crossing is None:
+            crossing = triangles
+    return crossing if was_slower else None

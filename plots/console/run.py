@@ -1,0 +1,48 @@
+"""Where and with what a run was made."""
+from __future__ import annotations
+
+import results
+from tables import counted, duration
+
+USUAL_COSTS = (1.2, 1.0)
+
+
+def text(run: results.Run) -> str:
+    facts = run.facts
+    device, program, memory, tuning = facts["device"], facts["program"], facts.get("host_memory"), facts.get("tuning", {})
+    lines = [f"device: {device['platform']}/{device['name']}, driver {device['driver']}",
+             f"program: {program['version']}, commit {program['commit']}{' with changes' if program['dirty'] else ''}, "
+             f"{program['build_type']}"]
+    lines += [f"warning: {warning}" for warning in facts.get("conditions", {}).get("warnings", [])]
+    lines += [f"NO RESULT: made under the test hook {hook}={value}" for hook, value in facts.get("test_hooks", {}).items()]
+    if memory:
+        lines.append("memory: {} MiB at most, {} predicted, {} given".format(
+            *(memory[key] >> 20 for key in ("peak_bytes", "predicted_bytes", "given_bytes"))))
+    if facts.get("launch_cost_ns"):
+        lines.append(f"launch cost: {duration(facts['launch_cost_ns'])}")
+    if tuning.get("values"):
+        values = " ".join(f"{name}={value}" for name, value in sorted(tuning["values"].items()))
+        lines.append(f"tuned by {tuning['from']}: {values}")
+    if run.copy_rate:
+        lines.append(f"copy rate: {run.copy_rate * 1e-9:.1f} GB/s, read plus written")
+    if run.costs != USUAL_COSTS:
+        lines.append(f"costs in sah_cost and epo: {costs_text(run.costs)}")
+    return "".join(f"{line}\n" for line in lines)
+
+
+def costs_text(costs: tuple[float, float]) -> str:
+    return "an inner node {:.10g}, a triangle {:.10g}".format(*costs)
+
+
+def merged(run: results.Run) -> str:
+    """Of a merged file: how many runs its cells are from, on which hosts and devices, by which commits. Else empty."""
+    sources = run.document.get("merged_from", [])
+    if not sources:
+        return ""
+    hosts = sorted({source["host"] for source in sources})
+    devices = sorted({f"{source['device']}, driver {source['driver']}" for source in sources})
+    commits = sorted({source["commit"][:10] + (" with changes" if source["dirty"] else "") for source in sources})
+    text = f"merged from {counted(len(sources), 'run')} on {'; '.join(hosts)}"
+    text += f"\nof several devices:  {'; '.join(devices)}" if len(devices) > 1 else ""
+    text += f"\nof several commits:  {'; '.join(commits)}" if len(commits) > 1 else ""
+    return f"{text}\n"

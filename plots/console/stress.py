@@ -1,0 +1,102 @@
+"""What stress found: scenes with who was right over them, systems with their invariants, and whatever of ours is wrong."""
+from __future__ import annotations
+
+from collections import Counter
+from typing import Any
+
+import documents
+import results
+from tables import Table
+
+Found = dict[str, Any]
+WORSE = {"holds": 0, "refused": 1, "broken": 2}
+
+
+def text(run: results.Run) -> str:
+    cells = run.stress
+    if not cells:
+        return ""
+    ours = [cell for cell in cells if not cell.get("library")]
+    said, wrong, refused = "", 0, 0
+    for cell in ours:
+        if any(finding["verdict"] == "broken" for finding in cell["findings"].values()):
+            said += told("WRONG", cell, "broken")
+            wrong += 1
+        elif cell["kind"] != "host" and verdict_of(cell) == "refused":  # of the host, that is what was to be done
+            said += told("refused", cell, "refused")
+            refused += 1
+    end = f"{wrong} wrong" if wrong else "none wrong" if refused else "all right"
+    return "\n".join([scenes(cells), systems(cells, run.facts.get("libraries", {})),
+                      f"{said}{len(ours)} cells of ours, {end}{f', {refused} refused' if refused else ''}\n"])
+
+
+def told(word: str, cell: dict[str, Any], verdict: str) -> str:
+    return "".join(f"{word} {cell['family']}: {cell['scene']}, {cell['system']}, {invariant}: {finding.get('detail', '')}\n"
+                   for invariant, finding in cell["findings"].items() if finding["verdict"] == verdict)
+
+
+def text_of(invariant: str, finding: Found) -> str:
+    """"right", "-12 +3" for pairs that were missed or are false, "12 wrong", "wrong", "refused"."""
+    if finding["verdict"] != "broken":
+        return "right" if finding["verdict"] == "holds" else "refused"
+    if invariant == "ends":
+        return "failed"
+    wrong, missed = finding["wrong"], finding["missed"]
+    if invariant in ("pairs", "contacts"):
+        return f"-{missed:,} +{wrong - missed:,}"
+    return f"{wrong:,} wrong" if wrong else "wrong"
+
+
+def verdict_of(cell: dict[str, Any]) -> str:
+    """Of one system over a scene."""
+    for verdict in ("broken", "refused"):
+        for invariant, finding in cell["findings"].items():
+            if finding["verdict"] == verdict:
+                return text_of(invariant, finding)
+    return "right" if cell["findings"] else ""
+
+
+def tally(cells: list[dict[str, Any]]) -> str:
+    """"21 right", "20 right, 1 wrong"."""
+    counts = Counter(word if (word := verdict_of(cell)) in ("right", "refused") else "wrong" for cell in cells)
+    return ", ".join(f"{counts[word]} {word}" for word in ("right", "refused", "wrong") if counts[word])
+
+
+def scenes(cells: list[dict[str, Any]]) -> str:
+    libraries = list(dict.fromkeys(cell["system"] for cell in cells if cell["kind"] == "library"))
+    table = Table("<scene", "triangles", "<ours", "<wrapped libraries", *(f"<{library}" for library in libraries))
+    rows: dict[str, list[dict[str, Any]]] = {}
+    for cell in cells:
+        rows.setdefault(f"{cell['family']}: {cell['scene']}", []).append(cell)
+    for row, those in rows.items():
+        triangles = max(cell.get("triangles", 0) for cell in those)
+        by_library = {cell["system"]: verdict_of(cell) for cell in those if cell["kind"] == "library"}
+        others = [cell for cell in those if cell["kind"] != "library"]
+        table.row([row, f"{triangles:,}" if triangles else "", tally([cell for cell in others if not cell.get("library")]),
+                   tally([cell for cell in others if cell.get("library")]),
+                   *(by_library.get(library, "") for library in libraries)])
+    return table.text()
+
+
+def systems(cells: list[dict[str, Any]], versions: dict[str, str]) -> str:
+    invariants = documents.schema()["$defs"]["stress_cell"]["properties"]["findings"]["propertyNames"]["enum"]
+    table = Table("<system", "scenes", *(f"<{name}" for name in invariants), "<")
+    by_system: dict[str, list[dict[str, Any]]] = {}
+    for cell in cells:
+        by_system.setdefault(cell["system"], []).append(cell)
+    for system, those in by_system.items():
+        joined: dict[str, Found] = {}
+        for cell in those:
+            for invariant, finding in cell["findings"].items():
+                join(joined, invariant, finding)
+        library = those[-1].get("library", "")
+        table.row([system, str(len(those)), *(text_of(name, joined[name]) if name in joined else "" for name in invariants),
+                   f"{library} {versions[library]}" if library in versions else library])
+    return table.text()
+
+
+def join(joined: dict[str, Found], invariant: str, finding: Found) -> None:
+    """Numbers are added up; the worse verdict stays."""
+    before = joined.get(invariant, {"verdict": "holds", "wrong": 0, "missed": 0})
+    worse = max(before, finding, key=lambda one: WORSE[one["verdict"]])
+    joined[invariant] = {"verdict": worse["verdict"], **{key: before[key] + finding[key] for key in ("wrong", "missed")}}

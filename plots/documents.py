@@ -1,0 +1,74 @@
+"""Result files as the console's commands read them: whole, as they are, refused in a sentence that names the file."""
+from __future__ import annotations
+
+import functools
+import json
+import lzma
+import os
+import pathlib
+from typing import Any
+
+import host_memory
+import shape
+from json_files import Number, Refused, unpacked, value_of
+
+MAJOR = "1"
+FOLDER = pathlib.Path(__file__).resolve().parent.parent / "results"
+SCHEMA = FOLDER / "schema" / "result-1.schema.json"
+
+
+def file_text(path: str, what: str) -> bytes:
+    """All of a file, unpacked if it is packed by xz. Raises Refused, "WHAT 'path' cannot be read: REASON"."""
+    try:
+        if os.path.isdir(path):
+            raise Refused(f"{what} '{path}' cannot be read: it is a folder")
+        if why := host_memory.refusal(path, os.path.getsize(path)):
+            raise Refused(why)
+        with open(path, "rb") as file:
+            return unpacked(file.read())
+    except OSError as error:
+        raise Refused(f"{what} '{path}' cannot be read: {error.strerror}") from error
+    except lzma.LZMAError as error:
+        raise Refused(f"{what} '{path}' cannot be unpacked: {error}") from error
+
+
+def line_of(value: Any) -> str:
+    """JSON in one line, numbers as they were read."""
+    if isinstance(value, dict):
+        return "{" + ",".join([f"{line_of(key)}:{line_of(item)}" for key, item in value.items()]) + "}"
+    if isinstance(value, list):
+        return "[" + ",".join([line_of(item) for item in value]) + "]"
+    return value.text if isinstance(value, Number) else json.dumps(value, ensure_ascii=False)
+
+
+@functools.cache
+def schema() -> dict[str, Any]:
+    return json.loads(SCHEMA.read_text(encoding="utf-8"))
+
+
+@functools.cache
+def check_of(part: str) -> shape.Check:
+    """Of a part that the schema defines, or of the whole file."""
+    return shape.check_of(schema()["$defs"][part] if part else schema(), schema())
+
+
+def document_of(text: bytes, origin: str) -> dict[str, Any]:
+    """The result file that a text is. Raises Refused for one that is none, or is of another format."""
+    try:
+        document = value_of(text)
+        if not isinstance(document, dict):
+            raise ValueError("it is no object")
+        for key in ("format", "run", "cells"):
+            if key not in document:
+                raise ValueError(f"key '{key}' not found")
+            if key == "format" and isinstance(document[key], str) and not document[key].startswith(f"{MAJOR}."):
+                raise Refused(f"{origin} has format {document[key]}; this program reads {MAJOR}.x")
+        check_of("")(document)
+    except (ValueError, shape.Wrong) as error:
+        raise Refused(f"{origin} is no result file: {error}") from error
+    return document
+
+
+def read(path: str) -> dict[str, Any]:
+    """Raises Refused."""
+    return document_of(file_text(path, "the result file"), path)

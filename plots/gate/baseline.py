@@ -1,0 +1,99 @@
+"""What is kept of a run of the experiment `smoke`: each cell's verdict, its fastest time, and all that no machine changes."""
+from __future__ import annotations
+
+import os
+from typing import Any
+
+import counters
+import documents
+import results
+import shape
+from cells import Cell, whole_ns
+from documents import line_of
+from json_files import Refused, value_of
+from output import WrongUsage
+
+FORMAT = "smoke-1"
+FOUND = ("pairs_count", "contacts_count")  # by whatever version of a library
+TEXT, NUMBER = {"type": "string"}, {"type": "number"}
+CELL = {"cell": TEXT, "scene": TEXT, "verdict": TEXT, "counters": {"type": "object", "additionalProperties": NUMBER},
+        "hashes": {"type": "object", "additionalProperties": TEXT}}
+SCHEMA = {"type": "object", "required": ["device_kind", "cells"], "properties": {
+    "device_kind": TEXT, "cells": {"type": "array", "items": {
+        "type": "object", "required": list(CELL), "properties": {**CELL, "fastest_ns": NUMBER}}}}}
+
+Kept = dict[str, Any]  # what is kept of a cell, as in the file; "fastest_ns" only if its time may be compared
+
+
+def of_run(run: results.Run) -> list[Kept]:
+    """Builders and colliders that are a library's are called after it."""
+    libraries = tuple(name.lower() for name in run.facts["libraries"])
+    return [kept_of(cell, libraries) for cell in run.all_cells]
+
+
+def kept_of(cell: Cell, libraries: tuple[str, ...]) -> Kept:
+    is_library = any(name.partition("-")[0] in libraries for name in (cell.builder, cell.collider or ""))
+    kept = {"cell": cell.label, "scene": f"{cell.scene_facts['name']} {cell.operation}", "verdict": cell.verdict,
+            "counters": same_everywhere(cell, is_library), "hashes": hashes_of(cell, is_library)}
+    fastest = 0 if is_library else fastest_ns(cell)
+    return {**kept, "fastest_ns": fastest} if fastest > 0 else kept
+
+
+def same_everywhere(cell: Cell, is_library: bool) -> dict[str, float]:
+    """Exact counters but for bytes that depend on how many compute units there are; of libraries, whose versions differ, only
+    what they found."""
+    return {counter: value for counter, value in sorted(cell.counters.items())
+            if counters.is_exact(counter, cell) and not counters.depends_on_machine(counter)
+            and (counter in FOUND or not is_library)}
+
+
+def hashes_of(cell: Cell, is_library: bool) -> dict[str, str]:
+    kinds = ("contacts", "pairs") if is_library else ("contacts", "pairs", "tree")
+    return {kind: cell.check[f"{kind}_hash"] for kind in kinds if f"{kind}_hash" in cell.check}
+
+
+def fastest_ns(cell: Cell) -> int:
+    """Of all samples that count: a machine that does other work makes none faster, and many slower. 0 where none is on the
+    device's clock, since host stages scale with other things."""
+    if not cell.has_times or any("wall_ns" in stage for stage in cell.samples[0].values()):
+        return 0
+    return min(whole_ns(sample) for sample in cell.samples)
+
+
+def text_of(device_kind: str, kept: list[Kept]) -> str:
+    """A cell a line, so that changes can be read."""
+    lines = ",".join(f"\n{line_of(cell)}" for cell in kept)
+    return f'{{"format": "{FORMAT}", "device_kind": "{device_kind}", "cells": [{lines}\n]}}\n'
+
+
+def parsed(text: bytes, origin: str) -> dict[str, Any]:
+    """The baseline that a text is. Raises Refused, naming `origin`, for one that is none."""
+    try:
+        baseline = value_of(text)
+        if not isinstance(baseline, dict) or "format" not in baseline:
+            raise ValueError("key 'format' not found")
+        if baseline["format"] != FORMAT:
+            raise Refused(f'{origin} has format {line_of(baseline["format"])}; this program reads "{FORMAT}"')
+        shape.check_of(SCHEMA, SCHEMA)(baseline)
+    except (ValueError, shape.Wrong) as error:
+        raise Refused(f"{origin} is no baseline of smoke: {error}") from error
+    return baseline
+
+
+def is_baseline(text: bytes) -> bool:
+    """Whether it is the text of an earlier baseline, which a new one replaces."""
+    try:
+        parsed(text, "the baseline")
+    except Refused:
+        return False
+    return True
+
+
+def read(path: str, device_kind: str) -> list[Kept]:
+    """Raises Refused if there is no baseline, WrongUsage for one of another kind of device."""
+    if not os.path.exists(path):
+        raise Refused(f"there is no baseline '{path}' to hold this run to; smoke --update makes it")
+    baseline = parsed(documents.file_text(path, "the baseline"), path)
+    if baseline["device_kind"] != device_kind:
+        raise WrongUsage(f"{path} is of a device of kind {baseline['device_kind']}, and this one is of kind {device_kind}")
+    return baseline["cells"]

@@ -1,0 +1,76 @@
+"""How much memory this process may still take: what would take more is refused before it is begun."""
+from __future__ import annotations
+
+import pathlib
+import re
+import resource
+
+A_TEXT_BYTE = 12  # bytes that a byte of JSON becomes, about
+UNITS = ("", "K", "M", "G", "T")
+UNLIMITED = 1 << 62
+
+limit = 0  # bytes of this process in all, as --memory-limit says; 0: what there is
+
+
+def bytes_of(text: str) -> int:
+    """"512M" or "2G". Raises ValueError for what is no number of bytes from 1 on."""
+    found = re.fullmatch(r"(\d+)([KMGT]?)B?", text, re.IGNORECASE)
+    value = int(found[1]) << 10 * UNITS.index(found[2].upper()) if found else 0
+    if not 0 < value < 1 << 64:
+        raise ValueError(f"must be a number of bytes from 1 on, as 512M or 2G, not '{text}'")
+    return value
+
+
+def number_in(path: pathlib.Path) -> int | None:
+    try:
+        return int(path.read_text(encoding="ascii"))
+    except (OSError, ValueError):
+        return None
+
+
+def left_in_groups() -> int:
+    """By the control groups that this process is in, of either version."""
+    least = UNLIMITED
+    try:
+        lines = pathlib.Path("/proc/self/cgroup").read_text(encoding="utf-8").splitlines()
+    except OSError:
+        return least
+    for line in lines:
+        _, controllers, name = line.split(":", 2)
+        if controllers not in ("", "memory"):
+            continue
+        root = pathlib.Path("/sys/fs/cgroup", controllers)
+        most, used = ("memory.limit_in_bytes", "memory.usage_in_bytes") if controllers else ("memory.max", "memory.current")
+        group = root / name.lstrip("/")
+        for folder in (group, *group.parents):
+            allowed, taken = number_in(folder / most), number_in(folder / used)
+            if allowed is not None and taken is not None:
+                least = min(least, allowed - taken)
+            if folder == root:
+                break
+    return least
+
+
+def own(key: str) -> int:
+    """Bytes of this process by /proc/self/status, or of the machine by /proc/meminfo."""
+    for path in ("/proc/self/status", "/proc/meminfo"):
+        found = re.search(rf"^{key}:\s+(\d+) kB", pathlib.Path(path).read_text(encoding="utf-8"), re.MULTILINE)
+        if found:
+            return int(found[1]) << 10
+    return 0
+
+
+def left() -> int:
+    spaces = [own("MemAvailable"), left_in_groups()]
+    address_space = resource.getrlimit(resource.RLIMIT_AS)[0]
+    if address_space != resource.RLIM_INFINITY:
+        spaces.append(address_space - own("VmSize"))
+    if limit:
+        spaces.append(limit - own("VmRSS"))
+    return max(0, min(spaces))
+
+
+def refusal(path: str | pathlib.Path, size: int) -> str:
+    """Why a text of this size cannot be read; empty if it can."""
+    wanted, there = A_TEXT_BYTE * size, left()
+    return f"out of host memory: reading '{path}' takes about {wanted} bytes, and the host gives {there}" if wanted > there else ""

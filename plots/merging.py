@@ -1,0 +1,142 @@
+"""One result file of several, each cell once and as it was: what a newer or older program has put into a cell stays there."""
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+import cells
+from documents import line_of
+from output import WrongUsage
+
+FIRST_MINOR = 8  # of the format in which `merged_from` came
+
+Json = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Merged:
+    """The text of a merged file. `runs` counts those that its cells are from, `repeated` the cells that were in several parts,
+    the same in each; `differs` says whether an answer is wrong."""
+
+    text: str
+    cells: int
+    runs: int
+    repeated: int
+    differs: bool
+
+
+@dataclass(frozen=True)
+class Part:
+    """A result file that goes into a merged one, with what is kept of each of its runs, by id."""
+
+    origin: str
+    document: Json
+    runs: dict[str, Json]
+
+
+def document_text(run: Json, cell_lines: list[str], stress_lines: list[str], sources: list[str], format_: str) -> str:
+    """A result file with a cell a line, so that files can be compared."""
+    lists = (("merged_from", sources), ("cells", cell_lines), ("stress", stress_lines))
+    told = [f',\n"{name}": [{",".join(chr(10) + line for line in lines)}\n]' for name, lines in lists if lines or name == "cells"]
+    return f'{{"format": "{format_}",\n"run": {line_of(run)}{"".join(told)}}}\n'
+
+
+def source_of(run: Json) -> Json:
+    """What a merged file keeps of a run."""
+    parts = ((run, "id", "id"), (run, "started_at", "started_at"), (run, "finished_at", "finished_at"),
+             (run, "command", "command"), (run["program"], "commit", "commit"), (run["program"], "dirty", "dirty"),
+             (run["host"], "name", "host"), (run["device"], "name", "device"), (run["device"], "driver", "driver"),
+             (run, "copy_rate_bytes_per_s", "copy_rate_bytes_per_s"), (run, "launch_cost_ns", "launch_cost_ns"))
+    return {kept: facts[key] for facts, key, kept in parts if key in facts}
+
+
+def part_of(origin: str, document: Json) -> Part:
+    sources = document.get("merged_from") or [source_of(document["run"])]
+    return Part(origin, document, dict(sorted((source["id"], source) for source in sources)))
+
+
+def device_of(source: Json) -> str:
+    return f"{source.get('device', '')}, driver {source.get('driver', '')}"
+
+
+def commit_of(source: Json) -> str:
+    return source.get("commit", "")[:10] + (" with changes" if source.get("dirty", False) else "")
+
+
+def require_alike(parts: list[Part], other_devices: bool, other_commits: bool) -> None:
+    """Raises WrongUsage about the first part that differs from the first in what it must not."""
+    first = parts[0]
+    like = next(iter(first.runs.values()))
+    for part in parts:
+        if (one := first.document["format"]) != (other := part.document["format"]):
+            raise WrongUsage(f"{first.origin} has format {one} and {part.origin} {other}: merge takes files of one format")
+        for source in part.runs.values():
+            if not other_devices and device_of(source) != device_of(like):
+                raise WrongUsage(f"{first.origin} is of {device_of(like)}, and {part.origin} of {device_of(source)}: "
+                                 "--other-devices merges them all the same")
+            if not other_commits and commit_of(source) != commit_of(like):
+                raise WrongUsage(f"{first.origin} is of commit {commit_of(like)}, and {part.origin} of {commit_of(source)}: "
+                                 "--other-commits merges them all the same")
+
+
+def called(cell: Json) -> str:
+    """A cell in a sentence about it."""
+    scene = cell["scene"]
+    names = [scene if isinstance(scene, str) else scene["name"]]
+    names += [cell[who]["name"] for who in ("builder", "collider") if who in cell]
+    return ", ".join(names + ([cell["system"]] if "system" in cell else []))
+
+
+def keyed(part: Part, kind: str) -> Iterable[tuple[str, Json]]:
+    """The cells of a part, each with the run that it is from and with what tells it from all others. A file may have a cell
+    twice: the second is another file's second."""
+    times: Counter[str] = Counter()
+    for raw in part.document.get(kind, []):
+        cell = raw if "run" in raw else {**raw, "run": part.document["run"]["id"]}
+        key = cells.identity(cell) + device_of(part.runs.get(cell["run"], {}))
+        yield f"{key}#{times[key]}", cell
+        times[key] += 1
+
+
+def collected(parts: list[Part], kind: str) -> tuple[list[Json], int]:
+    """The cells of all parts, each once, and how many were there again. Raises WrongUsage if two that are the same cell have
+    other contents."""
+    seen: dict[str, tuple[Part, Json]] = {}
+    repeated = 0
+    for part in parts:
+        for key, cell in keyed(part, kind):
+            if key not in seen:
+                seen[key] = (part, cell)
+                continue
+            earlier, there = seen[key]
+            if line_of(there) != line_of(cell):
+                raise WrongUsage(f"{earlier.origin} and {part.origin} both have {called(cell)}, and not the same of it: a merged "
+                                 "file has each cell once, so leave one of them out")
+            repeated += 1
+    return [cell for _, cell in seen.values()], repeated
+
+
+def merge(parts: Iterable[tuple[str, Json]], other_devices: bool = False, other_commits: bool = False) -> Merged:
+    """One result file of all cells of the parts, in their order. Its `run` is the first part's; `merged_from` tells of each run,
+    and a cell's `run` which of them it is from. A part is a name for sentences and a checked result file.
+
+    Cells are the same if they are about the same builder or pipeline, with the same options, on the same frame and device.
+    Raises WrongUsage if two that are the same have other contents, or parts differ in what they must not.
+    """
+    files = [part_of(origin, document) for origin, document in parts]
+    require_alike(files, other_devices, other_commits)
+    (measured, repeated), (stress, repeated_stress) = collected(files, "cells"), collected(files, "stress")
+    used = {cell["run"] for cell in measured + stress}
+    sources: dict[str, Json] = {}
+    for part in files:
+        for name, source in part.runs.items():
+            if name in used:
+                sources.setdefault(name, source)
+    first = files[0].document
+    text = document_text(first["run"], [line_of(cell) for cell in measured], [line_of(cell) for cell in stress],
+                         [line_of(source) for source in sources.values()],
+                         f"1.{max(FIRST_MINOR, int(first['format'].split('.')[1]))}")
+    return Merged(text, len(measured) + len(stress), len(sources), repeated + repeated_stress,
+                  any(cell.get("check", {}).get("verdict") == "differs" for cell in measured))

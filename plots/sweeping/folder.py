@@ -1,0 +1,150 @@
+"""What a sweep leaves behind, and knows itself again by when it goes on:
+
+    plan.json            of which units it is, by which programs, on which device
+    experiments/ID.json  what the process of a unit runs
+    cells/ID.json        what came of it, a result file; there in full or not finished
+    NAME.json            all of them, merged; of a shard NAME-IofN.json
+
+A unit's ID is the hash of what is measured, by which program and on which device.
+"""
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import json
+import pathlib
+from typing import Any
+
+import command
+import documents
+import file_lock
+import output
+import tables
+from json_files import Refused, value_of
+from output import WrongUsage
+from sweeping.hashes import hash_of
+from sweeping.planned import Sweep
+from sweeping.units import Shard, Unit
+
+PLAN_FORMAT = 2  # 1 named cells in another way
+PATIENCE_S = 5  # longer than a shard looks at the plan, and than the system takes to end a process that was killed
+
+
+def program_words(facts: dict[str, Any]) -> str:
+    """Which program it is, in words that another one does not have: with changes that are in no commit, by its own bytes too."""
+    program = facts["program"]
+    words = f"commit {program['commit'][:10]}"
+    if program["dirty"] or program["commit"] == "unknown":
+        words += f" with changes ({hashlib.sha256(pathlib.Path(command.PROGRAM).read_bytes()).hexdigest()[:16]})"
+    kernels = "" if program["kernels"] == "embedded" else f", kernels of {program['kernels']}"
+    return f"{words}, {program['version']} {program['build_type']} {program['compiler']} {program['arch']}{kernels}"
+
+
+def device_words(facts: dict[str, Any]) -> str:
+    """The same of the device, with what it is tuned to."""
+    device = facts["device"]
+    tuned = "".join(f", {name}={value}" for name, value in sorted(facts["tuning"]["values"].items()))
+    return f"{device['platform']}/{device['name']}, driver {device['driver']}{tuned}"
+
+
+def finished(path: pathlib.Path) -> dict[str, Any] | None:
+    """What is in a unit's file, if its process has written the end of its run. Raises Refused for what is no result file."""
+    if not path.exists():
+        return None
+    document = documents.read(str(path))
+    return document if "finished_at" in document["run"] and document["cells"] else None
+
+
+class Folder:
+    """Held by one sweep, or by shards beside each other, until `locks` are closed."""
+
+    def __init__(self, folder: str, sweep: Sweep, together: bool, units: list[Unit], shard: Shard, facts: dict[str, Any],
+                 format_: str, keeps_other_commit: bool, locks: contextlib.ExitStack) -> None:
+        self.path, self.format = pathlib.Path(folder), format_
+        self.device, self.programs = device_words(facts), [program_words(facts)]
+        self.note = ""  # what is said of an earlier program, whose cells count too
+        part = f"{shard.number}of{shard.of}"
+        self.result_file = self.path / (f"{sweep.name}.json" if shard.is_all else f"{sweep.name}-{part}.json")
+        for inside in ("cells", "experiments"):
+            try:
+                (self.path / inside).mkdir(parents=True, exist_ok=True)
+            except OSError as error:
+                raise Refused(f"{self.path / inside} cannot be made: {error.strerror}") from error
+        subject = f"the sweep in {folder}"
+        kind = file_lock.EXCLUSIVE if shard.is_all else file_lock.SHARED
+        locks.enter_context(file_lock.locked(str(self.path / "lock"), kind, subject, PATIENCE_S))
+        # Whoever looks at the plan and writes it does so alone.
+        with file_lock.locked(str(self.path / "lock-plan"), file_lock.EXCLUSIVE, subject, PATIENCE_S):
+            if not shard.is_all:
+                locks.enter_context(file_lock.locked(str(self.path / f"lock-{part}"), file_lock.EXCLUSIVE, subject, PATIENCE_S))
+            if (self.path / "plan.json").exists():
+                self.check_plan(plan_in(self.path / "plan.json"), units, keeps_other_commit)
+            elif self.result_file.exists():
+                raise WrongUsage(f"{self.result_file} is there and no sweep's: choose another --out or --name")
+            plan = {"format": PLAN_FORMAT, "sweep": sweep.name, "product": sweep.product, "device": self.device,
+                    "programs": self.programs, "units": [unit.what for unit in units],
+                    "together": "scene" if together else "cell"}
+            output.write(self.path / "plan.json", (json.dumps(plan, indent=1) + "\n").encode())
+        if shard.is_all:
+            for left in (self.path / "cells").glob("*.json.tmp*"):  # of processes that were killed while they wrote
+                left.unlink(missing_ok=True)
+
+    def check_plan(self, plan: dict[str, Any], units: list[Unit], keeps_other_commit: bool) -> None:
+        missing = set(plan["units"]) - {unit.what for unit in units}
+        if missing:
+            raise WrongUsage(f"{self.path} holds another sweep, '{plan['sweep']}' of {plan['product']}: {len(missing)} of the "
+                             f"{tables.counted(len(plan['units']), 'cell')} that it measures are none of these; choose "
+                             "another --out")
+        if plan["device"] != self.device:
+            raise WrongUsage(f"{self.path} holds a sweep on {plan['device']}, and this is {self.device}; choose another --out, "
+                             "and merge --other-devices")
+        notes = []
+        for program in plan["programs"]:
+            if program == self.programs[0]:
+                continue
+            there = [document for unit in units if (document := finished(self.cell_file(unit, program)))]
+            if not there:
+                continue
+            by = f"{tables.counted(len(there), 'cell')} by {program}"
+            if not keeps_other_commit:
+                raise WrongUsage(f"{self.path} holds {by}, and this program is of {self.programs[0]}; --continue-other-commit "
+                                 "keeps them and goes on, or choose another --out")
+            if other := {document["format"] for document in there} - {self.format}:
+                raise WrongUsage(f"{self.path} holds {by} in format {max(other)}, and this program writes {self.format}, which "
+                                 "are not merged; choose another --out")
+            self.programs.append(program)
+            notes.append(f"kept: {by}; the others are measured by {self.programs[0]}")
+        self.note = "\n".join(notes)
+
+    def cell_file(self, unit: Unit, program: str = "") -> pathlib.Path:
+        return self.path / "cells" / f"{hash_of(unit.what, program or self.programs[0], self.device)}.json"
+
+    def experiment_file(self, unit: Unit) -> pathlib.Path:
+        return self.path / "experiments" / self.cell_file(unit).name
+
+    def done(self, unit: Unit) -> tuple[pathlib.Path, dict[str, Any]] | None:
+        """The result file of the unit, whichever program measured it."""
+        for program in self.programs:
+            path = self.cell_file(unit, program)
+            if document := finished(path):
+                return path, document
+        return None
+
+    def begin(self, unit: Unit) -> None:
+        """Removes what is left of a unit that is not done, and writes its experiment."""
+        self.cell_file(unit).unlink(missing_ok=True)
+        output.write(self.experiment_file(unit), (json.dumps(unit.experiment, indent=1) + "\n").encode())
+
+
+def plan_in(path: pathlib.Path) -> dict[str, Any]:
+    try:
+        plan = value_of(documents.file_text(str(path), "the plan"))
+        if plan["format"] != PLAN_FORMAT:
+            age = "an older" if plan["format"] < PLAN_FORMAT else "a newer"
+            raise Refused(f"{path} is of {age} program, which named cells in another way; choose another --out")
+        for key, kind in (("sweep", str), ("product", str), ("device", str), ("programs", list), ("units", list)):
+            if not isinstance(plan[key], kind) or (kind is list and not all(isinstance(item, str) for item in plan[key])):
+                raise ValueError(f"its '{key}' is none")
+        return plan
+    except (ValueError, KeyError, TypeError) as error:
+        raise Refused(f"{path} is no plan of a sweep: {output.described(error)}") from error

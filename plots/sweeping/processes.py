@@ -1,0 +1,281 @@
+"""A process for each unit of a sweep, several at a time: a crash costs one unit."""
+from __future__ import annotations
+
+import collections
+import contextlib
+import datetime
+import os
+import select
+import signal
+import subprocess
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import command
+import documents
+import merging
+import output
+import tables
+from cells import Cell
+from child import ENDING
+from json_files import Refused
+from sweeping import time_left
+from sweeping.folder import Folder, finished
+from sweeping.units import Unit
+
+LOOK_S = 0.1  # how often signals and time limits are looked for
+PATIENCE_S = 5  # for processes that were asked to end
+MOST_ERRORS = 1 << 16  # bytes kept of what a process says
+STOPS = {int(number) for number in ENDING}
+
+
+class Stop:
+    """The signal that asked this process to end; 0: none."""
+
+    number = 0
+
+    def remember(self, number: int, _frame: Any) -> None:
+        if self.number:  # asked twice: at once, and its processes with it
+            os._exit(128 + number)
+        self.number = number
+
+
+@contextlib.contextmanager
+def deferred() -> Iterator[Stop]:
+    """Signals that end this process are only remembered, until what is done is assembled."""
+    stop = Stop()
+    before = {number: signal.getsignal(number) for number in ENDING}
+    for number, handler in before.items():
+        if handler != signal.SIG_IGN:  # as under nohup
+            signal.signal(number, stop.remember)
+    try:
+        yield stop
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+@contextlib.contextmanager
+def kept_program() -> Iterator[str]:
+    """A name that the file of this very program has until the end, also when another one takes its place."""
+    try:
+        file = open(command.PROGRAM, "rb")
+    except OSError as error:
+        raise Refused(f"the program {command.PROGRAM} cannot be run: {error.strerror}") from error
+    with file:
+        yield f"/proc/{os.getpid()}/fd/{file.fileno()}"
+
+
+@dataclass(frozen=True)
+class Task:
+    devices: list[str | None]  # of each process at a time; None: the program's choice
+    program: str  # its file
+    words: list[str]  # options that all processes get
+    cell_limit_s: float  # 0: none
+    retry_failed: bool
+    facts: Callable[[str | None], dict[str, Any]]  # of a device that is there; raises Refused
+    run: dict[str, Any]  # facts of the sweep's own run
+
+
+class Process:
+    """At work on a unit."""
+
+    def __init__(self, unit: Unit, folder: Folder, task: Task, device: str | None) -> None:
+        folder.begin(unit)
+        self.unit, self.device, self.file = unit, device, folder.cell_file(unit)
+        self.began, self.given_up, self.said = time.monotonic(), "", b""
+        words = ["run", str(folder.experiment_file(unit)), "--out", str(self.file), "--quiet", *task.words, *device_words(device)]
+        try:
+            self.child = subprocess.Popen([command.PROGRAM, *words], executable=task.program, env=environment(), process_group=0,
+                                          stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        except OSError as error:
+            raise Refused(f"the program {command.PROGRAM} cannot be run: {error.strerror}") from error
+        assert self.child.stderr
+        self.errors = self.child.stderr.fileno()
+
+    @property
+    def seconds(self) -> float:
+        return time.monotonic() - self.began
+
+    def take(self) -> bool:
+        """Keeps the last of what it says, which must be there. Whether it is over."""
+        piece = os.read(self.errors, MOST_ERRORS)
+        self.said = (self.said + piece)[-MOST_ERRORS:]
+        if not piece:
+            self.child.wait()
+            self.child.stderr.close()
+        return not piece
+
+    def end_if_late(self, limit_s: float) -> None:
+        if limit_s and self.seconds > limit_s and not self.given_up:
+            limit = tables.exact(limit_s)
+            self.given_up = f"its process took longer than {limit} s and was ended; --cell-limit gives a cell more"
+            self.child.kill()
+
+    def sentence(self) -> str:
+        """The last of what it said as the program says what went wrong; drivers may have had words before and after."""
+        said = [line for line in self.said.decode(errors="replace").splitlines() if line.startswith("bvhbench: ")]
+        return said[-1].removeprefix("bvhbench: ") if said else ""
+
+
+def readable(files: list[int]) -> set[int]:
+    """Those with something to read, or at their end, after LOOK_S at the latest."""
+    waiting = select.poll()
+    for file in files:
+        waiting.register(file, select.POLLIN)
+    return {file for file, _ in waiting.poll(1000 * LOOK_S)}
+
+
+def device_words(device: str | None) -> list[str]:
+    return [] if device is None else ["--device", device]
+
+
+def environment() -> dict[str, str]:
+    """Of a process that ends with this one, however that ends."""
+    return {**os.environ, "BVHBENCH_PARENT": str(os.getpid())}
+
+
+@dataclass(frozen=True)
+class Loss:
+    """Why a process has left no result."""
+
+    why: str
+    is_skipped: bool = False
+    may_be_the_device: bool = False
+    was_stopped: bool = False
+
+
+def loss_of(process: Process) -> Loss:
+    code, sentence = process.child.returncode, process.sentence()
+    if process.given_up:
+        return Loss(process.given_up)
+    if code < 0 and -code not in STOPS:
+        return Loss(f"its process crashed (signal {-code})" + (f": {sentence}" if sentence else ""), may_be_the_device=True)
+    was_stopped = (-code if code < 0 else code - 128) in STOPS
+    ended = f"ended with exit code {code}" if code >= 0 else f"crashed (signal {-code})"
+    why = sentence if sentence and not was_stopped else f"its process {ended} and left no result"
+    return Loss(why, code == 2, code == 3, was_stopped)
+
+
+class Runner:
+    """Runs the units that are not done, until `stop` has a signal."""
+
+    def __init__(self, units: list[Unit], folder: Folder, task: Task, stop: Stop) -> None:
+        self.folder, self.task, self.stop, self.total, self.done = folder, task, stop, len(units), 0
+        self.left = time_left.TimeLeft()
+        self.waiting = collections.deque(unit for unit in units if not self.is_done(unit))
+        self.slots: list[Process | None] = [None] * len(task.devices)
+
+    def is_done(self, unit: Unit) -> bool:
+        there = self.folder.done(unit)
+        if there is None or (self.task.retry_failed and any(cell["status"] == "failed" for cell in there[1]["cells"])):
+            return False
+        self.count(unit, there[1], max(0.5, seconds_of(there[1]["run"])))  # files tell whole seconds
+        return True
+
+    def count(self, unit: Unit, document: dict[str, Any], seconds: float) -> None:
+        """What a cell took that was not measured says nothing of others."""
+        self.done += 1
+        if document["cells"][0]["status"] == "measured":
+            self.left.add(unit.kind, unit.triangles, seconds)
+
+    def run(self) -> None:
+        """Raises Refused where the device is gone."""
+        try:
+            while not self.stop.number and (self.waiting or any(self.slots)):
+                for place, slot in enumerate(self.slots):
+                    if slot is None and self.waiting:
+                        self.slots[place] = Process(self.waiting.popleft(), self.folder, self.task, self.task.devices[place])
+                ready = readable([slot.errors for slot in self.slots if slot])
+                for place, slot in enumerate(self.slots):
+                    if slot is None:
+                        continue
+                    slot.end_if_late(self.task.cell_limit_s)
+                    if slot.errors in ready and slot.take():
+                        self.slots[place] = None
+                        self.conclude(slot)
+        finally:
+            self.end_all()
+
+    def conclude(self, process: Process) -> None:
+        unit = process.unit
+        if finished(process.file) is None:
+            if process.file.exists():  # what it had measured before stays there, out of the way
+                process.file.rename(process.file.with_suffix(".part"))
+            loss = loss_of(process)
+            if loss.was_stopped and self.was_interrupted():
+                return
+            if loss.may_be_the_device and not self.has_device(process.device, loss.why):
+                return
+            self.record_loss(unit, loss)
+        document = finished(process.file)
+        if document is None:
+            raise Refused(f"{process.file} is gone")
+        self.count(unit, document, process.seconds)
+        self.tell(unit, document, process.seconds)
+
+    def was_interrupted(self) -> bool:
+        """Ctrl-C may reach a process first."""
+        until = time.monotonic() + 1
+        while not self.stop.number and time.monotonic() < until:
+            time.sleep(LOOK_S)
+        return bool(self.stop.number)
+
+    def has_device(self, device: str | None, why: str) -> bool:
+        """Else every cell that is left would fail in its turn, so it raises Refused. False: a signal ended who was asked."""
+        try:
+            self.task.facts(device)
+            return True
+        except Refused as refusal:
+            if self.stop.number:
+                return False
+            raise Refused(f"the device is gone after {self.done} of {self.total} cells ({why}; {refusal}); they are kept, and "
+                          "the same command goes on") from refusal
+
+    def record_loss(self, unit: Unit, loss: Loss) -> None:
+        run = {**self.task.run, "finished_at": now()}
+        end = {"status": "skipped" if loss.is_skipped else "failed", "reason": loss.why}
+        lines = [documents.line_of(one.raw | end) for one in unit.cells]
+        output.write(self.folder.cell_file(unit), merging.document_text(run, lines, [], [], self.folder.format).encode())
+
+    def tell(self, unit: Unit, document: dict[str, Any], seconds: float) -> None:
+        cell = Cell(document["cells"][0])
+        what = f"{cell.verdict}: {cell.reason}" if cell.reason else cell.verdict
+        if len(document["cells"]) > 1:
+            what = f"{len(document['cells'])} results"
+        line = f"[{self.done}/{self.total}] {unit.label}: {what}, {seconds:.1f} s"
+        if self.done < self.total and self.left.all:
+            line += f"; about {time_left.rough(self.seconds_left())} left"
+        print(line, flush=True)  # cluster logs are read while they grow
+
+    def seconds_left(self) -> float:
+        def takes(unit: Unit) -> float:
+            return self.left.seconds_of(unit.kind, unit.triangles)
+
+        seconds = sum(takes(unit) for unit in self.waiting)
+        seconds += sum(max(0.0, takes(slot.unit) - slot.seconds) for slot in self.slots if slot)
+        return seconds / len(self.slots)
+
+    def end_all(self) -> None:
+        """Asked first, so that they may leave a driver in order; their cells will be measured anew."""
+        running = [slot.child for slot in self.slots if slot]
+        for child in running:
+            child.terminate()
+        until = time.monotonic() + PATIENCE_S
+        for child in running:
+            try:
+                child.communicate(timeout=max(0.0, until - time.monotonic()))
+            except subprocess.TimeoutExpired:
+                child.kill()
+                child.wait()
+
+
+def now() -> str:
+    return datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ")
+
+
+def seconds_of(run: dict[str, Any]) -> float:
+    began, ended = (datetime.datetime.strptime(run[key], "%Y-%m-%dT%H:%M:%SZ") for key in ("started_at", "finished_at"))
+    return (ended - began).total_seconds()

@@ -1,0 +1,206 @@
+"""The product that a sweep measures: scenes, sizes, builders, orders, colliders and values of options. docs/sweeps.md tells how
+it is written. The program itself says what each cell is, or why there is none."""
+from __future__ import annotations
+
+import itertools
+import re
+from typing import Any
+
+import tables
+from output import WrongUsage
+from sweeping import sizes
+from sweeping.planned import NO_BUILDER, OPTIONS, Json, Planned, Sweep
+from sweeping.settling import Settle, settled
+
+KEYS = ("sweep", "question", "scenes", "sizes", "builders", "orders", "colliders", "set", "samples", "warm_up", "quality")
+HOLE = "{size}"
+MOST_CELLS = 1_000_000
+USUAL_BUILDER, USUAL_COLLIDER = "oibvh-multi", "leaf"
+UNTOLD = ("frames", "swept")  # result files do not tell cells of several values apart
+
+
+def listed(json: Json, key: str) -> list[Any]:
+    if not isinstance(json[key], list) or not json[key]:
+        raise WrongUsage(f"'{key}' must be a list of at least one")
+    return json[key]
+
+
+def word(value: Any) -> str:
+    """A value as the command line says it."""
+    return value if isinstance(value, str) else str(value).lower() if isinstance(value, bool) else str(value)
+
+
+def whole(json: Json, key: str, least: int, usual: int) -> int:
+    value = json.get(key, usual)
+    if type(value) is not int or not least <= value <= 1_000_000:
+        raise WrongUsage(f"{key} must be a whole number from {least} to 1000000, not {word(value)}")
+    return value
+
+
+def all_named(json: Json, key: str) -> list[Json]:
+    """Builders or colliders as objects."""
+    items = [{"name": item} if isinstance(item, str) else item for item in listed(json, key)]
+    for item in items:
+        if not isinstance(item, dict) or not isinstance(item.get("name"), str):
+            raise WrongUsage(f"'{key}' must be names, or objects with a name")
+    return items
+
+
+def swept_of(json: Json, settle: Settle) -> Sweep:
+    """Raises WrongUsage, in a sentence that names the key, for what makes no sense. A combination that cannot be, of things that
+    can, is a cell that says why not."""
+    for key in json:
+        if key not in KEYS:
+            raise WrongUsage(f"'{key}' is no key of a sweep; there are: {', '.join(KEYS)}")
+    if "scenes" not in json:
+        raise WrongUsage("a sweep needs scenes")
+    name = json.get("sweep", "sweep")
+    if not isinstance(name, str) or not re.fullmatch(r"[A-Za-z0-9_-]+", name):
+        raise WrongUsage(f"'sweep' must be letters, digits, - and _, not '{word(name)}'")
+    if not isinstance(json.get("quality", False), bool):
+        raise WrongUsage(f"'quality' is true or false, not {word(json['quality'])}")
+    if not isinstance(json.get("question", ""), str):
+        raise WrongUsage("'question' must be text")
+    sweep = Sweep(name, json.get("question", ""), whole(json, "samples", 1, 20), whole(json, "warm_up", 0, 3),
+                  json.get("quality", False), "", [])
+    scenes = scenes_of(json, sweep, settle)
+    options = options_of(json)
+    builders, colliders = builders_of(json), all_named(json, "colliders") if "colliders" in json else [None]
+    of_colliders, of_scenes = check_each(json, sweep, scenes, builders, colliders, options, settle)
+    count = len(scenes) * len(builders) * len(colliders)
+    for _, values in options:
+        count *= len(values)
+    if count > MOST_CELLS:
+        raise WrongUsage(f"the sweep has more than {MOST_CELLS} cells")
+    trees = [answer["cells"][0]["builder"]["name"] != NO_BUILDER for answer in of_colliders] or [True]
+    planned = [with_options(Planned(dict(scene), dict(builder) if wants_tree else None, dict(collider) if collider else None, {},
+                                    about["triangles"], about["files"]), options, chosen)
+               for (scene, about), builder, (collider, wants_tree) in itertools.product(zip(scenes, of_scenes), builders,
+                                                                                        zip(colliders, trees))
+               for chosen in itertools.product(*(values for _, values in options))]
+    sweep.cells = each_once(settled(planned, sweep, settle))
+    counts = [("scene", len(scenes))] + [(key[:-1], len(json[key])) for key in ("builders", "orders", "colliders") if key in json]
+    sweep.product = " x ".join([tables.counted(number, what) for what, number in counts]
+                               + [f"{tables.counted(len(values), 'value')} of {key}" for key, values in options])
+    return sweep
+
+
+def scenes_of(json: Json, sweep: Sweep, settle: Settle) -> list[Json]:
+    """Each scene once, or once a size where it leaves room for one."""
+    given = json.get("sizes", [])
+    of_sizes = [] if "sizes" not in json else sizes.called(
+        given if isinstance(given, str) else ",".join(map(word, listed(json, "sizes"))))
+    items = [{"scene": item} if isinstance(item, str) else item for item in listed(json, "scenes")]
+    for item in items:
+        if not isinstance(item, dict) or not isinstance(item.get("scene"), str):
+            raise WrongUsage("'scene' must be text")
+    scenes, has_sized = [], False
+    for scene, answer in zip(items, settle([experiment_over({"scene": item["scene"]}, sweep) for item in items])):
+        name = scene["scene"]
+        if of_sizes and answer.get("sized"):
+            name += f":{HOLE}"
+        if HOLE not in name:
+            scenes.append(scene)
+            continue
+        if not of_sizes:
+            raise WrongUsage(f"the scene '{name}' asks for sizes, and the sweep has none")
+        has_sized = True
+        scenes += [scene | {"scene": name.replace(HOLE, str(size), 1)} for size in of_sizes]
+    if of_sizes and not has_sized:
+        raise WrongUsage(f"none of the scenes has room for a size: name a generator, as torus, or write {HOLE} where it goes, as "
+                         f"in refine:bunny:{HOLE}")
+    return scenes
+
+
+def builders_of(json: Json) -> list[Json]:
+    """Each builder in each order."""
+    if "builders" not in json and "colliders" not in json:
+        raise WrongUsage("a sweep needs builders or colliders")
+    builders = all_named(json, "builders") if "builders" in json else [{"name": USUAL_BUILDER}]
+    if "orders" not in json:
+        return builders
+    if any("order" in builder for builder in builders):
+        raise WrongUsage("a builder that names its order leaves none to the sweep's orders")
+    return [builder | {"order": order} for builder in builders for order in listed(json, "orders")]
+
+
+def options_of(json: Json) -> list[tuple[str, list[str]]]:
+    """The options of `set` and their values, in the order of OPTIONS."""
+    chosen = json.get("set", {})
+    if not isinstance(chosen, dict):
+        raise WrongUsage("'set' must be an object of options, each with a list of values")
+    for key in chosen:
+        if key not in OPTIONS:
+            raise WrongUsage(f"a sweep sets no '{key}'; there are: {', '.join(OPTIONS)}")
+        if OPTIONS[key][0] != "builder" and "colliders" not in json:
+            raise WrongUsage(f"'{key}' is for colliders, and the sweep has none")
+    options = [(key, [word(value) for value in listed(chosen, key)]) for key in OPTIONS if key in chosen]
+    for key, values in options:
+        if key in UNTOLD and len(values) > 1:
+            raise WrongUsage(f"'{key}' may have one value: result files do not tell cells of several apart; make it several "
+                             "sweeps")
+    return options
+
+
+def with_options(one: Planned, options: list[tuple[str, list[str]]], chosen: tuple[str, ...]) -> Planned:
+    for (key, _), value in zip(options, chosen):
+        whose, own = OPTIONS[key]
+        place = {"builder": one.builder, "collider": one.collider, "query": one.query, "scene": one.scene}[whose]
+        if place is not None:
+            place[own] = value == "true" if own == "swept" and value in ("true", "false") else value
+    return one
+
+
+def experiment_over(scene: Json, sweep: Sweep, builder: Json | None = None, collider: Json | None = None,
+                    query: Json | None = None) -> Json:
+    """Of usual parts where none are given."""
+    if collider is None and len(scene) == 1:
+        return {"experiment": sweep.name, "scenes": [scene["scene"]], "builders": [builder or USUAL_BUILDER]}
+    return {"experiment": sweep.name, "scenes": [scene], "pipelines": [
+        {"builder": builder or USUAL_BUILDER, "collider": collider or USUAL_COLLIDER, "adjacent": "drop"} | (query or {})]}
+
+
+def check_each(json: Json, sweep: Sweep, scenes: list[Json], builders: list[Json], colliders: list[Json | None],
+               options: list[tuple[str, list[str]]], settle: Settle) -> tuple[list[Json], list[Json]]:
+    """What the program says of each collider and of each scene. Raises WrongUsage for what is wrong by itself, whatever it is
+    combined with."""
+    usual = {"scene": "soup:1"}
+    asked = [("", experiment_over(usual, sweep, builder)) for builder in builders]
+    asked += [("", experiment_over(usual, sweep, None, collider)) for collider in colliders if collider]
+    asked += [(f"the scene '{scene['scene']}': ", experiment_over(scene, sweep)) for scene in scenes]
+    for key, values in options:
+        whose, own = OPTIONS[key]
+        for value in values:
+            one = Planned(dict(usual), {"name": USUAL_BUILDER}, {"name": USUAL_COLLIDER}, {})
+            with_options(one, [(key, values)], (value,))
+            asked.append((f"--set {key}: " if own != key else "",
+                          experiment_over(one.scene, sweep, one.builder, one.collider, one.query)))
+    answers = settle([experiment for _, experiment in asked])
+    for (where, _), answer in zip(asked, answers):
+        if answer.get("error"):
+            raise WrongUsage(where + answer["error"])
+    for scene in scenes:
+        if len(scene) > 1 and "colliders" not in json:
+            raise WrongUsage(f"the scene '{scene['scene']}' says what is for colliders, and the sweep has none")
+        if "pairs_of" in scene and "pairs_of" in dict(options):
+            raise WrongUsage(f"the scene '{scene['scene']}' says which pairs it is about, which leaves none to the sweep")
+        if scene.get("swept") and len(dict(options).get("pairs_of", ())) > 1:
+            raise WrongUsage(f"the scene '{scene['scene']}' is swept: all its pairs are those between and within, so 'pairs_of' "
+                             "may have one value")
+    first_scene = len(builders) + sum(collider is not None for collider in colliders)
+    return answers[len(builders):first_scene], answers[first_scene:first_scene + len(scenes)]
+
+
+def each_once(planned: list[Planned]) -> list[Planned]:
+    """A builder that a collider does not ask for makes no difference. Scenes that differ only in what result files do not tell
+    would be taken for each other."""
+    seen: dict[str, Json] = {}
+    once = []
+    for one in planned:
+        scene = seen.setdefault(one.cell.identity, one.scene)
+        if scene is one.scene:
+            once.append(one)
+        elif scene != one.scene:
+            raise WrongUsage(f"the scene '{one.scene['scene']}' is there twice, and result files do not tell which is which; "
+                             "make it two sweeps")
+    return once

@@ -1,0 +1,63 @@
+"""Tables and numbers for the console."""
+from __future__ import annotations
+
+from collections.abc import Sequence
+from decimal import Decimal
+
+LEFT, RIGHT = "<", ">"
+
+
+class Table:
+    """Columns as wide as their widest entry. A title that begins with "<" aligns its column to the left."""
+
+    def __init__(self, *titles: str) -> None:
+        self.titles = [title.removeprefix(LEFT) for title in titles]
+        self.aligns = [LEFT if title.startswith(LEFT) else RIGHT for title in titles]
+        self.rows: list[list[str]] = []
+
+    def row(self, entries: Sequence[str]) -> None:
+        """One entry a column; missing ones at the end are blank."""
+        self.rows.append([*entries, *[""] * (len(self.titles) - len(entries))])
+
+    def text(self) -> str:
+        """A line of titles if any column has one, then the rows, each ended by a newline."""
+        lines = [self.titles, *self.rows] if any(self.titles) else self.rows
+        widths = [max((len(line[place]) for line in (self.titles, *self.rows))) for place in range(len(self.titles))]
+        return "".join("  ".join(f"{entry:{align}{width}}" for entry, align, width in zip(line, self.aligns, widths)).rstrip(" ") + "\n"
+                       for line in lines)
+
+
+def with_unit(value: float, units: Sequence[str]) -> str:
+    """Three digits that count, in the largest of the units that leaves at least 1."""
+    unit = 0
+    while unit + 1 < len(units) and value >= 999.5:
+        value /= 1000
+        unit += 1
+    digits = 0 if unit == 0 or value >= 99.95 else 1 if value >= 9.995 else 2
+    return f"{value:.{digits}f} {units[unit]}"
+
+
+def duration(ns: float) -> str:
+    """Nanoseconds in the unit that suits: "950 ns", "71.2 us", "1.30 ms"."""
+    return with_unit(ns, ("ns", "us", "ms", "s"))
+
+
+def size(count: float) -> str:
+    """Bytes in the unit that suits: "512 B", "6.91 MB"."""
+    return with_unit(count, ("B", "kB", "MB", "GB", "TB"))
+
+
+def counted(count: int, what: str) -> str:
+    """"1 cell", "1,200 cells"."""
+    return f"{count:,} {what}{'' if count == 1 else 's'}"
+
+
+def exact(value: float) -> str:
+    """With as many digits as tell a number from all others."""
+    if value == int(value) and abs(value) < 1e15:
+        return str(int(value))
+    shortest = Decimal(repr(float(value))).normalize()
+    if 1e-4 <= abs(value) < 1e15:
+        return f"{shortest:f}"
+    mantissa, _, exponent = f"{shortest:e}".lower().partition("e")
+    return f"{mantissa}e{exponent[0]}{exponent[1:]:0>2}"

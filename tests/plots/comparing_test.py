@@ -1,0 +1,299 @@
+#!/usr/bin/env python3
+"""What `compare` says of times, counters, verdicts and cells of two result files.
+
+Usage: comparing_test.py <source root>
+"""
+from __future__ import annotations
+
+import copy
+import math
+import pathlib
+import sys
+import unittest
+from collections.abc import Callable
+from typing import Any
+
+import numpy
+
+ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
+sys.path.insert(0, str(ROOT / "plots"))
+
+import counters  # noqa: E402
+from cells import Cell  # noqa: E402
+from comparing import comparison, report  # noqa: E402
+from comparing.refusals import require_comparable  # noqa: E402
+from comparing.rules import Rules  # noqa: E402
+from output import WrongUsage  # noqa: E402
+
+BUILDERS = ["perfect", "karras", "apetrei", "lbvh-levels", "oibvh-single", "oibvh-multi"]
+FOUR = ["karras", "apetrei", "perfect", "oibvh-multi"]
+SAME, FASTER, SLOWER, UNSURE = "SAME", "FASTER", "SLOWER", "UNSURE"
+Raw = dict[str, Any]
+
+
+def steady(_: float) -> float:
+    return 1
+
+
+def cell(builder: str = "karras", median_ns: float = 1e6, seed: int = 1, noise: float = 0.02, samples: int = 40,
+         drift: Callable[[float], float] = steady, frame: int = 0, first: int = 0, every: int = 1) -> Raw:
+    """Its whole times are spread about the median, the same for the same seed; `drift` says by what a sample at that share of the
+    run is longer."""
+    spread = numpy.random.default_rng(seed).normal(0, noise, samples)
+    return {"experiment": "trial", "status": "measured", "scene": {"name": "bunny", "frame": frame, "content_hash": "0" * 16},
+            "builder": {"name": builder}, "check": {"verdict": "agrees", "pairs_hash": "1" * 16, "tree_hash": "2" * 16},
+            "counters": {"sah_cost": 80.25, "pairs_count": 1000}, "leaves_by_depth": [0, 0, 4],
+            "samples": [{"order": first + every * place, "stages": [
+                {"stage": stage, "span_ns": int(median_ns / 2 * math.exp(off) * drift(place / samples)), "launches": 2}
+                for stage in ("sort", "hierarchy")]} for place, off in enumerate(spread)]}
+
+
+def document(*cells: Raw, name: str = "run") -> Raw:
+    return {"format": "1.9", "cells": list(cells), "run": {
+        "id": name, "finished_at": "then",
+        "program": {"dirty": False, "compiler": "gcc", "build_type": "Release", "arch": "native", "kernels": "embedded"},
+        "host": {"name": "host", "cpu": "cpu", "threads": 8, "os": "Linux"},
+        "device": {"name": "device", "platform": "platform", "compute_units": 4, "driver": "1"}}}
+
+
+def builders(seed: int, drift: Callable[[float], float] = steady, karras: float = 1, samples: int = 100) -> Raw:
+    """Six of one scene, their samples interleaved; the n-th takes n milliseconds."""
+    return document(*(cell(name, 1e6 * (place + 1) * (karras if name == "karras" else 1), 10 * seed + place, 0.02, samples, drift,
+                           first=place, every=len(BUILDERS)) for place, name in enumerate(BUILDERS)), name=f"run {seed}")
+
+
+def compared(first: Raw, second: Raw, **rules: Any) -> comparison.Comparison:
+    return comparison.compare(first, second, Rules(**rules))
+
+
+def verdicts(first: Raw, second: Raw, **rules: Any) -> list[str]:
+    return [each.verdict for each in compared(first, second, **rules).cells]
+
+
+def with_sentences(change: Callable[[Raw], Any], **rules: Any) -> tuple[list[str], list[str]]:
+    """What is told of a cell that was changed: regressions, and others."""
+    before = document(cell())
+    after = copy.deepcopy(before)
+    change(after["cells"][0])
+    only, = compared(before, after, **rules).cells
+    return only.regressions, only.changes
+
+
+class Times(unittest.TestCase):
+    def verdict_of(self, factor: float, threshold: float = 0.05, samples: int = 40, noise: float = 0.02) -> str:
+        return verdicts(document(cell(samples=samples, noise=noise)),
+                        document(cell(median_ns=factor * 1e6, seed=2, samples=samples, noise=noise)), threshold=threshold)[0]
+
+    def test_are_told_apart_at_the_threshold(self) -> None:
+        for factor, threshold, expected in ((1, 0.05, SAME), (1.02, 0.05, SAME), (1.1, 0.05, SLOWER), (0.9, 0.05, FASTER),
+                                            (1.1, 0.5, SAME), (1.6, 0.5, SLOWER)):
+            self.assertEqual(self.verdict_of(factor, threshold), expected, (factor, threshold))
+
+    def test_of_few_samples_or_much_noise_are_unsure(self) -> None:
+        self.assertEqual(self.verdict_of(3, samples=8), UNSURE)
+        self.assertEqual(self.verdict_of(3, samples=9), SLOWER)
+        self.assertEqual(self.verdict_of(1.03, noise=0.4), UNSURE)
+
+    def test_of_many_cells_must_be_surer(self) -> None:
+        many = document(*(cell(seed=frame, frame=frame) for frame in range(100)))
+        self.assertAlmostEqual(compared(many, many).error_of_each, 0.0005)
+        for each in many["cells"]:
+            del each["samples"][9:]
+        self.assertEqual(verdicts(many, many), [UNSURE] * 100)  # no nine can be that sure
+
+    def test_of_all_stages_together_decide_and_each_is_shown(self) -> None:
+        after = document(cell(seed=2))
+        for sample in after["cells"][0]["samples"]:
+            sample["stages"][0]["span_ns"] *= 2
+        only, = compared(document(cell()), after).cells
+        self.assertEqual(only.verdict, SLOWER)
+        self.assertAlmostEqual(only.time.ratio.value, 1.5, delta=0.03)
+        self.assertAlmostEqual(only.stages["sort"].ratio.value, 2, delta=0.04)
+        self.assertAlmostEqual(only.stages["hierarchy"].ratio.value, 1, delta=0.02)
+        self.assertEqual(only.stages["sort"].counts, (40, 40))
+
+
+class OfAScene(unittest.TestCase):
+    def test_cells_are_judged_beside_the_others(self) -> None:
+        before = builders(1)
+        all_slower = compared(before, builders(2, lambda _: 1.2))
+        self.assertEqual([each.verdict for each in all_slower.cells], [SAME] * 6)
+        scene, = all_slower.scenes
+        self.assertEqual((scene.verdict, scene.cells), (SLOWER, 6))
+        self.assertAlmostEqual(scene.ratio.value, 1.2, delta=0.01)
+        self.assertEqual(all_slower.regressions, 1)
+        self.assertEqual(verdicts(before, builders(2, lambda _: 1.2, karras=1.15)), [SAME, SLOWER, SAME, SAME, SAME, SAME])
+
+    def test_a_run_that_wavered_as_much_as_it_changed_says_nothing(self) -> None:
+        found = compared(builders(1, lambda at: 1 if at < 0.5 else 1.25), builders(2, lambda _: 1.3))
+        self.assertEqual([scene.verdict for scene in found.scenes], [UNSURE])
+        self.assertEqual(found.regressions, 0)
+
+    def test_cells_that_agree_on_nothing_are_unsure_but_of_what_no_drift_makes(self) -> None:
+        found = compared(document(*map(cell, FOUR)), document(*map(cell, FOUR, (1e6, 1.2e6, 2e6, 5e5))))
+        self.assertEqual([each.verdict for each in found.cells], [UNSURE, UNSURE, SLOWER, FASTER])
+        self.assertEqual(found.scenes[0].verdict, UNSURE)
+
+    def test_runs_by_turns_share_their_drift(self) -> None:
+        def drift(at: float) -> float:
+            return 1 + 0.4 * at + (0.5 if 0.3 < at < 0.6 else 0)
+
+        before, after, slower = builders(1, drift), builders(2, drift, karras=1.08), builders(2, lambda at: 1.1 * drift(at))
+        self.assertEqual(verdicts(before, after)[1], UNSURE)
+        before["run"]["turns_with"] = ["run 2"]
+        self.assertFalse(compared(before, after).by_turns)  # only one of them says so
+        for other in (after, slower):
+            other["run"]["turns_with"] = ["run 1"]
+        found = compared(before, after)
+        self.assertEqual([each.verdict for each in found.cells], [SAME, SLOWER, SAME, SAME, SAME, SAME])
+        self.assertAlmostEqual(found.cells[1].time.ratio.value, 1.08, delta=0.01)
+        self.assertEqual(verdicts(before, slower), [SLOWER] * 6)  # nothing else can have made it
+
+    def test_samples_are_compared_that_were_taken_at_like_speed(self) -> None:
+        def at_speeds(seed: int, fast_of_ten: int) -> Raw:
+            of_two = builders(seed)
+            for each in of_two["cells"]:
+                for place, sample in enumerate(each["samples"]):
+                    sample["calibration_ns"] = 1000 if place % 10 < fast_of_ten else 1500
+                    for stage in sample["stages"]:
+                        stage["span_ns"] *= sample["calibration_ns"] // 500
+            return of_two
+
+        found = compared(at_speeds(1, 7), at_speeds(2, 4))
+        self.assertEqual([each.verdict for each in found.cells], [SAME] * 6)
+        self.assertEqual(found.cells[0].time.counts, (70, 40))
+        self.assertAlmostEqual(found.scenes[0].ratio.value, 1, delta=0.01)
+        self.assertEqual(verdicts(at_speeds(1, 10), at_speeds(2, 0)), [UNSURE] * 6)  # they have no speed in common
+
+    def test_only_ratios_count_on_other_devices(self) -> None:
+        before = document(*map(cell, FOUR, (1e6, 2e6, 1e6), (1, 3, 5)))
+        after = document(*map(cell, FOUR, (1e5, 2e5, 3e5), (2, 4, 6)))
+        after["cells"][0]["counters"]["sah_cost"] += 1
+        found = compared(before, after, other_devices=True)
+        self.assertEqual([each.verdict for each in found.cells], [SAME, SAME, SLOWER])
+        self.assertEqual(found.cells[0].regressions, [])
+        self.assertEqual(verdicts(document(cell()), document(cell(median_ns=9e6)), other_devices=True), [UNSURE])  # it is alone
+
+
+class Facts(unittest.TestCase):
+    def test_every_counter_that_is_not_what_it_was_is_told(self) -> None:
+        self.assertEqual(with_sentences(lambda raw: None), ([], []))
+        self.assertEqual(with_sentences(lambda raw: raw["counters"].update(sah_cost=math.nextafter(80.25, 81))),
+                         (["sah_cost 80.25000000000001, was 80.25"], []))
+        self.assertEqual(with_sentences(lambda raw: raw["counters"].update(sah_cost=70)), ([], ["sah_cost 70, was 80.25"]))
+        for pairs in (999, 1001):
+            self.assertEqual(with_sentences(lambda raw: raw["counters"].update(pairs_count=pairs)),
+                             ([f"pairs_count {pairs}, was 1000"], []))
+
+    def test_a_counter_that_is_not_there_is_a_regression_unless_allowed(self) -> None:
+        def lose(raw: Raw) -> None:
+            del raw["counters"]["sah_cost"]
+            raw["left_out"] = {"sah_cost": "the tree is wrong"}
+
+        lost = ["no sah_cost (the tree is wrong), was 80.25"]
+        self.assertEqual(with_sentences(lose), (lost, []))
+        self.assertEqual(with_sentences(lose, allow_missing=True), ([], lost))
+        self.assertEqual(with_sentences(lambda raw: raw["counters"].update(new=1)), ([], []))
+
+    def test_another_answer_is_a_regression_and_another_tree_is_not(self) -> None:
+        self.assertEqual(with_sentences(lambda raw: raw["check"].update(pairs_hash="3" * 16)),
+                         ([f"other pairs: {'3' * 16}, were {'1' * 16}"], []))
+        self.assertEqual(with_sentences(lambda raw: raw["check"].update(tree_hash="3" * 16)),
+                         ([], [f"another tree: {'3' * 16}, was {'2' * 16}"]))
+        self.assertEqual(with_sentences(lambda raw: raw.update(leaves_by_depth=[0, 1, 2, 1])),
+                         ([], ["leaves by depth 1–3, half by 2, were 2"]))
+        self.assertEqual(with_sentences(lambda raw: raw["scene"].update(content_hash="3" * 16)),
+                         ([f"another scene of the same name: content {'3' * 16}, was {'0' * 16}"], []))
+
+    def test_a_lost_verdict_is_a_regression_and_a_won_one_is_not(self) -> None:
+        good, wrong = document(cell()), document(cell())
+        wrong["cells"][0]["check"] = {"verdict": "differs", "detail": "box 3"}
+        lost = [(wrong, "differs (box 3), was agrees")]
+        for status in ("skipped", "failed"):
+            none = cell()
+            for key in ("samples", "counters", "check"):
+                del none[key]
+            lost.append((document({**none, "status": status, "reason": "no room"}), f"{status} (no room), was agrees"))
+        for bad, sentence in lost:
+            self.assertEqual(compared(good, bad).cells[0].regressions, [sentence])
+            self.assertEqual(compared(bad, good).regressions, 0)
+            self.assertEqual(len(compared(bad, good).cells[0].changes), 1)
+            self.assertEqual(verdicts(good, bad), [UNSURE])
+            self.assertEqual(verdicts(bad, bad), [UNSURE if "samples" in bad["cells"][0] else SAME])
+
+    def test_counters_that_are_times_or_unsteady_are_left_out(self) -> None:
+        names = ["compile_ns", "copy_rate_bytes_per_s", "tree_bytes", "pairs_count"]
+        self.assertEqual([counters.is_time(name) for name in names], [True, True, False, False])
+        of_group, of_leaf = (Cell({**cell(), "collider": {"name": name}}) for name in ("group", "leaf"))
+        self.assertFalse(counters.is_exact("box_tests_count", of_group))
+        self.assertTrue(counters.is_exact("pairs_count", of_group) and counters.is_exact("box_tests_count", of_leaf))
+
+
+class Cells(unittest.TestCase):
+    def test_are_told_apart_by_all_that_they_are(self) -> None:
+        one = cell()
+        others = [{**one, key: value} for key, value in (
+            ("experiment", "fig8"), ("operation", "refit"), ("collider", {"name": "leaf"}),
+            ("collider", {"name": "leaf", "options": {"narrow": "exact"}}),
+            ("collider", {"name": "leaf", "options": {"no_skip": "rigid"}}), ("swept", {"pairs": "vertex-face", "to_frame": 5}),
+            ("accuracy", {"axis": "sums", "method": "float", "seed": 1}),
+            ("accuracy", {"axis": "sums", "method": "float", "seed": 2}),
+            ("samples", [{"order": 0, "stages": [{"stage": "hierarchy", "span_ns": 100, "launches": 1}]}]))]
+        others += [{**one, "scene": {**one["scene"], key: value}}
+                   for key, value in (("name", "dragon"), ("frame", 1), ("between", 3), ("objects_by", "mesh"))]
+        others += [{**one, "builder": {"name": "karras", "options": {key: value}}}
+                   for key, value in (("order", "kd"), ("group_size", 64), ("leaves", "sorted"), ("boxes", "u16"))]
+        for other in others:
+            self.assertEqual(len(comparison.matched_cells([Cell(one)], [Cell(other)])[0]), 0, other)
+            self.assertEqual(len(comparison.matched_cells([Cell(other)], [Cell(other)])[0]), 1)
+        self.assertEqual(len(comparison.matched_cells([Cell(one), Cell(one)], [Cell(one)])[1]), 1)
+
+    def test_of_one_file_only_are_listed_and_b_must_not_lack_any(self) -> None:
+        first, second = document(cell("karras"), cell("apetrei")), document(cell("apetrei"), cell("perfect"))
+        found = compared(first, second)
+        self.assertEqual([each.builder for each in found.only_first], ["karras"])
+        self.assertEqual([each.builder for each in found.only_second], ["perfect"])
+        self.assertEqual((found.regressions, compared(first, second, allow_missing=True).regressions), (1, 0))
+        self.assertIn("REGRESSION bunny: karras: not in B\nnew bunny: perfect: only in B\n", report.text(found))
+
+    def test_are_shown_worst_first(self) -> None:
+        first, second = (document(*(cell(name, median, seed=seed + place, frame=place)  # each by itself
+                                    for place, (name, median) in enumerate(zip(FOUR, medians))))
+                         for seed, medians in ((0, [1e6] * 4), (9, [1e6, 1.2e6, 2e6, 5e5])))
+        text = report.text(compared(first, second))
+        self.assertLess(text.index("perfect"), text.index("apetrei"))
+        self.assertLess(text.index("apetrei"), text.index("oibvh-multi"))
+        self.assertNotIn("karras", text)
+        self.assertIn("4 cells: 1 SAME, 1 FASTER, 2 SLOWER, 0 UNSURE at 5.0 %\n2 regressions\n", text)
+        self.assertIn("karras", report.text(compared(first, second), show_all=True))
+
+
+class Refusals(unittest.TestCase):
+    def said(self, change: Callable[[Raw], Any], **rules: Any) -> str:
+        good, changed = document(cell()), document(cell())
+        change(changed)
+        try:
+            require_comparable((pathlib.Path("a"), good), (pathlib.Path("b"), changed), Rules(**rules))
+        except WrongUsage as refusal:
+            return str(refusal)
+        return ""
+
+    def test_say_what_cannot_be_compared(self) -> None:
+        hooks = {"BVHBENCH_SLOW": "karras:2"}
+        for change, says, rules in (
+                (lambda raw: raw["run"]["program"].update(dirty=True), "b was made by a program with", {"allow_dirty": True}),
+                (lambda raw: raw["run"].update(test_hooks=hooks), "under BVHBENCH_SLOW=karras:2", {"allow_test_hooks": True}),
+                (lambda raw: raw["cells"].clear(), "no cells", None),
+                (lambda raw: raw.update(format="1.3"), "a has format 1.9 and b 1.3", None),
+                (lambda raw: raw["run"].update(node_costs={"inner": 1, "triangle": 1}), "sah_cost", None),
+                (lambda raw: raw["run"]["device"].update(name="another"), "--other-devices", {"other_devices": True}),
+                (lambda raw: raw["run"]["host"].update(threads=2), "--other-devices", {"other_devices": True})):
+            self.assertIn(says, self.said(change))
+            if rules:
+                self.assertEqual(self.said(change, **rules), "")
+        self.assertEqual(self.said(lambda raw: raw.update(format="1.4")), "")
+        self.assertEqual(self.said(lambda raw: raw["run"].update(node_costs={"inner": 1.2, "triangle": 1})), "")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,180 @@
+#!/usr/bin/env python3
+"""`merge` keeps every cell once and as it was, and refuses what is not alike; an output is reserved for one command.
+
+Usage: merge_test.py <source root>
+"""
+import copy
+import json
+import pathlib
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
+GOLDEN = ROOT / "tests" / "golden"
+sys.path.insert(0, str(ROOT / "plots"))
+
+import documents  # noqa: E402
+import file_lock  # noqa: E402
+import merging  # noqa: E402
+from json_files import Refused  # noqa: E402
+from output import WrongUsage  # noqa: E402
+from reserved import reserved  # noqa: E402
+
+
+def golden(name: str = "table1") -> dict:
+    return documents.read(str(GOLDEN / f"{name}.json"))
+
+
+def of_run(document: dict, name: str) -> dict:
+    """The same, as if another run had made it."""
+    other = copy.deepcopy(document)
+    other["run"]["id"] = name
+    return other
+
+
+class Merging(unittest.TestCase):
+    def test_cells_come_back_as_they_were(self) -> None:
+        for name in ("table1", "stress", "swept", "accuracy"):
+            document = golden(name)
+            merged = json.loads(merging.merge([("a", document)]).text)
+            for kind in ("cells", "stress"):
+                expected = [{**cell, "run": document["run"]["id"]} for cell in document.get(kind, [])]
+                self.assertEqual(merged.get(kind, []), expected)
+            self.assertEqual(merged["run"], document["run"])
+            self.assertEqual([source["id"] for source in merged["merged_from"]], [document["run"]["id"]])
+            self.assertEqual(merged["merged_from"][0]["driver"], document["run"]["device"]["driver"])
+
+    def test_numbers_keep_their_digits(self) -> None:
+        document = golden()
+        digits = "150.48477172851563"  # Python tells it by 150.48477172851562
+        new = f'"counters": {{"new_count": 18446744073709551615, "new": {digits}, '
+        text = json.dumps(document).replace('"counters": {', new)
+        merged = merging.merge([("a", documents.document_of(text.encode(), "a"))]).text
+        self.assertIn(f'"counters":{{"new_count":18446744073709551615,"new":{digits},', merged)
+
+    def test_a_cell_is_a_line(self) -> None:
+        document = golden()
+        lines = merging.merge([("a", document)]).text.splitlines()
+        self.assertEqual(len(lines), 7 + len(document["cells"]))
+        self.assertEqual(json.loads(lines[-2])["run"], document["run"]["id"])
+
+    def test_parts_follow_each_other_and_say_whose_cells_are_whose(self) -> None:
+        whole = {**golden(), "format": "1.9"}
+        parts = [of_run({**whole, "cells": whole["cells"][start::2]}, name) for start, name in ((1, "z"), (0, "a"))]
+        merged = merging.merge(zip(("one", "two"), parts))
+        document = json.loads(merged.text)
+        self.assertEqual((merged.cells, merged.runs, merged.repeated, merged.differs), (len(whole["cells"]), 2, 0, False))
+        self.assertEqual([source["id"] for source in document["merged_from"]], ["z", "a"])
+        self.assertEqual(document["run"]["id"], "z")
+        first = len(parts[0]["cells"])
+        self.assertEqual([cell["run"] for cell in document["cells"]], ["z"] * first + ["a"] * (len(whole["cells"]) - first))
+        again = merging.merge([("both", document), ("two", parts[1])])
+        self.assertEqual((again.runs, again.repeated), (2, len(parts[1]["cells"])))
+        self.assertEqual(json.loads(again.text)["cells"], document["cells"])
+        sources = json.loads(again.text)["merged_from"]
+        self.assertEqual([source["id"] for source in sources], ["a", "z"])  # those of one part by their names
+
+    def test_a_run_without_a_cell_is_not_told(self) -> None:
+        document = golden()
+        empty = of_run({**document, "cells": []}, "empty")
+        self.assertEqual(merging.merge([("a", document), ("b", empty)]).runs, 1)
+
+    def test_a_cell_that_a_file_has_twice_is_two(self) -> None:
+        document = golden()
+        twice = {**document, "cells": document["cells"][:1] * 2}
+        self.assertEqual(merging.merge([("a", twice)]).cells, 2)
+        merged = merging.merge([("a", twice), ("b", twice)])
+        self.assertEqual((merged.cells, merged.repeated), (2, 2))
+
+    def test_the_same_cell_with_other_contents_is_refused(self) -> None:
+        document = golden()
+        with self.assertRaisesRegex(WrongUsage, "^a and b both have .*, and not the same of it"):
+            merging.merge([("a", document), ("b", of_run(document, "other"))])
+
+    def test_options_and_caches_tell_cells_apart(self) -> None:
+        document = golden()
+        for change in (lambda cell: cell["builder"].setdefault("options", {}).update(new="7"),
+                       lambda cell: cell.update(sampling={"stopped": "number", "caches": "cold"}),
+                       lambda cell: cell["scene"].update(frame=3)):
+            other = of_run(document, "other")
+            for cell in other["cells"]:
+                change(cell)
+            self.assertEqual(merging.merge([("a", document), ("b", other)]).cells, 2 * len(document["cells"]))
+
+    def test_parts_of_other_formats_devices_and_commits_are_refused(self) -> None:
+        document = golden()
+        other = of_run(document, "other")
+        other["format"] = "1.77"
+        with self.assertRaisesRegex(WrongUsage, f"^a has format {document['format']} and b 1.77: "):
+            merging.merge([("a", document), ("b", other)], True, True)
+        for part, key, asked in (("device", "name", "--other-devices"), ("program", "commit", "--other-commits")):
+            other = of_run(document, "other")
+            other["run"][part][key] = "another"
+            with self.assertRaisesRegex(WrongUsage, f"^a is of .*, and b of .*another.*: {asked} merges them all the same$"):
+                merging.merge([("a", document), ("b", other)], part != "device", part != "program")
+        other = of_run(document, "other")
+        other["run"]["device"]["name"] = "another"
+        merged = merging.merge([("a", document), ("b", other)], other_devices=True)
+        self.assertEqual((merged.cells, merged.runs), (2 * len(document["cells"]), 2))
+
+    def test_wrong_answers_and_formats_are_told(self) -> None:
+        document = golden()
+        document["format"] = "1.3"
+        document["cells"][-1]["check"]["verdict"] = "differs"
+        merged = merging.merge([("a", document)])
+        self.assertTrue(merged.differs)
+        self.assertEqual(json.loads(merged.text)["format"], "1.8")  # the first that knows merged files
+        documents.document_of(merged.text.encode(), "merged")
+
+
+class Reserving(unittest.TestCase):
+    def setUp(self) -> None:
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.folder = pathlib.Path(holder.name)
+
+    def reserve(self, name: str, force: bool = False, inputs: tuple = ()) -> None:
+        with reserved(str(self.folder / name), "--out", force, inputs):
+            pass
+
+    def test_an_earlier_file_is_replaced_with_force_only(self) -> None:
+        (self.folder / "r.json").write_bytes((GOLDEN / "table1.json").read_bytes())
+        with self.assertRaisesRegex(WrongUsage, f"is a result of {len(golden()['cells'])} cells; --force replaces it"):
+            self.reserve("r.json")
+        self.reserve("r.json", force=True)
+        with self.assertRaisesRegex(WrongUsage, "is read by this command"):
+            self.reserve("r.json", force=True, inputs=(str(self.folder),))
+        (self.folder / "notes").write_text("mine")
+        with self.assertRaisesRegex(WrongUsage, "notes is there already; --force replaces it"):
+            self.reserve("notes")
+        (self.folder / "empty").touch()
+        self.reserve("empty")
+        self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["empty", "notes", "r.json"])  # and no lock
+
+    def test_names_that_cannot_be_written_are_refused(self) -> None:
+        for name, error, says in ((".", WrongUsage, "is a folder"), ("r.json.xz", WrongUsage, "is not written packed"),
+                                  ("none/r.json", Refused, "there is no folder")):
+            with self.assertRaisesRegex(error, says):
+                self.reserve(name)
+        (self.folder / "loop").symlink_to("loop")
+        with self.assertRaisesRegex(Refused, "too many links"):
+            self.reserve("loop")
+
+    def test_two_commands_do_not_reserve_one_file_by_whatever_name(self) -> None:
+        (self.folder / "link").symlink_to("r.json")
+        with reserved(str(self.folder / "r.json"), "--out", False):
+            with self.assertRaisesRegex(Refused, "link is being written by another process"):
+                self.reserve("link")
+        self.reserve("link")
+
+    def test_a_shared_lock_lets_others_share(self) -> None:
+        lock = str(self.folder / "lock")
+        with file_lock.locked(lock, file_lock.SHARED, "it"), file_lock.locked(lock, file_lock.SHARED, "it"):
+            with self.assertRaisesRegex(Refused, "^it is being written by another process$"):
+                with file_lock.locked(lock, file_lock.EXCLUSIVE, "it", patience_s=0.1):
+                    pass
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,299 @@
+#!/usr/bin/env python3
+"""What `show` prints of result files.
+
+Usage: show_test.py <source root>
+"""
+from __future__ import annotations
+
+import copy
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+from typing import Any
+
+ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
+sys.path.insert(0, str(ROOT / "plots"))
+
+import results  # noqa: E402
+from cells import Cell  # noqa: E402
+from console import cells, frames, quality, refit, roofline, skips, swept, yardstick  # noqa: E402
+from console import cell as one_cell  # noqa: E402
+from console import run as run_page  # noqa: E402
+
+GOLDEN = json.loads((ROOT / "tests" / "golden" / "table1.json").read_text(encoding="utf-8"))
+Raw = dict[str, Any]
+
+
+def stage(name: str, span_ns: int, moved_bytes: int = 0, **more: int) -> Raw:
+    return {"stage": name, "busy_ns": span_ns - 10, "span_ns": span_ns, "launches": 2, "moved_bytes": moved_bytes, **more}
+
+
+def cell(builder: str = "oibvh-multi", ns: int = 100000, **more: Any) -> Raw:
+    """The hierarchy of a tree over 144,046 triangles, in three samples."""
+    return {"experiment": "table1", "scene": {"name": "bunny", "triangles": 144046}, "builder": {"name": builder},
+            "status": "measured",
+            "samples": [{"order": 7 + place, "stages": [stage("hierarchy", ns + off, 50000000)]}
+                        for place, off in enumerate((10000, 0, -10000))],
+            "counters": {"nodes_count": 288100, "tree_bytes": 6914400, "scratch_bytes": 0},
+            "check": {"verdict": "agrees", "against": "oibvh-reference", "tree_hash": "00000000000000ff"}, **copy.deepcopy(more)}
+
+
+def frame(number: int = 0, builder: str = "oibvh-multi", ns: int = 1000000, **collider: Any) -> Raw:
+    """Of a collision, half of it the query."""
+    made = cell(builder, ns // 2, operation="collide", collider={"name": "group", "options": collider},
+                counters={"pairs_count": 1000, "box_tests_count": 50000})
+    made["scene"]["frame"] = number
+    made["check"] = {"verdict": "agrees", "pairs_hash": "00000000000000aa"}
+    for sample in made["samples"]:
+        sample["stages"].append(stage("broad", ns // 2, 7))
+    return made
+
+
+def wrong(raw: Raw, detail: str = "node 3 is lost") -> Raw:
+    return {**copy.deepcopy(raw), "check": {"verdict": "differs", "detail": detail}}
+
+
+def document(*all_cells: Raw, **facts: Any) -> Raw:
+    """1e12 bytes a second."""
+    run = {**copy.deepcopy(GOLDEN["run"]), "copy_rate_bytes_per_s": 1e12, **facts}
+    return {"format": GOLDEN["format"], "run": run, "cells": copy.deepcopy(list(all_cells))}
+
+
+def run_of(*all_cells: Raw, **facts: Any) -> results.Run:
+    made = document(*all_cells, **facts)
+    return results.Run(pathlib.Path("made.json"), made["run"], [], [], [], made)
+
+
+def shown(raw: Raw) -> str:
+    return one_cell.text(Cell(raw), run_of(raw))
+
+
+class OfARun(unittest.TestCase):
+    def test_says_what_it_ran_on_and_what_spoils_times(self) -> None:
+        self.assertNotIn("warning", run_page.text(run_of()))
+        text = run_page.text(run_of(conditions={"warnings": ["the host is on battery"]}, test_hooks={"LATE": "1"},
+                                    launch_cost_ns=4000, node_costs={"inner": 2.5, "triangle": 1.0}))
+        for line in ("warning: the host is on battery", "NO RESULT: made under the test hook LATE=1", "launch cost: 4.00 us",
+                     "copy rate: 1000.0 GB/s, read plus written", "costs in sah_cost and epo: an inner node 2.5, a triangle 1"):
+            self.assertIn(f"{line}\n", text)
+
+    def test_a_merged_one_says_where_its_cells_are_from(self) -> None:
+        run = run_of()
+        self.assertEqual(run_page.merged(run), "")
+        run.document["merged_from"] = [{"host": host, "device": "GPU", "driver": "1", "commit": commit, "dirty": host == "b"}
+                                       for host, commit in (("a", "1" * 40), ("b", "2" * 40))]
+        self.assertEqual(run_page.merged(run), "merged from 2 runs on a; b\n"
+                                               "of several commits:  1111111111; 2222222222 with changes\n")
+
+
+class OfACell(unittest.TestCase):
+    def test_has_stages_counters_and_verdict(self) -> None:
+        self.assertEqual(shown(cell()), (
+            "oibvh-multi on bunny, 144,046 triangles\n"
+            "stage      median      p10       q1      q3     p90  launches    bytes   GB/s  % of copy  queued  submitted\n"
+            "hierarchy  100 us  92.0 us  95.0 us  105 us  108 us         2  50.0 MB  500.0     50.0 %\n"
+            "3 samples; quartiles 10.0 % apart\n"
+            "counters: nodes_count 288,100, scratch_bytes 0, tree_bytes 6,914,400\n"
+            "verdict: agrees with oibvh-reference, tree 00000000000000ff\n"))
+
+    def test_says_why_there_are_no_more_samples_and_leaves_out_those_beside_drift(self) -> None:
+        raw = cell(first={"compile_ns": 2000, "run_ns": 3000000}, sampling={"stopped": "noisy", "until": 0.02, "caches": "cold"})
+        raw["samples"][0]["drifted"] = True  # the slowest
+        for sample, queued in zip(raw["samples"][1:], (4000, 6000)):
+            sample["stages"][0] |= {"queued_ns": queued, "submitted_ns": 700}
+        self.assertIn("3 samples, caches emptied before each, 1 of them beside drift of the device and left out here; "
+                      "quartiles 5.3 % apart and staying so, above 2.0 %\n"
+                      "first run 3.00 ms on the host's clock, kernels compiled in 2.00 us\n", shown(raw))
+        self.assertRegex(shown(raw), r"hierarchy  95\.0 us .* 5\.00 us +700 ns\n")
+        raw["samples"][1]["stages"][0]["moved_bytes"] = 7  # bytes are those of the first sample, though it is left out
+        self.assertRegex(cells.text(run_of(raw)), r" 95\.0 us .* 526\.3 +52\.6 %  agrees\n")
+        raw["samples"][1]["drifted"] = True  # most: then none is left out
+        self.assertIn("hierarchy  100 us", shown(raw))
+        self.assertNotIn("left out", shown(raw))
+        raw["samples"][1:] = [{"order": 8, "stages": []}] * 2
+        self.assertRegex(shown(raw), r"\nhierarchy +0 ns +0 ns ")
+
+    def test_says_what_is_missing_and_where_the_leaves_are(self) -> None:
+        self.assertIn("no epo: not asked for\nlevels of leaves: 1–3, half by 3\nverdict: ",
+                      shown(cell(left_out={"epo": "not asked for"}, leaves_by_depth=[0, 1, 2, 4])))
+        self.assertEqual([one_cell.depths(leaves) for leaves in ([0, 3, 2, 1], [0, 0, 7], [])], ["1–3, half by 1", "2", ""])
+
+    def test_has_no_time_if_its_tree_is_wrong(self) -> None:
+        self.assertEqual(re.findall(r"\d us", shown(wrong(cell()))), [])
+        self.assertIn("verdict: differs: node 3 is lost\n", shown(wrong(cell())))
+
+
+class OfCells(unittest.TestCase):
+    def test_never_has_a_time_of_a_wrong_tree(self) -> None:
+        failed = {**cell("perfect"), "status": "failed", "reason": "out of memory"}
+        titles, right, *others, end = cells.text(run_of(cell(), wrong(cell("oibvh-single")), failed)).splitlines()
+        self.assertEqual(titles.split()[3:], "median p10 q1 q3 p90 n Mtris/s ns/tri GB/s % of copy verdict".split())
+        self.assertEqual(re.split("  +", right), [
+            "bunny", "144,046", "oibvh-multi", "100 us", "92.0 us", "95.0 us", "105 us", "108 us", "3", "1440.5", "0.69", "500.0",
+            "50.0 %", "agrees"])
+        self.assertEqual([line.split() for line in others], [
+            ["bunny", "144,046", "oibvh-single", "differs", "node", "3", "is", "lost"],
+            ["bunny", "144,046", "perfect", "failed", "out", "of", "memory"]])
+        self.assertEqual(end, "3 cells, 1 agree")
+
+    def test_of_many_only_those_that_need_a_look_have_a_line(self) -> None:
+        many = [cell() for _ in range(cells.MOST_LINES + 1)]
+        self.assertEqual(cells.text(run_of(*many)), "101 cells, 101 agree\n")
+        many[5] = wrong(many[5])
+        self.assertEqual(len(cells.text(run_of(*many)).splitlines()), 3)
+        self.assertEqual(len(cells.text(run_of(*many[:20])).splitlines()), 22)
+
+    def test_frames_have_a_table_of_their_own_unless_they_are_wrong(self) -> None:
+        self.assertEqual(len(cells.text(run_of(cell(), frame())).splitlines()), 3)
+        self.assertIn("group over oibvh-multi", cells.text(run_of(cell(), wrong(frame()))))
+
+
+class OfFrames(unittest.TestCase):
+    def test_those_of_a_pipeline_are_a_line_with_the_mean_and_deviation_of_their_medians(self) -> None:
+        absent = frame(1, ns=3000000, jump=0)  # an option's usual value may be absent in a file
+        titles, line = frames.text(run_of(frame(0), absent)).splitlines()
+        self.assertEqual(titles.split(), "scene pipeline frames ms ± broad MB pairs contacts peak BVTT verdict".split())
+        self.assertEqual(line.split(), "bunny group over oibvh-multi 2 2.000 1.000 1.000 1,000 agrees".split())
+        self.assertEqual(frames.text(run_of(cell())), "")
+        blank = frames.text(run_of(frame(0), {**frame(1), "status": "failed", "reason": "no memory"})).splitlines()[1]
+        self.assertEqual(blank.split()[4:], ["2", "1,000", "failed:", "no", "memory"])
+
+    def test_the_paper_stands_below_a_scene_that_it_has(self) -> None:
+        raw = frame()
+        raw["scene"] |= {"name": "cloth-funnel:18484", "stand_in_for": "funnel"}
+        text = frames.text(run_of(raw), "table2")
+        self.assertIn("cloth-funnel:18484 for funnel", text)
+        printed = [row for row in results.printed("table2")["rows"] if row["scene"] == "funnel"]
+        self.assertEqual(re.findall(r"paper: .*?  +\d+ +([0-9.]+) ", text), [f"{row['frame_ms']:.3f}" for row in printed])
+        self.assertTrue(printed)
+
+    def test_a_rule_is_held_to_the_same_frame_with_it(self) -> None:
+        without = frame(ns=3000000, no_skip="near")
+        without["counters"] |= {"entered_count": 150046, "box_tests_count": 90000}
+        text = skips.text(run_of(frame(), without))
+        self.assertEqual(text.splitlines()[2].split(),
+                         "bunny 0 near 6,000 0 0 0 0 0 40,000 1.00 ms 3.00 ms 3.00 the same".split())
+        without["check"]["pairs_hash"] = "00000000000000bb"
+        self.assertIn("NOT the same", skips.text(run_of(frame(), without)))
+        saves_little = frame(ns=3000000, no_skip="near")
+        for tests, is_noise in ((50040, True), (50060, False)):
+            saves_little["counters"]["box_tests_count"] = tests
+            self.assertEqual("nothing to skip" in skips.text(run_of(frame(), saves_little)), is_noise)
+        self.assertEqual(skips.text(run_of(frame(1), without)), "")
+
+    def test_queries_of_swept_boxes_are_added_up(self) -> None:
+        pair = [frame(pairs_of=among) for among in ("between", "within")]
+        for raw, pairs in zip(pair, ("vertex-face", "edge-edge")):
+            raw["swept"] = {"pairs": pairs, "to_frame": 1, "primitives": 300}
+        pair[0]["counters"] |= {"ground_truth_pairs": 10, "ground_truth_missed": 0}
+        _, *lines = swept.text(run_of(*pair)).splitlines()
+        self.assertEqual([line.split() for line in lines], [
+            "bunny 0 vertex-face group over oibvh-multi 300 1,000 0.500 1.000 1.0 10 0 100.0 agrees".split(),
+            "bunny 0 edge-edge group over oibvh-multi 300 1,000 0.500 1.000 1.0 agrees".split(),
+            "both 600 2,000 1.000 2.000 1.0".split()])
+        self.assertEqual(len(swept.text(run_of(pair[0])).splitlines()), 2)
+        self.assertEqual(frames.text(run_of(*pair)), "")
+
+
+class OfTrees(unittest.TestCase):
+    def test_their_quality_is_there_if_end_point_overlap_is(self) -> None:
+        raw = cell(leaves_by_depth=[0, 0, 4])
+        raw["builder"]["options"] = {"order": "hilbert30"}
+        raw["counters"]["sah_cost"] = 90
+        self.assertEqual(quality.text(run_of(raw)), "")
+        raw["counters"]["epo"] = 12.345
+        self.assertEqual(quality.text(run_of(raw)), (
+            "scene  builder                   SAH    EPO  sibling overlap  levels of leaves\n"
+            "bunny  oibvh-multi, hilbert30  90.00  12.35                   2\n"))
+
+    def test_kernels_are_held_to_threads_of_the_host_where_trees_are_equal(self) -> None:
+        other = cell("karras", 400000)
+        other["check"]["tree_hash"] = "000000000000007f"
+        unchecked = cell("oibvh-single", 900000)
+        unchecked["check"]["verdict"] = "not_checked"
+        run = run_of(cell("oibvh-multi", 125000), cell("oibvh-host"), other, unchecked)
+        self.assertEqual(yardstick.text(run), (
+            "scene  triangles  builder      hierarchy  oibvh-host  times\n"
+            "bunny    144,046  oibvh-multi     125 us      100 us   1.25\n"
+            "medians of the stage hierarchy, of trees that are equal: at most 1.25 times as long as by threads of the host\n"))
+        self.assertEqual(yardstick.text(run_of(cell("oibvh-multi"))), "")
+
+    def test_a_rebuild_stands_beside_a_refit_by_the_same_builder(self) -> None:
+        rebuild, again = cell("karras", 300000), cell("karras", 200000, operation="refit")
+        rebuild["counters"]["sah_cost"], again["counters"]["sah_cost"] = 50, 51.5
+        for sample in rebuild["samples"]:
+            sample["stages"].append(stage("sort", 100000))
+        for sample in again["samples"]:
+            sample["stages"][0]["stage"] = "refit"
+        other = {**again, "builder": {"name": "karras", "options": {"order": "morton63"}}}  # has no rebuild beside it
+        _, line, *note = refit.text(run_of(rebuild, other, wrong(again), again)).splitlines()
+        self.assertEqual(line.split(), "bunny 144,046 karras 400 us 200 us 2.00 300 us 200 us 1.50 50.00 51.50".split())
+        self.assertEqual(note[1], "rebuilding takes longer than refitting in 1 of 1 cases")
+        self.assertEqual(refit.text(run_of(rebuild, other, wrong(again))), "")
+        self.assertTrue(shown(again).startswith("karras, refit on bunny"))
+
+
+class OfFloors(unittest.TestCase):
+    def of(self, *all_cells: Raw, **facts: Any) -> list[list[str]]:
+        for raw in all_cells:
+            raw["experiment"] = "roofline"
+        return [line.split() for line in roofline.text(run_of(*all_cells, **{"launch_cost_ns": 4000, **facts})).splitlines()[2:]]
+
+    def test_are_bytes_at_the_copy_rate_and_launches_at_their_cost(self) -> None:
+        self.assertEqual(self.of(cell()), ["bunny oibvh-multi hierarchy 2 50.0 MB 347.1 58.0 us 100 us 1.72".split()])
+        self.assertEqual(roofline.text(run_of(cell())), "", "of another experiment")
+
+    def test_are_of_the_query_alone_where_frames_have_a_tree(self) -> None:
+        lines = self.of(frame(), frame(builder="none"))
+        self.assertEqual([(set(line) & {"broad", "hierarchy"}).pop() for line in lines], ["broad", "hierarchy", "broad"])
+
+    def test_there_is_none_of_what_is_wrong_on_the_host_or_without_bytes(self) -> None:
+        on_host, moves_nothing = cell(), cell()
+        for one, other in zip(on_host["samples"], moves_nothing["samples"]):
+            one["stages"] = [{"stage": "hierarchy", "wall_ns": 100}]
+            del other["stages"][0]["moved_bytes"]
+        self.assertEqual(self.of(wrong(cell()), on_host, moves_nothing), [])
+        self.assertEqual(self.of(cell(), copy_rate_bytes_per_s=0), [])
+
+
+class OfAFile(unittest.TestCase):
+    def show(self, made: Raw, code: int = 0) -> str:
+        with tempfile.TemporaryFile() as file:  # has no name, as those that the program hands over
+            file.write(json.dumps(made).encode())
+            file.flush()
+            done = subprocess.run([sys.executable, ROOT / "plots", "show", f"/proc/{os.getpid()}/fd/{file.fileno()}"], text=True,
+                                  capture_output=True, check=False)
+        self.assertEqual(done.returncode, code, done)
+        return done.stdout if code == 0 else done.stderr
+
+    def test_decides_which_pages_there_are(self) -> None:
+        frame_of_collide = {**frame(no_skip="near"), "experiment": "collide"}
+        other = {**frame(ns=900000), "experiment": "collide"}
+        self.assertIn("verdict: agrees, pairs ", self.show(document(frame_of_collide)))
+        two = self.show(document(other, frame_of_collide))
+        self.assertRegex(two, r"bunny +0  group over oibvh-multi +900 us .* agrees, pairs 00000000000000aa\n")
+        self.assertIn("\nskips:\n", two)
+        self.assertNotIn("cells, ", two)
+        mixed = self.show(document(other, {**frame_of_collide, "experiment": "table2"}))
+        self.assertIn("2 cells, 2 agree", mixed)
+        self.assertNotIn("skips:", mixed)
+        self.assertIn("verdict: ", self.show(document(cell())))
+        self.assertIn("\n2 cells, 1 agree\n", self.show(document(cell(), wrong(cell()))))
+
+    def test_control_characters_do_not_reach_the_terminal(self) -> None:
+        made = document(cell())
+        made["cells"][0]["scene"]["name"] = "\x1b[31mred"
+        self.assertIn(" on \\x1b[31mred, ", self.show(made))
+
+    def test_a_counter_that_must_be_there_is_missed_in_a_sentence(self) -> None:
+        raw = cell(operation="accuracy", accuracy={"axis": "sums", "method": "f32"})
+        self.assertRegex(self.show(document(raw), code=3), "^bvhbench: .* a cell has no 'sah_cost'\n$")
+
+
+if __name__ == "__main__":
+    unittest.main()
