@@ -2,14 +2,10 @@
 //
 // The trees of FCL, the collision library of many robot planners: split at the mean of the triangles' centroids,
 // one triangle a leaf, on one core. In double: FCL in float misses pairs.
-#include <fcl/geometry/bvh/BVH_model.h>
-
-#include <memory>
 #include <type_traits>
-#include <vector>
 
 #include "baselines/baselines.h"
-#include "geometry/error.h"
+#include "baselines/fcl/model.h"
 
 namespace bvhbench {
 namespace {
@@ -74,7 +70,9 @@ private:
 template <class Volume>
 class Fcl final : public Builder {
 public:
-    explicit Fcl(const BuilderCard& card) : card_(card) {}
+    Fcl(std::string_view name, std::string_view method)
+        : card_{name, method, BuilderCard::Runs::on_host}
+    {}
 
     BuilderCard card() const override { return card_; }
 
@@ -89,37 +87,19 @@ public:
 
     Footprint reserved() const override { return reserved_; }
 
-    /// FCL has no stage of its own for leaf boxes: it fits each node to all triangles under it.
+    /// FCL has no stage of its own for leaf boxes: it fits each node to all triangles under it. Each time a new model: FCL
+    /// warns on the terminal when one is filled again. Copying is not timed, as for every builder.
     const Tree& build(const Input& input, Queue& queue, Start) override
-    {
-        hand_over(input);
-        int error = fcl::BVH_OK;
-        queue.on_host("hierarchy", [&] { error = tree_.model->endModel(); });
-        if (error != fcl::BVH_OK)
-            throw Unavailable("FCL built no tree: its error " + std::to_string(error));
-        return tree_;
-    }
-
-private:
-    /// Each time a new model: FCL warns on the terminal when one is filled again. Copying is not timed, as for
-    /// every builder.
-    void hand_over(const Input& input)
     {
         if (input.is_swept())
             throw BadUsage(
                 "FCL builds over triangles of one frame, not over boxes swept to the next");
-        std::vector<fcl::Vector3d> points;
-        for (const Point& p : input.points)
-            points.emplace_back(p.x, p.y, p.z);
-        std::vector<fcl::Triangle> triangles;
-        for (const Face& face : input.faces)
-            triangles.emplace_back(face.a, face.b, face.c);
-        tree_.model = std::make_unique<fcl::BVHModel<Volume>>();
-        tree_.model->beginModel(static_cast<int>(triangles.size()),
-                                static_cast<int>(points.size()));
-        tree_.model->addSubModel(points, triangles);
+        tree_.model = model_of<Volume>(input.points, input.faces);
+        queue.on_host("hierarchy", [&] { require_tree(tree_.model->endModel()); });
+        return tree_;
     }
 
+private:
     BuilderCard card_;
     FclTree<Volume> tree_;
     Footprint reserved_;
@@ -129,17 +109,15 @@ private:
 
 std::unique_ptr<Builder> make_fcl_aabb(Programs&, const BuildOptions&)
 {
-    return std::make_unique<Fcl<fcl::AABBd>>(BuilderCard{
-        "fcl-aabb", "FCL, axis-aligned boxes in double, on one core of the host [Pan2012]",
-        BuilderCard::Runs::on_host});
+    return std::make_unique<Fcl<fcl::AABBd>>(
+        "fcl-aabb", "FCL, axis-aligned boxes in double, on one core of the host [Pan2012]");
 }
 
 std::unique_ptr<Builder> make_fcl_obbrss(Programs&, const BuildOptions&)
 {
-    return std::make_unique<Fcl<fcl::OBBRSSd>>(BuilderCard{
+    return std::make_unique<Fcl<fcl::OBBRSSd>>(
         "fcl-obbrss",
-        "FCL, oriented boxes and swept spheres in double, on one core of the host [Pan2012]",
-        BuilderCard::Runs::on_host});
+        "FCL, oriented boxes and swept spheres in double, on one core of the host [Pan2012]");
 }
 
 }  // namespace bvhbench

@@ -106,7 +106,7 @@ public:
         tree_.leaves.sorted = options.sorted_leaves;
         tree_.leaves.format = &format();
         tree_.hierarchy = make({programs, RadixLaunch(programs.device(), options),
-                                leaf_order_.code_bits(), options.sorted_leaves, format()});
+                                leaf_order_.code_bits(), tree_.leaves});
     }
 
 private:
@@ -131,7 +131,7 @@ private:
         leaves.ids = leaf_order_.ids();
         leaves.codes = leaf_order_.codes();
         gathered_ = {leaves.boxes, 0};
-        tree_.hierarchy->plan(arena, leaves);
+        tree_.hierarchy->plan(arena);
     }
 
     void prepare(const cl::CommandQueue& queue) override

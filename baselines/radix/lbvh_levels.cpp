@@ -18,7 +18,7 @@ std::size_t most_lanes(const Device& device)
 class LbvhLevels final : public RadixHierarchy {
 public:
     explicit LbvhLevels(const RadixSetup& setup)
-        : launch_(setup.launch)
+        : RadixHierarchy(setup)
         , code_bits_(setup.code_bits)
         , split_(setup.kernel("baselines/radix/lbvh_levels.cl", "split_level"))
         , box_(setup.kernel("baselines/radix/lbvh_levels.cl", "box_level"))
@@ -27,13 +27,12 @@ public:
             launch_.most_items = most_lanes(setup.programs.device());
     }
 
-    void plan(Arena& arena, const RadixLeaves& leaves) override
+    void plan(Arena& arena) override
     {
-        leaves_ = &leaves;
         // On the way down from the root every node splits at a bit of the key that is below its parent's, and
         // of a place only so many bits differ.
-        levels_ = std::min(leaves.count - 1, code_bits_ + ceil_log2(leaves.count));
-        nodes_ = take_radix_nodes(arena, leaves);
+        levels_ = std::min(leaves_.count - 1, code_bits_ + ceil_log2(leaves_.count));
+        nodes_ = take_nodes(arena);
         begins_ = arena.take<uint>(levels_ + 1, Use::scratch);
         counts_ = arena.take<uint>(levels_ + 1, Use::scratch);
     }
@@ -49,71 +48,45 @@ public:
     void build(Queue& queue) override
     {
         for (uint level = 0; level < levels_; ++level) {
-            set_arguments(split_, leaves_->codes, nodes_, begins_, counts_, leaves_->count, level);
+            set_arguments(split_, leaves_.codes, nodes_, begins_, counts_, leaves_.count, level);
             launch_(queue, split_, most_nodes_on(level),
-                    level == 0 ? leaves_->code_bytes() + node_bytes() : 0);
+                    level == 0 ? leaves_.codes.bytes() + nodes_.bytes() : 0);
         }
-        make_boxes(queue);
-    }
-
-    void refit(Queue& queue) override { make_boxes(queue); }
-
-    bool numbers_by_range() const override { return false; }
-
-    std::vector<RadixNode> download(const cl::CommandQueue& queue, const BoxRounding& rounding,
-                                    uint& root) const override
-    {
-        root = 0;
-        return read_radix_nodes(nodes_.download(queue), rounding);
-    }
-
-    cl_uint bind(cl::Kernel& kernel, cl_uint first) const override
-    {
-        return set_arguments_from(kernel, first, nodes_);
-    }
-
-private:
-    std::int64_t node_bytes() const { return static_cast<std::int64_t>(nodes_.bytes()); }
-
-    /// Every inner node has two leaves at least.
-    uint most_nodes_on(uint level) const
-    {
-        return std::min(leaves_->count / 2, 1u << std::min(level, 31u));
+        refit(queue);
     }
 
     /// How many bytes a level moves the host does not know: the root's launch declares all levels'.
-    void make_boxes(Queue& queue)
+    void refit(Queue& queue) override
     {
-        const auto children = static_cast<std::int64_t>(leaves_->inner() * 2 * sizeof(uint));
         for (uint level = levels_; level-- > 0;) {
-            set_arguments(box_, leaves_->boxes, leaves_->ids, nodes_, begins_, counts_, level);
+            set_arguments(box_, leaves_.boxes, leaves_.ids, nodes_, begins_, counts_, level);
             launch_(queue, box_, most_nodes_on(level),
-                    level == 0 ? leaves_->box_bytes() + children + node_bytes() : 0);
+                    level == 0 ? leaves_.box_bytes() + child_bytes() + nodes_.bytes() : 0);
         }
     }
 
-    RadixLaunch launch_;
+    bool numbers_by_range() const override { return false; }
+
+private:
+    /// Every inner node has two leaves at least.
+    uint most_nodes_on(uint level) const
+    {
+        return std::min(leaves_.count / 2, 1u << std::min(level, 31u));
+    }
+
     uint code_bits_;
     cl::Kernel split_, box_;
-    const RadixLeaves* leaves_ = nullptr;
-    uint levels_ = 0;          ///< of inner nodes, at most
-    Buffer<std::byte> nodes_;  ///< level by level
-    Buffer<uint> begins_;      ///< where each level begins in the nodes, and where the last ends
-    Buffer<uint> counts_;      ///< of nodes, one a level and one more
+    uint levels_ = 0;      ///< of inner nodes, at most; `nodes_` has them level by level
+    Buffer<uint> begins_;  ///< where each level begins in the nodes, and where the last ends
+    Buffer<uint> counts_;  ///< of nodes, one a level and one more
 };
 
 }  // namespace
 
 std::unique_ptr<Builder> make_lbvh_levels(Programs& programs, const BuildOptions& options)
 {
-    return make_radix_builder(
-        programs,
-        {"lbvh-levels", "Binary radix tree, a launch a level [Lauterbach2009]",
-         BuilderCard::Runs::on_device},
-        [](const RadixSetup& setup) -> std::unique_ptr<RadixHierarchy> {
-            return std::make_unique<LbvhLevels>(setup);
-        },
-        options);
+    return make_radix_builder<LbvhLevels>(
+        programs, "lbvh-levels", "Binary radix tree, a launch a level [Lauterbach2009]", options);
 }
 
 }  // namespace bvhbench

@@ -6,17 +6,11 @@
 #include <vector>
 
 #include "baselines/baselines.h"
+#include "baselines/host/host_builder.h"
 #include "builders/ordered/leaf_order.h"
 
 namespace bvhbench {
 namespace {
-
-class RadixHostTree final : public Tree {
-public:
-    HostTree tree;
-    std::size_t node_count() const override { return tree.nodes.size(); }
-    HostTree spelled_out() const override { return tree; }
-};
 
 /// Bit `bit` of a leaf's key, its code followed by its 32-bit place in leaf order.
 bool key_bit(const HostLeafOrder& leaves, uint leaf, int bit)
@@ -39,12 +33,12 @@ uint split_of(const HostLeafOrder& leaves, uint first, uint last)
     return beyond;
 }
 
-HostTree radix_tree(const HostLeafOrder& leaves)
+void make_radix_tree(HostTree& tree, const HostLeafOrder& leaves)
 {
     struct Range {
         uint first, last;
     };
-    HostTree tree;
+    tree.nodes.clear();
     std::vector<Range> ranges{{0, static_cast<uint>(leaves.ids.size()) - 1}};  // node k's leaves
     for (std::size_t k = 0; k < ranges.size(); ++k) {
         const auto [first, last] = ranges[k];
@@ -59,11 +53,6 @@ HostTree radix_tree(const HostLeafOrder& leaves)
         ranges.push_back({first, split - 1});
         ranges.push_back({split, last});
     }
-    for (std::size_t k = tree.nodes.size(); k-- > 0;)  // children come after their parent
-        if (HostTree::Node& node = tree.nodes[k]; node.primitive == HostTree::none)
-            node.box = merged(tree.nodes[static_cast<std::size_t>(node.child[0])].box,
-                              tree.nodes[static_cast<std::size_t>(node.child[1])].box);
-    return tree;
 }
 
 class RadixReference final : public Builder {
@@ -86,8 +75,8 @@ public:
 
     void reserve(std::size_t primitives) override
     {
-        tree_.tree.nodes.clear();
-        tree_.tree.nodes.reserve(2 * primitives - 1);
+        tree_.plain.nodes.clear();
+        tree_.plain.nodes.reserve(2 * primitives - 1);
         reserved_ = footprint(primitives);
     }
 
@@ -97,14 +86,17 @@ public:
     {
         if (start == Start::from_triangles)
             queue.on_host("sort", [&] { leaves_ = host_leaf_order(leaf_boxes(input), order_); });
-        queue.on_host("hierarchy", [&] { tree_.tree = radix_tree(leaves_); });
+        queue.on_host("hierarchy", [&] {
+            make_radix_tree(tree_.plain, leaves_);
+            tree_.merge_boxes();
+        });
         return tree_;
     }
 
 private:
     std::string order_;
     HostLeafOrder leaves_;
-    RadixHostTree tree_;
+    PlainTree tree_;
     Footprint reserved_;
 };
 

@@ -3,7 +3,7 @@
 // What the tests of libraries' colliders share: frames whose points move, and what one query of them finds.
 #pragma once
 
-#include "baselines/colliders.h"
+#include "baselines/baselines.h"
 #include "tests/collide/collider_testing.h"
 
 namespace bvhbench {
