@@ -10,9 +10,6 @@ namespace bvhbench {
 
 inline constexpr Among all_kinds[] = {Among::all, Among::between_objects, Among::within_objects};
 
-/// Through a pointer: compilers warn that a function, where it is one, is never null.
-inline bool is_built(MakeCollider make) { return make != nullptr; }
-
 inline Input uploaded(std::span<const Point> points, std::span<const Face> faces,
                       std::span<const FaceRange> objects = {})
 {
