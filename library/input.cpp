@@ -52,8 +52,8 @@ InputTaker::InputTaker(Device::Impl& device, bool check) : device_(device), chec
 {
     if (!checks_)
         return;
-    triangles_kernel_ = device_.programs.kernel("library/check.cl", "check_triangles");
-    boxes_kernel_ = device_.programs.kernel("library/check.cl", "check_boxes");
+    triangles_kernel_ = device_.programs.kernel("library/input.cl", "check_triangles");
+    boxes_kernel_ = device_.programs.kernel("library/input.cl", "check_boxes");
 }
 
 template <class T>
@@ -127,11 +127,11 @@ const bvhbench::Input& InputTaker::take(const Input& input, std::span<const std:
         require_count(theirs->face_count, "triangles");
         if (theirs->point_count == 0)
             require_count(0, "points");
-        const Buffer<OwnPoint> points =
+        Buffer<OwnPoint> points =
             callers<OwnPoint>(theirs->points, theirs->point_count, sizeof(OwnPoint), "points");
         taken_.device_faces =
             callers<OwnFace>(theirs->faces, theirs->face_count, sizeof(OwnFace), "faces");
-        taken_.device_points = points;
+        taken_.device_points = std::move(points);
     } else {
         const auto& boxes = std::get<DeviceBoxes>(input);
         points_ = {};
@@ -159,7 +159,7 @@ void InputTaker::take_boxes(const Buffer<OwnPoint>& corners)
     const Buffer<OwnFace> faces = room_for<OwnFace>(count, box_faces_);
     if (!are_made) {
         if (faces_kernel_() == nullptr)
-            faces_kernel_ = device_.programs.kernel("library/box_faces.cl", "box_faces");
+            faces_kernel_ = device_.programs.kernel("library/input.cl", "box_faces");
         set_arguments(faces_kernel_, faces, static_cast<uint>(count));
         device_.queue.begin("input");
         device_.launch(faces_kernel_, count, faces.bytes());

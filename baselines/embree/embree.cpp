@@ -124,23 +124,26 @@ public:
     }
 
 private:
-    /// The nodes and what we hand over. What else Embree takes, and keeps between builds, it does not tell.
-    Footprint own_footprint(std::size_t primitives) const override
+    /// The nodes, boxes and what we hand over. What else Embree takes, and keeps between builds, it does not tell.
+    Footprint footprint(std::size_t primitives) const override
     {
         return {(primitives - 1) * sizeof(Inner) + primitives * sizeof(Leaf),
-                primitives * sizeof(RTCBuildPrimitive)};
+                primitives * (sizeof(Aabb) + sizeof(RTCBuildPrimitive))};
     }
 
     void reserve_own(std::size_t primitives) override
     {
+        boxes_.resize(primitives);
         tree_.root = nullptr;
         tree_.triangles = primitives;
         primitives_.resize(primitives);
     }
 
-    /// Each time anew: rtcBuildBVH rearranges what it is given.
-    void accept_boxes() override
+    /// Boxes are handed over each time anew, since rtcBuildBVH rearranges what it is given; untimed, since a program that
+    /// has no other use for them writes them there at once.
+    void prepare(const Input& input, Queue& queue, Start start) override
     {
+        HostBuilder::prepare(input, queue, start);
         for (std::size_t k = 0; k < boxes_.size(); ++k) {
             const Aabb& box = boxes_[k];
             require_in_range(box, k);

@@ -6,6 +6,7 @@
 
 #include "baselines/baselines.h"
 #include "baselines/fcl/model.h"
+#include "baselines/host/host_builder.h"
 
 namespace bvhbench {
 namespace {
@@ -67,15 +68,13 @@ private:
     }
 };
 
+/// FCL has no stage of its own for leaf boxes: it fits each node to all triangles under it.
 template <class Volume>
-class Fcl final : public Builder {
+class Fcl final : public HostBuilder {
 public:
-    Fcl(std::string_view name, std::string_view method)
-        : card_{name, method, BuilderCard::Runs::on_host}
-    {}
+    using HostBuilder::HostBuilder;
 
-    BuilderCard card() const override { return card_; }
-
+private:
     /// The nodes and FCL's array of triangle numbers, which is as long. Its copy of the mesh is not counted.
     Footprint footprint(std::size_t primitives) const override
     {
@@ -83,26 +82,22 @@ public:
         return {nodes * sizeof(fcl::BVNode<Volume>), nodes * sizeof(unsigned)};
     }
 
-    void reserve(std::size_t primitives) override { reserved_ = footprint(primitives); }
+    void reserve_own(std::size_t) override {}
 
-    Footprint reserved() const override { return reserved_; }
-
-    /// FCL has no stage of its own for leaf boxes: it fits each node to all triangles under it. Each time a new model: FCL
-    /// warns on the terminal when one is filled again. Copying is not timed, as for every builder.
-    const Tree& build(const Input& input, Queue& queue, Start) override
+    /// Each time a new model: FCL warns on the terminal when one is filled again. Copying is not timed, as for every builder.
+    void prepare(const Input& input, Queue&, Start) override
     {
         if (input.is_swept())
             throw BadUsage(
                 "FCL builds over triangles of one frame, not over boxes swept to the next");
         tree_.model = model_of<Volume>(input.points, input.faces);
-        queue.on_host("hierarchy", [&] { require_tree(tree_.model->endModel()); });
-        return tree_;
     }
 
-private:
-    BuilderCard card_;
+    void build_tree() override { require_tree(tree_.model->endModel()); }
+
+    const Tree& tree() const override { return tree_; }
+
     FclTree<Volume> tree_;
-    Footprint reserved_;
 };
 
 }  // namespace

@@ -64,14 +64,15 @@ public:
     {}
 
 private:
-    Footprint own_footprint(std::size_t primitives) const override
+    Footprint footprint(std::size_t primitives) const override
     {
         return {(2 * primitives - 1) * sizeof(Aabb) + primitives * sizeof(uint),
-                primitives * (sizeof(uint) + sizeof(Centre))};
+                primitives * (sizeof(Aabb) + sizeof(uint) + sizeof(Centre))};
     }
 
     void reserve_own(std::size_t primitives) override
     {
+        boxes_.resize(primitives);
         tree_.boxes.resize(2 * primitives - 1);
         tree_.primitives.resize(primitives);
         ids_.resize(primitives);

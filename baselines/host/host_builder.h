@@ -27,8 +27,8 @@ public:
     }
 };
 
-/// Builds over leaf boxes on the host, in the stages bounds and hierarchy. It has no codes: a start from sorted leaves is a
-/// start from leaf boxes, and their order is the method's business.
+/// Builds on the host, by default over leaf boxes: in the stages bounds and hierarchy. It has no codes then: a start from
+/// sorted leaves is a start from leaf boxes, and their order is the method's business.
 class HostBuilder : public Builder {
 public:
     HostBuilder(std::string_view name, std::string_view method)
@@ -37,16 +37,8 @@ public:
 
     BuilderCard card() const final { return card_; }
 
-    Footprint footprint(std::size_t primitives) const final
-    {
-        Footprint footprint = own_footprint(primitives);
-        footprint.scratch_bytes += primitives * sizeof(Aabb);
-        return footprint;
-    }
-
     void reserve(std::size_t primitives) final
     {
-        boxes_.resize(primitives);
         reserve_own(primitives);
         reserved_ = footprint(primitives);
     }
@@ -55,28 +47,26 @@ public:
 
     const Tree& build(const Input& input, Queue& queue, Start start) final
     {
-        if (start == Start::from_triangles)
-            queue.on_host("bounds", [&] {
-                for (std::size_t k = 0; k < boxes_.size(); ++k)
-                    boxes_[k] = leaf_box(input, input.faces[k]);
-            });
-        accept_boxes();
+        prepare(input, queue, start);
         queue.on_host("hierarchy", [&] { build_tree(); });
         return tree();
     }
 
 protected:
-    /// Bytes of host memory for `primitives` boxes, the boxes themselves left out.
-    virtual Footprint own_footprint(std::size_t primitives) const = 0;
-
-    /// Allocate what `own_footprint` counts.
+    /// Allocate what `footprint` counts: host memory, `boxes_` first.
     virtual void reserve_own(std::size_t primitives) = 0;
 
-    /// Copy `boxes_` to where `build_tree` wants them. Not timed: a program that has no other use for its boxes writes them
-    /// there at once. Throws Unavailable for boxes that the method cannot take.
-    virtual void accept_boxes() {}
+    /// What comes before the hierarchy: box k becomes triangle k's.
+    virtual void prepare(const Input& input, Queue& queue, Start start)
+    {
+        if (start == Start::from_triangles)
+            queue.on_host("bounds", [&] {
+                for (std::size_t k = 0; k < boxes_.size(); ++k)
+                    boxes_[k] = leaf_box(input, input.faces[k]);
+            });
+    }
 
-    /// Build over `boxes_`: box k is triangle k's. Timed.
+    /// Timed.
     virtual void build_tree() = 0;
 
     virtual const Tree& tree() const = 0;

@@ -21,14 +21,15 @@ public:
     {}
 
 private:
-    Footprint own_footprint(std::size_t primitives) const override
+    Footprint footprint(std::size_t primitives) const override
     {
         return {(2 * primitives - 1) * sizeof(HostTree::Node),
-                primitives * (sizeof(uint) + sizeof(Centre))};
+                primitives * (sizeof(Aabb) + sizeof(uint) + sizeof(Centre))};
     }
 
     void reserve_own(std::size_t primitives) override
     {
+        boxes_.resize(primitives);
         tree_.plain.nodes.resize(2 * primitives - 1);
         ids_.resize(primitives);
         centres_.resize(primitives);

@@ -55,49 +55,43 @@ void make_radix_tree(HostTree& tree, const HostLeafOrder& leaves)
     }
 }
 
-class RadixReference final : public Builder {
+class RadixReference final : public HostBuilder {
 public:
-    explicit RadixReference(const BuildOptions& options) : order_(options.order)
+    explicit RadixReference(const BuildOptions& options)
+        : HostBuilder("radix-reference", "Binary radix tree, slowly on the host [Karras2012]")
+        , order_(options.order)
     {
         find_order(order_);
     }
 
-    BuilderCard card() const override
-    {
-        return {"radix-reference", "Binary radix tree, slowly on the host [Karras2012]",
-                BuilderCard::Runs::on_host};
-    }
-
+private:
     Footprint footprint(std::size_t primitives) const override
     {
         return {(2 * primitives - 1) * sizeof(HostTree::Node), 0};
     }
 
-    void reserve(std::size_t primitives) override
+    void reserve_own(std::size_t primitives) override
     {
-        tree_.plain.nodes.clear();
         tree_.plain.nodes.reserve(2 * primitives - 1);
-        reserved_ = footprint(primitives);
     }
 
-    Footprint reserved() const override { return reserved_; }
-
-    const Tree& build(const Input& input, Queue& queue, Start start) override
+    void prepare(const Input& input, Queue& queue, Start start) override
     {
         if (start == Start::from_triangles)
             queue.on_host("sort", [&] { leaves_ = host_leaf_order(leaf_boxes(input), order_); });
-        queue.on_host("hierarchy", [&] {
-            make_radix_tree(tree_.plain, leaves_);
-            tree_.merge_boxes();
-        });
-        return tree_;
     }
 
-private:
+    void build_tree() override
+    {
+        make_radix_tree(tree_.plain, leaves_);
+        tree_.merge_boxes();
+    }
+
+    const Tree& tree() const override { return tree_; }
+
     std::string order_;
     HostLeafOrder leaves_;
     PlainTree tree_;
-    Footprint reserved_;
 };
 
 }  // namespace

@@ -48,7 +48,9 @@ void move_slowly(const Caller& caller, cl_mem points, std::size_t count, float x
     clReleaseProgram(program);
 }
 
-TEST(LibraryCaller, MayHaveAnyQueue)
+class LibraryCaller : public OfACaller {};
+
+TEST(LibraryQueues, MayHaveAnyQueue)
 {
     for (const cl_command_queue_properties kind : kinds_of_queue) {
         Caller caller(kind);
@@ -64,7 +66,7 @@ TEST(LibraryCaller, MayHaveAnyQueue)
     }
 }
 
-TEST(LibraryCaller, FindsCallsWhereHePutThemAmongHisCommands)
+TEST(LibraryQueues, FindsCallsWhereHePutThemAmongHisCommands)
 {
     for (const cl_command_queue_properties kind : kinds_of_queue) {
         Caller caller(kind);
@@ -88,7 +90,7 @@ TEST(LibraryCaller, FindsCallsWhereHePutThemAmongHisCommands)
     }
 }
 
-TEST(LibraryCaller, GetsTimesFromAQueueThatHasThem)
+TEST(LibraryQueues, GetsTimesFromAQueueThatHasThem)
 {
     for (const cl_command_queue_properties kind : kinds_of_queue) {
         Caller caller(kind);
@@ -115,10 +117,8 @@ TEST(LibraryCaller, GetsTimesFromAQueueThatHasThem)
     }
 }
 
-TEST(LibraryCaller, PaysForMemoryOnceASize)
+TEST_F(LibraryCaller, PaysForMemoryOnceASize)
 {
-    Caller caller;
-    oibvh::Device device(caller.queue);
     oibvh::Tree tree(device);
     const LibraryMesh first = soup_mesh(700, 1), second = soup_mesh(700, 2), small = soup_mesh(20);
     tree.build(first.on_host());
@@ -147,10 +147,8 @@ TEST(LibraryCaller, PaysForMemoryOnceASize)
     EXPECT_EQ(device.memory(), 0u);
 }
 
-TEST(LibraryCaller, MayHaveManyTreesAtATime)
+TEST_F(LibraryCaller, MayHaveManyTreesAtATime)
 {
-    Caller caller;
-    const oibvh::Device device(caller.queue);
     std::vector<oibvh::Tree> trees;
     std::vector<LibraryMesh> meshes;
     for (unsigned k = 0; k < 6; ++k) {
@@ -174,7 +172,7 @@ TEST(LibraryCaller, MayHaveManyTreesAtATime)
     EXPECT_EQ(device.compile_seconds(), compiled);  // for all of a Device once
 }
 
-TEST(LibraryCaller, MayUseTreesOfADeviceFromSeveralThreads)
+TEST(LibraryQueues, MayUseTreesOfADeviceFromSeveralThreads)
 {
     Caller caller(CL_QUEUE_PROFILING_ENABLE);  // whose stages all threads' calls write down
     const oibvh::Device device(caller.queue);
@@ -212,9 +210,8 @@ cl_uint references_after(const Caller& caller, cl_uint expected)
     return caller.references();
 }
 
-TEST(LibraryCaller, GetsEveryReferenceBack)
+TEST_F(LibraryCaller, GetsEveryReferenceBack)
 {
-    Caller caller;
     const LibraryMesh mesh = soup_mesh(300), other = soup_mesh(77);
     const oibvh::DeviceTriangles first = mesh.on_device(caller), second = other.on_device(caller);
     const std::vector<oibvh::Box> boxes = mesh.boxes();
@@ -235,7 +232,7 @@ TEST(LibraryCaller, GetsEveryReferenceBack)
     EXPECT_EQ(references_after(caller, before), before);
 }
 
-TEST(LibraryCaller, KeepsHisEnvironment)
+TEST_F(LibraryCaller, KeepsHisEnvironment)
 {
     const auto variables = [] {
         std::vector<std::string> all;
@@ -243,7 +240,6 @@ TEST(LibraryCaller, KeepsHisEnvironment)
             all.emplace_back(*word);
         return all;
     };
-    Caller caller;
     setenv("BVHBENCH_KERNELS", "/nowhere", 1);  // what the program would read its kernels from
     setenv("BVHBENCH_TUNING", "/nowhere", 1);
     const std::vector<std::string> before = variables();
@@ -258,7 +254,7 @@ TEST(LibraryCaller, KeepsHisEnvironment)
 }
 
 /// Run once more with two devices of PoCL's, CMakeLists.txt says how.
-TEST(LibraryCaller, MayHaveAContextOfTwoDevices)
+TEST(LibraryQueues, MayHaveAContextOfTwoDevices)
 {
     cl_platform_id platform = nullptr;
     const cl_device_id one = open_device("").cl();

@@ -12,10 +12,9 @@ namespace {
 using oibvh::BadInput;
 using Sizes = std::vector<std::uint32_t>;
 
-class LibraryRefuses : public testing::Test {
+class LibraryRefuses : public OfACaller {
 protected:
-    Caller caller, stranger;
-    oibvh::Device device{caller.queue};
+    Caller stranger;
     oibvh::Tree tree{device};
     LibraryMesh mesh = soup_mesh(300);
 

@@ -181,6 +181,13 @@ inline PairList found_pairs(oibvh::Tree& tree, const Caller& caller,
     return pair_list(pairs);
 }
 
+/// A test with a caller of its own.
+class OfACaller : public testing::Test {
+protected:
+    Caller caller;
+    oibvh::Device device{caller.queue};
+};
+
 /// The sentence of the `E` that `work` throws.
 template <class E, class Work>
 std::string sentence(Work&& work)

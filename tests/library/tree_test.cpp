@@ -100,10 +100,11 @@ HostTree told(const oibvh::HostTree& read, const std::vector<oibvh::Level>& leve
     return tree;
 }
 
-TEST(Library, HasTheSameTreeOfEveryKindOfInput)
+class Library : public OfACaller {};
+
+TEST_F(Library, HasTheSameTreeOfEveryKindOfInput)
 {
-    Caller caller;
-    oibvh::Tree tree(caller.queue);
+    oibvh::Tree tree(device);
     for (const std::size_t size : {1, 2, 3, 1000}) {
         const LibraryMesh mesh = soup_mesh(size);
         const std::vector<oibvh::Box> boxes = mesh.boxes();
@@ -120,12 +121,11 @@ TEST(Library, HasTheSameTreeOfEveryKindOfInput)
     }
 }
 
-TEST(Library, TellsWhereItsTreeIs)
+TEST_F(Library, TellsWhereItsTreeIs)
 {
-    Caller caller;
     const LibraryMesh mesh = soup_mesh(37);
     for (const bool sorted : {false, true}) {
-        oibvh::Tree tree(caller.queue, {.sorted_leaves = sorted});
+        oibvh::Tree tree(device, {.sorted_leaves = sorted});
         tree.build(mesh.on_host());
         const oibvh::Buffers buffers = tree.buffers();
         const oibvh::HostTree read = tree.read();
@@ -142,11 +142,10 @@ TEST(Library, TellsWhereItsTreeIs)
     }
 }
 
-TEST(Library, LevelsNodesAndIdsAreAllThereIsToKnow)
+TEST_F(Library, LevelsNodesAndIdsAreAllThereIsToKnow)
 {
-    Caller caller;
     for (const bool sorted : {false, true}) {
-        oibvh::Tree tree(caller.queue, {.order = "morton30", .sorted_leaves = sorted});
+        oibvh::Tree tree(device, {.order = "morton30", .sorted_leaves = sorted});
         for (const std::size_t size : telling_sizes) {
             const LibraryMesh mesh = soup_mesh(size);
             tree.build(mesh.on_host());
