@@ -101,13 +101,12 @@ Device::Impl::Impl(const cl::CommandQueue& callers, const DeviceOptions& options
     : device(device_of(callers, options)), programs(device), queue(device, callers)
 {}
 
-void Device::Impl::launch(cl::Kernel& kernel, std::size_t count, std::size_t moved_bytes)
+void Device::Impl::launch(cl::Kernel& kernel, std::size_t count)
 {
     constexpr std::size_t most_items = std::size_t{1} << 20;
     const std::size_t group = device.is_cpu() ? 1 : 64;
     const std::size_t items = std::min(count, device.is_cpu() ? chunk_count(device) : most_items);
-    queue.launch(kernel, (items + group - 1) / group * group, group,
-                 static_cast<std::int64_t>(moved_bytes));
+    queue.launch(kernel, (items + group - 1) / group * group, group, 0);
 }
 
 Device::Device(cl_command_queue queue, const DeviceOptions& options)

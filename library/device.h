@@ -19,7 +19,7 @@ struct Device::Impl {
     Impl(const cl::CommandQueue& queue, const DeviceOptions& options);
 
     /// Launch a kernel whose work-items take chunks of `count` items: a few of them on a CPU, up to one an item elsewhere.
-    void launch(cl::Kernel& kernel, std::size_t count, std::size_t moved_bytes);
+    void launch(cl::Kernel& kernel, std::size_t count);
 
     std::mutex mutex;  ///< trees of a Device share its programs and its account of memory
     bvhbench::Device device;

@@ -162,7 +162,7 @@ void InputTaker::take_boxes(const Buffer<OwnPoint>& corners)
             faces_kernel_ = device_.programs.kernel("library/input.cl", "box_faces");
         set_arguments(faces_kernel_, faces, static_cast<uint>(count));
         device_.queue.begin("input");
-        device_.launch(faces_kernel_, count, faces.bytes());
+        device_.launch(faces_kernel_, count);
     }
     box_faces_made_ = count;
     taken_.device_points = corners;
@@ -214,7 +214,7 @@ void InputTaker::check(bool are_boxes)
                       faces, static_cast<uint>(count), is_bad);
     queue.begin("check");
     queue.clear(is_bad.cl(), is_bad.bytes());
-    device_.launch(kernel, count, points.bytes() + (are_boxes ? 0 : faces.bytes()));
+    device_.launch(kernel, count);
     uint was_bad = 0;
     queue.read(is_bad.cl(), sizeof was_bad, &was_bad);
     if (was_bad != 0)

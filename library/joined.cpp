@@ -73,7 +73,7 @@ void JoinedTrees::enqueue_copies(const ImplicitTree& a, const ImplicitTree& b)
                b.leaf_boxes.bytes());
     queue.copy(a.ids.cl(), tree_.ids.cl(), 0, a.ids.bytes());
     set_arguments(number_, b.ids, tree_.ids, a.leaves, b.leaves);
-    device_.launch(number_, b.leaves, 2 * b.ids.bytes());
+    device_.launch(number_, b.leaves);
 }
 
 void JoinedTrees::enqueue_own_numbers()
@@ -81,7 +81,7 @@ void JoinedTrees::enqueue_own_numbers()
     const DevicePairs found = collider_->device_pairs(device_.queue);
     set_arguments(own_numbers_, found.pairs, found.counters, static_cast<uint>(found.pairs.size()),
                   tree_.objects.front().leaves);
-    device_.launch(own_numbers_, found.pairs.size(), 0);
+    device_.launch(own_numbers_, found.pairs.size());
 }
 
 Collider& JoinedTrees::find_pairs(const ImplicitTree& a, const ImplicitTree& b)

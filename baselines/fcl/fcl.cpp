@@ -11,9 +11,13 @@
 namespace bvhbench {
 namespace {
 
-Point point_of(const fcl::Vector3d& p)
+/// Through triangle_box, which leaves no negative zeros.
+Aabb box_around(const fcl::Vector3d& a, const fcl::Vector3d& b, const fcl::Vector3d& c)
 {
-    return {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])};
+    const auto point = [](const fcl::Vector3d& p) {
+        return Point{static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])};
+    };
+    return triangle_box(point(a), point(b), point(c));
 }
 
 /// The model where FCL left it. `Volume` is what FCL keeps a node.
@@ -28,43 +32,27 @@ public:
     /// and gets the boxes of its triangles, so that trees are compared and not shapes.
     HostTree spelled_out() const override
     {
-        HostTree tree;
-        tree.nodes.resize(node_count());
-        for (std::size_t i = tree.nodes.size(); i-- > 0;) {  // children come after their parent
-            const fcl::BVNode<Volume>& from = model->getBV(static_cast<int>(i));
-            HostTree::Node& node = tree.nodes[i];
-            if (from.isLeaf())
-                node.primitive = from.primitiveId();
-            else
+        constexpr bool has_boxes = std::is_same_v<Volume, fcl::AABBd>;
+        PlainTree tree;
+        for (int i = 0; i < model->getNumBVs(); ++i) {
+            const fcl::BVNode<Volume>& from = model->getBV(i);
+            HostTree::Node& node = tree.plain.nodes.emplace_back();
+            if constexpr (has_boxes)
+                node.box = box_around(from.bv.min_, from.bv.max_, from.bv.min_);
+            if (!from.isLeaf()) {
                 node.child = {from.leftChild(), from.rightChild()};
-            if constexpr (std::is_same_v<Volume, fcl::AABBd>)
-                node.box = box_between(from.bv.min_, from.bv.max_);
-            else
-                node.box = from.isLeaf()
-                               ? triangle(node.primitive)
-                               : merged(box_of(tree, node.child[0]), box_of(tree, node.child[1]));
+                continue;
+            }
+            node.primitive = from.primitiveId();
+            if constexpr (!has_boxes) {
+                const fcl::Triangle& at = model->tri_indices[node.primitive];
+                node.box = box_around(model->vertices[at[0]], model->vertices[at[1]],
+                                      model->vertices[at[2]]);
+            }
         }
-        return tree;
-    }
-
-private:
-    static Aabb box_between(const fcl::Vector3d& low, const fcl::Vector3d& high)
-    {
-        // Through triangle_box, which leaves no negative zeros.
-        return triangle_box(point_of(low), point_of(high), point_of(low));
-    }
-
-    static Aabb box_of(const HostTree& tree, int node)
-    {
-        return tree.nodes[static_cast<std::size_t>(node)].box;
-    }
-
-    Aabb triangle(int primitive) const
-    {
-        const fcl::Triangle& corners = model->tri_indices[primitive];
-        return triangle_box(point_of(model->vertices[corners[0]]),
-                            point_of(model->vertices[corners[1]]),
-                            point_of(model->vertices[corners[2]]));
+        if constexpr (!has_boxes)
+            tree.merge_boxes();
+        return std::move(tree.plain);
     }
 };
 

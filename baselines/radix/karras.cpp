@@ -1,43 +1,45 @@
 // SPDX-License-Identifier: MIT
 #include "baselines/baselines.h"
-#include "baselines/radix/hierarchy.h"
+#include "baselines/radix/builder.h"
 
 namespace bvhbench {
 namespace {
 
-class Karras final : public RadixHierarchy {
+class Karras final : public RadixBuilder {
 public:
-    explicit Karras(const RadixSetup& setup)
-        : RadixHierarchy(setup)
-        , topology_(setup.kernel("baselines/radix/karras.cl", "topology"))
-        , boxes_(setup.kernel("baselines/radix/karras.cl", "boxes"))
+    Karras(Programs& programs, const BuildOptions& options)
+        : RadixBuilder(programs, "karras",
+                       "Binary radix tree, topology and then boxes [Karras2012]", make_karras,
+                       options)
+        , topology_(kernel("baselines/radix/karras.cl", "topology"))
+        , boxes_(kernel("baselines/radix/karras.cl", "boxes"))
     {}
 
-    void plan(Arena& arena) override
+private:
+    void plan_nodes(Arena& arena) override
     {
-        nodes_ = take_nodes(arena);
-        parents_ = arena.take<uint>(leaves_.inner() + leaves_.count, Use::scratch);
-        arrivals_ = arena.take<uint>(leaves_.inner(), Use::scratch);
+        tree_.nodes = take_nodes(arena);
+        parents_ = arena.take<uint>(tree_.inner() + tree_.leaves, Use::scratch);
+        arrivals_ = arena.take<uint>(tree_.inner(), Use::scratch);
     }
 
-    void build(Queue& queue) override
+    void build_nodes(Queue& queue) override
     {
-        set_arguments(topology_, leaves_.codes, nodes_, parents_, leaves_.count);
-        launch_(queue, topology_, leaves_.count - 1,
-                leaves_.codes.bytes() + nodes_.bytes() + parents_.bytes());
-        refit(queue);
+        set_arguments(topology_, tree_.codes, tree_.nodes, parents_, tree_.leaves);
+        launch(queue, topology_, tree_.leaves - 1,
+               tree_.codes.bytes() + tree_.nodes.bytes() + parents_.bytes());
+        refit_nodes(queue);
     }
 
     /// Children are read and boxes written; they share their sectors.
-    void refit(Queue& queue) override
+    void refit_nodes(Queue& queue) override
     {
-        set_arguments(boxes_, leaves_.boxes, leaves_.ids, nodes_, parents_, arrivals_,
-                      leaves_.count);
-        launch_(queue, boxes_, leaves_.count,
-                leaves_.box_bytes() + parents_.bytes() + child_bytes() + nodes_.bytes());
+        set_arguments(boxes_, tree_.leaf_boxes, tree_.ids, tree_.nodes, parents_, arrivals_,
+                      tree_.leaves);
+        launch(queue, boxes_, tree_.leaves,
+               box_bytes() + parents_.bytes() + child_bytes() + tree_.nodes.bytes());
     }
 
-private:
     cl::Kernel topology_, boxes_;
     Buffer<uint> parents_;  ///< inner nodes, then leaves
 };
@@ -46,8 +48,7 @@ private:
 
 std::unique_ptr<Builder> make_karras(Programs& programs, const BuildOptions& options)
 {
-    return make_radix_builder<Karras>(
-        programs, "karras", "Binary radix tree, topology and then boxes [Karras2012]", options);
+    return std::make_unique<Karras>(programs, options);
 }
 
 }  // namespace bvhbench
