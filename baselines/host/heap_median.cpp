@@ -33,9 +33,8 @@ static_assert(heap_left_leaves(7) == 4);
 
 class HeapTree final : public Tree {
 public:
-    std::vector<Aabb> boxes;  ///< by node
-    std::vector<uint>
-        primitives;  ///< by leaf: that of node `primitives.size() - 1 + k` is the k-th
+    std::vector<Aabb> boxes;       ///< by node
+    std::vector<uint> primitives;  ///< by leaf: the leaves are the last nodes
 
     std::size_t node_count() const override { return boxes.size(); }
 

@@ -24,8 +24,7 @@ uint split_of(const HostLeafOrder& leaves, uint first, uint last)
     int bit = 95;
     while (key_bit(leaves, first, bit) == key_bit(leaves, last, bit))
         --bit;
-    uint split = first,
-         beyond = last;  // 0 at split, 1 at beyond: keys ascend, so halving finds the step
+    uint split = first, beyond = last;  // 0 at split, 1 at beyond: halving finds the step
     while (beyond - split > 1) {
         const uint middle = split + (beyond - split) / 2;
         (key_bit(leaves, middle, bit) ? beyond : split) = middle;

@@ -32,20 +32,12 @@ kernel void slow_move(global float* points, const uint count, const float x)
 /// Enqueued on the caller's queue, without waiting.
 void move_slowly(const Caller& caller, cl_mem points, std::size_t count, float x)
 {
-    const cl_program program = clCreateProgramWithSource(
-        caller.context, 1, const_cast<const char**>(&slow_move), nullptr, nullptr);
-    clBuildProgram(program, 1, &caller.device, "", nullptr, nullptr);
-    const cl_kernel kernel = clCreateKernel(program, "slow_move", nullptr);
-    const auto number = static_cast<cl_uint>(count);
-    clSetKernelArg(kernel, 0, sizeof points, &points);
-    clSetKernelArg(kernel, 1, sizeof number, &number);
-    clSetKernelArg(kernel, 2, sizeof x, &x);
-    const std::size_t one = 1;
-    ASSERT_EQ(
-        clEnqueueNDRangeKernel(caller.queue, kernel, 1, nullptr, &one, &one, 0, nullptr, nullptr),
-        CL_SUCCESS);
-    clReleaseKernel(kernel);
-    clReleaseProgram(program);
+    cl::Kernel kernel(cl::Program(cl::Context(caller.context, true), slow_move, true), "slow_move");
+    kernel.setArg(0, cl::Buffer(points, true));
+    kernel.setArg(1, static_cast<cl_uint>(count));
+    kernel.setArg(2, x);
+    cl::CommandQueue(caller.queue, true)
+        .enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(1), cl::NDRange(1));
 }
 
 class LibraryCaller : public OfACaller {};
@@ -256,16 +248,13 @@ TEST_F(LibraryCaller, KeepsHisEnvironment)
 /// Run once more with two devices of PoCL's, CMakeLists.txt says how.
 TEST(LibraryQueues, MayHaveAContextOfTwoDevices)
 {
-    cl_platform_id platform = nullptr;
-    const cl_device_id one = open_device("").cl();
-    clGetDeviceInfo(one, CL_DEVICE_PLATFORM, sizeof platform, &platform, nullptr);
-    cl_device_id devices[2];
-    cl_uint count = 0;
-    clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, 2, devices, &count);
-    if (count < 2)
+    std::vector<cl::Device> devices;
+    cl::Platform(open_device("").cl.getInfo<CL_DEVICE_PLATFORM>())
+        .getDevices(CL_DEVICE_TYPE_ALL, &devices);
+    if (devices.size() < 2)
         GTEST_SKIP() << "there is one device";
     for (const std::vector<cl_device_id>& order :
-         {std::vector{devices[0], devices[1]}, std::vector{devices[1], devices[0]}}) {
+         {std::vector{devices[0](), devices[1]()}, std::vector{devices[1](), devices[0]()}}) {
         Caller caller(0, order);  // a queue of the last
         const LibraryMesh mesh = soup_mesh(700);
         oibvh::Tree tree(caller.queue);
