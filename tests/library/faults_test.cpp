@@ -73,8 +73,8 @@ private:
 
 struct Outcome {
     int errors = 0;
-    long callers = 0;  ///< calls of the caller before the library's
-    long calls = 0;    ///< all before he was gone
+    long callers = 0,
+         calls = 0;  ///< those of the caller before the library's, and all before he was gone
 };
 
 /// One caller's life. With one call that fails his second try has to go well.
