@@ -5,17 +5,18 @@ namespace bvhbench {
 
 std::span<const PlainLibrary> plain_libraries()
 {
-    static const std::vector<PlainLibrary> all = {
+    static const std::vector<PlainLibrary> all = [] {
+        std::vector<PlainLibrary> found;
 #if BVHBENCH_HAS_EMBREE
-        {"rtcCollide", "Embree", false, plain_embree},
+        for (const PlainLibrary& library : plain_embree())
+            found.push_back(library);
 #endif
 #if BVHBENCH_HAS_FCL
-        {"FCL AABB double", "FCL", true, plain_fcl_aabb_double},
-        {"FCL OBBRSS double", "FCL", true, plain_fcl_obbrss_double},
-        {"FCL AABB float", "FCL", true, plain_fcl_aabb_float},
-        {"FCL OBBRSS float", "FCL", true, plain_fcl_obbrss_float},
+        for (const PlainLibrary& library : plain_fcl())
+            found.push_back(library);
 #endif
-    };
+        return found;
+    }();
     return all;
 }
 

@@ -16,8 +16,8 @@ namespace bvhbench {
 struct PlainLibrary {
     std::string_view name;     ///< the key in tables and result files
     std::string_view library;  ///< whose version it has: a name of the run's libraries
-    bool
-        finds_contacts;  ///< pairs of triangles that intersect and share no vertex; else of boxes that overlap
+    /// Whether it finds pairs of triangles that intersect and share no vertex; else of boxes that overlap.
+    bool finds_contacts;
     /// Of two objects the pairs between them, of one its pairs with itself, in any order.
     std::vector<Pair> (*find)(std::span<const Point> points, std::span<const Face> faces,
                               std::span<const FaceRange> objects);
@@ -26,20 +26,8 @@ struct PlainLibrary {
 /// Those that the program was built with.
 std::span<const PlainLibrary> plain_libraries();
 
-#if BVHBENCH_HAS_EMBREE
-std::vector<Pair> plain_embree(std::span<const Point> points, std::span<const Face> faces,
-                               std::span<const FaceRange> objects);
-#endif
-#if BVHBENCH_HAS_FCL
-std::vector<Pair> plain_fcl_aabb_double(std::span<const Point> points, std::span<const Face> faces,
-                                        std::span<const FaceRange> objects);
-std::vector<Pair> plain_fcl_obbrss_double(std::span<const Point> points,
-                                          std::span<const Face> faces,
-                                          std::span<const FaceRange> objects);
-std::vector<Pair> plain_fcl_aabb_float(std::span<const Point> points, std::span<const Face> faces,
-                                       std::span<const FaceRange> objects);
-std::vector<Pair> plain_fcl_obbrss_float(std::span<const Point> points, std::span<const Face> faces,
-                                         std::span<const FaceRange> objects);
-#endif
+/// Each library's, defined where it was built with it.
+std::vector<PlainLibrary> plain_embree();
+std::vector<PlainLibrary> plain_fcl();
 
 }  // namespace bvhbench

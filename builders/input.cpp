@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cassert>
 
-#include "device/loops.h"
 #include "geometry/error.h"
 
 namespace bvhbench {
@@ -25,10 +24,10 @@ Buffer<T> copied(const Device& device, const Queue& queue, std::span<const T> va
 void copy_faces(Input& input, const Device& device, const Queue& queue, std::span<const Face> faces,
                 std::span<const FaceRange> objects)
 {
-    if (device.ends_loops && faces.size() > most_triangles_in_short_loops)
+    if (device.ends_loops && faces.size() > Device::most_triangles_in_short_loops)
         throw Unavailable(device.name() + " ends loops after 65,535 steps, so it is given up to " +
-                          std::to_string(most_triangles_in_short_loops) + " triangles, not " +
-                          std::to_string(faces.size()));
+                          std::to_string(Device::most_triangles_in_short_loops) +
+                          " triangles, not " + std::to_string(faces.size()));
     input.faces = faces;
     input.device_faces = copied(device, queue, faces, input.memory);
     input.objects.assign(objects.begin(), objects.end());

@@ -3,6 +3,8 @@
 // The only place that includes the Khronos bindings, so that every file sees them configured alike.
 #pragma once
 
+#include <string>
+
 #define CL_HPP_ENABLE_EXCEPTIONS
 // Both 1.2, so that the bindings of 2023.02 never ask a device for its platform's version, as they do at every copy of a
 // device when the least version is older: where that question fails they read what was never written.
@@ -17,3 +19,10 @@
 #pragma GCC diagnostic ignored "-Wpedantic"
 #include <CL/opencl.hpp>
 #pragma GCC diagnostic pop
+
+namespace bvhbench {
+
+/// The name of an OpenCL error code: "CL_OUT_OF_RESOURCES"; "OpenCL error -9999" for one of a vendor's own.
+std::string opencl_error_name(int code);
+
+}  // namespace bvhbench

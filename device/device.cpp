@@ -6,7 +6,6 @@
 #include <sstream>
 
 #include "device/lifted_limit.h"
-#include "device/loops.h"
 #include "geometry/error.h"
 #include "geometry/host_memory.h"
 
@@ -43,8 +42,8 @@ std::vector<Found> all_devices()
 std::string lower(std::string_view text)
 {
     std::string out(text);
-    std::transform(out.begin(), out.end(), out.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    for (char& c : out)
+        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     return out;
 }
 
@@ -60,20 +59,38 @@ bool has_all_words(const std::string& name, const std::string& words)
 const Found* choose(const std::vector<Found>& devices, std::string_view words)
 {
     const auto is_digit = [](unsigned char c) { return std::isdigit(c) != 0; };
-    if (!words.empty() && words.size() < 4 && std::all_of(words.begin(), words.end(), is_digit)) {
+    if (!words.empty() && words.size() < 4 && std::ranges::all_of(words, is_digit)) {
         const std::size_t index = std::stoul(std::string(words));
         return index < devices.size() ? &devices[index] : nullptr;
     }
-    if (words.empty()) {
-        for (const Found& found : devices)
-            if ((found.device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU) != 0)
-                return &found;
-        return devices.empty() ? nullptr : &devices.front();
-    }
-    for (const Found& found : devices)
-        if (has_all_words(lower(found.name), lower(words)))
-            return &found;
-    return nullptr;
+    const auto chosen = std::ranges::find_if(devices, [&](const Found& found) {
+        return words.empty() ? (found.device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU) != 0
+                             : has_all_words(lower(found.name), lower(words));
+    });
+    if (chosen != devices.end())
+        return &*chosen;
+    return words.empty() && !devices.empty() ? &devices.front() : nullptr;
+}
+
+/// Whether a loop of 100,000 steps ends early on the device: a probe, which compiles and runs a kernel.
+bool ends_loops_early(const Device& device)
+{
+    constexpr cl_uint steps = 100'000;
+    cl_uint expected = 0;
+    for (cl_uint step = 0; step < steps; ++step)
+        expected = (expected ^ step) * 1664525u + 1013904223u;
+
+    cl::Program program(device.context, device.sources.flatten({"device/limits.cl"}));
+    program.build(device.cl);
+    cl::Kernel kernel(program, "take_steps");
+    const cl::CommandQueue queue(device.context, device.cl);
+    const cl::Buffer word(device.context, CL_MEM_WRITE_ONLY, sizeof(cl_uint));
+    kernel.setArg(0, word);
+    kernel.setArg(1, steps);
+    queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(1), cl::NDRange(1));
+    cl_uint found = 0;
+    queue.enqueueReadBuffer(word, CL_TRUE, 0, sizeof found, &found);
+    return found != expected;
 }
 
 }  // namespace

@@ -35,8 +35,14 @@ struct Device {
     void require_group(std::string_view what, std::size_t group_size,
                        std::size_t local_bytes) const;
 
-    /// Whether its driver ends loops early (device/loops.h).
+    /// Whether its driver ends loops early, as Mesa's llvmpipe does (22.3, as OpenCL through Rusticl): it gives a work-item
+    /// 65,535 steps in all its loops together and then ends each loop after one step more. Lanes of a group that no work-item
+    /// has use the steps up too: what they load is 0, and a loop that waits for another value runs on in them. OpenCL C
+    /// allows neither.
     bool ends_loops = false;
+
+    /// Where loops end early, kernels for few cores still build scenes of up to this size: a work-item has few enough steps.
+    static constexpr std::size_t most_triangles_in_short_loops = 16384;
 
     /// Bytes that all together may take, if less than the device has.
     std::size_t memory_limit = std::numeric_limits<std::size_t>::max();

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "device/error_name.h"
-
 #include "device/cl.h"
 
 namespace bvhbench {

@@ -51,7 +51,7 @@ cl::Kernel Programs::kernel(std::string_view path, const char* name,
 cl::Kernel Programs::kernel(std::string_view path, const char* name,
                             std::span<const Define> defines, Optimise optimise)
 {
-    return compiled(device_.sources.flatten(path), path, name, defines, optimise);
+    return compiled(device_.sources.flatten({path}), path, name, defines, optimise);
 }
 
 cl::Kernel Programs::kernel(std::string_view header, std::string_view path, const char* name,

@@ -75,8 +75,6 @@ Sources Sources::preferred()
     return root != nullptr && *root != '\0' ? tree(root) : embedded();
 }
 
-std::string Sources::flatten(std::string_view path) const { return flatten({path}); }
-
 std::string Sources::flatten(std::initializer_list<std::string_view> paths) const
 {
     std::string out;

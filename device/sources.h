@@ -19,12 +19,9 @@ public:
     /// The tree named by BVHBENCH_KERNELS if set, else the embedded text.
     static Sources preferred();
 
-    /// The text of `path` with each quoted #include replaced by that file the first time it is met.
-    /// #line directives keep build logs pointing at the real file and line.
-    /// Throws Unavailable when a file is not there.
-    std::string flatten(std::string_view path) const;
-
-    /// The same of several files, one behind the other: a header that a kernel file leaves open, and the file.
+    /// The text of a file, or of several one behind the other, as of a header that a kernel file leaves open and the file:
+    /// each quoted #include is replaced by that file the first time it is met. #line directives keep build logs pointing at
+    /// the real file and line. Throws Unavailable when a file is not there.
     std::string flatten(std::initializer_list<std::string_view> paths) const;
 
     /// For the result file: "embedded" or the tree's path.

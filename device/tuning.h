@@ -10,6 +10,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cassert>
 #include <initializer_list>
 #include <map>
@@ -61,7 +62,18 @@ struct Parameter {
 
     /// Why it cannot be `value`, as the end of a sentence, "must be odd, not 4"; empty if it can. A power of two may be
     /// 0 where `least` is.
-    std::string refusal(uint value) const;
+    std::string refusal(uint value) const
+    {
+        const std::string but = ", not " + std::to_string(value);
+        if (value < least || value > most)
+            return "must be from " + std::to_string(least) + " to " + std::to_string(most) + but;
+        if (values == ValueIs::odd && value % 2 == 0)
+            return "must be odd" + but;
+        const bool is_power = values == ValueIs::power_of_two || values == ValueIs::group_size;
+        if (is_power && value != 0 && !std::has_single_bit(value))
+            return "must be a power of two" + but;
+        return {};
+    }
 };
 
 /// Values that take the place of defaults, and which parameters anybody has asked for.

@@ -7,7 +7,6 @@
 #include "builders/parameters.h"
 #include "builders/stages/kernel_form.h"
 #include "collide/parameters.h"
-#include "device/error_name.h"
 #include "geometry/error.h"
 
 namespace bvhbench::oibvh {
@@ -65,23 +64,15 @@ void tune(bvhbench::Device& device, const DeviceOptions& options)
     }
 }
 
-/// Retained here: where that fails, the bindings' getInfo would release what it never retained.
-cl::Context context_of(const cl::CommandQueue& queue)
-{
-    cl_context context = nullptr;
-    const cl_int code =
-        clGetCommandQueueInfo(queue(), CL_QUEUE_CONTEXT, sizeof context, &context, nullptr);
-    if (code != CL_SUCCESS)
-        throw cl::Error(code, "clGetCommandQueueInfo");
-    return cl::Context(context, true);
-}
-
 /// Kernels come from the binary alone, whatever the environment says.
 bvhbench::Device device_of(const cl::CommandQueue& queue, const DeviceOptions& options)
 {
-    bvhbench::Device device{.cl = queue.getInfo<CL_QUEUE_DEVICE>(),
-                            .context = context_of(queue),
-                            .sources = Sources::embedded()};
+    bvhbench::Device device{
+        .cl = queue.getInfo<CL_QUEUE_DEVICE>(),
+        .context = cl::Context(
+            context_of(clGetCommandQueueInfo, queue(), CL_QUEUE_CONTEXT, "clGetCommandQueueInfo"),
+            true),
+        .sources = Sources::embedded()};
     device.memory_limit = options.memory_limit;
     require_compiler(device);
     tune(device, options);
@@ -110,13 +101,12 @@ Device::Impl::Impl(const cl::CommandQueue& callers, const DeviceOptions& options
     : device(device_of(callers, options)), programs(device), queue(device, callers)
 {}
 
-void Device::Impl::launch(cl::Kernel& kernel, std::size_t count, std::size_t moved_bytes)
+void Device::Impl::launch(cl::Kernel& kernel, std::size_t count)
 {
     constexpr std::size_t most_items = std::size_t{1} << 20;
     const std::size_t group = device.is_cpu() ? 1 : 64;
     const std::size_t items = std::min(count, device.is_cpu() ? chunk_count(device) : most_items);
-    queue.launch(kernel, (items + group - 1) / group * group, group,
-                 static_cast<std::int64_t>(moved_bytes));
+    queue.launch(kernel, (items + group - 1) / group * group, group, 0);
 }
 
 Device::Device(cl_command_queue queue, const DeviceOptions& options)

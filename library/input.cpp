@@ -20,13 +20,6 @@ static_assert(sizeof(OwnPoint) == sizeof(oibvh::Point) && sizeof(OwnFace) == siz
 
 constexpr std::size_t most_leaves = std::size_t{1} << 31;
 
-template <class... Works>
-struct Cases : Works... {
-    using Works::operator()...;
-};
-template <class... Works>
-Cases(Works...) -> Cases<Works...>;
-
 void require_count(std::size_t count, const char* what)
 {
     if (count == 0)
@@ -40,17 +33,6 @@ std::string text_of(OwnPoint point)
 {
     return '(' + std::to_string(point.x) + ", " + std::to_string(point.y) + ", " +
            std::to_string(point.z) + ')';
-}
-
-/// By OpenCL's own call: where it cannot retain the context, the bindings' getInfo would release it all the same.
-cl_context context_of(cl_mem memory)
-{
-    cl_context context = nullptr;
-    const cl_int code =
-        clGetMemObjectInfo(memory, CL_MEM_CONTEXT, sizeof context, &context, nullptr);
-    if (code != CL_SUCCESS)
-        throw cl::Error(code, "clGetMemObjectInfo");
-    return context;
 }
 
 /// Whether the host may read it.
@@ -70,8 +52,8 @@ InputTaker::InputTaker(Device::Impl& device, bool check) : device_(device), chec
 {
     if (!checks_)
         return;
-    triangles_kernel_ = device_.programs.kernel("library/check.cl", "check_triangles");
-    boxes_kernel_ = device_.programs.kernel("library/check.cl", "check_boxes");
+    triangles_kernel_ = device_.programs.kernel("library/input.cl", "check_triangles");
+    boxes_kernel_ = device_.programs.kernel("library/input.cl", "check_boxes");
 }
 
 template <class T>
@@ -105,7 +87,8 @@ Buffer<T> InputTaker::callers(cl_mem memory, std::size_t count, std::size_t item
     const cl::Buffer buffer(memory, true);
     if (buffer.getInfo<CL_MEM_TYPE>() != CL_MEM_OBJECT_BUFFER)
         throw BadUsage(std::string(what) + " are in an image, and a buffer is wanted");
-    if (context_of(memory) != device_.device.context())
+    if (context_of(clGetMemObjectInfo, memory, CL_MEM_CONTEXT, "clGetMemObjectInfo") !=
+        device_.device.context())
         throw BadUsage(std::string("the buffer of ") + what +
                        " is of another context than the queue");
     if ((buffer.getInfo<CL_MEM_FLAGS>() & CL_MEM_WRITE_ONLY) != 0)
@@ -120,44 +103,41 @@ Buffer<T> InputTaker::callers(cl_mem memory, std::size_t count, std::size_t item
 
 const bvhbench::Input& InputTaker::take(const Input& input, std::span<const std::uint32_t> sizes)
 {
+    const bool are_boxes =
+        std::holds_alternative<HostBoxes>(input) || std::holds_alternative<DeviceBoxes>(input);
     // Of the caller's, none is kept when this fails; of copies, none that this kind of input has no use for.
     taken_.device_points = {};
     taken_.device_faces = {};
-    const bool are_boxes = std::visit(
-        Cases{[&](const HostTriangles& mesh) {
-                  drop_box_faces();
-                  require_count(mesh.faces.size(), "triangles");
-                  require_count(mesh.points.size(), "points");
-                  take_triangles(copied<OwnPoint>(mesh.points, points_),
-                                 copied<OwnFace>(mesh.faces, faces_));
-                  return false;
-              },
-              [&](const HostBoxes& all) {
-                  faces_ = {};
-                  require_count(all.boxes.size(), "boxes");
-                  take_boxes(copied<OwnPoint>(all.boxes, points_));
-                  return true;
-              },
-              [&](const DeviceTriangles& mesh) {
-                  drop_box_faces();
-                  points_ = {};
-                  faces_ = {};
-                  require_count(mesh.face_count, "triangles");
-                  if (mesh.point_count == 0)
-                      require_count(0, "points");
-                  take_triangles(
-                      callers<OwnPoint>(mesh.points, mesh.point_count, sizeof(OwnPoint), "points"),
-                      callers<OwnFace>(mesh.faces, mesh.face_count, sizeof(OwnFace), "faces"));
-                  return false;
-              },
-              [&](const DeviceBoxes& all) {
-                  points_ = {};
-                  faces_ = {};
-                  require_count(all.box_count, "boxes");
-                  take_boxes(callers<OwnPoint>(all.boxes, all.box_count, sizeof(Box), "boxes"));
-                  return true;
-              }},
-        input);
+    if (!are_boxes) {
+        box_faces_made_ = 0;
+        box_faces_ = {};
+    }
+    if (!std::holds_alternative<HostTriangles>(input))
+        faces_ = {};
+    if (const auto* mesh = std::get_if<HostTriangles>(&input)) {
+        require_count(mesh->faces.size(), "triangles");
+        require_count(mesh->points.size(), "points");
+        taken_.device_points = copied<OwnPoint>(mesh->points, points_);
+        taken_.device_faces = copied<OwnFace>(mesh->faces, faces_);
+    } else if (const auto* all = std::get_if<HostBoxes>(&input)) {
+        require_count(all->boxes.size(), "boxes");
+        take_boxes(copied<OwnPoint>(all->boxes, points_));
+    } else if (const auto* theirs = std::get_if<DeviceTriangles>(&input)) {
+        points_ = {};
+        require_count(theirs->face_count, "triangles");
+        if (theirs->point_count == 0)
+            require_count(0, "points");
+        Buffer<OwnPoint> points =
+            callers<OwnPoint>(theirs->points, theirs->point_count, sizeof(OwnPoint), "points");
+        taken_.device_faces =
+            callers<OwnFace>(theirs->faces, theirs->face_count, sizeof(OwnFace), "faces");
+        taken_.device_points = std::move(points);
+    } else {
+        const auto& boxes = std::get<DeviceBoxes>(input);
+        points_ = {};
+        require_count(boxes.box_count, "boxes");
+        take_boxes(callers<OwnPoint>(boxes.boxes, boxes.box_count, sizeof(Box), "boxes"));
+    }
     take_objects(sizes);
     if (checks_)
         check(are_boxes);
@@ -172,18 +152,6 @@ std::size_t InputTaker::memory() const
     return bytes;
 }
 
-void InputTaker::take_triangles(const Buffer<OwnPoint>& points, const Buffer<OwnFace>& faces)
-{
-    taken_.device_points = points;
-    taken_.device_faces = faces;
-}
-
-void InputTaker::drop_box_faces()
-{
-    box_faces_made_ = 0;
-    box_faces_ = {};
-}
-
 void InputTaker::take_boxes(const Buffer<OwnPoint>& corners)
 {
     const std::size_t count = corners.size() / 2;
@@ -191,13 +159,14 @@ void InputTaker::take_boxes(const Buffer<OwnPoint>& corners)
     const Buffer<OwnFace> faces = room_for<OwnFace>(count, box_faces_);
     if (!are_made) {
         if (faces_kernel_() == nullptr)
-            faces_kernel_ = device_.programs.kernel("library/box_faces.cl", "box_faces");
+            faces_kernel_ = device_.programs.kernel("library/input.cl", "box_faces");
         set_arguments(faces_kernel_, faces, static_cast<uint>(count));
         device_.queue.begin("input");
-        device_.launch(faces_kernel_, count, faces.bytes());
+        device_.launch(faces_kernel_, count);
     }
     box_faces_made_ = count;
-    take_triangles(corners, faces);
+    taken_.device_points = corners;
+    taken_.device_faces = faces;
 }
 
 void InputTaker::take_objects(std::span<const std::uint32_t> sizes)
@@ -245,7 +214,7 @@ void InputTaker::check(bool are_boxes)
                       faces, static_cast<uint>(count), is_bad);
     queue.begin("check");
     queue.clear(is_bad.cl(), is_bad.bytes());
-    device_.launch(kernel, count, points.bytes() + (are_boxes ? 0 : faces.bytes()));
+    device_.launch(kernel, count);
     uint was_bad = 0;
     queue.read(is_bad.cl(), sizeof was_bad, &was_bad);
     if (was_bad != 0)

@@ -46,9 +46,7 @@ private:
     Buffer<T> callers(cl_mem memory, std::size_t count, std::size_t item_bytes,
                       const char* what) const;
 
-    void take_triangles(const Buffer<bvhbench::Point>& points, const Buffer<bvhbench::Face>& faces);
     void take_boxes(const Buffer<bvhbench::Point>& corners);
-    void drop_box_faces();
     void take_objects(std::span<const std::uint32_t> sizes);
     void check(bool are_boxes);
     void complain(bool are_boxes) const;

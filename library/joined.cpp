@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "library/joined.h"
+#include "library/tree.h"
 
 #include <algorithm>
 
 #include "collide/counters.h"
 #include "geometry/error.h"
-#include "library/tree.h"
 
 namespace bvhbench::oibvh {
 namespace {
@@ -34,7 +33,7 @@ void JoinedTrees::plan(Arena& arena, const ImplicitTree& a, const ImplicitTree& 
     tree_.device_objects = arena.take<ForestObject>(2, Use::tree);
 }
 
-void JoinedTrees::reserve(const ImplicitTree& a, const ImplicitTree& b, std::string_view collider)
+void JoinedTrees::reserve(const ImplicitTree& a, const ImplicitTree& b)
 {
     const std::tuple wanted(a.leaves, b.leaves, a.sorted_leaves);
     if (reserved_for_ == wanted)
@@ -55,8 +54,8 @@ void JoinedTrees::reserve(const ImplicitTree& a, const ImplicitTree& b, std::str
     arena_ = Arena::reserved(device_.device, measuring.used());
     plan(*arena_, a, b);
     tree_.device_objects.upload(device_.queue.cl(), tree_.objects);
-    collider_ = make_collider(device_.programs, collider,
-                              {.among = bvhbench::Among::between_objects, .keep_adjacent = true});
+    collider_ =
+        make_(device_.programs, {.among = bvhbench::Among::between_objects, .keep_adjacent = true});
     collider_->reserve(&tree_, {});
     number_ = device_.programs.kernel("library/joined.cl", "number_behind");
     own_numbers_ = device_.programs.kernel("library/joined.cl", "own_numbers");
@@ -74,26 +73,21 @@ void JoinedTrees::enqueue_copies(const ImplicitTree& a, const ImplicitTree& b)
                b.leaf_boxes.bytes());
     queue.copy(a.ids.cl(), tree_.ids.cl(), 0, a.ids.bytes());
     set_arguments(number_, b.ids, tree_.ids, a.leaves, b.leaves);
-    device_.launch(number_, b.leaves, 2 * b.ids.bytes());
+    device_.launch(number_, b.leaves);
 }
 
 void JoinedTrees::enqueue_own_numbers()
 {
     const DevicePairs found = collider_->device_pairs(device_.queue);
-    const std::uint64_t count = collider_->counts(device_.queue).pairs;
-    if (count == 0)
-        return;
     set_arguments(own_numbers_, found.pairs, found.counters, static_cast<uint>(found.pairs.size()),
                   tree_.objects.front().leaves);
-    device_.launch(own_numbers_, static_cast<std::size_t>(count),
-                   static_cast<std::size_t>(count) * 2 * sizeof(bvhbench::Pair));
+    device_.launch(own_numbers_, found.pairs.size());
 }
 
-Collider& JoinedTrees::find_pairs(const ImplicitTree& a, const ImplicitTree& b,
-                                  std::string_view collider)
+Collider& JoinedTrees::find_pairs(const ImplicitTree& a, const ImplicitTree& b)
 {
     require_alike(a, b);
-    reserve(a, b, collider);
+    reserve(a, b);
     const auto reserved = std::exchange(reserved_for_, {});  // until all has gone well
     enqueue_copies(a, b);
     bvhbench::find_pairs(*collider_, &tree_, {}, device_.queue);

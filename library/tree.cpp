@@ -9,8 +9,8 @@
 namespace bvhbench::oibvh {
 namespace {
 
-constexpr std::pair<std::string_view, MakeBuilder> builder_names[] = {
-    {"oibvh-single", make_oibvh_single}, {"oibvh-multi", make_oibvh_multi}};
+constexpr Named<MakeBuilder> builders[] = {{"oibvh-single", make_oibvh_single},
+                                           {"oibvh-multi", make_oibvh_multi}};
 
 /// Single where groups meet inside a launch and there are many of them: an H200 takes 0.8 of the time then.
 std::string_view builder_for(const bvhbench::Device& device)
@@ -22,12 +22,8 @@ std::unique_ptr<Builder> make_builder(Device::Impl& device, const Options& optio
 {
     const std::string_view name =
         options.builder.empty() ? builder_for(device.device) : options.builder;
-    for (const auto& [known, make] : builder_names)
-        if (known == name)
-            return make(device.programs,
-                        {.order = options.order, .sorted_leaves = options.sorted_leaves});
-    throw BadUsage("no builder of the library is called '" + std::string(name) +
-                   "'; there are: oibvh-single, oibvh-multi");
+    return find_named(builders, name, "builder")
+        .second(device.programs, {.order = options.order, .sorted_leaves = options.sorted_leaves});
 }
 
 TreeUpdate internal(Update update)
@@ -60,30 +56,14 @@ Tree::Impl::Impl(const std::shared_ptr<Device::Impl>& on, Options asked)
     , options(std::move(asked))
     , taker(*device, options.check_input)
     , builder(make_builder(*device, options))
-    , collider_name(collider_for(device->device, options.collider))
-    , joined(*device)
+    , collider(collider_for(device->device, options.collider))
+    , joined(*device, collider.second)
 {}
 
 void Tree::Impl::begin()
 {
     device->queue.forget();
     device->queue.join();
-}
-
-void Tree::Impl::build(const Input& input, std::span<const std::uint32_t> objects)
-{
-    begin();
-    tree = nullptr;
-    last_query = nullptr;
-    const bvhbench::Input& taken = taker.take(input, objects);
-    const std::vector<uint> wanted = object_sizes(taken);
-    if (std::exchange(sizes, {}) != wanted) {
-        for (Query& query : queries)  // their memory goes before more comes
-            query = {};
-        builder->reserve_objects(wanted);
-    }
-    tree = &dynamic_cast<const ImplicitTree&>(builder->build(taken, device->queue));
-    sizes = wanted;
 }
 
 void Tree::Impl::renew(const Input& input, const std::function<void(const bvhbench::Input&)>& make)
@@ -97,40 +77,12 @@ void Tree::Impl::renew(const Input& input, const std::function<void(const bvhben
     tree = standing;
 }
 
-void Tree::Impl::refit(const Input& input)
-{
-    standing("a refit");
-    renew(input, [&](const bvhbench::Input& taken) { builder->refit(taken, device->queue); });
-}
-
-void Tree::Impl::update(const Input& input, std::span<const Update> updates)
-{
-    if (const std::size_t objects = standing("an update").objects.size(); updates.size() != objects)
-        throw BadUsage("there are " + std::to_string(updates.size()) + " updates, and " +
-                       std::to_string(objects) + " objects");
-    std::vector<TreeUpdate> wanted(updates.size());
-    std::transform(updates.begin(), updates.end(), wanted.begin(), internal);
-    renew(input, [&](const bvhbench::Input& taken) {
-        builder->plan_update(wanted, device->queue);
-        builder->update(taken, device->queue);
-    });
-}
-
 const ImplicitTree& Tree::Impl::standing(const char* what) const
 {
     if (tree == nullptr)
         throw BadUsage(std::string(what) +
                        " needs a tree, and none was built, or its build failed");
     return *tree;
-}
-
-std::size_t Tree::Impl::memory() const
-{
-    std::size_t bytes = builder->reserved().total() + taker.memory() + joined.memory();
-    for (const Query& query : queries)
-        if (query.collider)
-            bytes += query.collider->reserved().total();
-    return bytes;
 }
 
 Tree::Tree(Device device, Options options)
@@ -157,17 +109,46 @@ Tree::~Tree()
 
 void Tree::build(const Input& input, std::span<const std::uint32_t> objects)
 {
-    as_call(*impl_->device, [&] { impl_->build(input, objects); });
+    as_call(*impl_->device, [&, &own = *impl_] {
+        own.begin();
+        own.tree = nullptr;
+        own.last_query = nullptr;
+        const bvhbench::Input& taken = own.taker.take(input, objects);
+        const std::vector<uint> wanted = object_sizes(taken);
+        if (std::exchange(own.sizes, {}) != wanted) {
+            for (Impl::Query& query : own.queries)  // their memory goes before more comes
+                query = {};
+            own.builder->reserve_objects(wanted);
+        }
+        own.tree = &dynamic_cast<const ImplicitTree&>(own.builder->build(taken, own.device->queue));
+        own.sizes = wanted;
+    });
 }
 
 void Tree::refit(const Input& input)
 {
-    as_call(*impl_->device, [&] { impl_->refit(input); });
+    as_call(*impl_->device, [&, &own = *impl_] {
+        own.standing("a refit");
+        own.renew(input, [&](const bvhbench::Input& taken) {
+            own.builder->refit(taken, own.device->queue);
+        });
+    });
 }
 
 void Tree::update(const Input& input, std::span<const Update> updates)
 {
-    as_call(*impl_->device, [&] { impl_->update(input, updates); });
+    as_call(*impl_->device, [&, &own = *impl_] {
+        const std::size_t objects = own.standing("an update").objects.size();
+        if (updates.size() != objects)
+            throw BadUsage("there are " + std::to_string(updates.size()) + " updates, and " +
+                           std::to_string(objects) + " objects");
+        std::vector<TreeUpdate> wanted(updates.size());
+        std::transform(updates.begin(), updates.end(), wanted.begin(), internal);
+        own.renew(input, [&](const bvhbench::Input& taken) {
+            own.builder->plan_update(wanted, own.device->queue);
+            own.builder->update(taken, own.device->queue);
+        });
+    });
 }
 
 bool Tree::is_built() const { return impl_->tree != nullptr; }
@@ -217,10 +198,25 @@ HostTree Tree::read() const
 
 std::size_t Tree::memory() const
 {
-    return as_call(*impl_->device, [&] { return impl_->memory(); });
+    return as_call(*impl_->device, [&own = *impl_] {
+        std::size_t bytes =
+            own.builder->reserved().total() + own.taker.memory() + own.joined.memory();
+        for (const Impl::Query& query : own.queries)
+            if (query.collider)
+                bytes += query.collider->reserved().total();
+        return bytes;
+    });
+}
+
+std::string Tree::kernel_text() const
+{
+    return as_call(*impl_->device, [&own = *impl_] {
+        return std::string("#define SORTED_LEAVES ") + (own.options.sorted_leaves ? "1\n" : "0\n") +
+               own.device->device.sources.flatten({"oibvh/access.clh"});
+    });
 }
 
 std::string_view Tree::builder() const { return impl_->builder->card().name; }
-std::string_view Tree::collider() const { return impl_->collider_name; }
+std::string_view Tree::collider() const { return impl_->collider.first; }
 
 }  // namespace bvhbench::oibvh

@@ -3,17 +3,32 @@
 
 #include <embree3/rtcore.h>
 
+#include <array>
+#include <bit>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <thread>
 #include <type_traits>
 
+#include "geometry/aabb.h"
 #include "geometry/error.h"
 
 namespace bvhbench {
 
-/// Larger coordinates make Embree drop a triangle, without a word.
-inline constexpr float embree_largest_coordinate = 1.844e18f;
+inline std::array<float, 6> sides_of(const Aabb& box)
+{
+    return std::bit_cast<std::array<float, 6>>(box);
+}
+
+/// Throws Unavailable for a triangle that Embree would drop without a word.
+inline void require_in_range(const Aabb& box, std::size_t triangle)
+{
+    for (const float x : sides_of(box))
+        if (!(std::abs(x) < 1.844e18f))
+            throw Unavailable("Embree takes no coordinates beyond 1.8e18, and triangle " +
+                              std::to_string(triangle) + " has some");
+}
 
 struct EmbreeRelease {
     void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
@@ -34,6 +49,14 @@ inline EmbreeHandle<RTCDevice> start_embree()
     if (device == nullptr)
         throw Unavailable("Embree could not be started");
     return device;
+}
+
+/// Throws Unavailable if a call since the last one of this has failed: then Embree did not do what is `missing`.
+inline void require_success(const EmbreeHandle<RTCDevice>& device, const char* missing)
+{
+    if (const RTCError error = rtcGetDeviceError(device.get()); error != RTC_ERROR_NONE)
+        throw Unavailable(std::string("Embree ") + missing + ": its error " +
+                          std::to_string(error));
 }
 
 }  // namespace bvhbench

@@ -3,10 +3,6 @@
 // Embree's own builders, asked for a binary tree with one triangle a leaf: rtcBuildBVH calls back for every node
 // and leaf, from all its threads, and we link them. What collides in such a tree is ours, so that the tree is
 // compared and not Embree's traversal of its wider ones.
-#include <embree3/rtcore.h>
-
-#include <algorithm>
-#include <cmath>
 #include <string>
 #include <vector>
 
@@ -110,10 +106,10 @@ public:
     }
 };
 
-class Embree final : public HostMethod {
+class Embree final : public HostBuilder {
 public:
-    Embree(const BuilderCard& card, RTCBuildQuality quality)
-        : card_(card), device_(start_embree()), bvh_(rtcNewBVH(device_.get()))
+    Embree(std::string_view name, std::string_view method, RTCBuildQuality quality)
+        : HostBuilder(name, method), device_(start_embree()), bvh_(rtcNewBVH(device_.get()))
     {
         arguments_ = rtcDefaultBuildArguments();
         arguments_.buildQuality = quality;
@@ -127,51 +123,48 @@ public:
         arguments_.createLeaf = create_leaf;
     }
 
-    BuilderCard card() const override { return card_; }
-
-    /// The nodes and what we hand over. What else Embree takes, and keeps between builds, it does not tell.
+private:
+    /// The nodes, boxes and what we hand over. What else Embree takes, and keeps between builds, it does not tell.
     Footprint footprint(std::size_t primitives) const override
     {
         return {(primitives - 1) * sizeof(Inner) + primitives * sizeof(Leaf),
-                primitives * sizeof(RTCBuildPrimitive)};
+                primitives * (sizeof(Aabb) + sizeof(RTCBuildPrimitive))};
     }
 
-    void reserve(std::size_t primitives) override
+    void reserve_own(std::size_t primitives) override
     {
+        boxes_.resize(primitives);
         tree_.root = nullptr;
         tree_.triangles = primitives;
         primitives_.resize(primitives);
     }
 
-    /// Each time anew: rtcBuildBVH rearranges what it is given.
-    void accept(std::span<const Aabb> boxes) override
+    /// Boxes are handed over each time anew, since rtcBuildBVH rearranges what it is given; untimed, since a program that
+    /// has no other use for them writes them there at once.
+    void prepare(const Input& input, Queue& queue, Start start) override
     {
-        for (std::size_t k = 0; k < boxes.size(); ++k) {
-            const Aabb& box = boxes[k];
-            for (const float x : {box.min_x, box.min_y, box.min_z, box.max_x, box.max_y, box.max_z})
-                if (!(std::abs(x) < embree_largest_coordinate))
-                    throw Unavailable("Embree takes no coordinates beyond 1.8e18, and triangle " +
-                                      std::to_string(k) + " has some");
+        HostBuilder::prepare(input, queue, start);
+        for (std::size_t k = 0; k < boxes_.size(); ++k) {
+            const Aabb& box = boxes_[k];
+            require_in_range(box, k);
             primitives_[k] = {box.min_x, box.min_y, box.min_z, 0,
                               box.max_x, box.max_y, box.max_z, static_cast<uint>(k)};
         }
     }
 
-    void build() override
+    void build_tree() override
     {
         arguments_.primitives = primitives_.data();
         arguments_.primitiveCount = primitives_.size();
         arguments_.primitiveArrayCapacity = primitives_.size();
         tree_.root = static_cast<const Node*>(rtcBuildBVH(&arguments_));
-        if (const RTCError error = rtcGetDeviceError(device_.get());
-            tree_.root == nullptr || error != RTC_ERROR_NONE)
-            throw Unavailable("Embree built no tree: its error " + std::to_string(error));
+        require_success(device_, "built no tree");
+        if (tree_.root == nullptr)
+            throw Unavailable("Embree built no tree");
     }
 
     const Tree& tree() const override { return tree_; }
 
-private:
-    BuilderCard card_;
     EmbreeHandle<RTCDevice> device_;
     EmbreeHandle<RTCBVH> bvh_;
     RTCBuildArguments arguments_{};
@@ -179,35 +172,30 @@ private:
     EmbreeTree tree_;
 };
 
-std::unique_ptr<Builder> make(std::string_view name, std::string_view method,
-                              RTCBuildQuality quality)
-{
-    const BuilderCard card = {name, method, BuilderCard::Runs::on_host};
-    return make_host_builder(std::make_unique<Embree>(card, quality));
-}
-
 }  // namespace
 
 std::unique_ptr<Builder> make_embree_low(Programs&, const BuildOptions&)
 {
-    return make("embree-low", "Embree, low quality: Morton codes, on all host threads [Wald2014]",
-                RTC_BUILD_QUALITY_LOW);
+    return std::make_unique<Embree>(
+        "embree-low", "Embree, low quality: Morton codes, on all host threads [Wald2014]",
+        RTC_BUILD_QUALITY_LOW);
 }
 
 std::unique_ptr<Builder> make_embree_medium(Programs&, const BuildOptions&)
 {
-    return make("embree-medium",
-                "Embree, medium quality: binned SAH, on all host threads [Wald2014]",
-                RTC_BUILD_QUALITY_MEDIUM);
+    return std::make_unique<Embree>(
+        "embree-medium", "Embree, medium quality: binned SAH, on all host threads [Wald2014]",
+        RTC_BUILD_QUALITY_MEDIUM);
 }
 
 // High quality splits triangles, and would put one in several leaves; each is in exactly one here. Without
 // splits Embree builds as for medium quality.
 std::unique_ptr<Builder> make_embree_high(Programs&, const BuildOptions&)
 {
-    return make("embree-high",
-                "Embree, high quality without splits: binned SAH, on all host threads [Wald2014]",
-                RTC_BUILD_QUALITY_HIGH);
+    return std::make_unique<Embree>(
+        "embree-high",
+        "Embree, high quality without splits: binned SAH, on all host threads [Wald2014]",
+        RTC_BUILD_QUALITY_HIGH);
 }
 
 }  // namespace bvhbench

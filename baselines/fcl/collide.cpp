@@ -5,7 +5,6 @@
 // frame takes three to four times as long, in the trees and in their descent.
 //
 // fcl::collide would copy both models for each pair of objects. What it calls then is called here instead.
-#include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/math/bv/utility.h>
 #include <fcl/narrowphase/collision_request.h>
 #include <fcl/narrowphase/collision_result.h>
@@ -15,10 +14,10 @@
 #include <algorithm>
 #include <limits>
 
-#include "baselines/colliders.h"
+#include "baselines/baselines.h"
+#include "baselines/fcl/model.h"
+#include "baselines/object_pairs.h"
 #include "collide/oracles/host_collider.h"
-#include "collide/oracles/sweep.h"
-#include "geometry/error.h"
 
 namespace bvhbench {
 namespace {
@@ -31,7 +30,7 @@ struct Object {
     std::span<const Face> faces;
     std::vector<uint> used;  ///< the frame's number of each of its points
     std::vector<fcl::Vector3d> moved;
-    fcl::BVHModel<fcl::AABBd> model;
+    std::unique_ptr<fcl::BVHModel<fcl::AABBd>> model;
 };
 
 /// FCL's descent of two trees. Adjacent triangles are not tested: FCL would find that they touch, and nothing else.
@@ -60,11 +59,12 @@ enum class Keep { nothing, topology };
 
 class Fcl final : public HostCollider {
 public:
-    Fcl(const Device& device, const ColliderCard& card, const ColliderOptions& options, Keep keep)
-        : HostCollider(device, card, options), keep_(keep)
+    Fcl(const Device& device, std::string_view name, std::string_view method,
+        const ColliderOptions& options, Keep keep)
+        : HostCollider(device, {name, method}, options), keep_(keep)
     {
         if (options.keep_adjacent)
-            throw BadUsage(std::string(card.name) +
+            throw BadUsage(std::string(name) +
                            " cannot keep adjacent triangles: it does not tell those that only touch"
                            " where they share a vertex from those that meet elsewhere too");
     }
@@ -106,25 +106,23 @@ private:
         auto object = std::make_unique<Object>();
         object->range = range;
         object->faces = input.faces.subspan(range.first, range.count);
+        std::vector<Point> points;
         const auto number = [&](uint vertex) {
             if (renumbered[vertex] == unused) {
-                renumbered[vertex] = static_cast<uint>(object->used.size());
+                renumbered[vertex] = static_cast<uint>(points.size());
+                points.push_back(input.points[vertex]);
                 object->used.push_back(vertex);
             }
             return renumbered[vertex];
         };
-        std::vector<fcl::Triangle> triangles;
+        std::vector<Face> faces;
         for (const Face& face : object->faces)
-            triangles.emplace_back(number(face.a), number(face.b), number(face.c));
-        for (const uint vertex : object->used) {
-            const Point& p = input.points[vertex];
-            object->moved.emplace_back(p.x, p.y, p.z);
+            faces.push_back({number(face.a), number(face.b), number(face.c)});
+        for (const uint vertex : object->used)
             renumbered[vertex] = unused;  // for the next object
-        }
-        object->model.beginModel(static_cast<int>(triangles.size()),
-                                 static_cast<int>(object->moved.size()));
-        object->model.addSubModel(object->moved, triangles);
-        require(object->model.endModel());
+        object->model = model_of<fcl::AABBd>(points, faces);
+        require_tree(object->model->endModel());
+        object->moved.resize(points.size());
         return object;
     }
 
@@ -134,34 +132,22 @@ private:
         Aabb around = empty_box();
         for (std::size_t k = 0; k < object.used.size(); ++k) {
             const Point& p = points[object.used[k]];
-            object.moved[k] = {p.x, p.y, p.z};
+            object.moved[k] = fcl_point<double>(p);
             around = merged(around, triangle_box(p, p, p));
         }
         // To replace, not to update: an updated model is around where its points were, too.
-        object.model.beginReplaceModel();
-        object.model.replaceSubModel(object.moved);
+        object.model->beginReplaceModel();
+        object.model->replaceSubModel(object.moved);
         const bool bottom_up = true;
-        require(object.model.endReplaceModel(keep_ == Keep::topology, bottom_up));
+        require_tree(object.model->endReplaceModel(keep_ == Keep::topology, bottom_up));
         return around;
-    }
-
-    static void require(int result)
-    {
-        if (result != fcl::BVH_OK)
-            throw Unavailable("FCL built no tree: its error " + std::to_string(result));
     }
 
     void collide()
     {
         found_.clear();
-        if (options_.among != Among::within_objects) {
-            const PairList near = overlapping_pairs(boxes_);
-            for (const Pair pair : near.pairs())
-                meet(*objects_[pair.a], *objects_[pair.b]);
-        }
-        if (options_.among != Among::between_objects)
-            for (const auto& object : objects_)
-                meet(*object, *object);
+        for_near_objects(objects_, boxes_, options_.among,
+                         [&](Object& a, Object& b) { meet(a, b); });
     }
 
     void meet(Object& a, Object& b)
@@ -171,7 +157,7 @@ private:
         fcl::CollisionResultd result;
         fcl::Transform3d in_place = fcl::Transform3d::Identity();
         Meeting meeting(a.faces, b.faces);
-        fcl::detail::initialize(meeting, a.model, in_place, b.model, in_place, request, result);
+        fcl::detail::initialize(meeting, *a.model, in_place, *b.model, in_place, request, result);
         if (&a == &b)
             fcl::detail::selfCollide<double>(&meeting);
         else
@@ -194,21 +180,18 @@ private:
 std::unique_ptr<Collider> make_fcl_collider(Programs& programs, const ColliderOptions& options)
 {
     return std::make_unique<Fcl>(
-        programs.device(),
-        ColliderCard{"fcl",
-                     "FCL in double, trees built each time, on one core of the host [Pan2012]"},
-        options, Keep::nothing);
+        programs.device(), "fcl",
+        "FCL in double, trees built each time, on one core of the host [Pan2012]", options,
+        Keep::nothing);
 }
 
 std::unique_ptr<Collider> make_fcl_refit_collider(Programs& programs,
                                                   const ColliderOptions& options)
 {
     return std::make_unique<Fcl>(
-        programs.device(),
-        ColliderCard{
-            "fcl-refit",
-            "FCL in double, trees refit to moved points, on one core of the host [Pan2012]"},
-        options, Keep::topology);
+        programs.device(), "fcl-refit",
+        "FCL in double, trees refit to moved points, on one core of the host [Pan2012]", options,
+        Keep::topology);
 }
 
 }  // namespace bvhbench

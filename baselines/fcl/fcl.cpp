@@ -2,21 +2,22 @@
 //
 // The trees of FCL, the collision library of many robot planners: split at the mean of the triangles' centroids,
 // one triangle a leaf, on one core. In double: FCL in float misses pairs.
-#include <fcl/geometry/bvh/BVH_model.h>
-
-#include <memory>
 #include <type_traits>
-#include <vector>
 
 #include "baselines/baselines.h"
-#include "geometry/error.h"
+#include "baselines/fcl/model.h"
+#include "baselines/host/host_builder.h"
 
 namespace bvhbench {
 namespace {
 
-Point point_of(const fcl::Vector3d& p)
+/// Through triangle_box, which leaves no negative zeros.
+Aabb box_around(const fcl::Vector3d& a, const fcl::Vector3d& b, const fcl::Vector3d& c)
 {
-    return {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])};
+    const auto point = [](const fcl::Vector3d& p) {
+        return Point{static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])};
+    };
+    return triangle_box(point(a), point(b), point(c));
 }
 
 /// The model where FCL left it. `Volume` is what FCL keeps a node.
@@ -31,53 +32,37 @@ public:
     /// and gets the boxes of its triangles, so that trees are compared and not shapes.
     HostTree spelled_out() const override
     {
-        HostTree tree;
-        tree.nodes.resize(node_count());
-        for (std::size_t i = tree.nodes.size(); i-- > 0;) {  // children come after their parent
-            const fcl::BVNode<Volume>& from = model->getBV(static_cast<int>(i));
-            HostTree::Node& node = tree.nodes[i];
-            if (from.isLeaf())
-                node.primitive = from.primitiveId();
-            else
+        constexpr bool has_boxes = std::is_same_v<Volume, fcl::AABBd>;
+        PlainTree tree;
+        for (int i = 0; i < model->getNumBVs(); ++i) {
+            const fcl::BVNode<Volume>& from = model->getBV(i);
+            HostTree::Node& node = tree.plain.nodes.emplace_back();
+            if constexpr (has_boxes)
+                node.box = box_around(from.bv.min_, from.bv.max_, from.bv.min_);
+            if (!from.isLeaf()) {
                 node.child = {from.leftChild(), from.rightChild()};
-            if constexpr (std::is_same_v<Volume, fcl::AABBd>)
-                node.box = box_between(from.bv.min_, from.bv.max_);
-            else
-                node.box = from.isLeaf()
-                               ? triangle(node.primitive)
-                               : merged(box_of(tree, node.child[0]), box_of(tree, node.child[1]));
+                continue;
+            }
+            node.primitive = from.primitiveId();
+            if constexpr (!has_boxes) {
+                const fcl::Triangle& at = model->tri_indices[node.primitive];
+                node.box = box_around(model->vertices[at[0]], model->vertices[at[1]],
+                                      model->vertices[at[2]]);
+            }
         }
-        return tree;
-    }
-
-private:
-    static Aabb box_between(const fcl::Vector3d& low, const fcl::Vector3d& high)
-    {
-        // Through triangle_box, which leaves no negative zeros.
-        return triangle_box(point_of(low), point_of(high), point_of(low));
-    }
-
-    static Aabb box_of(const HostTree& tree, int node)
-    {
-        return tree.nodes[static_cast<std::size_t>(node)].box;
-    }
-
-    Aabb triangle(int primitive) const
-    {
-        const fcl::Triangle& corners = model->tri_indices[primitive];
-        return triangle_box(point_of(model->vertices[corners[0]]),
-                            point_of(model->vertices[corners[1]]),
-                            point_of(model->vertices[corners[2]]));
+        if constexpr (!has_boxes)
+            tree.merge_boxes();
+        return std::move(tree.plain);
     }
 };
 
+/// FCL has no stage of its own for leaf boxes: it fits each node to all triangles under it.
 template <class Volume>
-class Fcl final : public Builder {
+class Fcl final : public HostBuilder {
 public:
-    explicit Fcl(const BuilderCard& card) : card_(card) {}
+    using HostBuilder::HostBuilder;
 
-    BuilderCard card() const override { return card_; }
-
+private:
     /// The nodes and FCL's array of triangle numbers, which is as long. Its copy of the mesh is not counted.
     Footprint footprint(std::size_t primitives) const override
     {
@@ -85,61 +70,37 @@ public:
         return {nodes * sizeof(fcl::BVNode<Volume>), nodes * sizeof(unsigned)};
     }
 
-    void reserve(std::size_t primitives) override { reserved_ = footprint(primitives); }
+    void reserve_own(std::size_t) override {}
 
-    Footprint reserved() const override { return reserved_; }
-
-    /// FCL has no stage of its own for leaf boxes: it fits each node to all triangles under it.
-    const Tree& build(const Input& input, Queue& queue, Start) override
-    {
-        hand_over(input);
-        int error = fcl::BVH_OK;
-        queue.on_host("hierarchy", [&] { error = tree_.model->endModel(); });
-        if (error != fcl::BVH_OK)
-            throw Unavailable("FCL built no tree: its error " + std::to_string(error));
-        return tree_;
-    }
-
-private:
-    /// Each time a new model: FCL warns on the terminal when one is filled again. Copying is not timed, as for
-    /// every builder.
-    void hand_over(const Input& input)
+    /// Each time a new model: FCL warns on the terminal when one is filled again. Copying is not timed, as for every builder.
+    void prepare(const Input& input, Queue&, Start) override
     {
         if (input.is_swept())
             throw BadUsage(
                 "FCL builds over triangles of one frame, not over boxes swept to the next");
-        std::vector<fcl::Vector3d> points;
-        for (const Point& p : input.points)
-            points.emplace_back(p.x, p.y, p.z);
-        std::vector<fcl::Triangle> triangles;
-        for (const Face& face : input.faces)
-            triangles.emplace_back(face.a, face.b, face.c);
-        tree_.model = std::make_unique<fcl::BVHModel<Volume>>();
-        tree_.model->beginModel(static_cast<int>(triangles.size()),
-                                static_cast<int>(points.size()));
-        tree_.model->addSubModel(points, triangles);
+        tree_.model = model_of<Volume>(input.points, input.faces);
     }
 
-    BuilderCard card_;
+    void build_tree() override { require_tree(tree_.model->endModel()); }
+
+    const Tree& tree() const override { return tree_; }
+
     FclTree<Volume> tree_;
-    Footprint reserved_;
 };
 
 }  // namespace
 
 std::unique_ptr<Builder> make_fcl_aabb(Programs&, const BuildOptions&)
 {
-    return std::make_unique<Fcl<fcl::AABBd>>(BuilderCard{
-        "fcl-aabb", "FCL, axis-aligned boxes in double, on one core of the host [Pan2012]",
-        BuilderCard::Runs::on_host});
+    return std::make_unique<Fcl<fcl::AABBd>>(
+        "fcl-aabb", "FCL, axis-aligned boxes in double, on one core of the host [Pan2012]");
 }
 
 std::unique_ptr<Builder> make_fcl_obbrss(Programs&, const BuildOptions&)
 {
-    return std::make_unique<Fcl<fcl::OBBRSSd>>(BuilderCard{
+    return std::make_unique<Fcl<fcl::OBBRSSd>>(
         "fcl-obbrss",
-        "FCL, oriented boxes and swept spheres in double, on one core of the host [Pan2012]",
-        BuilderCard::Runs::on_host});
+        "FCL, oriented boxes and swept spheres in double, on one core of the host [Pan2012]");
 }
 
 }  // namespace bvhbench

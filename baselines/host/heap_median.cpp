@@ -1,20 +1,40 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <bit>
 #include <numeric>
 #include <vector>
 
 #include "baselines/baselines.h"
 #include "baselines/host/centres.h"
-#include "baselines/host/heap.h"
 #include "baselines/host/host_builder.h"
 
 namespace bvhbench {
 namespace {
 
+/// How many of `leaves` leaves, two or more, lie under the left child of a left-balanced tree: every level
+/// full but the last, and the last filled from the left. Numbered level by level such a tree has no gaps.
+///
+///     5 leaves              0
+///                     1           2         left: 3, right: 2
+///                  3     4     5     6
+///                 7 8
+constexpr std::size_t heap_left_leaves(std::size_t leaves)
+{
+    const std::size_t full = std::bit_floor(leaves);  // leaves of the tree without its last level
+    return std::min(full, leaves - full / 2);
+}
+
+static_assert(heap_left_leaves(2) == 1);
+static_assert(heap_left_leaves(3) == 2);
+static_assert(heap_left_leaves(4) == 2);
+static_assert(heap_left_leaves(5) == 3);
+static_assert(heap_left_leaves(6) == 4);
+static_assert(heap_left_leaves(7) == 4);
+
 class HeapTree final : public Tree {
 public:
-    std::vector<Aabb> boxes;  ///< by node
-    std::vector<uint>
-        primitives;  ///< by leaf: that of node `primitives.size() - 1 + k` is the k-th
+    std::vector<Aabb> boxes;       ///< by node
+    std::vector<uint> primitives;  ///< by leaf: the leaves are the last nodes
 
     std::size_t node_count() const override { return boxes.size(); }
 
@@ -36,31 +56,29 @@ public:
 
 /// Nodes without pointers, in the order of a heap: a set is split along its longest axis where the shape of
 /// the heap says, not where the triangles suggest.
-class HeapMedian final : public HostMethod {
+class HeapMedian final : public HostBuilder {
 public:
-    BuilderCard card() const override
-    {
-        return {"heap-median", "left-balanced heap, on one core of the host [Cline2006]",
-                BuilderCard::Runs::on_host};
-    }
+    HeapMedian()
+        : HostBuilder("heap-median", "left-balanced heap, on one core of the host [Cline2006]")
+    {}
 
+private:
     Footprint footprint(std::size_t primitives) const override
     {
         return {(2 * primitives - 1) * sizeof(Aabb) + primitives * sizeof(uint),
-                primitives * (sizeof(uint) + sizeof(Centre))};
+                primitives * (sizeof(Aabb) + sizeof(uint) + sizeof(Centre))};
     }
 
-    void reserve(std::size_t primitives) override
+    void reserve_own(std::size_t primitives) override
     {
+        boxes_.resize(primitives);
         tree_.boxes.resize(2 * primitives - 1);
         tree_.primitives.resize(primitives);
         ids_.resize(primitives);
         centres_.resize(primitives);
     }
 
-    void accept(std::span<const Aabb> boxes) override { boxes_ = boxes; }
-
-    void build() override
+    void build_tree() override
     {
         std::iota(ids_.begin(), ids_.end(), 0u);
         std::transform(boxes_.begin(), boxes_.end(), centres_.begin(), centre_of);
@@ -71,7 +89,6 @@ public:
 
     const Tree& tree() const override { return tree_; }
 
-private:
     /// As deep as the heap, a level for each bit of the number of leaves.
     void split(std::size_t node, std::span<uint> ids)
     {
@@ -87,7 +104,6 @@ private:
     }
 
     HeapTree tree_;
-    std::span<const Aabb> boxes_;
     std::vector<uint> ids_;
     std::vector<Centre> centres_;
 };
@@ -96,7 +112,7 @@ private:
 
 std::unique_ptr<Builder> make_heap_median(Programs&, const BuildOptions&)
 {
-    return make_host_builder(std::make_unique<HeapMedian>());
+    return std::make_unique<HeapMedian>();
 }
 
 }  // namespace bvhbench

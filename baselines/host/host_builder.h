@@ -1,39 +1,81 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <memory>
 #include <span>
+#include <vector>
 
 #include "builders/builder.h"
 
 namespace bvhbench {
 
-/// A hierarchy over boxes, made on the host: what is left of a builder when the leaf boxes are given.
-class HostMethod {
+/// A tree that is kept as it is spelled out.
+class PlainTree final : public Tree {
 public:
-    virtual ~HostMethod() = default;
+    HostTree plain;
 
-    virtual BuilderCard card() const = 0;
+    std::size_t node_count() const override { return plain.nodes.size(); }
+    HostTree spelled_out() const override { return plain; }
 
-    /// Bytes for `primitives` boxes, the boxes themselves left out. Host memory.
-    virtual Footprint footprint(std::size_t primitives) const = 0;
-
-    /// Allocate what `footprint` counts.
-    virtual void reserve(std::size_t primitives) = 0;
-
-    /// Put the boxes where `build` wants them. Not timed: a program that has no other use for its boxes
-    /// writes them there at once. They stay where they are until the next call. Throws Unavailable for
-    /// boxes that the method cannot take.
-    virtual void accept(std::span<const Aabb> boxes) = 0;
-
-    /// Build over the boxes last accepted: box k is triangle k's. Timed.
-    virtual void build() = 0;
-
-    virtual const Tree& tree() const = 0;
+    /// Give inner nodes, of two children each, the boxes around their children's. Children come after their parent.
+    void merge_boxes()
+    {
+        std::vector<HostTree::Node>& nodes = plain.nodes;
+        for (std::size_t k = nodes.size(); k-- > 0;)
+            if (HostTree::Node& node = nodes[k]; node.primitive == HostTree::none)
+                node.box = merged(nodes[static_cast<std::size_t>(node.child[0])].box,
+                                  nodes[static_cast<std::size_t>(node.child[1])].box);
+    }
 };
 
-/// The builder with the stages bounds and hierarchy, both on the host. It has no codes: a start from sorted
-/// leaves is a start from leaf boxes, and their order is the method's business.
-std::unique_ptr<Builder> make_host_builder(std::unique_ptr<HostMethod> method);
+/// Builds on the host, by default over leaf boxes: in the stages bounds and hierarchy. It has no codes then: a start from
+/// sorted leaves is a start from leaf boxes, and their order is the method's business.
+class HostBuilder : public Builder {
+public:
+    HostBuilder(std::string_view name, std::string_view method)
+        : card_{name, method, BuilderCard::Runs::on_host}
+    {}
+
+    BuilderCard card() const final { return card_; }
+
+    void reserve(std::size_t primitives) final
+    {
+        reserve_own(primitives);
+        reserved_ = footprint(primitives);
+    }
+
+    Footprint reserved() const final { return reserved_; }
+
+    const Tree& build(const Input& input, Queue& queue, Start start) final
+    {
+        prepare(input, queue, start);
+        queue.on_host("hierarchy", [&] { build_tree(); });
+        return tree();
+    }
+
+protected:
+    /// Allocate what `footprint` counts: host memory, `boxes_` first.
+    virtual void reserve_own(std::size_t primitives) = 0;
+
+    /// What comes before the hierarchy: box k becomes triangle k's.
+    virtual void prepare(const Input& input, Queue& queue, Start start)
+    {
+        if (start == Start::from_triangles)
+            queue.on_host("bounds", [&] {
+                for (std::size_t k = 0; k < boxes_.size(); ++k)
+                    boxes_[k] = leaf_box(input, input.faces[k]);
+            });
+    }
+
+    /// Timed.
+    virtual void build_tree() = 0;
+
+    virtual const Tree& tree() const = 0;
+
+    std::vector<Aabb> boxes_;
+
+private:
+    BuilderCard card_;
+    Footprint reserved_;
+};
 
 }  // namespace bvhbench

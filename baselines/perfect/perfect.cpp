@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "baselines/baselines.h"
-#include "baselines/perfect/layout.h"
 #include "builders/implicit/layout.h"
 
 namespace bvhbench {
@@ -8,8 +7,8 @@ namespace bvhbench {
 std::unique_ptr<Builder> make_perfect(Programs& programs, const BuildOptions& options)
 {
     constexpr ImplicitLayout layout = {
-        .stored_on = [](uint, uint level) { return perfect_stored_on(level); },
-        .first_slot = [](uint, uint level) { return perfect_first_slot(level); },
+        .stored_on = [](uint, uint level) { return 1u << level; },
+        .first_slot = [](uint, uint level) { return (1u << level) - 1; },
         .build_groups = "baselines/perfect/build_groups.cl",
         .build_items = "baselines/perfect/build_items.cl",
         .access = "baselines/perfect/access.clh",

@@ -8,8 +8,17 @@
 //
 //     leaves    first ... split | split+1 ... last      node `split`: children[split], ranges[split]
 #include "baselines/radix/leaves.clh"
-#include "baselines/radix/node.h"
 #include "device/handoff.clh"
+
+/// common[k] becomes how much leaves k and k + 1 have in common: delta of [Apetrei2014], turned round, since
+/// theirs grows with the distance.
+kernel void deltas(global const Code* restrict codes, global uint* restrict common,
+                   const uint leaves)
+{
+    const Chunk chunk = own_chunk(leaves - 1u);
+    for (uint k = chunk.first; k < chunk.end; ++k)
+        common[k] = common_of(codes, leaves, k, k + 1u);
+}
 
 /// What a build works on, as the kernel is handed it.
 typedef struct {

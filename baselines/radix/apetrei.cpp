@@ -1,105 +1,103 @@
 // SPDX-License-Identifier: MIT
 #include "baselines/baselines.h"
-#include "baselines/radix/hierarchy.h"
+#include "baselines/radix/builder.h"
 
 namespace bvhbench {
 namespace {
 
-class Apetrei final : public RadixHierarchy {
+/// As printed: boxes, children and ranges in arrays, by split, as are all nodes but the root.
+class Apetrei final : public RadixBuilder {
 public:
-    explicit Apetrei(const RadixSetup& setup)
-        : launch_(setup.launch)
-        , deltas_(setup.kernel("baselines/radix/apetrei_deltas.cl", "deltas"))
-        , build_(setup.kernel("baselines/radix/apetrei.cl", "build"))
-    {}
-
-    void plan(Arena& arena, const RadixLeaves& leaves) override
+    Apetrei(Programs& programs, const BuildOptions& options)
+        : RadixBuilder(programs, "apetrei", "Binary radix tree, as printed [Apetrei2014]",
+                       make_apetrei, options)
+        , deltas_(kernel("baselines/radix/apetrei.cl", "deltas"))
+        , build_(kernel("baselines/radix/apetrei.cl", "build"))
     {
-        leaves_ = &leaves;
-        const std::size_t inner = leaves.count - 1;
-        boxes_ = arena.take<std::byte>(inner * leaves.format->box_bytes(), Use::tree);
-        children_ = arena.take<uint>(2 * inner, Use::tree);
-        root_ = arena.take<uint>(1, Use::tree);
-        ranges_ = arena.take<uint>(2 * inner, Use::scratch);
-        common_ = arena.take<uint>(inner, Use::scratch);
-        arrivals_ = arena.take<uint>(inner, Use::scratch);
-    }
-
-    void prepare(const cl::CommandQueue& queue) override
-    {
-        arrivals_.upload(queue, std::vector<uint>(arrivals_.size(), 0u));
-        root_.upload(queue, std::vector<uint>{0});
-    }
-
-    void build(Queue& queue) override
-    {
-        set_arguments(deltas_, leaves_->codes, common_, leaves_->count);
-        launch_(queue, deltas_, leaves_->count - 1, leaves_->code_bytes() + bytes_of(common_));
-        climb(queue);
-    }
-
-    bool numbers_by_range() const override { return false; }
-
-    /// The kernel finds the same tree again while it climbs; what leaves have in common has not changed.
-    void refit(Queue& queue) override { climb(queue); }
-
-    std::vector<RadixNode> download(const cl::CommandQueue& queue, const BoxRounding& rounding,
-                                    uint& root) const override
-    {
-        root = root_.download(queue).at(0);
-        const std::vector<Aabb> boxes = read_boxes(boxes_.download(queue), rounding);
-        const std::vector<uint> children = children_.download(queue);
-        std::vector<RadixNode> nodes;
-        for (std::size_t k = 0; k < boxes.size(); ++k)
-            nodes.push_back(radix_node(boxes[k], children[2 * k], children[2 * k + 1]));
-        return nodes;
-    }
-
-    std::string_view access_header() const override { return "baselines/radix/access_apetrei.clh"; }
-
-    cl_uint bind(cl::Kernel& kernel, cl_uint first) const override
-    {
-        return set_arguments_from(kernel, first, boxes_, children_, root_);
+        tree_.in_arrays = true;
+        numbers_by_range_ = false;
     }
 
 private:
-    template <class T>
-    static std::int64_t bytes_of(const Buffer<T>& buffer)
+    void plan_nodes(Arena& arena) override
     {
-        return static_cast<std::int64_t>(buffer.bytes());
+        tree_.nodes = take_nodes(arena);
+        tree_.children = arena.take<uint>(2 * tree_.inner(), Use::tree);
+        tree_.root = arena.take<uint>(1, Use::tree);
+        ranges_ = arena.take<uint>(2 * tree_.inner(), Use::scratch);
+        common_ = arena.take<uint>(tree_.inner(), Use::scratch);
+        arrivals_ = arena.take<uint>(tree_.inner(), Use::scratch);
     }
 
-    void climb(Queue& queue)
+    void prepare_nodes(const cl::CommandQueue& queue) override
     {
-        set_arguments(build_, common_, leaves_->boxes, leaves_->ids, children_, ranges_, boxes_,
-                      arrivals_, root_, leaves_->count);
-        launch_(queue, build_, leaves_->count,
-                bytes_of(common_) + leaves_->box_bytes() + bytes_of(children_) + bytes_of(ranges_) +
-                    bytes_of(boxes_));
+        RadixBuilder::prepare_nodes(queue);
+        tree_.root.upload(queue, std::vector<uint>{0});
     }
 
-    RadixLaunch launch_;
+    void build_nodes(Queue& queue) override
+    {
+        set_arguments(deltas_, tree_.codes, common_, tree_.leaves);
+        launch(queue, deltas_, tree_.leaves - 1, tree_.codes.bytes() + common_.bytes());
+        refit_nodes(queue);
+    }
+
+    /// The kernel finds the same tree again while it climbs; what leaves have in common has not changed.
+    void refit_nodes(Queue& queue) override
+    {
+        set_arguments(build_, common_, tree_.leaf_boxes, tree_.ids, tree_.children, ranges_,
+                      tree_.nodes, arrivals_, tree_.root, tree_.leaves);
+        launch(queue, build_, tree_.leaves,
+               common_.bytes() + box_bytes() + tree_.children.bytes() + ranges_.bytes() +
+                   tree_.nodes.bytes());
+    }
+
     cl::Kernel deltas_, build_;
-    const RadixLeaves* leaves_ = nullptr;
-    Buffer<std::byte> boxes_;  ///< by split, as are all but the root
-    Buffer<uint> children_;    ///< left, right
-    Buffer<uint> ranges_;      ///< first, last
-    Buffer<uint> common_;      ///< one a gap between leaves
-    Buffer<uint> arrivals_;
-    Buffer<uint> root_;  ///< one: where the root is
+    Buffer<uint> ranges_;  ///< first, last
+    Buffer<uint> common_;  ///< one a gap between leaves
+};
+
+/// In one launch. `arrivals_` holds the end of a range for each gap between leaves.
+class ApetreiFused final : public RadixBuilder {
+public:
+    ApetreiFused(Programs& programs, const BuildOptions& options)
+        : RadixBuilder(programs, "apetrei-fused",
+                       "Binary radix tree, one launch, one exchange a node [Apetrei2014]",
+                       make_apetrei_fused, options)
+        , build_(kernel("baselines/radix/apetrei_fused.cl", "build"))
+    {}
+
+private:
+    void plan_nodes(Arena& arena) override
+    {
+        tree_.nodes = take_nodes(arena);
+        arrivals_ = arena.take<uint>(tree_.inner(), Use::scratch);
+    }
+
+    void build_nodes(Queue& queue) override
+    {
+        set_arguments(build_, tree_.codes, tree_.leaf_boxes, tree_.ids, tree_.nodes, arrivals_,
+                      tree_.leaves);
+        launch(queue, build_, tree_.leaves,
+               tree_.codes.bytes() + box_bytes() + tree_.nodes.bytes());
+    }
+
+    /// The codes are still there, and from them comes the same tree. No parents are stored that would tell sooner.
+    void refit_nodes(Queue& queue) override { build_nodes(queue); }
+
+    cl::Kernel build_;
 };
 
 }  // namespace
 
 std::unique_ptr<Builder> make_apetrei(Programs& programs, const BuildOptions& options)
 {
-    return make_radix_builder(
-        programs,
-        {"apetrei", "Binary radix tree, as printed [Apetrei2014]", BuilderCard::Runs::on_device},
-        [](const RadixSetup& setup) -> std::unique_ptr<RadixHierarchy> {
-            return std::make_unique<Apetrei>(setup);
-        },
-        options);
+    return std::make_unique<Apetrei>(programs, options);
+}
+
+std::unique_ptr<Builder> make_apetrei_fused(Programs& programs, const BuildOptions& options)
+{
+    return std::make_unique<ApetreiFused>(programs, options);
 }
 
 }  // namespace bvhbench

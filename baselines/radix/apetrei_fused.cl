@@ -18,7 +18,7 @@
 //
 // Leaf boxes are read where they are, as the implicit builders read theirs: a copy as nodes would write 32
 // bytes a leaf that nobody needs. A leaf's box is input, so only inner nodes' boxes are handed over.
-#include "baselines/radix/nodes.clh"
+#include "baselines/radix/leaves.clh"
 #include "device/handoff.clh"
 
 /// From `leaf` upwards, until the sibling has yet to come or the root is built.

@@ -1,79 +1,21 @@
 // SPDX-License-Identifier: MIT
+#include "baselines/radix/builder.h"
+
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstring>
 #include <numeric>
 
-#include "baselines/radix/hierarchy.h"
-#include "builders/ordered/ordered_builder.h"
+#include "baselines/parameters.h"
+#include "builders/stages/codes.h"
+#include "builders/stages/kernel_form.h"
 #include "geometry/bits.h"
 
 namespace bvhbench {
 namespace {
 
-class RadixTree final : public DeviceTree {
-public:
-    RadixLeaves leaves;
-    std::unique_ptr<RadixHierarchy> hierarchy;
-    Buffer<SceneCells> cells;  ///< one, of formats with cells
-    uint code_bits = 0;
-
-    uint leaf_count() const override { return leaves.count; }
-    const BoxFormat& box_format() const override { return *leaves.format; }
-    bool has_sorted_leaves() const override { return leaves.sorted; }
-    std::string_view access_header() const override { return hierarchy->access_header(); }
-    bool is_implicit() const override { return false; }
-
-    /// From the root down every node splits at a lower bit of its leaves' keys than its parent.
-    uint most_levels() const override
-    {
-        return std::min(leaves.count, code_bits + ceil_log2(leaves.count) + 1);
-    }
-
-    cl_uint bind(cl::Kernel& kernel, cl_uint first) const override
-    {
-        return set_arguments_from(kernel, hierarchy->bind(kernel, first), leaves.boxes, leaves.ids,
-                                  leaves.count, device_objects);
-    }
-
-    std::size_t node_count() const override { return 2 * std::size_t{leaves.count} - 1; }
-
-    /// Breadth-first: a radix tree may be 95 levels deep, so nothing here recurses.
-    HostTree spelled_out_object(uint object) const override
-    {
-        HostTree tree;
-        tree.rounding = {leaves.format, leaves.format->has_cells()
-                                            ? cells.download(queue->cl()).front()
-                                            : SceneCells{}};
-        const std::vector<Aabb> boxes =
-            read_boxes(leaves.boxes.download(queue->cl()), tree.rounding);
-        const std::vector<uint> ids = leaves.ids.download(queue->cl());
-        uint root = 0;
-        const std::vector<RadixNode> inner = hierarchy->download(queue->cl(), tree.rounding, root);
-
-        if (objects.size() > 1)
-            root = device_objects.download(queue->cl()).at(object).root;
-        else
-            root = radix_child(root, leaves.count == 1);
-        std::vector<uint> order{root};
-        for (std::size_t k = 0; k < order.size(); ++k) {
-            HostTree::Node& node = tree.nodes.emplace_back();
-            const uint index = radix_index(order[k]);
-            if (radix_is_leaf(order[k])) {
-                node.primitive = static_cast<int>(ids.at(index));
-                node.box = boxes.at(leaves.sorted ? index : ids[index]);
-                continue;
-            }
-            const RadixNode& from = inner.at(index);
-            node.box = {from.min_x, from.min_y, from.min_z, from.max_x, from.max_y, from.max_z};
-            if (order.size() >= node_count())
-                continue;  // not a tree: leave children out rather than walk in circles
-            node.child = {static_cast<int>(order.size()), static_cast<int>(order.size() + 1)};
-            order.push_back(from.left);
-            order.push_back(from.right);
-        }
-        return tree;
-    }
-};
+using Children = std::array<uint, 2>;
 
 /// Of keys whose highest part is the object, a radix tree's parts are the objects' own trees: those over an object's
 /// leaves. An inner node is its last leaf if it is a left child, else its first (node.h); and it is a left child if
@@ -97,90 +39,191 @@ std::vector<ForestObject> radix_objects(std::span<const uint> sizes)
     return objects;
 }
 
-class RadixBuilder final : public OrderedBuilder {
-public:
-    RadixBuilder(Programs& programs, const BuilderCard& card, MakeRadixHierarchy make,
-                 const BuildOptions& options)
-        : OrderedBuilder(programs, card, options), make_(make)
-    {
-        tree_.leaves.sorted = options.sorted_leaves;
-        tree_.leaves.format = &format();
-        tree_.hierarchy = make({programs, RadixLaunch(programs.device(), options),
-                                leaf_order_.code_bits(), options.sorted_leaves, format()});
-    }
-
-private:
-    std::unique_ptr<OrderedBuilder> twin() const override
-    {
-        return std::make_unique<RadixBuilder>(programs_, card(), make_, options_);
-    }
-
-    void plan(Arena& arena, std::span<const uint> sizes) override
-    {
-        RadixLeaves& leaves = tree_.leaves;
-        const uint primitives = std::accumulate(sizes.begin(), sizes.end(), 0u);
-        leaves.count = primitives;
-        tree_.objects = radix_objects(sizes);
-        tree_.device_objects = arena.take<ForestObject>(sizes.size(), Use::tree);
-        leaf_order_.plan(arena, sizes, leaves.sorted ? Use::scratch : Use::tree, true);
-        tree_.code_bits = leaf_order_.code_bits();
-        tree_.cells = plan_cells(arena);
-        leaves.boxes = leaves.sorted
-                           ? arena.take<std::byte>(primitives * format().box_bytes(), Use::tree)
-                           : leaf_order_.boxes().as<std::byte>();
-        leaves.ids = leaf_order_.ids();
-        leaves.codes = leaf_order_.codes();
-        gathered_ = {leaves.boxes, 0};
-        tree_.hierarchy->plan(arena, leaves);
-    }
-
-    void prepare(const cl::CommandQueue& queue) override
-    {
-        tree_.device_objects.upload(queue, tree_.objects);
-        const std::array defines = {Define{"SORTED_LEAVES", tree_.leaves.sorted ? 1u : 0u},
-                                    Define{"BOX_FORMAT", format().number}};
-        if (!tree_.hierarchy->numbers_by_range())
-            roots_ = programs_.kernel(tree_.access_header(), "baselines/radix/roots.cl",
-                                      "find_roots", defines);
-        tree_.hierarchy->prepare(queue);
-    }
-
-    void enqueue_hierarchy(Queue& queue) override
-    {
-        if (tree_.leaves.count > 1)  // one leaf is its own root
-            tree_.hierarchy->build(queue);
-        if (tree_.objects.size() > 1 && !tree_.hierarchy->numbers_by_range())
-            find_roots(queue);
-    }
-
-    void enqueue_refit(Queue& queue) override
-    {
-        if (tree_.leaves.count > 1)
-            tree_.hierarchy->refit(queue);
-    }
-
-    DeviceTree& tree() override { return tree_; }
-
-    void find_roots(Queue& queue)
-    {
-        constexpr uint group_size = 32;
-        const auto count = static_cast<uint>(tree_.objects.size());
-        set_arguments_from(roots_, tree_.bind(roots_, 0), tree_.device_objects, count);
-        queue.launch(roots_, std::size_t{divided_up(count, group_size)} * group_size, group_size,
-                     static_cast<std::int64_t>(2 * tree_.device_objects.bytes()));
-    }
-
-    MakeRadixHierarchy make_;
-    cl::Kernel roots_;
-    RadixTree tree_;
-};
-
 }  // namespace
 
-std::unique_ptr<Builder> make_radix_builder(Programs& programs, const BuilderCard& card,
-                                            MakeRadixHierarchy make, const BuildOptions& options)
+std::size_t RadixTree::inner_bytes() const
 {
-    return std::make_unique<RadixBuilder>(programs, card, make, options);
+    if (in_arrays)
+        return format->box_bytes();
+    constexpr std::size_t word = sizeof(uint);
+    return format->number == BOX_F32
+               ? sizeof(RadixNode)
+               : sizeof(Children) + (format->box_bytes() + word - 1) / word * word;
+}
+
+/// From the root down every node splits at a lower bit of its leaves' keys than its parent.
+uint RadixTree::most_levels() const { return std::min(leaves, code_bits + ceil_log2(leaves) + 1); }
+
+std::string_view RadixTree::access_header() const
+{
+    return in_arrays ? "baselines/radix/access_apetrei.clh" : "baselines/radix/access.clh";
+}
+
+cl_uint RadixTree::bind(cl::Kernel& kernel, cl_uint first) const
+{
+    first = in_arrays ? set_arguments_from(kernel, first, nodes, children, root)
+                      : set_arguments_from(kernel, first, nodes);
+    return set_arguments_from(kernel, first, leaf_boxes, ids, leaves, device_objects);
+}
+
+/// Breadth-first: a radix tree may be 95 levels deep, so nothing here recurses.
+HostTree RadixTree::spelled_out_object(uint object) const
+{
+    HostTree tree;
+    tree.rounding = {format,
+                     format->has_cells() ? cells.download(queue->cl()).front() : SceneCells{}};
+    const auto box_in = [&](std::span<const std::byte> stored, std::size_t from) {
+        return tree.rounding.read(stored.subspan(from, format->box_bytes()));
+    };
+    const std::vector<std::byte> of_leaves = leaf_boxes.download(queue->cl());
+    const std::vector<std::byte> of_inner = nodes.download(queue->cl());
+    const std::vector<uint> primitives = ids.download(queue->cl());
+    const std::vector<uint> linked = children.download(queue->cl());
+    const auto inner_node = [&](std::size_t k) -> RadixNode {
+        const auto stored = std::span(of_inner).subspan(k * inner_bytes(), inner_bytes());
+        if (in_arrays)
+            return radix_node(box_in(stored, 0), linked[2 * k], linked[2 * k + 1]);
+        if (format->number == BOX_F32) {
+            RadixNode node;
+            std::memcpy(&node, stored.data(), sizeof node);
+            return node;
+        }
+        Children own;
+        std::memcpy(own.data(), stored.data(), sizeof own);
+        return radix_node(box_in(stored, sizeof own), own[0], own[1]);
+    };
+
+    uint top = radix_child(in_arrays ? root.download(queue->cl()).at(0) : 0, leaves == 1);
+    if (objects.size() > 1)
+        top = device_objects.download(queue->cl()).at(object).root;
+    std::vector<uint> order{top};
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        HostTree::Node& node = tree.nodes.emplace_back();
+        const uint index = radix_index(order[k]);
+        if (radix_is_leaf(order[k])) {
+            node.primitive = static_cast<int>(primitives.at(index));
+            node.box =
+                box_in(of_leaves, (sorted ? index : primitives[index]) * format->box_bytes());
+            continue;
+        }
+        const RadixNode from = inner_node(index);
+        node.box = {from.min_x, from.min_y, from.min_z, from.max_x, from.max_y, from.max_z};
+        if (order.size() >= node_count())
+            continue;  // not a tree: leave children out rather than walk in circles
+        node.child = {static_cast<int>(order.size()), static_cast<int>(order.size() + 1)};
+        order.push_back(from.left);
+        order.push_back(from.right);
+    }
+    return tree;
+}
+
+RadixBuilder::RadixBuilder(Programs& programs, std::string_view name, std::string_view method,
+                           MakeBuilder make, const BuildOptions& options)
+    : OrderedBuilder(programs, {name, method, BuilderCard::Runs::on_device}, options)
+    , make_(make)
+    , group_size_(options.group_size)
+{
+    tree_.sorted = options.sorted_leaves;
+    tree_.format = &format();
+    const Device& device = programs.device();
+    const auto most = device.cl.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>();
+    if (group_size_ == 0 && device.is_cpu()) {
+        group_size_ = 1;
+        most_items_ = chunk_count(device);
+    } else if (group_size_ == 0) {
+        group_size_ = std::min<std::size_t>(device.tuned(radix_group_size), std::bit_floor(most));
+    } else if (!std::has_single_bit(group_size_) || group_size_ > most) {
+        throw BadUsage("a group size is a power of two up to " + std::to_string(most) + " on " +
+                       device.name() + ", not " + std::to_string(group_size_));
+    }
+}
+
+cl::Kernel RadixBuilder::kernel(std::string_view path, const char* name) const
+{
+    return programs_.kernel(path, name,
+                            {{"CODE_WORDS", code_words(leaf_order_.code_bits())},
+                             {"SORTED_LEAVES", tree_.sorted ? 1u : 0u},
+                             {"BOX_FORMAT", format().number}});
+}
+
+void RadixBuilder::launch(Queue& queue, const cl::Kernel& kernel, uint count,
+                          std::size_t moved_bytes) const
+{
+    const std::size_t items = most_items_ != 0 ? std::min<std::size_t>(count, most_items_) : count;
+    const std::size_t groups = (items + group_size_ - 1) / group_size_;
+    queue.launch(kernel, groups * group_size_, group_size_, static_cast<std::int64_t>(moved_bytes));
+}
+
+Buffer<std::byte> RadixBuilder::take_nodes(Arena& arena) const
+{
+    return arena.take<std::byte>(tree_.inner() * tree_.inner_bytes(), Use::tree);
+}
+
+void RadixBuilder::prepare_nodes(const cl::CommandQueue& queue)
+{
+    arrivals_.upload(queue, std::vector<uint>(arrivals_.size(), 0u));
+}
+
+std::size_t RadixBuilder::box_bytes() const
+{
+    return tree_.leaf_boxes.bytes() + (tree_.sorted ? 0 : tree_.ids.bytes());
+}
+
+std::unique_ptr<OrderedBuilder> RadixBuilder::twin() const
+{
+    return std::unique_ptr<OrderedBuilder>(
+        static_cast<OrderedBuilder*>(make_(programs_, options_).release()));
+}
+
+void RadixBuilder::plan(Arena& arena, std::span<const uint> sizes)
+{
+    tree_.leaves = std::accumulate(sizes.begin(), sizes.end(), 0u);
+    tree_.objects = radix_objects(sizes);
+    tree_.device_objects = arena.take<ForestObject>(sizes.size(), Use::tree);
+    leaf_order_.plan(arena, sizes, tree_.sorted ? Use::scratch : Use::tree, true);
+    tree_.code_bits = leaf_order_.code_bits();
+    tree_.cells = plan_cells(arena);
+    tree_.leaf_boxes = tree_.sorted
+                           ? arena.take<std::byte>(tree_.leaves * format().box_bytes(), Use::tree)
+                           : leaf_order_.boxes().as<std::byte>();
+    tree_.ids = leaf_order_.ids();
+    tree_.codes = leaf_order_.codes();
+    gathered_ = {tree_.leaf_boxes, 0};
+    plan_nodes(arena);
+}
+
+void RadixBuilder::prepare(const cl::CommandQueue& queue)
+{
+    tree_.device_objects.upload(queue, tree_.objects);
+    const std::array defines = {Define{"SORTED_LEAVES", tree_.sorted ? 1u : 0u},
+                                Define{"BOX_FORMAT", format().number}};
+    if (!numbers_by_range_)
+        roots_ = programs_.kernel(tree_.access_header(), "baselines/radix/roots.cl", "find_roots",
+                                  defines);
+    prepare_nodes(queue);
+}
+
+void RadixBuilder::enqueue_hierarchy(Queue& queue)
+{
+    if (tree_.leaves > 1)  // one leaf is its own root
+        build_nodes(queue);
+    if (tree_.objects.size() > 1 && !numbers_by_range_)
+        find_roots(queue);
+}
+
+void RadixBuilder::enqueue_refit(Queue& queue)
+{
+    if (tree_.leaves > 1)
+        refit_nodes(queue);
+}
+
+void RadixBuilder::find_roots(Queue& queue)
+{
+    constexpr uint group_size = 32;
+    const auto count = static_cast<uint>(tree_.objects.size());
+    set_arguments_from(roots_, tree_.bind(roots_, 0), tree_.device_objects, count);
+    queue.launch(roots_, std::size_t{divided_up(count, group_size)} * group_size, group_size,
+                 static_cast<std::int64_t>(2 * tree_.device_objects.bytes()));
 }
 
 }  // namespace bvhbench

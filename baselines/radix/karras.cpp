@@ -1,88 +1,54 @@
 // SPDX-License-Identifier: MIT
 #include "baselines/baselines.h"
-#include "baselines/radix/hierarchy.h"
+#include "baselines/radix/builder.h"
 
 namespace bvhbench {
 namespace {
 
-class Karras final : public RadixHierarchy {
+class Karras final : public RadixBuilder {
 public:
-    explicit Karras(const RadixSetup& setup)
-        : launch_(setup.launch)
-        , topology_(setup.kernel("baselines/radix/karras_topology.cl", "topology"))
-        , boxes_(setup.kernel("baselines/radix/karras_boxes.cl", "boxes"))
+    Karras(Programs& programs, const BuildOptions& options)
+        : RadixBuilder(programs, "karras",
+                       "Binary radix tree, topology and then boxes [Karras2012]", make_karras,
+                       options)
+        , topology_(kernel("baselines/radix/karras.cl", "topology"))
+        , boxes_(kernel("baselines/radix/karras.cl", "boxes"))
     {}
 
-    void plan(Arena& arena, const RadixLeaves& leaves) override
-    {
-        leaves_ = &leaves;
-        const std::size_t inner = leaves.count - 1;
-        nodes_ = take_radix_nodes(arena, leaves);
-        parents_ = arena.take<uint>(inner + leaves.count, Use::scratch);
-        arrivals_ = arena.take<uint>(inner, Use::scratch);
-    }
-
-    void prepare(const cl::CommandQueue& queue) override
-    {
-        arrivals_.upload(queue, std::vector<uint>(arrivals_.size(), 0u));
-    }
-
-    void build(Queue& queue) override
-    {
-        set_arguments(topology_, leaves_->codes, nodes_, parents_, leaves_->count);
-        launch_(queue, topology_, leaves_->count - 1,
-                leaves_->code_bytes() + node_bytes() + parent_bytes());
-        make_boxes(queue);
-    }
-
-    void refit(Queue& queue) override { make_boxes(queue); }
-
-    std::vector<RadixNode> download(const cl::CommandQueue& queue, const BoxRounding& rounding,
-                                    uint& root) const override
-    {
-        root = 0;
-        return read_radix_nodes(nodes_.download(queue), rounding);
-    }
-
-    cl_uint bind(cl::Kernel& kernel, cl_uint first) const override
-    {
-        return set_arguments_from(kernel, first, nodes_);
-    }
-
 private:
-    std::int64_t node_bytes() const { return static_cast<std::int64_t>(nodes_.bytes()); }
-    std::int64_t parent_bytes() const { return static_cast<std::int64_t>(parents_.bytes()); }
+    void plan_nodes(Arena& arena) override
+    {
+        tree_.nodes = take_nodes(arena);
+        parents_ = arena.take<uint>(tree_.inner() + tree_.leaves, Use::scratch);
+        arrivals_ = arena.take<uint>(tree_.inner(), Use::scratch);
+    }
+
+    void build_nodes(Queue& queue) override
+    {
+        set_arguments(topology_, tree_.codes, tree_.nodes, parents_, tree_.leaves);
+        launch(queue, topology_, tree_.leaves - 1,
+               tree_.codes.bytes() + tree_.nodes.bytes() + parents_.bytes());
+        refit_nodes(queue);
+    }
 
     /// Children are read and boxes written; they share their sectors.
-    void make_boxes(Queue& queue)
+    void refit_nodes(Queue& queue) override
     {
-        set_arguments(boxes_, leaves_->boxes, leaves_->ids, nodes_, parents_, arrivals_,
-                      leaves_->count);
-        const auto children = static_cast<std::int64_t>(leaves_->inner() * 2 * sizeof(uint));
-        launch_(queue, boxes_, leaves_->count,
-                leaves_->box_bytes() + parent_bytes() + children + node_bytes());
+        set_arguments(boxes_, tree_.leaf_boxes, tree_.ids, tree_.nodes, parents_, arrivals_,
+                      tree_.leaves);
+        launch(queue, boxes_, tree_.leaves,
+               box_bytes() + parents_.bytes() + child_bytes() + tree_.nodes.bytes());
     }
 
-    RadixLaunch launch_;
     cl::Kernel topology_, boxes_;
-    const RadixLeaves* leaves_ = nullptr;
-    Buffer<std::byte> nodes_;
-    Buffer<uint> parents_;   ///< inner nodes, then leaves
-    Buffer<uint> arrivals_;  ///< one an inner node
+    Buffer<uint> parents_;  ///< inner nodes, then leaves
 };
 
 }  // namespace
 
 std::unique_ptr<Builder> make_karras(Programs& programs, const BuildOptions& options)
 {
-    return make_radix_builder(
-        programs,
-        {"karras", "Binary radix tree, topology and then boxes [Karras2012]",
-         BuilderCard::Runs::on_device},
-        [](const RadixSetup& setup) -> std::unique_ptr<RadixHierarchy> {
-            return std::make_unique<Karras>(setup);
-        },
-        options);
+    return std::make_unique<Karras>(programs, options);
 }
 
 }  // namespace bvhbench

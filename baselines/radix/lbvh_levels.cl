@@ -19,7 +19,7 @@
 //
 // A node that has not been split holds the range of its leaves where its children will be, and for a moment its split where
 // its box will be: the tree is its own queue.
-#include "baselines/radix/nodes.clh"
+#include "baselines/radix/leaves.clh"
 
 /// Find the split of node i and leave it where its box will be. How many of its children are inner nodes.
 static inline uint find_split(global const Code* codes, global RadixWord* nodes, const uint leaves,

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "baselines/baselines.h"
-#include "baselines/radix/hierarchy.h"
+#include "baselines/radix/builder.h"
 #include "geometry/bits.h"
 
 namespace bvhbench {
@@ -15,30 +15,33 @@ std::size_t most_lanes(const Device& device)
     return 2048 * std::size_t{device.cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()};
 }
 
-class LbvhLevels final : public RadixHierarchy {
+class LbvhLevels final : public RadixBuilder {
 public:
-    explicit LbvhLevels(const RadixSetup& setup)
-        : launch_(setup.launch)
-        , code_bits_(setup.code_bits)
-        , split_(setup.kernel("baselines/radix/lbvh_levels.cl", "split_level"))
-        , box_(setup.kernel("baselines/radix/lbvh_levels.cl", "box_level"))
+    LbvhLevels(Programs& programs, const BuildOptions& options)
+        : RadixBuilder(programs, "lbvh-levels",
+                       "Binary radix tree, a launch a level [Lauterbach2009]", make_lbvh_levels,
+                       options)
+        , code_bits_(leaf_order_.code_bits())
+        , split_(kernel("baselines/radix/lbvh_levels.cl", "split_level"))
+        , box_(kernel("baselines/radix/lbvh_levels.cl", "box_level"))
     {
-        if (launch_.most_items == 0)
-            launch_.most_items = most_lanes(setup.programs.device());
+        numbers_by_range_ = false;
+        if (most_items_ == 0)
+            most_items_ = most_lanes(programs.device());
     }
 
-    void plan(Arena& arena, const RadixLeaves& leaves) override
+private:
+    void plan_nodes(Arena& arena) override
     {
-        leaves_ = &leaves;
         // On the way down from the root every node splits at a bit of the key that is below its parent's, and
         // of a place only so many bits differ.
-        levels_ = std::min(leaves.count - 1, code_bits_ + ceil_log2(leaves.count));
-        nodes_ = take_radix_nodes(arena, leaves);
+        levels_ = std::min(tree_.leaves - 1, code_bits_ + ceil_log2(tree_.leaves));
+        tree_.nodes = take_nodes(arena);
         begins_ = arena.take<uint>(levels_ + 1, Use::scratch);
         counts_ = arena.take<uint>(levels_ + 1, Use::scratch);
     }
 
-    void prepare(const cl::CommandQueue& queue) override
+    void prepare_nodes(const cl::CommandQueue& queue) override
     {
         std::vector<uint> counts(counts_.size(), 0u);
         counts.front() = 1;  // the root
@@ -46,74 +49,44 @@ public:
         begins_.upload(queue, std::vector<uint>(begins_.size(), 0u));
     }
 
-    void build(Queue& queue) override
+    void build_nodes(Queue& queue) override
     {
         for (uint level = 0; level < levels_; ++level) {
-            set_arguments(split_, leaves_->codes, nodes_, begins_, counts_, leaves_->count, level);
-            launch_(queue, split_, most_nodes_on(level),
-                    level == 0 ? leaves_->code_bytes() + node_bytes() : 0);
+            set_arguments(split_, tree_.codes, tree_.nodes, begins_, counts_, tree_.leaves, level);
+            launch(queue, split_, most_nodes_on(level),
+                   level == 0 ? tree_.codes.bytes() + tree_.nodes.bytes() : 0);
         }
-        make_boxes(queue);
+        refit_nodes(queue);
     }
 
-    void refit(Queue& queue) override { make_boxes(queue); }
-
-    bool numbers_by_range() const override { return false; }
-
-    std::vector<RadixNode> download(const cl::CommandQueue& queue, const BoxRounding& rounding,
-                                    uint& root) const override
+    /// How many bytes a level moves the host does not know: the root's launch declares all levels'.
+    void refit_nodes(Queue& queue) override
     {
-        root = 0;
-        return read_radix_nodes(nodes_.download(queue), rounding);
+        for (uint level = levels_; level-- > 0;) {
+            set_arguments(box_, tree_.leaf_boxes, tree_.ids, tree_.nodes, begins_, counts_, level);
+            launch(queue, box_, most_nodes_on(level),
+                   level == 0 ? box_bytes() + child_bytes() + tree_.nodes.bytes() : 0);
+        }
     }
-
-    cl_uint bind(cl::Kernel& kernel, cl_uint first) const override
-    {
-        return set_arguments_from(kernel, first, nodes_);
-    }
-
-private:
-    std::int64_t node_bytes() const { return static_cast<std::int64_t>(nodes_.bytes()); }
 
     /// Every inner node has two leaves at least.
     uint most_nodes_on(uint level) const
     {
-        return std::min(leaves_->count / 2, 1u << std::min(level, 31u));
+        return std::min(tree_.leaves / 2, 1u << std::min(level, 31u));
     }
 
-    /// How many bytes a level moves the host does not know: the root's launch declares all levels'.
-    void make_boxes(Queue& queue)
-    {
-        const auto children = static_cast<std::int64_t>(leaves_->inner() * 2 * sizeof(uint));
-        for (uint level = levels_; level-- > 0;) {
-            set_arguments(box_, leaves_->boxes, leaves_->ids, nodes_, begins_, counts_, level);
-            launch_(queue, box_, most_nodes_on(level),
-                    level == 0 ? leaves_->box_bytes() + children + node_bytes() : 0);
-        }
-    }
-
-    RadixLaunch launch_;
     uint code_bits_;
     cl::Kernel split_, box_;
-    const RadixLeaves* leaves_ = nullptr;
-    uint levels_ = 0;          ///< of inner nodes, at most
-    Buffer<std::byte> nodes_;  ///< level by level
-    Buffer<uint> begins_;      ///< where each level begins in the nodes, and where the last ends
-    Buffer<uint> counts_;      ///< of nodes, one a level and one more
+    uint levels_ = 0;      ///< of inner nodes, at most; nodes lie level by level
+    Buffer<uint> begins_;  ///< where each level begins in the nodes, and where the last ends
+    Buffer<uint> counts_;  ///< of nodes, one a level and one more
 };
 
 }  // namespace
 
 std::unique_ptr<Builder> make_lbvh_levels(Programs& programs, const BuildOptions& options)
 {
-    return make_radix_builder(
-        programs,
-        {"lbvh-levels", "Binary radix tree, a launch a level [Lauterbach2009]",
-         BuilderCard::Runs::on_device},
-        [](const RadixSetup& setup) -> std::unique_ptr<RadixHierarchy> {
-            return std::make_unique<LbvhLevels>(setup);
-        },
-        options);
+    return std::make_unique<LbvhLevels>(programs, options);
 }
 
 }  // namespace bvhbench

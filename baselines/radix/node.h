@@ -34,9 +34,15 @@ SHARED_FN bool radix_is_leaf(uint child) { return (child & RADIX_LEAF) != 0u; }
 
 SHARED_FN uint radix_index(uint child) { return child & ~RADIX_LEAF; }
 
+#ifndef __OPENCL_C_VERSION__
+/// A node of these parts.
+inline RadixNode radix_node(const Aabb& box, uint left, uint right)
+{
+    return {box.min_x, box.min_y, box.min_z, left, box.max_x, box.max_y, box.max_z, right};
+}
+static_assert(sizeof(RadixNode) == 32);
+#endif
+
 SHARED_END
 
-#ifndef __OPENCL_C_VERSION__
-static_assert(sizeof(bvhbench::RadixNode) == 32);
-#endif
 #endif

@@ -6,17 +6,11 @@
 #include <vector>
 
 #include "baselines/baselines.h"
+#include "baselines/host/host_builder.h"
 #include "builders/ordered/leaf_order.h"
 
 namespace bvhbench {
 namespace {
-
-class RadixHostTree final : public Tree {
-public:
-    HostTree tree;
-    std::size_t node_count() const override { return tree.nodes.size(); }
-    HostTree spelled_out() const override { return tree; }
-};
 
 /// Bit `bit` of a leaf's key, its code followed by its 32-bit place in leaf order.
 bool key_bit(const HostLeafOrder& leaves, uint leaf, int bit)
@@ -30,8 +24,7 @@ uint split_of(const HostLeafOrder& leaves, uint first, uint last)
     int bit = 95;
     while (key_bit(leaves, first, bit) == key_bit(leaves, last, bit))
         --bit;
-    uint split = first,
-         beyond = last;  // 0 at split, 1 at beyond: keys ascend, so halving finds the step
+    uint split = first, beyond = last;  // 0 at split, 1 at beyond: halving finds the step
     while (beyond - split > 1) {
         const uint middle = split + (beyond - split) / 2;
         (key_bit(leaves, middle, bit) ? beyond : split) = middle;
@@ -39,12 +32,12 @@ uint split_of(const HostLeafOrder& leaves, uint first, uint last)
     return beyond;
 }
 
-HostTree radix_tree(const HostLeafOrder& leaves)
+void make_radix_tree(HostTree& tree, const HostLeafOrder& leaves)
 {
     struct Range {
         uint first, last;
     };
-    HostTree tree;
+    tree.nodes.clear();
     std::vector<Range> ranges{{0, static_cast<uint>(leaves.ids.size()) - 1}};  // node k's leaves
     for (std::size_t k = 0; k < ranges.size(); ++k) {
         const auto [first, last] = ranges[k];
@@ -59,53 +52,45 @@ HostTree radix_tree(const HostLeafOrder& leaves)
         ranges.push_back({first, split - 1});
         ranges.push_back({split, last});
     }
-    for (std::size_t k = tree.nodes.size(); k-- > 0;)  // children come after their parent
-        if (HostTree::Node& node = tree.nodes[k]; node.primitive == HostTree::none)
-            node.box = merged(tree.nodes[static_cast<std::size_t>(node.child[0])].box,
-                              tree.nodes[static_cast<std::size_t>(node.child[1])].box);
-    return tree;
 }
 
-class RadixReference final : public Builder {
+class RadixReference final : public HostBuilder {
 public:
-    explicit RadixReference(const BuildOptions& options) : order_(options.order)
+    explicit RadixReference(const BuildOptions& options)
+        : HostBuilder("radix-reference", "Binary radix tree, slowly on the host [Karras2012]")
+        , order_(options.order)
     {
         find_order(order_);
     }
 
-    BuilderCard card() const override
-    {
-        return {"radix-reference", "Binary radix tree, slowly on the host [Karras2012]",
-                BuilderCard::Runs::on_host};
-    }
-
+private:
     Footprint footprint(std::size_t primitives) const override
     {
         return {(2 * primitives - 1) * sizeof(HostTree::Node), 0};
     }
 
-    void reserve(std::size_t primitives) override
+    void reserve_own(std::size_t primitives) override
     {
-        tree_.tree.nodes.clear();
-        tree_.tree.nodes.reserve(2 * primitives - 1);
-        reserved_ = footprint(primitives);
+        tree_.plain.nodes.reserve(2 * primitives - 1);
     }
 
-    Footprint reserved() const override { return reserved_; }
-
-    const Tree& build(const Input& input, Queue& queue, Start start) override
+    void prepare(const Input& input, Queue& queue, Start start) override
     {
         if (start == Start::from_triangles)
             queue.on_host("sort", [&] { leaves_ = host_leaf_order(leaf_boxes(input), order_); });
-        queue.on_host("hierarchy", [&] { tree_.tree = radix_tree(leaves_); });
-        return tree_;
     }
 
-private:
+    void build_tree() override
+    {
+        make_radix_tree(tree_.plain, leaves_);
+        tree_.merge_boxes();
+    }
+
+    const Tree& tree() const override { return tree_; }
+
     std::string order_;
     HostLeafOrder leaves_;
-    RadixHostTree tree_;
-    Footprint reserved_;
+    PlainTree tree_;
 };
 
 }  // namespace

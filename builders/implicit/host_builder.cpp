@@ -7,7 +7,7 @@
 
 #include "builders/implicit/host_levels.h"
 #include "builders/implicit/implicit_builder.h"
-#include "device/mapped.h"
+#include "device/buffer.h"
 
 namespace bvhbench {
 namespace {

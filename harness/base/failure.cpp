@@ -6,7 +6,6 @@
 #include <system_error>
 
 #include "device/cl.h"
-#include "device/error_name.h"
 #include "geometry/error.h"
 
 namespace bvhbench {

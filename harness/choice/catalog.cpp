@@ -2,7 +2,6 @@
 #include "harness/choice/catalog.h"
 
 #include "baselines/baselines.h"
-#include "baselines/libraries.h"
 #include "geometry/error.h"
 #include "oibvh/oibvh.h"
 

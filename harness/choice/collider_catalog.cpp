@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "harness/choice/collider_catalog.h"
 
-#include "baselines/colliders.h"
-#include "baselines/libraries.h"
+#include "baselines/baselines.h"
 #include "collide/colliders.h"
 #include "collide/narrow/narrow_methods.h"
 #include "geometry/error.h"

@@ -3,8 +3,7 @@
 
 #include <algorithm>
 
-#include "device/copy_rate.h"
-#include "device/launch_cost.h"
+#include "device/yardsticks.h"
 #include "geometry/error.h"
 #include "geometry/host_memory.h"
 #include "harness/base/failure.h"

@@ -8,9 +8,7 @@
 #include <vector>
 
 #include "builders/builder.h"
-#include "device/cache_flush.h"
-#include "device/calibration.h"
-#include "device/head_start.h"
+#include "device/yardsticks.h"
 #include "harness/base/common_options.h"
 #include "harness/choice/catalog.h"
 #include "harness/session/pocl_cache.h"
@@ -50,7 +48,7 @@ public:
     Builder& builder(const BuilderChoice& choice, Operation operation = Operation::build);
 
     /// Before work that is timed is enqueued: caches are emptied, if samples are to find them so, and a GPU gets a head
-    /// start (device/cache_flush.h, device/head_start.h).
+    /// start (device/yardsticks.h).
     void give_head_start();
 
     /// Whether what is timed from here on finds caches empty. Throws what taking their size of memory throws.
@@ -61,7 +59,7 @@ public:
     void take_turns(const std::string& path, const std::string& id);
     Turns* turns() { return turns_ ? &*turns_ : nullptr; }
 
-    /// What a fixed piece of work takes right now, in nanoseconds (device/calibration.h).
+    /// What a fixed piece of work takes right now, in nanoseconds (device/yardsticks.h).
     std::int64_t calibrate();
 
     /// One whole build, waited for and watched. Throws what the builder throws.

@@ -9,10 +9,17 @@
 namespace bvhbench {
 namespace {
 
-TEST(EmbreeCollider, FindsTheOraclesPairsOfHardMeshes)
+class EmbreeCollider : public testing::Test {
+protected:
+    void SetUp() override
+    {
+        if (!embree_absent.empty())
+            GTEST_SKIP() << embree_absent;
+    }
+};
+
+TEST_F(EmbreeCollider, FindsTheOraclesPairsOfHardMeshes)
 {
-    if (!is_built(make_embree_collider))
-        GTEST_SKIP() << "built without Embree";
     for (const bool keep_adjacent : {true, false}) {
         const auto embree =
             make_embree_collider(session().programs(), {.keep_adjacent = keep_adjacent});
@@ -31,10 +38,8 @@ TEST(EmbreeCollider, FindsTheOraclesPairsOfHardMeshes)
 }
 
 /// Embree takes floats below the normal ones for zeros, and differences of normal ones that are below too.
-TEST(EmbreeCollider, FindsTheOraclesPairsWhereFloatsEnd)
+TEST_F(EmbreeCollider, FindsTheOraclesPairsWhereFloatsEnd)
 {
-    if (!is_built(make_embree_collider))
-        GTEST_SKIP() << "built without Embree";
     const auto embree = make_embree_collider(session().programs(), {});
     for (const std::size_t size : {1u, 2u, 5u, 65u, 777u})
         for (const auto& [scale, along] : {std::pair{0x1p-126f, 0x1p-126f},
@@ -55,10 +60,8 @@ TEST(EmbreeCollider, FindsTheOraclesPairsWhereFloatsEnd)
         }
 }
 
-TEST(EmbreeCollider, FindsTheOraclesPairsOfObjectsThatMove)
+TEST_F(EmbreeCollider, FindsTheOraclesPairsOfObjectsThatMove)
 {
-    if (!is_built(make_embree_collider))
-        GTEST_SKIP() << "built without Embree";
     ManyObjects before({1, 70, 3, 2, 129, 200, 1});
     before.add({}, 0);
     // Two objects of one surface, which share vertices.
@@ -89,10 +92,8 @@ TEST(EmbreeCollider, FindsTheOraclesPairsOfObjectsThatMove)
         }
 }
 
-TEST(EmbreeCollider, RefusesAFrameWithCoordinatesItWouldDropTrianglesForAndTakesTheNext)
+TEST_F(EmbreeCollider, RefusesAFrameWithCoordinatesItWouldDropTrianglesForAndTakesTheNext)
 {
-    if (!is_built(make_embree_collider))
-        GTEST_SKIP() << "built without Embree";
     Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1e18f, 0, 0}}, {{0, 1, 2}, {0, 1, 3}}};
     const auto embree = make_embree_collider(session().programs(), {});
     const Input input = uploaded(mesh.points, mesh.faces);
@@ -110,10 +111,8 @@ TEST(EmbreeCollider, RefusesAFrameWithCoordinatesItWouldDropTrianglesForAndTakes
     EXPECT_EQ(found_by(*embree, input).size(), 1u);
 }
 
-TEST(EmbreeCollider, NamesItsStages)
+TEST_F(EmbreeCollider, NamesItsStages)
 {
-    if (!is_built(make_embree_collider))
-        GTEST_SKIP() << "built without Embree";
     const Mesh mesh = crowded_mesh(100);
     const Input input = uploaded(mesh.points, mesh.faces);
     const auto embree = make_embree_collider(session().programs(), {});

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
 // FCL's colliders, which keep up with the frames themselves: each is reserved once, and sees points move.
+#include <algorithm>
+#include <iterator>
 #include <random>
 
+#include "collide/narrow/exact_contact.h"
 #include "tests/baselines/library_colliders.h"
 #include "tests/collide/many_objects.h"
 
@@ -35,46 +38,17 @@ ManyObjects soup(std::size_t point_count, std::size_t face_count, unsigned seed)
     return many;
 }
 
-/// Six times the volume between four points.
-double volume(const Point& a, const Point& b, const Point& c, const Point& d)
-{
-    const double u[] = {double(b.x) - a.x, double(b.y) - a.y, double(b.z) - a.z};
-    const double v[] = {double(c.x) - a.x, double(c.y) - a.y, double(c.z) - a.z};
-    const double w[] = {double(d.x) - a.x, double(d.y) - a.y, double(d.z) - a.z};
-    return u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) +
-           u[2] * (v[0] * w[1] - v[1] * w[0]);
-}
-
-bool is_pierced(const Point (&triangle)[3], const Point& from, const Point& to)
-{
-    const auto& [a, b, c] = triangle;
-    if ((volume(a, b, c, from) > 0) == (volume(a, b, c, to) > 0))
-        return false;
-    const bool side = volume(from, to, a, b) > 0;
-    return side == (volume(from, to, b, c) > 0) && side == (volume(from, to, c, a) > 0);
-}
-
-/// In general position two triangles meet where an edge of one goes through the other.
-bool do_meet(std::span<const Point> points, Face one, Face other)
-{
-    const Point a[] = {points[one.a], points[one.b], points[one.c]};
-    const Point b[] = {points[other.a], points[other.b], points[other.c]};
-    for (std::size_t k = 0; k < 3; ++k)
-        if (is_pierced(a, b[k], b[(k + 1) % 3]) || is_pierced(b, a[k], a[(k + 1) % 3]))
-            return true;
-    return false;
-}
-
 PairList pairs_that_meet(const ManyObjects& many, Among among)
 {
     const auto& [points, faces] = many.mesh;
+    const auto corners = [&](uint k) {
+        return Corners{{points[faces[k].a], points[faces[k].b], points[faces[k].c]}};
+    };
+    const PairList near = expected_pairs(many, among, false);
     std::vector<Pair> meet;
-    for (uint a = 0; a < faces.size(); ++a)
-        for (uint b = a + 1; b < faces.size(); ++b)
-            if ((among == Among::all ||
-                 (many.owners[a] != many.owners[b]) == (among == Among::between_objects)) &&
-                !share_a_vertex(faces[a], faces[b]) && do_meet(points, faces[a], faces[b]))
-                meet.push_back({a, b});
+    std::ranges::copy_if(near.pairs(), std::back_inserter(meet), [&](Pair pair) {
+        return triangles_meet(corners(pair.a), corners(pair.b));
+    });
     return PairList(std::move(meet));
 }
 
@@ -89,8 +63,8 @@ protected:
 
     void SetUp() override
     {
-        if (!is_built(make_fcl_collider))
-            GTEST_SKIP() << "built without FCL";
+        if (!fcl_absent.empty())
+            GTEST_SKIP() << fcl_absent;
     }
 };
 

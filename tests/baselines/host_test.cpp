@@ -9,17 +9,24 @@
 namespace bvhbench {
 namespace {
 
-/// Centres at 1, 2, 4, ... along x: every cut between equal bins takes few triangles off.
-Mesh doubling_distances(int triangles)
+Mesh triangles_at(const std::vector<float>& places)
 {
     Mesh mesh;
-    for (int k = 0; k < triangles; ++k) {
+    for (const float x : places) {
         const auto first = static_cast<uint>(mesh.points.size());
-        const float x = std::ldexp(1.0f, k);
         mesh.points.insert(mesh.points.end(), {{x, 0, 0}, {x, 1, 0}, {x, 0, 1}});
         mesh.faces.push_back({first, first + 1, first + 2});
     }
     return mesh;
+}
+
+/// Centres at 1, 2, 4, ... along x: every cut between equal bins takes few triangles off.
+Mesh doubling_distances(int triangles)
+{
+    std::vector<float> places;
+    for (int k = 0; k < triangles; ++k)
+        places.push_back(std::ldexp(1.0f, k));
+    return triangles_at(places);
 }
 
 Mesh all_the_same(std::size_t triangles)
@@ -56,8 +63,7 @@ TEST(HeapMedian, PutsTheFirstCentresAlongTheLongestAxisLeft)
 {
     const HostTree tree = tree_over(make_heap_median, doubling_distances(5));
     std::vector<int> leaves;
-    for (const std::size_t leaf :
-         {7u, 8u, 4u, 5u, 6u})  // from left to right, see baselines/host/heap.h
+    for (const std::size_t leaf : {7u, 8u, 4u, 5u, 6u})  // from left to right, see heap_median.cpp
         leaves.push_back(tree.nodes[leaf].primitive);
     EXPECT_EQ(leaves, (std::vector<int>{0, 1, 2, 3, 4}));
 }
@@ -74,13 +80,8 @@ TEST(BinnedSah, CostsLessThanMediansOnATorus)
 
 TEST(BinnedSah, CutsBetweenTwoHeapsAtTheRoot)
 {
-    Mesh mesh;
-    for (const float x : {0.0f, 0.1f, 0.2f, 100.0f, 100.1f}) {
-        const auto first = static_cast<uint>(mesh.points.size());
-        mesh.points.insert(mesh.points.end(), {{x, 0, 0}, {x, 1, 0}, {x, 0, 1}});
-        mesh.faces.push_back({first, first + 1, first + 2});
-    }
-    const HostTree tree = tree_over(make_sah_binned, mesh);
+    const HostTree tree =
+        tree_over(make_sah_binned, triangles_at({0.0f, 0.1f, 0.2f, 100.0f, 100.1f}));
     EXPECT_EQ(tree.nodes[1].box.max_x, 0.2f);
     EXPECT_EQ(tree.nodes[2].box.min_x, 100.0f);
 }

@@ -3,15 +3,12 @@
 // What the tests of libraries' colliders share: frames whose points move, and what one query of them finds.
 #pragma once
 
-#include "baselines/colliders.h"
+#include "baselines/baselines.h"
 #include "tests/collide/collider_testing.h"
 
 namespace bvhbench {
 
 inline constexpr Among all_kinds[] = {Among::all, Among::between_objects, Among::within_objects};
-
-/// Through a pointer: compilers warn that a function, where it is one, is never null.
-inline bool is_built(MakeCollider make) { return make != nullptr; }
 
 inline Input uploaded(std::span<const Point> points, std::span<const Face> faces,
                       std::span<const FaceRange> objects = {})

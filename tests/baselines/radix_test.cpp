@@ -2,16 +2,11 @@
 //
 // Every builder of radix trees leaves the tree of the definition, bit for bit, whatever the size, the launch,
 // the place of the leaves, the bits of a code and how many codes are equal.
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <cmath>
 
-#include "baselines/baselines.h"
 #include "baselines/radix/delta.h"
-#include "builders/spell_out.h"
 #include "geometry/error.h"
-#include "tests/builders/stage_testing.h"
+#include "tests/baselines/testing.h"
 
 namespace bvhbench {
 namespace {
@@ -93,16 +88,6 @@ void expect_the_references_tree(const Mesh& mesh, const std::vector<BuildOptions
     }
 }
 
-std::size_t depth_of(const HostTree& tree)
-{
-    std::vector<std::size_t> depths(tree.nodes.size(), 0);
-    for (std::size_t k = 0; k < tree.nodes.size(); ++k)
-        for (const int child : tree.nodes[k].child)
-            if (child != HostTree::none)
-                depths[static_cast<std::size_t>(child)] = depths[k] + 1;
-    return *std::max_element(depths.begin(), depths.end());
-}
-
 TEST(RadixCommon, CountsSharedBitsOfCodeAndPlace)
 {
     EXPECT_EQ(radix_common(1ull << 63, 0, 0, 1), 1u);
@@ -151,7 +136,7 @@ TEST(RadixBuilders, MakeABalancedTreeOfEqualCodes)
     for (const MakeBuilder make : makers) {
         const auto builder = make(bench().programs, {});
         builder->reserve(4096);
-        EXPECT_EQ(depth_of(builder->build(input, bench().queue).spelled_out()), 12u);
+        EXPECT_EQ(depth_of(builder->build(input, bench().queue).spelled_out()), 12);
         bench().queue.finish();
     }
 }
@@ -169,7 +154,7 @@ TEST(RadixBuilders, EqualTheReferenceOnTheDeepestTreesOfTheirCodes)
     for (const MakeBuilder make : makers) {
         const auto builder = make(bench().programs, {.order = "morton63"});
         builder->reserve(mesh.faces.size());
-        EXPECT_EQ(depth_of(builder->build(input, bench().queue).spelled_out()), 63u + 6u);
+        EXPECT_EQ(depth_of(builder->build(input, bench().queue).spelled_out()), 63 + 6);
         bench().queue.finish();
     }
 }

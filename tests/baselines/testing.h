@@ -4,28 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "baselines/baselines.h"
 #include "builders/spell_out.h"
 #include "scenes/catalog.h"
+#include "tests/builders/stage_testing.h"
 
 namespace bvhbench {
-
-/// What a builder is made with and works on, opened once.
-struct Bench {
-    Device device = open_device("");
-    Programs programs{device};
-    Queue queue{device};
-};
-
-inline Bench& bench()
-{
-    static Bench bench;
-    return bench;
-}
 
 inline Mesh mesh_of(const std::string& scene)
 {
@@ -60,17 +47,11 @@ inline int depth_of(const HostTree& tree)
 /// of trees over the same leaves.
 inline double inner_surface(const HostTree& tree)
 {
-    const auto surface = [](const Aabb& box) {
-        const double x = static_cast<double>(box.max_x) - box.min_x;
-        const double y = static_cast<double>(box.max_y) - box.min_y;
-        const double z = static_cast<double>(box.max_z) - box.min_z;
-        return x * y + y * z + z * x;
-    };
     double sum = 0;
     for (const HostTree::Node& node : tree.nodes)
         if (node.primitive == HostTree::none)
-            sum += surface(node.box);
-    return sum / surface(tree.nodes.front().box);
+            sum += half_surface(node.box);
+    return sum / half_surface(tree.nodes.front().box);
 }
 
 }  // namespace bvhbench

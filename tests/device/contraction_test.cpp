@@ -11,10 +11,8 @@
 #include <sstream>
 #include <vector>
 
-#include "device/program.h"
-#include "device/queue.h"
 #include "geometry/orient.h"
-#include "tests/device/kernel_folder.h"
+#include "tests/device/testing.h"
 
 namespace bvhbench {
 namespace {
@@ -131,66 +129,59 @@ kernel void predicates(global const double* restrict in, global double* restrict
 )";
 
 /// The program's own headers, and a kernel that is compiled as all are.
-class DeviceContraction : public testing::Test {
+class DeviceContraction : public OnDeviceWithKernels {
 protected:
     DeviceContraction()
     {
         for (const char* name :
              {"geometry/dialect.h", "geometry/box_side.h", "geometry/aabb.h", "geometry/triangle.h",
               "geometry/vectors.h", "geometry/exact_sum.h", "geometry/orient.h"})
-            folder_.write(name, embedded_kernel(name).value());
-        folder_.write("contraction.cl", kernel_text);
+            folder.write(name, embedded_kernel(name).value());
+        folder.write("contraction.cl", kernel_text);
     }
 
-    template <class T>
-    Buffer<T> buffer(std::size_t size)
+    /// Run a kernel of the text, a work-item a result; its arguments are `in` and then what it writes.
+    template <class T, class... Outs>
+    void run(const char* name, const std::vector<T>& operands, const Outs&... outs)
     {
-        return Buffer<T>(cl::Buffer(device_.context, CL_MEM_READ_WRITE, size * sizeof(T)), size);
+        auto in = buffer<T>(operands.size());
+        in.upload(queue.cl(), operands);
+        cl::Kernel kernel = programs.kernel("contraction.cl", name);
+        set_arguments(kernel, in, outs...);
+        queue.begin(name);
+        queue.launch(kernel, count, 1, 1);
     }
 
-    KernelFolder folder_;
-    Device device_ = open_device("", folder_.sources());
-    Programs programs_{device_};
-    Queue queue_{device_};
     const Operands of_;
     const Results stored_ = stored_results(of_);
 };
 
 TEST_F(DeviceContraction, IsOffInFloats)
 {
-    cl::Kernel kernel = programs_.kernel("contraction.cl", "surfaces");
-    auto in = buffer<float>(3 * count), out = buffer<float>(count);
-    in.upload(queue_.cl(), of_.floats);
-    set_arguments(kernel, in, out);
-    queue_.begin("surfaces");
-    queue_.launch(kernel, count, 1, 1);
-    EXPECT_EQ(differing(out.download(queue_.cl()), stored_.surfaces), 0u);
+    const auto out = buffer<float>(count);
+    run("surfaces", of_.floats, out);
+    EXPECT_EQ(differing(out.download(queue.cl()), stored_.surfaces), 0u);
 }
 
 TEST_F(DeviceContraction, IsOffInDoubles)
 {
-    if (device_.cl.getInfo<CL_DEVICE_DOUBLE_FP_CONFIG>() == 0)
+    if (device.cl.getInfo<CL_DEVICE_DOUBLE_FP_CONFIG>() == 0)
         GTEST_SKIP() << "the device has no doubles";
-    cl::Kernel kernel = programs_.kernel("contraction.cl", "predicates");
-    auto in = buffer<double>(6 * count);
-    auto minors = buffer<double>(count), dots = buffer<double>(count),
-         halves = buffer<double>(count);
-    in.upload(queue_.cl(), of_.doubles);
-    set_arguments(kernel, in, minors, dots, halves);
-    queue_.begin("predicates");
-    queue_.launch(kernel, count, 1, 1);
-    EXPECT_EQ(differing(minors.download(queue_.cl()), stored_.minors), 0u);
-    EXPECT_EQ(differing(dots.download(queue_.cl()), stored_.dots), 0u);
-    EXPECT_EQ(differing(halves.download(queue_.cl()), stored_.halves), 0u);
+    const auto minors = buffer<double>(count), dots = buffer<double>(count),
+               halves = buffer<double>(count);
+    run("predicates", of_.doubles, minors, dots, halves);
+    EXPECT_EQ(differing(minors.download(queue.cl()), stored_.minors), 0u);
+    EXPECT_EQ(differing(dots.download(queue.cl()), stored_.dots), 0u);
+    EXPECT_EQ(differing(halves.download(queue.cl()), stored_.halves), 0u);
 }
 
 /// No option that lets a compiler round otherwise: what is asked for besides the dialect and numbers is known by name.
 TEST_F(DeviceContraction, IsNotAskedForByAnOption)
 {
-    folder_.write("nothing.cl", "kernel void nothing() {}\n");
-    const cl::Kernel kernel = programs_.kernel("nothing.cl", "nothing", {{"NUMBER", 1}});
+    folder.write("nothing.cl", "kernel void nothing() {}\n");
+    const cl::Kernel kernel = programs.kernel("nothing.cl", "nothing", {{"NUMBER", 1}});
     const auto program = kernel.getInfo<CL_KERNEL_PROGRAM>();
-    std::istringstream words(program.getBuildInfo<CL_PROGRAM_BUILD_OPTIONS>(device_.cl));
+    std::istringstream words(program.getBuildInfo<CL_PROGRAM_BUILD_OPTIONS>(device.cl));
     const std::set<std::string> known = {
         "-cl-std=CL1.2", "-cl-opt-disable", "-cl-fp32-correctly-rounded-divide-sqrt", "-D",
         "NUMBER=1u",     "_OPENCL_H_"};

@@ -1,26 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "device/device.h"
 
-#include <gtest/gtest.h>
-
 #include "device/arena.h"
-#include "device/cache_flush.h"
-#include "device/calibration.h"
-#include "device/copy_rate.h"
-#include "geometry/error.h"
+#include "device/yardsticks.h"
+#include "tests/device/testing.h"
 
 namespace bvhbench {
 namespace {
 
-std::string message_of(const auto& action)
-{
-    try {
-        action();
-    } catch (const Unavailable& error) {
-        return error.what();
-    }
-    return "no error";
-}
+class QueueOf : public OnDevice {};
+class Yardsticks : public OnDevice {};
+class CacheFlushed : public OnDevice {};
 
 TEST(OpenDevice, TakesAnIndexOrWordsInAnyCaseAndOrder)
 {
@@ -37,33 +27,23 @@ TEST(OpenDevice, TakesAnIndexOrWordsInAnyCaseAndOrder)
 
 TEST(OpenDevice, SaysWhatWasAskedAndWhatThereIs)
 {
-    for (const char* words : {"no such device", "77"}) {
-        const std::string message = message_of([&] { open_device(words); });
-        EXPECT_NE(message.find("'" + std::string(words) + "'"), std::string::npos) << message;
-        EXPECT_NE(message.find(device_names()[0]), std::string::npos) << message;
-        EXPECT_EQ(message.find('\n'), std::string::npos) << "one sentence";
-    }
-}
-
-TEST(Device, RefusesMoreMemoryThanItHas)
-{
-    const Device device = open_device("");
-    EXPECT_NO_THROW(device.take_memory(1024));
-    const std::string message = message_of([&] { device.take_memory(std::size_t{1} << 60); });
-    EXPECT_NE(message.find("1152921504606846976 bytes"), std::string::npos) << message;
+    for (const std::string words : {"no such device", "77"})
+        expect_sentence(message_of([&] { open_device(words); }),
+                        {"'" + words + "'", device_names()[0]});
 }
 
 TEST(Device, CountsWhatIsTakenUntilItIsGivenBack)
 {
     Device device = open_device("");
+    EXPECT_NO_THROW(device.take_memory(1024));
+    expect_sentence(message_of([&] { device.take_memory(std::size_t{1} << 60); }),
+                    {"1152921504606846976 bytes"});
     device.memory_limit = 1000;
     MemoryShare most = device.take_memory(600);
     const MemoryShare rest = Device(device).take_memory(400);
     EXPECT_EQ(*device.taken, 1000u);
-    const std::string message = message_of([&] { device.take_memory(1); });
-    for (const char* words : {"out of device memory: 1 bytes", "beside 1000 taken", "gives 1000"})
-        EXPECT_NE(message.find(words), std::string::npos) << message;
-    EXPECT_EQ(message.find('\n'), std::string::npos) << "one sentence";
+    expect_sentence(message_of([&] { device.take_memory(1); }),
+                    {"out of device memory: 1 bytes", "beside 1000 taken", "gives 1000"});
     most.reset();
     EXPECT_EQ(*device.taken, 400u);
     EXPECT_NO_THROW(device.take_memory(600));
@@ -79,34 +59,31 @@ TEST(Device, PredictsThatAnArenaWillNotFitBeforeItIsThere)
     EXPECT_EQ(*device.taken, 1u << 19);
 }
 
-TEST(Queue, KeepsStagesApartAndCountsWhatTheyMove)
+TEST_F(QueueOf, KeepsStagesApartAndCountsWhatTheyMove)
 {
-    const Device device = open_device("");
-    Queue queue(device);
     const cl::Buffer memory(device.context, CL_MEM_READ_WRITE, 4096);
     queue.begin("one");
     queue.clear(memory, 4096);
     queue.clear(memory, 1024);
+    queue.declare(1000);
     queue.on_host("two", [] {});
     const std::vector<StageTime> stages = queue.finish();
     ASSERT_EQ(stages.size(), 2u);
     EXPECT_EQ(stages[0].stage, "one");
     EXPECT_EQ(stages[0].launches, 2);
-    EXPECT_EQ(stages[0].moved_bytes, 5120);
+    EXPECT_EQ(stages[0].moved_bytes, 6120);
     EXPECT_GE(stages[0].span_ns, stages[0].busy_ns) << "gaps between launches count";
     EXPECT_GT(stages[0].busy_ns, 0);
     EXPECT_EQ(stages[0].wall_ns, 0);
     EXPECT_EQ(stages[1].launches, 0);
+    EXPECT_EQ(stages[1].moved_bytes, 0);
     EXPECT_GE(stages[1].wall_ns, 0);
     EXPECT_EQ(stages[1].elapsed_ns(), stages[1].wall_ns);
     EXPECT_TRUE(queue.finish().empty()) << "finish forgets";
 }
 
-TEST(CopyRate, IsPositiveAndFromTheSamplesItNames)
+TEST_F(Yardsticks, CopyAtARateFromTheSamplesTheyName)
 {
-    const Device device = open_device("");
-    Programs programs(device);
-    Queue queue(device);
     const CopyRate rate = measure_copy_rate(programs, queue);
     EXPECT_GT(rate.bytes_per_s, 1e8);
     EXPECT_GE(rate.buffer_bytes, std::size_t{64} << 20);
@@ -114,11 +91,16 @@ TEST(CopyRate, IsPositiveAndFromTheSamplesItNames)
     EXPECT_GE(rate.samples, 9);
 }
 
-TEST(CacheFlush, CountsWhatItHoldsAndGivesItBack)
+TEST_F(Yardsticks, LaunchForMoreThanNothingAndLessThanACopy)
 {
-    const Device device = open_device("");
-    Programs programs(device);
-    Queue queue(device);
+    const LaunchCost cost = measure_launch_cost(programs, queue);
+    EXPECT_GT(cost.ns, 0);
+    EXPECT_LT(cost.ns, 1e7) << "ten milliseconds to do nothing";
+    EXPECT_TRUE(queue.finish().empty());
+}
+
+TEST_F(CacheFlushed, CountsWhatItHoldsAndGivesItBack)
+{
     {
         const CacheFlush flush(programs, queue);
         EXPECT_GE(*device.taken, std::size_t{64} << 20);
@@ -130,11 +112,8 @@ TEST(CacheFlush, CountsWhatItHoldsAndGivesItBack)
     EXPECT_EQ(*device.taken, 0u);
 }
 
-TEST(CacheFlush, TouchesEveryVector)
+TEST_F(CacheFlushed, TouchesEveryVector)
 {
-    const Device device = open_device("");
-    Programs programs(device);
-    Queue queue(device);
     constexpr std::size_t count = 1001;  // no multiple of the work-items
     Arena arena = Arena::reserved(device, {count * sizeof(cl_uint4), 0});
     const Buffer<cl_uint4> memory = arena.take<cl_uint4>(count, Use::tree);

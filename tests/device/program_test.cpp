@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "device/program.h"
 
-#include <gtest/gtest.h>
-
-#include "device/queue.h"
-#include "geometry/error.h"
-#include "tests/device/kernel_folder.h"
+#include "tests/device/testing.h"
 
 namespace bvhbench {
 namespace {
+
+class Compiling : public OnDeviceWithKernels {};
 
 TEST(Sources, IncludeEachFileOnceAndKeepItsLines)
 {
@@ -16,51 +14,29 @@ TEST(Sources, IncludeEachFileOnceAndKeepItsLines)
     folder.write("a.h", "int a;\n");
     folder.write("b.h", "#include \"a.h\"\nint b;\n");
     folder.write("k.cl", "#include \"a.h\"\n#include \"b.h\"\nint k;\n");
-    EXPECT_EQ(folder.sources().flatten("k.cl"),
+    folder.write("gone.cl", "#include \"gone.h\"\n");
+    const Sources sources = folder.sources();
+    EXPECT_EQ(sources.flatten({"k.cl"}),
               "#line 1 \"k.cl\"\n#line 1 \"a.h\"\nint a;\n#line 2 \"k.cl\"\n#line 1 \"b.h\"\n"
               "#line 2 \"b.h\"\nint b;\n#line 3 \"k.cl\"\nint k;\n");
-}
-
-TEST(Sources, PutAHeaderBeforeAFileThatDoesNotNameIt)
-{
-    KernelFolder folder;
-    folder.write("a.h", "int a;\n");
-    folder.write("b.h", "#include \"a.h\"\n");
-    folder.write("k.cl", "#include \"a.h\"\nint k;\n");
-    EXPECT_EQ(folder.sources().flatten({"b.h", "k.cl"}),
-              "#line 1 \"b.h\"\n#line 1 \"a.h\"\nint a;\n#line 2 \"b.h\"\n#line 1 \"k.cl\"\n"
-              "#line 2 \"k.cl\"\nint k;\n");
-}
-
-TEST(Sources, NameTheFileThatIsNotThere)
-{
-    KernelFolder folder;
-    folder.write("k.cl", "#include \"gone.h\"\n");
-    EXPECT_THROW(
-        {
-            try {
-                folder.sources().flatten("k.cl");
-            } catch (const Unavailable& error) {
-                EXPECT_STREQ(error.what(), "kernel source 'gone.h' is not there");
-                throw;
-            }
-        },
-        Unavailable);
+    // A header before a file that does not name it.
+    EXPECT_EQ(sources.flatten({"b.h", "k.cl"}),
+              "#line 1 \"b.h\"\n#line 1 \"a.h\"\nint a;\n#line 2 \"b.h\"\nint b;\n"
+              "#line 1 \"k.cl\"\n#line 2 \"k.cl\"\n#line 3 \"k.cl\"\nint k;\n");
+    EXPECT_EQ(message_of([&] { sources.flatten({"gone.cl"}); }),
+              "kernel source 'gone.h' is not there");
 }
 
 TEST(Sources, AreEmbeddedInTheProgram)
 {
     EXPECT_EQ(Sources::embedded().origin(), "embedded");
-    EXPECT_NE(Sources::embedded().flatten("device/limits.cl").find("kernel void"),
+    EXPECT_NE(Sources::embedded().flatten({"device/limits.cl"}).find("kernel void"),
               std::string::npos);
 }
 
-TEST(Programs, CompileOnceForTheSameTextAndDefines)
+TEST_F(Compiling, CompileOnceForTheSameTextAndDefines)
 {
-    KernelFolder folder;
     folder.write("k.cl", "kernel void k(global uint* out) { out[0] = VALUE; }\n");
-    const Device device = open_device("", folder.sources());
-    Programs programs(device);
     programs.kernel("k.cl", "k", {{"VALUE", 1}});
     const std::int64_t once = programs.compile_ns();
     EXPECT_GT(once, 0);
@@ -70,12 +46,9 @@ TEST(Programs, CompileOnceForTheSameTextAndDefines)
     EXPECT_GT(programs.compile_ns(), once);
 }
 
-TEST(Programs, FailWithTheFileTheLineAndTheOptions)
+TEST_F(Compiling, FailWithTheFileTheLineAndTheOptions)
 {
-    KernelFolder folder;
     folder.write("k.cl", "kernel void k()\n{\n    nonsense();\n}\n");
-    const Device device = open_device("", folder.sources());
-    Programs programs(device);
     try {
         programs.kernel("k.cl", "k", {{"GROUP_SIZE", 64}});
         FAIL() << "it built";
@@ -91,31 +64,25 @@ TEST(Programs, FailWithTheFileTheLineAndTheOptions)
     }
 }
 
-TEST(Programs, DeclareBuiltInFunctionsThemselvesOnPoclAlone)
+TEST_F(Compiling, DeclareBuiltInFunctionsThemselvesOnPoclAlone)
 {
-    KernelFolder folder;
     folder.write("k.cl",
                  "#ifdef BVHBENCH_DEVICE_BUILTINS_CLH\nkernel void ours() {}\n#else\n"
                  "kernel void theirs() {}\n#endif\n");
-    const Device device = open_device("", folder.sources());
     const cl::Platform platform(device.cl.getInfo<CL_DEVICE_PLATFORM>());
     const bool is_pocl =
         platform.getInfo<CL_PLATFORM_VERSION>().find("PoCL 3.1") != std::string::npos;
-    Programs one(device), three(device, "CL3.0");
-    EXPECT_NO_THROW(one.kernel("k.cl", is_pocl ? "ours" : "theirs"));
+    Programs three(device, "CL3.0");
+    EXPECT_NO_THROW(programs.kernel("k.cl", is_pocl ? "ours" : "theirs"));
     EXPECT_NO_THROW(is_pocl ? three.kernel("k.cl", "theirs") : cl::Kernel());
 }
 
-TEST(Programs, BuildWithFunctionsThatAreNotDeclaredToo)
+TEST_F(Compiling, BuildWithFunctionsThatAreNotDeclaredToo)
 {
-    KernelFolder folder;
     folder.write("k.cl",
                  "kernel void k(global float* out) { out[0] = sqrt(out[0]) + mad24(2, 3, 4); }\n");
-    const Device device = open_device("", folder.sources());
-    Programs programs(device);
-    Queue queue(device);
     cl::Kernel kernel = programs.kernel("k.cl", "k");
-    Buffer<float> out(cl::Buffer(device.context, CL_MEM_READ_WRITE, sizeof(float)), 1);
+    auto out = buffer<float>(1);
     const float nine = 9;
     out.upload(queue.cl(), {&nine, 1});
     set_arguments(kernel, out);

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "device/tuning.h"
 
-#include <gtest/gtest.h>
-
-#include "device/launch_cost.h"
-#include "geometry/error.h"
+#include "tests/device/testing.h"
 
 namespace bvhbench {
 namespace {
@@ -71,56 +68,22 @@ TEST(Device, IsTunedByWhatItIsGiven)
     EXPECT_EQ(device.tuned(keys), 7u);
 }
 
-std::string refusal(const Device& device, std::size_t group_size, std::size_t local_bytes)
-{
-    try {
-        device.require_group("a part", group_size, local_bytes);
-    } catch (const Unavailable& error) {
-        return error.what();
-    }
-    return {};
-}
-
 TEST(Device, RefusesGroupsThatItDoesNotHaveInOneSentence)
 {
     const Device device = open_device("");
     const std::size_t most = device.cl.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>();
     const std::size_t local = device.cl.getInfo<CL_DEVICE_LOCAL_MEM_SIZE>();
-    EXPECT_EQ(refusal(device, most, local), "");
-    EXPECT_EQ(refusal(device, most + 1, 0), "a part needs groups of " + std::to_string(most + 1) +
-                                                " work-items, and " + device.name() +
-                                                " has them up to " + std::to_string(most));
+    const auto refusal = [&](std::size_t group_size, std::size_t local_bytes) {
+        return message_of([&] { device.require_group("a part", group_size, local_bytes); });
+    };
+    EXPECT_EQ(refusal(most, local), "");
+    EXPECT_EQ(refusal(most + 1, 0), "a part needs groups of " + std::to_string(most + 1) +
+                                        " work-items, and " + device.name() + " has them up to " +
+                                        std::to_string(most));
     const std::size_t over = local + 9;  // some drivers say 8 more than a kernel declares
-    EXPECT_EQ(refusal(device, 1, over), "a part needs " + std::to_string(over) +
-                                            " bytes of local memory, and a group has " +
-                                            std::to_string(local) + " on " + device.name());
-}
-
-TEST(LaunchCost, IsMoreThanNothingAndLessThanACopy)
-{
-    const Device device = open_device("");
-    Programs programs(device);
-    Queue queue(device);
-    const LaunchCost cost = measure_launch_cost(programs, queue);
-    EXPECT_GT(cost.ns, 0);
-    EXPECT_LT(cost.ns, 1e7) << "ten milliseconds to do nothing";
-    EXPECT_TRUE(queue.finish().empty());
-}
-
-TEST(Queue, AddsWhatIsDeclaredToTheStageBegun)
-{
-    const Device device = open_device("");
-    Queue queue(device);
-    const cl::Buffer memory(device.context, CL_MEM_READ_WRITE, 64);
-    queue.begin("one");
-    queue.clear(memory, 64);
-    queue.declare(1000);
-    queue.begin("two");
-    queue.clear(memory, 32);
-    const std::vector<StageTime> stages = queue.finish();
-    EXPECT_EQ(stages.at(0).moved_bytes, 1064);
-    EXPECT_EQ(stages.at(0).launches, 1);
-    EXPECT_EQ(stages.at(1).moved_bytes, 32);
+    EXPECT_EQ(refusal(1, over), "a part needs " + std::to_string(over) +
+                                    " bytes of local memory, and a group has " +
+                                    std::to_string(local) + " on " + device.name());
 }
 
 }  // namespace

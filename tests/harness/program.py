@@ -55,8 +55,8 @@ def copied_kernels(folder: str) -> str:
 
 
 def planted_kernels(folder: str, pattern: str, replacement: str) -> str:
-    """The same, those of karras' topology changed."""
-    planted = pathlib.Path(copied_kernels(folder), "baselines/radix/karras_topology.cl")
+    """The same, those of karras changed."""
+    planted = pathlib.Path(copied_kernels(folder), "baselines/radix/karras.cl")
     text, kernels = re.subn(pattern, replacement, planted.read_text())
     assert kernels > 0
     planted.write_text(text)

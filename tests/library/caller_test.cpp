@@ -32,23 +32,17 @@ kernel void slow_move(global float* points, const uint count, const float x)
 /// Enqueued on the caller's queue, without waiting.
 void move_slowly(const Caller& caller, cl_mem points, std::size_t count, float x)
 {
-    const cl_program program = clCreateProgramWithSource(
-        caller.context, 1, const_cast<const char**>(&slow_move), nullptr, nullptr);
-    clBuildProgram(program, 1, &caller.device, "", nullptr, nullptr);
-    const cl_kernel kernel = clCreateKernel(program, "slow_move", nullptr);
-    const auto number = static_cast<cl_uint>(count);
-    clSetKernelArg(kernel, 0, sizeof points, &points);
-    clSetKernelArg(kernel, 1, sizeof number, &number);
-    clSetKernelArg(kernel, 2, sizeof x, &x);
-    const std::size_t one = 1;
-    ASSERT_EQ(
-        clEnqueueNDRangeKernel(caller.queue, kernel, 1, nullptr, &one, &one, 0, nullptr, nullptr),
-        CL_SUCCESS);
-    clReleaseKernel(kernel);
-    clReleaseProgram(program);
+    cl::Kernel kernel(cl::Program(cl::Context(caller.context, true), slow_move, true), "slow_move");
+    kernel.setArg(0, cl::Buffer(points, true));
+    kernel.setArg(1, static_cast<cl_uint>(count));
+    kernel.setArg(2, x);
+    cl::CommandQueue(caller.queue, true)
+        .enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(1), cl::NDRange(1));
 }
 
-TEST(LibraryCaller, MayHaveAnyQueue)
+class LibraryCaller : public OfACaller {};
+
+TEST(LibraryQueues, MayHaveAnyQueue)
 {
     for (const cl_command_queue_properties kind : kinds_of_queue) {
         Caller caller(kind);
@@ -64,7 +58,7 @@ TEST(LibraryCaller, MayHaveAnyQueue)
     }
 }
 
-TEST(LibraryCaller, FindsCallsWhereHePutThemAmongHisCommands)
+TEST(LibraryQueues, FindsCallsWhereHePutThemAmongHisCommands)
 {
     for (const cl_command_queue_properties kind : kinds_of_queue) {
         Caller caller(kind);
@@ -88,7 +82,7 @@ TEST(LibraryCaller, FindsCallsWhereHePutThemAmongHisCommands)
     }
 }
 
-TEST(LibraryCaller, GetsTimesFromAQueueThatHasThem)
+TEST(LibraryQueues, GetsTimesFromAQueueThatHasThem)
 {
     for (const cl_command_queue_properties kind : kinds_of_queue) {
         Caller caller(kind);
@@ -115,10 +109,8 @@ TEST(LibraryCaller, GetsTimesFromAQueueThatHasThem)
     }
 }
 
-TEST(LibraryCaller, PaysForMemoryOnceASize)
+TEST_F(LibraryCaller, PaysForMemoryOnceASize)
 {
-    Caller caller;
-    oibvh::Device device(caller.queue);
     oibvh::Tree tree(device);
     const LibraryMesh first = soup_mesh(700, 1), second = soup_mesh(700, 2), small = soup_mesh(20);
     tree.build(first.on_host());
@@ -147,10 +139,8 @@ TEST(LibraryCaller, PaysForMemoryOnceASize)
     EXPECT_EQ(device.memory(), 0u);
 }
 
-TEST(LibraryCaller, MayHaveManyTreesAtATime)
+TEST_F(LibraryCaller, MayHaveManyTreesAtATime)
 {
-    Caller caller;
-    const oibvh::Device device(caller.queue);
     std::vector<oibvh::Tree> trees;
     std::vector<LibraryMesh> meshes;
     for (unsigned k = 0; k < 6; ++k) {
@@ -174,7 +164,7 @@ TEST(LibraryCaller, MayHaveManyTreesAtATime)
     EXPECT_EQ(device.compile_seconds(), compiled);  // for all of a Device once
 }
 
-TEST(LibraryCaller, MayUseTreesOfADeviceFromSeveralThreads)
+TEST(LibraryQueues, MayUseTreesOfADeviceFromSeveralThreads)
 {
     Caller caller(CL_QUEUE_PROFILING_ENABLE);  // whose stages all threads' calls write down
     const oibvh::Device device(caller.queue);
@@ -212,9 +202,8 @@ cl_uint references_after(const Caller& caller, cl_uint expected)
     return caller.references();
 }
 
-TEST(LibraryCaller, GetsEveryReferenceBack)
+TEST_F(LibraryCaller, GetsEveryReferenceBack)
 {
-    Caller caller;
     const LibraryMesh mesh = soup_mesh(300), other = soup_mesh(77);
     const oibvh::DeviceTriangles first = mesh.on_device(caller), second = other.on_device(caller);
     const std::vector<oibvh::Box> boxes = mesh.boxes();
@@ -235,7 +224,7 @@ TEST(LibraryCaller, GetsEveryReferenceBack)
     EXPECT_EQ(references_after(caller, before), before);
 }
 
-TEST(LibraryCaller, KeepsHisEnvironment)
+TEST_F(LibraryCaller, KeepsHisEnvironment)
 {
     const auto variables = [] {
         std::vector<std::string> all;
@@ -243,7 +232,6 @@ TEST(LibraryCaller, KeepsHisEnvironment)
             all.emplace_back(*word);
         return all;
     };
-    Caller caller;
     setenv("BVHBENCH_KERNELS", "/nowhere", 1);  // what the program would read its kernels from
     setenv("BVHBENCH_TUNING", "/nowhere", 1);
     const std::vector<std::string> before = variables();
@@ -258,18 +246,15 @@ TEST(LibraryCaller, KeepsHisEnvironment)
 }
 
 /// Run once more with two devices of PoCL's, CMakeLists.txt says how.
-TEST(LibraryCaller, MayHaveAContextOfTwoDevices)
+TEST(LibraryQueues, MayHaveAContextOfTwoDevices)
 {
-    cl_platform_id platform = nullptr;
-    const cl_device_id one = open_device("").cl();
-    clGetDeviceInfo(one, CL_DEVICE_PLATFORM, sizeof platform, &platform, nullptr);
-    cl_device_id devices[2];
-    cl_uint count = 0;
-    clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, 2, devices, &count);
-    if (count < 2)
+    std::vector<cl::Device> devices;
+    cl::Platform(open_device("").cl.getInfo<CL_DEVICE_PLATFORM>())
+        .getDevices(CL_DEVICE_TYPE_ALL, &devices);
+    if (devices.size() < 2)
         GTEST_SKIP() << "there is one device";
     for (const std::vector<cl_device_id>& order :
-         {std::vector{devices[0], devices[1]}, std::vector{devices[1], devices[0]}}) {
+         {std::vector{devices[0](), devices[1]()}, std::vector{devices[1](), devices[0]()}}) {
         Caller caller(0, order);  // a queue of the last
         const LibraryMesh mesh = soup_mesh(700);
         oibvh::Tree tree(caller.queue);

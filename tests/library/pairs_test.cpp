@@ -42,10 +42,11 @@ INSTANTIATE_TEST_SUITE_P(Named, LibraryCollider,
                          testing::Values("none", "leaf", "group", "block", "bvtt"),
                          [](const auto& collider) { return std::string(collider.param); });
 
-TEST(LibraryPairs, OfBoxesAreThoseOfTheirTriangles)
+class LibraryPairs : public OfACaller {};
+
+TEST_F(LibraryPairs, OfBoxesAreThoseOfTheirTriangles)
 {
-    Caller caller;
-    oibvh::Tree tree(caller.queue);
+    oibvh::Tree tree(device);
     for (const std::size_t size : {1, 2, 3, 700, 65}) {
         const LibraryMesh mesh = soup_mesh(size);
         const std::vector<oibvh::Box> boxes = mesh.boxes();
@@ -57,13 +58,12 @@ TEST(LibraryPairs, OfBoxesAreThoseOfTheirTriangles)
 }
 
 /// Every triangle overlaps every other: 499,500 pairs, and room for 8,000 at first.
-TEST(LibraryPairs, GetRoomWhenTheyAreMore)
+TEST_F(LibraryPairs, GetRoomWhenTheyAreMore)
 {
-    Caller caller;
     LibraryMesh mesh = soup_mesh(1);
     mesh.faces.resize(1000, mesh.faces.front());
     for (const char* collider : {"leaf", "group", "bvtt"}) {
-        oibvh::Tree tree(caller.queue, {.collider = collider});
+        oibvh::Tree tree(device, {.collider = collider});
         tree.build(mesh.on_host());
         EXPECT_EQ(found_pairs(tree, caller).size(), 499500u);
         const std::size_t taken = tree.memory();
@@ -111,12 +111,11 @@ void expect_right(oibvh::Tree& tree, const Caller& caller, const ThreeObjects& o
         << what;
 }
 
-TEST(LibraryPairs, OfObjectsAreToldApart)
+TEST_F(LibraryPairs, OfObjectsAreToldApart)
 {
-    Caller caller;
     const ThreeObjects objects;
     for (const char* collider : {"leaf", "group", "block", "bvtt"}) {
-        oibvh::Tree tree(caller.queue, {.collider = collider});
+        oibvh::Tree tree(device, {.collider = collider});
         tree.build(objects.mesh.on_host(), objects.sizes);
         EXPECT_EQ(tree.buffers().object_count, 3u);
         EXPECT_EQ(tree.levels(1).back().node_count, 300u);
@@ -129,10 +128,9 @@ TEST(LibraryPairs, OfObjectsAreToldApart)
     }
 }
 
-TEST(LibraryPairs, FollowTrianglesThatMove)
+TEST_F(LibraryPairs, FollowTrianglesThatMove)
 {
     using oibvh::Update;
-    Caller caller;
     const std::vector<std::vector<Update>> ways = {
         {Update::rebuild, Update::rebuild, Update::rebuild},
         {Update::refit, Update::refit, Update::refit},
@@ -142,7 +140,7 @@ TEST(LibraryPairs, FollowTrianglesThatMove)
         {Update::refit, Update::keep, Update::rebuild}};
     for (const bool sorted : {false, true}) {
         ThreeObjects objects;
-        oibvh::Tree tree(caller.queue, {.sorted_leaves = sorted});
+        oibvh::Tree tree(device, {.sorted_leaves = sorted});
         tree.build(objects.mesh.on_host(), objects.sizes);
         for (std::size_t way = 0; way < ways.size(); ++way) {
             for (std::size_t object = 0; object < 3; ++object)
@@ -157,11 +155,10 @@ TEST(LibraryPairs, FollowTrianglesThatMove)
     }
 }
 
-TEST(LibraryPairs, OfOneObjectFollowItToo)
+TEST_F(LibraryPairs, OfOneObjectFollowItToo)
 {
-    Caller caller;
     LibraryMesh mesh = soup_mesh(300);
-    oibvh::Tree tree(caller.queue);
+    oibvh::Tree tree(device);
     tree.build(mesh.on_host());
     for (const oibvh::Update update : {oibvh::Update::refit, oibvh::Update::rebuild}) {
         for (std::size_t k = 0; k < mesh.points.size(); ++k)
@@ -179,21 +176,15 @@ std::vector<oibvh::Pair> each_with_each(const LibraryMesh& a, const LibraryMesh&
 {
     std::vector<oibvh::Pair> pairs;
     const auto first = a.boxes(), second = b.boxes();
-    const auto apart = [](float end, float begin) { return end < begin; };
     for (std::uint32_t i = 0; i < first.size(); ++i)
-        for (std::uint32_t j = 0; j < second.size(); ++j) {
-            const oibvh::Box &x = first[i], &y = second[j];
-            if (!apart(x.max_x, y.min_x) && !apart(y.max_x, x.min_x) && !apart(x.max_y, y.min_y) &&
-                !apart(y.max_y, x.min_y) && !apart(x.max_z, y.min_z) && !apart(y.max_z, x.min_z))
+        for (std::uint32_t j = 0; j < second.size(); ++j)
+            if (overlap(aabb_of(first[i]), aabb_of(second[j])))
                 pairs.push_back({i, j});
-        }
     return pairs;
 }
 
-TEST(LibraryPairs, BetweenTreesBuiltApartAreThoseOfEachWithEach)
+TEST_F(LibraryPairs, BetweenTreesBuiltApartAreThoseOfEachWithEach)
 {
-    Caller caller;
-    const oibvh::Device device(caller.queue);
     for (const bool sorted : {false, true})
         for (const char* collider : {"leaf", "group", "block", "bvtt"}) {
             const oibvh::Options options{.sorted_leaves = sorted, .collider = collider};
@@ -213,20 +204,12 @@ TEST(LibraryPairs, BetweenTreesBuiltApartAreThoseOfEachWithEach)
                     EXPECT_EQ(pairs, each_with_each(mesh, other)) << collider << ' ' << first;
                 }
                 EXPECT_EQ(found_pairs(a, caller), swept_pairs(mesh));  // its own are as they were
+                a.find_pairs(a);
+                std::vector<oibvh::Pair> with_itself = a.read_pairs();
+                std::sort(with_itself.begin(), with_itself.end());
+                EXPECT_EQ(with_itself, each_with_each(mesh, mesh));
             }
         }
-}
-
-TEST(LibraryPairs, BetweenATreeAndItselfAreThoseOfEachWithEach)
-{
-    Caller caller;
-    const LibraryMesh mesh = soup_mesh(50);
-    oibvh::Tree tree(caller.queue);
-    tree.build(mesh.on_host());
-    tree.find_pairs(tree);
-    std::vector<oibvh::Pair> pairs = tree.read_pairs();
-    std::sort(pairs.begin(), pairs.end());
-    EXPECT_EQ(pairs, each_with_each(mesh, mesh));
 }
 
 }  // namespace

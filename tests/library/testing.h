@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -87,6 +86,11 @@ private:
     std::vector<cl_mem> buffers_;
 };
 
+inline Aabb aabb_of(const oibvh::Box& box)
+{
+    return {box.min_x, box.min_y, box.min_z, box.max_x, box.max_y, box.max_z};
+}
+
 /// A mesh in the library's words.
 struct LibraryMesh {
     std::vector<oibvh::Point> points;
@@ -119,20 +123,15 @@ struct LibraryMesh {
     }
 };
 
-inline LibraryMesh library_mesh(std::span<const Point> points, std::span<const Face> faces)
-{
-    LibraryMesh mesh;
-    for (const Point point : points)
-        mesh.points.push_back({point.x, point.y, point.z});
-    for (const Face face : faces)
-        mesh.faces.push_back({face.a, face.b, face.c});
-    return mesh;
-}
-
 inline LibraryMesh scene_mesh(const std::string& name)
 {
     const Scene scene = load_scene(name, {});
-    return library_mesh(scene.frames.front(), scene.faces);
+    LibraryMesh mesh;
+    for (const Point point : scene.frames.front())
+        mesh.points.push_back({point.x, point.y, point.z});
+    for (const Face face : scene.faces)
+        mesh.faces.push_back({face.a, face.b, face.c});
+    return mesh;
 }
 
 /// Triangles anywhere, each about as large as the way to its neighbours.
@@ -181,6 +180,13 @@ inline PairList found_pairs(oibvh::Tree& tree, const Caller& caller,
     EXPECT_EQ(pairs, caller.values_of<oibvh::Pair>(found.pairs, pairs.size()));
     return pair_list(pairs);
 }
+
+/// A test with a caller of its own.
+class OfACaller : public testing::Test {
+protected:
+    Caller caller;
+    oibvh::Device device{caller.queue};
+};
 
 /// The sentence of the `E` that `work` throws.
 template <class E, class Work>

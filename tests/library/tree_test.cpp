@@ -4,25 +4,15 @@
 #include <cstring>
 
 #include "builders/implicit/tree.h"
+#include "builders/spell_out.h"
 #include "oibvh/oibvh.h"
+#include "tests/builders/stage_testing.h"
 #include "tests/library/testing.h"
 
 namespace bvhbench {
 namespace {
 
 constexpr std::size_t telling_sizes[] = {1, 2, 3, 4, 5, 7, 8, 9, 63, 64, 65, 1000};
-
-/// A device, programs and a queue as the program has them.
-struct Program {
-    Device device = open_device("");
-    Programs programs{device};
-    Queue queue{device};
-};
-Program& program()
-{
-    static Program& program = *new Program;
-    return program;
-}
 
 template <class T, class U>
 bool same_bytes(const std::vector<T>& a, const std::vector<U>& b)
@@ -40,18 +30,18 @@ struct Built {
 
     Built(const LibraryMesh& over, MakeBuilder make, const BuildOptions& options)
         : mesh(over.mesh())
-        , input(upload(program().device, program().queue, mesh.points, mesh.faces))
-        , builder(make(program().programs, options))
+        , input(upload(bench().device, bench().queue, mesh.points, mesh.faces))
+        , builder(make(bench().programs, options))
     {
         builder->reserve(mesh.faces.size());
-        tree = &dynamic_cast<const ImplicitTree&>(builder->build(input, program().queue));
-        program().queue.finish();
+        tree = &dynamic_cast<const ImplicitTree&>(builder->build(input, bench().queue));
+        bench().queue.finish();
     }
 };
 
 void expect_same(const oibvh::HostTree& read, const ImplicitTree& tree, const std::string& what)
 {
-    const cl::CommandQueue& queue = program().queue.cl();
+    const cl::CommandQueue& queue = bench().queue.cl();
     EXPECT_TRUE(same_bytes(read.nodes, tree.nodes.download(queue))) << what;
     EXPECT_TRUE(same_bytes(read.leaf_boxes, tree.leaf_boxes.download(queue))) << what;
     EXPECT_TRUE(same_bytes(read.ids, tree.ids.download(queue))) << what;
@@ -88,9 +78,6 @@ INSTANTIATE_TEST_SUITE_P(Named, LibraryBuilder, testing::Values("oibvh-single", 
 HostTree told(const oibvh::HostTree& read, const std::vector<oibvh::Level>& levels,
               const oibvh::Object& object)
 {
-    const auto aabb = [](const oibvh::Box& box) {
-        return Aabb{box.min_x, box.min_y, box.min_z, box.max_x, box.max_y, box.max_z};
-    };
     HostTree tree;
     std::size_t below = 0;
     for (std::size_t level = 0; level < levels.size(); ++level) {
@@ -100,9 +87,9 @@ HostTree told(const oibvh::HostTree& read, const std::vector<oibvh::Level>& leve
             const bool is_leaf = level + 1 == levels.size();
             if (is_leaf)
                 node.primitive = static_cast<int>(read.ids[object.first + p]);
-            node.box = aabb(is_leaf && !read.leaf_boxes.empty()
-                                ? read.leaf_boxes[static_cast<std::size_t>(node.primitive)]
-                                : read.nodes[object.nodes + levels[level].first_slot + p]);
+            node.box = aabb_of(is_leaf && !read.leaf_boxes.empty()
+                                   ? read.leaf_boxes[static_cast<std::size_t>(node.primitive)]
+                                   : read.nodes[object.nodes + levels[level].first_slot + p]);
             if (is_leaf)
                 continue;
             node.child[0] = static_cast<int>(below + 2 * p);
@@ -113,19 +100,11 @@ HostTree told(const oibvh::HostTree& read, const std::vector<oibvh::Level>& leve
     return tree;
 }
 
-bool same_trees(const HostTree& a, const HostTree& b)
-{
-    return std::equal(a.nodes.begin(), a.nodes.end(), b.nodes.begin(), b.nodes.end(),
-                      [](const HostTree::Node& x, const HostTree::Node& y) {
-                          return std::memcmp(&x.box, &y.box, sizeof(Aabb)) == 0 &&
-                                 x.child == y.child && x.primitive == y.primitive;
-                      });
-}
+class Library : public OfACaller {};
 
-TEST(Library, HasTheSameTreeOfEveryKindOfInput)
+TEST_F(Library, HasTheSameTreeOfEveryKindOfInput)
 {
-    Caller caller;
-    oibvh::Tree tree(caller.queue);
+    oibvh::Tree tree(device);
     for (const std::size_t size : {1, 2, 3, 1000}) {
         const LibraryMesh mesh = soup_mesh(size);
         const std::vector<oibvh::Box> boxes = mesh.boxes();
@@ -142,12 +121,11 @@ TEST(Library, HasTheSameTreeOfEveryKindOfInput)
     }
 }
 
-TEST(Library, TellsWhereItsTreeIs)
+TEST_F(Library, TellsWhereItsTreeIs)
 {
-    Caller caller;
     const LibraryMesh mesh = soup_mesh(37);
     for (const bool sorted : {false, true}) {
-        oibvh::Tree tree(caller.queue, {.sorted_leaves = sorted});
+        oibvh::Tree tree(device, {.sorted_leaves = sorted});
         tree.build(mesh.on_host());
         const oibvh::Buffers buffers = tree.buffers();
         const oibvh::HostTree read = tree.read();
@@ -164,18 +142,17 @@ TEST(Library, TellsWhereItsTreeIs)
     }
 }
 
-TEST(Library, LevelsNodesAndIdsAreAllThereIsToKnow)
+TEST_F(Library, LevelsNodesAndIdsAreAllThereIsToKnow)
 {
-    Caller caller;
     for (const bool sorted : {false, true}) {
-        oibvh::Tree tree(caller.queue, {.order = "morton30", .sorted_leaves = sorted});
+        oibvh::Tree tree(device, {.order = "morton30", .sorted_leaves = sorted});
         for (const std::size_t size : telling_sizes) {
             const LibraryMesh mesh = soup_mesh(size);
             tree.build(mesh.on_host());
             const Built built(mesh, make_oibvh_multi, {.sorted_leaves = sorted});
             const oibvh::HostTree read = tree.read();
-            EXPECT_TRUE(
-                same_trees(told(read, tree.levels(), read.objects[0]), built.tree->spelled_out()))
+            EXPECT_EQ(tree_hash(told(read, tree.levels(), read.objects[0])),
+                      tree_hash(built.tree->spelled_out()))
                 << size;
         }
     }

@@ -5,9 +5,11 @@
 // check: -DCODE_WORDS=1 -DSORTED_LEAVES=1 -DBOX_FORMAT=3u
 // check: -DCODE_WORDS=1 -DSORTED_LEAVES=1 -DBOX_FORMAT=4u
 //
-// [Karras2012, Sec. 4]: all inner nodes at once, each from the codes alone. Names in the paper: common_of is
-// delta, `farthest_other` is delta_min, `reach` is l, `to_split` is s, `split` is gamma.
-#include "baselines/radix/nodes.clh"
+// [Karras2012]. Section 4: all inner nodes at once, each from the codes alone. Names in the paper: common_of is delta,
+// `farthest_other` is delta_min, `reach` is l, `to_split` is s, `split` is gamma. Section 5: boxes from the leaves up along
+// parent pointers; the second of two children to arrive goes on. It keeps its own box in registers and reads its sibling's.
+#include "baselines/radix/leaves.clh"
+#include "device/handoff.clh"
 
 /// The largest reach below `bound`, a power of two, for which leaf i and the leaf that far away in `step` have
 /// more than `least` in common.
@@ -57,4 +59,37 @@ kernel void topology(global const Code* restrict codes, global RadixWord* restri
     const Chunk chunk = own_chunk(leaves - 1u);
     for (uint i = chunk.first; i < chunk.end; ++i)
         make_node(codes, nodes, parents, leaves, i);
+}
+
+/// From `leaf` upwards, until the sibling has yet to come or the root has its box.
+static inline void climb_from(global const BoxWord* leaf_boxes, global const uint* ids,
+                              global RadixWord* nodes, global const uint* parents,
+                              volatile global Arrivals* arrivals, const uint leaves,
+                              const uint leaf)
+{
+    Aabb box = leaf_box(leaf_boxes, ids, leaf);
+    uint child = radix_child(leaf, true);
+    uint parent = parents[leaves - 1u + leaf];
+    for (;;) {
+        if (!arrived_second(&arrivals[parent]))
+            return;
+        forget_arrivals(&arrivals[parent]);
+        const uint left = node_left(nodes, parent), right = node_right(nodes, parent);
+        box = merged(box, child_box(leaf_boxes, ids, nodes, child == left ? right : left));
+        store_node(nodes, parent, box, left, right);
+        if (parent == 0u)
+            return;
+        child = parent;
+        parent = parents[child];
+    }
+}
+
+/// `nodes` has children and gets boxes. `arrivals` is zero, one an inner node, and is zero again afterwards.
+kernel void boxes(global const BoxWord* restrict leaf_boxes, global const uint* restrict ids,
+                  global RadixWord* nodes, global const uint* restrict parents,
+                  volatile global Arrivals* arrivals, const uint leaves)
+{
+    const Chunk chunk = own_chunk(leaves);
+    for (uint leaf = chunk.first; leaf < chunk.end; ++leaf)
+        climb_from(leaf_boxes, ids, nodes, parents, arrivals, leaves, leaf);
 }

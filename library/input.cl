@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Whether there is anything in an input that no tree can be built over. *is_bad is 0 before; 1 after if there is. Which one
-// it is, the host finds out.
+// Inputs: whether there is anything in one that no tree can be built over, and boxes as triangles. *is_bad is 0 before; 1
+// after if there is something. Which one it is, the host finds out.
 #include "builders/stages/chunk.clh"
 #include "geometry/triangle.h"
 
@@ -42,4 +42,15 @@ kernel void check_boxes(global const Point* restrict corners, const uint count, 
     }
     if (!is_good)
         *is_bad = 1u;
+}
+
+/// Corners 2k and 2k + 1 are the least and the greatest of box k, and so is the box of the triangle that has the one of them
+/// once and the other twice.
+kernel void box_faces(global Face* restrict faces, const uint count)
+{
+    const Chunk chunk = own_chunk(count);
+    for (uint k = chunk.first; k < chunk.end; ++k) {
+        const Face face = {2u * k, 2u * k + 1u, 2u * k + 1u};
+        faces[k] = face;
+    }
 }

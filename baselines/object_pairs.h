@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "collide/oracles/sweep.h"
+#include "collide/relation.h"
+
+namespace bvhbench {
+
+/// Calls meet(a, b) for each two objects whose boxes overlap, and meet(a, a) for each object, as `among` wants.
+template <class Object, class Meet>
+void for_near_objects(const std::vector<std::unique_ptr<Object>>& objects,
+                      std::span<const Aabb> boxes, Among among, const Meet& meet)
+{
+    if (among != Among::within_objects) {
+        const PairList near = overlapping_pairs(boxes);
+        for (const Pair pair : near.pairs())
+            meet(*objects[pair.a], *objects[pair.b]);
+    }
+    if (among != Among::between_objects)
+        for (const auto& object : objects)
+            meet(*object, *object);
+}
+
+}  // namespace bvhbench

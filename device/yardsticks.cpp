@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+#include "device/yardsticks.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace bvhbench {
+namespace {
+
+constexpr const char* kernels = "device/limits.cl";
+
+/// Steps of a head start, of some four cycles each: 40 to 60 µs on a GPU of 1 to 2 GHz.
+constexpr cl_uint busy_rounds = 20'000;
+
+// A calibration takes some 100 to 200 µs on two cores, some 30 on a large GPU: short beside what it stands between.
+constexpr std::size_t cpu_vectors = 1u << 15;
+constexpr std::size_t gpu_vectors = 1u << 22;
+constexpr cl_uint calibration_rounds = 8;
+constexpr std::size_t calibration_launches = 3;
+
+template <class T>
+T median(std::vector<T> values)
+{
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+std::size_t compute_units(const Device& device)
+{
+    return device.cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
+}
+
+/// Vectors that fill twice the caches that the device says it has, but at least 64 MiB, which is past most last levels,
+/// since some say too little, and at most `most` bytes.
+std::size_t vectors_past_caches(const Device& device, std::size_t most)
+{
+    const std::size_t cache = device.cl.getInfo<CL_DEVICE_GLOBAL_MEM_CACHE_SIZE>();
+    return std::min(std::max(2 * cache, std::size_t{64} << 20), most) / sizeof(cl_uint4);
+}
+
+Arena scratch_of(const Device& device, std::size_t bytes)
+{
+    return Arena::reserved(device, {.tree_bytes = 0, .scratch_bytes = bytes});
+}
+
+}  // namespace
+
+CopyRate measure_copy_rate(Programs& programs, Queue& queue)
+{
+    const Device& device = programs.device();
+    constexpr int samples = 9;
+    // 1 GiB on a GPU. Short enough for a slow host: whoever asks for one small build waits for it too.
+    const std::size_t count = device.is_cpu() ? vectors_past_caches(device, std::size_t{512} << 20)
+                                              : (std::size_t{1} << 30) / sizeof(cl_uint4);
+    const std::size_t bytes = count * sizeof(cl_uint4);
+    const std::size_t global = device.is_cpu() ? 4 * compute_units(device) : count;
+    const std::size_t local = device.is_cpu() ? 1 : 256;
+
+    Arena arena = scratch_of(device, 2 * bytes);
+    const Buffer<cl_uint4> from = arena.take<cl_uint4>(count, Use::scratch);
+    const Buffer<cl_uint4> to = arena.take<cl_uint4>(count, Use::scratch);
+    cl::Kernel copy = programs.kernel(kernels, device.is_cpu() ? "copy_runs" : "copy_strided");
+    set_arguments(copy, from, to, static_cast<cl_uint>(count));
+
+    std::vector<std::int64_t> times;
+    queue.begin("clear");
+    queue.clear(from.cl(), from.bytes());  // memory never written may not be there to be read
+    for (int i = 0; i <= samples; ++i) {
+        queue.begin("copy");
+        queue.launch(copy, global, local, static_cast<std::int64_t>(2 * bytes));
+        const StageTime time = queue.finish().back();
+        if (i > 0)  // the first one warms up, and is the first to touch what it writes
+            times.push_back(time.busy_ns);
+    }
+    const auto ns = static_cast<double>(median(times));
+    return {ns > 0 ? static_cast<double>(2 * bytes) / (ns * 1e-9) : 0, bytes, samples};
+}
+
+LaunchCost measure_launch_cost(Programs& programs, Queue& queue)
+{
+    const Device& device = programs.device();
+    constexpr int samples = 31;
+    constexpr int launches = 16;  // as many as a whole build has, and their gaps
+    const std::size_t local = device.is_cpu() ? 1 : 64;
+
+    Arena arena = scratch_of(device, sizeof(cl_uint));
+    const Buffer<cl_uint> word = arena.take<cl_uint>(1, Use::scratch);
+    cl::Kernel empty = programs.kernel(kernels, "launch_empty");
+    set_arguments(empty, word);
+
+    HeadStart head_start(programs, queue);
+    std::vector<double> costs;
+    queue.begin("clear");
+    queue.clear(word.cl(), word.bytes());
+    for (int i = 0; i <= samples; ++i) {
+        head_start.give(queue);
+        queue.begin("launch");
+        for (int k = 0; k < launches; ++k)
+            queue.launch(empty, compute_units(device) * local, local, 0);
+        const StageTime time = queue.finish().back();
+        if (i > 0)  // the first one warms up
+            costs.push_back(static_cast<double>(time.span_ns) / launches);
+    }
+    return {median(costs), launches, samples};
+}
+
+HeadStart::HeadStart(Programs& programs, const Queue& queue)
+{
+    if (programs.device().is_cpu())
+        return;
+    Arena arena = scratch_of(programs.device(), sizeof(cl_uint));
+    word_ = arena.take<cl_uint>(1, Use::scratch);
+    word_.upload(queue.cl(), std::array<cl_uint, 1>{0});
+    busy_ = programs.kernel(kernels, "keep_busy");
+    set_arguments(busy_, word_, busy_rounds);
+}
+
+void HeadStart::give(const Queue& queue)
+{
+    if (busy_() != nullptr)
+        queue.cl().enqueueNDRangeKernel(busy_, cl::NullRange, cl::NDRange(1), cl::NDRange(1));
+}
+
+FillingKernel::FillingKernel(Programs& programs, const Queue& queue, const char* name,
+                             std::size_t count)
+    : kernel(programs.kernel(kernels, name))
+    , arena(scratch_of(programs.device(), count * sizeof(cl_uint4)))
+    , memory(arena.take<cl_uint4>(count, Use::scratch))
+    , work_items(4 * compute_units(programs.device()))
+    , group(1)
+{
+    if (!programs.device().is_cpu()) {
+        group = 256;
+        work_items = 8 * group * compute_units(programs.device());
+    }
+    queue.cl().enqueueFillBuffer(memory.cl(), cl_uint{0}, 0, memory.bytes());
+}
+
+CacheFlush::CacheFlush(Programs& programs, const Queue& queue)
+    : walk_(programs, queue, "walk",
+            vectors_past_caches(programs.device(),
+                                std::min(std::size_t{1} << 30, programs.device().most_at_once())))
+{
+    set_arguments(walk_.kernel, walk_.memory, static_cast<cl_uint>(walk_.memory.size()));
+    flush(queue);
+}
+
+void CacheFlush::flush(const Queue& queue)
+{
+    queue.cl().enqueueNDRangeKernel(walk_.kernel, cl::NullRange, cl::NDRange(walk_.work_items),
+                                    cl::NDRange(walk_.group));
+    queue.cl().finish();
+}
+
+Calibration::Calibration(Programs& programs, Queue& queue)
+    : work_(programs, queue, "calibrate", programs.device().is_cpu() ? cpu_vectors : gpu_vectors)
+{
+    set_arguments(work_.kernel, work_.memory, static_cast<cl_uint>(work_.memory.size()),
+                  calibration_rounds);
+    take(queue);
+}
+
+std::int64_t Calibration::take(Queue& queue)
+{
+    for (std::size_t i = 0; i < calibration_launches; ++i) {
+        queue.begin("calibration");
+        queue.launch(work_.kernel, work_.work_items, work_.group, 0);
+    }
+    std::vector<std::int64_t> times;
+    for (const StageTime& stage : queue.finish())
+        times.push_back(stage.busy_ns);
+    return median(times);
+}
+
+}  // namespace bvhbench
