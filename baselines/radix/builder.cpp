@@ -124,13 +124,12 @@ private:
         tree_.device_objects = arena.take<ForestObject>(sizes.size(), Use::tree);
         leaf_order_.plan(arena, sizes, leaves.sorted ? Use::scratch : Use::tree, true);
         tree_.code_bits = leaf_order_.code_bits();
-        tree_.cells = plan_cells(arena);
         leaves.boxes = leaves.sorted
                            ? arena.take<std::byte>(primitives * format().box_bytes(), Use::tree)
                            : leaf_order_.boxes().as<std::byte>();
         leaves.ids = leaf_order_.ids();
         leaves.codes = leaf_order_.codes();
-        gathered_ = {leaves.boxes, 0};
+        tree_.cells = plan_gather(arena, {leaves.boxes});
         tree_.hierarchy->plan(arena, leaves);
     }
 
