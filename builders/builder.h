@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,7 +12,6 @@
 #include "builders/input.h"
 #include "builders/orders.h"
 #include "builders/tree.h"
-#include "builders/update.h"
 #include "device/arena.h"
 #include "device/program.h"
 #include "device/queue.h"
@@ -46,6 +47,17 @@ enum class Start {
     from_triangles,      ///< stages bounds, codes, sort, order and then hierarchy
     from_sorted_leaves,  ///< leaf boxes and sorted ids are given: the setting of the paper's Table 1
 };
+
+/// How a frame's tree comes from that of the frame before: all of it anew, new boxes for what stands, or not at all.
+/// From what does most to what does nothing, so that of several the least brings all of them along.
+enum class TreeUpdate { rebuild, refit, keep };
+
+/// What brings along trees that want these if all must be treated alike.
+inline TreeUpdate update_of_all(std::span<const TreeUpdate> wanted, bool can_refit)
+{
+    const TreeUpdate most = *std::min_element(wanted.begin(), wanted.end());
+    return most == TreeUpdate::refit && !can_refit ? TreeUpdate::rebuild : most;
+}
 
 /// Builds a hierarchy over triangles. One instance serves one size until `reserve` is called again.
 ///

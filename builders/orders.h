@@ -26,14 +26,15 @@ struct OrderEntry {
     std::string_view name;     ///< "morton30": the key on the command line and in result files
     std::string_view summary;  ///< one line for `list orders`
     unsigned code_bits;        ///< only these bits are sorted; over 32, codes take 64; 0: no codes
-    const char* kernel;        ///< its entry point in builders/stages/codes.cl; null without codes
-    /// The same code on the host: of a leaf's box, given the bounds of all boxes and of their centres; null
-    /// without codes.
-    ulong (*code)(Aabb box, Bounds bounds);
+    bool is_hilbert = false,
+         is_stretched = false;  ///< of codes: the curve, and the grid (geometry/grid.h)
     Medians medians = Medians::nowhere;
+
+    /// The code on the host: of a leaf's box, given the bounds of all boxes and of their centres. As builders/stages/code_of.clh.
+    ulong code(Aabb box, Bounds bounds) const;
 };
 
-/// Every order, in the order tables list them. To add one, add its line in orders.cpp.
+/// Every order, in the order tables list them. To add one: docs/adding.md.
 std::span<const OrderEntry> order_catalog();
 
 /// By name. Throws BadUsage with the known names when there is none.

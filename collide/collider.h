@@ -8,10 +8,10 @@
 #include <string_view>
 #include <vector>
 
+#include "builders/builder.h"
 #include "builders/input.h"
 #include "builders/stages/kernel_form.h"
 #include "builders/tree.h"
-#include "builders/update.h"
 #include "collide/relation.h"
 #include "device/arena.h"
 #include "device/program.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "builders/input.h"
-#include "builders/stages/object_bounds.h"
+#include "builders/stages/bounds.h"
 #include "builders/stages/scan.h"
 #include "collide/collider.h"
 
@@ -66,7 +66,7 @@ private:
     NearOptions options_;
     KernelForm form_;
     std::size_t chunks_;
-    ObjectBounds bounds_;
+    BoundsStage bounds_;
     ScanStage scan_places_, scan_ranks_;
     cl::Kernel list_, flag_, count_, compact_, map_;
     std::optional<Arena> arena_;

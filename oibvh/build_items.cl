@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Algorithm 1 over the ostensibly-implicit layout, a work-item a subtree.
-// check: -DBOX_FORMAT=0u
+// check: -DFROM_LEAVES=1 -DSEVERAL_OBJECTS=1
 // check: -DBOX_FORMAT=1u
 // check: -DBOX_FORMAT=4u
 #include "oibvh/levels.clh"

@@ -182,13 +182,12 @@ void RadixBuilder::plan(Arena& arena, std::span<const uint> sizes)
     tree_.device_objects = arena.take<ForestObject>(sizes.size(), Use::tree);
     leaf_order_.plan(arena, sizes, tree_.sorted ? Use::scratch : Use::tree, true);
     tree_.code_bits = leaf_order_.code_bits();
-    tree_.cells = plan_cells(arena);
     tree_.leaf_boxes = tree_.sorted
                            ? arena.take<std::byte>(tree_.leaves * format().box_bytes(), Use::tree)
                            : leaf_order_.boxes().as<std::byte>();
     tree_.ids = leaf_order_.ids();
     tree_.codes = leaf_order_.codes();
-    gathered_ = {tree_.leaf_boxes, 0};
+    tree_.cells = plan_gather(arena, {tree_.leaf_boxes});
     plan_nodes(arena);
 }
 

@@ -5,8 +5,7 @@
 
 #include "builders/implicit/cut.h"
 #include "builders/implicit/implicit_builder.h"
-#include "builders/implicit/later_subtrees.h"
-#include "builders/implicit/schedule.h"
+#include "builders/implicit/launches.h"
 #include "builders/parameters.h"
 #include "geometry/error.h"
 
@@ -33,72 +32,52 @@ private:
 
     /// Where boxes are rounded into cells, those of one object are cells of all: who moves may move all of them.
     bool can_update_some() const override { return !tree_.format->has_cells(); }
-    void plan_updates(Arena& arena) override
+    void plan_updates(Arena& arena) override { update_.take(arena, whole_); }
+    void begin_update(const cl::CommandQueue& queue, std::span<const uint> objects) override
     {
-        update_.subtrees = arena.take<cl_uint2>(whole_.subtree_list.size(), Use::scratch);
-        update_.later = arena.take<LaterSubtree>(whole_.later_list.size(), Use::scratch);
+        update_.plan(objects, launch_plan());
+        update_.upload(queue);
     }
-    void begin_update(const cl::CommandQueue& queue, std::span<const TreeUpdate> updates) override;
     void enqueue_update(Queue& queue) override { enqueue(update_, queue); }
 
     bool in_one_launch() const { return meeting_ != Meeting::between_launches; }
     bool waits() const { return meeting_ == Meeting::by_waiting; }
     bool by_groups() const { return cut_.form == KernelForm::groups; }
 
-    /// The kernel that reads `from` ids or nodes, of groups as `cut` says.
-    cl::Kernel kernel(const Cut& cut, const char* from) const
+    /// The kernel that reads leaves in mesh order, or nodes, of groups as `cut` says.
+    cl::Kernel kernel(const Cut& cut, bool from_leaves) const
     {
-        const std::string text = std::string(is_forest() ? "forest_" : "") +
-                                 (waits()           ? "waiting_"
-                                  : in_one_launch() ? "single_"
-                                  : is_forest()     ? ""
-                                                    : "multi_") +
-                                 from;
-        const Define boxes{"BOX_FORMAT", tree_.format->number};
+        const char* name = waits() ? "waiting" : in_one_launch() ? "single" : "multi";
+        std::vector<Define> defines = {{"BOX_FORMAT", tree_.format->number},
+                                       {"FROM_LEAVES", from_leaves ? 1u : 0u},
+                                       {"SEVERAL_OBJECTS", is_forest() ? 1u : 0u}};
         if (!by_groups())
-            return programs_.kernel(tree_.layout.build_items, text.c_str(), {boxes});
-        return programs_.kernel(
-            tree_.layout.build_groups, text.c_str(),
-            {boxes, {"GROUP_SIZE", cut.group_size}, {"ITEMS", cut.items}, {"LEVELS", cut.levels}},
-            in_one_launch() ? Optimise::on_gpus
-                            : Optimise::freely);  // groups return before a barrier
+            return programs_.kernel(tree_.layout.build_items, name, defines);
+        defines.insert(
+            defines.end(),
+            {{"GROUP_SIZE", cut.group_size}, {"ITEMS", cut.items}, {"LEVELS", cut.levels}});
+        return programs_.kernel(tree_.layout.build_groups, name, defines,
+                                in_one_launch()
+                                    ? Optimise::on_gpus
+                                    : Optimise::freely);  // groups return before a barrier
     }
 
-    /// One launch, of all objects: those whose trees are so high take part in it.
-    struct Launch {
-        uint first_subtree = 0, subtrees = 0;  ///< of the list; later ones are not among them
-        SubtreeLaunch of_first;                ///< how the first object's tree takes part
-        std::int64_t moved_bytes = 0;
-    };
-
-    /// The launches that make the trees of all objects, or of some.
-    struct Launches {
-        std::vector<Launch> list;
-        /// Object and position, launch by launch; of several objects only.
-        std::vector<cl_uint2> subtree_list;
-        Buffer<cl_uint2> subtrees;
-        std::vector<LaterSubtree>
-            later_list;  ///< where groups wait: those of all but the first round
-        Buffer<LaterSubtree> later;
-    };
-
     void plan_hierarchy(Arena& arena) override;
-    void plan_launches(Launches& launches, std::span<const uint> objects) const;
+    LaunchPlan launch_plan() const;
     bool may_wait() const;
     bool fits(const Cut& cut) const;
     void choose_and_plan(Meeting meeting);
     void prepare(const cl::CommandQueue& queue) override;
     void enqueue(const Launches& launches, Queue& queue);
-    void launch(const Launches& launches, uint index, Queue& queue);
     std::int64_t moved_bytes(uint leaves, const SubtreeLaunch& launch) const;
 
     const Meeting asked_;
     Meeting meeting_;
     Cut cut_;
-    cl::Kernel from_ids_, from_nodes_;
+    cl::Kernel from_leaves_, from_nodes_;
     Launches whole_, update_;
-    /// Hand-off only: one a node above the first launch's subtrees, or one a slot.
-    Buffer<uint> arrivals_;
+    Buffer<uint>
+        arrivals_;  ///< by hand-off only: one a slot, up to those of the last tree's first subtrees
     Buffer<cl_ulong> posts_;  ///< if groups wait: a box a group
 };
 
@@ -121,8 +100,8 @@ bool KernelBuilder::fits(const Cut& cut) const
     if (2 * local_box_bytes(cut, tree_.format->box_bytes()) <= local)
         return true;
     try {
-        kernel(cut, "from_ids");
-        kernel(cut, "from_nodes");
+        kernel(cut, true);
+        kernel(cut, false);
         return true;
     } catch (const Unavailable&) {
         return false;
@@ -138,7 +117,7 @@ void KernelBuilder::choose_and_plan(Meeting meeting)
         cut_ = cut_that_fits(cut_, [&](const Cut& cut) { return fits(cut); });
     std::vector<uint> all(tree_.objects.size());
     std::iota(all.begin(), all.end(), 0u);
-    plan_launches(whole_, all);
+    whole_.plan(all, launch_plan());
 }
 
 void KernelBuilder::plan_hierarchy(Arena& arena)
@@ -149,123 +128,65 @@ void KernelBuilder::plan_hierarchy(Arena& arena)
     if (!device.is_cpu() &&
         whole_.later_list.size() >= device.cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>())
         choose_and_plan(asked_);
-    whole_.subtrees = arena.take<cl_uint2>(whole_.subtree_list.size(), Use::scratch);
-    whole_.later = arena.take<LaterSubtree>(whole_.later_list.size(), Use::scratch);
+    whole_.take(arena, whole_);
     const std::size_t groups =
         whole_.list.empty() ? 0 : whole_.list[0].subtrees + whole_.later_list.size();
     posts_ =
         arena.take<cl_ulong>(waits() ? words_per_post(*tree_.format) * groups : 0, Use::scratch);
 
-    std::size_t above = 0;
-    if (meeting_ == Meeting::by_handoff && is_forest())
-        above = tree_.slot_count;
-    else if (meeting_ == Meeting::by_handoff && !whole_.list.empty())
-        above = tree_.layout.first_slot(
-            tree_.leaves, whole_.list[0].of_first.entry_level + 1 - whole_.list[0].of_first.levels);
-    arrivals_ = arena.take<uint>(above, Use::scratch);
+    const ForestObject& last = tree_.objects.back();
+    const uint leaf_level = implicit_leaf_level(last.leaves);
+    const uint root_level = leaf_level - std::min(leaf_level, cut_.levels);
+    arrivals_ = arena.take<uint>(meeting_ == Meeting::by_handoff
+                                     ? last.nodes + tree_.layout.first_slot(last.leaves, root_level)
+                                     : 0,
+                                 Use::scratch);
 }
 
-void KernelBuilder::plan_launches(Launches& launches, std::span<const uint> objects) const
+LaunchPlan KernelBuilder::launch_plan() const
 {
-    launches.list.clear();
-    launches.subtree_list.clear();
-    std::vector<SubtreeSchedule> schedules;
-    for (const uint object : objects) {
-        const uint leaves = tree_.objects[object].leaves;
-        schedules.push_back(
-            subtree_schedule(implicit_leaf_level(leaves), cut_.levels,
-                             [&](uint level) { return tree_.layout.stored_on(leaves, level); }));
-    }
-    uint count = 0;
-    for (const SubtreeSchedule& schedule : schedules)
-        count = std::max(count, in_one_launch() ? std::min(schedule.count, 1u) : schedule.count);
-    for (uint k = 0; k < count; ++k) {
-        Launch launch{static_cast<uint>(launches.subtree_list.size()), 0, schedules[0].launches[k],
-                      0};
-        for (std::size_t chosen = 0; chosen < objects.size(); ++chosen) {
-            if (k >= schedules[chosen].count)
-                continue;
-            const uint object = objects[chosen];
-            const SubtreeLaunch& part = schedules[chosen].launches[k];
-            launch.subtrees += part.subtrees;
-            launch.moved_bytes += moved_bytes(tree_.objects[object].leaves, part);
-            for (uint position = 0; is_forest() && position < part.subtrees; ++position)
-                launches.subtree_list.push_back({{object, position}});
-        }
-        launches.list.push_back(launch);
-    }
-    launches.later_list.clear();
-    if (waits())
-        launches.later_list = later_subtrees(objects, schedules);
-}
-
-void KernelBuilder::begin_update(const cl::CommandQueue& queue, std::span<const TreeUpdate> updates)
-{
-    std::vector<uint> objects;
-    for (uint object = 0; object < updates.size(); ++object)
-        if (updates[object] != TreeUpdate::keep)
-            objects.push_back(object);
-    plan_launches(update_, objects);
-    update_.subtrees.upload(queue, update_.subtree_list);
-    update_.later.upload(queue, update_.later_list);
-}
-
-void KernelBuilder::enqueue(const Launches& launches, Queue& queue)
-{
-    for (uint k = 0; k < launches.list.size(); ++k)
-        launch(launches, k, queue);
+    return {.objects = tree_.objects,
+            .schedule =
+                [this](uint leaves) {
+                    return subtree_schedule(
+                        implicit_leaf_level(leaves), cut_.levels,
+                        [&](uint level) { return tree_.layout.stored_on(leaves, level); });
+                },
+            .moved_bytes = std::bind_front(&KernelBuilder::moved_bytes, this),
+            .in_one_launch = in_one_launch(),
+            .waits = waits()};
 }
 
 void KernelBuilder::prepare(const cl::CommandQueue& queue)
 {
     ImplicitBuilder::prepare(queue);
-    from_ids_ = kernel(cut_, "from_ids");
-    from_nodes_ = kernel(cut_, "from_nodes");
+    if (!tree_.sorted_leaves)
+        from_leaves_ = kernel(cut_, true);
+    if (tree_.sorted_leaves || !in_one_launch())
+        from_nodes_ = kernel(cut_, false);
     arrivals_.upload(queue, std::vector<uint>(arrivals_.size(), 0u));
     posts_.upload(queue, std::vector<cl_ulong>(posts_.size(), ~cl_ulong{0}));
-    whole_.subtrees.upload(queue, whole_.subtree_list);
-    whole_.later.upload(queue, whole_.later_list);
+    whole_.upload(queue);
 }
 
-void KernelBuilder::launch(const Launches& launches, uint k, Queue& queue)
+void KernelBuilder::enqueue(const Launches& launches, Queue& queue)
 {
-    const Launch& launch = launches.list[k];
-    const bool from_ids = k == 0 && !tree_.sorted_leaves;
-    cl::Kernel& kernel = from_ids ? from_ids_ : from_nodes_;
-    cl_uint index = 0;
-    const auto argument = [&](const auto& value) { kernel.setArg(index++, memory_of(value)); };
-    if (from_ids) {
-        argument(tree_.leaf_boxes);
-        argument(tree_.ids);
-    }
-    argument(tree_.nodes);
-    if (waits()) {
-        argument(posts_);
-        argument(launches.later);
-    } else if (in_one_launch()) {
-        argument(arrivals_);
-    }
-    if (is_forest()) {
-        argument(tree_.device_objects);
-        argument(launches.subtrees);
-        if (!from_ids && !in_one_launch()) {
-            argument(launch.first_subtree);
-            argument(k);
-        }
+    for (uint k = 0; k < launches.list.size(); ++k) {
+        const Launch& launch = launches.list[k];
+        cl::Kernel& kernel = k == 0 && !tree_.sorted_leaves ? from_leaves_ : from_nodes_;
+        cl_uint next = set_arguments_from(kernel, 0, tree_.leaf_boxes, tree_.ids, tree_.nodes,
+                                          tree_.device_objects, launches.subtrees, tree_.leaves);
+        if (waits())
+            next = set_arguments_from(kernel, next, posts_, launches.later, launch.subtrees);
+        else if (in_one_launch())
+            next = set_arguments_from(kernel, next, arrivals_);
+        else
+            next = set_arguments_from(kernel, next, launch.first_subtree, k);
         if (!by_groups())
-            argument(cut_.levels);
-    } else {
-        argument(tree_.leaves);
-        argument(launch.of_first.entry_level);
-        if (!from_ids)
-            argument(implicit_leaf_level(tree_.leaves));
-        if (!by_groups())
-            argument(launch.of_first.levels);
+            set_arguments_from(kernel, next, cut_.levels);
+        queue.launch(kernel, (launch.subtrees + launches.later_list.size()) * cut_.group_size,
+                     cut_.group_size, launch.moved_bytes);
     }
-    if (waits())
-        argument(launch.subtrees);
-    queue.launch(kernel, (launch.subtrees + launches.later_list.size()) * cut_.group_size,
-                 cut_.group_size, launch.moved_bytes);
 }
 
 /// Children read once, nodes written once. A hand-off build does all levels in its first launch.

@@ -5,12 +5,101 @@
 #include <thread>
 #include <vector>
 
-#include "builders/implicit/host_levels.h"
 #include "builders/implicit/implicit_builder.h"
 #include "device/buffer.h"
+#include "geometry/aabb.h"
 
 namespace bvhbench {
 namespace {
+
+/// A box in a format whose sides are not floats.
+template <class Side>
+struct BoxOf {
+    Side low[3], high[3];
+};
+
+/// Four neighbouring floats of a box, wherever it starts: one instruction where floats would be six.
+typedef float FourFloats __attribute__((vector_size(16), aligned(4), may_alias));
+
+/// `merged`, of boxes without NaN, in two vectors that overlap: the lower four floats have the three minima, the
+/// upper four the three maxima. Compilers make one instruction of either choice, and six of merged's.
+inline Aabb merged_boxes(const Aabb& a, const Aabb& b)
+{
+    const auto fours = [](const float& first) {
+        return *reinterpret_cast<const FourFloats*>(&first);
+    };
+    const FourFloats a_low = fours(a.min_x), a_high = fours(a.min_z);
+    const FourFloats b_low = fours(b.min_x), b_high = fours(b.min_z);
+    const FourFloats low = a_low < b_low ? a_low : b_low;
+    const FourFloats high = a_high > b_high ? a_high : b_high;
+    return {low[0], low[1], low[2], high[1], high[2], high[3]};
+}
+
+template <class Side>
+inline BoxOf<Side> merged_boxes(const BoxOf<Side>& a, const BoxOf<Side>& b)
+{
+    BoxOf<Side> box;
+    for (int k = 0; k < 3; ++k) {
+        box.low[k] = std::min(a.low[k], b.low[k]);
+        box.high[k] = std::max(a.high[k], b.high[k]);
+    }
+    return box;
+}
+
+/// Nodes from `begin` to before `end` of a level, from the `count` children that are there.
+template <class Box, class Child>
+inline void merge_pairs(Box* to, uint begin, uint end, uint count, const Child& child)
+{
+    const uint pairs = std::min(end, count / 2);
+    uint p = begin;
+    for (; p < pairs; ++p)
+        to[p] = merged_boxes(child(2 * p), child(2 * p + 1));
+    if (p < end)
+        to[p] = child(2 * p);
+}
+
+/// An implicit tree in the host's memory, of a layout without padding: see ImplicitTree. Its boxes are Aabb, or BoxOf
+/// doubles, 16 or 8 bits.
+template <class Box>
+struct HostLevels {
+    ImplicitLayout layout;
+    uint leaves = 0;
+    Box* nodes = nullptr;  ///< by slot
+    const Box* leaf_boxes =
+        nullptr;                ///< in mesh order; null if leaves are in `nodes`, in leaf order
+    const uint* ids = nullptr;  ///< triangles in leaf order
+
+    /// Build from the leaves to the node at `position` of `root_level`, which is above the leaves: all inner nodes
+    /// of that subtree, level by level.
+    void build_subtree(uint root_level, uint position) const
+    {
+        for (uint level = implicit_leaf_level(leaves); level-- > root_level;) {
+            const uint above = level - root_level, used = implicit_used_on(leaves, level);
+            merge(level, std::min(position << above, used),
+                  std::min((position + 1) << above, used));
+        }
+    }
+
+    /// Build all levels above `level`, which stands.
+    void build_above(uint level) const
+    {
+        while (level-- > 0)
+            merge(level, 0, implicit_used_on(leaves, level));
+    }
+
+private:
+    void merge(uint level, uint begin, uint end) const
+    {
+        Box* const to = nodes + layout.first_slot(leaves, level);
+        const Box* const from = nodes + layout.first_slot(leaves, level + 1);
+        if (level + 1 == implicit_leaf_level(leaves) && leaf_boxes != nullptr)
+            merge_pairs(to, begin, end, leaves,
+                        [this](uint k) -> const Box& { return leaf_boxes[ids[k]]; });
+        else
+            merge_pairs(to, begin, end, implicit_used_on(leaves, level + 1),
+                        [from](uint k) -> const Box& { return from[k]; });
+    }
+};
 
 /// Levels of a subtree that one thread builds: its 2^12 leaves' boxes and ids, 112 KiB, and its nodes stay in a core's
 /// cache; there are enough of them for threads that are interrupted not to be waited for.

@@ -38,25 +38,25 @@ void ImplicitBuilder::plan(Arena& arena, std::span<const uint> sizes)
     tree_.device_objects = arena.take<ForestObject>(sizes.size(), Use::tree);
 
     leaf_order_.plan(arena, sizes, tree_.sorted_leaves ? Use::scratch : Use::tree, false);
-    tree_.cells = plan_cells(arena);
     tree_.leaf_boxes = tree_.sorted_leaves ? Buffer<Aabb>{} : leaf_order_.boxes();
     tree_.ids = leaf_order_.ids();
-    gathered_ = {
-        tree_.nodes, tree_.layout.first_slot(primitives, implicit_leaf_level(primitives)),
-        arena.take<uint>(is_forest() && tree_.sorted_leaves ? sizes.size() : 0, Use::scratch)};
+    slots_ = arena.take<uint>(is_forest() && tree_.sorted_leaves ? sizes.size() : 0, Use::scratch);
+    tree_.cells = plan_gather(
+        arena, {tree_.nodes, tree_.layout.first_slot(primitives, implicit_leaf_level(primitives)),
+                slots_});
     plan_hierarchy(arena);
 }
 
 void ImplicitBuilder::prepare(const cl::CommandQueue& queue)
 {
     tree_.device_objects.upload(queue, tree_.objects);
-    if (gathered_.slots.size() > 0) {
+    if (slots_.size() > 0) {
         std::vector<uint> slots;
         for (const ForestObject& object : tree_.objects)
             slots.push_back(
                 object.nodes - object.first +
                 tree_.layout.first_slot(object.leaves, implicit_leaf_level(object.leaves)));
-        gathered_.slots.upload(queue, slots);
+        slots_.upload(queue, slots);
     }
     if (tree_.sorted_leaves)  // padding that a traversal may read
         tree_.nodes.upload(queue, stored_empty_boxes(*tree_.format, tree_.slot_count));

@@ -27,6 +27,9 @@ protected:
     bool is_forest() const { return tree_.objects.size() > 1; }
 
     ImplicitTree tree_;
+
+private:
+    Buffer<uint> slots_;  ///< of several objects' sorted leaves: see GatherPlace
 };
 
 }  // namespace bvhbench

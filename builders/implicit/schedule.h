@@ -8,7 +8,7 @@
 
 namespace bvhbench {
 
-/// One launch: builds `levels` levels, entry_level and those above it, as `subtrees` independent subtrees.
+/// One launch: builds `levels` levels, entry_level and those above it, as `subtrees` independent subtrees, a root each.
 struct SubtreeLaunch {
     uint entry_level = 0;
     uint levels = 0;
@@ -41,8 +41,8 @@ constexpr SubtreeSchedule subtree_schedule(uint leaf_level, uint levels_a_launch
     while (unbuilt > 0) {
         const uint levels = levels_a_launch < unbuilt ? levels_a_launch : unbuilt;
         const uint entry_level = unbuilt - 1;
-        schedule.launches[schedule.count++] = {
-            entry_level, levels, divided_up(stored_on(entry_level), 1u << (levels - 1))};
+        schedule.launches[schedule.count++] = {entry_level, levels,
+                                               stored_on(entry_level + 1 - levels)};
         unbuilt -= levels;
     }
     return schedule;

@@ -10,18 +10,17 @@
 // The last stage belongs to orders with medians only; with medians everywhere it starts from the boxes.
 #pragma once
 
-#include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
 
-#include "builders/input.h"
-#include "builders/orders.h"
-#include "builders/stages/object_runs.h"
-#include "builders/update.h"
-#include "device/arena.h"
-#include "device/program.h"
-#include "geometry/bounds.h"
+#include "builders/builder.h"
+#include "builders/stages/bounds.h"
+#include "builders/stages/codes.h"
+#include "builders/stages/medians/cells.h"
+#include "builders/stages/medians/medians.h"
+#include "builders/stages/sort/sort.h"
 
 namespace bvhbench {
 
@@ -31,7 +30,6 @@ public:
     /// Throws BadUsage if no order is called `order`.
     LeafOrder(Programs& programs, std::string_view order, KernelForm form = KernelForm::of_device,
               GridOver grid = GridOver::object);
-    ~LeafOrder();
 
     /// Take every buffer the stages need for objects of so many triangles each. The sorted ids are tree memory;
     /// the leaf boxes are what `boxes` says; everything else is scratch. Without `reads_codes`, orders with
@@ -58,21 +56,44 @@ public:
     void enqueue_update(const Input& input, Queue& queue);
 
     /// The triangles that an update of some of several objects is about.
-    const ObjectRuns& updated() const;
+    const ObjectRuns& updated() const { return updated_; }
 
-    const Buffer<Aabb>& boxes() const;     ///< one a triangle, in mesh order
-    const Buffer<Bounds>& bounds() const;  ///< one an object: of its boxes and of their centres
+    const Buffer<Aabb>& boxes() const
+    {
+        return bounds_.boxes();
+    }  ///< one a triangle, in mesh order
+    /// One an object: of its boxes and of their centres.
+    const Buffer<Bounds>& bounds() const { return bounds_.bounds(); }
     /// Ascending, of the leaves in their order; over 32 bits, two words each, low word first. Medians leave
     /// codes that do not ascend, so with them the codes are the leaves' positions: their radix tree is the
     /// tree whose splits the medians are.
     const Buffer<uint>& codes() const;
-    const Buffer<uint>& ids() const;  ///< triangle ids in leaf order
+    const Buffer<uint>& ids() const { return ids_; }  ///< triangle ids in leaf order
 
     unsigned code_bits() const;  ///< of `codes`
 
 private:
-    struct Stages;
-    std::unique_ptr<Stages> stages_;
+    /// What boxes' codes are measured against.
+    const Buffer<Bounds>& grid_bounds() const
+    {
+        return grid_ == GridOver::scene ? bounds_.bounds_of_all() : bounds_.bounds();
+    }
+
+    Programs& programs_;
+    const OrderEntry& order_;
+    KernelForm form_;
+    GridOver grid_;
+    std::vector<uint> sizes_;  ///< of the objects
+    BoundsStage bounds_;
+    std::optional<CodesStage> codes_;  ///< these two unless medians are everywhere
+    std::optional<RadixSort> sort_;
+    std::optional<CellMedians> cells_;  ///< if they are
+    std::optional<BlockMedians> blocks_;
+    std::optional<NumberAll> number_;
+    Buffer<uint> positions_;  ///< what codes are with medians, if anyone reads them
+    Buffer<uint> ids_;
+    ObjectRuns updated_;
+    cl::Kernel put_runs_;
 };
 
 /// The same on the host, slowly and obviously: the oracle for the kernels, equal bit for bit.

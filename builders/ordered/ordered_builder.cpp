@@ -30,11 +30,11 @@ void OrderedBuilder::require_floats() const
                        std::string(format_.name));
 }
 
-Buffer<SceneCells> OrderedBuilder::plan_cells(Arena& arena)
+Buffer<SceneCells> OrderedBuilder::plan_gather(Arena& arena, const GatherPlace& place)
 {
     if (!gather_)
         return {};
-    gather_->plan(arena, leaf_order_.bounds());
+    gather_->plan(arena, place, leaf_order_.bounds());
     return gather_->cells();
 }
 
@@ -128,16 +128,17 @@ std::vector<TreeUpdate> OrderedBuilder::plan_update(std::span<const TreeUpdate> 
     update_ = update_of_all(wanted, can_refit());
     of_some_ = can_update_some() && std::any_of(wanted.begin(), wanted.end(),
                                                 [&](TreeUpdate one) { return one != update_; });
-    std::vector<TreeUpdate> updates(wanted.begin(), wanted.end());
-    if (!of_some_)
-        std::fill(updates.begin(), updates.end(), update_);
-    if (!of_some_)
-        return updates;  // as builds and refits do it, or nothing to do
+    if (!of_some_)  // as builds and refits do it, or nothing to do
+        return std::vector<TreeUpdate>(wanted.size(), update_);
     if (!update_arena_)
         reserve_updates();
-    leaf_order_.begin_update(queue.cl(), updates);
-    begin_update(queue.cl(), updates);
-    return updates;
+    std::vector<uint> moved;
+    for (uint object = 0; object < wanted.size(); ++object)
+        if (wanted[object] != TreeUpdate::keep)
+            moved.push_back(object);
+    leaf_order_.begin_update(queue.cl(), wanted);
+    begin_update(queue.cl(), moved);
+    return {wanted.begin(), wanted.end()};
 }
 
 const Tree& OrderedBuilder::update(const Input& input, Queue& queue)
@@ -156,9 +157,8 @@ const Tree& OrderedBuilder::update_some(const Input& input, Queue& queue)
 {
     tree().queue = &queue;
     leaf_order_.enqueue_update(input, queue);
-    if (options_.sorted_leaves)
-        gather_->enqueue(leaf_order_.boxes(), leaf_order_.ids(), leaf_order_.updated(),
-                         gathered_.slots, gathered_.boxes, queue);
+    if (gather_)
+        gather_->enqueue(leaf_order_.boxes(), leaf_order_.ids(), leaf_order_.updated(), queue);
     queue.begin(update_ == TreeUpdate::refit ? "refit" : "hierarchy");
     enqueue_update(queue);
     return tree();
@@ -166,14 +166,8 @@ const Tree& OrderedBuilder::update_some(const Input& input, Queue& queue)
 
 void OrderedBuilder::gather_if_sorted(const Input& input, Queue& queue)
 {
-    if (!options_.sorted_leaves)
-        return;
-    if (gathered_.slots.size() > 0)
-        gather_->enqueue(leaf_order_.boxes(), leaf_order_.ids(), input.device_owners,
-                         gathered_.slots, gathered_.boxes, queue);
-    else
-        gather_->enqueue(leaf_order_.boxes(), leaf_order_.ids(), gathered_.boxes, gathered_.first,
-                         queue);
+    if (gather_)
+        gather_->enqueue(leaf_order_.boxes(), leaf_order_.ids(), input.device_owners, queue);
 }
 
 }  // namespace bvhbench

@@ -34,8 +34,8 @@ protected:
     /// Another one like this, without memory.
     virtual std::unique_ptr<OrderedBuilder> twin() const = 0;
 
-    /// Take every buffer for objects of so many triangles each, `leaf_order_`'s too. With sorted leaves, `gathered_`
-    /// is set as well.
+    /// Take every buffer for objects of so many triangles each, `leaf_order_`'s too. With sorted leaves, plan where they go
+    /// by `plan_gather`.
     virtual void plan(Arena& arena, std::span<const uint> sizes) = 0;
 
     /// Fill what builds expect and leave as it was. Waits.
@@ -51,20 +51,13 @@ protected:
     /// Take what updates need besides; of several objects only.
     virtual void plan_updates(Arena&) {}
 
-    /// Write down which trees updates from here on make, of those objects that are rebuilt or refitted. Waits.
-    virtual void begin_update(const cl::CommandQueue&, std::span<const TreeUpdate>) {}
+    /// Write down that updates from here on make the trees of these objects, which are rebuilt or refitted. Waits.
+    virtual void begin_update(const cl::CommandQueue&, std::span<const uint>) {}
 
     /// Enqueue what makes those.
     virtual void enqueue_update(Queue&) {}
 
     virtual DeviceTree& tree() = 0;
-
-    /// Where the boxes of sorted leaves go: from `first` on, or, of several objects, from slots[object] on.
-    struct Gathered {
-        Buffer<std::byte> boxes;  ///< in the format
-        uint first = 0;
-        Buffer<uint> slots = {};
-    };
 
     /// What the builder's tree keeps its boxes in.
     const BoxFormat& format() const { return format_; }
@@ -72,13 +65,13 @@ protected:
     /// Throws BadUsage if that is not floats: for builders whose trees know no others.
     void require_floats() const;
 
-    /// Take what lining leaves up in the format needs besides, once the leaves' own is taken: the cells it will find.
-    Buffer<SceneCells> plan_cells(Arena& arena);
+    /// The boxes of sorted leaves go to `place`. Takes what lining them up in the format needs besides, once the leaves' own is
+    /// taken: the cells it will find.
+    Buffer<SceneCells> plan_gather(Arena& arena, const GatherPlace& place);
 
     Programs& programs_;
     BuildOptions options_;
     LeafOrder leaf_order_;
-    Gathered gathered_;
 
 private:
     Footprint planned(std::span<const uint> sizes) const;

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
-// check: -DGROUP_SIZE=64u -DSWEPT=0
-// check: -DGROUP_SIZE=64u -DSWEPT=1
+// check: -DGROUP_SIZE=64u -DROUNDS=4u -DSWEPT=0
+// check: -DGROUP_SIZE=64u -DROUNDS=4u -DSWEPT=1
 //
 // Triangles to boxes, and in the same pass the bounds of them all. Every group or chunk leaves the bounds of what it saw
 // in `partials`. Who joins those is the last group to finish, where groups may meet (device/handoff.clh), else a launch of
 // its own. No float atomics.
+//
+// Of several objects a group or a work-item takes one run (ObjectRun, from .x to before .y) of one object's triangles. Then
+// one an object joins what its runs left: of objects[k], from first_runs[k] on.
 #include "builders/stages/bounds_parts.clh"
 #include "builders/stages/chunk.clh"
 #include "device/handoff.clh"
@@ -36,30 +39,75 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void bounds_group
     barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
 
     // All groups go on, so that no barrier is left out, but only the last has something to join.
-    const uint to_join = is_last[0] != 0u ? (uint)get_num_groups(0) : 0u;
-    bounds = empty_bounds();
-    for (uint partial = item; partial < to_join; partial += GROUP_SIZE)
-        bounds = joined(bounds, partials[partial]);
-    bounds = joined_in_group(bounds, parts);
+    bounds = joined_partials(partials, 0u, is_last[0] != 0u ? (uint)get_num_groups(0) : 0u, parts);
     if (item == 0u && is_last[0] != 0u) {
         *result = bounds;
         forget_arrivals(arrivals);
     }
 }
 
-/// *result is the bounds of all `partial_count` partials. One group; rounds of its size cover them.
+/// *result is the bounds of all `partial_count` partials. One group.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void join_groups(
     global const Bounds* restrict partials, global Bounds* restrict result,
     const uint partial_count)
 {
     local Bounds parts[GROUP_SIZE];
-    const uint item = (uint)get_local_id(0);
-    Bounds bounds = empty_bounds();
-    for (uint partial = item; partial < partial_count; partial += GROUP_SIZE)
-        bounds = joined(bounds, partials[partial]);
-    bounds = joined_in_group(bounds, parts);
-    if (item == 0u)
+    const Bounds bounds = joined_partials(partials, 0u, partial_count, parts);
+    if (get_local_id(0) == 0)
         *result = bounds;
+}
+
+/// boxes[k] is the box of faces[k]; partials[g] the bounds of runs[g], ROUNDS times a group's size at most.
+__attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void runs_groups(
+    POINTS_PARAMETERS(restrict), global const Face* restrict faces, global float2* restrict boxes,
+    global Bounds* restrict partials, global const uint4* restrict runs)
+{
+    local float2 staged[3u * GROUP_SIZE];
+    local Bounds parts[GROUP_SIZE];
+    const uint4 run = runs[get_group_id(0)];
+    Bounds bounds = empty_bounds();
+
+    for (uint round = 0u; round < ROUNDS; ++round) {
+        const uint start = min(run.y, run.x + round * GROUP_SIZE);
+        const uint here = min(GROUP_SIZE, run.y - start);
+        bounds = make_boxes(POINTS, faces, boxes, staged, start, here, bounds);
+    }
+    bounds = joined_in_group(bounds, parts);
+    if (get_local_id(0) == 0)
+        partials[get_group_id(0)] = bounds;
+}
+
+/// A group an object.
+__attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void join_objects_groups(
+    global const Bounds* restrict partials, global Bounds* restrict result,
+    global const uint* restrict first_runs, global const uint* restrict objects)
+{
+    local Bounds parts[GROUP_SIZE];
+    const uint k = (uint)get_group_id(0);
+    const Bounds bounds = joined_partials(partials, first_runs[k], first_runs[k + 1u], parts);
+    if (get_local_id(0) == 0)
+        result[objects[k]] = bounds;
+}
+
+/// A work-item makes boxes[k] of faces[k] from `first` to before `end`; returns their bounds.
+static inline Bounds make_run(POINTS_PARAMETERS(), global const Face* faces, global Aabb* boxes,
+                              const uint first, const uint end)
+{
+    Bounds bounds = empty_bounds();
+    for (uint k = first; k < end; ++k) {
+        const Aabb box = box_of_face(POINTS, faces[k]);
+        boxes[k] = box;
+        bounds = grown(bounds, box);
+    }
+    return bounds;
+}
+
+static inline Bounds joined_run(global const Bounds* partials, const uint first, const uint end)
+{
+    Bounds bounds = empty_bounds();
+    for (uint partial = first; partial < end; ++partial)
+        bounds = joined(bounds, partials[partial]);
+    return bounds;
 }
 
 /// As bounds_groups, each work-item by itself.
@@ -68,21 +116,31 @@ kernel void bounds_chunks(POINTS_PARAMETERS(restrict), global const Face* restri
                           const uint count)
 {
     const Chunk chunk = own_chunk(count);
-    Bounds bounds = empty_bounds();
-    for (uint k = chunk.first; k < chunk.end; ++k) {
-        const Aabb box = box_of_face(POINTS, faces[k]);
-        boxes[k] = box;
-        bounds = grown(bounds, box);
-    }
-    partials[get_global_id(0)] = bounds;
+    partials[get_global_id(0)] = make_run(POINTS, faces, boxes, chunk.first, chunk.end);
 }
 
 /// As join_groups, in one work-item.
 kernel void join_chunks(global const Bounds* restrict partials, global Bounds* restrict result,
                         const uint partial_count)
 {
-    Bounds bounds = empty_bounds();
-    for (uint partial = 0u; partial < partial_count; ++partial)
-        bounds = joined(bounds, partials[partial]);
-    *result = bounds;
+    *result = joined_run(partials, 0u, partial_count);
+}
+
+/// As runs_groups, a work-item a run.
+kernel void runs_chunks(POINTS_PARAMETERS(restrict), global const Face* restrict faces,
+                        global Aabb* restrict boxes, global Bounds* restrict partials,
+                        global const uint4* restrict runs)
+{
+    const uint4 run = runs[get_global_id(0)];
+    partials[get_global_id(0)] = make_run(POINTS, faces, boxes, run.x, run.y);
+}
+
+/// As join_objects_groups, a work-item an object.
+kernel void join_objects_chunks(global const Bounds* restrict partials,
+                                global Bounds* restrict result,
+                                global const uint* restrict first_runs,
+                                global const uint* restrict objects)
+{
+    const uint k = (uint)get_global_id(0);
+    result[objects[k]] = joined_run(partials, first_runs[k], first_runs[k + 1u]);
 }

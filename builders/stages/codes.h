@@ -5,9 +5,7 @@
 
 #include "builders/orders.h"
 #include "builders/stages/object_runs.h"
-#include "device/arena.h"
 #include "device/program.h"
-#include "device/queue.h"
 #include "geometry/bits.h"
 #include "geometry/bounds.h"
 
@@ -23,36 +21,29 @@ constexpr uint kept_code_bits(unsigned code_bits, std::size_t objects)
     return std::min(code_bits, 32 * code_words(code_bits) - object_bits);
 }
 
-/// The stage `codes`: one code a leaf box, by an order of the catalog. Owns no memory.
+/// The stage `codes`: one code a leaf box, by an order of the catalog, of code_words() words each. Of several objects a code
+/// is the object, from bit kept_code_bits() on, and below it the box's, without the bits that are not kept. Owns no memory.
+/// `bounds` are one an object, or of all together.
 class CodesStage {
 public:
-    CodesStage(Programs& programs, const OrderEntry& order,
-               KernelForm form = KernelForm::of_device);
+    CodesStage(Programs& programs, const OrderEntry& order, KernelForm form = KernelForm::of_device,
+               std::size_t objects = 1);
 
-    /// Enqueue: `codes` gets the codes of all `boxes`, code_words() words each. Does not wait.
-    void enqueue(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bounds, const Buffer<uint>& codes,
-                 Queue& queue);
-
-    /// The same of several objects at once: boxes against the bounds of their owners, or, where `bounds` is of one, all
-    /// against those. A code is an owner, from bit `object_shift` on, and below it the box's, without its `dropped`
-    /// lowest bits.
+    /// Enqueue: `codes` gets the codes of all `boxes`, whose objects are `owners`. Does not wait.
     void enqueue(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bounds,
-                 const Buffer<uint>& owners, const Buffer<uint>& codes, uint dropped,
-                 uint object_shift, Queue& queue);
+                 const Buffer<uint>& owners, const Buffer<uint>& codes, Queue& queue);
 
-    /// The same of the objects that `runs` lines up, at least one: their codes one object behind the other.
+    /// The same of the objects that `runs` lines up, at least one of several: their codes one object behind the other.
     void enqueue(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bounds, const ObjectRuns& runs,
-                 const Buffer<uint>& codes, uint dropped, uint object_shift, Queue& queue);
+                 const Buffer<uint>& codes, Queue& queue);
 
 private:
-    void launch(cl::Kernel& kernel, const Buffer<Aabb>& boxes, const Buffer<uint>& codes,
-                Queue& queue);
-
-    unsigned words_;
+    uint words_;
+    uint kept_, dropped_;  ///< bits of a box's code
     uint group_size_;
     KernelForm form_;
     std::size_t chunks_;
-    cl::Kernel kernel_, objects_kernel_, runs_kernel_;
+    cl::Kernel kernel_, runs_kernel_;
 };
 
 }  // namespace bvhbench

@@ -22,7 +22,8 @@ bool has_doubles(const Device& device)
 
 GatherStage::GatherStage(Programs& programs, KernelForm form, uint group_size,
                          const BoxFormat& format)
-    : form_(chosen_form(programs.device(), form))
+    : programs_(programs)
+    , form_(chosen_form(programs.device(), form))
     , group_size_(group_size != 0 || form_ == KernelForm::chunks
                       ? std::max(1u, group_size)
                       : programs.device().tuned(gather_group_size))
@@ -32,25 +33,26 @@ GatherStage::GatherStage(Programs& programs, KernelForm form, uint group_size,
     if (format.number != BOX_F32 && !has_doubles(programs.device()))
         throw Unavailable("boxes of " + std::string(format.name) + " are made by doubles, which " +
                           programs.device().name() + " has not");
-    const bool groups = form_ == KernelForm::groups;
-    const auto kernel = [&](const char* of_groups, const char* of_chunks) {
-        const char* name = groups ? of_groups : of_chunks;
-        return programs.kernel(path, name,
-                               {{"BOX_FORMAT", format.number}, {"GROUP_SIZE", group_size_}});
-    };
-    kernel_ = kernel("gather_groups", "gather_chunks");
-    objects_kernel_ = kernel("gather_objects_groups", "gather_objects_chunks");
-    runs_kernel_ = kernel("gather_runs_groups", "gather_runs_chunks");
-    if (format.has_cells())
-        cells_kernel_ = programs.kernel(
-            "builders/stages/medians/scene_cells.cl", "find_cells",
-            {{"GROUP_SIZE", groups ? cells_group_size : 1u}, {"CELLS_OF", format.number}});
 }
 
-void GatherStage::plan(Arena& arena, const Buffer<Bounds>& bounds)
+void GatherStage::plan(Arena& arena, const GatherPlace& place, const Buffer<Bounds>& bounds)
 {
+    place_ = place;
     bounds_ = bounds;
     cells_ = arena.take<SceneCells>(format_.number != BOX_F32 ? 1 : 0, Use::tree);
+    const bool groups = form_ == KernelForm::groups;
+    const auto kernel = [&](const char* of_groups, const char* of_chunks) {
+        return programs_.kernel(path, groups ? of_groups : of_chunks,
+                                {{"BOX_FORMAT", format_.number},
+                                 {"GROUP_SIZE", group_size_},
+                                 {"SEVERAL_OBJECTS", place.slots.size() > 0 ? 1u : 0u}});
+    };
+    kernel_ = kernel("gather_groups", "gather_chunks");
+    runs_kernel_ = kernel("gather_runs_groups", "gather_runs_chunks");
+    if (format_.has_cells())
+        cells_kernel_ = programs_.kernel(
+            "builders/stages/scene_cells.cl", "find_cells",
+            {{"GROUP_SIZE", groups ? cells_group_size : 1u}, {"CELLS_OF", format_.number}});
 }
 
 void GatherStage::find_cells(Queue& queue)
@@ -72,30 +74,34 @@ void GatherStage::bind(cl::Kernel& kernel, const Arguments&... arguments) const
 }
 
 void GatherStage::enqueue(const Buffer<Aabb>& boxes, const Buffer<uint>& ids,
-                          const Buffer<std::byte>& sorted, uint first, Queue& queue)
+                          const Buffer<uint>& owners, Queue& queue)
 {
-    assert((first + ids.size()) * format_.box_bytes() <= sorted.bytes());
-    bind(kernel_, boxes, ids, sorted, first, static_cast<uint>(ids.size()));
-    launch(kernel_, ids.size(), 0, queue);
+    queue.begin("gather");
+    const auto count = static_cast<uint>(ids.size());
+    if (count == 0)
+        return;
+    if (format_.has_cells())
+        find_cells(queue);
+    const bool by_slots = place_.slots.size() > 0;
+    assert(by_slots || (place_.first + ids.size()) * format_.box_bytes() <= place_.boxes.bytes());
+    bind(kernel_, boxes, ids, place_.boxes, owners, place_.slots, place_.first, count);
+    const std::int64_t moved =
+        moved_bytes(count) + static_cast<std::int64_t>(by_slots ? owners.bytes() : 0);
+    if (form_ == KernelForm::groups)
+        queue.launch(kernel_, std::size_t{divided_up(count, group_size_)} * group_size_,
+                     group_size_, moved);
+    else
+        queue.launch(kernel_, std::min<std::size_t>(count, chunks_), 1, moved);
 }
 
 void GatherStage::enqueue(const Buffer<Aabb>& boxes, const Buffer<uint>& ids,
-                          const Buffer<uint>& owners, const Buffer<uint>& slots,
-                          const Buffer<std::byte>& sorted, Queue& queue)
-{
-    bind(objects_kernel_, boxes, ids, owners, slots, sorted, static_cast<uint>(ids.size()));
-    launch(objects_kernel_, ids.size(), owners.bytes(), queue);
-}
-
-void GatherStage::enqueue(const Buffer<Aabb>& boxes, const Buffer<uint>& ids,
-                          const ObjectRuns& runs, const Buffer<uint>& slots,
-                          const Buffer<std::byte>& sorted, Queue& queue)
+                          const ObjectRuns& runs, Queue& queue)
 {
     assert(!format_.has_cells());
     queue.begin("gather");
     if (runs.count() == 0)
         return;
-    bind(runs_kernel_, boxes, ids, runs.runs(), slots, sorted);
+    bind(runs_kernel_, boxes, ids, place_.boxes, runs.runs(), place_.slots);
     queue.launch(runs_kernel_, runs.count() * runs.group(), runs.group(),
                  moved_bytes(runs.triangles()));
 }
@@ -104,23 +110,6 @@ void GatherStage::enqueue(const Buffer<Aabb>& boxes, const Buffer<uint>& ids,
 std::int64_t GatherStage::moved_bytes(std::size_t count) const
 {
     return static_cast<std::int64_t>(count * (sizeof(uint) + sizeof(Aabb) + format_.box_bytes()));
-}
-
-void GatherStage::launch(cl::Kernel& kernel, std::size_t count, std::size_t more_bytes,
-                         Queue& queue)
-{
-    queue.begin("gather");
-    if (count == 0)
-        return;
-    if (format_.has_cells())
-        find_cells(queue);
-    const std::int64_t moved = moved_bytes(count) + static_cast<std::int64_t>(more_bytes);
-    if (form_ == KernelForm::groups)
-        queue.launch(kernel,
-                     std::size_t{divided_up(static_cast<uint>(count), group_size_)} * group_size_,
-                     group_size_, moved);
-    else
-        queue.launch(kernel, std::min(count, chunks_), 1, moved);
 }
 
 }  // namespace bvhbench

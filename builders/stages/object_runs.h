@@ -22,9 +22,10 @@ static_assert(sizeof(ObjectRun) == 16);
 /// Which objects a pass over triangles is about, cut into runs: all, or some. Those that are lined up come first.
 class ObjectRuns {
 public:
+    static constexpr uint usual_group_size = 256;
     static constexpr uint rounds = 4;  ///< of a group's size each, that a group takes at most
 
-    ObjectRuns(const Device& device, KernelForm form, uint group_size = 256);
+    ObjectRuns(const Device& device, KernelForm form, uint group_size = usual_group_size);
 
     /// Take room for any of the objects of so many triangles each, none of them empty.
     void plan(Arena& arena, std::span<const uint> sizes);
@@ -38,21 +39,17 @@ public:
 
     /// Work-items for each run.
     std::size_t group() const { return form_ == KernelForm::groups ? group_size_ : 1; }
+    uint group_size() const { return group_size_; }  ///< whatever the form
 
     std::size_t count() const { return count_; }
-    std::size_t lined_up_count() const
-    {
-        return lined_up_count_;
-    }  ///< runs of objects that are lined up
+    std::size_t lined_up_count() const { return lined_up_count_; }      ///< runs of those lined up
     std::size_t lined_up_objects() const { return lined_up_objects_; }  ///< how many of those
     uint triangles() const { return triangles_; }
     uint lined_up_triangles() const { return lined_up_triangles_; }
 
     const Buffer<ObjectRun>& runs() const { return runs_; }
-    const Buffer<uint>& first_runs() const
-    {
-        return first_runs_;
-    }  ///< of each chosen object, and the end
+    /// Of each chosen object, and the end.
+    const Buffer<uint>& first_runs() const { return first_runs_; }
     const Buffer<uint>& objects() const { return objects_; }  ///< the chosen ones
 
 private:

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-// check: -DGROUP_SIZE=256u
+// check: -DGROUP_SIZE=256u -DVALUES_PER_ITEM=4u
 //
 // Each value becomes the sum of all before it. Three launches: every group or chunk leaves the sum of its values in
 // `partials`, one group or work-item scans those, and every group or chunk goes on from its own.
 #include "builders/stages/chunk.clh"
 #include "builders/stages/group_scan.clh"
 
-#define VALUES_PER_ITEM 4u
 #define TILE (GROUP_SIZE * VALUES_PER_ITEM)
 
 /// Values of this work-item, zero past all. One by one: `values` need not end with a whole tile.

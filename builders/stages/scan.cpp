@@ -11,7 +11,8 @@ namespace {
 
 constexpr auto path = "builders/stages/scan.cl";
 constexpr uint group_size = 256;
-constexpr uint tile = 4 * group_size;  // as in the kernels
+constexpr uint values_per_item = 4;
+constexpr uint tile = values_per_item * group_size;
 
 }  // namespace
 
@@ -20,7 +21,8 @@ ScanStage::ScanStage(Programs& programs, KernelForm form)
 {
     const bool groups = form_ == KernelForm::groups;
     const auto kernel = [&](const char* name) {
-        return programs.kernel(path, name, {{"GROUP_SIZE", group_size}});
+        return programs.kernel(path, name,
+                               {{"GROUP_SIZE", group_size}, {"VALUES_PER_ITEM", values_per_item}});
     };
     sum_ = kernel(groups ? "sum_groups" : "sum_chunks");
     scan_partials_ = kernel(groups ? "scan_partials_group" : "scan_partials_chunk");

@@ -66,7 +66,8 @@ public:
 
     std::string wrong() override
     {
-        codes_.enqueue(bounds_.boxes(), bounds_.bounds(), sort_.unsorted_codes(), session_.queue());
+        codes_.enqueue(bounds_.boxes(), bounds_.bounds(), input_.device_owners,
+                       sort_.unsorted_codes(), session_.queue());
         const std::vector<uint> unsorted = sort_.unsorted_codes().download(session_.queue().cl());
         once();
         return sort_.ids().download(session_.queue().cl()) == sorted(unsorted)
@@ -77,7 +78,8 @@ public:
     std::vector<StageTime> once() override
     {
         session_.give_head_start();
-        codes_.enqueue(bounds_.boxes(), bounds_.bounds(), sort_.unsorted_codes(), session_.queue());
+        codes_.enqueue(bounds_.boxes(), bounds_.bounds(), input_.device_owners,
+                       sort_.unsorted_codes(), session_.queue());
         sort_.enqueue(session_.queue());
         std::vector<StageTime> stages = session_.queue().finish();
         std::erase_if(stages, [](const StageTime& time) { return time.stage != "sort"; });

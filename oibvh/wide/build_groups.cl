@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// check: -include oibvh/wide/wide4.clh -DGROUP_SIZE=64u
-// check: -include oibvh/wide/wide8.clh -DGROUP_SIZE=512u
+// check: -include oibvh/wide/wide4_access.clh -DGROUP_SIZE=64u -DSEVERAL_OBJECTS=1
+// check: -include oibvh/wide/wide8_access.clh -DGROUP_SIZE=512u -DFROM_LEAVES=1
 //
 // Algorithm 1 over a wide tree, for devices with many lanes: a group builds a subtree from GROUP_SIZE children, a power
 // of the children a node, up to its root.
@@ -9,8 +9,8 @@
 //     entry level                    n                 n                  their nodes' boxes, in local memory, are
 //     ...                                                                 the next level's children
 //
-// Compiled behind wide4.clh or wide8.clh.
-#include "geometry/forest.h"
+// Compiled behind wide4_access.clh or wide8_access.clh.
+#include "builders/implicit/own_subtree.clh"
 #include "oibvh/wide/layout.h"
 
 #define WIDE_KERNEL kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
@@ -38,40 +38,30 @@ static inline void build_subtree(global uint4* nodes, local float2* boxes, const
     }
 }
 
-/// Several launches build the trees of objects. A group's subtree is of the object and at the position that `subtrees`
-/// says. The first launch: reads `leaf_boxes`, one a triangle in mesh order, through `ids`, the triangles in leaf order.
-WIDE_KERNEL void build_from_leaves(global const float2* leaf_boxes, global const uint* ids,
-                                   global uint4* nodes, global const ForestObject* objects,
-                                   global const uint2* subtrees)
+/// One of several launches, which begins `levels_done` above the leaves: from `leaf_boxes`, one a triangle in mesh order, by
+/// way of `ids`, the triangles in leaf order (FROM_LEAVES), or from the nodes below the entry level.
+WIDE_KERNEL void build(global const float2* leaf_boxes, global const uint* ids, global uint4* nodes,
+                       global const ForestObject* objects, global const uint2* subtrees,
+                       const uint all_leaves, const uint first_subtree, const uint levels_done)
 {
     local float2 boxes[WORDS_PER_BOX * GROUP_SIZE];
-    const uint2 subtree = subtrees[get_group_id(0)];
-    const ForestObject object = objects[subtree.x];
-    const uint item = (uint)get_local_id(0), place = subtree.y * GROUP_SIZE + item;
-    store_local_box(
-        boxes, item,
-        place < object.leaves ? load_box(leaf_boxes, ids[object.first + place]) : empty_box());
+    const Subtree own =
+        own_subtree(objects, subtrees, first_subtree + (uint)get_group_id(0), all_leaves);
+    const uint leaves = own.object.leaves;
+    const uint item = (uint)get_local_id(0), position = own.position * GROUP_SIZE + item;
+    const uint level = wide_leaf_level(leaves, TREE_CHILD_BITS) - levels_done;
+    global uint4* tree = nodes + NODE_WORDS * own.object.nodes;
+#if FROM_LEAVES
+    const Aabb box =
+        position < leaves ? load_box(leaf_boxes, ids[own.object.first + position]) : empty_box();
+#else
+    (void)leaf_boxes, (void)ids;
+    const Aabb box =
+        position < wide_real_on(leaves, TREE_CHILD_BITS, level)
+            ? node_box(tree, wide_first_slot(leaves, TREE_CHILD_BITS, level) + position)
+            : empty_box();
+#endif
+    store_local_box(boxes, item, box);
     barrier(CLK_LOCAL_MEM_FENCE);
-    build_subtree(nodes + NODE_WORDS * object.nodes, boxes, object.leaves, subtree.y,
-                  (int)wide_leaf_level(object.leaves, TREE_CHILD_BITS) - 1);
-}
-
-/// The others, `levels_done` above the leaves: from the nodes below the entry level.
-WIDE_KERNEL void build_from_nodes(global uint4* nodes, global const ForestObject* objects,
-                                  global const uint2* subtrees, const uint first_subtree,
-                                  const uint levels_done)
-{
-    local float2 boxes[WORDS_PER_BOX * GROUP_SIZE];
-    const uint2 subtree = subtrees[first_subtree + get_group_id(0)];
-    const ForestObject object = objects[subtree.x];
-    const uint item = (uint)get_local_id(0), position = subtree.y * GROUP_SIZE + item;
-    const uint level = wide_leaf_level(object.leaves, TREE_CHILD_BITS) - levels_done;
-    global uint4* own = nodes + NODE_WORDS * object.nodes;
-    store_local_box(
-        boxes, item,
-        position < wide_real_on(object.leaves, TREE_CHILD_BITS, level)
-            ? node_box(own, wide_first_slot(object.leaves, TREE_CHILD_BITS, level) + position)
-            : empty_box());
-    barrier(CLK_LOCAL_MEM_FENCE);
-    build_subtree(own, boxes, object.leaves, subtree.y, (int)level - 1);
+    build_subtree(tree, boxes, leaves, own.position, (int)level - 1);
 }

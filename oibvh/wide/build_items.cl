@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// check: -include oibvh/wide/wide4.clh
-// check: -include oibvh/wide/wide8.clh
+// check: -include oibvh/wide/wide4_access.clh -DSEVERAL_OBJECTS=1
+// check: -include oibvh/wide/wide8_access.clh -DFROM_LEAVES=1
 //
 // Algorithm 1 over a wide tree, for devices with a few fast cores: a work-item builds a whole subtree, level by level.
 // The same launches and arguments as build_groups.cl, with `levels` a launch chosen at run time.
 //
-// Compiled behind wide4.clh or wide8.clh.
-#include "geometry/forest.h"
+// Compiled behind wide4_access.clh or wide8_access.clh.
+#include "builders/implicit/own_subtree.clh"
 #include "oibvh/wide/layout.h"
 
 /// Store a node of these children.
@@ -46,39 +46,34 @@ static inline void build_upwards(global uint4* nodes, const uint leaves, const u
     }
 }
 
-/// The first launch.
-kernel void build_from_leaves(global const float2* leaf_boxes, global const uint* ids,
-                              global uint4* nodes, global const ForestObject* objects,
-                              global const uint2* subtrees, const uint levels)
+kernel void build(global const float2* leaf_boxes, global const uint* ids, global uint4* nodes,
+                  global const ForestObject* objects, global const uint2* subtrees,
+                  const uint all_leaves, const uint first_subtree, const uint levels_done,
+                  const uint levels)
 {
-    const uint2 subtree = subtrees[get_global_id(0)];
-    const ForestObject object = objects[subtree.x];
-    const uint leaves = object.leaves, level = wide_leaf_level(leaves, TREE_CHILD_BITS) - 1u;
-    const uint above = min(levels - 1u, level);
+    const Subtree own =
+        own_subtree(objects, subtrees, first_subtree + (uint)get_global_id(0), all_leaves);
+    const uint leaves = own.object.leaves;
+    uint level = wide_leaf_level(leaves, TREE_CHILD_BITS) - levels_done;
+    uint above = min(levels, level);
+    global uint4* tree = nodes + NODE_WORDS * own.object.nodes;
+#if FROM_LEAVES
+    --level;
+    --above;
     const uint real = wide_real_on(leaves, TREE_CHILD_BITS, level);
     const uint slot = wide_first_slot(leaves, TREE_CHILD_BITS, level);
-    const uint end = min((subtree.y + 1u) << (TREE_CHILD_BITS * above), real);
-    global uint4* own = nodes + NODE_WORDS * object.nodes;
+    const uint end = min((own.position + 1u) << (TREE_CHILD_BITS * above), real);
     Aabb children[LANE_COUNT];
-    for (uint node = subtree.y << (TREE_CHILD_BITS * above); node < end; ++node) {
+    for (uint node = own.position << (TREE_CHILD_BITS * above); node < end; ++node) {
         for (uint k = 0u; k < LANE_COUNT; ++k) {
             const uint place = LANE_COUNT * node + k;
             children[k] =
-                place < leaves ? load_box(leaf_boxes, ids[object.first + place]) : empty_box();
+                place < leaves ? load_box(leaf_boxes, ids[own.object.first + place]) : empty_box();
         }
-        store_node(own, slot + node, children);
+        store_node(tree, slot + node, children);
     }
-    build_upwards(own, leaves, subtree.y, level, above);
-}
-
-/// The others.
-kernel void build_from_nodes(global uint4* nodes, global const ForestObject* objects,
-                             global const uint2* subtrees, const uint first_subtree,
-                             const uint levels_done, const uint levels)
-{
-    const uint2 subtree = subtrees[first_subtree + get_global_id(0)];
-    const ForestObject object = objects[subtree.x];
-    const uint level = wide_leaf_level(object.leaves, TREE_CHILD_BITS) - levels_done;
-    build_upwards(nodes + NODE_WORDS * object.nodes, object.leaves, subtree.y, level,
-                  min(levels, level));
+#else
+    (void)leaf_boxes, (void)ids;
+#endif
+    build_upwards(tree, leaves, own.position, level, above);
 }

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "oibvh/wide/builder.h"
-
 #include <algorithm>
 #include <numeric>
 #include <string>
 
 #include "builders/implicit/cut.h"
+#include "builders/implicit/launches.h"
 #include "builders/ordered/ordered_builder.h"
 #include "geometry/error.h"
 #include "oibvh/kary_layout.h"
+#include "oibvh/oibvh.h"
+#include "oibvh/wide/tree.h"
 
 namespace bvhbench {
 namespace {
@@ -19,6 +20,8 @@ BuildOptions without_gather(BuildOptions options)
     return options;
 }
 
+/// A builder of Appendix C's trees, bottom-up in several launches, by kernels that suit the kind of device. `sorted_leaves`
+/// changes nothing: nodes hold the leaves' boxes in leaf order.
 class WideBuilder final : public OrderedBuilder {
 public:
     WideBuilder(Programs& programs, const BuilderCard& card, const WideFormat& format,
@@ -31,19 +34,6 @@ public:
     }
 
 private:
-    /// One launch, of all objects: those whose trees are so high take part in it.
-    struct Launch {
-        uint first_subtree = 0, subtrees = 0;  ///< of the list
-        std::int64_t moved_bytes = 0;
-    };
-
-    /// The launches that make the trees of all objects, or of some.
-    struct Launches {
-        std::vector<Launch> list;
-        std::vector<cl_uint2> subtree_list;  ///< object and position, launch by launch
-        Buffer<cl_uint2> subtrees;
-    };
-
     std::unique_ptr<OrderedBuilder> twin() const override
     {
         return std::make_unique<WideBuilder>(programs_, card(), tree_.format, options_);
@@ -57,19 +47,20 @@ private:
     void enqueue_refit(Queue& queue) override { enqueue(whole_, queue); }
 
     bool can_update_some() const override { return true; }
-    void plan_updates(Arena& arena) override
+    void plan_updates(Arena& arena) override { update_.take(arena, whole_); }
+    void begin_update(const cl::CommandQueue& queue, std::span<const uint> objects) override
     {
-        update_.subtrees = arena.take<cl_uint2>(whole_.subtree_list.size(), Use::scratch);
+        update_.plan(objects, launch_plan());
+        update_.upload(queue);
     }
-    void begin_update(const cl::CommandQueue& queue, std::span<const TreeUpdate> updates) override;
     void enqueue_update(Queue& queue) override { enqueue(update_, queue); }
 
     DeviceTree& tree() override { return tree_; }
 
     void choose(uint leaves);
-    void plan_launches(Launches& launches, std::span<const uint> objects) const;
+    LaunchPlan launch_plan() const;
     void enqueue(const Launches& launches, Queue& queue);
-    std::int64_t moved_bytes(uint leaves, uint entry_level, uint levels) const;
+    std::int64_t moved_bytes(uint leaves, const SubtreeLaunch& launch) const;
 
     uint bits() const { return tree_.format.child_bits; }
     bool by_groups() const { return cut_.form == KernelForm::groups; }
@@ -116,76 +107,57 @@ void WideBuilder::plan(Arena& arena, std::span<const uint> sizes)
     choose(tree_.most_leaves);
     std::vector<uint> all(sizes.size());
     std::iota(all.begin(), all.end(), 0u);
-    plan_launches(whole_, all);
+    whole_.plan(all, launch_plan());
 
     tree_.nodes = arena.take<NodeWord>(slots * tree_.format.node_words(), Use::tree);
     tree_.device_objects = arena.take<ForestObject>(sizes.size(), Use::tree);
     leaf_order_.plan(arena, sizes, Use::scratch, false);
     tree_.ids = leaf_order_.ids();
-    whole_.subtrees = arena.take<cl_uint2>(whole_.subtree_list.size(), Use::scratch);
+    whole_.take(arena, whole_);
 }
 
-void WideBuilder::plan_launches(Launches& launches, std::span<const uint> objects) const
+LaunchPlan WideBuilder::launch_plan() const
 {
-    launches.list.clear();
-    launches.subtree_list.clear();
-    uint most_levels = 0;
-    for (const uint object : objects)
-        most_levels = std::max(most_levels, wide_leaf_level(tree_.objects[object].leaves, bits()));
-    for (uint done = 0; done < most_levels; done += levels_) {
-        Launch launch{static_cast<uint>(launches.subtree_list.size()), 0, 0};
-        for (const uint object : objects) {
-            const uint leaves = tree_.objects[object].leaves;
-            const uint leaf_level = wide_leaf_level(leaves, bits());
-            if (done >= leaf_level)
-                continue;
-            const uint entry_level = leaf_level - done - 1;
-            const uint levels = std::min(levels_, entry_level + 1);
-            const uint subtrees = wide_real_on(leaves, bits(), entry_level + 1 - levels);
-            launch.subtrees += subtrees;
-            launch.moved_bytes += moved_bytes(leaves, entry_level, levels);
-            for (uint position = 0; position < subtrees; ++position)
-                launches.subtree_list.push_back({{object, position}});
-        }
-        launches.list.push_back(launch);
-    }
+    return {.objects = tree_.objects,
+            .schedule =
+                [this](uint leaves) {
+                    return subtree_schedule(
+                        wide_leaf_level(leaves, bits()), levels_,
+                        [&](uint level) { return wide_real_on(leaves, bits(), level); });
+                },
+            .moved_bytes = std::bind_front(&WideBuilder::moved_bytes, this)};
 }
 
 /// Children read once, nodes written once.
-std::int64_t WideBuilder::moved_bytes(uint leaves, uint entry_level, uint levels) const
+std::int64_t WideBuilder::moved_bytes(uint leaves, const SubtreeLaunch& launch) const
 {
     const auto node_bytes = static_cast<std::int64_t>(tree_.format.node_words() * sizeof(NodeWord));
-    const bool from_leaves = entry_level + 1 == wide_leaf_level(leaves, bits());
-    const std::int64_t children = wide_real_on(leaves, bits(), entry_level + 1);
+    const bool from_leaves = launch.entry_level + 1 == wide_leaf_level(leaves, bits());
+    const std::int64_t children = wide_real_on(leaves, bits(), launch.entry_level + 1);
     std::int64_t written = 0;
-    for (uint level = entry_level + 1 - levels; level <= entry_level; ++level)
-        written += wide_real_on(leaves, bits(), level);
+    for (uint k = 0; k < launch.levels; ++k)
+        written += wide_real_on(leaves, bits(), launch.entry_level - k);
     return children * (from_leaves ? std::int64_t{sizeof(Aabb) + sizeof(uint)} : node_bytes) +
            written * node_bytes;
 }
 
-void WideBuilder::begin_update(const cl::CommandQueue& queue, std::span<const TreeUpdate> updates)
-{
-    std::vector<uint> objects;
-    for (uint object = 0; object < updates.size(); ++object)
-        if (updates[object] != TreeUpdate::keep)
-            objects.push_back(object);
-    plan_launches(update_, objects);
-    update_.subtrees.upload(queue, update_.subtree_list);
-}
-
 void WideBuilder::prepare(const cl::CommandQueue& queue)
 {
-    const std::vector<Define> defines =
-        by_groups() ? std::vector<Define>{{"GROUP_SIZE", cut_.group_size}} : std::vector<Define>{};
-    const std::string_view path =
-        by_groups() ? "oibvh/wide/build_groups.cl" : "oibvh/wide/build_items.cl";
-    from_leaves_ = programs_.kernel(tree_.format.text, path, "build_from_leaves", defines);
+    const auto kernel = [&](bool from_leaves, Optimise optimise) {
+        std::vector<Define> defines = {{"SEVERAL_OBJECTS", tree_.objects.size() > 1 ? 1u : 0u},
+                                       {"FROM_LEAVES", from_leaves ? 1u : 0u}};
+        if (by_groups())
+            defines.push_back({"GROUP_SIZE", cut_.group_size});
+        return programs_.kernel(
+            tree_.format.text,
+            by_groups() ? "oibvh/wide/build_groups.cl" : "oibvh/wide/build_items.cl", "build",
+            defines, optimise);
+    };
+    from_leaves_ = kernel(true, Optimise::freely);
     // The few nodes that are left: where optimising is in doubt, there is nothing to win.
-    from_nodes_ =
-        programs_.kernel(tree_.format.text, path, "build_from_nodes", defines, Optimise::on_gpus);
+    from_nodes_ = kernel(false, Optimise::on_gpus);
     tree_.device_objects.upload(queue, tree_.objects);
-    whole_.subtrees.upload(queue, whole_.subtree_list);
+    whole_.upload(queue);
 }
 
 void WideBuilder::enqueue(const Launches& launches, Queue& queue)
@@ -193,11 +165,9 @@ void WideBuilder::enqueue(const Launches& launches, Queue& queue)
     for (uint k = 0; k < launches.list.size(); ++k) {
         const Launch& launch = launches.list[k];
         cl::Kernel& kernel = k == 0 ? from_leaves_ : from_nodes_;
-        cl_uint next =
-            k == 0 ? set_arguments_from(kernel, 0, leaf_order_.boxes(), tree_.ids, tree_.nodes,
-                                        tree_.device_objects, launches.subtrees)
-                   : set_arguments_from(kernel, 0, tree_.nodes, tree_.device_objects,
-                                        launches.subtrees, launch.first_subtree, k * levels_);
+        const cl_uint next = set_arguments_from(
+            kernel, 0, leaf_order_.boxes(), tree_.ids, tree_.nodes, tree_.device_objects,
+            launches.subtrees, tree_.leaves, launch.first_subtree, k * levels_);
         if (!by_groups())
             set_arguments_from(kernel, next, levels_);
         queue.launch(kernel, std::size_t{launch.subtrees} * cut_.group_size, cut_.group_size,
@@ -207,10 +177,20 @@ void WideBuilder::enqueue(const Launches& launches, Queue& queue)
 
 }  // namespace
 
-std::unique_ptr<Builder> make_wide_builder(Programs& programs, const BuilderCard& card,
-                                           const WideFormat& format, const BuildOptions& options)
+std::unique_ptr<Builder> make_oibvh_wide4(Programs& programs, const BuildOptions& options)
 {
-    return std::make_unique<WideBuilder>(programs, card, format, options);
+    const BuilderCard card = {"oibvh-wide4", "Oi-BVH, 4 children a node [Chitalu2020, App. C]",
+                              BuilderCard::Runs::on_device};
+    return std::make_unique<WideBuilder>(programs, card,
+                                         WideFormat{2, "oibvh/wide/wide4_access.clh"}, options);
+}
+
+std::unique_ptr<Builder> make_oibvh_wide8(Programs& programs, const BuildOptions& options)
+{
+    const BuilderCard card = {"oibvh-wide8", "Oi-BVH, 8 children a node [Chitalu2020, App. C]",
+                              BuilderCard::Runs::on_device};
+    return std::make_unique<WideBuilder>(programs, card,
+                                         WideFormat{3, "oibvh/wide/wide8_access.clh"}, options);
 }
 
 }  // namespace bvhbench

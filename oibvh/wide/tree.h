@@ -10,9 +10,9 @@ namespace bvhbench {
 
 /// How many children a wide node has; its layout is in oibvh/wide/floats.clh.
 struct WideFormat {
-    uint child_bits;          ///< log2 of the children a node
-    std::string_view text;    ///< header that says so to kernels
-    std::string_view access;  ///< header, as builders/device_tree.h says
+    uint child_bits;  ///< log2 of the children a node
+    std::string_view
+        text;  ///< header that says so to kernels, and how they walk such a tree (builders/device_tree.h)
 
     uint children() const { return 1u << child_bits; }
     std::size_t node_words() const { return 6 * std::size_t{children()} / 4; }  ///< of 16 bytes
@@ -39,7 +39,7 @@ public:
 
     uint leaf_count() const override { return leaves; }
     bool has_sorted_leaves() const override { return false; }
-    std::string_view access_header() const override { return format.access; }
+    std::string_view access_header() const override { return format.text; }
     bool is_implicit() const override { return true; }
     uint child_bits() const override { return format.child_bits; }
     uint most_levels() const override

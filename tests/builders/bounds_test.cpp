@@ -5,7 +5,6 @@
 
 #include <cmath>
 
-#include "builders/stages/object_bounds.h"
 #include "tests/builders/stage_testing.h"
 
 namespace bvhbench {
@@ -13,25 +12,39 @@ namespace {
 
 class BoundsContract : public testing::TestWithParam<KernelForm> {
 protected:
-    void expect_equal_to_host(const Mesh& mesh, uint group_size)
+    /// Of one object if there are none, of one frame or swept to `end`.
+    void expect_equal_to_host(const Mesh& mesh, uint group_size,
+                              const std::vector<FaceRange>& objects = {},
+                              const std::vector<Point>& end = {})
     {
+        Input input = upload(bench().device, bench().queue, mesh.points, mesh.faces, objects);
         BoundsStage stage(bench().programs, GetParam(), group_size);
-        reserve([&](Arena& arena) { stage.plan(arena, mesh.faces.size(), Use::tree); });
+        reserve([&](Arena& arena) { stage.plan(arena, object_sizes(input), Use::tree, true); });
         stage.prepare(bench().queue.cl());
-        const Input input = upload(bench().device, bench().queue, mesh.points, mesh.faces);
-        // Twice, the second time without the first one's result: each launch must leave all ready for the next.
-        stage.enqueue(input, bench().queue);
-        const Bounds none = empty_bounds();
+        // Again without the first one's result: each launch must leave all ready for the next. Then swept, by the same stage.
+        expect_one(stage, input);
         Buffer<Bounds> found = stage.bounds();
-        found.upload(bench().queue.cl(), {&none, 1});
+        found.upload(bench().queue.cl(), std::vector(input.objects.size(), empty_bounds()));
+        expect_one(stage, input);
+        if (end.empty())
+            return;
+        upload_end(input, bench().device, bench().queue, end);
+        EXPECT_FALSE(same_bits(leaf_boxes(input), face_boxes(mesh.points, mesh.faces)));
+        expect_one(stage, input);
+    }
+
+private:
+    static void expect_one(BoundsStage& stage, const Input& input)
+    {
         stage.enqueue(input, bench().queue);
         bench().queue.finish();
-
-        std::vector<Aabb> boxes;
-        for (const Face face : mesh.faces)
-            boxes.push_back(face_box(mesh.points, face));
-        EXPECT_TRUE(same_bits(stage.boxes().download(bench().queue.cl()), boxes));
-        EXPECT_TRUE(same_bits(stage.bounds().download(bench().queue.cl()), {host_bounds(boxes)}));
+        const std::vector<Aabb> boxes = leaf_boxes(input);
+        EXPECT_TRUE(same_bits(from_device(stage.boxes()), boxes));
+        std::vector<Bounds> each;
+        for (const FaceRange& object : input.objects)
+            each.push_back(host_bounds(std::span(boxes).subspan(object.first, object.count)));
+        EXPECT_TRUE(same_bits(from_device(stage.bounds()), each));
+        EXPECT_TRUE(same_bits(from_device(stage.bounds_of_all()), {host_bounds(boxes)}));
     }
 };
 
@@ -46,7 +59,7 @@ TEST_P(BoundsContract, EqualTheHostsOnHardMeshes)
 // 16 groups of 16 at most on two cores: sizes past 256 take several rounds.
 TEST_P(BoundsContract, EqualTheHostsOfEverySize)
 {
-    const Mesh all = random_mesh(600, [](Point p) { return p; });
+    const Mesh all = random_mesh(600);
     for (std::size_t size = 1; size <= all.faces.size(); ++size) {
         SCOPED_TRACE(size);
         Mesh mesh = all;
@@ -57,42 +70,15 @@ TEST_P(BoundsContract, EqualTheHostsOfEverySize)
 
 TEST_P(BoundsContract, EqualTheHostsOnTheWayBetweenTwoFrames)
 {
-    const Mesh mesh = random_mesh(1000, [](Point p) { return p; });
+    const Mesh mesh = random_mesh(1000);
     std::vector<Point> end = mesh.points;
     for (std::size_t k = 0; k < end.size(); ++k)
         end[k] = {end[k].y, k % 3 == 0 ? -0.0f : end[k].z + 0.25f, -end[k].x};
-    const std::vector<FaceRange> objects = {{0, 1}, {1, 600}, {601, 399}};
-    Input input = upload(bench().device, bench().queue, mesh.points, mesh.faces, objects);
-    BoundsStage stage(bench().programs, GetParam(), 64);
-    ObjectBounds by_object(bench().programs, GetParam(), 64);
-    reserve([&](Arena& arena) {
-        stage.plan(arena, mesh.faces.size(), Use::tree);
-        by_object.plan(arena, object_sizes(input), Use::tree);
-    });
-    stage.prepare(bench().queue.cl());
-    by_object.prepare(bench().queue.cl());
-    for (const bool swept : {false, true}) {  // one stage makes both
-        SCOPED_TRACE(swept);
-        if (swept)
-            upload_end(input, bench().device, bench().queue, end);
-        stage.enqueue(input, bench().queue);
-        by_object.enqueue(input, bench().queue);
-        bench().queue.finish();
-        const std::vector<Aabb> boxes = leaf_boxes(input);
-        EXPECT_EQ(same_bits(boxes, face_boxes(mesh.points, mesh.faces)), !swept);
-        EXPECT_TRUE(same_bits(stage.boxes().download(bench().queue.cl()), boxes));
-        EXPECT_TRUE(same_bits(by_object.boxes().download(bench().queue.cl()), boxes));
-        EXPECT_TRUE(same_bits(stage.bounds().download(bench().queue.cl()), {host_bounds(boxes)}));
-        std::vector<Bounds> each;
-        for (const FaceRange& object : objects)
-            each.push_back(host_bounds(std::span(boxes).subspan(object.first, object.count)));
-        EXPECT_TRUE(same_bits(by_object.bounds().download(bench().queue.cl()), each));
-    }
+    expect_equal_to_host(mesh, 64, {}, end);
+    expect_equal_to_host(mesh, 64, {{0, 1}, {1, 600}, {601, 399}}, end);
 }
 
-INSTANTIATE_TEST_SUITE_P(Forms, BoundsContract,
-                         testing::Values(KernelForm::groups, KernelForm::chunks),
-                         [](const auto& instance) { return form_name(instance.param); });
+INSTANTIATE_TEST_SUITE_P(Forms, BoundsContract, testing::ValuesIn(both_forms), form_test_name);
 
 TEST(BoxCentre, NeitherOverflowsNorHasANegativeZero)
 {

@@ -7,7 +7,6 @@
 
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "builders/stages/bounds.h"
 #include "builders/stages/gather.h"
@@ -151,46 +150,31 @@ TEST_P(EachFormat, UsesNearlyAllOfItsNumbers)
 
 TEST_P(EachFormat, IsTheSameOnTheDevice)
 {
-    const cl::CommandQueue& queue = bench().queue.cl();
-    for (const KernelForm form : {KernelForm::groups, KernelForm::chunks}) {
+    for (const KernelForm form : both_forms) {
         GatherStage gather(bench().programs, form, 16, GetParam());
         for (const auto& [name, mesh] : hard_meshes(333)) {
             SCOPED_TRACE(name + ", " + form_name(form));
-            std::vector<Aabb> boxes;
-            for (const Face& face : mesh.faces)
-                boxes.push_back(face_box(mesh.points, face));
+            const std::vector<Aabb> boxes = face_boxes(mesh.points, mesh.faces);
             const Bounds bounds = host_bounds(boxes);
-            std::vector<uint> ids(boxes.size());
-            std::iota(ids.begin(), ids.end(), 0u);
-            std::reverse(ids.begin(), ids.end());
-
-            Buffer<Aabb> device_boxes;
-            Buffer<uint> device_ids;
-            Buffer<Bounds> device_bounds;
-            Buffer<std::byte> sorted;
-            reserve([&](Arena& arena) {
-                device_boxes = arena.take<Aabb>(boxes.size(), Use::scratch);
-                device_ids = arena.take<uint>(boxes.size(), Use::scratch);
-                device_bounds = arena.take<Bounds>(2, Use::scratch);
-                sorted = arena.take<std::byte>(boxes.size() * GetParam().box_bytes(), Use::scratch);
-                gather.plan(arena, device_bounds);
-            });
-            device_boxes.upload(queue, boxes);
-            device_ids.upload(queue, ids);
-            device_bounds.upload(queue, std::vector{bounds, empty_bounds()});  // as of two objects
-            gather.enqueue(device_boxes, device_ids, sorted, 0, bench().queue);
+            const std::vector<uint> ids = shuffled_ids(boxes.size());
+            const Buffer<std::byte> sorted =
+                on_device(std::vector<std::byte>(boxes.size() * GetParam().box_bytes()));
+            const Buffer<Bounds> device_bounds =
+                on_device(std::vector{bounds, empty_bounds()});  // as of two objects
+            reserve([&](Arena& arena) { gather.plan(arena, {sorted}, device_bounds); });
+            gather.enqueue(on_device(boxes), on_device(ids), {}, bench().queue);
             bench().queue.finish();
 
             const auto rounding = BoxRounding::of_scene(GetParam(), bounds.scene);
             if (GetParam().has_cells()) {
-                EXPECT_TRUE(same_bits(gather.cells().download(queue), std::vector{rounding.cells}));
+                EXPECT_TRUE(same_bits(from_device(gather.cells()), std::vector{rounding.cells}));
             }
             std::vector<std::byte> expected;
             for (const uint id : ids) {
                 const std::vector<std::byte> one = rounding.stored(boxes[id]);
                 expected.insert(expected.end(), one.begin(), one.end());
             }
-            EXPECT_TRUE(same_bits(sorted.download(queue), expected));
+            EXPECT_TRUE(same_bits(from_device(sorted), expected));
         }
     }
 }

@@ -78,17 +78,9 @@ TEST_P(RoundedTrees, OfFewAreRadixTreesToo)
 TEST_P(RoundedTrees, OfSeveralObjectsAreUpdatedWithTheirCells)
 {
     ManyObjects many({70, 129, 3});
-    Input input = upload(session().device(), session().queue(), many.mesh.points, many.mesh.faces,
-                         many.objects);
     const BuildOptions options{.sorted_leaves = true, .boxes = GetParam().name};
-    const auto made = [&] {
-        auto builder = find_builder("oibvh-multi").make(session().programs(), options);
-        builder->reserve_objects(object_sizes(input));
-        return builder;
-    };
-    const auto updated = made(), anew = made();
-    const Tree* tree = nullptr;
-    session().build_once(*updated, input, Start::from_triangles, &tree);
+    const MakeBuilder make = find_builder("oibvh-multi").make;
+    StandingForest updated(many, make, options);
 
     // The first object goes so far off that it is outside of all cells there were.
     const FaceRange& moved = many.objects[0];
@@ -96,19 +88,18 @@ TEST_P(RoundedTrees, OfSeveralObjectsAreUpdatedWithTheirCells)
         for (const uint corner :
              {many.mesh.faces[face].a, many.mesh.faces[face].b, many.mesh.faces[face].c})
             many.mesh.points[corner].y += 5000.0f;
-    input.points = many.mesh.points;
-    input.device_points.upload(session().queue().cl(), many.mesh.points);
+    updated.input.points = many.mesh.points;
+    updated.input.device_points.upload(session().queue().cl(), many.mesh.points);
     using enum TreeUpdate;
     const std::vector<TreeUpdate> wanted = {rebuild, keep, refit};
-    const std::vector<TreeUpdate> planned = updated->plan_update(wanted, session().queue());
-    EXPECT_EQ(planned, GetParam().has_cells() ? std::vector(3, rebuild) : wanted);
-    const auto& found = dynamic_cast<const DeviceTree&>(updated->update(input, session().queue()));
+    EXPECT_EQ(updated.builder->plan_update(wanted, session().queue()),
+              GetParam().has_cells() ? std::vector(3, rebuild) : wanted);
+    updated.builder->update(updated.input, session().queue());
     session().queue().finish();
-    const Tree* expected = nullptr;
-    session().build_once(*anew, input, Start::from_triangles, &expected);
+    const StandingForest anew(many, make, options);
     for (uint object = 0; object < many.objects.size(); ++object)
-        EXPECT_EQ(tree_hash(found.spelled_out_object(object)),
-                  tree_hash(dynamic_cast<const DeviceTree&>(*expected).spelled_out_object(object)))
+        EXPECT_EQ(tree_hash(updated.device_tree().spelled_out_object(object)),
+                  tree_hash(anew.device_tree().spelled_out_object(object)))
             << "object " << object;
 }
 

@@ -3,21 +3,12 @@
 // Every builder of the catalog keeps the same promises. A new one is tested the moment it is listed.
 #include "harness/judge/contract.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
 #include "builders/orders.h"
-#include "harness/judge/hard_inputs.h"
+#include "harness/judge/check.h"
+#include "tests/collide/collider_testing.h"
 
 namespace bvhbench {
 namespace {
-
-Session& session()
-{
-    static Session session{CommonOptions{}};
-    return session;
-}
 
 /// The promise that `choice` breaks over `mesh`, with the card's name checked on the way. A refusal by a
 /// builder that may refuse breaks none; without `refused` to tell of it, it does.
@@ -55,36 +46,26 @@ TEST_P(BuilderContract, IsKeptAtEveryTellingSize)
     }
 }
 
-/// GoogleTest takes letters, digits and _ only.
-std::string test_name(std::string name)
-{
-    std::replace(name.begin(), name.end(), '-', '_');
-    return name;
-}
-
-std::string contract_name(const testing::TestParamInfo<BuilderContract::ParamType>& tested)
-{
-    return test_name(std::string(std::get<0>(tested.param).name) + '_' +
-                     std::string(std::get<1>(tested.param).name));
-}
-
-std::string options_name(const testing::TestParamInfo<BuilderEntry>& tested)
-{
-    return test_name(std::string(tested.param.name));
-}
-
 INSTANTIATE_TEST_SUITE_P(
     Catalog, BuilderContract,
     testing::Combine(testing::ValuesIn(builder_catalog().begin(), builder_catalog().end()),
                      testing::ValuesIn(hard_inputs().begin(), hard_inputs().end())),
-    contract_name);
+    [](const auto& tested) {
+        return test_name(std::string(std::get<0>(tested.param).name) + '_' +
+                         std::string(std::get<1>(tested.param).name));
+    });
 
-class BuilderOptions : public testing::TestWithParam<BuilderEntry> {};
+class EachBuilder : public testing::TestWithParam<BuilderEntry> {
+protected:
+    void SetUp() override
+    {
+        if (GetParam().make == nullptr)
+            GTEST_SKIP() << GetParam().absent;
+    }
+};
 
-TEST_P(BuilderOptions, DoNotChangeTheTreeOtherThanByTheOrder)
+TEST_P(EachBuilder, ChangesItsTreeByTheOrderAndNoOtherOption)
 {
-    if (GetParam().make == nullptr)
-        GTEST_SKIP() << GetParam().absent;
     const Mesh mesh = hard_inputs().front().make(777);
     BuilderChoice choice = named(GetParam().name);
     for (const OrderEntry& order : order_catalog())
@@ -98,18 +79,43 @@ TEST_P(BuilderOptions, DoNotChangeTheTreeOtherThanByTheOrder)
             }
 }
 
-TEST_P(BuilderOptions, DoNotOutliveTheSizeReservedBefore)
+TEST_P(EachBuilder, KeepsNothingOfTheSizeReservedBefore)
 {
-    if (GetParam().make == nullptr)
-        GTEST_SKIP() << GetParam().absent;
     const auto& make = hard_inputs().front().make;
     for (const std::size_t size : {1000u, 3u, 2000u, 1u, 1000u})
         EXPECT_EQ(broken_over(named(GetParam().name), make(size)), "") << size << " triangles";
 }
 
-INSTANTIATE_TEST_SUITE_P(Catalog, BuilderOptions,
+/// An array of 2^28 boxes is 6 GiB, and whoever counts its bytes or words in 32 bits asks for too few.
+TEST_P(EachBuilder, AsksForBytesInProportionToTheMeshPast32Bits)
+{
+    for (const char* order : {"morton30", "hilbert63", "kd"})
+        for (const bool sorted_leaves : {false, true}) {
+            const auto builder = GetParam().make(session().programs(),
+                                                 {.order = order, .sorted_leaves = sorted_leaves});
+            const auto bytes_each = [&](unsigned log2) {
+                return static_cast<double>(builder->footprint(std::size_t{1} << log2).total()) /
+                       static_cast<double>(std::size_t{1} << log2);
+            };
+            const double at_a_million = bytes_each(20);
+            EXPECT_GE(at_a_million, 24.0) << "a box a triangle at least";
+            for (unsigned log2 = 24; log2 <= 28; ++log2)
+                EXPECT_NEAR(bytes_each(log2) / at_a_million, 1.0, 0.02)
+                    << order << (sorted_leaves ? ", sorted" : "") << ", 2^" << log2;
+        }
+}
+
+INSTANTIATE_TEST_SUITE_P(Catalog, EachBuilder,
                          testing::ValuesIn(builder_catalog().begin(), builder_catalog().end()),
-                         options_name);
+                         [](const auto& tested) {
+                             return test_name(std::string(tested.param.name));
+                         });
+
+TEST(CheckBytes, AreInProportionToo)
+{
+    EXPECT_EQ(check_bytes(std::uint64_t{1} << 28), check_bytes(1u << 20) << 8);
+    EXPECT_GT(check_bytes(1), 4 * sizeof(HostTree::Node));
+}
 
 }  // namespace
 }  // namespace bvhbench

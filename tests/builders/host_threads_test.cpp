@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
 // Threads of the host leave what kernels leave, object by object, in trees of one subtree and of several.
-#include "builders/device_tree.h"
 #include "builders/spell_out.h"
 #include "tests/collide/collider_testing.h"
 #include "tests/collide/many_objects.h"
@@ -13,29 +12,24 @@ using Tested = std::tuple<std::vector<std::size_t>, bool>;
 
 class HostThreads : public testing::TestWithParam<Tested> {
 protected:
-    std::vector<std::uint64_t> hashes(const char* name, const Input& input) const
+    std::vector<std::uint64_t> hashes(const char* name) const
     {
-        const auto builder = find_builder(name).make(session().programs(),
-                                                     {.sorted_leaves = std::get<1>(GetParam())});
-        builder->reserve_objects(object_sizes(input));
-        const Tree* tree = nullptr;
-        session().build_once(*builder, input, Start::from_triangles, &tree);
-        const auto& forest = dynamic_cast<const DeviceTree&>(*tree);
+        const auto& [sizes, sorted_leaves] = GetParam();
+        const ManyObjects many(sizes);
+        const StandingForest forest(many, find_builder(name).make,
+                                    {.sorted_leaves = sorted_leaves});
         std::vector<std::uint64_t> hashes;
-        for (uint k = 0; k < forest.objects.size(); ++k)
-            hashes.push_back(tree_hash(forest.spelled_out_object(k)));
+        for (uint k = 0; k < forest.device_tree().objects.size(); ++k)
+            hashes.push_back(tree_hash(forest.device_tree().spelled_out_object(k)));
         return hashes;
     }
 };
 
 TEST_P(HostThreads, LeaveTheTreesThatKernelsLeave)
 {
-    const ManyObjects many(std::get<0>(GetParam()));
-    const Input input = upload(session().device(), session().queue(), many.mesh.points,
-                               many.mesh.faces, many.objects);
-    const std::vector<std::uint64_t> expected = hashes("oibvh-multi", input);
-    EXPECT_EQ(expected.size(), many.objects.size());
-    EXPECT_EQ(hashes("oibvh-host", input), expected);
+    const std::vector<std::uint64_t> expected = hashes("oibvh-multi");
+    EXPECT_EQ(expected.size(), std::get<0>(GetParam()).size());
+    EXPECT_EQ(hashes("oibvh-host"), expected);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -48,11 +42,9 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(HostThreadsStage, IsTimedByTheHostsClockAndLaunchesNothing)
 {
     const ManyObjects many({5000});
-    const Input input = upload(session().device(), session().queue(), many.mesh.points,
-                               many.mesh.faces, many.objects);
-    const auto builder = find_builder("oibvh-host").make(session().programs(), {});
-    builder->reserve(input.triangle_count());
-    const StageTime hierarchy = session().build_once(*builder, input, Start::from_triangles).back();
+    const StandingForest one(many, find_builder("oibvh-host").make);
+    const StageTime hierarchy =
+        session().build_once(*one.builder, one.input, Start::from_triangles).back();
     EXPECT_EQ(hierarchy.stage, "hierarchy");
     EXPECT_EQ(hierarchy.launches, 0);
     EXPECT_GT(hierarchy.wall_ns, 0);

@@ -3,9 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <numeric>
-
 #include "builders/stages/bounds.h"
 #include "geometry/error.h"
 #include "tests/builders/stage_testing.h"
@@ -32,10 +29,9 @@ protected:
 
         const HostLeafOrder host =
             host_leaf_order(face_boxes(mesh.points, mesh.faces), GetParam().order);
-        const cl::CommandQueue& queue = bench().queue.cl();
-        EXPECT_TRUE(same_bits(device_order.boxes().download(queue), host.boxes));
-        EXPECT_EQ(device_order.ids().download(queue), host.ids);
-        const std::vector<uint> words = device_order.codes().download(queue);
+        EXPECT_TRUE(same_bits(from_device(device_order.boxes()), host.boxes));
+        EXPECT_EQ(from_device(device_order.ids()), host.ids);
+        const std::vector<uint> words = from_device(device_order.codes());
         const bool is_wide = device_order.code_bits() > 32;
         for (std::size_t k = 0; k < host.codes.size(); ++k) {
             const ulong code =
@@ -71,13 +67,13 @@ TEST_P(LeafOrderContract, EqualsTheHostsOfEverySize)
             name != "hilbert63")
             continue;
         SCOPED_TRACE(size);
-        expect_equal_to_host(random_mesh(size, [](Point p) { return p; }));
+        expect_equal_to_host(random_mesh(size));
     }
 }
 
 TEST_P(LeafOrderContract, NamesItsStagesAndWhatTheyMove)
 {
-    expect_equal_to_host(random_mesh(100, [](Point p) { return p; }));
+    expect_equal_to_host(random_mesh(100));
     const OrderEntry& order = find_order(GetParam().order);
     std::vector<std::string> expected = {"bounds"};
     if (order.code_bits > 0)
@@ -92,21 +88,21 @@ TEST_P(LeafOrderContract, NamesItsStagesAndWhatTheyMove)
         EXPECT_GT(stage.moved_bytes, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    AllOrders, LeafOrderContract, testing::ValuesIn([] {
-        std::vector<Case> cases;
-        for (const OrderEntry& order : order_catalog())
-            for (const KernelForm form : {KernelForm::groups, KernelForm::chunks})
-                cases.push_back({form, std::string(order.name)});
-        return cases;
-    }()),
-    [](const auto& instance) {
-        // GoogleTest takes letters, digits and _ only.
-        std::string name = instance.param.order + "_" + form_name(instance.param.form);
-        std::ranges::replace_if(
-            name, [](char c) { return c == '-' || c == '+'; }, '_');
-        return name;
-    });
+INSTANTIATE_TEST_SUITE_P(AllOrders, LeafOrderContract, testing::ValuesIn([] {
+                             std::vector<Case> cases;
+                             for (const OrderEntry& order : order_catalog())
+                                 for (const KernelForm form : both_forms)
+                                     cases.push_back({form, std::string(order.name)});
+                             return cases;
+                         }()),
+                         [](const auto& instance) {
+                             // GoogleTest takes letters, digits and _ only.
+                             std::string name =
+                                 instance.param.order + "_" + form_name(instance.param.form);
+                             std::ranges::replace_if(
+                                 name, [](char c) { return c == '-' || c == '+'; }, '_');
+                             return name;
+                         });
 
 /// Each object's leaves on a grid of its own, or all on the scene's; with many objects the lowest bits are dropped.
 TEST(LeafOrder, OfSeveralObjectsMeasuresCodesAgainstTheGridAskedFor)
@@ -121,16 +117,14 @@ TEST(LeafOrder, OfSeveralObjectsMeasuresCodesAgainstTheGridAskedFor)
             objects.push_back({static_cast<uint>(owners.size()), sizes.back()});
             owners.insert(owners.end(), sizes.back(), k);
         }
-        const Mesh mesh = random_mesh(owners.size(), [](Point p) { return p; });
-        std::vector<Aabb> boxes;
-        for (const Face& face : mesh.faces)
-            boxes.push_back(face_box(mesh.points, face));
+        const Mesh mesh = random_mesh(owners.size());
+        const std::vector<Aabb> boxes = face_boxes(mesh.points, mesh.faces);
         const Bounds whole = host_bounds(boxes);
         const Input input = upload(bench().device, bench().queue, mesh.points, mesh.faces, objects);
         const OrderEntry& entry = find_order("hilbert48");
         const uint dropped = drops_bits ? 1 : 0;  // 17 bits of object, 47 of 48
         for (const GridOver grid : {GridOver::object, GridOver::scene})
-            for (const KernelForm form : {KernelForm::groups, KernelForm::chunks}) {
+            for (const KernelForm form : both_forms) {
                 if (drops_bits && form == KernelForm::groups)
                     continue;  // seconds on a processor, and arguments are the same
                 SCOPED_TRACE(form_name(form));
@@ -151,9 +145,8 @@ TEST(LeafOrder, OfSeveralObjectsMeasuresCodesAgainstTheGridAskedFor)
                 }
                 std::vector<uint> ids(codes.size());
                 std::iota(ids.begin(), ids.end(), 0u);
-                std::stable_sort(ids.begin(), ids.end(),
-                                 [&](uint a, uint b) { return codes[a] < codes[b]; });
-                EXPECT_EQ(order.ids().download(bench().queue.cl()), ids);
+                std::ranges::stable_sort(ids, {}, [&](uint id) { return codes[id]; });
+                EXPECT_EQ(from_device(order.ids()), ids);
             }
     }
 }

@@ -3,161 +3,116 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <numeric>
 #include <ranges>
 
-#include "builders/input.h"
+#include "builders/stages/bounds.h"
 #include "builders/stages/medians/cells.h"
-#include "geometry/bounds.h"
 #include "tests/builders/stage_testing.h"
 
 namespace bvhbench {
 namespace {
 
-/// A buffer of its own with these values on the device.
-template <class T>
-Buffer<T> on_device(const std::vector<T>& values)
-{
-    Arena arena = Arena::reserved(bench().device, {values.size() * sizeof(T), 0});
-    Buffer<T> buffer = arena.take<T>(values.size(), Use::tree);
-    buffer.upload(bench().queue.cl(), values);
-    return buffer;
-}
+std::vector<Aabb> boxes_of(const Mesh& mesh) { return face_boxes(mesh.points, mesh.faces); }
 
-std::vector<Aabb> boxes_of(const Mesh& mesh)
-{
-    std::vector<Aabb> boxes;
-    for (const Face& face : mesh.faces)
-        boxes.push_back(face_box(mesh.points, face));
-    return boxes;
-}
-
-std::vector<uint> shuffled_ids(std::size_t count)
-{
-    std::vector<uint> ids(count);
-    std::iota(ids.begin(), ids.end(), 0u);
-    std::shuffle(ids.begin(), ids.end(), std::mt19937(3));
-    return ids;
-}
-
+/// The kernels of either kind beside the host's: medians within blocks, or by cells above them, where what is in which block
+/// is equal to the host's, in whatever order.
 struct MedianCase {
     std::string name;
+    bool is_of_cells;
     MedianShape shape;
 };
 
-const MedianCase median_cases[] = {
-    {"groups", {.form = KernelForm::groups}},
-    {"groups_of_32_over_64", {.form = KernelForm::groups, .block_height = 6, .group_size = 32}},
-    {"groups_of_32_over_32", {.form = KernelForm::groups, .block_height = 5, .group_size = 32}},
-    {"chunks", {.form = KernelForm::chunks}},
-    {"chunks_over_64", {.form = KernelForm::chunks, .block_height = 6}},
+const MedianCase cases[] = {
+    {"blocks_groups", false, {.form = KernelForm::groups}},
+    {"blocks_groups_of_32_over_64",
+     false,
+     {.form = KernelForm::groups, .block_height = 6, .group_size = 32}},
+    {"blocks_groups_of_32_over_32",
+     false,
+     {.form = KernelForm::groups, .block_height = 5, .group_size = 32}},
+    {"blocks_chunks", false, {.form = KernelForm::chunks}},
+    {"blocks_chunks_over_64", false, {.form = KernelForm::chunks, .block_height = 6}},
+    {"cells_groups", true, {.form = KernelForm::groups}},
+    {"cells_groups_over_32", true, {.form = KernelForm::groups, .block_height = 5}},
+    {"cells_chunks", true, {.form = KernelForm::chunks}},
+    {"cells_chunks_over_32", true, {.form = KernelForm::chunks, .block_height = 5}},
 };
 
-std::string case_name(const testing::TestParamInfo<MedianCase>& tested)
-{
-    return tested.param.name;
-}
-
-class BlockMediansContract : public testing::TestWithParam<MedianCase> {
+class MediansContract : public testing::TestWithParam<MedianCase> {
 protected:
     void expect_equal_to_host(const std::vector<Aabb>& boxes)
     {
-        std::vector<uint> expected = shuffled_ids(boxes.size());
         const Buffer<Aabb> device_boxes = on_device(boxes);
+        std::vector<uint> expected = shuffled_ids(boxes.size());
         const Buffer<uint> ids = on_device(expected);
+        if (GetParam().is_of_cells)
+            expect_cells(boxes, device_boxes, ids);
+        else
+            expect_blocks(boxes, device_boxes, ids, expected);
+    }
+
+private:
+    static void expect_blocks(const std::vector<Aabb>& boxes, const Buffer<Aabb>& device_boxes,
+                              const Buffer<uint>& ids, std::vector<uint> expected)
+    {
         BlockMedians medians(bench().programs, GetParam().shape);
         reserve([&](Arena& arena) { medians.plan(arena, boxes.size()); });
         bench().queue.begin("order");
         medians.enqueue(device_boxes, ids, bench().queue);
         bench().queue.finish();
         host_block_medians(boxes, expected, GetParam().shape.block_height);
-        EXPECT_EQ(ids.download(bench().queue.cl()), expected);
+        EXPECT_EQ(from_device(ids), expected);
     }
-};
 
-TEST_P(BlockMediansContract, EqualTheHostsOfFew)
-{
-    for (const std::size_t size : {1, 2, 3, 4, 5, 15, 16, 17, 63, 64, 65, 129})
-        expect_equal_to_host(boxes_of(random_mesh(size, [](Point p) { return p; })));
-}
-
-TEST_P(BlockMediansContract, EqualTheHostsAroundWholeBlocks)
-{
-    for (const std::size_t size : {1023, 1024, 1025, 2047, 2048, 2049, 3000, 20'481})
-        expect_equal_to_host(boxes_of(random_mesh(size, [](Point p) { return p; })));
-}
-
-TEST_P(BlockMediansContract, EqualTheHostsOnHardMeshes)
-{
-    for (const auto& [name, mesh] : hard_meshes(1500)) {
-        SCOPED_TRACE(name);
-        expect_equal_to_host(boxes_of(mesh));
-    }
-}
-
-INSTANTIATE_TEST_SUITE_P(Shapes, BlockMediansContract, testing::ValuesIn(median_cases), case_name);
-
-/// Cells above blocks: what is in which block is equal to the host's, in whatever order.
-class CellMediansContract : public testing::TestWithParam<MedianCase> {
-protected:
-    void expect_equal_to_host(const std::vector<Aabb>& boxes)
+    static void expect_cells(const std::vector<Aabb>& boxes, const Buffer<Aabb>& device_boxes,
+                             const Buffer<uint>& ids)
     {
-        Bounds bounds = empty_bounds();
-        for (const Aabb& box : boxes)
-            bounds = grown(bounds, box);
-        const Buffer<Aabb> device_boxes = on_device(boxes);
-        const Buffer<Bounds> device_bounds = on_device(std::vector<Bounds>{bounds});
-        const Buffer<uint> ids = on_device(std::vector<uint>(boxes.size(), ~0u));
+        const Buffer<Bounds> bounds = on_device(std::vector<Bounds>{host_bounds(boxes)});
         CellMedians medians(bench().programs, GetParam().shape);
         reserve([&](Arena& arena) { medians.plan(arena, boxes.size()); });
         std::vector<uint> expected(boxes.size());
         std::iota(expected.begin(), expected.end(), 0u);
         host_cell_medians(boxes, expected, GetParam().shape.block_height);
-        sort_blocks(expected);
         for (int repeat = 0; repeat < 2; ++repeat) {
             bench().queue.begin("order");
-            medians.enqueue(device_boxes, device_bounds, ids, bench().queue);
+            medians.enqueue(device_boxes, bounds, ids, bench().queue);
             bench().queue.finish();
-            std::vector<uint> found = ids.download(bench().queue.cl());
-            sort_blocks(found);
-            ASSERT_EQ(found, expected);
+            ASSERT_EQ(with_sorted_blocks(from_device(ids)), with_sorted_blocks(expected));
         }
     }
 
-private:
-    static void sort_blocks(std::vector<uint>& ids)
+    static std::vector<uint> with_sorted_blocks(std::vector<uint> ids)
     {
         const std::size_t block = std::size_t{1} << GetParam().shape.block_height;
         for (std::size_t first = 0; first < ids.size(); first += block)
-            std::sort(
-                ids.begin() + static_cast<std::ptrdiff_t>(first),
-                ids.begin() + static_cast<std::ptrdiff_t>(std::min(ids.size(), first + block)));
+            std::ranges::sort(std::span(ids).subspan(first, std::min(block, ids.size() - first)));
+        return ids;
     }
 };
 
-TEST_P(CellMediansContract, EqualTheHostsOfFew)
+TEST_P(MediansContract, EqualTheHostsOfFew)
 {
-    for (const std::size_t size : {1, 2, 3, 33, 63, 64, 65, 127, 128, 129, 193})
-        expect_equal_to_host(boxes_of(random_mesh(size, [](Point p) { return p; })));
+    for (const std::size_t size : {1, 2, 3, 4, 5, 15, 16, 17, 33, 63, 64, 65, 127, 128, 129, 193})
+        expect_equal_to_host(boxes_of(random_mesh(size)));
 }
 
-TEST_P(CellMediansContract, EqualTheHostsAroundWholeBlocks)
+TEST_P(MediansContract, EqualTheHostsAroundWholeBlocks)
 {
-    for (const std::size_t size : {1024, 1025, 2047, 2048, 2049, 3000, 40'000})
-        expect_equal_to_host(boxes_of(random_mesh(size, [](Point p) { return p; })));
+    for (const std::size_t size :
+         {1023, 1024, 1025, 2047, 2048, 2049, 3000, GetParam().is_of_cells ? 40'000 : 20'481})
+        expect_equal_to_host(boxes_of(random_mesh(size)));
 }
 
-TEST_P(CellMediansContract, EqualTheHostsOnHardMeshes)
+TEST_P(MediansContract, EqualTheHostsOnHardMeshes)
 {
-    for (const auto& [name, mesh] : hard_meshes(3000)) {
+    for (const auto& [name, mesh] : hard_meshes(GetParam().is_of_cells ? 3000 : 1500)) {
         SCOPED_TRACE(name);
         expect_equal_to_host(boxes_of(mesh));
     }
 }
 
 /// Most centres near the middle: the slab of a median holds more than what is compared each with all.
-TEST_P(CellMediansContract, EqualTheHostsOfClusters)
+TEST_P(MediansContract, EqualTheHostsOfClusters)
 {
     const auto drawn_in = [](float x) { return x * x * x * x * x; };
     expect_equal_to_host(boxes_of(random_mesh(20'000, [&](Point p) {
@@ -165,14 +120,8 @@ TEST_P(CellMediansContract, EqualTheHostsOfClusters)
     })));
 }
 
-const MedianCase cell_cases[] = {
-    {"groups", {.form = KernelForm::groups}},
-    {"groups_over_32", {.form = KernelForm::groups, .block_height = 5}},
-    {"chunks", {.form = KernelForm::chunks}},
-    {"chunks_over_32", {.form = KernelForm::chunks, .block_height = 5}},
-};
-
-INSTANTIATE_TEST_SUITE_P(Shapes, CellMediansContract, testing::ValuesIn(cell_cases), case_name);
+INSTANTIATE_TEST_SUITE_P(Shapes, MediansContract, testing::ValuesIn(cases),
+                         [](const auto& tested) { return tested.param.name; });
 
 float centre_along(const Aabb& box, uint axis) { return coordinate(box_centre(box), axis); }
 

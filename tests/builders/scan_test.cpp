@@ -3,9 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
-#include <vector>
-
 #include "tests/builders/stage_testing.h"
 
 namespace bvhbench {
@@ -15,8 +12,7 @@ class Scan : public testing::TestWithParam<KernelForm> {};
 
 TEST_P(Scan, SumsUpAllThatComesBefore)
 {
-    Bench& b = bench();
-    ScanStage scan(b.programs, GetParam());
+    ScanStage scan(bench().programs, GetParam());
     for (const std::size_t size : {1u, 2u, 5u, 255u, 1023u, 1024u, 1025u, 300000u}) {
         SCOPED_TRACE(size);
         std::vector<uint> values(size), expected(size);
@@ -25,21 +21,16 @@ TEST_P(Scan, SumsUpAllThatComesBefore)
         values[size / 2] = 4000000000u;  // sums wrap
         std::exclusive_scan(values.begin(), values.end(), expected.begin(), 0u);
 
-        Buffer<uint> buffer;
-        reserve([&](Arena& arena) {
-            buffer = arena.take<uint>(size, Use::scratch);
-            scan.plan(arena, size);
-        });
-        buffer.upload(b.queue.cl(), values);
-        b.queue.begin("scan");
-        scan.enqueue(buffer, b.queue);
-        EXPECT_EQ(buffer.download(b.queue.cl()), expected);
-        b.queue.finish();
+        const Buffer<uint> buffer = on_device(values);
+        reserve([&](Arena& arena) { scan.plan(arena, size); });
+        bench().queue.begin("scan");
+        scan.enqueue(buffer, bench().queue);
+        EXPECT_EQ(from_device(buffer), expected);
+        bench().queue.finish();
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Forms, Scan, testing::Values(KernelForm::groups, KernelForm::chunks),
-                         [](const auto& tested) { return form_name(tested.param); });
+INSTANTIATE_TEST_SUITE_P(Forms, Scan, testing::ValuesIn(both_forms), form_test_name);
 
 }  // namespace
 }  // namespace bvhbench

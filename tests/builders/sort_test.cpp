@@ -3,9 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <numeric>
-
 #include "tests/builders/stage_testing.h"
 
 namespace bvhbench {
@@ -16,7 +13,7 @@ std::vector<uint> host_sorted_ids(const std::vector<ulong>& codes)
 {
     std::vector<uint> ids(codes.size());
     std::iota(ids.begin(), ids.end(), 0u);
-    std::stable_sort(ids.begin(), ids.end(), [&](uint a, uint b) { return codes[a] < codes[b]; });
+    std::ranges::stable_sort(ids, {}, [&](uint id) { return codes[id]; });
     return ids;
 }
 
@@ -91,6 +88,19 @@ SortShape three_launches(uint group_size = 256, uint keys_per_item = 15)
     return shape;
 }
 
+void plan(RadixSort& sort, std::size_t size)
+{
+    reserve([&](Arena& arena) { sort.plan(arena, size); });
+    sort.prepare(bench().queue.cl());
+}
+
+void enqueue(RadixSort& sort, const std::vector<uint>& words)
+{
+    Buffer<uint> unsorted = sort.unsorted_codes();
+    unsorted.upload(bench().queue.cl(), words);
+    sort.enqueue(bench().queue);
+}
+
 class RadixSortContract : public testing::TestWithParam<Case> {
 protected:
     void SetUp() override
@@ -98,18 +108,11 @@ protected:
         sort_ = std::make_unique<RadixSort>(bench().programs, GetParam().bits, GetParam().shape);
     }
 
-    void plan(std::size_t size)
-    {
-        reserve([&](Arena& arena) { sort_->plan(arena, size); });
-        sort_->prepare(bench().queue.cl());
-    }
+    void plan(std::size_t size) { ::bvhbench::plan(*sort_, size); }
 
     void expect_equal_to_host(const std::vector<ulong>& codes)
     {
-        const std::vector<uint> words = words_of(codes, GetParam().bits);
-        Buffer<uint> unsorted = sort_->unsorted_codes();
-        unsorted.upload(bench().queue.cl(), words);
-        sort_->enqueue(bench().queue);
+        enqueue(*sort_, words_of(codes, GetParam().bits));
         bench().queue.finish();
 
         const std::vector<uint> expected = host_sorted_ids(codes);
@@ -117,9 +120,8 @@ protected:
         for (const uint id : expected)
             sorted.push_back(codes[id]);
         // Not EXPECT_EQ: it would print millions of numbers.
-        EXPECT_TRUE(same_bits(sort_->ids().download(bench().queue.cl()), expected));
-        EXPECT_TRUE(same_bits(sort_->codes().download(bench().queue.cl()),
-                              words_of(sorted, GetParam().bits)));
+        EXPECT_TRUE(same_bits(from_device(sort_->ids()), expected));
+        EXPECT_TRUE(same_bits(from_device(sort_->codes()), words_of(sorted, GetParam().bits)));
     }
 
     std::unique_ptr<RadixSort> sort_;
@@ -211,15 +213,12 @@ TEST(RadixSort, EqualsAStableSortPastTheIntegersOfAFloat)
     for (uint& code : codes)
         code = static_cast<uint>(random() >> 2);
     RadixSort sort(bench().programs, 30);
-    reserve([&](Arena& arena) { sort.plan(arena, size); });
-    sort.prepare(bench().queue.cl());
-    Buffer<uint> unsorted = sort.unsorted_codes();
-    unsorted.upload(bench().queue.cl(), codes);
-    sort.enqueue(bench().queue);
+    plan(sort, size);
+    enqueue(sort, codes);
 
     // Ascending codes, ascending ids among equal codes, and every code where its id says: then it is right.
-    const std::vector<uint> ids = sort.ids().download(bench().queue.cl());
-    const std::vector<uint> sorted = sort.codes().download(bench().queue.cl());
+    const std::vector<uint> ids = from_device(sort.ids());
+    const std::vector<uint> sorted = from_device(sort.codes());
     bench().queue.finish();
     for (std::size_t k = 0; k < size; ++k) {
         ASSERT_EQ(sorted[k], codes[ids[k]]) << k;
@@ -253,8 +252,7 @@ TEST(RadixSort, TakesNoMorePassesThanACodeHasBytes)
 {
     for (const unsigned bits : {30, 47, 48, 49, 63}) {
         RadixSort sort(bench().programs, bits, three_launches(16, 3));
-        reserve([&](Arena& arena) { sort.plan(arena, 100); });
-        sort.prepare(bench().queue.cl());
+        plan(sort, 100);
         sort.enqueue(bench().queue);
         const std::vector<StageTime> stages = bench().queue.finish();
         ASSERT_EQ(stages.size(), 1u);

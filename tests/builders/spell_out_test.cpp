@@ -26,31 +26,29 @@ TEST(BrokenPromise, IsEmptyForATreeThatKeepsThemAll)
 
 TEST(BrokenPromise, NamesEachKindOfFault)
 {
-    HostTree tree = right_tree();
-    tree.nodes[2].primitive = 0;
-    EXPECT_EQ(broken_promise(tree, points, faces), "triangle 0 is in two leaves");
-
-    tree = right_tree();
-    tree.nodes[0].child[1] = HostTree::none;
-    tree.nodes[0].box = tree.nodes[1].box;
-    EXPECT_EQ(broken_promise(tree, points, faces), "1 nodes are not reached from the root");
-
-    tree = right_tree();
-    tree.nodes[0].box.max_x = 6;
-    EXPECT_NE(broken_promise(tree, points, faces).find("not the union"), std::string::npos);
-
-    tree = right_tree();
-    tree.nodes[1].box.max_x = 2;
-    EXPECT_NE(broken_promise(tree, points, faces).find("not that of its triangle"),
-              std::string::npos);
-
-    tree = right_tree();
-    tree.nodes[0].child[1] = 1;
-    EXPECT_NE(broken_promise(tree, points, faces), "");
-
-    tree = right_tree();
-    tree.nodes[0].child[1] = 7;
-    EXPECT_NE(broken_promise(tree, points, faces), "");
+    struct Fault {
+        void (*put_into)(HostTree&);
+        std::string sentence;
+    };
+    for (const Fault& fault :
+         {Fault{[](HostTree& tree) { tree.nodes[2].primitive = 0; }, "triangle 0 is in two leaves"},
+          {[](HostTree& tree) {
+               tree.nodes[0].child[1] = HostTree::none;
+               tree.nodes[0].box = tree.nodes[1].box;
+           },
+           "1 nodes are not reached from the root"},
+          {[](HostTree& tree) { tree.nodes[0].box.max_x = 6; },
+           "the box of node 0 is not the union of its children's"},
+          {[](HostTree& tree) { tree.nodes[1].box.max_x = 2; },
+           "the box of leaf node 1 is not that of its triangle 0"},
+          {[](HostTree& tree) { tree.nodes[0].child[1] = 1; },
+           "the box of node 0 is not the union of its children's"},
+          {[](HostTree& tree) { tree.nodes[0].child[1] = 7; },
+           "node 0 has a child that is no node"}}) {
+        HostTree tree = right_tree();
+        fault.put_into(tree);
+        EXPECT_EQ(broken_promise(tree, points, faces), fault.sentence);
+    }
 }
 
 TEST(BrokenPromise, LooksAtEveryChildOfAWideNode)

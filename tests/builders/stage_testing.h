@@ -3,9 +3,14 @@
 // What the tests of stages share: a device, meshes that are hard on boxes and codes, comparing bit for bit.
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <limits>
+#include <numeric>
 #include <random>
 #include <string>
 #include <vector>
@@ -43,6 +48,31 @@ void reserve(const Take& take)
     take(arena);
 }
 
+/// A buffer of its own with these values on the device.
+template <class T>
+Buffer<T> on_device(const std::vector<T>& values)
+{
+    Arena arena = Arena::reserved(bench().device, {values.size() * sizeof(T), 0});
+    Buffer<T> buffer = arena.take<T>(values.size(), Use::tree);
+    buffer.upload(bench().queue.cl(), values);
+    return buffer;
+}
+
+template <class T>
+std::vector<T> from_device(const Buffer<T>& buffer)
+{
+    return buffer.download(bench().queue.cl());
+}
+
+/// 0, 1, 2, … in any order.
+inline std::vector<uint> shuffled_ids(std::size_t count)
+{
+    std::vector<uint> ids(count);
+    std::iota(ids.begin(), ids.end(), 0u);
+    std::shuffle(ids.begin(), ids.end(), std::mt19937(3));
+    return ids;
+}
+
 inline bool same_bits(const Aabb& a, const Aabb& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
 template <class T>
@@ -52,10 +82,17 @@ bool same_bits(const std::vector<T>& a, const std::vector<T>& b)
            (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
-/// The two forms of kernels, for tests that run over both whatever the device.
+/// For tests that run over both forms of kernels, whatever the device.
+constexpr KernelForm both_forms[] = {KernelForm::groups, KernelForm::chunks};
+
 inline std::string form_name(KernelForm form)
 {
     return form == KernelForm::groups ? "groups" : "chunks";
+}
+
+inline std::string form_test_name(const testing::TestParamInfo<KernelForm>& tested)
+{
+    return form_name(tested.param);
 }
 
 struct NamedMesh {
@@ -64,10 +101,10 @@ struct NamedMesh {
 };
 
 /// `count` small triangles with corners drawn from [-1, 1), each coordinate passed through `map`.
-template <class Map>
-Mesh random_mesh(std::size_t count, const Map& map)
+template <class Map = std::identity>
+Mesh random_mesh(std::size_t count, const Map& map = {}, uint seed = 7)
 {
-    std::mt19937 random(7);
+    std::mt19937 random(seed);
     std::uniform_real_distribution<float> anywhere(-1.0f, 1.0f);
     std::uniform_real_distribution<float> near(-0.01f, 0.01f);
     Mesh mesh;
@@ -81,12 +118,14 @@ Mesh random_mesh(std::size_t count, const Map& map)
     return mesh;
 }
 
+inline auto scaled(float by)
+{
+    return [by](Point p) { return Point{p.x * by, p.y * by, p.z * by}; };
+}
+
 /// Meshes of `count` triangles on which careless arithmetic overflows, divides by zero or loses all bits.
 inline std::vector<NamedMesh> hard_meshes(std::size_t count)
 {
-    const auto scaled = [](float by) {
-        return [by](Point p) { return Point{p.x * by, p.y * by, p.z * by}; };
-    };
     std::vector<NamedMesh> meshes;
     meshes.push_back({"plain", random_mesh(count, scaled(1.0f))});
     meshes.push_back({"one point", random_mesh(count, scaled(0.0f))});

@@ -85,7 +85,7 @@ TEST(Erratum, TheFullnessConditionHoldsForNoLevelNotEvenTheRoots)
     for (uint leaves = 1; leaves <= 3000; ++leaves)
         for (uint level = 0; level <= oi_shape(leaves).leaf_level; ++level)
             ASSERT_FALSE(printed_is_full(leaves, oi_shape(leaves), level)) << leaves;
-    // OiLayout.CountsEachLevelAsTheLiteralConstructionDoes holds oi_is_full to the definition; as a
+    // LayoutOf.SaysOfEveryTreeWhatTheLiteralConstructionSays holds oi_is_full to the definition; as a
     // condition on L_v it reads:
     for (uint leaves = 1; leaves <= 3000; ++leaves) {
         const OiShape shape = oi_shape(leaves);

@@ -53,6 +53,13 @@ public:
         return firsts_[level + 1] + (label - firsts_[level]) * arity_ + j;
     }
 
+    /// Label of the parent of a node that is not the root.
+    std::size_t parent(std::size_t label) const
+    {
+        const std::size_t level = nodes[label].level;
+        return firsts_[level - 1] + (label - firsts_[level]) / arity_;
+    }
+
     std::vector<Node> nodes;  ///< by label: breadth first, virtual ones included
     std::uint64_t real_count = 0;
 

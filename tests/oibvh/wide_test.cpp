@@ -3,9 +3,6 @@
 // Wide trees: the arithmetic is Appendix C's, and what the kernels leave is what a literal construction leaves, bit for bit.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <random>
-
 #include "builders/spell_out.h"
 #include "geometry/error.h"
 #include "oibvh/kary_layout.h"
@@ -74,20 +71,6 @@ std::vector<std::vector<Aabb>> literal_rows(std::vector<Aabb> leaves, uint child
     return rows;
 }
 
-Mesh soup(uint triangles, float size)
-{
-    std::mt19937 random(triangles);
-    const auto next = [&] { return size * (static_cast<float>(random() >> 8) * 0x1p-24f - 0.5f); };
-    Mesh mesh;
-    for (uint k = 0; k < triangles; ++k) {
-        const Point at = {next(), next(), next()};
-        for (int corner = 0; corner < 3; ++corner)
-            mesh.points.push_back({at.x + next() / 16, at.y + next() / 16, at.z + next() / 16});
-        mesh.faces.push_back({3 * k, 3 * k + 1, 3 * k + 2});
-    }
-    return mesh;
-}
-
 /// Holds a tree, and every box where its parent keeps it, to the literal one over the reference's leaves.
 void expect_literal(const WideTree& tree, const HostTree& reference, const Way& way)
 {
@@ -125,7 +108,7 @@ protected:
         SCOPED_TRACE(std::to_string(triangles) + " triangles, groups of " +
                      std::to_string(options.group_size) +
                      (options.sorted_leaves ? ", sorted" : ""));
-        const Mesh mesh = soup(triangles, size);
+        const Mesh mesh = random_mesh(triangles, scaled(size));
         const Input input = upload(bench().device, bench().queue, mesh.points, mesh.faces);
         const auto reference = make_oibvh_reference(bench().programs, {});
         reference->reserve(triangles);

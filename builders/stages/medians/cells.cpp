@@ -36,7 +36,7 @@ CellMedians::CellMedians(Programs& programs, MedianShape shape)
         chosen_form(programs.device(), shape.form, local_slabs * sizeof(uint), local_group_size);
     if (shape_.form == KernelForm::chunks) {
         chunk_levels_ = programs.device().tuned(cells_chunk_levels);
-        halve_ = programs.kernel("builders/stages/medians/cells_chunks.cl", "halve_nodes");
+        halve_ = programs.kernel("builders/stages/medians/medians_chunks.cl", "halve_nodes");
         return;
     }
     local_leaves_ = programs.device().tuned(cells_local_leaves);

@@ -5,7 +5,6 @@
 
 #include "builders/stages/kernel_form.h"
 #include "builders/stages/medians/medians.h"
-#include "builders/stages/number.h"
 #include "device/arena.h"
 #include "device/program.h"
 #include "device/queue.h"

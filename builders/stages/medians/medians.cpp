@@ -57,4 +57,15 @@ void BlockMedians::enqueue(const Buffer<Aabb>& boxes, const Buffer<uint>& ids, Q
     }
 }
 
+void NumberAll::enqueue(const Buffer<uint>& numbers, Queue& queue)
+{
+    constexpr uint group_size = 256;
+    const auto count = static_cast<uint>(numbers.size());
+    if (count == 0)
+        return;
+    set_arguments(kernel_, numbers, count);
+    queue.launch(kernel_, std::size_t{divided_up(count, group_size)} * group_size, group_size,
+                 static_cast<std::int64_t>(numbers.bytes()));
+}
+
 }  // namespace bvhbench

@@ -46,6 +46,20 @@ private:
     Buffer<ulong> keys_;  ///< chunks only, one a leaf
 };
 
+/// Fills an array with 0, 1, 2, … Owns no memory.
+class NumberAll {
+public:
+    explicit NumberAll(Programs& programs)
+        : kernel_(programs.kernel("builders/stages/ids.cl", "number_all"))
+    {}
+
+    /// Enqueue, as part of the stage begun. Does not wait.
+    void enqueue(const Buffer<uint>& numbers, Queue& queue);
+
+private:
+    cl::Kernel kernel_;
+};
+
 /// The same on the host, slowly and obviously: the oracle for the kernels, equal bit for bit.
 void host_block_medians(std::span<const Aabb> boxes, std::span<uint> ids, uint block_height);
 

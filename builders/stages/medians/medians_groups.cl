@@ -14,7 +14,7 @@
 //
 // In runs of few leaves it is quicker to look at each of them than for ends. What fills up the last block lies
 // at infinity and comes last in every list.
-#include "builders/stages/medians/block_costs.clh"
+#include "builders/stages/medians/block_halves.clh"
 
 /// Every run is halved along its chosen axis: leaf by leaf finds its new place in each list.
 static inline void move(local ushort* const slots, local uint* const places,

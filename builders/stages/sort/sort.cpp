@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cassert>
 
-#include "builders/stages/sort/tile_digits.h"
 #include "geometry/bits.h"
 
 namespace bvhbench {
@@ -43,11 +42,8 @@ RadixSort::RadixSort(Programs& programs, unsigned code_bits, SortShape shape)
         (shape.sweeps == always ||
          (shape.sweeps == of_device && programs.device().lets_groups_wait()))) {
         digit_bits_ = tile_digit_bits;
-        sweeps_.emplace(programs, code_bits, shape.sweep_group_size,
-                        std::max(1u, shape.sweep_keys_per_item / words));
-        if (shape.at_once)
-            at_once_.emplace(programs, code_bits, shape.sweep_group_size,
-                             std::max(1u, shape.sweep_keys_per_item / words));
+        waiting_.emplace(programs, code_bits, shape.sweep_group_size,
+                         std::max(1u, shape.sweep_keys_per_item / words), shape.at_once);
     } else if (shape_.form == KernelForm::groups) {
         assert(shape.group_size >= 16 && shape.group_size <= 256);
         assert(shape.keys_per_item % 2 == 1 && shape.keys_per_item <= 15);
@@ -95,12 +91,8 @@ void RadixSort::plan(Arena& arena, std::size_t size)
     ids_[(passes_ + 1) % 2] = arena.take<uint>(size, Use::scratch);
     for (Buffer<uint>& codes : codes_)
         codes = arena.take<uint>(words, Use::scratch);
-    if (is_at_once()) {
-        at_once_->plan(arena, size);
-        return;
-    }
-    if (sweeps_) {
-        sweeps_->plan(arena, size);
+    if (waiting_) {
+        waiting_->plan(arena, size);
         return;
     }
     counts_ = arena.take<uint>(digits * run_count(size), Use::scratch);
@@ -109,10 +101,8 @@ void RadixSort::plan(Arena& arena, std::size_t size)
 
 void RadixSort::prepare(const cl::CommandQueue& queue)
 {
-    if (is_at_once())
-        at_once_->prepare(queue);
-    else if (sweeps_)
-        sweeps_->prepare(queue);
+    if (waiting_)
+        waiting_->prepare(queue);
 }
 
 void RadixSort::plan_aside(Arena& arena) { aside_ = arena.take<uint>(size_, Use::scratch); }
@@ -131,12 +121,8 @@ void RadixSort::enqueue_passes(Queue& queue, uint count, const Buffer<uint>& res
     if (count == 0)
         return;
     const Buffer<uint>& other = ids_[(passes_ + 1) % 2];
-    if (is_at_once()) {
-        at_once_->enqueue(codes_, result, other, count, queue);
-        return;
-    }
-    if (sweeps_) {
-        sweeps_->enqueue(codes_, result, other, count, queue);
+    if (waiting_) {
+        waiting_->enqueue(codes_, result, other, count, queue);
         return;
     }
     for (uint pass = 0; pass < passes_; ++pass) {

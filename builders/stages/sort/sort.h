@@ -6,8 +6,7 @@
 
 #include "builders/stages/codes.h"
 #include "builders/stages/kernel_form.h"
-#include "builders/stages/sort/sort_at_once.h"
-#include "builders/stages/sort/sweep.h"
+#include "builders/stages/sort/waiting_sort.h"
 
 namespace bvhbench {
 
@@ -24,7 +23,7 @@ struct SortShape {
     enum class Sweeps { of_device, never, always } sweeps = Sweeps::of_device;
     uint sweep_group_size = 512;
     uint sweep_keys_per_item = 8;  ///< codes of two words: half as many
-    /// Groups that wait only: whether few pairs are sorted in one launch. Not measured on a GPU yet, hence not the default.
+    /// Groups that wait only: whether few pairs are sorted in one launch.
     bool at_once = false;
 };
 
@@ -62,7 +61,6 @@ public:
 
 private:
     uint run_count(std::size_t size) const;
-    bool is_at_once() const { return at_once_ && at_once_->takes(size_); }
     void enqueue_passes(Queue& queue, uint count, const Buffer<uint>& result);
     void enqueue_pass(Queue& queue, uint pass, uint count, const Buffer<uint>& ids_in,
                       const Buffer<uint>& ids_out);
@@ -72,10 +70,8 @@ private:
     uint digit_bits_;  ///< of every pass but perhaps the last
     uint passes_;
     std::size_t chunks_;
-    cl::Kernel count_, scan_, scatter_;  ///< unless it sweeps
-    std::optional<DigitSweeps> sweeps_;
-    std::optional<SortAtOnce>
-        at_once_;  ///< where there are sweeps, and takes their place for few pairs
+    cl::Kernel count_, scan_, scatter_;   ///< unless groups wait
+    std::optional<WaitingSort> waiting_;  ///< if they do
     std::size_t size_ = 0;
     std::array<Buffer<uint>, 2> codes_;  ///< pass p goes from [p % 2] to the other
     std::array<Buffer<uint>, 2> ids_;    ///< pass p reads one and writes the other

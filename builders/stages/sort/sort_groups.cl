@@ -8,8 +8,85 @@
 //     count_tiles     counts[d][t]  how often tile t holds digit d
 //     scan_digits     counts[d][t]  how often the tiles before t do; totals[d] all tiles together
 //     scatter_tiles   pairs, to where smaller digits, earlier tiles and earlier pairs end
+//
+// A group sorts its tile, stably, by four bits of every entry at a time. Each work-item counts the digits of its own few
+// neighbouring entries in one register: 16 counters of four bits. What comes before each digit of each work-item is then a
+// sum over the group, digit by digit and within a digit work-item by work-item. Two digits share a word, so it is a sum over
+// eight words a work-item:
+//
+//     word w of work-item i:  low half digit w, high half digit w + 8      8 * GROUP_SIZE words, w by w
+//
+// Every work-item adds up eight of them in a row, the group scans those sums, and every work-item spreads the result over
+// its eight. No atomics, and every barrier is reached by all.
 #include "builders/stages/code.clh"
-#include "builders/stages/sort/tile_sort.clh"
+#include "builders/stages/group_scan.clh"
+
+#define TILE (GROUP_SIZE * KEYS_PER_ITEM)
+
+#define COUNTER_WORDS (8u * GROUP_SIZE)
+
+// One word in 32 is left out, so that work-items that each read eight in a row start in different banks.
+#define PADDED(word) ((word) + (word) / 32u)
+
+/// Local memory for the counters, in uints.
+#define COUNTER_SCRATCH PADDED(COUNTER_WORDS)
+
+/// Add up the counters: each half word becomes the sum of all that comes before it.
+static inline void scan_counters(local uint* const counters, local uint* const scratch)
+{
+    const uint first = (uint)get_local_id(0) * 8u;
+    uint sum = 0u;
+#pragma unroll
+    for (uint k = 0u; k < 8u; ++k)
+        sum += counters[PADDED(first + k)];
+    uint all;
+    uint before = sum_before(sum, scratch, &all);
+    before += all << 16u;  // digits 8 to 15 come after all of digits 0 to 7
+#pragma unroll
+    for (uint k = 0u; k < 8u; ++k) {
+        const uint own = counters[PADDED(first + k)];
+        counters[PADDED(first + k)] = before;
+        before += own;
+    }
+    barrier(CLK_LOCAL_MEM_FENCE);
+}
+
+/// Sort the TILE entries of `tile` by their bits `shift` to `shift` + 3. Work done on `tile` before is
+/// waited for; the result may be read after the call. KEYS_PER_ITEM is at most 15, for the counters' sake,
+/// and odd, so that work-items reading their own entries read different banks. TILE is below 2^16.
+static inline void sort_tile(local uint* const tile, local uint* const counters,
+                             local uint* const scratch, const uint shift)
+{
+    const uint item = (uint)get_local_id(0);
+    uint entries[KEYS_PER_ITEM];
+    ulong digits = 0ul;
+
+    barrier(CLK_LOCAL_MEM_FENCE);
+#pragma unroll
+    for (uint k = 0u; k < KEYS_PER_ITEM; ++k) {
+        entries[k] = tile[item * KEYS_PER_ITEM + k];
+        digits += 1ul << (entries[k] >> shift & 15u) * 4u;
+    }
+    const uint low = (uint)digits;
+    const uint high = (uint)(digits >> 32u);
+#pragma unroll
+    for (uint w = 0u; w < 8u; ++w)
+        counters[PADDED(w * GROUP_SIZE + item)] = (low >> w * 4u & 15u) | (high >> w * 4u & 15u)
+                                                                              << 16u;
+    barrier(CLK_LOCAL_MEM_FENCE);
+    scan_counters(counters, scratch);
+
+    digits = 0ul;
+#pragma unroll
+    for (uint k = 0u; k < KEYS_PER_ITEM; ++k) {
+        const uint digit = entries[k] >> shift & 15u;
+        const uint earlier_ones = (uint)(digits >> digit * 4u) & 15u;
+        const uint word = counters[PADDED((digit & 7u) * GROUP_SIZE + item)];
+        tile[(word >> (digit >> 3u) * 16u & 0xffffu) + earlier_ones] = entries[k];
+        digits += 1ul << digit * 4u;
+    }
+    barrier(CLK_LOCAL_MEM_FENCE);
+}
 
 #define DIGITS (1u << DIGIT_BITS)
 #define DIGITS_PER_ITEM (DIGITS / GROUP_SIZE)

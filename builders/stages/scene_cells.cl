@@ -12,12 +12,8 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void find_cells(
     global SceneCells* restrict cells)
 {
     local Bounds parts[GROUP_SIZE];
-    const uint item = (uint)get_local_id(0);
-    Bounds all = empty_bounds();
-    for (uint object = item; object < object_count; object += GROUP_SIZE)
-        all = joined(all, bounds[object]);
-    all = joined_in_group(all, parts);
-    if (item != 0u)
+    const Bounds all = joined_partials(bounds, 0u, object_count, parts);
+    if (get_local_id(0) != 0)
         return;
     const double last = last_cell(CELLS_OF);
     cells->x = axis_cells(all.scene.min_x, all.scene.max_x, last);
