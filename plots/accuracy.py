@@ -9,8 +9,6 @@ many pairs of boxes, and what a frame takes, by how far from the origin the scen
 others left and down is better; the grey line joins what no other method is as good as in both time and error (the Pareto
 front), and those points are filled.
 """
-from __future__ import annotations
-
 import math
 import sys
 from collections.abc import Callable

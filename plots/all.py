@@ -7,8 +7,6 @@ A folder stands for all result files below it; their pictures go into folders of
 Other JSON files are passed over, and so are files of a folder that no figure is made of. Exits 0; 2 for wrong usage; 3 if a
 file cannot be read or drawn.
 """
-from __future__ import annotations
-
 import argparse
 import collections
 import functools

@@ -1,6 +1,4 @@
 """A cell of a result file: what was measured of one builder or pipeline on one scene, with its times and what it is called."""
-from __future__ import annotations
-
 import functools
 import json
 from typing import Any

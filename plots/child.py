@@ -1,6 +1,4 @@
 """The program that measures, run as a child: it says on standard error what it does, and ends when this process is told to."""
-from __future__ import annotations
-
 import contextlib
 import json
 import os

@@ -1,6 +1,4 @@
 """The command lines of the commands that read result files: their words, their help and how they end."""
-from __future__ import annotations
-
 import argparse
 import math
 import os

@@ -1,6 +1,4 @@
 """Which counters of a cell are the same whenever it is measured, and which way they get worse."""
-from __future__ import annotations
-
 from cells import Cell
 
 # A counter of a collider that comes out a little different from run to run, although nothing was changed, and why. Anything

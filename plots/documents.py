@@ -1,6 +1,4 @@
 """Result files as the console's commands read them: whole, as they are, refused in a sentence that names the file."""
-from __future__ import annotations
-
 import functools
 import json
 import lzma

@@ -6,8 +6,6 @@
 Medians, with a band from the 10th to the 90th percentile. Marked is the size from which on the multi-kernel
 construction stays ahead of the single-kernel one, beside the size the paper gives for its machine.
 """
-from __future__ import annotations
-
 import math
 import sys
 

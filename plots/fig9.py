@@ -3,8 +3,6 @@
 
     plots/fig9.py FILE... --out DIR
 """
-from __future__ import annotations
-
 import sys
 
 import matplotlib.pyplot as plt

@@ -1,6 +1,4 @@
 """What the command lines of all figures share: files in, pictures out, a sentence for what cannot be drawn."""
-from __future__ import annotations
-
 import argparse
 import functools
 import math

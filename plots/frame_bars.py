@@ -1,6 +1,4 @@
 """Tables 2 and 3 as bars: the time of a frame of each scene by each pipeline, the paper's printed beside it."""
-from __future__ import annotations
-
 import matplotlib.pyplot as plt
 from matplotlib.lines import Line2D
 

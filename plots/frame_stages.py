@@ -1,6 +1,4 @@
 """Where the time of whole frames goes: a panel a scene, a bar a pipeline, its stages stacked."""
-from __future__ import annotations
-
 import matplotlib.pyplot as plt
 from matplotlib.patches import Patch
 

@@ -3,8 +3,6 @@
 
     plots/frames.py FILE... --out DIR
 """
-from __future__ import annotations
-
 import functools
 import sys
 

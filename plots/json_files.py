@@ -1,6 +1,4 @@
 """JSON files as they are kept, plain or packed by xz."""
-from __future__ import annotations
-
 import json
 import lzma
 import math
@@ -32,7 +30,7 @@ def files_in(folder: pathlib.Path) -> list[pathlib.Path]:
 class Number(float):
     """A number that is not whole, with the digits it was written with: there is more than one way to tell it from all others."""
 
-    def __new__(cls, text: str) -> Number:
+    def __new__(cls, text: str) -> "Number":
         number = super().__new__(cls, text)
         number.text = text
         if math.isinf(number):

@@ -1,6 +1,4 @@
 """Short labels beside points of a scatter plot, none over another or over a point."""
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

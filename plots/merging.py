@@ -1,6 +1,4 @@
 """One result file of several, each cell once and as it was: what a newer or older program has put into a cell stays there."""
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass

@@ -1,6 +1,4 @@
 """Every file that plots write: checked before it is made, and replaced as a whole. As harness/record/output.h does it in C++."""
-from __future__ import annotations
-
 import errno
 import os
 import pathlib

@@ -8,8 +8,6 @@ cells have several orders or builders, and shows all of them, the worse ones too
 what is not beaten by another in both time and cost (the Pareto front), and those points are filled. Where cells
 count the box tests of a collision query (box_tests_count), a second row shows time against those.
 """
-from __future__ import annotations
-
 import math
 import sys
 

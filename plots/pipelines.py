@@ -1,6 +1,4 @@
 """Whole frames by scene and pipeline: a builder and a collider with their options, over the frames of a scene."""
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import matplotlib.pyplot as plt

@@ -6,8 +6,6 @@
 `bvhbench report` calls it and makes what --view names. Exits 0; 1 if an answer in the files was wrong, which the page shows; 2
 for wrong usage; 3 if a file or library is missing or a file is no result.
 """
-from __future__ import annotations
-
 import argparse
 import os
 import pathlib

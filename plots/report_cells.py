@@ -3,8 +3,6 @@
 Times are nanoseconds: 10th percentile, median, 90th percentile, by results.quantiles. A cell whose answer was wrong, or that
 has none, has no times.
 """
-from __future__ import annotations
-
 import pathlib
 from typing import Any
 

@@ -1,7 +1,5 @@
 """What a page says of cells that may be compared, a scene's that were asked the same: which are on a front, and a bar for each
 builder or pipeline."""
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

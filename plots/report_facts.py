@@ -1,6 +1,4 @@
 """What was run on what: the circumstances of a result file, in words."""
-from __future__ import annotations
-
 from typing import Any
 
 

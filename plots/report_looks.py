@@ -1,6 +1,4 @@
 """The look of each line and point on a page: style.py's colours, in the words of Plotly."""
-from __future__ import annotations
-
 from typing import Any
 
 import accuracy

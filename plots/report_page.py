@@ -3,8 +3,6 @@
 Text that people may want to read in the page's source, markup, style and scripts of plots/report/, stands in it as it is.
 Libraries, data and samples are gzip in base64, unpacked by plots/report/unpack.js: samples only when somebody asks for them.
 """
-from __future__ import annotations
-
 import base64
 import gzip
 import html

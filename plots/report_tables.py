@@ -3,8 +3,6 @@
 A column's kind is text, state, count (every digit), number (four digits) or time. A row's values stand in its columns' order;
 times are of the table's unit. A value that is not there is null and never 0.
 """
-from __future__ import annotations
-
 import statistics
 from collections.abc import Callable
 from typing import Any

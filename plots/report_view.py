@@ -1,6 +1,4 @@
 """A scene in three dimensions: what `bvhbench report --scene` wrote of it, packed for a page."""
-from __future__ import annotations
-
 import array
 import pathlib
 from typing import Any

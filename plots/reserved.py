@@ -1,6 +1,4 @@
 """Files that a command writes, named by an option: checked before anything is done, and held until the command ends."""
-from __future__ import annotations
-
 import contextlib
 import os
 import stat

@@ -2,8 +2,6 @@
 
 Files hold raw samples; medians and quantiles are taken here and nowhere else.
 """
-from __future__ import annotations
-
 import functools
 import json
 import os

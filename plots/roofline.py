@@ -8,8 +8,6 @@ stage must read and write at the run's own copy rate, and its launches at the ru
 do. Both axes are logarithmic; a line at 1 is a stage that nothing but the memory and the driver holds up, and below
 1 the caches have helped. Builds have one scale, each of the query's stages its own.
 """
-from __future__ import annotations
-
 import math
 import sys
 from collections.abc import Hashable

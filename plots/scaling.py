@@ -7,8 +7,6 @@ A column a stage and one for all of them, a line a builder. Above the median tim
 triangles: a line that falls pays for its launches, one that is level is proportional to the mesh. Stages that
 builders share lie over each other.
 """
-from __future__ import annotations
-
 import math
 import sys
 from collections.abc import Callable

@@ -4,8 +4,6 @@ Checks are made of the schema once, and a place in the value is put into words o
 takes 0.3 s, where Debian's fastjsonschema takes 2.5 s. Keys that the schema does not know may hold anything, since a newer
 minor format may have them.
 """
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Callable
@@ -28,7 +26,7 @@ class Wrong(Exception):
     def __str__(self) -> str:
         return f"{self.place.lstrip('.')} {self.what}".lstrip()
 
-    def inside(self, key: str | int) -> Wrong:
+    def inside(self, key: str | int) -> "Wrong":
         """The same, seen from the object or list around it."""
         self.place = (f"[{key}]" if isinstance(key, int) else f".{key}") + self.place
         return self

@@ -1,6 +1,4 @@
 """How every figure looks: one colour, marker and hatch per builder, type sizes, and how pictures are written."""
-from __future__ import annotations
-
 import io
 import pathlib
 import warnings

@@ -6,8 +6,6 @@
 Builds of a generated scene in several sizes: how each stage grows, a figure a kind of scene (as scaling.py). Builds in several
 orders: time against surface area cost (as pareto_orders.py). Whole frames: milliseconds by stage (as frames.py).
 """
-from __future__ import annotations
-
 import dataclasses
 import functools
 import pathlib

@@ -7,8 +7,6 @@ A panel a sequence, a bar a pipeline: pairs of vertices and faces and of edges, 
 frames' vertices to written pairs of both. The bar's paler part is what the queries alone would make it. A pipeline that
 has one of the two queries has a bar of that one, and says so.
 """
-from __future__ import annotations
-
 import sys
 
 import matplotlib.pyplot as plt

@@ -7,8 +7,6 @@ Above: median time, whiskers from the 10th to the 90th percentile, throughput in
 printed times, which are another machine's. Below: how near the builder comes to a plain copy of the bytes it
 must move, measured in the same run.
 """
-from __future__ import annotations
-
 import sys
 
 import matplotlib.pyplot as plt

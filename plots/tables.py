@@ -1,6 +1,4 @@
 """Tables and numbers for the console."""
-from __future__ import annotations
-
 from collections.abc import Sequence
 from decimal import Decimal
 

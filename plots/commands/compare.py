@@ -1,6 +1,4 @@
 """bvhbench compare: holds a result file to an earlier one."""
-from __future__ import annotations
-
 import pathlib
 
 import command

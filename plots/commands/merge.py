@@ -1,6 +1,4 @@
 """bvhbench merge: makes one result file of several."""
-from __future__ import annotations
-
 import pathlib
 
 import command

@@ -1,6 +1,4 @@
 """bvhbench plot: draws every figure that result files have the cells for."""
-from __future__ import annotations
-
 import pathlib
 
 import command

@@ -1,6 +1,4 @@
 """bvhbench report: makes one page of result files, and of small scenes in three dimensions."""
-from __future__ import annotations
-
 import argparse
 import pathlib
 import tempfile

@@ -1,6 +1,4 @@
 """bvhbench reproduce: measures, prints and draws what the paper shows."""
-from __future__ import annotations
-
 import argparse
 import contextlib
 import os

@@ -1,6 +1,4 @@
 """bvhbench show: prints a result file as tables."""
-from __future__ import annotations
-
 import command
 import results
 from console import accuracy, cell, cells, frames, quality, refit, roofline, skips, stress, swept, yardstick

@@ -1,6 +1,4 @@
 """bvhbench smoke: runs every builder and collider over small scenes and holds all to a baseline."""
-from __future__ import annotations
-
 import argparse
 import contextlib
 import os

@@ -1,6 +1,4 @@
 """bvhbench sweep: measures a product of scenes, builders, colliders and options, a process a cell, and goes on where it was."""
-from __future__ import annotations
-
 import argparse
 import contextlib
 import json

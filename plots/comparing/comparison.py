@@ -1,6 +1,4 @@
 """Two result files, cell by cell: what became faster, slower, larger or wrong."""
-from __future__ import annotations
-
 import functools
 from dataclasses import dataclass, field
 from typing import Any

@@ -1,6 +1,4 @@
 """What two runs of one program differ in though nothing was changed: how fast the device was, and how that wavered."""
-from __future__ import annotations
-
 import functools
 import math
 from dataclasses import dataclass

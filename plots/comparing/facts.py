@@ -1,6 +1,4 @@
 """What of two cells and of two runs is no time."""
-from __future__ import annotations
-
 from typing import Any
 
 from cells import Cell

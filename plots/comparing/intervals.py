@@ -1,6 +1,4 @@
 """The median of times that were taken one after the other, and between which two values the true one is."""
-from __future__ import annotations
-
 import functools
 import math
 from typing import NamedTuple

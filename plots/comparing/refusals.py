@@ -1,6 +1,4 @@
 """What two result files must have in common before anything is compared."""
-from __future__ import annotations
-
 import pathlib
 from typing import Any
 

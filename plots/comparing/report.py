@@ -1,7 +1,5 @@
 """A comparison as text: cells whose time changed or may have, worst first, with their stages; all other changes a line each; and
 how many cells came out how."""
-from __future__ import annotations
-
 from comparing.comparison import ComparedCell, Comparison
 from comparing.intervals import Interval
 from comparing.scenes import SceneChange

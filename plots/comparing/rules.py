@@ -1,6 +1,4 @@
 """How strictly two result files are compared."""
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 

@@ -1,6 +1,4 @@
 """The cells of a scene together: what they have in common, which is no change of one of them."""
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, field
 

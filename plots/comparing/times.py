@@ -1,6 +1,4 @@
 """How times of the second of two files relate to the first's."""
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy

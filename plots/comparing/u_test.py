@@ -1,6 +1,4 @@
 """The test of Mann and Whitney: whether two samples may be of one distribution, by their ranks alone."""
-from __future__ import annotations
-
 import numpy
 
 MOST_COUNTED = 20  # values of each sample of which all orders are counted

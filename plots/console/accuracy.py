@@ -1,6 +1,4 @@
 """Run time against error, a table for each axis of accuracy."""
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import results

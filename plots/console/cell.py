@@ -1,6 +1,4 @@
 """One cell in full: its stages as a table, its counters and its verdict."""
-from __future__ import annotations
-
 import results
 from cells import Cell
 from console import spread

@@ -1,6 +1,4 @@
 """The cells of a run, a line each."""
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import results

@@ -1,6 +1,4 @@
 """Frames of collision: each in a line, or the mean over those of a scene by a pipeline, beside what the paper prints."""
-from __future__ import annotations
-
 import numpy
 
 import results

@@ -1,6 +1,4 @@
 """Times of the hierarchy beside those that the paper prints: Table 1 and Fig. 8."""
-from __future__ import annotations
-
 import math
 
 import results

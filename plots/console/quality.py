@@ -1,6 +1,4 @@
 """How good trees are: surface area cost, end-point overlap, overlap of siblings, and where their leaves are."""
-from __future__ import annotations
-
 import names
 import results
 from console.cell import depths

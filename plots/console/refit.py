@@ -1,6 +1,4 @@
 """Refits beside rebuilds of the same trees."""
-from __future__ import annotations
-
 import names
 import results
 from cells import Cell, choice

@@ -1,6 +1,4 @@
 """How far stages are from the least time that the device allows: their bytes at the copy rate and their launches."""
-from __future__ import annotations
-
 import results
 from console import spread
 from tables import Table, duration, size

@@ -1,6 +1,4 @@
 """Where and with what a run was made."""
-from __future__ import annotations
-
 import results
 from tables import counted, duration
 

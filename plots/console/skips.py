@@ -1,6 +1,4 @@
 """What each rule that leaves work out saves: frames with the rule beside the same frames without it."""
-from __future__ import annotations
-
 import results
 from cells import Cell, choice
 from console import spread

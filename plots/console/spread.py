@@ -1,6 +1,4 @@
 """Where the middle and the edges of samples lie, as columns of a table."""
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 

@@ -1,6 +1,4 @@
 """What stress found: scenes with who was right over them, systems with their invariants, and whatever of ours is wrong."""
-from __future__ import annotations
-
 from collections import Counter
 from typing import Any
 

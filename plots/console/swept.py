@@ -1,6 +1,4 @@
 """Queries of swept boxes: a line each, and one for both of a step by the same pipeline."""
-from __future__ import annotations
-
 import math
 from dataclasses import astuple, dataclass
 
@@ -22,7 +20,7 @@ class Sum:
     truth: float = 0
     missed: float = 0
 
-    def __add__(self, more: Sum) -> Sum:
+    def __add__(self, more: "Sum") -> "Sum":
         return Sum(*(one + other for one, other in zip(astuple(self), astuple(more))))
 
 

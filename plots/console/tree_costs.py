@@ -1,6 +1,4 @@
 """Surface area costs of Oi-BVHs beside those of radix trees, as the paper prints them: Table 4 and Fig. 13."""
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import results

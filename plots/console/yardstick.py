@@ -1,6 +1,4 @@
 """The stage hierarchy beside that of plain threads of the host, of trees that are equal."""
-from __future__ import annotations
-
 import names
 import results
 from cells import Cell

@@ -1,6 +1,4 @@
 """What is kept of a run of the experiment `smoke`: each cell's verdict, its fastest time, and all that no machine changes."""
-from __future__ import annotations
-
 import os
 from typing import Any
 

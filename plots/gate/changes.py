@@ -1,6 +1,4 @@
 """How a run of the experiment `smoke` departs from its baseline."""
-from __future__ import annotations
-
 import math
 import statistics
 from dataclasses import dataclass, field

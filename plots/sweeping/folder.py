@@ -7,8 +7,6 @@
 
 A unit's ID is the hash of what is measured, by which program and on which device.
 """
-from __future__ import annotations
-
 import contextlib
 import hashlib
 import json

@@ -1,6 +1,4 @@
 """Names of what is measured."""
-from __future__ import annotations
-
 import hashlib
 
 

@@ -1,6 +1,4 @@
 """A cell of a sweep, and what its process is told."""
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from typing import Any
 

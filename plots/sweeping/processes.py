@@ -1,6 +1,4 @@
 """A process for each unit of a sweep, several at a time: a crash costs one unit."""
-from __future__ import annotations
-
 import collections
 import contextlib
 import datetime

@@ -1,7 +1,5 @@
 """The product that a sweep measures: scenes, sizes, builders, orders, colliders and values of options. docs/sweeps.md tells how
 it is written. The program itself says what each cell is, or why there is none."""
-from __future__ import annotations
-
 import itertools
 import re
 from typing import Any

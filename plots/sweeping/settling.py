@@ -1,6 +1,4 @@
 """What the program says of a sweep's cells: what each is in full, or why there is none."""
-from __future__ import annotations
-
 from collections.abc import Callable
 
 from sweeping.planned import NO_BUILDER, OPTIONS, Json, Planned, Sweep

@@ -1,6 +1,4 @@
 """How long cells that are not done will take, from those that are."""
-from __future__ import annotations
-
 import math
 
 import numpy

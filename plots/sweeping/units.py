@@ -1,6 +1,4 @@
 """What a process measures: a cell, or all cells of a scene. Units are dealt to shards."""
-from __future__ import annotations
-
 import json
 import re
 from dataclasses import dataclass

@@ -3,8 +3,6 @@
 
 Usage: axis_pages_test.py <source root>
 """
-from __future__ import annotations
-
 import pathlib
 import sys
 import unittest

@@ -3,8 +3,6 @@
 
 Usage: bvhbench_results_test.py <source root>
 """
-from __future__ import annotations
-
 import importlib.util
 import lzma
 import pathlib

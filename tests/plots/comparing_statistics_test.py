@@ -3,8 +3,6 @@
 
 Usage: comparing_statistics_test.py <source root>
 """
-from __future__ import annotations
-
 import math
 import pathlib
 import sys

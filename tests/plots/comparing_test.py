@@ -3,8 +3,6 @@
 
 Usage: comparing_test.py <source root>
 """
-from __future__ import annotations
-
 import copy
 import math
 import pathlib

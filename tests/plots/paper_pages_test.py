@@ -3,8 +3,6 @@
 
 Usage: paper_pages_test.py <source root>
 """
-from __future__ import annotations
-
 import pathlib
 import sys
 import unittest

@@ -3,8 +3,6 @@
 
 Usage: reproduce_test.py <source root>
 """
-from __future__ import annotations
-
 import io
 import os
 import pathlib

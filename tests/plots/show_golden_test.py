@@ -3,8 +3,6 @@
 
 Usage: show_golden_test.py <source root>
 """
-from __future__ import annotations
-
 import os
 import pathlib
 import re

@@ -3,8 +3,6 @@
 
 Usage: show_test.py <source root>
 """
-from __future__ import annotations
-
 import copy
 import json
 import os

@@ -3,8 +3,6 @@
 
 Usage: tables_test.py <source root>
 """
-from __future__ import annotations
-
 import pathlib
 import sys
 import unittest
