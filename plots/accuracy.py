@@ -68,13 +68,13 @@ def by_input(cells: list[results.Cell]) -> dict[str, list[results.Cell]]:
 
 
 def median_s(cell: results.Cell, stages: tuple[str, ...] | None = None) -> float:
-    times = cell.whole_times_s() if stages is None else sum(cell.times_s(stage) for stage in stages)
+    times = cell.times_s() if stages is None else sum(cell.times_s(stage) for stage in stages)
     return results.quantiles(times).median
 
 
 def build_s(cell: results.Cell) -> float:
     """Of all stages before the query."""
-    return results.quantiles(cell.whole_times_s() - cell.times_s("broad")).median
+    return results.quantiles(cell.times_s() - cell.times_s("broad")).median
 
 
 def wrong(cell: results.Cell) -> float:

@@ -75,7 +75,7 @@ def pictures_of(run: results.Run) -> figure.Figures:
     if run.stress:
         figures[style.stem(path, "stress")] = lambda: stress.draw(run)
     for experiment, of_frames in FRAME_FIGURES.items():
-        if run.has_frames(experiment):
+        if run.all_frames(experiment):
             figures |= {style.stem(path, name): functools.partial(draw, run) for name, draw in of_frames.items()}
     return figures | {style.stem(path, name): functools.partial(draw, run) for name, draw in sweeps.figures_of(run).items()}
 
@@ -83,7 +83,7 @@ def pictures_of(run: results.Run) -> figure.Figures:
 def held(run: results.Run) -> str:
     """The experiments that a file holds, for a sentence."""
     counts = collections.Counter(cell.experiment for cell in run.cells)
-    counts.update(cell["experiment"] for cell in run.without_numbers)
+    counts.update(cell.experiment for cell in run.without_numbers)
     named = [f"{name} ({count} cell{'' if count == 1 else 's'})" for name, count in counts.items()]
     return ", ".join(named) or "no cells"
 

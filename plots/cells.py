@@ -1,13 +1,40 @@
 """A cell of a result file: what was measured of one builder or pipeline on one scene, with its times and what it is called."""
 import functools
 import json
-from typing import Any
+from collections.abc import Callable, Hashable, Iterable, Sequence
+from typing import Any, NamedTuple, TypeVar
 
 import numpy
 
 import names
 
+Item = TypeVar("Item")
 Sample = dict[str, dict[str, Any]]  # stage name to its numbers, in the order in which stages ran
+
+
+class Quantiles(NamedTuple):
+    """Of one quantity over a cell's samples."""
+
+    p10: float
+    median: float
+    p90: float
+
+
+def quantiles(values: Sequence[float]) -> Quantiles:
+    return Quantiles(*(float(value) for value in numpy.quantile(values, (0.1, 0.5, 0.9))))
+
+
+def median(values: Sequence[float]) -> float:
+    """0 of none."""
+    return float(numpy.median(values)) if len(values) else 0.0
+
+
+def grouped(items: Iterable[Item], key: Callable[[Item], Hashable]) -> dict[Any, list[Item]]:
+    """Those of one key together, keys and items in the order in which they come."""
+    groups: dict[Hashable, list[Item]] = {}
+    for item in items:
+        groups.setdefault(key(item), []).append(item)
+    return groups
 
 
 def elapsed_ns(stage: dict[str, Any]) -> int:
@@ -23,6 +50,16 @@ def whole_ns(sample: Sample) -> int:
     if any("wall_ns" in stage for stage in stages):
         return total
     return max(total, *(stage.get("start_ns", 0) + stage["span_ns"] for stage in stages), 0)
+
+
+def by_stage(sample: dict[str, Any]) -> Sample:
+    return {entry["stage"]: entry for entry in sample["stages"]}
+
+
+def times_ns(samples: Iterable[Sample], stage: str = "") -> numpy.ndarray:
+    """Of a stage, in those that have it; else of the whole."""
+    return numpy.array([elapsed_ns(sample[stage]) if stage else whole_ns(sample) for sample in samples
+                        if not stage or stage in sample], dtype=float)
 
 
 def counted(samples: list[dict[str, Any]]) -> list[dict[str, Any]]:
@@ -81,19 +118,18 @@ class Cell:
     @functools.cached_property
     def samples(self) -> list[Sample]:
         """Those that count, each as stage name to its numbers."""
-        return [{entry["stage"]: entry for entry in sample["stages"]} for sample in counted(self.all_samples)]
+        return [by_stage(sample) for sample in counted(self.all_samples)]
 
-    def times_ns(self, stage: str) -> numpy.ndarray:
-        return numpy.array([elapsed_ns(sample[stage]) for sample in self.samples if stage in sample], dtype=float)
+    def times_ns(self, stage: str = "") -> numpy.ndarray:
+        """Of the samples that have the stage, or of all stages together."""
+        return times_ns(self.samples, stage)
 
-    def whole_times_ns(self) -> numpy.ndarray:
-        return numpy.array([whole_ns(sample) for sample in self.samples], dtype=float)
-
-    def times_s(self, stage: str) -> numpy.ndarray:
+    def times_s(self, stage: str = "") -> numpy.ndarray:
         return self.times_ns(stage) * 1e-9
 
-    def whole_times_s(self) -> numpy.ndarray:
-        return self.whole_times_ns() * 1e-9
+    def median_ns(self, stage: str = "") -> float:
+        """0 without such a stage."""
+        return median(self.times_ns(stage))
 
     @property
     def on_host(self) -> bool:
@@ -137,14 +173,20 @@ class Cell:
     def identity(self) -> str:
         return identity(self.raw)
 
+    def key(self, *parts: str, without: str = "") -> tuple[Hashable, ...]:
+        """Some of what tells it from other cells: experiment, scene, frame, builder, collider `without` one of its options."""
+        known = {"experiment": self.experiment, "scene": self.scene_facts["name"], "frame": self.frame,
+                 "builder": choice(self.raw["builder"]), "collider": choice(self.raw.get("collider", {"name": ""}), without)}
+        return tuple(known[part] for part in parts)
+
 
 def sorted_options(choice: dict[str, Any]) -> tuple[tuple[str, str], ...]:
     return tuple(sorted((key, str(value)) for key, value in choice.get("options", {}).items()))
 
 
-def choice(raw: dict[str, Any]) -> tuple[str, tuple[tuple[str, str], ...]]:
+def choice(raw: dict[str, Any], without: str = "") -> tuple[str, tuple[tuple[str, str], ...]]:
     """A builder or collider with its options; one that has its usual value may be absent in a file, and is left out."""
-    return raw["name"], tuple(pair for pair in sorted_options(raw) if pair[1] != names.USUAL.get(pair[0]))
+    return raw["name"], tuple(pair for pair in sorted_options(raw) if pair[1] != names.USUAL.get(pair[0]) and pair[0] != without)
 
 
 def identity(raw: dict[str, Any]) -> str:

@@ -105,7 +105,7 @@ def command_line(name: str, description: str | None, draw: Draw) -> int:
 def command_line_of_frames(figures: dict[str, Draw], description: str | None) -> int:
     """A picture for each of these experiments that a file has frames of."""
     def figures_of(run: results.Run) -> Figures:
-        found = {style.stem(run.path, name): functools.partial(draw, run) for name, draw in figures.items() if run.has_frames(name)}
+        found = {style.stem(run.path, name): functools.partial(draw, run) for name, draw in figures.items() if run.all_frames(name)}
         if not found:
             raise results.Refused(f"{run.path}: no measured frame of {' or '.join(figures)}")
         return found

@@ -31,7 +31,7 @@ Point = tuple[float, float, results.Cell]  # milliseconds, measure
 
 
 def points_of(cells: list[results.Cell], measure: str = "sah_cost") -> list[Point]:
-    return [(1e3 * results.quantiles(cell.whole_times_s()).median, cell.counters[measure], cell) for cell in cells
+    return [(1e3 * results.quantiles(cell.times_s()).median, cell.counters[measure], cell) for cell in cells
             if cell.samples and measure in cell.counters]
 
 

@@ -38,7 +38,7 @@ class Pipeline:
 
     def frame_ms(self) -> numpy.ndarray:
         """The median of each frame."""
-        return numpy.array([float(numpy.median(cell.whole_times_s())) for cell in self.cells]) * 1e3
+        return numpy.array([float(numpy.median(cell.times_s())) for cell in self.cells]) * 1e3
 
     def stage_ms(self, stage: str) -> float:
         """The mean over frames of their medians; 0 if it has no such stage."""

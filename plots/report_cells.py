@@ -70,7 +70,7 @@ def times_of(cell: results.Cell) -> dict[str, list[float]]:
     """By stage, and of the whole, from first start to last end."""
     if not cell.samples:
         return {}
-    times = {WHOLE: quantiles_ns(cell.whole_times_s())}
+    times = {WHOLE: quantiles_ns(cell.times_s())}
     for stage in dict.fromkeys(stage for sample in cell.samples for stage in sample):
         times[stage] = quantiles_ns(cell.times_s(stage))
     return times

@@ -71,7 +71,7 @@ def build_lines(run: results.Run, stage: str) -> list[Line]:
 
 def query_lines(run: results.Run, stage: str) -> list[Line]:
     """By collider; lines of one collider over several trees differ in their dashes."""
-    if not run.has_frames("roofline"):
+    if not run.all_frames("roofline"):
         return []
     groups: dict[Hashable, list[results.Cell]] = {}
     for cell in run.frames("roofline"):

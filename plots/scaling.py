@@ -74,7 +74,7 @@ def draw(run: results.Run, experiment: str = "scaling", cells: list[results.Cell
         raise results.Refused(f"{run.path}: no measured cell of {experiment} has a stage")
     among = style.in_order(cells)
     columns: dict[str, Times] = {stage: lambda cell, stage=stage: cell.times_s(stage) for stage in stages}
-    columns[WHOLE] = lambda cell: cell.whole_times_s()
+    columns[WHOLE] = lambda cell: cell.times_s()
     drawing, (upper, lower) = plt.subplots(2, len(columns), figsize=(style.PAGE_WIDTH, 4.2), sharex=True, sharey="row",
                                            layout="constrained", squeeze=False)
     for place, (name, times) in enumerate(columns.items()):

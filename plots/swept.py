@@ -34,7 +34,7 @@ class Step:
         return sum(cell.counters.get(counter, 0) for cell in self.cells)
 
     def seconds(self) -> float:
-        return sum(results.quantiles(cell.whole_times_s()).median for cell in self.cells)
+        return sum(results.quantiles(cell.times_s()).median for cell in self.cells)
 
     def query_seconds(self) -> float:
         return sum(float(numpy.median(sum(cell.times_s(stage) for stage in QUERY if stage in cell.samples[0])))

@@ -104,7 +104,7 @@ def reproduced(arguments: argparse.Namespace, file: str, shown: list[str]) -> in
     code, printed = child.run([*words, *command.common_words(arguments)], is_kept=True)
     if code not in (0, 1, NOTHING):
         raise SystemExit(code)
-    run = results.everything(pathlib.Path(file))
+    run = results.everything(file)
     print(run_page.text(run) + table(run) + printed.decode(errors="surrogateescape"), end="", flush=True)
     if code != NOTHING:
         for name in shown:

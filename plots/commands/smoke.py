@@ -90,10 +90,10 @@ def measured(arguments: argparse.Namespace, kept_from: str) -> tuple[results.Run
         code, _ = child.run(["run", "smoke", "--out", file, *filter_, *command.common_words(arguments)])
         if code not in (0, 1, 4) or identity(file) == earlier:
             raise SystemExit(code)
-        run = results.everything(pathlib.Path(file))
+        run = results.everything(file)
         if out and file != out:
             output.write(pathlib.Path(out), pathlib.Path(file).read_bytes())
-    print(run_page.text(run), cells_page.text(run, cells_page.none), sep="", end="")
+    print(run_page.text(run), cells_page.text(run, lambda cell: False), sep="", end="")
     return run, code
 
 

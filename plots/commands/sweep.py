@@ -141,7 +141,7 @@ def cells_table(sweep: Sweep, units: list[Unit], shards: list[int], shard: Shard
             for one in unit.cells]
     rows += [(one, "", f"cannot be: {one.why_not}") for one in sweep.cells if one.why_not and shard.number == 1]
     for one, own, why in rows:
-        table.row([one.cell.scene, f"{one.triangles:,}" if one.triangles else "", one.cell.pipeline, own, why])
+        table.row(one.cell.scene, tables.whole(one.triangles or None), one.cell.pipeline, own, why)
     return table.text()
 
 

@@ -24,11 +24,11 @@ def times_table(comparison: Comparison, show_all: bool) -> str:
         return ""
     table = Table("<cell", "A", "B", "B/A", "own", "between", "p", "n", "<")
     for cell in sorted(shown, key=lambda cell: (WORST_FIRST.index(cell.verdict), -cell.time.ratio.value)):
-        table.row([*row_of(cell.first.label, cell.time), cell.verdict])
+        table.row(*row_of(cell.first.label, cell.time), cell.verdict)
         for stage, change in cell.stages.items():
-            table.row(row_of(f"  {stage}", change))
+            table.row(*row_of(f"  {stage}", change))
     for scene in comparison.scenes:
-        table.row(scene_row(scene))
+        table.row(*scene_row(scene))
     return table.text()
 
 

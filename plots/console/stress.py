@@ -4,7 +4,8 @@ from typing import Any
 
 import documents
 import results
-from tables import Table
+from cells import grouped
+from tables import Table, whole
 
 Found = dict[str, Any]
 WORSE = {"holds": 0, "refused": 1, "broken": 2}
@@ -63,33 +64,26 @@ def tally(cells: list[dict[str, Any]]) -> str:
 def scenes(cells: list[dict[str, Any]]) -> str:
     libraries = list(dict.fromkeys(cell["system"] for cell in cells if cell["kind"] == "library"))
     table = Table("<scene", "triangles", "<ours", "<wrapped libraries", *(f"<{library}" for library in libraries))
-    rows: dict[str, list[dict[str, Any]]] = {}
-    for cell in cells:
-        rows.setdefault(f"{cell['family']}: {cell['scene']}", []).append(cell)
-    for row, those in rows.items():
-        triangles = max(cell.get("triangles", 0) for cell in those)
+    for row, those in grouped(cells, lambda cell: f"{cell['family']}: {cell['scene']}").items():
         by_library = {cell["system"]: verdict_of(cell) for cell in those if cell["kind"] == "library"}
-        others = [cell for cell in those if cell["kind"] != "library"]
-        table.row([row, f"{triangles:,}" if triangles else "", tally([cell for cell in others if not cell.get("library")]),
-                   tally([cell for cell in others if cell.get("library")]),
-                   *(by_library.get(library, "") for library in libraries)])
+        others = grouped((cell for cell in those if cell["kind"] != "library"), lambda cell: bool(cell.get("library")))
+        table.row(row, whole(max(cell.get("triangles", 0) for cell in those) or None),
+                  *(tally(others.get(is_wrapped, [])) for is_wrapped in (False, True)),
+                  *(by_library.get(library, "") for library in libraries))
     return table.text()
 
 
 def systems(cells: list[dict[str, Any]], versions: dict[str, str]) -> str:
     invariants = documents.schema()["$defs"]["stress_cell"]["properties"]["findings"]["propertyNames"]["enum"]
     table = Table("<system", "scenes", *(f"<{name}" for name in invariants), "<")
-    by_system: dict[str, list[dict[str, Any]]] = {}
-    for cell in cells:
-        by_system.setdefault(cell["system"], []).append(cell)
-    for system, those in by_system.items():
+    for system, those in grouped(cells, lambda cell: cell["system"]).items():
         joined: dict[str, Found] = {}
         for cell in those:
             for invariant, finding in cell["findings"].items():
                 join(joined, invariant, finding)
         library = those[-1].get("library", "")
-        table.row([system, str(len(those)), *(text_of(name, joined[name]) if name in joined else "" for name in invariants),
-                   f"{library} {versions[library]}" if library in versions else library])
+        table.row(system, str(len(those)), *(text_of(name, joined[name]) if name in joined else "" for name in invariants),
+                  f"{library} {versions[library]}" if library in versions else library)
     return table.text()
 
 

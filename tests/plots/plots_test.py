@@ -238,10 +238,10 @@ class Frames(TemporaryFolder):
         run = results.load(GOLDEN / "table2.json")
         cell = run.frames("table2")[0]
         narrow = cell.samples[0]["narrow"]
-        self.assertAlmostEqual(cell.whole_times_s()[0] * 1e9, narrow["start_ns"] + narrow["span_ns"])
+        self.assertAlmostEqual(cell.times_s()[0] * 1e9, narrow["start_ns"] + narrow["span_ns"])
         embree = next(cell for cell in results.load(GOLDEN / "libraries.json").cells if cell.collider == "embree")
         times = [entry.get("wall_ns", entry.get("span_ns")) for entry in embree.samples[0].values()]
-        self.assertAlmostEqual(embree.whole_times_s()[0] * 1e9, sum(times))
+        self.assertAlmostEqual(embree.times_s()[0] * 1e9, sum(times))
 
     def test_parts_are_all_stages_and_add_up_to_the_frame(self) -> None:
         schema = json.loads((ROOT / "results" / "schema" / "result-1.schema.json").read_text(encoding="utf-8"))
@@ -448,7 +448,7 @@ class Swept(TemporaryFolder):
         self.assertEqual(labels[2:], ["grid", "embree", "bvtt (jump 2) over oibvh-multi, edge-edge only"])
         both = [cell for cell in run.cells if cell.scene == "unc_cloth_ball" and cell.collider == "grid"]
         self.assertEqual([cell.swept["pairs"] for cell in both], ["vertex-face", "edge-edge"])
-        seconds = sum(results.quantiles(cell.whole_times_s()).median for cell in both)
+        seconds = sum(results.quantiles(cell.times_s()).median for cell in both)
         queries, whole = panels[0].patches[4:6]
         self.assertAlmostEqual(whole.get_width(), 1e-6 * 40 * 92230 / seconds)
         self.assertGreater(queries.get_width(), whole.get_width())
