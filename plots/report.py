@@ -16,24 +16,23 @@ from typing import Any
 import json_files
 import output
 import report_cells
-import report_compared
 import report_facts
 import report_looks
 import report_page
 import report_tables
-import report_view
 import results
+from cells import Cell
 
 
 def file_data(path: pathlib.Path, document: dict[str, Any]) -> dict[str, Any]:
-    run, raw = document["run"], document["cells"]
-    cells = [report_cells.cell_data(path, cell, run.get("copy_rate_bytes_per_s")) for cell in raw]
-    report_compared.mark_fronts(cells)
+    run = document["run"]
+    cells = [report_cells.cell_data(Cell(cell), run.get("copy_rate_bytes_per_s")) for cell in document["cells"]]
+    report_cells.mark_fronts(cells)
     stress = document.get("stress", [])
     states = Counter(cell["state"] for cell in cells)
     states.update(finding["verdict"] for cell in stress for finding in cell["findings"].values())
     return {"name": text_of(json_files.name_of(path)), "path": text_of(path.name), "cells": cells,
-            "bars": report_compared.bars_of(cells), "looks": report_looks.looks_of(cells),
+            "bars": report_cells.bars_of(cells), "looks": report_looks.looks_of(cells),
             "tables": report_tables.tables_of(cells, stress), "states": states,
             "experiments": list(dict.fromkeys(cell["experiment"] for cell in cells)) or ["stress"],
             "device": run["device"]["name"], "driver": run["device"]["driver"], "machine": run["host"]["name"],
@@ -68,10 +67,10 @@ def make(files: list[pathlib.Path], views: list[pathlib.Path]) -> tuple[str, boo
         sections.append(report_page.section(number, title, report_facts.sentence_of(document),
                                             report_facts.warnings_of(document),
                                             report_facts.facts_of(document)))
-        blobs.append(report_page.json_blob(f"samples-{number}", [report_cells.samples_data(cell) for cell in document["cells"]]))
+        blobs.append(report_page.json_blob(f"samples-{number}", [report_cells.samples_data(Cell(cell)) for cell in document["cells"]]))
     shown = []
     for number, path in enumerate(views):
-        facts, arrays = report_view.load(path)
+        facts, arrays = report_facts.view_of(path)
         is_wrong |= facts["state"] == "differs"
         shown.append(facts)
         blobs += [report_page.blob(f"view-{number}-{name}", content) for name, content in arrays.items()]

@@ -4,8 +4,7 @@ import pathlib
 import command
 import documents
 from comparing import comparison, report
-from comparing.refusals import require_comparable
-from comparing.rules import Rules
+from comparing.refusals import Rules, require_comparable
 
 
 def parser() -> command.Parser:

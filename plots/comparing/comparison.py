@@ -3,11 +3,11 @@ import functools
 from dataclasses import dataclass, field
 from typing import Any
 
-from cells import Cell
+from cells import Cell, grouped
 from comparing import scenes, times
 from comparing.drift import CellPair
 from comparing.facts import fact_changes, run_remarks
-from comparing.rules import Rules
+from comparing.refusals import Rules
 from comparing.scenes import SceneChange
 
 
@@ -65,12 +65,9 @@ def compare(first: dict[str, Any], second: dict[str, Any], rules: Rules) -> Comp
     runs = first["run"], second["run"]
     by_turns = all(one["id"] in other.get("turns_with", []) for one, other in (runs, runs[::-1]))
     comparison = Comparison(rules, cells, only_first, only_second, run_remarks(*runs), by_turns)
-    groups: dict[tuple[str, ...], list[ComparedCell]] = {}
-    for cell in cells:
-        if cell.has_times:
-            groups.setdefault(group_of(cell.first), []).append(cell)
-    for group in sorted(groups):
-        compare_scene(groups[group], comparison)
+    groups = grouped((cell for cell in cells if cell.has_times), lambda cell: group_of(cell.first))
+    for _, group in sorted(groups.items()):
+        compare_scene(group, comparison)
     return comparison
 
 
@@ -95,9 +92,7 @@ def compare_scene(cells: list[ComparedCell], comparison: Comparison) -> None:
 
 def matched_cells(first: list[Cell], second: list[Cell]) -> tuple[list[CellPair], list[Cell], list[Cell]]:
     """Cells of one identity, the first with the first, and those of one file only."""
-    there: dict[str, list[Cell]] = {}
-    for cell in second:
-        there.setdefault(cell.identity, []).append(cell)
+    there = grouped(second, lambda cell: cell.identity)
     both, only_first = [], []
     for cell in first:
         candidates = there.get(cell.identity, [])

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy
 
-from cells import Cell, Sample, counted, elapsed_ns, whole_ns
+from cells import Cell, Sample, by_stage, counted, median, times_ns
 
 LIKENESS = 0.05  # of logarithms of speeds
 PARTS = 8
@@ -23,13 +23,11 @@ class Series:
 
     def times_ns(self, stage: str = "") -> numpy.ndarray:
         """Whole times, or those of a stage."""
-        if not stage:
-            return numpy.array([whole_ns(each) for each in self.stages], dtype=float)
-        return numpy.array([elapsed_ns(each[stage]) for each in self.stages if stage in each], dtype=float)
+        return times_ns(self.stages, stage)
 
     @functools.cached_property
     def stages(self) -> list[Sample]:
-        return [{entry["stage"]: entry for entry in sample["stages"]} for sample in self.samples]
+        return [by_stage(sample) for sample in self.samples]
 
     def __len__(self) -> int:
         return len(self.samples)
@@ -90,28 +88,28 @@ def wavering(cells: list[Series]) -> float:
         errors.append(median_error(in_parts))
         for part, own in zip(slower, in_parts):
             if len(own) >= 3:
-                part.append(math.log(numpy.median(own) / numpy.median(times)))
-    of_parts = [float(numpy.median(part)) for part in slower if part]
+                part.append(math.log(median(own) / median(times)))
+    of_parts = [median(part) for part in slower if part]
     if not of_parts:
         return 0.0
-    chance = OF_MOST * float(numpy.median(errors)) / math.sqrt(len(errors))
+    chance = OF_MOST * median(errors) / math.sqrt(len(errors))
     return max(0.0, max(of_parts) - min(of_parts) - chance)
 
 
 def median_error(in_parts: list[numpy.ndarray]) -> float:
     """The standard error of the logarithm of a part's median, from how samples lie about the medians of their parts."""
-    distances = numpy.concatenate([numpy.abs(numpy.log(part / numpy.median(part))) for part in in_parts if len(part)] or [[]])
+    distances = numpy.concatenate([numpy.abs(numpy.log(part / median(part))) for part in in_parts if len(part)] or [[]])
     if not len(distances):
         return 0.0
-    return OF_MEDIAN * NORMAL * float(numpy.median(distances)) / math.sqrt(len(distances) / PARTS)
+    return OF_MEDIAN * NORMAL * median(distances) / math.sqrt(len(distances) / PARTS)
 
 
 def common_trend(cells: list[Pair]) -> numpy.ndarray:
     """What two runs that took turns had in common: of the cells of a scene, by how much the n-th samples in both files and those
     beside them are slower than their cells' medians, the median of all of these, as the logarithm of a ratio."""
-    rows = [times for pair in cells for series in pair if len(times := series.times_ns()) and numpy.median(times) > 0]
+    rows = [times for pair in cells for series in pair if median(times := series.times_ns()) > 0]
     slower = numpy.full((len(rows), max(map(len, rows), default=0)), math.nan)
     for row, times in zip(slower, rows):
-        row[:len(times)] = numpy.log(numpy.maximum(times, 1) / numpy.median(times))
+        row[:len(times)] = numpy.log(numpy.maximum(times, 1) / median(times))
     near_by = (slower[:, max(0, place - BESIDE):place + BESIDE + 1] for place in range(slower.shape[1]))
-    return numpy.array([numpy.nanmedian(each) for each in near_by])
+    return numpy.array([median(each[~numpy.isnan(each)]) for each in near_by])

@@ -1,12 +1,22 @@
-"""What two result files must have in common before anything is compared."""
+"""How strictly two result files are compared, and what they must have in common before anything is."""
 import pathlib
+from dataclasses import dataclass
 from typing import Any
 
 import results
-from comparing.rules import Rules
 from output import WrongUsage
 
 Named = tuple[pathlib.Path, dict[str, Any]]  # a file's name and what it holds
+
+
+@dataclass(frozen=True)
+class Rules:
+    threshold: float = 0.05  # the smallest change of time that counts, as a share
+    error: float = 0.05  # chance that any cell of two runs of one program is called faster or slower
+    allow_missing: bool = False
+    allow_dirty: bool = False
+    other_devices: bool = False  # compare only ratios between the cells of a scene
+    allow_test_hooks: bool = False
 
 
 def require_comparable(first: Named, second: Named, rules: Rules) -> None:

@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 
 import numpy
 
-from cells import Cell
+from cells import Cell, median
 from comparing import drift
 from comparing.intervals import Interval
 from comparing.times import FEWEST_SAMPLES, TimeChange, time_change, verdict_of
@@ -47,7 +47,7 @@ def beside_the_others(cells: list[drift.CellPair], threshold: float) -> tuple[Ag
     ratios = log_ratios(pairs)
     if not len(ratios):
         return Against(pairs, common=Interval(0, 1, math.inf)), None
-    middle, spread = float(numpy.exp(numpy.median(ratios))), spread_of(ratios)
+    middle, spread = math.exp(median(ratios)), spread_of(ratios)
     margin = margin_of(pairs, ratios, spread)
     if len(ratios) < FEWEST_CELLS:
         return Against(pairs, common=Interval(1 / margin, 1, margin)), None
@@ -60,13 +60,13 @@ def of_other_devices(cells: list[drift.CellPair]) -> Against | None:
     """None of a cell that is alone on its scene: there is nothing to hold it against."""
     pairs = drift.counted_pairs(cells)
     ratios = log_ratios(pairs)
-    middle = math.exp(numpy.median(ratios)) if len(ratios) else 1
+    middle = math.exp(median(ratios))
     return Against(pairs, common=Interval(middle, middle, middle)) if len(ratios) > 1 else None
 
 
 def log_ratios(pairs: list[drift.Pair]) -> numpy.ndarray:
     """Of the medians of cells with samples enough."""
-    medians = [[max(numpy.median(series.times_ns()), 1) for series in pair] for pair in pairs
+    medians = [[max(median(series.times_ns()), 1) for series in pair] for pair in pairs
                if min(map(len, pair)) >= FEWEST_SAMPLES]
     return numpy.log([second / first for first, second in medians])
 
@@ -74,7 +74,7 @@ def log_ratios(pairs: list[drift.Pair]) -> numpy.ndarray:
 def spread_of(ratios: numpy.ndarray) -> float:
     """By how much one may be off their median by chance: three standard deviations, as the median of their distances tells them
     where a few of them are changed."""
-    return min(3 * drift.NORMAL * float(numpy.median(numpy.abs(ratios - numpy.median(ratios)))), MOST_DRIFT)
+    return min(3 * drift.NORMAL * median(numpy.abs(ratios - median(ratios))), MOST_DRIFT)
 
 
 def margin_of(pairs: list[drift.Pair], ratios: numpy.ndarray, spread: float) -> float:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where the time goes: a bar a builder or pipeline, its stages stacked, as plots/report_compared.py has made them.
+// Where the time goes: a bar a builder or pipeline, its stages stacked, as plots/report_cells.py has made them.
 const LONGEST = 12; // times the shortest bar: the axis ends there at first
 const ROW = 38;
 

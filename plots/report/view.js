@@ -13,7 +13,7 @@ const FIELD = 25; // degrees: a small one bends little
 const DISTANCE = 3.9; // in radii of the scene, where it is as wide as high
 
 class View {
-  /** `facts` as plots/report_view.py makes them; arrays are unpacked when it is seen. */
+  /** `facts` as plots/report_facts.py makes them; arrays are unpacked when it is seen. */
   constructor(facts, number) {
     this.facts = facts;
     this.number = number;

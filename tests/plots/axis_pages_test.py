@@ -19,7 +19,7 @@ Raw = dict[str, Any]
 
 def page(*cells: Raw) -> list[list[str]]:
     """The words of each line."""
-    run = results.Run(pathlib.Path("made.json"), {}, [], [], [], {"cells": list(cells)})
+    run = results.Run(pathlib.Path("made.json"), {"run": {}, "cells": list(cells)})
     return [line.split() for line in accuracy.text(run).splitlines()]
 
 

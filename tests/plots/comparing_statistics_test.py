@@ -15,7 +15,7 @@ ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
 sys.path.insert(0, str(ROOT / "plots"))
 
 from comparing.intervals import Interval, median_interval, ratio_interval, samples_per_independent_one  # noqa: E402
-from comparing.u_test import p_value  # noqa: E402
+from comparing.times import p_value  # noqa: E402
 
 
 def shuffled(count: int, seed: int = 3) -> numpy.ndarray:

@@ -19,8 +19,7 @@ sys.path.insert(0, str(ROOT / "plots"))
 import counters  # noqa: E402
 from cells import Cell  # noqa: E402
 from comparing import comparison, report  # noqa: E402
-from comparing.refusals import require_comparable  # noqa: E402
-from comparing.rules import Rules  # noqa: E402
+from comparing.refusals import Rules, require_comparable  # noqa: E402
 from output import WrongUsage  # noqa: E402
 
 BUILDERS = ["perfect", "karras", "apetrei", "lbvh-levels", "oibvh-single", "oibvh-multi"]

@@ -29,7 +29,7 @@ def cell(builder: str, ns: int = 100000, scene: str = "bunny", sah_cost: float |
 
 
 def run_of(*cells: Raw, **facts: Any) -> results.Run:
-    return results.Run(pathlib.Path("made.json"), {"copy_rate_bytes_per_s": 1e12, **facts}, [], [], [], {"cells": list(cells)})
+    return results.Run(pathlib.Path("made.json"), {"run": {"copy_rate_bytes_per_s": 1e12, **facts}, "cells": list(cells)})
 
 
 class OfTable1(unittest.TestCase):

@@ -219,7 +219,7 @@ class Frames(TemporaryFolder):
         for name, those in scripts.items():
             document = self.golden(name)
             document["cells"][3]["check"] = {"verdict": "differs", "detail": "pair 7"}
-            who = results.called(document["cells"][3])
+            who = results.Cell(document["cells"][3]).called
             for script in those:
                 done = self.run_script(script, self.written(document, f"{name}.json"), "--out", self.folder / "out")
                 self.assertEqual(done.returncode, 3)
@@ -344,7 +344,7 @@ class Reader(TemporaryFolder):
             self.assertAlmostEqual(results.quantiles(cell.times_s("hierarchy")).median, seconds)
 
     def test_quantiles_are_those_of_the_raw_samples(self) -> None:
-        found = results.quantiles(results.numpy.arange(101.0))
+        found = results.quantiles(range(101))
         self.assertEqual(found, results.Quantiles(10.0, 50.0, 90.0))
 
 

@@ -19,7 +19,7 @@ sys.path.insert(0, str(ROOT / "plots"))
 
 import results  # noqa: E402
 from cells import Cell  # noqa: E402
-from console import cells, frames, quality, refit, roofline, skips, swept, yardstick  # noqa: E402
+from console import cells, frames, skips, swept, trees  # noqa: E402
 from console import cell as one_cell  # noqa: E402
 from console import run as run_page  # noqa: E402
 
@@ -64,7 +64,7 @@ def document(*all_cells: Raw, **facts: Any) -> Raw:
 
 def run_of(*all_cells: Raw, **facts: Any) -> results.Run:
     made = document(*all_cells, **facts)
-    return results.Run(pathlib.Path("made.json"), made["run"], [], [], [], made)
+    return results.Run(pathlib.Path("made.json"), made)
 
 
 def shown(raw: Raw) -> str:
@@ -203,9 +203,9 @@ class OfTrees(unittest.TestCase):
         raw = cell(leaves_by_depth=[0, 0, 4])
         raw["builder"]["options"] = {"order": "hilbert30"}
         raw["counters"]["sah_cost"] = 90
-        self.assertEqual(quality.text(run_of(raw)), "")
+        self.assertEqual(trees.quality(run_of(raw)), "")
         raw["counters"]["epo"] = 12.345
-        self.assertEqual(quality.text(run_of(raw)), (
+        self.assertEqual(trees.quality(run_of(raw)), (
             "scene  builder                   SAH    EPO  sibling overlap  levels of leaves\n"
             "bunny  oibvh-multi, hilbert30  90.00  12.35                   2\n"))
 
@@ -215,11 +215,11 @@ class OfTrees(unittest.TestCase):
         unchecked = cell("oibvh-single", 900000)
         unchecked["check"]["verdict"] = "not_checked"
         run = run_of(cell("oibvh-multi", 125000), cell("oibvh-host"), other, unchecked)
-        self.assertEqual(yardstick.text(run), (
+        self.assertEqual(trees.yardstick(run), (
             "scene  triangles  builder      hierarchy  oibvh-host  times\n"
             "bunny    144,046  oibvh-multi     125 us      100 us   1.25\n"
             "medians of the stage hierarchy, of trees that are equal: at most 1.25 times as long as by threads of the host\n"))
-        self.assertEqual(yardstick.text(run_of(cell("oibvh-multi"))), "")
+        self.assertEqual(trees.yardstick(run_of(cell("oibvh-multi"))), "")
 
     def test_a_rebuild_stands_beside_a_refit_by_the_same_builder(self) -> None:
         rebuild, again = cell("karras", 300000), cell("karras", 200000, operation="refit")
@@ -229,10 +229,10 @@ class OfTrees(unittest.TestCase):
         for sample in again["samples"]:
             sample["stages"][0]["stage"] = "refit"
         other = {**again, "builder": {"name": "karras", "options": {"order": "morton63"}}}  # has no rebuild beside it
-        _, line, *note = refit.text(run_of(rebuild, other, wrong(again), again)).splitlines()
+        _, line, *note = trees.refits(run_of(rebuild, other, wrong(again), again)).splitlines()
         self.assertEqual(line.split(), "bunny 144,046 karras 400 us 200 us 2.00 300 us 200 us 1.50 50.00 51.50".split())
         self.assertEqual(note[1], "rebuilding takes longer than refitting in 1 of 1 cases")
-        self.assertEqual(refit.text(run_of(rebuild, other, wrong(again))), "")
+        self.assertEqual(trees.refits(run_of(rebuild, other, wrong(again))), "")
         self.assertTrue(shown(again).startswith("karras, refit on bunny"))
 
 
@@ -240,11 +240,11 @@ class OfFloors(unittest.TestCase):
     def of(self, *all_cells: Raw, **facts: Any) -> list[list[str]]:
         for raw in all_cells:
             raw["experiment"] = "roofline"
-        return [line.split() for line in roofline.text(run_of(*all_cells, **{"launch_cost_ns": 4000, **facts})).splitlines()[2:]]
+        return [line.split() for line in trees.roofline(run_of(*all_cells, **{"launch_cost_ns": 4000, **facts})).splitlines()[2:]]
 
     def test_are_bytes_at_the_copy_rate_and_launches_at_their_cost(self) -> None:
         self.assertEqual(self.of(cell()), ["bunny oibvh-multi hierarchy 2 50.0 MB 347.1 58.0 us 100 us 1.72".split()])
-        self.assertEqual(roofline.text(run_of(cell())), "", "of another experiment")
+        self.assertEqual(trees.roofline(run_of(cell())), "", "of another experiment")
 
     def test_are_of_the_query_alone_where_frames_have_a_tree(self) -> None:
         lines = self.of(frame(), frame(builder="none"))

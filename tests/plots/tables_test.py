@@ -17,12 +17,12 @@ class OfTables(unittest.TestCase):
     def test_words_stand_left_and_numbers_right_by_characters(self) -> None:
         table = Table("<name", "ms")
         for row in (["a–b", "1"], ["longer", "10"], ["c"]):
-            table.row(row)
+            table.row(*row)
         self.assertEqual(table.text(), "name    ms\na–b      1\nlonger  10\nc\n")
 
     def test_without_titles_there_are_only_rows(self) -> None:
         table = Table("<", "")
-        table.row(["a", "10"])
+        table.row("a", "10")
         self.assertEqual(table.text(), "a  10\n")
 
 
