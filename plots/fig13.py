@@ -74,7 +74,7 @@ def draw(run: results.Run) -> plt.Figure:
         axes.set_ylim(0, 1.08 * axes.get_ylim()[1])
     ratio_axes.margins(x=0.13)  # room for the last values
     ratio_axes.legend(loc="upper left")
-    costs = () if run.costs == table4.PAPER_COSTS else (run.costs_remark(),)
+    costs = () if run.costs == results.USUAL_COSTS else (run.costs_remark(),)
     height = figure.legend_above(drawing, cost_axes.get_legend_handles_labels()[0], 2)
     figure.footer(drawing, run, "fig13", (f"Moved: triangle {', '.join(triangles)}. {SAYS}", *costs), height)
     return drawing

@@ -3,18 +3,13 @@
 
     plots/fig9.py FILE... --out DIR
 """
+import functools
 import sys
-
-import matplotlib.pyplot as plt
 
 import figure
 import frame_stages
-import results
 
-
-def draw(run: results.Run) -> plt.Figure:
-    return frame_stages.draw(run, "table2")
-
+draw = functools.partial(frame_stages.draw, experiment="table2")
 
 if __name__ == "__main__":
     sys.exit(figure.command_line("fig9", __doc__, draw))

@@ -4,11 +4,12 @@ import functools
 import math
 import pathlib
 import textwrap
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 
 import matplotlib.pyplot as plt
+import numpy
 from matplotlib.axis import Axis
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter, NullLocator
 
 import output
 import results
@@ -16,6 +17,7 @@ import style
 
 MISSING_SHOWN = 4
 Draw = Callable[[results.Run], plt.Figure]
+Curve = list[tuple[int, results.Quantiles]]  # triangles and a quantity, by size
 Figures = dict[str, Callable[[], plt.Figure]]  # by the name of the picture
 
 
@@ -45,6 +47,45 @@ def log_ticks(axis: Axis, low: float, high: float) -> None:
     axis.set_major_locator(LogLocator(subs=steps, numticks=20))
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.10g}"))
     axis.set_minor_formatter(NullFormatter())
+
+
+def powers_of_two(axes: plt.Axes, base: int, most: int) -> None:
+    """Of the axis of triangles: a number at powers of `base`, so many at the most."""
+    axes.set_xscale("log", base=2)
+    axes.xaxis.set_major_locator(LogLocator(base=base, numticks=most))
+    axes.xaxis.set_minor_locator(NullLocator())
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"$2^{{{round(math.log2(value))}}}$"))
+
+
+def step_between(sizes: list[int]) -> int:
+    """The base of powers that have a number: of few sizes every other."""
+    return 16 if max(sizes) / min(sizes) > 2**10 else 4
+
+
+def by_size(cells: list[results.Cell], values_of: Callable[[results.Cell], Sequence[float]]) -> Curve:
+    """Of cells that have values, in the order of their triangles."""
+    points = [(cell.triangles, results.quantiles(values)) for cell in cells if len(values := values_of(cell))]
+    return sorted(points, key=lambda point: point[0])
+
+
+def band(axes: plt.Axes, points: Curve, scaled: Callable[[numpy.ndarray], numpy.ndarray], look: style.Look, alpha: float = 0.25,
+         **line: object) -> None:
+    """Medians as a line, and a band from the 10th to the 90th percentile; `scaled` makes what is shown of all of one quantile."""
+    sizes = numpy.array([size for size, _ in points])
+    first, middle, last = (scaled(numpy.array(column)) for column in zip(*(found for _, found in points)))
+    axes.fill_between(sizes, numpy.minimum(first, last), numpy.maximum(first, last), color=look.colour, alpha=alpha, linewidth=0)
+    axes.plot(sizes, middle, color=look.colour, marker=look.marker, **line)
+
+
+def panels(count: int, columns: int, inches: tuple[float, float], **shared: object) -> tuple[plt.Figure, list[plt.Axes], int]:
+    """So many in at most so many columns, which are answered too; `inches` are those of the page and of each row."""
+    columns = min(columns, count)
+    rows = math.ceil(count / columns)
+    drawing, grid = plt.subplots(rows, columns, figsize=(style.PAGE_WIDTH, inches[0] + inches[1] * rows), squeeze=False,
+                                 layout="constrained", **shared)
+    for axes in list(grid.flat)[count:]:
+        axes.remove()
+    return drawing, list(grid.flat)[:count], columns
 
 
 def legend_above(figure: plt.Figure, handles: list, columns: int = 7) -> float:

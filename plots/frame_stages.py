@@ -3,7 +3,6 @@ import matplotlib.pyplot as plt
 from matplotlib.patches import Patch
 
 import figure
-import frame_bars
 import pipelines
 import results
 import style
@@ -36,8 +35,7 @@ def draw_scene(axes: plt.Axes, shown: list[pipelines.Pipeline]) -> bool:
             left += scale * width
         if whole > limit:
             axes.plot([0.96 * limit, 0.975 * limit], [row + 0.45, row - 0.45], color="white", linewidth=2)
-        axes.annotate(f" {whole:.3g} ms", (left, row), (2, 0), textcoords="offset points", va="center",
-                      fontsize=style.SMALL)
+        pipelines.told(axes, row, left, f"{whole:.3g} ms", 2)
     pipelines.dress(axes, shown)
     axes.set_xlim(0, 1.2 * end)
     return max(wholes) > limit
@@ -50,7 +48,7 @@ def panels_for(scenes: dict[str, list[pipelines.Pipeline]]) -> tuple[plt.Figure,
     columns = 2 if same and len(shown) > IN_ONE_COLUMN else 1
     rows = [max(len(one) for one in shown[first:first + columns]) + 2.2 + 0.6 * columns
             for first in range(0, len(shown), columns)]
-    drawing, panels = plt.subplots(len(rows), columns, figsize=(style.PAGE_WIDTH, frame_bars.ROW * sum(rows) + 0.9),
+    drawing, panels = plt.subplots(len(rows), columns, figsize=(style.PAGE_WIDTH, pipelines.ROW * sum(rows) + 0.9),
                                    squeeze=False, height_ratios=rows, layout="constrained")
     flat = list(panels.flat)
     for axes in flat[len(shown):]:

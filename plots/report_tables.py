@@ -18,14 +18,10 @@ Cells = list[tuple[int, dict[str, Any]]]  # places in the file and their data
 Value = Callable[[dict[str, Any]], Any]
 
 
-def unit_for(times: list[float]) -> tuple[str, float]:
-    """In which most of these nanoseconds are numbers from 1 on."""
-    middle = median(times) or 1.0
-    return next((unit for unit in reversed(UNITS) if middle >= unit[1]), UNITS[0])
-
-
 def unit_of(cells: Cells) -> tuple[str, float]:
-    return unit_for([data["times"][WHOLE][MEDIAN] for _, data in cells if WHOLE in data["times"]])
+    """In which most of their times are numbers from 1 on."""
+    middle = median([data["times"][WHOLE][MEDIAN] for _, data in cells if WHOLE in data["times"]])
+    return next((unit for unit in reversed(UNITS) if middle >= unit[1]), UNITS[0])
 
 
 class Table:

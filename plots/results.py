@@ -179,3 +179,7 @@ def cell_of(path: pathlib.Path, raw: dict[str, Any]) -> Cell:
 def printed(name: str) -> dict[str, Any]:
     """Numbers printed in the paper: 'table1' to 'table4', 'fig8'."""
     return json.loads((PAPER / f"{name}.json").read_text(encoding="utf-8"))
+
+
+def printed_device(name: str) -> str:
+    return printed(name)["device"].removeprefix("NVIDIA GeForce ")

@@ -7,13 +7,11 @@ A column a stage and one for all of them, a line a builder. Above the median tim
 triangles: a line that falls pays for its launches, one that is level is proportional to the mesh. Stages that
 builders share lie over each other.
 """
-import math
 import sys
 from collections.abc import Callable
 
 import matplotlib.pyplot as plt
 import numpy
-from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
 import figure
 import results
@@ -22,7 +20,6 @@ import style
 WHOLE = "whole build"
 COLUMNS, LINE = 4, 120  # of the legend: columns, and letters that they have room for together
 Times = Callable[[results.Cell], numpy.ndarray]  # seconds, one per sample
-Curve = list[tuple[int, results.Quantiles]]  # triangles, seconds; by size
 
 
 def stages_of(cells: list[results.Cell]) -> list[str]:
@@ -32,32 +29,10 @@ def stages_of(cells: list[results.Cell]) -> list[str]:
     return [stage for stage in known if stage in names]
 
 
-def curve(cells: list[results.Cell], times: Times) -> Curve:
-    points = [(cell.triangles, results.quantiles(seconds)) for cell in cells if len(seconds := times(cell))]
-    return sorted((point for point in points if point[1].p10 > 0), key=lambda point: point[0])
-
-
-def draw_curve(axes: plt.Axes, points: Curve, per_triangle: bool, series: style.Series,
-               among: list[style.Series]) -> None:
-    """Milliseconds, or nanoseconds a triangle."""
-    look = style.look(series[0])
-    sizes = numpy.array([triangles for triangles, _ in points])
-    scale = 1e9 / sizes if per_triangle else 1e3
-    low, middle, high = (scale * numpy.array([getattr(seconds, name) for _, seconds in points])
-                         for name in ("p10", "median", "p90"))
-    axes.fill_between(sizes, low, high, color=look.colour, alpha=0.25, linewidth=0)
-    axes.plot(sizes, middle, color=look.colour, marker=look.marker, markersize=3, label=style.label(series, among),
-              linestyle=style.VARIANT_LINES[style.variant(series, among)])
-
-
 def dress(upper: list[plt.Axes], lower: list[plt.Axes], sizes: list[int]) -> None:
-    base = 16 if max(sizes) / min(sizes) > 2**10 else 4  # of few sizes every other has a number
     for axes in (*upper, *lower):
         axes.set_yscale("log")
-        axes.set_xscale("log", base=2)
-        axes.xaxis.set_major_locator(LogLocator(base=base, numticks=9))
-        axes.xaxis.set_minor_locator(NullLocator())
-        axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"$2^{{{round(math.log2(value))}}}$"))
+        figure.powers_of_two(axes, figure.step_between(sizes), 9)
         axes.tick_params(labelleft=axes in (upper[0], lower[0]))
     for line, what in ((upper, "time, ms"), (lower, "per triangle, ns")):
         line[0].set_ylabel(what)
@@ -80,10 +55,12 @@ def draw(run: results.Run, experiment: str = "scaling", cells: list[results.Cell
     for place, (name, times) in enumerate(columns.items()):
         upper[place].set_title(name, loc="left")
         for series in among:
-            points = curve([cell for cell in cells if style.series_of(cell) == series], times)
-            if points:
-                draw_curve(upper[place], points, False, series, among)
-                draw_curve(lower[place], points, True, series, among)
+            curve = figure.by_size([cell for cell in cells if style.series_of(cell) == series], times)
+            points = [(size, seconds) for size, seconds in curve if seconds.p10 > 0]
+            sizes = numpy.array([size for size, _ in points])
+            for axes, scale in ((upper[place], 1e3), (lower[place], 1e9 / sizes)) if points else ():
+                figure.band(axes, points, lambda seconds, scale=scale: scale * seconds, style.look(series[0]), markersize=3,
+                            **style.line(series, among))
     dress(list(upper), list(lower), [cell.triangles for cell in cells])
     handles = upper[-1].get_legend_handles_labels()[0]
     longest = max((len(handle.get_label()) for handle in handles), default=0)
