@@ -9,7 +9,6 @@ file cannot be read or drawn.
 """
 import argparse
 import collections
-import functools
 import pathlib
 import sys
 from collections.abc import Iterator
@@ -69,15 +68,12 @@ def files_of(given: pathlib.Path, out: pathlib.Path) -> Iterator[tuple[pathlib.P
 
 def pictures_of(run: results.Run) -> figure.Figures:
     """Every figure that the file has cells for, by the name of its picture."""
-    path = run.path
-    figures = {style.stem(path, name): functools.partial(draw, run) for name, draw in FIGURES.items() if run.of(name)}
-    figures |= accuracy.figures_of(run)
+    draws = {name: draw for name, draw in FIGURES.items() if run.of(name)} | accuracy.draws_of(run)
     if run.stress:
-        figures[style.stem(path, "stress")] = lambda: stress.draw(run)
+        draws["stress"] = stress.draw
     for experiment, of_frames in FRAME_FIGURES.items():
-        if run.all_frames(experiment):
-            figures |= {style.stem(path, name): functools.partial(draw, run) for name, draw in of_frames.items()}
-    return figures | {style.stem(path, name): functools.partial(draw, run) for name, draw in sweeps.figures_of(run).items()}
+        draws |= of_frames if run.all_frames(experiment) else {}
+    return figure.named(run, draws | sweeps.figures_of(run))
 
 
 def held(run: results.Run) -> str:

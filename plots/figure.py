@@ -77,6 +77,18 @@ def band(axes: plt.Axes, points: Curve, scaled: Callable[[numpy.ndarray], numpy.
     axes.plot(sizes, middle, color=look.colour, marker=look.marker, **line)
 
 
+def scatter(axes: plt.Axes, points: list[tuple], best: list[tuple], look_of: Callable[[tuple], style.Look],
+            more: Callable[[bool], dict] = lambda is_best: {}) -> None:
+    """Of what begins with a time and a cost or error. The best of all are filled, and those that are shown joined."""
+    joined = [point[:2] for point in best if point in points]
+    axes.plot([time for time, _ in joined], [cost for _, cost in joined], color="#888888", linewidth=0.8, zorder=1)
+    for point in points:
+        look = look_of(point)
+        axes.plot(*point[:2], marker=look.marker, linestyle="none", markeredgecolor=look.colour,
+                  markerfacecolor=look.colour if point in best else "white", **more(point in best))
+    axes.grid(axis="x")
+
+
 def panels(count: int, columns: int, inches: tuple[float, float], **shared: object) -> tuple[plt.Figure, list[plt.Axes], int]:
     """So many in at most so many columns, which are answered too; `inches` are those of the page and of each row."""
     columns = min(columns, count)
@@ -115,6 +127,13 @@ def save_all(run: results.Run, figures: Figures, folder: pathlib.Path, inputs: l
             raise results.Refused(f"{run.path}: the figure {name} cannot be drawn of it: {output.described(error)}") from error
 
 
+def named(run: results.Run, draws: dict[str, Draw], why_none: str = "") -> Figures:
+    """By the name of the picture. Raises results.Refused if there are none and `why_none` says why."""
+    if why_none and not draws:
+        raise results.Refused(f"{run.path}: {why_none}")
+    return {style.stem(run.path, name): functools.partial(draw, run) for name, draw in draws.items()}
+
+
 def add_output(parser: argparse.ArgumentParser, **folder: object) -> None:
     parser.add_argument("--out", type=pathlib.Path, metavar="DIR", **folder)
     parser.add_argument("--force", action="store_true", help="replace files of the pictures' names that are no pictures")
@@ -140,15 +159,10 @@ def draw_from(description: str | None, figures_of: Callable[[results.Run], Figur
 
 def command_line(name: str, description: str | None, draw: Draw) -> int:
     """One picture per file, called after it."""
-    return draw_from(description, lambda run: {style.stem(run.path, name): lambda: draw(run)})
+    return draw_from(description, lambda run: named(run, {name: draw}))
 
 
 def command_line_of_frames(figures: dict[str, Draw], description: str | None) -> int:
     """A picture for each of these experiments that a file has frames of."""
-    def figures_of(run: results.Run) -> Figures:
-        found = {style.stem(run.path, name): functools.partial(draw, run) for name, draw in figures.items() if run.all_frames(name)}
-        if not found:
-            raise results.Refused(f"{run.path}: no measured frame of {' or '.join(figures)}")
-        return found
-
-    return draw_from(description, figures_of)
+    return draw_from(description, lambda run: named(run, {name: draw for name, draw in figures.items() if run.all_frames(name)},
+                                                    f"no measured frame of {' or '.join(figures)}"))

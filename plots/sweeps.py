@@ -13,8 +13,6 @@ import re
 import sys
 from collections.abc import Iterator
 
-import matplotlib.pyplot as plt
-
 import figure
 import frame_stages
 import pareto_orders
@@ -33,11 +31,7 @@ FRAME = "A frame is all from moved vertices to pairs, or to contacts where a nar
 
 def kinds_of(cells: list[results.Cell]) -> dict[str, list[results.Cell]]:
     """Cells of scenes that are the same but for their number of triangles, by what is left of the name."""
-    kinds: dict[str, list[results.Cell]] = {}
-    for cell in cells:
-        kind = re.sub(rf":{cell.triangles}(?=:|$)", "", cell.scene)
-        kinds.setdefault(kind, []).append(cell)
-    return kinds
+    return results.grouped(cells, lambda cell: re.sub(rf":{cell.triangles}(?=:|$)", "", cell.scene))
 
 
 def plain(name: str) -> str:
@@ -57,25 +51,19 @@ def scalings(run: results.Run, experiment: str, cells: list[results.Cell]) -> It
 
 def frames(run: results.Run, experiment: str) -> Iterator[tuple[str, figure.Draw]]:
     """A figure for each answer that frames were asked for: one takes longer than another."""
-    answers: dict[tuple[str, ...], list[results.Cell]] = {}
-    for cell in run.cells:
-        if cell.experiment == experiment and cell.operation == "collide" and cell.samples:
-            options = dict(cell.collider_options)
-            asked = tuple(options.get(key, usual) for key, usual in ANSWERS.items()) + (cell.swept.get("pairs", ""),)
-            answers.setdefault(asked, []).append(cell)
-    for asked, cells in answers.items():
+    def asked_of(cell: results.Cell) -> tuple[str, ...]:
+        options = dict(cell.collider_options)
+        return *(options.get(key, usual) for key, usual in ANSWERS.items()), cell.swept.get("pairs", "")
+
+    for asked, cells in results.grouped(run.all_frames(experiment), asked_of).items():
         if len({(cell.scene, cell.called) for cell in cells}) > MOST_BARS:
             continue
         said = [f"{key} {value}" for (key, usual), value in zip(ANSWERS.items(), asked) if value != usual]
         said += [asked[-1]] if asked[-1] else []
         remarks = (FRAME + (f" Asked for: {', '.join(said)}." if said else ""),)
-        suffix = plain("-" + "-".join(said)) if said else ""
-        yield ("frames" + (f"-{suffix}" if suffix else ""),
-               functools.partial(draw_frames, cells=cells, experiment=experiment, remarks=remarks))
-
-
-def draw_frames(run: results.Run, cells: list[results.Cell], experiment: str, remarks: tuple[str, ...]) -> plt.Figure:
-    return frame_stages.draw(dataclasses.replace(run, cells=cells), experiment, remarks)
+        shown = dataclasses.replace(run, cells=cells)
+        yield ("-".join(["frames", *filter(None, [plain("-".join(said))])]),
+               lambda _, shown=shown, remarks=remarks: frame_stages.draw(shown, experiment, remarks))
 
 
 def figures_of(run: results.Run) -> dict[str, figure.Draw]:
@@ -92,9 +80,7 @@ def figures_of(run: results.Run) -> dict[str, figure.Draw]:
 
 
 def some_figures_of(run: results.Run) -> figure.Figures:
-    if not (found := figures_of(run)):
-        raise results.Refused(f"{run.path}: no builds in several sizes or orders, and no frames, of an experiment of one's own")
-    return {style.stem(run.path, name): functools.partial(draw, run) for name, draw in found.items()}
+    return figure.named(run, figures_of(run), "no builds in several sizes or orders, and no frames, of an experiment of one's own")
 
 
 if __name__ == "__main__":

@@ -13,6 +13,7 @@ import command
 import documents
 import merging
 import output
+import results
 import tables
 from cells import Cell
 from json_files import Refused, value_of
@@ -25,7 +26,6 @@ from sweeping.product import swept_of
 from sweeping.units import Shard, Unit, shard_called, shards_of, units_of
 
 LISTS = ("scenes", "builders", "orders", "colliders")  # options that take values with commas between
-USUAL_COSTS = (1.2, 1.0)
 USUAL_DOUBLES = "recentred"
 OPENING_S = 600  # compiling two kernels has taken a driver a minute
 
@@ -55,8 +55,7 @@ def parser() -> command.Parser:
     add("--samples", type=int, help="timed runs a cell; default: 20")
     add("--warm-up", type=int, help="runs before them that do not count; default: 3")
     add("--epo", "--quality", dest="quality", action="store_true", help="compute end-point overlap, which takes long")
-    add("--sah-inner", type=command.number, default=1.2, help="what visiting an inner node costs")
-    add("--sah-triangle", type=command.number, default=1, help="what testing a triangle costs")
+    command.add_costs(words)
     add("--out", required=True, help="the folder of the sweep: the same command goes on with what is there")
     add("--device", action="append",
         help="as for all commands; more than once: processes are dealt to these, which must be alike")
@@ -110,11 +109,7 @@ def planned(arguments: argparse.Namespace) -> Sweep:
 
 
 def main(words: list[str]) -> int:
-    arguments = parser().parse_args(words)
-    if not arguments.out:
-        raise WrongUsage("--out names no file or folder")
-    if arguments.sah_inner == arguments.sah_triangle == 0:
-        raise WrongUsage("--sah-inner and --sah-triangle must not both be 0")
+    arguments = command.checked(parser(), words)
     if arguments.jobs is not None and not 1 <= arguments.jobs <= 1024:
         raise WrongUsage(f"--jobs: {arguments.jobs} is not from 1 to 1024")
     shard = shard_called(arguments.shard) if arguments.shard else Shard()
@@ -149,7 +144,7 @@ def facts_of(arguments: argparse.Namespace, program: str, device: str | None) ->
     """Of a run on the device. Raises Refused."""
     words = ["facts", *command.common_words(arguments, "--device"), *processes.device_words(device)]
     try:
-        done = subprocess.run([command.PROGRAM, *words], executable=program, env=processes.environment(),
+        done = subprocess.run([command.PROGRAM, *words], executable=program, env=child.environment(),
                               stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace", check=False,
                               timeout=OPENING_S)
     except subprocess.TimeoutExpired as late:
@@ -180,7 +175,7 @@ def facts_of_all(arguments: argparse.Namespace, program: str, devices: list[str 
 def measured(arguments: argparse.Namespace, words: list[str], sweep: Sweep, every: list[Unit], units: list[Unit],
              shard: Shard) -> int:
     costs = (arguments.sah_inner, arguments.sah_triangle)
-    cost_words = [] if costs == USUAL_COSTS else ["--sah-inner", str(costs[0]), "--sah-triangle", str(costs[1])]
+    cost_words = [] if costs == results.USUAL_COSTS else ["--sah-inner", str(costs[0]), "--sah-triangle", str(costs[1])]
     with contextlib.ExitStack() as held:
         program, devices = held.enter_context(processes.kept_program()), devices_of(arguments)
         about = facts_of_all(arguments, program, devices)

@@ -4,20 +4,19 @@ import contextlib
 import datetime
 import os
 import select
-import signal
 import subprocess
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
+import child
 import command
 import documents
 import merging
 import output
 import tables
 from cells import Cell
-from child import ENDING
 from json_files import Refused
 from sweeping import time_left
 from sweeping.folder import Folder, finished
@@ -26,7 +25,6 @@ from sweeping.units import Unit
 LOOK_S = 0.1  # how often signals and time limits are looked for
 PATIENCE_S = 5  # for processes that were asked to end
 MOST_ERRORS = 1 << 16  # bytes kept of what a process says
-STOPS = {int(number) for number in ENDING}
 
 
 class Stop:
@@ -44,15 +42,8 @@ class Stop:
 def deferred() -> Iterator[Stop]:
     """Signals that end this process are only remembered, until what is done is assembled."""
     stop = Stop()
-    before = {number: signal.getsignal(number) for number in ENDING}
-    for number, handler in before.items():
-        if handler != signal.SIG_IGN:  # as under nohup
-            signal.signal(number, stop.remember)
-    try:
+    with command.signals_to(stop.remember):
         yield stop
-    finally:
-        for number, handler in before.items():
-            signal.signal(number, handler)
 
 
 @contextlib.contextmanager
@@ -85,11 +76,7 @@ class Process:
         self.unit, self.device, self.file = unit, device, folder.cell_file(unit)
         self.began, self.given_up, self.said = time.monotonic(), "", b""
         words = ["run", str(folder.experiment_file(unit)), "--out", str(self.file), "--quiet", *task.words, *device_words(device)]
-        try:
-            self.child = subprocess.Popen([command.PROGRAM, *words], executable=task.program, env=environment(), process_group=0,
-                                          stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
-        except OSError as error:
-            raise Refused(f"the program {command.PROGRAM} cannot be run: {error.strerror}") from error
+        self.child = child.started(words, task.program, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
         assert self.child.stderr
         self.errors = self.child.stderr.fileno()
 
@@ -130,11 +117,6 @@ def device_words(device: str | None) -> list[str]:
     return [] if device is None else ["--device", device]
 
 
-def environment() -> dict[str, str]:
-    """Of a process that ends with this one, however that ends."""
-    return {**os.environ, "BVHBENCH_PARENT": str(os.getpid())}
-
-
 @dataclass(frozen=True)
 class Loss:
     """Why a process has left no result."""
@@ -149,9 +131,9 @@ def loss_of(process: Process) -> Loss:
     code, sentence = process.child.returncode, process.sentence()
     if process.given_up:
         return Loss(process.given_up)
-    if code < 0 and -code not in STOPS:
+    if code < 0 and -code not in command.ENDING:
         return Loss(f"its process crashed (signal {-code})" + (f": {sentence}" if sentence else ""), may_be_the_device=True)
-    was_stopped = (-code if code < 0 else code - 128) in STOPS
+    was_stopped = (-code if code < 0 else code - 128) in command.ENDING
     ended = f"ended with exit code {code}" if code >= 0 else f"crashed (signal {-code})"
     why = sentence if sentence and not was_stopped else f"its process {ended} and left no result"
     return Loss(why, code == 2, code == 3, was_stopped)

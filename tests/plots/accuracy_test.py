@@ -56,7 +56,7 @@ class Figures(unittest.TestCase):
         return [cell for cell in self.document["cells"] if cell["accuracy"]["axis"] == name]
 
     def drawn(self, name: str) -> accuracy.plt.Figure:
-        figures = accuracy.figures_of(self.run_of(self.axis(name)))
+        figures = accuracy.some_figures_of(self.run_of(self.axis(name)))
         self.assertEqual(list(figures), [f"accuracy-{name}"])
         drawing = figures[f"accuracy-{name}"]()
         drawing.draw_without_rendering()
@@ -91,7 +91,7 @@ class Figures(unittest.TestCase):
         cells[0]["check"]["verdict"] = "agrees"
         cells[1]["accuracy"]["method"] = "guess"
         with self.assertRaisesRegex(results.Refused, "no look for the method 'guess'"):
-            accuracy.figures_of(self.run_of(cells))["accuracy-narrow"]()
+            accuracy.some_figures_of(self.run_of(cells))["accuracy-narrow"]()
 
     def test_of_a_file_without_any_are_refused(self) -> None:
         with self.assertRaisesRegex(results.Refused, "no measured cell of an axis"):
