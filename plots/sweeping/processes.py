@@ -241,15 +241,15 @@ class Runner:
     def end_all(self) -> None:
         """Asked first, so that they may leave a driver in order; their cells will be measured anew."""
         running = [slot.child for slot in self.slots if slot]
-        for child in running:
-            child.terminate()
+        for one in running:
+            one.terminate()
         until = time.monotonic() + PATIENCE_S
-        for child in running:
+        for one in running:
             try:
-                child.communicate(timeout=max(0.0, until - time.monotonic()))
+                one.communicate(timeout=max(0.0, until - time.monotonic()))
             except subprocess.TimeoutExpired:
-                child.kill()
-                child.wait()
+                one.kill()
+                one.wait()
 
 
 def now() -> str:

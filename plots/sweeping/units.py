@@ -3,9 +3,9 @@ import json
 import re
 from dataclasses import dataclass
 
+from cells import grouped
 from output import WrongUsage
-from sweeping.hashes import hash_of
-from sweeping.planned import Json, Planned, Sweep
+from sweeping.planned import Json, Planned, Sweep, hash_of
 from sweeping.time_left import START_TRIANGLES
 
 
@@ -47,10 +47,8 @@ def shard_called(text: str) -> Shard:
 
 def units_of(sweep: Sweep, together: bool, settings: str) -> list[Unit]:
     """Of the cells that can be. `settings` is what decides what is measured besides."""
-    groups: dict[object, list[Planned]] = {}
-    for place, one in enumerate(sweep.cells):
-        if not one.why_not:
-            groups.setdefault(json.dumps(one.scene, sort_keys=True) if together else place, []).append(one)
+    groups = grouped((one for one in sweep.cells if not one.why_not),
+                     lambda one: json.dumps(one.scene, sort_keys=True) if together else id(one))
     return [unit_of(sweep, cells, settings) for cells in groups.values()]
 
 
