@@ -1,23 +1,14 @@
 #!/usr/bin/env python3
-"""The figures of accuracy show every method, mark the best, and refuse what is wrong.
-
-Usage: accuracy_test.py <source root>
-"""
-import json
-import pathlib
-import sys
-import tempfile
+"""The figures of accuracy show every method, mark the best, and refuse what is wrong."""
 import unittest
 
-ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
-GOLDEN = ROOT / "tests" / "golden" / "accuracy.json"
-sys.path.insert(0, str(ROOT / "plots"))
+from base import GOLDEN, InFolder, golden  # first: it says where plots are
 
-import accuracy  # noqa: E402
-import pareto  # noqa: E402
-import results  # noqa: E402
-import style  # noqa: E402
-from accuracy import Cost, Point  # noqa: E402
+import accuracy
+import pareto
+import results
+import style
+from accuracy import Cost, Point
 
 
 class Front(unittest.TestCase):
@@ -39,18 +30,14 @@ class Cheapest(unittest.TestCase):
         self.assertEqual(len(accuracy.cheapest([quick, slow._replace(query=10)], 1000)), 1)
 
 
-class Figures(unittest.TestCase):
+class Figures(InFolder):
     def setUp(self) -> None:
+        super().setUp()
         style.set_up()
-        holder = tempfile.TemporaryDirectory()
-        self.addCleanup(holder.cleanup)
-        self.folder = pathlib.Path(holder.name)
-        self.document = json.loads(GOLDEN.read_text(encoding="utf-8"))
+        self.document = golden("accuracy")
 
     def run_of(self, cells: list[dict]) -> results.Run:
-        path = self.folder / "accuracy.json"
-        path.write_text(json.dumps(self.document | {"cells": cells}), encoding="utf-8")
-        return results.load(path)
+        return results.load(self.written(self.document | {"cells": cells}, "accuracy.json"))
 
     def axis(self, name: str) -> list[dict]:
         return [cell for cell in self.document["cells"] if cell["accuracy"]["axis"] == name]
@@ -95,7 +82,7 @@ class Figures(unittest.TestCase):
 
     def test_of_a_file_without_any_are_refused(self) -> None:
         with self.assertRaisesRegex(results.Refused, "no measured cell of an axis"):
-            accuracy.some_figures_of(results.load(ROOT / "tests" / "golden" / "table1.json"))
+            accuracy.some_figures_of(results.load(GOLDEN / "table1.json"))
 
 
 if __name__ == "__main__":

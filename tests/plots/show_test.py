@@ -1,12 +1,8 @@
 #!/usr/bin/env python3
-"""What `show` prints of result files.
-
-Usage: show_test.py <source root>
-"""
+"""What `show` prints of result files."""
 import copy
 import json
 import os
-import pathlib
 import re
 import subprocess
 import sys
@@ -14,31 +10,13 @@ import tempfile
 import unittest
 from typing import Any
 
-ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
-sys.path.insert(0, str(ROOT / "plots"))
+from base import ROOT, Raw, cell, document, run_of, stage  # first: it says where plots are
 
-import results  # noqa: E402
-from cells import Cell  # noqa: E402
-from console import cells, frames, skips, swept, trees  # noqa: E402
-from console import cell as one_cell  # noqa: E402
-from console import run as run_page  # noqa: E402
-
-GOLDEN = json.loads((ROOT / "tests" / "golden" / "table1.json").read_text(encoding="utf-8"))
-Raw = dict[str, Any]
-
-
-def stage(name: str, span_ns: int, moved_bytes: int = 0, **more: int) -> Raw:
-    return {"stage": name, "busy_ns": span_ns - 10, "span_ns": span_ns, "launches": 2, "moved_bytes": moved_bytes, **more}
-
-
-def cell(builder: str = "oibvh-multi", ns: int = 100000, **more: Any) -> Raw:
-    """The hierarchy of a tree over 144,046 triangles, in three samples."""
-    return {"experiment": "table1", "scene": {"name": "bunny", "triangles": 144046}, "builder": {"name": builder},
-            "status": "measured",
-            "samples": [{"order": 7 + place, "stages": [stage("hierarchy", ns + off, 50000000)]}
-                        for place, off in enumerate((10000, 0, -10000))],
-            "counters": {"nodes_count": 288100, "tree_bytes": 6914400, "scratch_bytes": 0},
-            "check": {"verdict": "agrees", "against": "oibvh-reference", "tree_hash": "00000000000000ff"}, **copy.deepcopy(more)}
+import results
+from cells import Cell
+from console import cells, frames, skips, swept, trees
+from console import cell as one_cell
+from console import run as run_page
 
 
 def frame(number: int = 0, builder: str = "oibvh-multi", ns: int = 1000000, **collider: Any) -> Raw:
@@ -54,17 +32,6 @@ def frame(number: int = 0, builder: str = "oibvh-multi", ns: int = 1000000, **co
 
 def wrong(raw: Raw, detail: str = "node 3 is lost") -> Raw:
     return {**copy.deepcopy(raw), "check": {"verdict": "differs", "detail": detail}}
-
-
-def document(*all_cells: Raw, **facts: Any) -> Raw:
-    """1e12 bytes a second."""
-    run = {**copy.deepcopy(GOLDEN["run"]), "copy_rate_bytes_per_s": 1e12, **facts}
-    return {"format": GOLDEN["format"], "run": run, "cells": copy.deepcopy(list(all_cells))}
-
-
-def run_of(*all_cells: Raw, **facts: Any) -> results.Run:
-    made = document(*all_cells, **facts)
-    return results.Run(pathlib.Path("made.json"), made)
 
 
 def shown(raw: Raw) -> str:

@@ -1,24 +1,19 @@
 #!/usr/bin/env python3
-"""A sweep's product, its units, shards and plan, how it guesses the time left, and what it makes of a process that ends.
-
-Usage: sweeping_test.py <source root>
-"""
+"""A sweep's product, its units, shards and plan, how it guesses the time left, and what it makes of a process that ends."""
 import collections
 import json
 import os
 import pathlib
 import signal
-import sys
 import tempfile
 import types
 import unittest
 
-ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
-sys.path.insert(0, str(ROOT / "plots"))
+import base  # noqa: F401  first: it says where plots are
 
-from json_files import Refused  # noqa: E402
-from output import WrongUsage  # noqa: E402
-from sweeping import folder, planned, processes, product, sizes, time_left, units  # noqa: E402
+from json_files import Refused
+from output import WrongUsage
+from sweeping import folder, planned, processes, product, sizes, time_left, units
 
 BUILDERS, COLLIDERS, GENERATORS = ("perfect", "karras", "oibvh-wide4", "oibvh-multi"), ("leaf", "bvtt", "grid"), ("torus", "soup")
 USUAL = {"order": "morton30", "group_size": 0, "items": 0, "boxes": "f32", "leaves": "mesh"}
