@@ -16,7 +16,7 @@ import results
 PARTS = pathlib.Path(__file__).resolve().parent / "report"
 STYLES = ("base.css", "tables.css", "charts.css", "samples.css", "view.css")
 SCRIPTS = ("unpack.js", "format.js", "table.js", "axes.js", "legend.js", "compared.js", "chart.js", "chart_size.js",
-           "chart_stages.js", "chart_pareto.js", "chart_frames.js", "samples.js", "boxes.js", "view.js", "page.js")
+           "chart_stages.js", "chart_pareto.js", "chart_frames.js", "samples.js", "view.js", "page.js")
 DEBIAN = pathlib.Path("/usr/share")
 
 

@@ -5,13 +5,8 @@ function withZero(values) {
   const least = Math.min(...values.filter((value) => value > 0));
   const most = Math.max(...values);
   if (!values.includes(0) || !Number.isFinite(least)) {
-    return {
-      place: (value) => value,
-      more: isWide(values)
-        ? logTicks(values)
-        : {rangemode: "nonnegative", ...(Math.max(...values) > 0 ? {} : {range: [-0.05, 1]})},
-      isLog: isWide(values),
-    };
+    const more = {rangemode: "nonnegative", ...(most > 0 ? {} : {range: [-0.05, 1]})};
+    return {place: (value) => value, log: isWide(values) ? values : null, more: isWide(values) ? {} : more};
   }
   const first = Math.floor(Math.log10(least));
   const last = Math.ceil(Math.log10(most));
@@ -23,8 +18,9 @@ function withZero(values) {
   const zero = 10 ** (first - step);
   return {
     place: (value) => (value === 0 ? zero : value),
-    isLog: true,
+    log: [zero, most],
     more: {
+      dtick: undefined,
       tickvals: [zero, ...powers.map((power) => 10 ** power)],
       ticktext: ["0", ...powers.map((power) => (power >= -3 && power <= 4 ? String(10 ** power) : `1e${power}`))],
     },
@@ -54,10 +50,7 @@ function paretoChart(file) {
   }
   return new Chart(
     "Time against quality or error",
-    [
-      {label: "Scene", options: [...points.keys()].map((name) => [name, name])},
-      {label: "Against", options: measures.map((name) => [name, name])},
-    ],
+    {Scene: [...points.keys()], Against: measures},
     (scene, measure) => {
       const here = points.get(scene)[measure] || [];
       if (!here.length) {
@@ -78,20 +71,14 @@ function paretoChart(file) {
       };
       const dots = [...grouped(here, (point) => point.cell.who)].map(([name, group]) => {
         const look = file.looks[name];
-        return {
-          type: "scatter",
+        const cells = group.map((point) => point.cell);
+        return scatter(name, look, cells, "whole", {
           mode: "markers",
-          name,
-          ...samplesOf(
-            group.map((point) => point.cell),
-            "whole"
-          ),
           x: group.map((point) => point.x / unit[1]),
           y: group.map((point) => zero.place(point.y)),
           customdata: group.map((point) => four(point.y)),
           marker: {
             size: 10,
-            color: look.colour,
             symbol: group.map((point) => look.symbol + (front.includes(point) ? "" : "-open")),
             line: {
               width: group.map((point) => (front.includes(point) ? 0.6 : 1.6)),
@@ -99,21 +86,15 @@ function paretoChart(file) {
             },
           },
           hovertemplate: `%{x:.4g} ${unit[0]}<br>${measure}: %{customdata}<extra>%{fullData.name}</extra>`,
-        };
+        });
       });
       return {
         traces: [line, ...dots],
-        legend: legendOf(
-          here.map((point) => point.cell),
-          file.looks
-        ),
+        legend: legendOf(here.map((point) => point.cell), file.looks),
         layout: {
           height: 430,
-          xaxis: axis(`time, ${unit[0]}`, isWide(times), {
-            tickformat: ",.4~r",
-            ...(isWide(times) ? logTicks(times) : {}),
-          }),
-          yaxis: axis(measure, zero.isLog, {tickformat: ",.4~r", ...zero.more}),
+          xaxis: axis(`time, ${unit[0]}`, isWide(times) ? times : null, {tickformat: ",.4~r"}),
+          yaxis: axis(measure, zero.log, {tickformat: ",.4~r", ...zero.more}),
         },
         notes: [
           "Down and left is better. Filled, joined: no other is as good in both. Medians.",

@@ -47,15 +47,8 @@ function samplesTable(samples, key, marked) {
       key === "span_ns" ? nanosecondsOf(samples.stages[stage], place) : at(samples.stages[stage][key], place)
     ),
   ]);
-  const clean = rows.map((row) =>
-    row.map((value) =>
-      value === undefined
-        ? null
-        : typeof value === "boolean" || (typeof value === "object" && value !== null)
-        ? JSON.stringify(value)
-        : value
-    )
-  );
+  const plain = (value) => (["boolean", "object"].includes(typeof value) && value !== null ? JSON.stringify(value) : value ?? null);
+  const clean = rows.map((row) => row.map(plain));
   const table = new SortedTable({title: "Raw samples", columns, rows: clean, cells: null}, 0);
   const place = columns.findIndex((column) => column.label === marked);
   table.element.classList.add("raw");
@@ -72,42 +65,32 @@ async function drawSamples(plot, samples, stage, quantiles, colour) {
     isWhole ? at(samples.whole, place) : nanosecondsOf(samples.stages[stage], place)
   );
   const unit = unitFor(times.filter((time) => time !== undefined && time !== null));
-  const order =
-    samples.own.order === undefined
-      ? times.map((_, place) => place)
-      : times.map((_, place) => at(samples.own.order, place));
-  const lines = quantiles
-    ? quantiles.map((value, k) => ({
-        type: "line",
-        xref: "paper",
-        x0: 0,
-        x1: 1,
-        y0: value / unit[1],
-        y1: value / unit[1],
-        line: {color: "#666666", width: 1, dash: k === 1 ? "solid" : "dot"},
-      }))
-    : [];
-  await Plotly.react(
-    plot,
-    [
-      {
-        type: "scatter",
-        mode: "markers",
-        x: order,
-        y: times.map((time) => time / unit[1]),
-        name: stage,
-        marker: {color: colour, size: 6, line: {color: INK, width: 0.4}},
-        hovertemplate: `sample %{x}<br>%{y:.5g} ${unit[0]}<extra></extra>`,
-      },
-    ],
-    layoutOf({
-      height: 260,
-      shapes: lines,
-      xaxis: axis("place in the run", false, {tickformat: "d"}),
-      yaxis: axis(`${isWhole ? "whole" : stage}, ${unit[0]}`, false, {rangemode: "tozero"}),
-    }),
-    {displaylogo: false, responsive: true, displayModeBar: false}
-  );
+  const order = times.map((_, place) => (samples.own.order === undefined ? place : at(samples.own.order, place)));
+  const lines = quantiles.map((value, k) => ({
+    type: "line",
+    xref: "paper",
+    x0: 0,
+    x1: 1,
+    y0: value / unit[1],
+    y1: value / unit[1],
+    line: {color: "#666666", width: 1, dash: k === 1 ? "solid" : "dot"},
+  }));
+  const marks = {
+    type: "scatter",
+    mode: "markers",
+    x: order,
+    y: times.map((time) => time / unit[1]),
+    name: stage,
+    marker: {color: colour, size: 6, line: {color: INK, width: 0.4}},
+    hovertemplate: `sample %{x}<br>%{y:.5g} ${unit[0]}<extra></extra>`,
+  };
+  const layout = layoutOf({
+    height: 260,
+    shapes: lines,
+    xaxis: axis("place in the run", null, {tickformat: "d"}),
+    yaxis: axis(`${isWhole ? "whole" : stage}, ${unit[0]}`, null, {rangemode: "tozero"}),
+  });
+  await Plotly.react(plot, [marks], layout, {displaylogo: false, responsive: true, displayModeBar: false});
   plot.classList.add("drawn");
 }
 
@@ -128,11 +111,7 @@ async function showSamples(file, place, stage) {
     holder.replaceChildren(
       samples.count ? samplesTable(samples, key, stage) : element("p", {}, "No sample was taken.")
     );
-  const select = element(
-    "select",
-    {change: () => fill(select.value)},
-    ...all.map((key) => element("option", {value: key}, QUANTITY[key] || key.replace(/_/g, " ")))
-  );
+  const select = menu(all.map((key) => [key, QUANTITY[key] || key.replace(/_/g, " ")]), fill);
   const plot = element("div", {class: "drawing", role: "img", "aria-label": "Samples in the order of the run"});
   const quantiles = cell.times[stage];
   const said = quantiles
@@ -140,19 +119,11 @@ async function showSamples(file, place, stage) {
         quantiles[2] / 1e3
       )} µs, ${plural(samples.count, "sample")}.`
     : cell.why || "";
+  const title = `${cell.who} on ${cell.scene}${cell.frame ? `, frame ${cell.frame}` : ""}${stage === "whole" ? "" : `: ${stage}`}`;
+  const facts = factsOf(samples.facts, "").map(([name, text]) => element("div", {}, element("dt", {}, name), element("dd", {}, text)));
+  const close = element("button", {type: "button", click: () => dialog.close()}, "Close");
   dialog.replaceChildren(
-    element(
-      "div",
-      {class: "dialog-head"},
-      element(
-        "h2",
-        {id: "samples-title"},
-        `${cell.who} on ${cell.scene}${cell.frame ? `, frame ${cell.frame}` : ""}${
-          stage === "whole" ? "" : `: ${stage}`
-        }`
-      ),
-      element("button", {type: "button", click: () => dialog.close()}, "Close")
-    ),
+    element("div", {class: "dialog-head"}, element("h2", {id: "samples-title"}, title), close),
     element("p", {}, badge(cell.state), " ", said),
     ...(samples.count && quantiles
       ? [plot, element("p", {class: "note"}, "Lines: median, and dotted 10th and 90th percentile.")]
@@ -161,13 +132,7 @@ async function showSamples(file, place, stage) {
     ...(samples.count && all.length > 1 ? [element("label", {}, "Of each stage ", select)] : []),
     holder,
     element("h3", {}, "The cell"),
-    element(
-      "dl",
-      {class: "facts"},
-      ...factsOf(samples.facts, "").map(([name, text]) =>
-        element("div", {}, element("dt", {}, name), element("dd", {}, text))
-      )
-    )
+    element("dl", {class: "facts"}, ...facts)
   );
   fill("span_ns");
   if (!dialog.open) {
