@@ -9,6 +9,7 @@ import numpy
 import names
 
 Item = TypeVar("Item")
+OF_SCENE = {"frame": 0, "stand_in_for": "", "objects_by": "", "between": 0}  # what tells scenes of one name apart, and is usual
 Sample = dict[str, dict[str, Any]]  # stage name to its numbers, in the order in which stages ran
 
 
@@ -173,11 +174,10 @@ class Cell:
     def identity(self) -> str:
         return identity(self.raw)
 
-    def key(self, *parts: str, without: str = "") -> tuple[Hashable, ...]:
-        """Some of what tells it from other cells: experiment, scene, frame, builder, collider `without` one of its options."""
-        known = {"experiment": self.experiment, "scene": self.scene_facts["name"], "frame": self.frame,
-                 "builder": choice(self.raw["builder"]), "collider": choice(self.raw.get("collider", {"name": ""}), without)}
-        return tuple(known[part] for part in parts)
+    def key(self, *names: str, without: str = "") -> tuple[Hashable, ...]:
+        """Some of its parts, of its collider `without` one of its options."""
+        own = parts(self.raw, without)
+        return tuple(own.get(name) for name in names)
 
 
 def sorted_options(choice: dict[str, Any]) -> tuple[tuple[str, str], ...]:
@@ -189,18 +189,18 @@ def choice(raw: dict[str, Any], without: str = "") -> tuple[str, tuple[tuple[str
     return raw["name"], tuple(pair for pair in sorted_options(raw) if pair[1] != names.USUAL.get(pair[0]) and pair[0] != without)
 
 
+def parts(raw: dict[str, Any], without: str = "") -> dict[str, Any]:
+    """What a cell is about, whatever came of it. It has every option, also those that this reader does not know; an option that a
+    file of an older format lacks has its usual value."""
+    scene = raw["scene"] if isinstance(raw["scene"], dict) else {"name": raw["scene"]}
+    told = {name: raw[name] for name in ("experiment", "accuracy", "family", "system") if name in raw}
+    told |= {part: choice(raw[part], without) for part in ("builder", "collider") if part in raw}
+    told |= {name: scene.get(name, usual) for name, usual in OF_SCENE.items()}
+    swept = raw.get("swept", {})
+    return told | {"scene": scene["name"], "operation": raw.get("operation", "build"), "swept": (swept.get("pairs"), swept.get("to_frame")),
+                   "caches": raw.get("sampling", {}).get("caches", "hot")}
+
+
 def identity(raw: dict[str, Any]) -> str:
-    """What a cell is about, whatever came of it: cells of two files with the same identity are the same cell. It has every
-    option, also those that this reader does not know; an option that a file of an older format lacks has its usual value."""
-    key: dict[str, Any] = {name: raw[name] for name in ("experiment", "accuracy", "family", "system") if name in raw}
-    key["operation"] = raw.get("operation", "build")
-    for part in ("builder", "collider"):
-        if part in raw:
-            key[part] = choice(raw[part])
-    scene = raw["scene"]
-    key["scene"] = scene if isinstance(scene, str) else [
-        scene["name"], scene.get("frame", 0), scene.get("stand_in_for", ""), scene.get("objects_by", ""), scene.get("between", 0)]
-    key["caches"] = raw.get("sampling", {}).get("caches", "hot")
-    if "swept" in raw:
-        key["swept"] = [raw["swept"]["pairs"], raw["swept"]["to_frame"]]
-    return json.dumps(key, sort_keys=True)
+    """Cells of two files with the same identity are the same cell."""
+    return json.dumps(parts(raw), sort_keys=True)
