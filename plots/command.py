@@ -47,7 +47,17 @@ class Parser(argparse.ArgumentParser):
                 host_memory.limit = host_memory.bytes_of(arguments.memory_limit)
             except ValueError as error:
                 self.error(f"--memory-limit: {error}")
+        if getattr(arguments, "out", None) == "":
+            raise output.WrongUsage("--out names no file or folder")
+        if getattr(arguments, "sah_inner", 1) == getattr(arguments, "sah_triangle", 1) == 0:
+            raise output.WrongUsage("--sah-inner and --sah-triangle must not both be 0")
         return arguments
+
+    def add_costs(self) -> None:
+        self.add_argument("--epo", "--quality", dest="quality", action="store_true",
+                          help="compute end-point overlap, which takes long")
+        self.add_argument("--sah-inner", type=cost, default=1.2, help="what visiting an inner node costs")
+        self.add_argument("--sah-triangle", type=cost, default=1, help="what testing a triangle costs")
 
     def error(self, message: str) -> NoReturn:
         """As the program's other commands say it."""
@@ -119,21 +129,6 @@ cost = Number(1000000, "a number from 0 to 1000000")  # of a visit; the program 
 
 def share(most: float) -> Number:
     return Number(most, f"a share from 0 to {100 * most:.0f}%, as 5% or 0.05", is_share=True)
-
-
-def add_costs(words: Parser) -> None:
-    words.add_argument("--sah-inner", type=cost, default=1.2, help="what visiting an inner node costs")
-    words.add_argument("--sah-triangle", type=cost, default=1, help="what testing a triangle costs")
-
-
-def checked(words: Parser, said: list[str]) -> argparse.Namespace:
-    """The command line of a command with costs and an --out. Raises WrongUsage for an --out without a name, and for no costs."""
-    arguments = words.parse_args(said)
-    if not arguments.out:
-        raise output.WrongUsage("--out names no file or folder")
-    if arguments.sah_inner == arguments.sah_triangle == 0:
-        raise output.WrongUsage("--sah-inner and --sah-triangle must not both be 0")
-    return arguments
 
 
 def common_words(arguments: argparse.Namespace, *without: str) -> list[str]:

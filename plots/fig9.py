@@ -7,9 +7,9 @@ import functools
 import sys
 
 import figure
-import frame_stages
+import frames
 
-draw = functools.partial(frame_stages.draw, experiment="table2")
+draw = functools.partial(frames.draw, experiment="table2")
 
 if __name__ == "__main__":
     sys.exit(figure.command_line("fig9", __doc__, draw))

@@ -14,7 +14,7 @@ import sys
 from collections.abc import Iterator
 
 import figure
-import frame_stages
+import frames
 import pareto_orders
 import results
 import scaling
@@ -49,7 +49,7 @@ def scalings(run: results.Run, experiment: str, cells: list[results.Cell]) -> It
         yield f"scaling{suffix}", functools.partial(scaling.draw, experiment=experiment, cells=sized)
 
 
-def frames(run: results.Run, experiment: str) -> Iterator[tuple[str, figure.Draw]]:
+def frame_figures(run: results.Run, experiment: str) -> Iterator[tuple[str, figure.Draw]]:
     """A figure for each answer that frames were asked for: one takes longer than another."""
     def asked_of(cell: results.Cell) -> tuple[str, ...]:
         options = dict(cell.collider_options)
@@ -63,7 +63,7 @@ def frames(run: results.Run, experiment: str) -> Iterator[tuple[str, figure.Draw
         remarks = (FRAME + (f" Asked for: {', '.join(said)}." if said else ""),)
         shown = dataclasses.replace(run, cells=cells)
         yield ("-".join(["frames", *filter(None, [plain("-".join(said))])]),
-               lambda _, shown=shown, remarks=remarks: frame_stages.draw(shown, experiment, remarks))
+               lambda _, shown=shown, remarks=remarks: frames.draw(shown, experiment, remarks))
 
 
 def figures_of(run: results.Run) -> dict[str, figure.Draw]:
@@ -75,7 +75,7 @@ def figures_of(run: results.Run) -> dict[str, figure.Draw]:
         orders = {pareto_orders.order_of(cell) for cell in builds if "sah_cost" in cell.counters} - {None}
         if len(orders) > 1 and len({cell.scene for cell in builds}) <= MOST_PANELS:
             found["orders"] = pareto_orders.draw
-        found |= frames(run, experiment)
+        found |= frame_figures(run, experiment)
     return found
 
 

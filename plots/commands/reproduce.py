@@ -44,14 +44,12 @@ def parser() -> command.Parser:
     words.add_argument("what", metavar="WHAT", help="table1 to table4, fig8, fig9, fig10, fig13; or all, and a page of all")
     words.add_argument("--out", default="out", help="folder for result files, figures and the page")
     words.add_argument("--quick", action="store_true", help="fewer scenes and samples")
-    words.add_argument("--epo", "--quality", dest="quality", action="store_true",
-                       help="compute end-point overlap, which takes long")
-    command.add_costs(words)
+    words.add_costs()
     return words
 
 
 def main(words: list[str]) -> int:
-    arguments = command.checked(parser(), words)
+    arguments = parser().parse_args(words)
     if arguments.what not in (*SHOWN, "all"):
         raise output.WrongUsage(f"WHAT: there is no '{arguments.what}'; there are: {', '.join(SHOWN)}, all; "
                                 "`bvhbench --help` lists what there is")

@@ -37,8 +37,6 @@ def parser() -> command.Parser:
 def checked(words: list[str]) -> argparse.Namespace:
     """The command line. What is compared must not depend on which device is known, so no tuning file is looked for."""
     arguments = parser().parse_args(words)
-    if arguments.out == "":
-        raise WrongUsage("--out names no file or folder")
     if not TOLERANCE[0] <= arguments.tolerance <= TOLERANCE[1]:
         raise WrongUsage(f"--tolerance must be a ratio from {TOLERANCE[0]:g} to {TOLERANCE[1]:g}, not {arguments.tolerance:g}")
     if arguments.update and arguments.filter:

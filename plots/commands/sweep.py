@@ -54,8 +54,7 @@ def parser() -> command.Parser:
         "frames and others; may be said again")
     add("--samples", type=int, help="timed runs a cell; default: 20")
     add("--warm-up", type=int, help="runs before them that do not count; default: 3")
-    add("--epo", "--quality", dest="quality", action="store_true", help="compute end-point overlap, which takes long")
-    command.add_costs(words)
+    words.add_costs()
     add("--out", required=True, help="the folder of the sweep: the same command goes on with what is there")
     add("--device", action="append",
         help="as for all commands; more than once: processes are dealt to these, which must be alike")
@@ -109,7 +108,7 @@ def planned(arguments: argparse.Namespace) -> Sweep:
 
 
 def main(words: list[str]) -> int:
-    arguments = command.checked(parser(), words)
+    arguments = parser().parse_args(words)
     if arguments.jobs is not None and not 1 <= arguments.jobs <= 1024:
         raise WrongUsage(f"--jobs: {arguments.jobs} is not from 1 to 1024")
     shard = shard_called(arguments.shard) if arguments.shard else Shard()

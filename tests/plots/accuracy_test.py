@@ -5,16 +5,9 @@ import unittest
 from base import GOLDEN, InFolder, golden  # first: it says where plots are
 
 import accuracy
-import pareto
 import results
 import style
-from accuracy import Cost, Point
-
-
-class Front(unittest.TestCase):
-    def test_keeps_what_no_other_is_as_good_as(self) -> None:
-        points = [Point(3, 0, "a"), Point(1, 5, "b"), Point(2, 5, "c"), Point(4, 0, "d"), Point(2.5, 1, "e")]
-        self.assertEqual([point.method for point in pareto.front(points)], ["b", "e", "a"])
+from accuracy import Cost
 
 
 class Cheapest(unittest.TestCase):
