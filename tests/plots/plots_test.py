@@ -56,7 +56,7 @@ class Scripts(InFolder):
 
     def test_a_wrong_answer_makes_no_picture(self) -> None:
         self.document["cells"][4]["check"] = {"verdict": "differs", "detail": "box 7"}
-        self.made("all.py", self.written(self.document), "--out", self.folder / "out", code=3)
+        done = self.made("all.py", self.written(self.document), "--out", self.folder / "out", code=3)
         self.assertIn("gave a wrong answer on bunny: box 7", done.stderr)
         self.assertFalse((self.folder / "out").exists())
 
