@@ -2,7 +2,6 @@
 import contextlib
 import json
 import os
-import signal
 import subprocess
 from collections.abc import Callable, Iterator
 from typing import Any

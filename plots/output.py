@@ -60,9 +60,10 @@ def make_folder(folder: pathlib.Path) -> None:
         raise Refused(f"the folder {folder} cannot be made: {error.strerror}") from error
 
 
-def write(path: pathlib.Path, content: bytes) -> bool:
+def write(path: pathlib.Path | str, content: bytes) -> bool:
     """Links are followed; devices, pipes and this process's standard output are written to as they are, and False is returned.
     Raises Refused with the system's reason; then an earlier file stays."""
+    path = pathlib.Path(path)
     try:
         about = path.stat() if path.exists() else None
         if about and (stream := standard_stream(about)):

@@ -80,11 +80,13 @@ def query_lines(run: results.Run, stage: str) -> list[Line]:
     return [line for line in lines if line.points]
 
 
-def draw_panel(axes: plt.Axes, stage: str, lines: list[Line]) -> None:
+def draw_panel(axes: plt.Axes, stage: str, lines: list[Line], sizes: list[int]) -> None:
     axes.axhline(1, color="black", linewidth=0.8)
     for line in lines:
         figure.band(axes, line.points, lambda ratios: ratios, line.look, 0.2, markersize=3, linestyle=line.dash, label=line.label)
     axes.set_title(stage, loc="left")
+    figure.powers_of_two(axes, figure.step_between(sizes), 9)
+    axes.set(yscale="log", xlabel="triangles")
 
 
 def scale(panels: list[plt.Axes]) -> None:
@@ -105,9 +107,7 @@ def draw(run: results.Run) -> plt.Figure:
     drawing, panels, columns = figure.panels(len(stages), COLUMNS, (0.7, 1.9))
     sizes = [size for lines in stages.values() for line in lines for size, _ in line.points]
     for axes, (stage, lines) in zip(panels, stages.items()):
-        draw_panel(axes, stage, lines)
-        figure.powers_of_two(axes, figure.step_between(sizes), 9)
-        axes.set(yscale="log", xlabel="triangles")
+        draw_panel(axes, stage, lines, sizes)
     if builds:
         scale(panels[:len(builds)])
     for axes in panels[len(builds):]:

@@ -24,9 +24,8 @@ Times = Callable[[results.Cell], numpy.ndarray]  # seconds, one per sample
 
 def stages_of(cells: list[results.Cell]) -> list[str]:
     """Every stage that took time somewhere, in the order of the list in docs/measuring.md."""
-    names = dict.fromkeys(stage for cell in cells for sample in cell.samples for stage in sample)
-    known = ["bounds", "codes", "sort", "order", "gather", "hierarchy", "refit"]
-    return [stage for stage in known if stage in names]
+    there = {stage for cell in cells for sample in cell.samples for stage in sample}
+    return [stage for stage in ("bounds", "codes", "sort", "order", "gather", "hierarchy", "refit") if stage in there]
 
 
 def dress(upper: list[plt.Axes], lower: list[plt.Axes], sizes: list[int]) -> None:

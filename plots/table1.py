@@ -62,8 +62,7 @@ class Bars:
         place = self.series.index(series) - (len(self.series) - 1) / 2
         x = self.scenes.index(cell.scene) + place * self.width
         hatch = style.hatch(series, self.series)
-        dress = {"width": 0.9 * self.width, "color": look.colour, "hatch": hatch, "edgecolor": "white",
-                 "linewidth": 0}
+        dress = {"width": 0.9 * self.width, "color": look.colour, "hatch": hatch, "edgecolor": "white", "linewidth": 0}
         seconds = results.quantiles(cell.times_s(STAGE))
         spread = [[1e3 * (seconds.median - seconds.p10)], [1e3 * (seconds.p90 - seconds.median)]]
         self.time.bar(x, 1e3 * seconds.median, **dress)

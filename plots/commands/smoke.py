@@ -70,7 +70,7 @@ def update(arguments: argparse.Namespace, path: str, kind: str) -> int:
         if cell.verdict in ("failed", "differs"):
             raise Refused(f"--update: {cell.builder} on {cell.scene_facts['name']} is {cell.verdict}: "
                           "no baseline is made of that")
-    output.write(pathlib.Path(path), baseline.text_of(kind, baseline.of_run(run)).encode())
+    output.write(path, baseline.text_of(kind, baseline.of_run(run)).encode())
     print(f"written: {path}")
     return 0
 
@@ -81,8 +81,8 @@ def measured(arguments: argparse.Namespace, kept_from: str) -> tuple[results.Run
     out = arguments.out
     if out and os.path.exists(out) and is_input(out, kept_from):
         raise WrongUsage(f"--out: {out} is read by this command; it is not replaced, choose another file")
-    with contextlib.ExitStack() as stack:
-        file = out if out and is_replaced(out) else temporary(stack)
+    with tempfile.TemporaryDirectory(prefix="bvhbench-") as folder:
+        file = out if out and is_replaced(out) else os.path.join(folder, "smoke.json")
         earlier = identity(file)
         filter_ = ["--filter", arguments.filter] if arguments.filter else []
         code, _ = child.run(["run", "smoke", "--out", file, *filter_, *command.common_words(arguments)])
@@ -90,13 +90,9 @@ def measured(arguments: argparse.Namespace, kept_from: str) -> tuple[results.Run
             raise SystemExit(code)
         run = results.everything(file)
         if out and file != out:
-            output.write(pathlib.Path(out), pathlib.Path(file).read_bytes())
+            output.write(out, pathlib.Path(file).read_bytes())
     print(run_page.text(run), cells_page.text(run, lambda cell: False), sep="", end="")
     return run, code
-
-
-def temporary(stack: contextlib.ExitStack) -> str:
-    return os.path.join(stack.enter_context(tempfile.TemporaryDirectory(prefix="bvhbench-")), "smoke.json")
 
 
 def identity(file: str) -> tuple[int, int] | None:

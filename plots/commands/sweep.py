@@ -3,7 +3,6 @@ import argparse
 import contextlib
 import json
 import os
-import pathlib
 import subprocess
 import sys
 from typing import Any
@@ -221,7 +220,7 @@ def written(sweep: Sweep, units: list[Unit], shard: Shard, folder: Folder, facts
     own = {"format": folder.format, "run": run, "cells": skipped}
     parts = [("the sweep", own), *((str(path), document) for path, document in filter(None, there))]
     merged = merging.merge(parts, other_commits=True)
-    output.write(pathlib.Path(folder.result_file), merged.text.encode(errors="surrogateescape"))
+    output.write(folder.result_file, merged.text.encode(errors="surrogateescape"))
     cells = [Cell(raw) for raw in value_of(merged.text.encode(errors="replace"))["cells"]]
     count = {status: sum(cell.status == status for cell in cells) for status in ("measured", "skipped", "failed")}
     print(f"{tables.counted(len(cells), 'cell')}: " + ", ".join(f"{number:,} {status}" for status, number in count.items()))

@@ -30,26 +30,18 @@ function factsOf(value, prefix) {
 }
 
 function samplesTable(samples, key, marked) {
-  const stages = Object.keys(samples.stages).filter(
-    (stage) =>
-      samples.stages[stage][key] !== undefined || (key === "span_ns" && samples.stages[stage].wall_ns !== undefined)
+  const isTime = key === "span_ns";
+  const stages = Object.entries(samples.stages).filter(
+    ([, values]) => values[key] !== undefined || (isTime && values.wall_ns !== undefined)
   );
-  const own = Object.keys(samples.own);
   const columns = [
-    ...own.map((name) => ({label: name.replace(/_/g, " "), kind: "count"})),
-    ...(key === "span_ns" ? [{label: "whole", kind: "count", unit: "ns"}] : []),
-    ...stages.map((stage) => ({label: stage, kind: "count"})),
-  ];
-  const rows = Array.from({length: samples.count}, (_, place) => [
-    ...own.map((name) => at(samples.own[name], place)),
-    ...(key === "span_ns" ? [at(samples.whole, place)] : []),
-    ...stages.map((stage) =>
-      key === "span_ns" ? nanosecondsOf(samples.stages[stage], place) : at(samples.stages[stage][key], place)
-    ),
-  ]);
+    ...Object.entries(samples.own).map(([name, values]) => ({label: name.replace(/_/g, " "), of: (place) => at(values, place)})),
+    ...(isTime ? [{label: "whole", unit: "ns", of: (place) => at(samples.whole, place)}] : []),
+    ...stages.map(([label, values]) => ({label, of: (place) => (isTime ? nanosecondsOf(values, place) : at(values[key], place))})),
+  ].map((column) => ({kind: "count", ...column}));
   const plain = (value) => (["boolean", "object"].includes(typeof value) && value !== null ? JSON.stringify(value) : value ?? null);
-  const clean = rows.map((row) => row.map(plain));
-  const table = new SortedTable({title: "Raw samples", columns, rows: clean, cells: null}, 0);
+  const rows = Array.from({length: samples.count}, (_, place) => columns.map((column) => plain(column.of(place))));
+  const table = new SortedTable({title: "Raw samples", columns, rows, cells: null}, 0);
   const place = columns.findIndex((column) => column.label === marked);
   table.element.classList.add("raw");
   if (place >= 0) {
@@ -107,17 +99,14 @@ async function showSamples(file, place, stage) {
   );
   const all = [...new Set(["span_ns", ...keys, ...others])];
   const holder = element("div");
-  const fill = (key) =>
-    holder.replaceChildren(
-      samples.count ? samplesTable(samples, key, stage) : element("p", {}, "No sample was taken.")
-    );
+  const tableOf = (key) => (samples.count ? samplesTable(samples, key, stage) : element("p", {}, "No sample was taken."));
+  const fill = (key) => holder.replaceChildren(tableOf(key));
   const select = menu(all.map((key) => [key, QUANTITY[key] || key.replace(/_/g, " ")]), fill);
   const plot = element("div", {class: "drawing", role: "img", "aria-label": "Samples in the order of the run"});
   const quantiles = cell.times[stage];
+  const [low, middle, high] = (quantiles || []).map((ns) => `${four(ns / 1e3)}`);
   const said = quantiles
-    ? `Median ${four(quantiles[1] / 1e3)} µs, 10th to 90th percentile ${four(quantiles[0] / 1e3)} to ${four(
-        quantiles[2] / 1e3
-      )} µs, ${plural(samples.count, "sample")}.`
+    ? `Median ${middle} µs, 10th to 90th percentile ${low} to ${high} µs, ${plural(samples.count, "sample")}.`
     : cell.why || "";
   const title = `${cell.who} on ${cell.scene}${cell.frame ? `, frame ${cell.frame}` : ""}${stage === "whole" ? "" : `: ${stage}`}`;
   const facts = factsOf(samples.facts, "").map(([name, text]) => element("div", {}, element("dt", {}, name), element("dd", {}, text)));
