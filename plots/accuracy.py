@@ -60,10 +60,6 @@ def look(axis: str, method: str) -> Look:
     return METHODS[axis][method]
 
 
-def cells_of(run: results.Run, axis: str) -> list[results.Cell]:
-    return [cell for cell in run.cells if cell.accuracy.get("axis") == axis and cell.samples]
-
-
 def by_input(cells: list[results.Cell]) -> dict[str, list[results.Cell]]:
     return results.grouped(cells, lambda cell: cell.scene)
 
@@ -308,7 +304,8 @@ FIGURES = {"narrow": draw_narrow, "sums": draw_sums, "codes": draw_codes, "input
 
 def draws_of(run: results.Run) -> dict[str, figure.Draw]:
     """By each axis that a file has cells of."""
-    return {axis: functools.partial(draw, cells=cells) for axis, draw in FIGURES.items() if (cells := cells_of(run, axis))}
+    by_axis = results.grouped((cell for cell in run.cells if cell.samples), lambda cell: cell.accuracy.get("axis"))
+    return {axis: functools.partial(draw, cells=by_axis[axis]) for axis, draw in FIGURES.items() if axis in by_axis}
 
 
 def some_figures_of(run: results.Run) -> figure.Figures:

@@ -78,18 +78,6 @@ def times_table(title: str, cells: Cells, called: str, counters: list[str], note
     return table.data()
 
 
-def missing_table(cells: Cells) -> dict[str, Any]:
-    table = begin("Without a time, and why", cells, "who")
-    table.add("why", "text", lambda data: data["why"] or "no reason given")
-    return table.data()
-
-
-def counters_table(title: str, cells: Cells, called: str) -> dict[str, Any]:
-    table = begin(title, cells, called)
-    table.counters(sorted({name for _, data in cells for name in data["counters"]}))
-    return table.data()
-
-
 def summary_table(cells: Cells) -> dict[str, Any]:
     """A row a scene and pipeline: means over frames of their medians, as in the paper's tables."""
     groups = grouped(cells, lambda placed: tuple(placed[1][key] for key in ("experiment", "scene", "asked", "who")))
@@ -148,8 +136,11 @@ def tables_of(cells: list[dict[str, Any]], stress: list[dict[str, Any]]) -> list
     placed = list(enumerate(cells))
     builds, frames, others = ([(place, data) for place, data in placed if data["operation"] in operations]
                               for operations in (("build", "refit"), ("collide",), ("accuracy",)))
-    missing = [(place, data) for place, data in placed if data["state"] in WITHOUT_TIMES]
-    tables = [missing_table(missing)] if missing else []
+    tables = []
+    if missing := [(place, data) for place, data in placed if data["state"] in WITHOUT_TIMES]:
+        table = begin("Without a time, and why", missing, "who")
+        table.add("why", "text", lambda data: data["why"] or "no reason given")
+        tables.append(table.data())
     if builds:
         tables.append(times_table("Builds", builds, "builder", TREE,
                                   "Whole: the sum of the stages. Stages: medians. Each time leads to its samples."))
@@ -161,8 +152,10 @@ def tables_of(cells: list[dict[str, Any]], stress: list[dict[str, Any]]) -> list
     if others:
         tables.append(times_table("Accuracy", others, "method", ["pairs_count", "missed_count", "false_count", "sah_cost"],
                                   "Times beside errors. Each time leads to its samples."))
-    if any(data["counters"] for data in cells):
-        tables.append(counters_table("All counters", placed, "who") | {"folded": True})
+    if counters := sorted({name for data in cells for name in data["counters"]}):
+        table = begin("All counters", placed, "who")
+        table.counters(counters)
+        tables.append(table.data() | {"folded": True})
     if stress:
         tables.append(stress_table(stress))
     return tables

@@ -101,10 +101,6 @@ def of_items(schema: Json, root: Json) -> Check:
     return of_parts(list, enumerate, lambda _: one)
 
 
-def requiring(keys: list[str]) -> Check:
-    return all_of([where(lambda value, key=key: type(value) is not dict or key in value, f"has no '{key}'") for key in keys])
-
-
 def of_names(schema: Json, root: Json) -> Check:
     one = check_of(schema, root)
 
@@ -163,7 +159,8 @@ MAKERS: dict[str, Callable[[Any, Json, Json], Check]] = {
     "properties": lambda asked, schema, root: of_properties(asked, schema.get("additionalProperties", True), root),
     "additionalProperties": lambda asked, schema, root: of_properties({}, asked, root),
     "propertyNames": lambda asked, _, root: of_names(asked, root),
-    "required": lambda asked, _, root: requiring(asked),
+    "required": lambda asked, _, root: all_of([where(lambda value, key=key: type(value) is not dict or key in value, f"has no '{key}'")
+                                               for key in asked]),
     "items": lambda asked, _, root: of_items(asked, root),
     "minItems": lambda asked, _, root: length(asked, math.inf),
     "minProperties": lambda asked, _, root: length(asked, math.inf),

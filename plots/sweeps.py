@@ -29,18 +29,15 @@ ANSWERS = {"narrow": "none", "adjacent": "keep", "pairs_of": "all"}  # options t
 FRAME = "A frame is all from moved vertices to pairs, or to contacts where a narrow phase follows."
 
 
-def kinds_of(cells: list[results.Cell]) -> dict[str, list[results.Cell]]:
-    """Cells of scenes that are the same but for their number of triangles, by what is left of the name."""
-    return results.grouped(cells, lambda cell: re.sub(rf":{cell.triangles}(?=:|$)", "", cell.scene))
-
-
 def plain(name: str) -> str:
     """As part of a file's name."""
     return re.sub(r"[^A-Za-z0-9_-]+", "-", name).strip("-")
 
 
 def scalings(run: results.Run, experiment: str, cells: list[results.Cell]) -> Iterator[tuple[str, figure.Draw]]:
-    several = {kind: sized for kind, sized in kinds_of(cells).items() if len({cell.triangles for cell in sized}) > 1}
+    # A kind is what is left of a scene's name without its number of triangles.
+    kinds = results.grouped(cells, lambda cell: re.sub(rf":{cell.triangles}(?=:|$)", "", cell.scene))
+    several = {kind: sized for kind, sized in kinds.items() if len({cell.triangles for cell in sized}) > 1}
     for kind, sized in several.items():
         among = style.in_order(sized)
         if max(sum(other[0] == one[0] for other in among) for one in among) > MOST_SERIES:

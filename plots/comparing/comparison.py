@@ -31,9 +31,6 @@ class ComparedCell:
         """Of a cell without samples there are facts, which are compared."""
         return self.time.verdict if self.first.all_samples or self.second.all_samples else times.SAME
 
-    @property
-    def is_regression(self) -> bool:
-        return self.verdict == times.SLOWER or bool(self.regressions)
 
 
 @dataclass
@@ -54,7 +51,7 @@ class Comparison:
 
     @property
     def regressions(self) -> int:
-        return (sum(cell.is_regression for cell in self.cells) + sum(scene.verdict == times.SLOWER for scene in self.scenes)
+        return (sum(cell.verdict == times.SLOWER or bool(cell.regressions) for cell in self.cells) + sum(scene.verdict == times.SLOWER for scene in self.scenes)
                 + (0 if self.rules.allow_missing else len(self.only_first)))
 
 
@@ -96,18 +93,15 @@ def matched_cells(first: list[Cell], second: list[Cell]) -> tuple[list[CellPair]
     both, only_first = [], []
     for cell in first:
         candidates = there.get(cell.identity, [])
-        place = next((place for place, other in enumerate(candidates) if begin_alike(cell, other)), None)
+        # A cell without samples does not tell what they would have begun with.
+        place = next((place for place, other in enumerate(candidates) if not cell.all_samples or not other.all_samples
+                      or cell.starts_from_leaves == other.starts_from_leaves), None)
         if place is None:
             only_first.append(cell)
         else:
             both.append((cell, candidates.pop(place)))
     left = {id(cell) for candidates in there.values() for cell in candidates}
     return both, only_first, [cell for cell in second if id(cell) in left]
-
-
-def begin_alike(one: Cell, other: Cell) -> bool:
-    """A cell without samples does not tell what they would have begun with."""
-    return not one.all_samples or not other.all_samples or one.starts_from_leaves == other.starts_from_leaves
 
 
 def group_of(cell: Cell) -> tuple[str, ...]:

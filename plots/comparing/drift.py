@@ -53,14 +53,10 @@ def at_like_speed(cells: list[CellPair]) -> list[Pair]:
     pairs = all_pairs(cells)
     if any(sample.get("calibration_ns", 0) <= 0 for pair in pairs for series in pair for sample in series.samples):
         return counted_pairs(cells)
-    speeds = [[log_speeds(series) for series in pair] for pair in pairs]
+    speeds = [[numpy.log([sample["calibration_ns"] for sample in series.samples]) for series in pair] for pair in pairs]
     speed = shared_speed(*(numpy.sort(numpy.concatenate(of_file)) for of_file in zip(*speeds)))
     return [tuple(Series([sample for sample, own in zip(series.samples, each) if abs(own - speed) <= LIKENESS])
                   for series, each in zip(pair, of_pair)) for pair, of_pair in zip(pairs, speeds)]
-
-
-def log_speeds(series: Series) -> numpy.ndarray:
-    return numpy.log([sample["calibration_ns"] for sample in series.samples])
 
 
 def shared_speed(first: numpy.ndarray, second: numpy.ndarray) -> float:

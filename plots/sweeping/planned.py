@@ -52,13 +52,10 @@ class Sweep:
         collides = those[0].collider is not None
         described: Json = {"experiment": self.name} | ({"question": self.question} if self.question else {})
         described["scenes"] = [those[0].scene if collides else those[0].scene["scene"]]
-        described["pipelines" if collides else "builders"] = [pipeline_of(one) if collides else one.builder for one in those]
+        pipelines = [({"builder": one.builder} if one.builder else {}) | {"collider": one.collider, **one.query} for one in those]
+        described |= {"pipelines": pipelines} if collides else {"builders": [one.builder for one in those]}
         described |= {"samples": self.samples, "warm_up": self.warm_up}
         return described if collides else described | {"quality": self.quality}
-
-
-def pipeline_of(one: Planned) -> Json:
-    return ({"builder": one.builder} if one.builder else {}) | {"collider": one.collider, **one.query}
 
 
 def settled(planned: list[Planned], sweep: Sweep, settle: Settle) -> list[Planned]:
