@@ -11,6 +11,7 @@ import unittest
 
 import base  # noqa: F401  first: it says where plots are
 
+from commands import sweep
 from json_files import Refused
 from output import WrongUsage
 from sweeping import folder, planned, processes, product, sizes, time_left, units
@@ -149,6 +150,11 @@ class Product(unittest.TestCase):
                      {"scenes": [{"scene": "soup:9", "frames": "0:1"}]}):
             with self.subTest(str(keys)), self.assertRaises(WrongUsage):
                 swept(**soup | keys)
+        for keys, says in (({"samples": None}, "not null$"), ({"quality": ["a"]}, r'not \["a"\]$'), ({"warm_up": True}, "not true$")):
+            with self.assertRaisesRegex(WrongUsage, says):
+                swept(**soup | keys)
+        with self.assertRaisesRegex(WrongUsage, "--sah-inner: must be a number from 0 to 1000000, not '1000001'"):
+            sweep.parser().parse_args(["--out", "x", "--sah-inner", "1000001"])
 
 
 class Units(unittest.TestCase):
