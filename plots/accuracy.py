@@ -69,7 +69,7 @@ def median_s(cell: results.Cell, stage: str = "") -> float:
 
 
 def build_s(cell: results.Cell) -> float:
-    """Of all stages before the query."""
+    """The median of all stages before the query."""
     return results.median(cell.times_s() - cell.times_s("broad"))
 
 
@@ -242,7 +242,7 @@ def draw_codes(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
 
 
 def distance(cell: results.Cell) -> float:
-    """Of "SCENE at 1e3", in sizes of the scene."""
+    """The 1e3 of "SCENE at 1e3": how far the scene is from the origin, in sizes of the scene."""
     return float(cell.scene.rsplit(" at ", 1)[1])
 
 
@@ -273,7 +273,7 @@ def draw_input(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
 
 
 def inflation(cell: results.Cell) -> float:
-    """False pairs for each right one."""
+    """How many false pairs there are for each right one."""
     return cell.counters["false_count"] / max(1, cell.counters["right_pairs_count"])
 
 

@@ -57,7 +57,6 @@ FRAME_FIGURES: dict[str, dict[str, figure.Draw]] = {
 
 
 def files_of(given: pathlib.Path, out: pathlib.Path) -> Iterator[tuple[pathlib.Path, pathlib.Path]]:
-    """A result file and the folder for its pictures."""
     if not given.is_dir():
         yield given, out
         return

@@ -14,8 +14,6 @@ Sample = dict[str, dict[str, Any]]  # stage name to its numbers, in the order in
 
 
 class Quantiles(NamedTuple):
-    """Of one quantity over a cell's samples."""
-
     p10: float
     median: float
     p90: float
@@ -26,7 +24,7 @@ def quantiles(values: Sequence[float]) -> Quantiles:
 
 
 def median(values: Sequence[float]) -> float:
-    """0 of none."""
+    """The median, or 0 if there are no values."""
     return float(numpy.median(values)) if len(values) else 0.0
 
 
@@ -58,7 +56,7 @@ def by_stage(sample: dict[str, Any]) -> Sample:
 
 
 def times_ns(samples: Iterable[Sample], stage: str = "") -> numpy.ndarray:
-    """Of a stage, in those that have it; else of the whole."""
+    """Times of a stage, of the samples that have it; without a stage, whole times of all samples."""
     return numpy.array([elapsed_ns(sample[stage]) if stage else whole_ns(sample) for sample in samples
                         if not stage or stage in sample], dtype=float)
 
@@ -122,14 +120,14 @@ class Cell:
         return [by_stage(sample) for sample in counted(self.all_samples)]
 
     def times_ns(self, stage: str = "") -> numpy.ndarray:
-        """Of the samples that have the stage, or of all stages together."""
+        """Times of a stage, or whole times, of the samples that count."""
         return times_ns(self.samples, stage)
 
     def times_s(self, stage: str = "") -> numpy.ndarray:
         return self.times_ns(stage) * 1e-9
 
     def median_ns(self, stage: str = "") -> float:
-        """0 without such a stage."""
+        """The median of times_ns; 0 if no sample has the stage."""
         return median(self.times_ns(stage))
 
     @property

@@ -11,7 +11,7 @@ from json_files import Refused
 
 
 def environment() -> dict[str, str]:
-    """Of a child that ends with this process, however that ends."""
+    """The environment of a child that ends with this process, however that ends."""
     return {**os.environ, "BVHBENCH_PARENT": str(os.getpid())}
 
 

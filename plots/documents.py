@@ -37,7 +37,7 @@ def schema() -> dict[str, Any]:
 
 @functools.cache
 def check_of(part: str) -> shape.Check:
-    """Of a part that the schema defines, or of the whole file."""
+    """The check of a part that the schema defines, or of the whole file."""
     return shape.check_of(schema()["$defs"][part] if part else schema(), schema())
 
 

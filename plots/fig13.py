@@ -26,7 +26,7 @@ def order_of(cell: results.Cell) -> str:
 
 
 def costs_of(cells: list[results.Cell], order: str) -> Costs:
-    """Of the Oi-BVH in an order, beside the radix tree there is."""
+    """The costs of the Oi-BVH in an order, beside those of the radix tree there is."""
     found = {}
     for diameters, here in sorted(results.grouped(cells, lambda cell: cell.outlier["diameters"]).items()):
         radix = table4.cost_of(here, table4.RADIX)

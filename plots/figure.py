@@ -63,7 +63,7 @@ def step_between(sizes: list[int]) -> int:
 
 
 def by_size(cells: list[results.Cell], values_of: Callable[[results.Cell], Sequence[float]]) -> Curve:
-    """Of cells that have values, in the order of their triangles."""
+    """The quantiles of each cell that has values, in the order of triangles."""
     points = [(cell.triangles, results.quantiles(values)) for cell in cells if len(values := values_of(cell))]
     return sorted(points, key=lambda point: point[0])
 

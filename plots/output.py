@@ -155,7 +155,7 @@ def prepare_streams() -> None:
 
 
 def described(error: Exception) -> str:
-    """In words for a sentence."""
+    """What an error says, for a sentence."""
     if isinstance(error, KeyError):
         return f"it has no {error}"
     return f"{error}" or type(error).__name__

@@ -66,7 +66,6 @@ def scale(axis: Axis, values: list[float], most: int) -> None:
 
 
 def draw_points(axes: plt.Axes, points: list[Point], best: list[Point]) -> None:
-    """Those of one clock; the front is that of all."""
     figure.scatter(axes, points, best, lambda point: style.look(point[2].builder))
 
 

@@ -17,8 +17,6 @@ COLOURS = {"grid": "#8C510A", "embree": "#009E73", "fcl": "#F0E442", "fcl-refit"
 
 @dataclass(frozen=True)
 class Pipeline:
-    """One pipeline over the frames of one scene."""
-
     scene: str
     cells: list[results.Cell]  # a frame each
 
@@ -125,5 +123,4 @@ def bar(axes: plt.Axes, row: int, width: float, pipeline: Pipeline) -> None:
 
 
 def told(axes: plt.Axes, row: int, end: float, text: str, room: int = 3) -> None:
-    """Words behind a bar."""
     axes.annotate(f" {text}", (end, row), (room, 0), textcoords="offset points", va="center", fontsize=style.SMALL)

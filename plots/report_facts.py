@@ -57,7 +57,6 @@ def sentence_of(document: dict[str, Any]) -> str:
 
 
 def warnings_of(document: dict[str, Any]) -> list[str]:
-    """What makes numbers worth less, a sentence each."""
     run = document["run"]
     program = run["program"]
     told = [(program["dirty"], "The program had changes that are in no commit."),

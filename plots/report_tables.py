@@ -19,7 +19,7 @@ Value = Callable[[dict[str, Any]], Any]
 
 
 def unit_of(cells: Cells) -> tuple[str, float]:
-    """In which most of their times are numbers from 1 on."""
+    """The largest unit in which the median of their times is at least 1."""
     middle = median([data["times"][WHOLE][MEDIAN] for _, data in cells if WHOLE in data["times"]])
     return next((unit for unit in reversed(UNITS) if middle >= unit[1]), UNITS[0])
 

@@ -42,7 +42,7 @@ class Run:
         return [Cell(cell) for cell in self.document["cells"]]
 
     def copy_rate_of(self, cell: Cell) -> float:
-        """Of the run that the cell is from; 0 if it was not measured."""
+        """The copy rate of the run that the cell is from; 0 if it was not measured."""
         rates = {source["id"]: source.get("copy_rate_bytes_per_s", 0) for source in self.document.get("merged_from", [])}
         return rates.get(cell.raw.get("run"), 0) or self.copy_rate or 0
 
@@ -62,7 +62,7 @@ class Run:
 
     @property
     def costs(self) -> tuple[float, float]:
-        """Of an inner node and of a triangle, in sah_cost and epo."""
+        """What an inner node and a triangle cost in sah_cost and epo."""
         return costs_of(self.facts)
 
     def of(self, experiment: str) -> list[Cell]:
@@ -73,7 +73,7 @@ class Run:
         return [cell for cell in self.cells if cell.experiment == experiment and cell.operation == "collide" and cell.samples]
 
     def frames(self, experiment: str) -> list[Cell]:
-        """The same. Raises Refused if there are none."""
+        """As all_frames. Raises Refused if there are none."""
         if not (cells := self.all_frames(experiment)):
             raise Refused(f"{self.path}: no measured frame of {experiment}")
         return cells
@@ -112,7 +112,7 @@ class Run:
 
 
 def costs_of(facts: dict[str, Any]) -> tuple[float, float]:
-    """Before format 1.2 there were only the usual ones."""
+    """The costs of an inner node and a triangle. Files before format 1.2 have the usual ones."""
     costs = facts.get("node_costs", {})
     return tuple(float(costs.get(key, usual)) for key, usual in zip(("inner", "triangle"), USUAL_COSTS))
 

@@ -31,8 +31,6 @@ COLLIDERS = {"leaf": style.Look("#000000", "*"), "group": style.Look("#E69F00", 
 
 
 class Line(NamedTuple):
-    """One builder's or collider's ratios in a panel, by triangles."""
-
     label: str
     look: style.Look
     dash: str
@@ -48,7 +46,7 @@ def floor_s(run: results.Run, cell: results.Cell, stage: str) -> float | None:
 
 
 def points(run: results.Run, cells: list[results.Cell], stage: str) -> figure.Curve:
-    """Of the stage's times to its floor."""
+    """The ratios of the stage's times to its floor."""
     def ratios(cell: results.Cell) -> numpy.ndarray:
         floor = floor_s(run, cell, stage) if cell.samples else None
         return cell.times_s(stage) / floor if floor else numpy.empty(0)

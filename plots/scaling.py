@@ -41,7 +41,7 @@ def dress(upper: list[plt.Axes], lower: list[plt.Axes], sizes: list[int]) -> Non
 
 
 def draw(run: results.Run, experiment: str = "scaling", cells: list[results.Cell] | None = None) -> plt.Figure:
-    """Of all the experiment's cells, unless some are chosen."""
+    """Draws all the experiment's cells, unless `cells` are given."""
     cells = [cell for cell in (run.of(experiment) if cells is None else cells) if cell.samples]
     stages = stages_of(cells)
     if not stages:

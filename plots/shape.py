@@ -18,8 +18,6 @@ Check = Callable[[Any], None]  # raises Wrong
 
 
 class Wrong(Exception):
-    """What is wrong in a value, and where."""
-
     def __init__(self, what: str):
         super().__init__(what)
         self.what, self.place = what, ""
@@ -79,7 +77,7 @@ def of_type(name: str, schema: Json) -> Check:
 
 
 def of_parts(kind: type, parts: Callable[[Any], Iterable[tuple[str | int, Any]]], check_for: Callable[[str | int], Check]) -> Check:
-    """Of each part of an object or list, by its key or place."""
+    """Checks each part of an object or list by the check for its key or place."""
     def check(value: Any) -> None:
         for key, item in parts(value) if type(value) is kind else ():
             try:
@@ -117,7 +115,7 @@ def among(values: list[Any]) -> Check:
 
 
 def wrongs(checks: list[Check], value: Any) -> list[Wrong]:
-    """Of those checks that do not hold."""
+    """What the checks raise that do not hold."""
     found = []
     for check in checks:
         try:

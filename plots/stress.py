@@ -20,8 +20,6 @@ import style
 
 
 class State(IntEnum):
-    """From what says the least on."""
-
     HOLDS = 0
     REFUSED = 1
     WRONG = 2

@@ -102,7 +102,6 @@ def hatch(series: Series, among: list[Series]) -> str:
 
 
 def line(series: Series, among: list[Series]) -> dict[str, str]:
-    """Of a curve, for plot."""
     return {"label": label(series, among), "linestyle": VARIANT_LINES[variant(series, among)]}
 
 

@@ -30,7 +30,6 @@ FRAME = "A frame is all from moved vertices to pairs, or to contacts where a nar
 
 
 def plain(name: str) -> str:
-    """As part of a file's name."""
     return re.sub(r"[^A-Za-z0-9_-]+", "-", name).strip("-")
 
 

@@ -44,7 +44,6 @@ class Step:
 
 
 def steps_of(cells: list[results.Cell]) -> dict[str, list[Step]]:
-    """Of each scene, in the file's order."""
     return {scene: [Step(group) for group in pipelines.grouped_by_pipeline(there, "pairs_of")]
             for scene, there in results.grouped(cells, lambda cell: cell.scene).items()}
 

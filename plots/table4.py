@@ -24,7 +24,6 @@ WIDTH = 0.36
 
 
 def cost_of(cells: list[results.Cell], builders: tuple[str, ...]) -> tuple[str, float] | None:
-    """The first of these builders that has a cost, and the cost."""
     for builder in builders:
         for cell in cells:
             if cell.builder == builder and "sah_cost" in cell.counters:

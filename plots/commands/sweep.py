@@ -139,7 +139,7 @@ def cells_table(sweep: Sweep, units: list[Unit], shards: list[int], shard: Shard
 
 
 def facts_of(arguments: argparse.Namespace, program: str, device: str | None) -> Json:
-    """Of a run on the device. Raises Refused."""
+    """The facts of a run on the device. Raises Refused."""
     words = ["facts", *command.common_words(arguments, "--device"), *processes.device_words(device)]
     try:
         done = subprocess.run([command.PROGRAM, *words], executable=program, env=child.environment(),
@@ -154,13 +154,13 @@ def facts_of(arguments: argparse.Namespace, program: str, device: str | None) ->
 
 
 def devices_of(arguments: argparse.Namespace) -> list[str | None]:
-    """Of each process at a time; None: the program's choice."""
+    """The device of each process at a time; None leaves the choice to the program."""
     named = arguments.device or [None]
     return [named[place % len(named)] for place in range(arguments.jobs or len(named))]
 
 
 def facts_of_all(arguments: argparse.Namespace, program: str, devices: list[str | None]) -> Json:
-    """Of the first device, which the others must be like."""
+    """The facts of the first device, which the others must be like."""
     known = {device: facts_of(arguments, program, device) for device in dict.fromkeys(devices)}
     first = known[devices[0]]
     for other in known.values():

@@ -13,8 +13,6 @@ from comparing.scenes import SceneChange
 
 @dataclass
 class ComparedCell:
-    """A cell that is in both files."""
-
     first: Cell
     second: Cell
     regressions: list[str]  # of the verdict, the answer and counters
@@ -69,7 +67,6 @@ def compare(first: dict[str, Any], second: dict[str, Any], rules: Rules) -> Comp
 
 
 def compare_scene(cells: list[ComparedCell], comparison: Comparison) -> None:
-    """All timed cells of one scene."""
     rules, error = comparison.rules, comparison.error_of_each
     pairs = [(cell.first, cell.second) for cell in cells]
     if comparison.by_turns:

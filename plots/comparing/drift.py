@@ -42,7 +42,6 @@ def all_pairs(cells: list[CellPair]) -> list[Pair]:
 
 
 def counted_pairs(cells: list[CellPair]) -> list[Pair]:
-    """The samples that statistics are made of."""
     return [(Series(counted(first.all_samples)), Series(counted(second.all_samples))) for first, second in cells]
 
 

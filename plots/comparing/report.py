@@ -10,7 +10,6 @@ WORST_FIRST = (SLOWER, UNSURE, FASTER, SAME)
 
 
 def text(comparison: Comparison, show_all: bool = False) -> str:
-    """With `show_all`, the table has every cell."""
     lines = [f"not the same: {remark}\n" for remark in comparison.remarks]
     if comparison.rules.other_devices:
         lines.append("ratios are of the median ratio of their scene: only how cells relate counts\n")

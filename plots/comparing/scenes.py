@@ -28,8 +28,6 @@ class SceneChange:
 
 @dataclass(frozen=True)
 class Against:
-    """What a scene's cells are judged against."""
-
     pairs: list[drift.Pair]  # the samples of each cell
     trend: numpy.ndarray = field(default_factory=lambda: numpy.empty(0))  # of samples by their place, where runs took turns
     common: Interval = Interval(1, 1, 1)  # ratio that is not a cell's own
@@ -65,7 +63,7 @@ def of_other_devices(cells: list[drift.CellPair]) -> Against | None:
 
 
 def log_ratios(pairs: list[drift.Pair]) -> numpy.ndarray:
-    """Of the medians of cells with samples enough."""
+    """Logarithms of the ratios of medians, of cells with samples enough."""
     medians = [[max(median(series.times_ns()), 1) for series in pair] for pair in pairs
                if min(map(len, pair)) >= FEWEST_SAMPLES]
     return numpy.log([second / first for first, second in medians])
@@ -83,7 +81,7 @@ def margin_of(pairs: list[drift.Pair], ratios: numpy.ndarray, spread: float) -> 
 
 
 def change_of(pair: drift.Pair, stage: str, against: Against, threshold: float, error: float) -> TimeChange:
-    """Of the whole time of a cell if `stage` is empty."""
+    """How a stage's time changed, or the whole time of a cell if `stage` is empty."""
     first, second = (without_trend(series.times_ns(stage), against.trend) for series in pair)
     return time_change(first, second, threshold, error, against.common)
 

@@ -95,7 +95,6 @@ def ns_a_pair(cell: Cell) -> float:
 
 
 def totals(cells: list[Cell]) -> list[str]:
-    """What each method got wrong over all classes, and the seeds."""
     measured = [cell for cell in cells if cell.status == "measured"]
     said = []
     by_method = grouped(measured, lambda cell: cell.accuracy["method"])

@@ -54,7 +54,6 @@ def waited(cell: Cell, stage: str, state: str) -> str:
 
 
 def samples(cell: Cell) -> str:
-    """How many samples there are, and why no more."""
     sampling, count = cell.raw.get("sampling", {}), len(cell.all_samples)
     line = f"{count} samples{', caches emptied before each' if sampling.get('caches') == 'cold' else ''}"
     if drifted := sum(sample.get("drifted", False) for sample in cell.all_samples):

@@ -46,7 +46,7 @@ def table3(run: results.Run) -> str:
 
 
 def mean(cells: list[Cell], counter: str, scale: float, more: float = 0) -> float | None:
-    """Of a counter; none if a frame does not have it."""
+    """The mean of a counter; None if a frame does not have it."""
     if any(counter not in cell.counters for cell in cells):
         return None
     return sum(cell.counters[counter] for cell in cells) / len(cells) * scale + more

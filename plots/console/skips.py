@@ -24,7 +24,6 @@ def text(run: results.Run) -> str:
 
 
 def rules_of(cell: Cell) -> list[str]:
-    """Those that are switched off."""
     return [rule for rule in dict(cell.collider_options).get("no_skip", "").split(", ") if rule]
 
 

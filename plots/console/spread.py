@@ -12,7 +12,7 @@ FRACTIONS = (0.5, 0.1, 0.25, 0.75, 0.9)
 
 
 def of(values: Sequence[float]) -> list[str]:
-    """The columns TITLES, of nanoseconds; 0 of none."""
+    """The columns TITLES of some nanoseconds; all are 0 if there are none."""
     return [tables.duration(float(value)) for value in numpy.quantile(values if len(values) else [0], FRACTIONS)]
 
 
@@ -23,7 +23,7 @@ def quartile_range(values: Sequence[float]) -> float:
 
 
 def ratio(part: float, of: float) -> float:
-    """Of what is not 0 to 0 it is infinite, of 0 to 0 not a number."""
+    """A ratio to 0 is infinite, and 0 to 0 is not a number."""
     return part / of if of else math.nan if part == 0 or math.isnan(part) else math.inf
 
 

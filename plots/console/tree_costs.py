@@ -33,7 +33,7 @@ class Pair:
 
 
 def sah_cost(cell: Cell | None) -> float:
-    """0 of a tree that is not there or is wrong."""
+    """The cost; 0 if the tree is not there or is wrong."""
     if cell is None or cell.status != "measured" or cell.verdict == "differs":
         return 0.0
     return cell.counters.get("sah_cost", 0.0)

@@ -59,7 +59,6 @@ class Sweep:
 
 
 def settled(planned: list[Planned], sweep: Sweep, settle: Settle) -> list[Planned]:
-    """With what the program says of each."""
     for one, answer in zip(planned, settle([sweep.experiment([one]) for one in planned])):
         one.why_not = answer.get("error", "")
         one.raw = unsettled(one, sweep) if one.why_not else answer["cells"][0]

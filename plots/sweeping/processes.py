@@ -69,8 +69,6 @@ class Task:
 
 
 class Process:
-    """At work on a unit."""
-
     def __init__(self, unit: Unit, folder: Folder, task: Task, device: str | None) -> None:
         folder.begin(unit)
         self.unit, self.device, self.file = unit, device, folder.cell_file(unit)
@@ -119,8 +117,6 @@ def device_words(device: str | None) -> list[str]:
 
 @dataclass(frozen=True)
 class Loss:
-    """Why a process has left no result."""
-
     why: str
     is_skipped: bool = False
     may_be_the_device: bool = False

@@ -111,7 +111,6 @@ def scenes_of(described: Json, sweep: Sweep, settle: Settle) -> list[Json]:
 
 
 def builders_of(described: Json) -> list[Json]:
-    """Each builder in each order."""
     if "builders" not in described and "colliders" not in described:
         raise WrongUsage("a sweep needs builders or colliders")
     builders = all_named(described, "builders") if "builders" in described else [{"name": USUAL_BUILDER}]
@@ -151,7 +150,7 @@ def with_options(one: Planned, options: list[tuple[str, list[str]]], chosen: tup
 
 def experiment_over(scene: Json, sweep: Sweep, builder: Json | None = None, collider: Json | None = None,
                     query: Json | None = None) -> Json:
-    """Of usual parts where none are given."""
+    """An experiment over a scene, of usual parts where none are given."""
     if collider is None and len(scene) == 1:
         return {"experiment": sweep.name, "scenes": [scene["scene"]], "builders": [builder or USUAL_BUILDER]}
     return {"experiment": sweep.name, "scenes": [scene], "pipelines": [

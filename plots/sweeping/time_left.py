@@ -20,7 +20,7 @@ class TimeLeft:
         self.of_kind.setdefault(kind, []).append((triangles, seconds))
 
     def seconds_of(self, kind: str, triangles: int) -> float:
-        """Something must be known."""
+        """At least one cell must have been added."""
         own = self.of_kind.get(kind, [])
         return estimate(own if own and (has_sizes(own) or not has_sizes(self.all)) else self.all, triangles)
 
