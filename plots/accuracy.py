@@ -91,8 +91,8 @@ def log_times(axes: plt.Axes, points: list[Point]) -> None:
 
 
 def from_zero(axes: plt.Axes, errors: list[float], least: float, most: float, text: Callable[[float], str], ticks: int) -> None:
-    """Logarithmic from the decade of the least error that is not 0, or `least` if all are, to `most` or beyond; below it one step
-    to 0."""
+    """Logarithmic from the decade of the least error that is not 0, or `least` if all are 0, to `most` or beyond. Below it is one
+    step to 0."""
     least = min((error for error in errors if error > 0), default=least)
     first, last = math.floor(math.log10(least)), math.ceil(math.log10(max(*errors, most)))
     axes.set_yscale("symlog", linthresh=10.0**first, linscale=0.5)

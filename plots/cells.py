@@ -184,19 +184,19 @@ def sorted_options(choice: dict[str, Any]) -> tuple[tuple[str, str], ...]:
 
 def choice(raw: dict[str, Any], without: str = "") -> tuple[str, tuple[tuple[str, str], ...]]:
     """A builder or collider with its options; one that has its usual value may be absent in a file, and is left out."""
-    return raw["name"], tuple(pair for pair in sorted_options(raw) if pair[1] != names.USUAL.get(pair[0]) and pair[0] != without)
+    return raw["name"], tuple((key, value) for key, value in sorted_options(raw) if value != names.USUAL.get(key) and key != without)
 
 
 def parts(raw: dict[str, Any], without: str = "") -> dict[str, Any]:
-    """What a cell is about, whatever came of it. It has every option, also those that this reader does not know; an option that a
-    file of an older format lacks has its usual value."""
+    """What a cell is about, whatever came of it. It has every option, also those that this reader does not know. An option that
+    a file of an older format lacks has its usual value."""
     scene = raw["scene"] if isinstance(raw["scene"], dict) else {"name": raw["scene"]}
     told = {name: raw[name] for name in ("experiment", "accuracy", "family", "system") if name in raw}
     told |= {part: choice(raw[part], without) for part in ("builder", "collider") if part in raw}
     told |= {name: scene.get(name, usual) for name, usual in OF_SCENE.items()}
-    swept = raw.get("swept", {})
-    return told | {"scene": scene["name"], "operation": raw.get("operation", "build"), "swept": (swept.get("pairs"), swept.get("to_frame")),
-                   "caches": raw.get("sampling", {}).get("caches", "hot")}
+    swept, sampling = raw.get("swept", {}), raw.get("sampling", {})
+    return told | {"scene": scene["name"], "operation": raw.get("operation", "build"), "caches": sampling.get("caches", "hot"),
+                   "swept": (swept.get("pairs"), swept.get("to_frame"))}
 
 
 def identity(raw: dict[str, Any]) -> str:

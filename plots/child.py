@@ -18,8 +18,8 @@ def environment() -> dict[str, str]:
 def started(words: list[str], program: str | None = None, **streams: int) -> subprocess.Popen[bytes]:
     """The program, in its file `program` if that has another name. Raises Refused if it cannot be run.
 
-    It is in a group of its own: a terminal's Ctrl-C reaches it once, through this process. A second one would end it before it has
-    kept anything."""
+    It is in a group of its own: a terminal's Ctrl-C reaches it once, through this process. A second one would end it before it
+    has kept anything."""
     try:
         return subprocess.Popen([command.PROGRAM, *words], executable=program, env=environment(), process_group=0, **streams)
     except OSError as error:

@@ -5,7 +5,7 @@ from cells import Cell
 # else that is no time is compared exactly.
 UNSTEADY = {("box_tests_count", "group"): "it takes nodes in the order in which they turn up, which work-items race for"}
 UNITS_OF_TIME = ("_ns", "_us", "_ms", "_s", "_per_s")
-# Other on a device with other properties, though exact on each: room for as many parts as there are compute units, and for queues
+# What differs between devices, though it is exact on each: room for as many parts as there are compute units, and for queues
 # that grow in steps of the device's.
 SIZED_BY_DEVICE = {"scratch_bytes", "query_bytes", "near_bytes", "narrow_bytes", "memory_bytes"}
 COSTS = {"sah_cost", "sah_inner", "sah_leaf", "sibling_overlap", "depth_max", "depth_mean", "epo", "epo_inner", "epo_leaf",

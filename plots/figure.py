@@ -70,7 +70,7 @@ def by_size(cells: list[results.Cell], values_of: Callable[[results.Cell], Seque
 
 def band(axes: plt.Axes, points: Curve, scaled: Callable[[numpy.ndarray], numpy.ndarray], look: style.Look, alpha: float = 0.25,
          **line: object) -> None:
-    """Medians as a line, and a band from the 10th to the 90th percentile; `scaled` makes what is shown of all of one quantile."""
+    """Medians as a line, and a band from the 10th to the 90th percentile. `scaled` turns a quantile's values into what is shown."""
     sizes = numpy.array([size for size, _ in points])
     first, middle, last = (scaled(numpy.array(column)) for column in zip(*(found for _, found in points)))
     axes.fill_between(sizes, numpy.minimum(first, last), numpy.maximum(first, last), color=look.colour, alpha=alpha, linewidth=0)

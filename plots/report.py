@@ -24,9 +24,9 @@ import results
 from cells import Cell
 
 
-def file_data(path: pathlib.Path, document: dict[str, Any]) -> dict[str, Any]:
+def file_data(path: pathlib.Path, document: dict[str, Any], all_cells: list[Cell]) -> dict[str, Any]:
     run = document["run"]
-    cells = [report_cells.cell_data(Cell(cell), run.get("copy_rate_bytes_per_s")) for cell in document["cells"]]
+    cells = [report_cells.cell_data(cell, run.get("copy_rate_bytes_per_s")) for cell in all_cells]
     report_cells.mark_fronts(cells)
     stress = document.get("stress", [])
     states = Counter(cell["state"] for cell in cells)
@@ -56,8 +56,9 @@ def make(files: list[pathlib.Path], views: list[pathlib.Path]) -> tuple[str, boo
     blobs, sections, is_wrong, summary = [], [], False, []
     for number, (path, title) in enumerate(zip(files, titles_of(files))):
         document = results.document_of(path)
+        cells = [Cell(cell) for cell in document["cells"]]
         try:
-            data = file_data(path, document) | {"title": title}
+            data = file_data(path, document, cells) | {"title": title}
             blobs.append(report_page.json_blob(f"file-{number}", data))
         except (ArithmeticError, ValueError) as error:
             raise results.Refused(f"{path}: no page can be made of its numbers: {error}") from error
@@ -67,7 +68,7 @@ def make(files: list[pathlib.Path], views: list[pathlib.Path]) -> tuple[str, boo
         sections.append(report_page.section(number, title, report_facts.sentence_of(document),
                                             report_facts.warnings_of(document),
                                             report_facts.facts_of(document)))
-        blobs.append(report_page.json_blob(f"samples-{number}", [report_cells.samples_data(Cell(cell)) for cell in document["cells"]]))
+        blobs.append(report_page.json_blob(f"samples-{number}", [report_cells.samples_data(cell) for cell in cells]))
     shown = []
     for number, path in enumerate(views):
         facts, arrays = report_facts.view_of(path)

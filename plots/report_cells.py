@@ -1,5 +1,6 @@
-"""What a page says of each cell of a result file, wrong, skipped and failed ones too, and its raw samples beside it; of cells that
-may be compared, a scene's that were asked the same, which are on a front, and a bar for each builder or pipeline.
+"""What a page says of each cell of a result file, wrong, skipped and failed ones too, and its raw samples beside it. Of cells
+that may be compared, those of a scene that were asked the same, it says which are on a front, and has a bar for each builder
+or pipeline.
 
 Times are nanoseconds: 10th percentile, median, 90th percentile. A cell whose answer was wrong, or that has none, has no times.
 """
@@ -99,8 +100,8 @@ def cell_data(cell: Cell, copy_rate: float | None) -> Data:
     state = state_of(cell)
     data = {
         "experiment": cell.experiment, "operation": cell.operation, "who": who(cell), "builder": cell.builder,
-        "collider": cell.collider, "scene": scene_name(cell), "triangles": cell.scene_facts.get("triangles"), "frame": cell.frame,
-        "asked": asked(cell), "state": state, "why": cell.reason or cell.check.get("detail", ""), "n": len(cell.all_samples),
+        "collider": cell.collider, "scene": scene_name(cell), "triangles": cell.scene_facts.get("triangles"),
+        "frame": cell.frame, "asked": asked(cell), "state": state, "why": cell.reason or cell.check.get("detail", ""), "n": len(cell.all_samples),
         "counters": cell.counters, "axis": cell.accuracy.get("axis"), "times": {}}
     if state not in WITHOUT_TIMES:
         times = data["times"] = times_of(cell)

@@ -1,4 +1,4 @@
-"""What was run on what, the circumstances of a result file in words; and a scene in three dimensions, as `bvhbench report --scene`
+"""What was run on what: the circumstances of a result file, in words. A scene in three dimensions, as `bvhbench report --scene`
 wrote it, packed for a page."""
 import array
 import pathlib
@@ -77,7 +77,8 @@ def view_of(path: pathlib.Path) -> tuple[dict[str, Any], dict[str, bytes]]:
     try:
         results.check(path, view["cell"], "cell")
         results.check(path, view["run"], "run")
-        arrays = {name: packed(kind, view[name]) for name, kind in (("points", "f"), ("faces", "I"), ("pairs", "I"), ("contacts", "I"))}
+        arrays = {"points": packed("f", view["points"])}
+        arrays |= {name: packed("I", view[name]) for name in ("faces", "pairs", "contacts")}
         arrays["boxes"] = packed("f", [side for level in view["levels"] for side in level["boxes"]])
         return facts_of_view(view, Cell(view["cell"])), arrays
     except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:

@@ -81,7 +81,8 @@ def query_lines(run: results.Run, stage: str) -> list[Line]:
 def draw_panel(axes: plt.Axes, stage: str, lines: list[Line], sizes: list[int]) -> None:
     axes.axhline(1, color="black", linewidth=0.8)
     for line in lines:
-        figure.band(axes, line.points, lambda ratios: ratios, line.look, 0.2, markersize=3, linestyle=line.dash, label=line.label)
+        figure.band(axes, line.points, lambda ratios: ratios, line.look, 0.2, markersize=3, linestyle=line.dash,
+                    label=line.label)
     axes.set_title(stage, loc="left")
     figure.powers_of_two(axes, figure.step_between(sizes), 9)
     axes.set(yscale="log", xlabel="triangles")

@@ -76,7 +76,8 @@ def of_type(name: str, schema: Json) -> Check:
     return all_of([right] + [check_any] * (schema.keys() <= {"type", *SILENT}))
 
 
-def of_parts(kind: type, parts: Callable[[Any], Iterable[tuple[str | int, Any]]], check_for: Callable[[str | int], Check]) -> Check:
+def of_parts(kind: type, parts: Callable[[Any], Iterable[tuple[str | int, Any]]],
+             check_for: Callable[[str | int], Check]) -> Check:
     """Checks each part of an object or list by the check for its key or place."""
     def check(value: Any) -> None:
         for key, item in parts(value) if type(value) is kind else ():
@@ -157,8 +158,8 @@ MAKERS: dict[str, Callable[[Any, Json, Json], Check]] = {
     "properties": lambda asked, schema, root: of_properties(asked, schema.get("additionalProperties", True), root),
     "additionalProperties": lambda asked, schema, root: of_properties({}, asked, root),
     "propertyNames": lambda asked, _, root: of_names(asked, root),
-    "required": lambda asked, _, root: all_of([where(lambda value, key=key: type(value) is not dict or key in value, f"has no '{key}'")
-                                               for key in asked]),
+    "required": lambda asked, _, root: all_of([
+        where(lambda value, key=key: type(value) is not dict or key in value, f"has no '{key}'") for key in asked]),
     "items": lambda asked, _, root: of_items(asked, root),
     "minItems": lambda asked, _, root: length(asked, math.inf),
     "minProperties": lambda asked, _, root: length(asked, math.inf),

@@ -76,7 +76,8 @@ def figures_of(run: results.Run) -> dict[str, figure.Draw]:
 
 
 def some_figures_of(run: results.Run) -> figure.Figures:
-    return figure.named(run, figures_of(run), "no builds in several sizes or orders, and no frames, of an experiment of one's own")
+    return figure.named(run, figures_of(run),
+                        "no builds in several sizes or orders, and no frames, of an experiment of one's own")
 
 
 if __name__ == "__main__":

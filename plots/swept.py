@@ -36,7 +36,8 @@ class Step:
         return sum(results.median(cell.times_s()) for cell in self.cells)
 
     def query_seconds(self) -> float:
-        return sum(results.median(sum(cell.times_s(stage) for stage in QUERY if stage in cell.samples[0])) for cell in self.cells)
+        return sum(results.median(sum(cell.times_s(stage) for stage in QUERY if stage in cell.samples[0]))
+                   for cell in self.cells)
 
     @property
     def label(self) -> str:

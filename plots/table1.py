@@ -97,8 +97,10 @@ class Bars:
         self.rate.set(ylabel="% of copy rate")
         self.rate.set_ylim(0, max(100, self.rate.get_ylim()[1]))
         handles = [Patch(facecolor=style.look(series[0]).colour, edgecolor="white", linewidth=0,
-                         hatch=style.hatch(series, self.series), label=style.label(series, self.series)) for series in self.series]
-        handles.append(Line2D([], [], **style.PAPER_MARK, label=f"printed in the paper ({results.printed_device('table1')}, another machine)"))
+                         hatch=style.hatch(series, self.series), label=style.label(series, self.series))
+                   for series in self.series]
+        printed = f"printed in the paper ({results.printed_device('table1')}, another machine)"
+        handles.append(Line2D([], [], **style.PAPER_MARK, label=printed))
         self.time.legend(handles=handles, loc="lower center", bbox_to_anchor=(0.48, 1.0), ncols=5, columnspacing=1.2,
                            handlelength=1.4)
         copy = f"; copy rate {self.copy_rate / 1e9:,.0f} GB/s" if self.copy_rate else ""

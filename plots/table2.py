@@ -24,7 +24,8 @@ def draw_scene(axes: plt.Axes, shown: list[pipelines.Pipeline], printed: list[di
         if len(times) > 1:
             axes.plot([times.min(), times.max()], [row, row], color="black", linewidth=0.8)
         memory = pipeline.mean("memory_bytes")
-        pipelines.told(axes, row, max(mean, float(times.max())), f"{mean:.3g} ms" + (f", {memory / 1e6:.1f} MB" if memory else ""))
+        text = f"{mean:.3g} ms" + (f", {memory / 1e6:.1f} MB" if memory else "")
+        pipelines.told(axes, row, max(mean, float(times.max())), text)
     for line in printed:
         axes.plot(line["frame_ms"], len(shown) - 0.1, WORDS[line["method"]][0], clip_on=False, **MARK)
     pipelines.dress(axes, shown, 0.8 if printed else 0)

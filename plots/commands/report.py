@@ -63,7 +63,7 @@ def scene_files(arguments: argparse.Namespace, options: dict[str, str]) -> list[
 
 def view(arguments: argparse.Namespace, scene: str, options: dict[str, str], file: pathlib.Path) -> pathlib.Path:
     """A file of what the program shows of the scene. Ends this process as the program ended if it shows nothing."""
-    said = {"scene": scene, "frame": str(arguments.frame), "builder": arguments.builder, "collider": arguments.collider} | options
+    said = {"scene": scene, "frame": str(arguments.frame), "builder": arguments.builder, "collider": arguments.collider, **options}
     words = ["view", *(word for key, value in said.items() for word in (f"--{key}", value))]
     code, text = child.run([*words, *command.common_words(arguments)], is_kept=True)
     if code != 0:

@@ -49,7 +49,8 @@ class Comparison:
 
     @property
     def regressions(self) -> int:
-        return (sum(cell.verdict == times.SLOWER or bool(cell.regressions) for cell in self.cells) + sum(scene.verdict == times.SLOWER for scene in self.scenes)
+        return (sum(cell.verdict == times.SLOWER or bool(cell.regressions) for cell in self.cells)
+                + sum(scene.verdict == times.SLOWER for scene in self.scenes)
                 + (0 if self.rules.allow_missing else len(self.only_first)))
 
 

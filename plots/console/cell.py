@@ -39,9 +39,10 @@ def stages(cell: Cell, copy_rate: float) -> str:
     """A line a stage, and one of all together."""
     table = Table("<stage", *spread.TITLES, "launches", "bytes", "GB/s", "% of copy", "queued", "submitted")
     first = {entry["stage"]: entry for entry in cell.all_samples[0]["stages"]}
-    for stage in [*first, *([""] if len(first) > 1 else [])]:
-        launches, moved = ((first[stage].get(key, 0) if stage else spread.of_stages(cell, key)) for key in ("launches", "moved_bytes"))
-        table.row(stage or "all", *spread.of(cell.times_ns(stage)), str(launches) if launches else "host", size(moved) if moved else "",
+    first |= {"": {key: spread.of_stages(cell, key) for key in ("launches", "moved_bytes")}} if len(first) > 1 else {}
+    for stage, entry in first.items():
+        launches, moved = entry.get("launches", 0), entry.get("moved_bytes", 0)
+        table.row(stage or "all", *spread.of(cell.times_ns(stage)), str(launches or "host"), size(moved) if moved else "",
                   *spread.rates(moved, cell.median_ns(stage), copy_rate), waited(cell, stage, "queued_ns"),
                   waited(cell, stage, "submitted_ns"))
     return table.text()
@@ -49,7 +50,8 @@ def stages(cell: Cell, copy_rate: float) -> str:
 
 def waited(cell: Cell, stage: str, state: str) -> str:
     """The median of what a stage's launches, or all, waited in that state; blank before format 1.8."""
-    middle = median([sum(entry.get(state, 0) for name, entry in sample.items() if stage in ("", name)) for sample in cell.samples])
+    middle = median([sum(entry.get(state, 0) for name, entry in sample.items() if stage in ("", name))
+                     for sample in cell.samples])
     return duration(middle) if middle > 0 else ""
 
 

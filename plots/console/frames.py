@@ -28,12 +28,14 @@ def text(run: results.Run, printed: str = "") -> str:
     for cells, name, next_name in zip(groups, names, [*names[1:], None]):
         first = cells[0]
         stand_in = f" for {first.stand_in_for}" if first.stand_in_for else ""
-        table.row(name + stand_in, first.pipeline, str(len(cells)), *times_of(cells), fixed(mean(cells, "memory_bytes", 1e-6), 1),
-                  *(whole(mean(cells, key, 1, 0.5)) for key in ("pairs_count", "contacts_count", "bvtt_peak_count")), verdict(cells))
+        counts = [whole(mean(cells, key, 1, 0.5)) for key in ("pairs_count", "contacts_count", "bvtt_peak_count")]
+        table.row(name + stand_in, first.pipeline, str(len(cells)), *times_of(cells),
+                  fixed(mean(cells, "memory_bytes", 1e-6), 1), *counts, verdict(cells))
         for row in rows if name != next_name else ():
             if row["scene"] == (first.stand_in_for or name):
                 table.row("", f"paper: {row['method']}", str(row["frames"]), fixed(row["frame_ms"], 3),
-                          fixed(row.get("frame_stdev_ms", 0) or None, 3), "", fixed(row["memory_megabytes"], 1), "", "", "", "printed")
+                          fixed(row.get("frame_stdev_ms", 0) or None, 3), "", fixed(row["memory_megabytes"], 1), "", "", "",
+                          "printed")
     return table.text() if groups else ""
 
 

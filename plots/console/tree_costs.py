@@ -45,7 +45,7 @@ def pairs_of(run: results.Run) -> list[Pair]:
     for (scene, _), cells in grouped(run.all_cells, lambda cell: (cell.scene_facts["name"], order_of(cell))).items():
         kinds = grouped(cells, lambda cell: cell.builder.startswith(RADIX))
         # Of several builders of one tree, the first that has a cost.
-        own, oi = (next(filter(sah_cost, those), those[-1] if those else None) for those in (kinds.get(True, []), kinds.get(False, [])))
+        own, oi = (next(filter(sah_cost, kinds.get(is_radix, [])), kinds.get(is_radix, [None])[-1]) for is_radix in (True, False))
         if own:
             radix.setdefault(scene, own)
         pairs.append(Pair(oi or own, own or radix.get(scene), oi))
@@ -77,7 +77,8 @@ def table4(run: results.Run) -> str:
         seen |= {mark} | ({"+"} if model != mesh else set())
         radix, oi = costs.get((model, "apetrei"), 0), costs.get((model, "oibvh-multi"), 0)
         table.row(f"{mesh} {mark}".rstrip(), whole(cell.triangles or None), order_of(cell), number(sah_cost(pair.radix)),
-                  number(radix), number(sah_cost(pair.oi)), number(oi), number(pair.ratio), number(oi / radix if radix else 0), pair.why)
+                  number(radix), number(sah_cost(pair.oi)), number(oi), number(pair.ratio),
+                  number(oi / radix if radix else 0), pair.why)
     said = "surface area cost, an inner node {}, a triangle {}".format(*map(exact, run.costs))
     others = "" if is_usual else "; the paper's are for others"
     return (f"{table.text()}{said}{others}\n"

@@ -1,5 +1,5 @@
-"""Builds: how good their trees are, refits beside rebuilds, kernels beside threads of the host, stages beside the device's limit.
-Each page is empty where a file has nothing for it."""
+"""Builds: how good their trees are, refits beside rebuilds, kernels beside threads of the host, stages beside the device's
+limit. Each page is empty where a file has nothing for it."""
 import names
 import results
 from cells import Cell
@@ -45,10 +45,11 @@ def refits(run: results.Run) -> str:
             continue
         times = (beside.median_ns(), cell.median_ns()), (beside.median_ns("hierarchy"), cell.median_ns("refit"))
         slower += times[0][0] > times[0][1]
-        columns = [[duration(one), duration(other), fixed(one / other if one > 0 and other > 0 else None)] for one, other in times]
+        columns = [[duration(one), duration(other), fixed(one / other if one > 0 and other > 0 else None)]
+                   for one, other in times]
         table.row(*head(cell), *columns[0], *columns[1], *(fixed(one.counters.get("sah_cost")) for one in (beside, cell)))
-    return (f"{table.text()}medians; rebuild and refit: from moved triangles to a tree over them, all stages; times: rebuild over "
-            f"refit\nrebuilding takes longer than refitting in {slower} of {len(table.rows)} cases\n") if table.rows else ""
+    return (f"{table.text()}medians; rebuild and refit: from moved triangles to a tree over them, all stages; "
+            f"times: rebuild over refit\nrebuilding takes longer than refitting in {slower} of {len(table.rows)} cases\n") if table.rows else ""
 
 
 def yardstick(run: results.Run) -> str:

@@ -18,7 +18,10 @@ function framesChart(file) {
     "Time a frame",
     {
       Scene: useful.map(([name]) => name),
-      Show: [...stages.map((stage) => [stage, stage === "whole" ? "whole frame" : stage]), ...counted.map((key) => [key, COUNTED[key]])],
+      Show: [
+        ...stages.map((stage) => [stage, stage === "whole" ? "whole frame" : stage]),
+        ...counted.map((key) => [key, COUNTED[key]]),
+      ],
       Scale: [["linear", "linear, from 0"], ["log", "logarithmic"]],
     },
     (scene, show, scale) => {

@@ -15,12 +15,13 @@ function runsTable(files) {
       .filter((state) => file.states[state])
       .map((state) => `${file.states[state]} ${state}`)
       .join(", ");
+  const plain = ["device", "driver", "commit", "options", "machine", "processor", "started"];
   const columns = [
     ["file", "text", (file) => file.title],
     ["experiments", "text", (file) => file.experiments.join(", ")],
     ["cells", "count", (file) => file.count],
     ["wrong or missing", "text", (file) => bad(file) || null],
-    ...["device", "driver", "commit", "options", "machine", "processor", "started"].map((key) => [key, "text", (file) => file[key]]),
+    ...plain.map((key) => [key, "text", (file) => file[key]]),
   ];
   const data = {
     title: "What was run on what",

@@ -34,12 +34,15 @@ function samplesTable(samples, key, marked) {
   const stages = Object.entries(samples.stages).filter(
     ([, values]) => values[key] !== undefined || (isTime && values.wall_ns !== undefined)
   );
+  const own = Object.entries(samples.own);
+  const ofStage = (values, place) => (isTime ? nanosecondsOf(values, place) : at(values[key], place));
   const columns = [
-    ...Object.entries(samples.own).map(([name, values]) => ({label: name.replace(/_/g, " "), of: (place) => at(values, place)})),
+    ...own.map(([name, values]) => ({label: name.replace(/_/g, " "), of: (place) => at(values, place)})),
     ...(isTime ? [{label: "whole", unit: "ns", of: (place) => at(samples.whole, place)}] : []),
-    ...stages.map(([label, values]) => ({label, of: (place) => (isTime ? nanosecondsOf(values, place) : at(values[key], place))})),
+    ...stages.map(([label, values]) => ({label, of: (place) => ofStage(values, place)})),
   ].map((column) => ({kind: "count", ...column}));
-  const plain = (value) => (["boolean", "object"].includes(typeof value) && value !== null ? JSON.stringify(value) : value ?? null);
+  const isPlain = (value) => value === null || !["boolean", "object"].includes(typeof value);
+  const plain = (value) => (isPlain(value) ? value ?? null : JSON.stringify(value));
   const rows = Array.from({length: samples.count}, (_, place) => columns.map((column) => plain(column.of(place))));
   const table = new SortedTable({title: "Raw samples", columns, rows, cells: null}, 0);
   const place = columns.findIndex((column) => column.label === marked);
@@ -108,8 +111,11 @@ async function showSamples(file, place, stage) {
   const said = quantiles
     ? `Median ${middle} µs, 10th to 90th percentile ${low} to ${high} µs, ${plural(samples.count, "sample")}.`
     : cell.why || "";
-  const title = `${cell.who} on ${cell.scene}${cell.frame ? `, frame ${cell.frame}` : ""}${stage === "whole" ? "" : `: ${stage}`}`;
-  const facts = factsOf(samples.facts, "").map(([name, text]) => element("div", {}, element("dt", {}, name), element("dd", {}, text)));
+  const frame = cell.frame ? `, frame ${cell.frame}` : "";
+  const title = `${cell.who} on ${cell.scene}${frame}${stage === "whole" ? "" : `: ${stage}`}`;
+  const facts = factsOf(samples.facts, "").map(([name, text]) =>
+    element("div", {}, element("dt", {}, name), element("dd", {}, text))
+  );
   const close = element("button", {type: "button", click: () => dialog.close()}, "Close");
   dialog.replaceChildren(
     element("div", {class: "dialog-head"}, element("h2", {id: "samples-title"}, title), close),

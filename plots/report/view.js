@@ -94,13 +94,15 @@ class View {
 
   title() {
     const {facts} = this;
-    return `${facts.scene}${facts.frame ? `, frame ${facts.frame}` : ""}: ${plural(facts.triangles, "triangle")}, ${facts.who}`;
+    const frame = facts.frame ? `, frame ${facts.frame}` : "";
+    return `${facts.scene}${frame}: ${plural(facts.triangles, "triangle")}, ${facts.who}`;
   }
 
   verdict() {
     const {facts} = this;
     const sentences = [
-      ` with ${facts.against}${facts.why ? `: ${facts.why}` : ""}. ${plural(facts.pairs, "pair")} of triangles have boxes that overlap,`,
+      ` with ${facts.against}${facts.why ? `: ${facts.why}` : ""}.`,
+      `${plural(facts.pairs, "pair")} of triangles have boxes that overlap,`,
       `${facts.contacts.toLocaleString("en")} intersect; neighbours that share a vertex are left out. Built and queried on`,
       `${facts.device}, commit ${facts.commit.slice(0, 10)}${facts.dirty ? " with local changes" : ""}.`,
     ];
@@ -142,7 +144,9 @@ class View {
   async fill() {
     const name = (array) => `view-${this.number}-${array}`;
     const [points, boxes] = await Promise.all(["points", "boxes"].map((one) => arrayOf(name(one), Float32Array)));
-    const [faces, pairs, contacts] = await Promise.all(["faces", "pairs", "contacts"].map((one) => arrayOf(name(one), Uint32Array)));
+    const [faces, pairs, contacts] = await Promise.all(
+      ["faces", "pairs", "contacts"].map((one) => arrayOf(name(one), Uint32Array))
+    );
     this.boxes = boxes;
     const [inPair, inContact] = [marks(pairs, faces.length / 3), marks(contacts, faces.length / 3)];
     const colours = Object.fromEntries(Object.entries(SCENE).map(([key, value]) => [key, new THREE.Color(value)]));

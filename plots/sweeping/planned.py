@@ -1,4 +1,4 @@
-"""A cell of a sweep: what its process is told, and what the program says of it, which is what it is in full, or why there is none."""
+"""A cell of a sweep: what its process is told, and what the program says of it: what it is in full, or why there is none."""
 import hashlib
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -52,7 +52,8 @@ class Sweep:
         collides = those[0].collider is not None
         described: Json = {"experiment": self.name} | ({"question": self.question} if self.question else {})
         described["scenes"] = [those[0].scene if collides else those[0].scene["scene"]]
-        pipelines = [({"builder": one.builder} if one.builder else {}) | {"collider": one.collider, **one.query} for one in those]
+        pipelines = [({"builder": one.builder} if one.builder else {}) | {"collider": one.collider, **one.query}
+                     for one in those]
         described |= {"pipelines": pipelines} if collides else {"builders": [one.builder for one in those]}
         described |= {"samples": self.samples, "warm_up": self.warm_up}
         return described if collides else described | {"quality": self.quality}

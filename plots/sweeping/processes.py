@@ -74,7 +74,8 @@ class Process:
         self.unit, self.device, self.file = unit, device, folder.cell_file(unit)
         self.began, self.given_up, self.said = time.monotonic(), "", b""
         words = ["run", str(folder.experiment_file(unit)), "--out", str(self.file), "--quiet", *task.words, *device_words(device)]
-        self.child = child.started(words, task.program, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        self.child = child.started(words, task.program, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.PIPE)
         assert self.child.stderr
         self.errors = self.child.stderr.fileno()
 

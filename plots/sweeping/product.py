@@ -77,7 +77,8 @@ def swept_of(described: Json, settle: Settle) -> Sweep:
                                                                                         zip(colliders, trees))
                for chosen in itertools.product(*(values for _, values in options))]
     sweep.cells = each_once(settled(planned, sweep, settle))
-    counts = [("scene", len(scenes))] + [(key[:-1], len(described[key])) for key in ("builders", "orders", "colliders") if key in described]
+    counts = [("scene", len(scenes))]
+    counts += [(key[:-1], len(described[key])) for key in ("builders", "orders", "colliders") if key in described]
     sweep.product = " x ".join([tables.counted(number, what) for what, number in counts]
                                + [f"{tables.counted(len(values), 'value')} of {key}" for key, values in options])
     return sweep

@@ -1,4 +1,5 @@
-"""What tests of plots share: the source root, which is each test's one word, result files and runs that are made, and scripts run."""
+"""What tests of plots share: the source root, which is each test's one word; result files and runs that are made; and a way to
+run scripts."""
 import copy
 import json
 import os

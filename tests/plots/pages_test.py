@@ -149,7 +149,8 @@ class OfTreeCosts(unittest.TestCase):
 
     def test_table4_does_not_compare_costs_of_other_constants(self) -> None:
         made = [cell(builder, scene="buddha", sah_cost=90) for builder in ("apetrei-fused", "oibvh-multi")]
-        usual, text = (tree_costs.table4(run_of(*made, **facts)) for facts in ({}, {"node_costs": {"inner": 2.5, "triangle": 1}}))
+        usual, text = (tree_costs.table4(run_of(*made, **facts))
+                       for facts in ({}, {"node_costs": {"inner": 2.5, "triangle": 1}}))
         self.assertEqual([len(page.splitlines()[1].split()) for page in (usual, text)], [9, 6])
         self.assertIn("an inner node 2.5, a triangle 1; the paper's are for others\n", text)
 

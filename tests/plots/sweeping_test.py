@@ -150,7 +150,8 @@ class Product(unittest.TestCase):
                      {"scenes": [{"scene": "soup:9", "frames": "0:1"}]}):
             with self.subTest(str(keys)), self.assertRaises(WrongUsage):
                 swept(**soup | keys)
-        for keys, says in (({"samples": None}, "not null$"), ({"quality": ["a"]}, r'not \["a"\]$'), ({"warm_up": True}, "not true$")):
+        for keys, says in (({"samples": None}, "not null$"), ({"quality": ["a"]}, r'not \["a"\]$'),
+                           ({"warm_up": True}, "not true$")):
             with self.assertRaisesRegex(WrongUsage, says):
                 swept(**soup | keys)
         with self.assertRaisesRegex(WrongUsage, "--sah-inner: must be a number from 0 to 1000000, not '1000001'"):
