@@ -160,9 +160,3 @@ def draw_from(description: str | None, figures_of: Callable[[results.Run], Figur
 def command_line(name: str, description: str | None, draw: Draw) -> int:
     """One picture per file, called after it."""
     return draw_from(description, lambda run: named(run, {name: draw}))
-
-
-def command_line_of_frames(figures: dict[str, Draw], description: str | None) -> int:
-    """A picture for each of these experiments that a file has frames of."""
-    return draw_from(description, lambda run: named(run, {name: draw for name, draw in figures.items() if run.all_frames(name)},
-                                                    f"no measured frame of {' or '.join(figures)}"))

@@ -98,5 +98,11 @@ def draw(run: results.Run, experiment: str, remarks: tuple[str, ...] = ()) -> pl
 FIGURES: dict[str, figure.Draw] = {name: functools.partial(draw, experiment=name, remarks=(what,))
                                    for name, what in EXPERIMENTS.items()}
 
+
+def some_figures_of(run: results.Run) -> figure.Figures:
+    return figure.named(run, {name: draw for name, draw in FIGURES.items() if run.all_frames(name)},
+                        f"no measured frame of {' or '.join(FIGURES)}")
+
+
 if __name__ == "__main__":
-    sys.exit(figure.command_line_of_frames(FIGURES, __doc__))
+    sys.exit(figure.draw_from(__doc__, some_figures_of))

@@ -190,7 +190,8 @@ def measured(arguments: argparse.Namespace, words: list[str], sweep: Sweep, ever
             print("note: processes share a device, and disturb each other's times", flush=True)
         if folder.note:
             print(folder.note, flush=True)
-        with processes.deferred() as stop:
+        stop = processes.Stop()
+        with command.signals_to(stop.remember):
             try:
                 processes.Runner(units, folder, task, stop).run()
             except (Refused, OSError):

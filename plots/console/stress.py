@@ -77,18 +77,14 @@ def systems(cells: list[dict[str, Any]], versions: dict[str, str]) -> str:
     invariants = documents.schema()["$defs"]["stress_cell"]["properties"]["findings"]["propertyNames"]["enum"]
     table = Table("<system", "scenes", *(f"<{name}" for name in invariants), "<")
     for system, those in grouped(cells, lambda cell: cell["system"]).items():
-        joined: dict[str, Found] = {}
-        for cell in those:
-            for invariant, finding in cell["findings"].items():
-                join(joined, invariant, finding)
+        found = {name: [cell["findings"][name] for cell in those if name in cell["findings"]] for name in invariants}
         library = those[-1].get("library", "")
-        table.row(system, str(len(those)), *(text_of(name, joined[name]) if name in joined else "" for name in invariants),
+        table.row(system, str(len(those)), *(text_of(name, joined(own)) if own else "" for name, own in found.items()),
                   f"{library} {versions[library]}" if library in versions else library)
     return table.text()
 
 
-def join(joined: dict[str, Found], invariant: str, finding: Found) -> None:
-    """Numbers are added up; the worse verdict stays."""
-    before = joined.get(invariant, {"verdict": "holds", "wrong": 0, "missed": 0})
-    worse = max(before, finding, key=lambda one: WORSE[one["verdict"]])
-    joined[invariant] = {"verdict": worse["verdict"], **{key: before[key] + finding[key] for key in ("wrong", "missed")}}
+def joined(findings: list[Found]) -> Found:
+    """Numbers are added up; the worst verdict stays."""
+    worst = max(findings, key=lambda one: WORSE[one["verdict"]])
+    return {"verdict": worst["verdict"], **{key: sum(one[key] for one in findings) for key in ("wrong", "missed")}}

@@ -18,9 +18,8 @@ import output
 import tables
 from cells import Cell
 from json_files import Refused
-from sweeping import time_left
 from sweeping.folder import Folder, finished
-from sweeping.units import Unit
+from sweeping.units import TimeLeft, Unit, rough
 
 LOOK_S = 0.1  # how often signals and time limits are looked for
 PATIENCE_S = 5  # for processes that were asked to end
@@ -28,7 +27,7 @@ MOST_ERRORS = 1 << 16  # bytes kept of what a process says
 
 
 class Stop:
-    """The signal that asked this process to end; 0: none."""
+    """Remembers the signal that asked this process to end, so that what is done is assembled before; 0: none."""
 
     number = 0
 
@@ -36,14 +35,6 @@ class Stop:
         if self.number:  # asked twice: at once, and its processes with it
             os._exit(128 + number)
         self.number = number
-
-
-@contextlib.contextmanager
-def deferred() -> Iterator[Stop]:
-    """Signals that end this process are only remembered, until what is done is assembled."""
-    stop = Stop()
-    with command.signals_to(stop.remember):
-        yield stop
 
 
 @contextlib.contextmanager
@@ -141,7 +132,7 @@ class Runner:
 
     def __init__(self, units: list[Unit], folder: Folder, task: Task, stop: Stop) -> None:
         self.folder, self.task, self.stop, self.total, self.done = folder, task, stop, len(units), 0
-        self.left = time_left.TimeLeft()
+        self.left = TimeLeft()
         self.waiting = collections.deque(unit for unit in units if not self.is_done(unit))
         self.slots: list[Process | None] = [None] * len(task.devices)
 
@@ -224,7 +215,7 @@ class Runner:
             what = f"{len(document['cells'])} results"
         line = f"[{self.done}/{self.total}] {unit.label}: {what}, {seconds:.1f} s"
         if self.done < self.total and self.left.all:
-            line += f"; about {time_left.rough(self.seconds_left())} left"
+            line += f"; about {rough(self.seconds_left())} left"
         print(line, flush=True)  # cluster logs are read while they grow
 
     def seconds_left(self) -> float:
