@@ -53,7 +53,7 @@ def bytes_of(path: str | pathlib.Path, subject: str, unreadable: str) -> bytes:
 
 def parsed(path: pathlib.Path) -> Any:
     """What a JSON file holds. Raises Refused."""
-    if path.exists() and not path.is_file() and not path.is_fifo():
+    if os.path.exists(path) and not os.path.isfile(path) and not path.is_fifo():
         raise Refused(f"{path}: it is a {'folder' if path.is_dir() else 'device'}, not a result file")
     try:
         return value_of(bytes_of(path, f"{path}:", f"{path}"))

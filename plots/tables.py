@@ -62,4 +62,4 @@ def fixed(value: float | None, digits: int = 2) -> str:
 
 def exact(value: float) -> str:
     """With as many digits as tell a number from all others."""
-    return repr(float(value)).removesuffix(".0")
+    return repr(float(value) + 0.0).removesuffix(".0")  # of -0.0 it is 0

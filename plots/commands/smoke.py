@@ -81,8 +81,9 @@ def measured(arguments: argparse.Namespace, kept_from: str) -> tuple[results.Run
     out = arguments.out
     if out and os.path.exists(out) and is_input(out, kept_from):
         raise WrongUsage(f"--out: {out} is read by this command; it is not replaced, choose another file")
-    with tempfile.TemporaryDirectory(prefix="bvhbench-") as folder:
-        file = out if out and is_replaced(out) else os.path.join(folder, "smoke.json")
+    with contextlib.ExitStack() as stack:
+        is_kept = out and is_replaced(out)
+        file = out if is_kept else f"{stack.enter_context(tempfile.TemporaryDirectory(prefix='bvhbench-'))}/smoke.json"
         earlier = identity(file)
         filter_ = ["--filter", arguments.filter] if arguments.filter else []
         code, _ = child.run(["run", "smoke", "--out", file, *filter_, *command.common_words(arguments)])
