@@ -3,8 +3,6 @@
 
     python3 plots COMMAND ARGUMENTS...
 """
-from __future__ import annotations
-
 import importlib
 import sys
 

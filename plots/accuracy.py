@@ -9,8 +9,7 @@ many pairs of boxes, and what a frame takes, by how far from the origin the scen
 others left and down is better; the grey line joins what no other method is as good as in both time and error (the Pareto
 front), and those points are filled.
 """
-from __future__ import annotations
-
+import functools
 import math
 import sys
 from collections.abc import Callable
@@ -61,22 +60,17 @@ def look(axis: str, method: str) -> Look:
     return METHODS[axis][method]
 
 
-def cells_of(run: results.Run, axis: str) -> list[results.Cell]:
-    return [cell for cell in run.cells if cell.accuracy.get("axis") == axis and cell.samples]
-
-
 def by_input(cells: list[results.Cell]) -> dict[str, list[results.Cell]]:
-    return {name: [cell for cell in cells if cell.scene == name] for name in dict.fromkeys(cell.scene for cell in cells)}
+    return results.grouped(cells, lambda cell: cell.scene)
 
 
-def median_s(cell: results.Cell, stages: tuple[str, ...] | None = None) -> float:
-    times = cell.whole_times_s() if stages is None else sum(cell.times_s(stage) for stage in stages)
-    return results.quantiles(times).median
+def median_s(cell: results.Cell, stage: str = "") -> float:
+    return results.median(cell.times_s(stage))
 
 
 def build_s(cell: results.Cell) -> float:
-    """Of all stages before the query."""
-    return results.quantiles(cell.whole_times_s() - cell.times_s("broad")).median
+    """The median of all stages before the query."""
+    return results.median(cell.times_s() - cell.times_s("broad"))
 
 
 def wrong(cell: results.Cell) -> float:
@@ -86,24 +80,21 @@ def wrong(cell: results.Cell) -> float:
 
 def draw_points(axes: plt.Axes, axis: str, points: list[Point]) -> None:
     best = pareto.front(points)
-    axes.plot([point.time for point in best], [point.error for point in best], color="#888888", linewidth=0.8, zorder=1)
-    for point in points:
-        seen = look(axis, point.method)
-        axes.plot(point.time, point.error, marker=seen.marker, linestyle="none", markeredgecolor=seen.colour,
-                  markerfacecolor=seen.colour if point in best else "white", clip_on=False,
-                  zorder=4 if point in best else 3)
-    axes.grid(axis="x")
+    figure.scatter(axes, points, best, lambda point: look(axis, point.method),
+                   lambda is_best: {"clip_on": False, "zorder": 4 if is_best else 3})
 
 
-def log_times(axes: plt.Axes, times: list[float]) -> None:
-    low, high = min(times) / 1.3, max(times) * 1.3
+def log_times(axes: plt.Axes, points: list[Point]) -> None:
+    low, high = min(point.time for point in points) / 1.3, max(point.time for point in points) * 1.3
     axes.set(xscale="log", xlim=(low, high))
     figure.log_ticks(axes.xaxis, low, high)
 
 
-def from_zero(axes: plt.Axes, least: float, most: float, text: Callable[[float], str], ticks: int) -> None:
-    """Logarithmic from the decade of the least error that is none, and below it one step to 0."""
-    first, last = math.floor(math.log10(least)), math.ceil(math.log10(most))
+def from_zero(axes: plt.Axes, errors: list[float], least: float, most: float, text: Callable[[float], str], ticks: int) -> None:
+    """Logarithmic from the decade of the least error that is not 0, or `least` if all are 0, to `most` or beyond. Below it is one
+    step to 0."""
+    least = min((error for error in errors if error > 0), default=least)
+    first, last = math.floor(math.log10(least)), math.ceil(math.log10(max(*errors, most)))
     axes.set_yscale("symlog", linthresh=10.0**first, linscale=0.5)
     step = max(1, math.ceil((last - first) / ticks))
     places = [0.0, *(10.0**power for power in range(last, first - 1, -step))]
@@ -120,25 +111,14 @@ def legend(drawing: plt.Figure, axis: str, cells: list[results.Cell], columns: i
     return figure.legend_above(drawing, handles, columns)
 
 
-def panels(count: int, columns: int, height: float, **shared: object) -> tuple[plt.Figure, list[plt.Axes], int]:
-    columns = min(columns, count)
-    rows = math.ceil(count / columns)
-    drawing, grid = plt.subplots(rows, columns, figsize=(style.PAGE_WIDTH, 1.1 + height * rows), squeeze=False,
-                                 layout="constrained", **shared)
-    for axes in list(grid.flat)[count:]:
-        axes.remove()
-    return drawing, list(grid.flat)[:count], columns
-
-
 def draw_narrow(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
     inputs = by_input(cells)
-    drawing, grid, columns = panels(len(inputs), NARROW_COLUMNS, 1.12, sharex=True, sharey=True)
+    drawing, grid, columns = figure.panels(len(inputs), NARROW_COLUMNS, (1.1, 1.12), sharex=True, sharey=True)
     points = {name: [Point(1e9 * median_s(cell) / cell.counters["pairs_count"], 100 * wrong(cell), cell.accuracy["method"])
                      for cell in group] for name, group in inputs.items()}
     everything = [point for group in points.values() for point in group]
-    log_times(grid[0], [point.time for point in everything])
-    least = min((point.error for point in everything if point.error > 0), default=1e-3)
-    from_zero(grid[0], least, 100, lambda value: f"{value:g} %", 4)
+    log_times(grid[0], everything)
+    from_zero(grid[0], [point.error for point in everything], 1e-3, 100, lambda value: f"{value:g} %", 4)
     for number, (axes, name) in enumerate(zip(grid, inputs)):
         draw_points(axes, "narrow", points[name])
         axes.set_title(name.replace("_", " "), fontsize=6.5, pad=3, loc="left")
@@ -161,14 +141,13 @@ def draw_narrow(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
 
 def draw_sums(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
     inputs = by_input(cells)
-    drawing, grid, columns = panels(len(inputs), SCENE_COLUMNS, 2.0, sharey=True)
-    errors = [cell.counters["relative_error"] for cell in cells]
-    from_zero(grid[0], min((error for error in errors if error > 0), default=1e-17), max(*errors, 1e-16),
+    drawing, grid, columns = figure.panels(len(inputs), SCENE_COLUMNS, (1.1, 2.0), sharey=True)
+    from_zero(grid[0], [cell.counters["relative_error"] for cell in cells], 1e-17, 1e-16,
               lambda value: f"1e{round(math.log10(value))}", 6)
     for number, (axes, (name, group)) in enumerate(zip(grid, inputs.items())):
         points = [Point(1e9 * median_s(cell) / cell.counters["nodes_count"], cell.counters["relative_error"],
                         cell.accuracy["method"]) for cell in group]
-        log_times(axes, [point.time for point in points])
+        log_times(axes, points)
         draw_points(axes, "sums", points)
         axes.set_title(name, loc="left")
         axes.set_xlabel("ns a node")
@@ -234,7 +213,7 @@ def draw_codes(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
     drawing, grid = plt.subplots(len(measures) + 1, len(inputs), figsize=(style.PAGE_WIDTH, 7.0), squeeze=False,
                                  layout="constrained")
     for column, (name, group) in enumerate(inputs.items()):
-        costs = [Cost(build_s(cell), median_s(cell, ("broad",)), cell.accuracy["method"]) for cell in group]
+        costs = [Cost(build_s(cell), median_s(cell, "broad"), cell.accuracy["method"]) for cell in group]
         draw_break_even(grid[-1][column], costs, MOST_QUERIES)
         grid[-1][column].set_xlabel("queries of one build")
         if column == 0:
@@ -244,7 +223,7 @@ def draw_codes(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
             points = [Point(1e3 * build_s(cell), scale * cell.counters[measure], cell.accuracy["method"])
                       for cell in group]
             axes = grid[row][column]
-            log_times(axes, [point.time for point in points])
+            log_times(axes, points)
             axes.xaxis.set_major_locator(LogLocator(subs=(1.0,) if len(inputs) > 3 else (1.0, 2.0, 5.0)))
             draw_points(axes, "codes", points)
             axes.set_ylim(0, 1.1 * max(point.error for point in points))
@@ -263,18 +242,17 @@ def draw_codes(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
 
 
 def distance(cell: results.Cell) -> float:
-    """Of "SCENE at 1e3", in sizes of the scene."""
+    """The 1e3 of "SCENE at 1e3": how far the scene is from the origin, in sizes of the scene."""
     return float(cell.scene.rsplit(" at ", 1)[1])
 
 
 def draw_input(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
-    scenes = list(dict.fromkeys(cell.scene.rsplit(" at ", 1)[0] for cell in cells))
+    scenes = results.grouped(cells, lambda cell: cell.scene.rsplit(" at ", 1)[0])
     drawing, grid = plt.subplots(2, len(scenes), figsize=(style.PAGE_WIDTH, 4.0), squeeze=False, layout="constrained",
                                  sharex=True)
-    for column, scene in enumerate(scenes):
+    for column, (scene, there) in enumerate(scenes.items()):
         for method, seen in METHODS["input"].items():
-            group = sorted((cell for cell in cells if cell.scene.rsplit(" at ", 1)[0] == scene
-                            and cell.accuracy["method"] == method), key=distance)
+            group = sorted((cell for cell in there if cell.accuracy["method"] == method), key=distance)
             for row, value in enumerate((lambda cell: cell.counters["pairs_count"] / cell.counters["right_pairs_count"],
                                          lambda cell: 1e3 * median_s(cell))):
                 axes = grid[row][column]
@@ -294,23 +272,17 @@ def draw_input(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
     return drawing
 
 
-def draw_swept(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
-    return swept.draw_cells(run, cells, "accuracy")
-
-
 def inflation(cell: results.Cell) -> float:
-    """False pairs for each right one."""
+    """How many false pairs there are for each right one."""
     return cell.counters["false_count"] / max(1, cell.counters["right_pairs_count"])
 
 
 def draw_boxes(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
     inputs = by_input(cells)
-    drawing, grid, columns = panels(len(inputs), 3, 2.6, sharey=True)
-    inflations = [inflation(cell) for cell in cells]
-    from_zero(grid[0], min((value for value in inflations if value > 0), default=1e-3), max(*inflations, 1e-3),
-              lambda value: f"{value:g}", 6)
+    drawing, grid, columns = figure.panels(len(inputs), 3, (1.1, 2.6), sharey=True)
+    from_zero(grid[0], [inflation(cell) for cell in cells], 1e-3, 1e-3, lambda value: f"{value:g}", 6)
     for number, (axes, (name, group)) in enumerate(zip(grid, inputs.items())):
-        points = [Point(1e3 * median_s(cell, ("broad",)), inflation(cell), cell.accuracy["method"]) for cell in group]
+        points = [Point(1e3 * median_s(cell, "broad"), inflation(cell), cell.accuracy["method"]) for cell in group]
         low, high = min(point.time for point in points), max(point.time for point in points)
         axes.set_xlim(low - 0.15 * (high - low) - 0.05 * high, high + 0.3 * (high - low) + 0.05 * high)
         draw_points(axes, "boxes", points)
@@ -327,19 +299,17 @@ def draw_boxes(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
 
 
 FIGURES = {"narrow": draw_narrow, "sums": draw_sums, "codes": draw_codes, "input": draw_input, "boxes": draw_boxes,
-           "swept": draw_swept}
+           "swept": functools.partial(swept.draw_cells, experiment="accuracy")}
 
 
-def figures_of(run: results.Run) -> figure.Figures:
-    """Of each axis that a file has cells of, by the name of its picture."""
-    return {style.stem(run.path, axis): lambda axis=axis, draw=draw: draw(run, cells_of(run, axis))
-            for axis, draw in FIGURES.items() if cells_of(run, axis)}
+def draws_of(run: results.Run) -> dict[str, figure.Draw]:
+    """By each axis that a file has cells of."""
+    by_axis = results.grouped((cell for cell in run.cells if cell.samples), lambda cell: cell.accuracy.get("axis"))
+    return {axis: functools.partial(draw, cells=by_axis[axis]) for axis, draw in FIGURES.items() if axis in by_axis}
 
 
 def some_figures_of(run: results.Run) -> figure.Figures:
-    if not (found := figures_of(run)):
-        raise results.Refused(f"{run.path}: no measured cell of an axis of accuracy")
-    return found
+    return figure.named(run, draws_of(run), "no measured cell of an axis of accuracy")
 
 
 if __name__ == "__main__":

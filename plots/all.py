@@ -7,11 +7,8 @@ A folder stands for all result files below it; their pictures go into folders of
 Other JSON files are passed over, and so are files of a folder that no figure is made of. Exits 0; 2 for wrong usage; 3 if a
 file cannot be read or drawn.
 """
-from __future__ import annotations
-
 import argparse
 import collections
-import functools
 import pathlib
 import sys
 from collections.abc import Iterator
@@ -60,7 +57,6 @@ FRAME_FIGURES: dict[str, dict[str, figure.Draw]] = {
 
 
 def files_of(given: pathlib.Path, out: pathlib.Path) -> Iterator[tuple[pathlib.Path, pathlib.Path]]:
-    """A result file and the folder for its pictures."""
     if not given.is_dir():
         yield given, out
         return
@@ -71,21 +67,18 @@ def files_of(given: pathlib.Path, out: pathlib.Path) -> Iterator[tuple[pathlib.P
 
 def pictures_of(run: results.Run) -> figure.Figures:
     """Every figure that the file has cells for, by the name of its picture."""
-    path = run.path
-    figures = {style.stem(path, name): functools.partial(draw, run) for name, draw in FIGURES.items() if run.of(name)}
-    figures |= accuracy.figures_of(run)
+    draws = {name: draw for name, draw in FIGURES.items() if run.of(name)} | accuracy.draws_of(run)
     if run.stress:
-        figures[style.stem(path, "stress")] = lambda: stress.draw(run)
+        draws["stress"] = stress.draw
     for experiment, of_frames in FRAME_FIGURES.items():
-        if run.has_frames(experiment):
-            figures |= {style.stem(path, name): functools.partial(draw, run) for name, draw in of_frames.items()}
-    return figures | {style.stem(path, name): functools.partial(draw, run) for name, draw in sweeps.figures_of(run).items()}
+        draws |= of_frames if run.all_frames(experiment) else {}
+    return figure.named(run, draws | sweeps.figures_of(run))
 
 
 def held(run: results.Run) -> str:
     """The experiments that a file holds, for a sentence."""
     counts = collections.Counter(cell.experiment for cell in run.cells)
-    counts.update(cell["experiment"] for cell in run.without_numbers)
+    counts.update(cell.experiment for cell in run.without_numbers)
     named = [f"{name} ({count} cell{'' if count == 1 else 's'})" for name, count in counts.items()]
     return ", ".join(named) or "no cells"
 

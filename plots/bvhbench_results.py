@@ -4,8 +4,6 @@
     samples = bvhbench_results.read("run.json")
     samples[samples.stage == "hierarchy"].groupby(["scene", "builder"]).ns.median()
 """
-from __future__ import annotations
-
 import os
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any
@@ -21,7 +19,7 @@ CELL = ("file", "experiment", "scene", "triangles", "frame", "builder", "collide
 SAMPLE = ("status", "verdict", "order", "drifted", "stage", "ns", "launches", "moved_bytes", "start_ns")
 
 
-def read(paths: Path | Iterable[Path], counters: bool = False) -> pandas.DataFrame:
+def read(paths: Path | Iterable[Path], counters: bool = False) -> "pandas.DataFrame":
     """A row for each stage of each sample of result files, packed or not, wrong answers too. The builder's options are in columns
     option_NAME, the collider's in collider_NAME, counters in columns of their own. A cell without samples has one row, without
     times. Raises json_files.Refused for what is no result file."""

@@ -1,15 +1,39 @@
 """A cell of a result file: what was measured of one builder or pipeline on one scene, with its times and what it is called."""
-from __future__ import annotations
-
 import functools
 import json
-from typing import Any
+from collections.abc import Callable, Hashable, Iterable, Sequence
+from typing import Any, NamedTuple, TypeVar
 
 import numpy
 
 import names
 
+Item = TypeVar("Item")
+OF_SCENE = {"frame": 0, "stand_in_for": "", "objects_by": "", "between": 0}  # what tells scenes of one name apart, and is usual
 Sample = dict[str, dict[str, Any]]  # stage name to its numbers, in the order in which stages ran
+
+
+class Quantiles(NamedTuple):
+    p10: float
+    median: float
+    p90: float
+
+
+def quantiles(values: Sequence[float]) -> Quantiles:
+    return Quantiles(*(float(value) for value in numpy.quantile(values, (0.1, 0.5, 0.9))))
+
+
+def median(values: Sequence[float]) -> float:
+    """The median, or 0 if there are no values."""
+    return float(numpy.median(values)) if len(values) else 0.0
+
+
+def grouped(items: Iterable[Item], key: Callable[[Item], Hashable]) -> dict[Any, list[Item]]:
+    """Those of one key together, keys and items in the order in which they come."""
+    groups: dict[Hashable, list[Item]] = {}
+    for item in items:
+        groups.setdefault(key(item), []).append(item)
+    return groups
 
 
 def elapsed_ns(stage: dict[str, Any]) -> int:
@@ -25,6 +49,16 @@ def whole_ns(sample: Sample) -> int:
     if any("wall_ns" in stage for stage in stages):
         return total
     return max(total, *(stage.get("start_ns", 0) + stage["span_ns"] for stage in stages), 0)
+
+
+def by_stage(sample: dict[str, Any]) -> Sample:
+    return {entry["stage"]: entry for entry in sample["stages"]}
+
+
+def times_ns(samples: Iterable[Sample], stage: str = "") -> numpy.ndarray:
+    """Times of a stage, of the samples that have it; without a stage, whole times of all samples."""
+    return numpy.array([elapsed_ns(sample[stage]) if stage else whole_ns(sample) for sample in samples
+                        if not stage or stage in sample], dtype=float)
 
 
 def counted(samples: list[dict[str, Any]]) -> list[dict[str, Any]]:
@@ -83,19 +117,18 @@ class Cell:
     @functools.cached_property
     def samples(self) -> list[Sample]:
         """Those that count, each as stage name to its numbers."""
-        return [{entry["stage"]: entry for entry in sample["stages"]} for sample in counted(self.all_samples)]
+        return [by_stage(sample) for sample in counted(self.all_samples)]
 
-    def times_ns(self, stage: str) -> numpy.ndarray:
-        return numpy.array([elapsed_ns(sample[stage]) for sample in self.samples if stage in sample], dtype=float)
+    def times_ns(self, stage: str = "") -> numpy.ndarray:
+        """Times of a stage, or whole times, of the samples that count."""
+        return times_ns(self.samples, stage)
 
-    def whole_times_ns(self) -> numpy.ndarray:
-        return numpy.array([whole_ns(sample) for sample in self.samples], dtype=float)
-
-    def times_s(self, stage: str) -> numpy.ndarray:
+    def times_s(self, stage: str = "") -> numpy.ndarray:
         return self.times_ns(stage) * 1e-9
 
-    def whole_times_s(self) -> numpy.ndarray:
-        return self.whole_times_ns() * 1e-9
+    def median_ns(self, stage: str = "") -> float:
+        """The median of times_ns; 0 if no sample has the stage."""
+        return median(self.times_ns(stage))
 
     @property
     def on_host(self) -> bool:
@@ -139,28 +172,33 @@ class Cell:
     def identity(self) -> str:
         return identity(self.raw)
 
+    def key(self, *names: str, without: str = "") -> tuple[Hashable, ...]:
+        """Some of its parts, of its collider `without` one of its options."""
+        own = parts(self.raw, without)
+        return tuple(own.get(name) for name in names)
+
 
 def sorted_options(choice: dict[str, Any]) -> tuple[tuple[str, str], ...]:
     return tuple(sorted((key, str(value)) for key, value in choice.get("options", {}).items()))
 
 
-def choice(raw: dict[str, Any]) -> tuple[str, tuple[tuple[str, str], ...]]:
+def choice(raw: dict[str, Any], without: str = "") -> tuple[str, tuple[tuple[str, str], ...]]:
     """A builder or collider with its options; one that has its usual value may be absent in a file, and is left out."""
-    return raw["name"], tuple(pair for pair in sorted_options(raw) if pair[1] != names.USUAL.get(pair[0]))
+    return raw["name"], tuple((key, value) for key, value in sorted_options(raw) if value != names.USUAL.get(key) and key != without)
+
+
+def parts(raw: dict[str, Any], without: str = "") -> dict[str, Any]:
+    """What a cell is about, whatever came of it. It has every option, also those that this reader does not know. An option that
+    a file of an older format lacks has its usual value."""
+    scene = raw["scene"] if isinstance(raw["scene"], dict) else {"name": raw["scene"]}
+    told = {name: raw[name] for name in ("experiment", "accuracy", "family", "system") if name in raw}
+    told |= {part: choice(raw[part], without) for part in ("builder", "collider") if part in raw}
+    told |= {name: scene.get(name, usual) for name, usual in OF_SCENE.items()}
+    swept, sampling = raw.get("swept", {}), raw.get("sampling", {})
+    return told | {"scene": scene["name"], "operation": raw.get("operation", "build"), "caches": sampling.get("caches", "hot"),
+                   "swept": (swept.get("pairs"), swept.get("to_frame"))}
 
 
 def identity(raw: dict[str, Any]) -> str:
-    """What a cell is about, whatever came of it: cells of two files with the same identity are the same cell. It has every
-    option, also those that this reader does not know; an option that a file of an older format lacks has its usual value."""
-    key: dict[str, Any] = {name: raw[name] for name in ("experiment", "accuracy", "family", "system") if name in raw}
-    key["operation"] = raw.get("operation", "build")
-    for part in ("builder", "collider"):
-        if part in raw:
-            key[part] = choice(raw[part])
-    scene = raw["scene"]
-    key["scene"] = scene if isinstance(scene, str) else [
-        scene["name"], scene.get("frame", 0), scene.get("stand_in_for", ""), scene.get("objects_by", ""), scene.get("between", 0)]
-    key["caches"] = raw.get("sampling", {}).get("caches", "hot")
-    if "swept" in raw:
-        key["swept"] = [raw["swept"]["pairs"], raw["swept"]["to_frame"]]
-    return json.dumps(key, sort_keys=True)
+    """Cells of two files with the same identity are the same cell."""
+    return json.dumps(parts(raw), sort_keys=True)

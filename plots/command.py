@@ -1,14 +1,14 @@
 """The command lines of the commands that read result files: their words, their help and how they end."""
-from __future__ import annotations
-
 import argparse
+import contextlib
 import math
 import os
 import re
 import signal
 import sys
 import textwrap
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from typing import Any, NoReturn
 
 import host_memory
@@ -16,7 +16,7 @@ import output
 
 WIDTH, COLUMN = 100, 30  # of a page of help, and where descriptions begin
 PROGRAM = os.environ.get("BVHBENCH_PROGRAM", "bvhbench")  # what measures
-MOST_COST = 1000000
+ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 SEE = "Options that all commands have, exit codes and environment: bvhbench --help"
 
 # Options of the whole program: they may stand before or behind the command, and go on to processes that measure.
@@ -47,7 +47,17 @@ class Parser(argparse.ArgumentParser):
                 host_memory.limit = host_memory.bytes_of(arguments.memory_limit)
             except ValueError as error:
                 self.error(f"--memory-limit: {error}")
+        if getattr(arguments, "out", None) == "":
+            raise output.WrongUsage("--out names no file or folder")
+        if getattr(arguments, "sah_inner", 1) == getattr(arguments, "sah_triangle", 1) == 0:
+            raise output.WrongUsage("--sah-inner and --sah-triangle must not both be 0")
         return arguments
+
+    def add_costs(self) -> None:
+        self.add_argument("--epo", "--quality", dest="quality", action="store_true",
+                          help="compute end-point overlap, which takes long")
+        self.add_argument("--sah-inner", type=cost, default=1.2, help="what visiting an inner node costs")
+        self.add_argument("--sah-triangle", type=cost, default=1, help="what testing a triangle costs")
 
     def error(self, message: str) -> NoReturn:
         """As the program's other commands say it."""
@@ -82,8 +92,7 @@ def entry(action: argparse.Action) -> str:
     """A name, what kind of value it takes and, from the column on, what it is."""
     name = "  " + (",".join(action.option_strings) or action.metavar)
     if action.nargs != 0:
-        is_number = action.type in (number, cost) or isinstance(action.type, Share)
-        name += " COUNT" if action.type is int else " NUMBER" if is_number else " WORD"
+        name += " COUNT" if action.type is int else " NUMBER" if isinstance(action.type, Number) else " WORD"
         if action.default not in (None, [], "", argparse.SUPPRESS):
             name += f"={action.default}"
         if action.nargs in ("*", "+") or isinstance(action, argparse._AppendAction):
@@ -95,42 +104,31 @@ def entry(action: argparse.Action) -> str:
     return f"{name:{COLUMN}}{wrapped(action.help, COLUMN)}\n"
 
 
-def number(text: str) -> float:
-    """A number from 0 on that is finite."""
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
-    if not 0 <= value < math.inf:
-        raise argparse.ArgumentTypeError(f"must be a number from 0 on, not '{text}'")
-    return value
+@dataclass(frozen=True)
+class Number:
+    """A number from 0 to `most`; of a share, 5% is 0.05."""
 
-
-def cost(text: str) -> float:
-    """What a visit costs; the program takes none that is larger."""
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
-    if not 0 <= value <= MOST_COST:
-        raise argparse.ArgumentTypeError(f"must be a number from 0 to {MOST_COST}, not '{text}'")
-    return value
-
-
-class Share:
-    """A share from 0 to `most`, as 5% or 0.05."""
-
-    def __init__(self, most: float) -> None:
-        self.most = most
+    most: float
+    what: str
+    is_share: bool = False
 
     def __call__(self, text: str) -> float:
+        is_percent = self.is_share and text.endswith("%")
         try:
-            value = float(text.removesuffix("%")) / (100 if text.endswith("%") else 1)
+            value = float(text.removesuffix("%") if is_percent else text) / (100 if is_percent else 1)
         except ValueError:
             value = math.nan
         if not 0 <= value <= self.most:
-            raise argparse.ArgumentTypeError(f"must be a share from 0 to {100 * self.most:.0f}%, as 5% or 0.05, not '{text}'")
+            raise argparse.ArgumentTypeError(f"must be {self.what}, not '{text}'")
         return value
+
+
+number = Number(sys.float_info.max, "a number from 0 on")
+cost = Number(1000000, "a number from 0 to 1000000")  # of a visit; the program takes none that is larger
+
+
+def share(most: float) -> Number:
+    return Number(most, f"a share from 0 to {100 * most:.0f}%, as 5% or 0.05", is_share=True)
 
 
 def common_words(arguments: argparse.Namespace, *without: str) -> list[str]:
@@ -151,13 +149,25 @@ def end(number: int, _frame: Any) -> NoReturn:
     raise Ended(number)
 
 
+@contextlib.contextmanager
+def signals_to(handler: Callable[[int, Any], None]) -> Iterator[None]:
+    """What signals that end this process do instead, unless they are ignored, as under nohup."""
+    before = {number: signal.getsignal(number) for number in ENDING}
+    for number, earlier in before.items():
+        if earlier != signal.SIG_IGN:
+            signal.signal(number, handler)
+    try:
+        yield
+    finally:
+        for number, earlier in before.items():
+            signal.signal(number, earlier)
+
+
 def run(main: Callable[[list[str]], int], words: list[str]) -> int:
     """The exit code, as the program's; a sentence on standard error says why."""
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-        if signal.getsignal(number) != signal.SIG_IGN:  # as under nohup
-            signal.signal(number, end)
     try:
-        return output.to_an_end(lambda: main(words), "bvhbench: ")
+        with signals_to(end):
+            return output.to_an_end(lambda: main(words), "bvhbench: ")
     except ModuleNotFoundError as error:
         output.say(f"bvhbench: {sys.executable} has no module {error.name}")
         return 3

@@ -1,16 +1,12 @@
 """Result files as the console's commands read them: whole, as they are, refused in a sentence that names the file."""
-from __future__ import annotations
-
 import functools
 import json
-import lzma
 import os
 import pathlib
 from typing import Any
 
-import host_memory
 import shape
-from json_files import Number, Refused, unpacked, value_of
+from json_files import Number, Refused, bytes_of, value_of
 
 MAJOR = "1"
 FOLDER = pathlib.Path(__file__).resolve().parent.parent / "results"
@@ -18,18 +14,11 @@ SCHEMA = FOLDER / "schema" / "result-1.schema.json"
 
 
 def file_text(path: str, what: str) -> bytes:
-    """All of a file, unpacked if it is packed by xz. Raises Refused, "WHAT 'path' cannot be read: REASON"."""
-    try:
-        if os.path.isdir(path):
-            raise Refused(f"{what} '{path}' cannot be read: it is a folder")
-        if why := host_memory.refusal(path, os.path.getsize(path)):
-            raise Refused(why)
-        with open(path, "rb") as file:
-            return unpacked(file.read())
-    except OSError as error:
-        raise Refused(f"{what} '{path}' cannot be read: {error.strerror}") from error
-    except lzma.LZMAError as error:
-        raise Refused(f"{what} '{path}' cannot be unpacked: {error}") from error
+    """All of a file. Raises Refused, "WHAT 'path' cannot be read: REASON"."""
+    subject = f"{what} '{path}'"
+    if os.path.isdir(path):
+        raise Refused(f"{subject} cannot be read: it is a folder")
+    return bytes_of(path, subject, f"{subject} cannot be read")
 
 
 def line_of(value: Any) -> str:
@@ -48,7 +37,7 @@ def schema() -> dict[str, Any]:
 
 @functools.cache
 def check_of(part: str) -> shape.Check:
-    """Of a part that the schema defines, or of the whole file."""
+    """The check of a part that the schema defines, or of the whole file."""
     return shape.check_of(schema()["$defs"][part] if part else schema(), schema())
 
 

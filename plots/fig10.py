@@ -3,17 +3,13 @@
 
     plots/fig10.py FILE... --out DIR
 """
-from __future__ import annotations
-
 import sys
 
 import matplotlib.pyplot as plt
 
 import figure
-import frame_bars
 import pipelines
 import results
-import style
 
 
 def draw(run: results.Run) -> plt.Figure:
@@ -22,24 +18,17 @@ def draw(run: results.Run) -> plt.Figure:
     scenes = {scene: shown for scene, shown in scenes.items() if shown}
     if not scenes:
         raise results.Refused(f"{run.path}: no pipeline of table2 counts its node pairs (bvtt_peak_count)")
-    rows = [len(shown) + 2.4 for shown in scenes.values()]
-    drawing, panels = plt.subplots(len(scenes), 1, figsize=(style.PAGE_WIDTH, frame_bars.ROW * sum(rows) + 0.7),
-                                   squeeze=False, height_ratios=rows, layout="constrained", sharex=True)
+    drawing, panels = pipelines.panels(scenes, 2.4)
     values = []
-    for axes, shown in zip(panels[:, 0], scenes.values()):
+    for axes, shown in zip(panels, scenes.values()):
         for row, pipeline in enumerate(shown):
-            peak = pipeline.mean("bvtt_peak_count")
+            peak, pairs = pipeline.mean("bvtt_peak_count"), pipeline.mean("pairs_count")
             values.append(peak)
-            axes.barh(row, peak, 0.72, color=pipeline.colour, hatch=pipeline.hatch, edgecolor=pipelines.ink(pipeline.colour),
-                      linewidth=0)
-            pairs = pipeline.mean("pairs_count")
-            axes.annotate(f" {peak:,.0f} for {pairs:,.0f} pairs", (peak, row), (3, 0), textcoords="offset points",
-                          va="center", fontsize=style.SMALL)
+            pipelines.bar(axes, row, peak, pipeline)
+            pipelines.told(axes, row, peak, f"{peak:,.0f} for {pairs:,.0f} pairs")
         pipelines.dress(axes, shown)
-    panels[-1, 0].set_xscale("log")
-    panels[-1, 0].set_xlim(min(values) / 3, max(values) * 8)
-    figure.log_ticks(panels[-1, 0].xaxis, min(values), max(values))
-    panels[-1, 0].set_xlabel("node pairs waiting at once, at most")
+    panels[-1].set(xscale="log", xlim=(min(values) / 3, max(values) * 8), xlabel="node pairs waiting at once, at most")
+    figure.log_ticks(panels[-1].xaxis, min(values), max(values))
     figure.footer(drawing, run, "table2", ("Means over frames. The paper prints its sizes as a picture without numbers.",
                                            *pipelines.remarks(scenes)))
     return drawing

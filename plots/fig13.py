@@ -7,8 +7,6 @@ The triangle moves along its normal, by multiples of the diagonal of the mesh's 
 Left the costs, right their ratio, which is what the paper plots. An Oi-BVH in another order than the radix
 tree's is compared with the same radix tree, and drawn in a colour of its own.
 """
-from __future__ import annotations
-
 import sys
 
 import matplotlib.pyplot as plt
@@ -28,13 +26,11 @@ def order_of(cell: results.Cell) -> str:
 
 
 def costs_of(cells: list[results.Cell], order: str) -> Costs:
-    """Of the Oi-BVH in an order, beside the radix tree there is."""
+    """The costs of the Oi-BVH in an order, beside those of the radix tree there is."""
     found = {}
-    for diameters in sorted({cell.outlier["diameters"] for cell in cells}):
-        here = [cell for cell in cells if cell.outlier["diameters"] == diameters]
-        ordered = [cell for cell in here if order_of(cell) == order]
-        (_, radix_builders), (_, oibvh_builders) = table4.KINDS
-        radix, oibvh = table4.cost_of(here, radix_builders), table4.cost_of(ordered, oibvh_builders)
+    for diameters, here in sorted(results.grouped(cells, lambda cell: cell.outlier["diameters"]).items()):
+        radix = table4.cost_of(here, table4.RADIX)
+        oibvh = table4.cost_of([cell for cell in here if order_of(cell) == order], table4.OIBVH)
         if radix and oibvh:
             found[diameters] = (radix, oibvh)
     return found
@@ -42,12 +38,10 @@ def costs_of(cells: list[results.Cell], order: str) -> Costs:
 
 def draw(run: results.Run) -> plt.Figure:
     cells = [cell for cell in run.of("fig13") if cell.outlier]
-    models = list(dict.fromkeys(cell.outlier["of"] for cell in cells))
-    oibvh_builders = table4.KINDS[1][1]
-    orders = list(dict.fromkeys(order_of(cell) for cell in cells if cell.builder in oibvh_builders))
-    curves = {(model, order): costs_of([cell for cell in cells if cell.outlier["of"] == model], order)
-              for model in models for order in orders}
-    curves = {key: costs for key, costs in curves.items() if costs}
+    by_model = results.grouped(cells, lambda cell: cell.outlier["of"])
+    models = list(by_model)
+    orders = list(dict.fromkeys(order_of(cell) for cell in cells if cell.builder in table4.OIBVH))
+    curves = {(model, order): costs for model in models for order in orders if (costs := costs_of(by_model[model], order))}
     if not curves:
         raise results.Refused(f"{run.path}: no mesh of fig13 has the costs of a radix tree and an Oi-BVH")
     drawing, (cost_axes, ratio_axes) = plt.subplots(1, 2, figsize=(style.PAGE_WIDTH, 3.4), layout="constrained")
@@ -76,7 +70,7 @@ def draw(run: results.Run) -> plt.Figure:
         axes.set_ylim(0, 1.08 * axes.get_ylim()[1])
     ratio_axes.margins(x=0.13)  # room for the last values
     ratio_axes.legend(loc="upper left")
-    costs = () if run.costs == table4.PAPER_COSTS else (run.costs_remark(),)
+    costs = () if run.costs == results.USUAL_COSTS else (run.costs_remark(),)
     height = figure.legend_above(drawing, cost_axes.get_legend_handles_labels()[0], 2)
     figure.footer(drawing, run, "fig13", (f"Moved: triangle {', '.join(triangles)}. {SAYS}", *costs), height)
     return drawing

@@ -6,14 +6,11 @@
 Medians, with a band from the 10th to the 90th percentile. Marked is the size from which on the multi-kernel
 construction stays ahead of the single-kernel one, beside the size the paper gives for its machine.
 """
-from __future__ import annotations
-
 import math
 import sys
 
 import matplotlib.pyplot as plt
 import numpy
-from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
 import figure
 import results
@@ -45,18 +42,6 @@ def crossing(single: Curve, multi: Curve) -> float | None:
     return None
 
 
-def draw_curve(axes: plt.Axes, points: Curve, counted: list[float], series: style.Series,
-               among: list[style.Series]) -> None:
-    """Billions of `counted` a second: the slow end of the times is the low end of the band."""
-    look = style.look(series[0])
-    sizes = [triangles for triangles, _, _ in points]
-    low, middle, high = (numpy.array(counted) / numpy.array([getattr(seconds, name) for _, seconds, _ in points])
-                         / 1e9 for name in ("p90", "median", "p10"))
-    axes.fill_between(sizes, low, high, color=look.colour, alpha=0.25, linewidth=0)
-    axes.plot(sizes, middle, color=look.colour, marker=look.marker, label=style.label(series, among),
-              linestyle=style.VARIANT_LINES[style.variant(series, among)])
-
-
 def mark_crossing(axes: plt.Axes, triangles: float, text: str, line: str, side: str) -> None:
     axes.axvline(triangles, color="#444444", linestyle=line, linewidth=0.9, zorder=0)
     offset, align = (3, "left") if side == "right" else (-3, "right")
@@ -67,7 +52,6 @@ def mark_crossing(axes: plt.Axes, triangles: float, text: str, line: str, side: 
 def crossings(curves: dict[style.Series, Curve], panels: list[plt.Axes]) -> None:
     """Ours, for the first variant of each of the two, and the paper's if the sizes reach that far."""
     printed = results.printed("fig8")
-    device = printed["device"].replace("NVIDIA GeForce ", "")
     paper = printed["crossing_triangles"]
     first = {name: points for (name, _), points in reversed(curves.items())}
     ours = None
@@ -75,7 +59,7 @@ def crossings(curves: dict[style.Series, Curve], panels: list[plt.Axes]) -> None
         ours = crossing(first["oibvh-single"], first["oibvh-multi"])
     sizes = [triangles for points in curves.values() for triangles, _, _ in points]
     middle = math.sqrt(min(sizes) * max(sizes))
-    texts = [f"paper: multi ahead\nfrom $2^{{{math.log2(paper):.0f}}}$ ({device})",
+    texts = [f"paper: multi ahead\nfrom $2^{{{math.log2(paper):.0f}}}$ ({results.printed_device('fig8')})",
              f"here: multi ahead\nfrom $2^{{{math.log2(ours):.1f}}}$" if ours else ""]
     for axes, (paper_text, our_text) in zip(panels, (texts, ("", ""))):
         if min(sizes) <= paper <= max(sizes):
@@ -92,14 +76,14 @@ def draw(run: results.Run) -> plt.Figure:
     drawing, (nodes, triangles) = plt.subplots(1, 2, figsize=(style.PAGE_WIDTH, 3.6), sharex=True,
                                                layout="constrained")
     for series, points in curves.items():
-        draw_curve(nodes, points, [count for _, _, count in points], series, among)
-        draw_curve(triangles, points, [count for count, _, _ in points], series, among)
+        times = [(size, seconds) for size, seconds, _ in points]
+        for axes, place in ((nodes, 2), (triangles, 0)):
+            counts = numpy.array([point[place] for point in points])
+            figure.band(axes, times, lambda seconds, counts=counts: counts / seconds / 1e9, style.look(series[0]),
+                        **style.line(series, among))
     for axes, what in ((nodes, "nodes"), (triangles, "triangles")):
-        axes.set_xscale("log", base=2)
+        figure.powers_of_two(axes, 4, 20)
         axes.set(yscale="log", xlabel="triangles", ylabel=f"billion {what} per second")
-        axes.xaxis.set_major_locator(LogLocator(base=4, numticks=20))
-        axes.xaxis.set_minor_locator(NullLocator())
-        axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"$2^{{{round(math.log2(value))}}}$"))
         low, high = axes.get_ylim()
         axes.set_ylim(low, high * (high / low) ** 0.1)  # room for the words at the top
         figure.log_ticks(axes.yaxis, low, high)

@@ -3,20 +3,13 @@
 
     plots/fig9.py FILE... --out DIR
 """
-from __future__ import annotations
-
+import functools
 import sys
 
-import matplotlib.pyplot as plt
-
 import figure
-import frame_stages
-import results
+import frames
 
-
-def draw(run: results.Run) -> plt.Figure:
-    return frame_stages.draw(run, "table2")
-
+draw = functools.partial(frames.draw, experiment="table2")
 
 if __name__ == "__main__":
     sys.exit(figure.command_line("fig9", __doc__, draw))

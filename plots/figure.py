@@ -1,16 +1,15 @@
 """What the command lines of all figures share: files in, pictures out, a sentence for what cannot be drawn."""
-from __future__ import annotations
-
 import argparse
 import functools
 import math
 import pathlib
 import textwrap
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 
 import matplotlib.pyplot as plt
+import numpy
 from matplotlib.axis import Axis
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter, NullLocator
 
 import output
 import results
@@ -18,6 +17,7 @@ import style
 
 MISSING_SHOWN = 4
 Draw = Callable[[results.Run], plt.Figure]
+Curve = list[tuple[int, results.Quantiles]]  # triangles and a quantity, by size
 Figures = dict[str, Callable[[], plt.Figure]]  # by the name of the picture
 
 
@@ -49,6 +49,57 @@ def log_ticks(axis: Axis, low: float, high: float) -> None:
     axis.set_minor_formatter(NullFormatter())
 
 
+def powers_of_two(axes: plt.Axes, base: int, most: int) -> None:
+    """Of the axis of triangles: a number at powers of `base`, so many at the most."""
+    axes.set_xscale("log", base=2)
+    axes.xaxis.set_major_locator(LogLocator(base=base, numticks=most))
+    axes.xaxis.set_minor_locator(NullLocator())
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"$2^{{{round(math.log2(value))}}}$"))
+
+
+def step_between(sizes: list[int]) -> int:
+    """The base of powers that have a number: of few sizes every other."""
+    return 16 if max(sizes) / min(sizes) > 2**10 else 4
+
+
+def by_size(cells: list[results.Cell], values_of: Callable[[results.Cell], Sequence[float]]) -> Curve:
+    """The quantiles of each cell that has values, in the order of triangles."""
+    points = [(cell.triangles, results.quantiles(values)) for cell in cells if len(values := values_of(cell))]
+    return sorted(points, key=lambda point: point[0])
+
+
+def band(axes: plt.Axes, points: Curve, scaled: Callable[[numpy.ndarray], numpy.ndarray], look: style.Look, alpha: float = 0.25,
+         **line: object) -> None:
+    """Medians as a line, and a band from the 10th to the 90th percentile. `scaled` turns a quantile's values into what is shown."""
+    sizes = numpy.array([size for size, _ in points])
+    first, middle, last = (scaled(numpy.array(column)) for column in zip(*(found for _, found in points)))
+    axes.fill_between(sizes, numpy.minimum(first, last), numpy.maximum(first, last), color=look.colour, alpha=alpha, linewidth=0)
+    axes.plot(sizes, middle, color=look.colour, marker=look.marker, **line)
+
+
+def scatter(axes: plt.Axes, points: list[tuple], best: list[tuple], look_of: Callable[[tuple], style.Look],
+            more: Callable[[bool], dict] = lambda is_best: {}) -> None:
+    """Of what begins with a time and a cost or error. The best of all are filled, and those that are shown joined."""
+    joined = [point[:2] for point in best if point in points]
+    axes.plot([time for time, _ in joined], [cost for _, cost in joined], color="#888888", linewidth=0.8, zorder=1)
+    for point in points:
+        look = look_of(point)
+        axes.plot(*point[:2], marker=look.marker, linestyle="none", markeredgecolor=look.colour,
+                  markerfacecolor=look.colour if point in best else "white", **more(point in best))
+    axes.grid(axis="x")
+
+
+def panels(count: int, columns: int, inches: tuple[float, float], **shared: object) -> tuple[plt.Figure, list[plt.Axes], int]:
+    """So many in at most so many columns, which are answered too; `inches` are those of the page and of each row."""
+    columns = min(columns, count)
+    rows = math.ceil(count / columns)
+    drawing, grid = plt.subplots(rows, columns, figsize=(style.PAGE_WIDTH, inches[0] + inches[1] * rows), squeeze=False,
+                                 layout="constrained", **shared)
+    for axes in list(grid.flat)[count:]:
+        axes.remove()
+    return drawing, list(grid.flat)[:count], columns
+
+
 def legend_above(figure: plt.Figure, handles: list, columns: int = 7) -> float:
     """A legend over all panels; answers the inches it takes."""
     figure.legend(handles=handles, loc="upper center", ncols=columns, columnspacing=1.2)
@@ -76,6 +127,13 @@ def save_all(run: results.Run, figures: Figures, folder: pathlib.Path, inputs: l
             raise results.Refused(f"{run.path}: the figure {name} cannot be drawn of it: {output.described(error)}") from error
 
 
+def named(run: results.Run, draws: dict[str, Draw], why_none: str = "") -> Figures:
+    """By the name of the picture. Raises results.Refused if there are none and `why_none` says why."""
+    if why_none and not draws:
+        raise results.Refused(f"{run.path}: {why_none}")
+    return {style.stem(run.path, name): functools.partial(draw, run) for name, draw in draws.items()}
+
+
 def add_output(parser: argparse.ArgumentParser, **folder: object) -> None:
     parser.add_argument("--out", type=pathlib.Path, metavar="DIR", **folder)
     parser.add_argument("--force", action="store_true", help="replace files of the pictures' names that are no pictures")
@@ -101,15 +159,4 @@ def draw_from(description: str | None, figures_of: Callable[[results.Run], Figur
 
 def command_line(name: str, description: str | None, draw: Draw) -> int:
     """One picture per file, called after it."""
-    return draw_from(description, lambda run: {style.stem(run.path, name): lambda: draw(run)})
-
-
-def command_line_of_frames(figures: dict[str, Draw], description: str | None) -> int:
-    """A picture for each of these experiments that a file has frames of."""
-    def figures_of(run: results.Run) -> Figures:
-        found = {style.stem(run.path, name): functools.partial(draw, run) for name, draw in figures.items() if run.has_frames(name)}
-        if not found:
-            raise results.Refused(f"{run.path}: no measured frame of {' or '.join(figures)}")
-        return found
-
-    return draw_from(description, figures_of)
+    return draw_from(description, lambda run: named(run, {name: draw}))

@@ -1,6 +1,4 @@
 """A locked file that says that a process is at work. The system releases the lock however the process ends."""
-from __future__ import annotations
-
 import contextlib
 import errno
 import fcntl

@@ -3,16 +3,16 @@
 
     plots/frames.py FILE... --out DIR
 """
-from __future__ import annotations
-
 import functools
 import sys
 
 import matplotlib.pyplot as plt
+from matplotlib.patches import Patch
 
 import figure
-import frame_stages
+import pipelines
 import results
+import style
 
 # An experiment, and what a frame of it is.
 EXPERIMENTS = {
@@ -20,14 +20,89 @@ EXPERIMENTS = {
     "pairs": "A frame is all from vertices to pairs of overlapping boxes, in one set of triangles.",
     "libraries": "A frame is all from moved vertices to exact contacts; FCL finds them in its broad phase.",
 }
+# The paper's words, the stages they are made of here, and a colour each.
+PARTS = (("boxes", ("near", "bounds"), "#999999"), ("MC eval", ("codes",), "#56B4E9"),
+         ("MC sort", ("sort", "order"), "#0072B2"), ("build", ("gather", "hierarchy", "refit", "ropes"), "#009E73"),
+         ("broad phase", ("broad", "copy"), "#E69F00"), ("narrow phase", ("narrow",), "#D55E00"))
+BETWEEN = ("between stages", "#DDDDDD")
+MOST = 12  # times as long as the scene's shortest bar: a longer one is drawn as long as that
+IN_ONE_COLUMN = 3  # panels; more go into two, if all are of the same pipelines
 
 
-def draw(run: results.Run, experiment: str) -> plt.Figure:
-    return frame_stages.draw(run, experiment, (EXPERIMENTS[experiment],))
+def parts_of(pipeline: pipelines.Pipeline) -> list[tuple[str, str, float]]:
+    """Name, colour and milliseconds of each part. With what passes between stages they are the whole frame."""
+    parts = [(name, colour, sum(pipeline.stage_ms(stage) for stage in stages)) for name, stages, colour in PARTS]
+    between = float(pipeline.frame_ms().mean()) - sum(width for _, _, width in parts)
+    return [part for part in (*parts, (*BETWEEN, between)) if part[2] > 0]
+
+
+def draw_scene(axes: plt.Axes, shown: list[pipelines.Pipeline]) -> bool:
+    """Whether a bar was shortened."""
+    wholes = [float(pipeline.frame_ms().mean()) for pipeline in shown]
+    limit = MOST * min(wholes)
+    end = max(min(whole, limit) for whole in wholes)
+    for row, (pipeline, whole) in enumerate(zip(shown, wholes)):
+        left, scale = 0.0, min(1.0, limit / whole)
+        for _, colour, width in parts_of(pipeline):
+            axes.barh(row, scale * width, 0.72, left=left, color=colour, linewidth=0)
+            left += scale * width
+        if whole > limit:
+            axes.plot([0.96 * limit, 0.975 * limit], [row + 0.45, row - 0.45], color="white", linewidth=2)
+        pipelines.told(axes, row, left, f"{whole:.3g} ms", 2)
+    pipelines.dress(axes, shown)
+    axes.set_xlim(0, 1.2 * end)
+    return max(wholes) > limit
+
+
+def panels_for(scenes: dict[str, list[pipelines.Pipeline]]) -> tuple[plt.Figure, list[plt.Axes], int]:
+    """The panels, and in how many columns they are."""
+    shown = list(scenes.values())
+    same = all(pipelines.labels(one) == pipelines.labels(shown[0]) for one in shown)
+    columns = 2 if same and len(shown) > IN_ONE_COLUMN else 1
+    rows = [max(len(one) for one in shown[first:first + columns]) + 2.2 + 0.6 * columns
+            for first in range(0, len(shown), columns)]
+    drawing, panels = plt.subplots(len(rows), columns, figsize=(style.PAGE_WIDTH, pipelines.ROW * sum(rows) + 0.9),
+                                   squeeze=False, height_ratios=rows, layout="constrained")
+    flat = list(panels.flat)
+    for axes in flat[len(shown):]:
+        axes.set_visible(False)
+    return drawing, flat[:len(shown)], columns
+
+
+def draw(run: results.Run, experiment: str, remarks: tuple[str, ...] = ()) -> plt.Figure:
+    scenes = pipelines.of(run, experiment)
+    drawing, panels, columns = panels_for(scenes)
+    shortened = [draw_scene(axes, shown) for axes, shown in zip(panels, scenes.values())]
+    shown = list(scenes.values())
+    for place, axes in enumerate(panels):
+        if columns > 1:  # a title has half the width
+            axes.set_title(pipelines.scene_title(shown[place], "\n"), loc="left")
+        if place % columns:
+            axes.set_yticklabels([])
+        if place // columns == (len(panels) - 1) // columns:
+            axes.set_xlabel("milliseconds a frame")
+    there = {name for one in shown for pipeline in one for name, _, _ in parts_of(pipeline)}
+    named = [(name, colour) for name, _, colour in PARTS] + [BETWEEN]
+    handles = [Patch(facecolor=colour, label=name) for name, colour in named if name in there]
+    height = figure.legend_above(drawing, handles)
+    lines = (*remarks, "Means over frames: of their medians at the end of a bar, of their stages' medians in it. "
+             "Each scene has a scale of its own.", *pipelines.remarks(scenes))
+    if any(shortened):
+        lines += (f"Bars with a white stroke are shortened to {MOST} times their scene's shortest; "
+                  "the stages keep their shares.",)
+    figure.footer(drawing, run, experiment, lines, height)
+    return drawing
 
 
 # By name of picture.
-FIGURES: dict[str, figure.Draw] = {name: functools.partial(draw, experiment=name) for name in EXPERIMENTS}
+FIGURES: dict[str, figure.Draw] = {name: functools.partial(draw, experiment=name, remarks=(what,))
+                                   for name, what in EXPERIMENTS.items()}
+
+
+def some_figures_of(run: results.Run) -> figure.Figures:
+    return figure.named(run, {name: draw for name, draw in FIGURES.items() if run.all_frames(name)},
+                        f"no measured frame of {' or '.join(FIGURES)}")
+
 
 if __name__ == "__main__":
-    sys.exit(figure.command_line_of_frames(FIGURES, __doc__))
+    sys.exit(figure.draw_from(__doc__, some_figures_of))

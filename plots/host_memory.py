@@ -1,6 +1,4 @@
 """How much memory this process may still take: what would take more is refused before it is begun."""
-from __future__ import annotations
-
 import pathlib
 import re
 import resource

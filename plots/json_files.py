@@ -1,12 +1,10 @@
 """JSON files as they are kept, plain or packed by xz."""
-from __future__ import annotations
-
 import json
 import lzma
 import math
+import os
 import pathlib
 import re
-import stat
 from typing import Any
 
 import host_memory
@@ -32,7 +30,7 @@ def files_in(folder: pathlib.Path) -> list[pathlib.Path]:
 class Number(float):
     """A number that is not whole, with the digits it was written with: there is more than one way to tell it from all others."""
 
-    def __new__(cls, text: str) -> Number:
+    def __new__(cls, text: str) -> "Number":
         number = super().__new__(cls, text)
         number.text = text
         if math.isinf(number):
@@ -40,19 +38,25 @@ class Number(float):
         return number
 
 
+def bytes_of(path: str | pathlib.Path, subject: str, unreadable: str) -> bytes:
+    """All of a file, unpacked if it is packed by xz. Raises Refused, "SUBJECT cannot be unpacked: WHY" or "UNREADABLE: WHY"."""
+    try:
+        if why := host_memory.refusal(path, os.path.getsize(path)):
+            raise Refused(why)
+        with open(path, "rb") as file:
+            return unpacked(file.read())
+    except OSError as error:
+        raise Refused(f"{unreadable}: {error.strerror}") from error
+    except lzma.LZMAError as error:
+        raise Refused(f"{subject} cannot be unpacked: {error}") from error
+
+
 def parsed(path: pathlib.Path) -> Any:
     """What a JSON file holds. Raises Refused."""
+    if os.path.exists(path) and not os.path.isfile(path) and not path.is_fifo():
+        raise Refused(f"{path}: it is a {'folder' if path.is_dir() else 'device'}, not a result file")
     try:
-        kind = path.stat().st_mode
-        if not stat.S_ISREG(kind) and not stat.S_ISFIFO(kind):
-            raise Refused(f"{path}: it is a {'folder' if stat.S_ISDIR(kind) else 'device'}, not a result file")
-        if why := host_memory.refusal(path, path.stat().st_size):
-            raise Refused(why)
-        return value_of(unpacked(path.read_bytes()))
-    except OSError as error:
-        raise Refused(f"{path}: {error.strerror}") from error
-    except lzma.LZMAError as error:
-        raise Refused(f"{path}: cannot be unpacked: {error}") from error
+        return value_of(bytes_of(path, f"{path}:", f"{path}"))
     except ValueError as error:
         raise Refused(f"{path}: {error}") from error
 

@@ -1,6 +1,4 @@
 """Short labels beside points of a scatter plot, none over another or over a point."""
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 
@@ -49,7 +47,6 @@ def box_at(x: float, y: float, text: str) -> Box:
 
 
 def shared(one: Box, other: Box) -> float:
-    """The area that two boxes have in common."""
     wide = min(one.right, other.right) - max(one.left, other.left)
     high = min(one.top, other.top) - max(one.foot, other.foot)
     return wide * high if wide > 0 and high > 0 else 0.0

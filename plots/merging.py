@@ -1,6 +1,4 @@
 """One result file of several, each cell once and as it was: what a newer or older program has put into a cell stays there."""
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -44,7 +42,6 @@ def document_text(run: Json, cell_lines: list[str], stress_lines: list[str], sou
 
 
 def source_of(run: Json) -> Json:
-    """What a merged file keeps of a run."""
     parts = ((run, "id", "id"), (run, "started_at", "started_at"), (run, "finished_at", "finished_at"),
              (run, "command", "command"), (run["program"], "commit", "commit"), (run["program"], "dirty", "dirty"),
              (run["host"], "name", "host"), (run["device"], "name", "device"), (run["device"], "driver", "driver"),

@@ -1,6 +1,4 @@
 """What scenes, builders, colliders and pipelines are called: by their name and by each option that is not the usual one."""
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

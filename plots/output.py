@@ -1,6 +1,4 @@
 """Every file that plots write: checked before it is made, and replaced as a whole. As harness/record/output.h does it in C++."""
-from __future__ import annotations
-
 import errno
 import os
 import pathlib
@@ -62,9 +60,10 @@ def make_folder(folder: pathlib.Path) -> None:
         raise Refused(f"the folder {folder} cannot be made: {error.strerror}") from error
 
 
-def write(path: pathlib.Path, content: bytes) -> bool:
+def write(path: pathlib.Path | str, content: bytes) -> bool:
     """Links are followed; devices, pipes and this process's standard output are written to as they are, and False is returned.
     Raises Refused with the system's reason; then an earlier file stays."""
+    path = pathlib.Path(path)
     try:
         about = path.stat() if path.exists() else None
         if about and (stream := standard_stream(about)):
@@ -156,7 +155,7 @@ def prepare_streams() -> None:
 
 
 def described(error: Exception) -> str:
-    """In words for a sentence."""
+    """What an error says, for a sentence."""
     if isinstance(error, KeyError):
         return f"it has no {error}"
     return f"{error}" or type(error).__name__

@@ -1,6 +1,4 @@
 """The Pareto front of times against costs or errors."""
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import TypeVar
 

@@ -8,8 +8,6 @@ cells have several orders or builders, and shows all of them, the worse ones too
 what is not beaten by another in both time and cost (the Pareto front), and those points are filled. Where cells
 count the box tests of a collision query (box_tests_count), a second row shows time against those.
 """
-from __future__ import annotations
-
 import math
 import sys
 
@@ -33,7 +31,7 @@ Point = tuple[float, float, results.Cell]  # milliseconds, measure
 
 
 def points_of(cells: list[results.Cell], measure: str = "sah_cost") -> list[Point]:
-    return [(1e3 * results.quantiles(cell.whole_times_s()).median, cell.counters[measure], cell) for cell in cells
+    return [(1e3 * results.median(cell.times_s()), cell.counters[measure], cell) for cell in cells
             if cell.samples and measure in cell.counters]
 
 
@@ -68,15 +66,7 @@ def scale(axis: Axis, values: list[float], most: int) -> None:
 
 
 def draw_points(axes: plt.Axes, points: list[Point], best: list[Point]) -> None:
-    """Those of one clock; the front is that of all."""
-    joined = [point for point in best if point in points]
-    axes.plot([time for time, _, _ in joined], [value for _, value, _ in joined], color="#888888", linewidth=0.8,
-              zorder=1)
-    for point in points:
-        look = style.look(point[2].builder)
-        axes.plot(*point[:2], marker=look.marker, linestyle="none", markeredgecolor=look.colour,
-                  markerfacecolor=look.colour if point in best else "white")
-    axes.grid(axis="x")
+    figure.scatter(axes, points, best, lambda point: style.look(point[2].builder))
 
 
 class Panels:
@@ -144,8 +134,7 @@ def legend(drawing: plt.Figure, cells: list[results.Cell], orders: dict[str, int
 
 
 def draw(run: results.Run) -> plt.Figure:
-    by_scene = {scene: [cell for cell in run.builds if cell.scene == scene]
-                for scene in dict.fromkeys(cell.scene for cell in run.builds)}
+    by_scene = results.grouped(run.builds, lambda cell: cell.scene)
     by_scene = {scene: cells for scene, cells in by_scene.items() if len(points_of(cells)) > 1}
     if not by_scene:
         raise results.Refused(f"{run.path}: no scene has times and surface area costs of two builders or orders")

@@ -1,6 +1,4 @@
 """Whole frames by scene and pipeline: a builder and a collider with their options, over the frames of a scene."""
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import matplotlib.pyplot as plt
@@ -10,6 +8,8 @@ from matplotlib.colors import to_rgb
 import results
 import style
 
+ROW = 0.2  # inches a bar
+
 # A collider tells the pipelines of a builder apart by hatch; one without a tree has a colour of its own.
 HATCHES = {"leaf": "", "group": "////", "block": "\\\\\\\\", "bvtt": "....", "front": "xxxx", "fcl-refit": "////"}
 COLOURS = {"grid": "#8C510A", "embree": "#009E73", "fcl": "#F0E442", "fcl-refit": "#F0E442", "brute": "#000000"}
@@ -17,8 +17,6 @@ COLOURS = {"grid": "#8C510A", "embree": "#009E73", "fcl": "#F0E442", "fcl-refit"
 
 @dataclass(frozen=True)
 class Pipeline:
-    """One pipeline over the frames of one scene."""
-
     scene: str
     cells: list[results.Cell]  # a frame each
 
@@ -40,11 +38,11 @@ class Pipeline:
 
     def frame_ms(self) -> numpy.ndarray:
         """The median of each frame."""
-        return numpy.array([float(numpy.median(cell.whole_times_s())) for cell in self.cells]) * 1e3
+        return numpy.array([results.median(cell.times_s()) for cell in self.cells]) * 1e3
 
     def stage_ms(self, stage: str) -> float:
         """The mean over frames of their medians; 0 if it has no such stage."""
-        times = [float(numpy.median(cell.times_s(stage))) for cell in self.cells if stage in cell.samples[0]]
+        times = [results.median(cell.times_s(stage)) for cell in self.cells if stage in cell.samples[0]]
         return sum(times) / len(self.cells) * 1e3
 
     def mean(self, counter: str) -> float | None:
@@ -52,13 +50,23 @@ class Pipeline:
         return sum(values) / len(values) if values else None
 
 
+def grouped_by_pipeline(cells: list[results.Cell], without: str = "") -> list[list[results.Cell]]:
+    """Those of one pipeline together, whatever its collider's option `without` is."""
+    return list(results.grouped(cells, lambda cell: cell.key("collider", "builder", without=without)).values())
+
+
 def of(run: results.Run, experiment: str) -> dict[str, list[Pipeline]]:
     """The pipelines of each scene, both in the file's order."""
-    cells: dict[str, dict[tuple, list[results.Cell]]] = {}
-    for cell in run.frames(experiment):
-        key = (cell.collider, cell.collider_options, cell.builder, cell.options)
-        cells.setdefault(cell.scene, {}).setdefault(key, []).append(cell)
-    return {scene: [Pipeline(scene, frames) for frames in by_pipeline.values()] for scene, by_pipeline in cells.items()}
+    scenes = results.grouped(run.frames(experiment), lambda cell: cell.scene)
+    return {scene: [Pipeline(scene, frames) for frames in grouped_by_pipeline(cells)] for scene, cells in scenes.items()}
+
+
+def panels(scenes: dict[str, list[Pipeline]], more: float) -> tuple[plt.Figure, list[plt.Axes]]:
+    """One below the other, each with room for its bars and `more` of them."""
+    rows = [len(shown) + more for shown in scenes.values()]
+    drawing, grid = plt.subplots(len(scenes), 1, figsize=(style.PAGE_WIDTH, ROW * sum(rows) + 0.7), squeeze=False,
+                                 height_ratios=rows, layout="constrained", sharex=True)
+    return drawing, list(grid[:, 0])
 
 
 def frames_of(shown: list[Pipeline]) -> int:
@@ -67,11 +75,14 @@ def frames_of(shown: list[Pipeline]) -> int:
 
 def scene_title(shown: list[Pipeline], between: str = " ") -> str:
     cell = shown[0].first
-    name = f"{cell.stand_in_for}* ({cell.scene})" if stands_in(cell) else cell.scene
-    frames = frames_of(shown)
+    name, frames = scene_name(cell), frames_of(shown)
     asked = dict(cell.collider_options).get("pairs_of", "all")
     name += "" if asked == "all" else f", {asked} objects"
     return f"{name}:{between}{cell.triangles:,} triangles, {frames} frame{'' if frames == 1 else 's'}"
+
+
+def scene_name(cell: results.Cell) -> str:
+    return f"{cell.stand_in_for}* ({cell.scene})" if stands_in(cell) else cell.scene
 
 
 def stands_in(cell: results.Cell) -> bool:
@@ -93,14 +104,23 @@ def labels(shown: list[Pipeline]) -> list[str]:
 
 def dress(axes: plt.Axes, shown: list[Pipeline], room: float = 0) -> None:
     """A panel of horizontal bars, a row a pipeline, with some room below them."""
-    axes.set_yticks(range(len(shown)), labels(shown), fontsize=style.SMALL)
-    axes.set_ylim(len(shown) - 0.4 + room, -0.6)
+    dress_rows(axes, labels(shown), room)
     axes.set_title(scene_title(shown), loc="left")
+
+
+def dress_rows(axes: plt.Axes, rows: list[str], room: float = 0) -> None:
+    axes.set_yticks(range(len(rows)), rows, fontsize=style.SMALL)
+    axes.set_ylim(len(rows) - 0.4 + room, -0.6)
     axes.grid(axis="x")
     axes.grid(visible=False, axis="y")
     axes.tick_params(axis="y", length=0)
 
 
-def ink(colour: str) -> str:
-    """Of hatches on a bar: lighter or darker than it."""
-    return "white" if sum(to_rgb(colour)) < 1.6 else "#555555"
+def bar(axes: plt.Axes, row: int, width: float, pipeline: Pipeline) -> None:
+    """In its look; hatches are lighter or darker than its colour."""
+    ink = "white" if sum(to_rgb(pipeline.colour)) < 1.6 else "#555555"
+    axes.barh(row, width, 0.72, color=pipeline.colour, hatch=pipeline.hatch, edgecolor=ink, linewidth=0)
+
+
+def told(axes: plt.Axes, row: int, end: float, text: str, room: int = 3) -> None:
+    axes.annotate(f" {text}", (end, row), (room, 0), textcoords="offset points", va="center", fontsize=style.SMALL)

@@ -6,8 +6,6 @@
 `bvhbench report` calls it and makes what --view names. Exits 0; 1 if an answer in the files was wrong, which the page shows; 2
 for wrong usage; 3 if a file or library is missing or a file is no result.
 """
-from __future__ import annotations
-
 import argparse
 import os
 import pathlib
@@ -18,24 +16,23 @@ from typing import Any
 import json_files
 import output
 import report_cells
-import report_compared
 import report_facts
 import report_looks
 import report_page
 import report_tables
-import report_view
 import results
+from cells import Cell
 
 
-def file_data(path: pathlib.Path, document: dict[str, Any]) -> dict[str, Any]:
-    run, raw = document["run"], document["cells"]
-    cells = [report_cells.cell_data(path, cell, run.get("copy_rate_bytes_per_s")) for cell in raw]
-    report_compared.mark_fronts(cells)
+def file_data(path: pathlib.Path, document: dict[str, Any], all_cells: list[Cell]) -> dict[str, Any]:
+    run = document["run"]
+    cells = [report_cells.cell_data(cell, run.get("copy_rate_bytes_per_s")) for cell in all_cells]
+    report_cells.mark_fronts(cells)
     stress = document.get("stress", [])
     states = Counter(cell["state"] for cell in cells)
     states.update(finding["verdict"] for cell in stress for finding in cell["findings"].values())
     return {"name": text_of(json_files.name_of(path)), "path": text_of(path.name), "cells": cells,
-            "bars": report_compared.bars_of(cells), "looks": report_looks.looks_of(cells),
+            "bars": report_cells.bars_of(cells), "looks": report_looks.looks_of(cells),
             "tables": report_tables.tables_of(cells, stress), "states": states,
             "experiments": list(dict.fromkeys(cell["experiment"] for cell in cells)) or ["stress"],
             "device": run["device"]["name"], "driver": run["device"]["driver"], "machine": run["host"]["name"],
@@ -59,8 +56,9 @@ def make(files: list[pathlib.Path], views: list[pathlib.Path]) -> tuple[str, boo
     blobs, sections, is_wrong, summary = [], [], False, []
     for number, (path, title) in enumerate(zip(files, titles_of(files))):
         document = results.document_of(path)
+        cells = [Cell(cell) for cell in document["cells"]]
         try:
-            data = file_data(path, document) | {"title": title}
+            data = file_data(path, document, cells) | {"title": title}
             blobs.append(report_page.json_blob(f"file-{number}", data))
         except (ArithmeticError, ValueError) as error:
             raise results.Refused(f"{path}: no page can be made of its numbers: {error}") from error
@@ -70,10 +68,10 @@ def make(files: list[pathlib.Path], views: list[pathlib.Path]) -> tuple[str, boo
         sections.append(report_page.section(number, title, report_facts.sentence_of(document),
                                             report_facts.warnings_of(document),
                                             report_facts.facts_of(document)))
-        blobs.append(report_page.json_blob(f"samples-{number}", [report_cells.samples_data(cell) for cell in document["cells"]]))
+        blobs.append(report_page.json_blob(f"samples-{number}", [report_cells.samples_data(cell) for cell in cells]))
     shown = []
     for number, path in enumerate(views):
-        facts, arrays = report_view.load(path)
+        facts, arrays = report_facts.view_of(path)
         is_wrong |= facts["state"] == "differs"
         shown.append(facts)
         blobs += [report_page.blob(f"view-{number}-{name}", content) for name, content in arrays.items()]

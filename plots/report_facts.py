@@ -1,15 +1,20 @@
-"""What was run on what: the circumstances of a result file, in words."""
-from __future__ import annotations
-
+"""What was run on what: the circumstances of a result file, in words. A scene in three dimensions, as `bvhbench report --scene`
+wrote it, packed for a page."""
+import array
+import pathlib
 from typing import Any
+
+import results
+from cells import Cell
+from report_cells import scene_name, state_of, who
 
 
 def binary(count: float) -> str:
-    for unit in ("bytes", "KiB", "MiB", "GiB"):
-        if count < 1024 or unit == "GiB":
+    for unit in ("bytes", "KiB", "MiB"):
+        if count < 1024:
             return f"{count:,.4g} {unit}"
         count /= 1024
-    raise AssertionError
+    return f"{count:,.4g} GiB"
 
 
 def facts_of(document: dict[str, Any]) -> list[tuple[str, str]]:
@@ -52,7 +57,6 @@ def sentence_of(document: dict[str, Any]) -> str:
 
 
 def warnings_of(document: dict[str, Any]) -> list[str]:
-    """What makes numbers worth less, a sentence each."""
     run = document["run"]
     program = run["program"]
     told = [(program["dirty"], "The program had changes that are in no commit."),
@@ -60,3 +64,32 @@ def warnings_of(document: dict[str, Any]) -> list[str]:
             ("finished_at" not in run, "The run has no end: it was stopped, or goes on. What is missing was not measured."),
             (run["device"]["kind"] == "cpu", "Kernels ran on a processor: times say nothing about a GPU.")]
     return [sentence for is_so, sentence in told if is_so]
+
+
+def packed(kind: str, values: list) -> bytes:
+    """Little-endian numbers of 32 bits: 'f' or 'I'."""
+    return array.array(kind, values).tobytes()
+
+
+def view_of(path: pathlib.Path) -> tuple[dict[str, Any], dict[str, bytes]]:
+    """What is said of a scene, and its arrays by name. Raises results.Refused for a file that is none."""
+    view = results.parsed(path)
+    try:
+        results.check(path, view["cell"], "cell")
+        results.check(path, view["run"], "run")
+        arrays = {"points": packed("f", view["points"])}
+        arrays |= {name: packed("I", view[name]) for name in ("faces", "pairs", "contacts")}
+        arrays["boxes"] = packed("f", [side for level in view["levels"] for side in level["boxes"]])
+        return facts_of_view(view, Cell(view["cell"])), arrays
+    except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
+        raise results.Refused(f"{path}: no scene of a report: {error}") from error
+
+
+def facts_of_view(view: dict[str, Any], cell: Cell) -> dict[str, Any]:
+    run, levels = view["run"], [{"count": len(level["boxes"]) // 6, "leaves": level["leaves"]} for level in view["levels"]]
+    return {"scene": scene_name(cell), "frame": cell.frame, "who": who(cell), "triangles": len(view["faces"]) // 3,
+            "state": state_of(cell), "against": cell.check.get("against", ""), "why": cell.check.get("detail", ""),
+            "hashes": {key: value for key, value in cell.check.items() if key.endswith("_hash")},
+            "device": run["device"]["name"], "driver": run["device"]["driver"], "commit": run["program"]["commit"],
+            "dirty": run["program"]["dirty"], "pairs": len(view["pairs"]) // 2, "contacts": len(view["contacts"]) // 2,
+            "levels": levels}

@@ -1,10 +1,8 @@
 """The look of each line and point on a page: style.py's colours, in the words of Plotly."""
-from __future__ import annotations
-
 from typing import Any
 
 import accuracy
-import frame_stages
+import frames
 import pipelines
 import results
 import style
@@ -52,8 +50,8 @@ def looks_of(cells: list[dict[str, Any]]) -> dict[str, dict[str, str]]:
 
 
 def stage_looks() -> dict[str, dict[str, str]]:
-    """The colours of frame_stages.py; of stages that share one, all but the usual one are hatched."""
+    """The colours of frames.py; of stages that share one, all but the usual one are hatched."""
     looks = {stage: {"colour": colour, "pattern": HATCHED.get(stage, "")}
-             for _, stages, colour in frame_stages.PARTS for stage in stages}
-    return looks | {"between": {"colour": frame_stages.BETWEEN[1], "pattern": ""},
+             for _, stages, colour in frames.PARTS for stage in stages}
+    return looks | {"between": {"colour": frames.BETWEEN[1], "pattern": ""},
                     "sum": {"colour": "#CC79A7", "pattern": ""}}

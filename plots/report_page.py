@@ -3,8 +3,6 @@
 Text that people may want to read in the page's source, markup, style and scripts of plots/report/, stands in it as it is.
 Libraries, data and samples are gzip in base64, unpacked by plots/report/unpack.js: samples only when somebody asks for them.
 """
-from __future__ import annotations
-
 import base64
 import gzip
 import html
@@ -18,7 +16,7 @@ import results
 PARTS = pathlib.Path(__file__).resolve().parent / "report"
 STYLES = ("base.css", "tables.css", "charts.css", "samples.css", "view.css")
 SCRIPTS = ("unpack.js", "format.js", "table.js", "axes.js", "legend.js", "compared.js", "chart.js", "chart_size.js",
-           "chart_stages.js", "chart_pareto.js", "chart_frames.js", "samples.js", "boxes.js", "view.js", "page.js")
+           "chart_stages.js", "chart_pareto.js", "chart_frames.js", "samples.js", "view.js", "page.js")
 DEBIAN = pathlib.Path("/usr/share")
 
 
@@ -60,17 +58,13 @@ def inlined(names: tuple[str, ...]) -> str:
     return "\n".join(f"/* plots/report/{name} */\n" + (PARTS / name).read_text(encoding="utf-8") for name in names)
 
 
-def facts_list(facts: list[tuple[str, str]]) -> str:
-    return "<dl class=\"facts\">" + "".join(
-        f"<div><dt>{html.escape(term)}</dt><dd>{html.escape(said)}</dd></div>" for term, said in facts) + "</dl>"
-
-
 def section(number: int, title: str, sentence: str, warnings: list[str], facts: list[tuple[str, str]]) -> str:
     """What a reader sees of a file even where no script runs."""
     said = "".join(f'<p class="warning">{html.escape(warning)}</p>' for warning in warnings)
+    listed = "".join(f"<div><dt>{html.escape(term)}</dt><dd>{html.escape(fact)}</dd></div>" for term, fact in facts)
     return (f'<section id="file-{number}" class="file" hidden><h2>{html.escape(title)}</h2>'
             f'<p class="note">{html.escape(sentence)}</p>{said}'
-            f'<details class="circumstances"><summary>What was run on what</summary>{facts_list(facts)}</details>'
+            f'<details class="circumstances"><summary>What was run on what</summary><dl class="facts">{listed}</dl></details>'
             '<div class="verdicts"></div><div class="charts"></div><div class="tables"></div></section>')
 
 

@@ -3,13 +3,12 @@
 A column's kind is text, state, count (every digit), number (four digits) or time. A row's values stand in its columns' order;
 times are of the table's unit. A value that is not there is null and never 0.
 """
-from __future__ import annotations
-
 import statistics
 from collections.abc import Callable
 from typing import Any
 
-from report_cells import WHOLE, WITHOUT_TIMES
+from cells import grouped, median
+from report_cells import MEDIAN, WHOLE, WITHOUT_TIMES
 
 STAGES = ("near", "bounds", "codes", "sort", "order", "gather", "hierarchy", "refit", "ropes", "copy", "broad", "narrow",
           "sum")
@@ -19,9 +18,9 @@ Cells = list[tuple[int, dict[str, Any]]]  # places in the file and their data
 Value = Callable[[dict[str, Any]], Any]
 
 
-def unit_for(times: list[float]) -> tuple[str, float]:
-    """In which most of these nanoseconds are numbers from 1 on."""
-    middle = statistics.median(times) if times else 1.0
+def unit_of(cells: Cells) -> tuple[str, float]:
+    """The largest unit in which the median of their times is at least 1."""
+    middle = median([data["times"][WHOLE][MEDIAN] for _, data in cells if WHOLE in data["times"]])
     return next((unit for unit in reversed(UNITS) if middle >= unit[1]), UNITS[0])
 
 
@@ -38,15 +37,11 @@ class Table:
         if there and not (varies and len(there) == 1 and "" not in values):
             self.columns.append(({"label": label, "kind": kind, "facet": facet, **more}, values))
 
-    def times(self, unit: tuple[str, float], quantiles: bool = True) -> None:
-        def of(stage: str, place: int) -> Value:
-            return lambda data: data["times"][stage][place] / unit[1] if stage in data["times"] else None
-
-        whole = [("median", 1), ("p10", 0), ("p90", 2)] if quantiles else [("median", 1)]
-        for name, place in whole:
-            self.add(f"whole, {name}", "time", of(WHOLE, place), unit=unit[0], stage=WHOLE)
-        for stage in STAGES:
-            self.add(stage, "time", of(stage, 1), unit=unit[0], stage=stage)
+    def times(self, unit: tuple[str, float]) -> None:
+        columns = [(f"whole, {name}", WHOLE, place) for name, place in (("median", MEDIAN), ("p10", 0), ("p90", 2))]
+        for label, stage, place in [*columns, *((stage, stage, MEDIAN) for stage in STAGES)]:
+            self.add(label, "time", lambda data, stage=stage, place=place: data["times"][stage][place] / unit[1]
+                     if stage in data["times"] else None, unit=unit[0], stage=stage)
 
     def counters(self, wanted: list[str]) -> None:
         for name in wanted:
@@ -62,21 +57,18 @@ class Table:
 def begin(title: str, cells: Cells, called: str, note: str = "") -> Table:
     """The columns that all tables of cells begin with: of what, whose, and whether it was right."""
     table = Table(title, cells, note)
-    table.add("scene", "text", lambda data: data["scene"], facet=True)
-    table.add("frame", "count", lambda data: data["frame"], varies=True)
-    table.add(called, "text", lambda data: data["who"], facet=True)
-    table.add("verdict", "state", lambda data: data["state"], facet=True)
-    table.add("experiment", "text", lambda data: data["experiment"], varies=True, facet=True)
-    table.add("axis", "text", lambda data: data["axis"], varies=True, facet=True)
-    table.add("asked for", "text", lambda data: data["asked"], varies=True, facet=True)
-    table.add("triangles", "count", lambda data: data["triangles"])
+    for label, kind, key, varies in (("scene", "text", "scene", False), ("frame", "count", "frame", True),
+                                     (called, "text", "who", False), ("verdict", "state", "state", False),
+                                     ("experiment", "text", "experiment", True), ("axis", "text", "axis", True),
+                                     ("asked for", "text", "asked", True), ("triangles", "count", "triangles", False)):
+        table.add(label, kind, lambda data, key=key: data[key], varies=varies, facet=kind != "count")
     return table
 
 
 def times_table(title: str, cells: Cells, called: str, counters: list[str], note: str) -> dict[str, Any]:
     table = begin(title, cells, called, note)
     table.add("samples", "count", lambda data: data["n"] or None)
-    table.times(unit_for([data["times"][WHOLE][1] for _, data in cells if WHOLE in data["times"]]))
+    table.times(unit_of(cells))
     table.add("million triangles a second", "number", lambda data: data["triangles"] * 1e3 / data["times"][WHOLE][1]
               if data["operation"] == "build" and data["times"].get(WHOLE, [0, 0])[1] > 0 and data["triangles"] else None)
     table.add("of the copy rate", "share", lambda data: data.get("copy_share"))
@@ -86,25 +78,10 @@ def times_table(title: str, cells: Cells, called: str, counters: list[str], note
     return table.data()
 
 
-def missing_table(cells: Cells) -> dict[str, Any]:
-    table = begin("Without a time, and why", cells, "who")
-    table.add("why", "text", lambda data: data["why"] or "no reason given")
-    return table.data()
-
-
-def counters_table(title: str, cells: Cells, called: str) -> dict[str, Any]:
-    table = begin(title, cells, called)
-    table.counters(sorted({name for _, data in cells for name in data["counters"]}))
-    return table.data()
-
-
 def summary_table(cells: Cells) -> dict[str, Any]:
     """A row a scene and pipeline: means over frames of their medians, as in the paper's tables."""
-    groups: dict[tuple, Cells] = {}
-    for place, data in cells:
-        groups.setdefault((data["experiment"], data["scene"], data["asked"], data["who"]), []).append((place, data))
-    timed = [data["times"][WHOLE][1] for _, data in cells if WHOLE in data["times"]]
-    unit, scale = unit_for(timed)
+    groups = grouped(cells, lambda placed: tuple(placed[1][key] for key in ("experiment", "scene", "asked", "who")))
+    unit, scale = unit_of(cells)
     columns = [("scene", "text"), ("pipeline", "text"), ("verdict", "state"), ("asked for", "text"), ("frames", "count"),
                ("mean of medians", "time"), ("slowest frame", "time"), ("pairs a frame", "number"),
                ("contacts a frame", "number")]
@@ -159,8 +136,11 @@ def tables_of(cells: list[dict[str, Any]], stress: list[dict[str, Any]]) -> list
     placed = list(enumerate(cells))
     builds, frames, others = ([(place, data) for place, data in placed if data["operation"] in operations]
                               for operations in (("build", "refit"), ("collide",), ("accuracy",)))
-    missing = [(place, data) for place, data in placed if data["state"] in WITHOUT_TIMES]
-    tables = [missing_table(missing)] if missing else []
+    tables = []
+    if missing := [(place, data) for place, data in placed if data["state"] in WITHOUT_TIMES]:
+        table = begin("Without a time, and why", missing, "who")
+        table.add("why", "text", lambda data: data["why"] or "no reason given")
+        tables.append(table.data())
     if builds:
         tables.append(times_table("Builds", builds, "builder", TREE,
                                   "Whole: the sum of the stages. Stages: medians. Each time leads to its samples."))
@@ -172,8 +152,10 @@ def tables_of(cells: list[dict[str, Any]], stress: list[dict[str, Any]]) -> list
     if others:
         tables.append(times_table("Accuracy", others, "method", ["pairs_count", "missed_count", "false_count", "sah_cost"],
                                   "Times beside errors. Each time leads to its samples."))
-    if any(data["counters"] for data in cells):
-        tables.append(counters_table("All counters", placed, "who") | {"folded": True})
+    if counters := sorted({name for data in cells for name in data["counters"]}):
+        table = begin("All counters", placed, "who")
+        table.counters(counters)
+        tables.append(table.data() | {"folded": True})
     if stress:
         tables.append(stress_table(stress))
     return tables

@@ -1,6 +1,4 @@
 """Files that a command writes, named by an option: checked before anything is done, and held until the command ends."""
-from __future__ import annotations
-
 import contextlib
 import os
 import stat
@@ -25,8 +23,6 @@ def reserved(path: str, option: str, force: bool, inputs: Iterable[str] = (),
     """Keeps other processes from writing the file. Raises WrongUsage if it is a folder, packed, one of the inputs, or an earlier
     file that neither `force` nor `may_replace`, which is asked with its text, lets go; Refused if it cannot be written or
     another process has reserved it. No folder is made. Devices, pipes and the standard output are nobody's."""
-    if not path:
-        raise WrongUsage(f"{option} names no file or folder")
     if os.path.isdir(path):
         raise WrongUsage(f"{option}: {path} is a folder; name a file in it")
     if os.path.splitext(path)[1] == ".xz":

@@ -1,48 +1,40 @@
-"""The only reader of result files (results/schema): refuses what must not be plotted, and does the statistics.
-
-Files hold raw samples; medians and quantiles are taken here and nowhere else.
-"""
-from __future__ import annotations
-
+"""The only reader of result files (results/schema): refuses what must not be plotted."""
 import functools
 import json
 import os
 import pathlib
+from collections import defaultdict
 from dataclasses import dataclass, field
 from typing import Any
-
-import numpy
 
 import documents
 import names
 import shape
-from cells import Cell
+from cells import Cell, Quantiles, grouped, median, quantiles  # noqa: F401  (for figures, which read results alone)
 from documents import FOLDER, MAJOR, check_of
 from json_files import Refused, parsed
 
 PAPER = FOLDER / "paper"
-
-
-@dataclass(frozen=True)
-class Quantiles:
-    """Of one quantity over a cell's samples."""
-
-    p10: float
-    median: float
-    p90: float
+USUAL_COSTS = (1.2, 1.0)  # Aila, Karras and Laine 2013: of an inner node and of a triangle
 
 
 @dataclass
 class Run:
-    """A result file: its circumstances and its cells, with those that have no numbers apart."""
+    """A result file, `document`; of one that figures are made of, its cells, with those that have no numbers apart."""
 
     path: pathlib.Path
-    facts: dict[str, Any]
-    cells: list[Cell]
-    without_numbers: list[dict[str, Any]]
-    stress: list[dict[str, Any]]  # what `bvhbench stress` found, as in the file; empty before format 1.6
+    document: dict[str, Any]
+    cells: list[Cell] = field(default_factory=list)
+    without_numbers: list[Cell] = field(default_factory=list)
 
-    document: dict[str, Any] = field(default_factory=dict, repr=False)  # as it is in the file
+    @property
+    def facts(self) -> dict[str, Any]:
+        return self.document["run"]
+
+    @property
+    def stress(self) -> list[dict[str, Any]]:
+        """What `bvhbench stress` found, as in the file; empty before format 1.6."""
+        return self.document.get("stress", [])
 
     @functools.cached_property
     def all_cells(self) -> list[Cell]:
@@ -50,13 +42,9 @@ class Run:
         return [Cell(cell) for cell in self.document["cells"]]
 
     def copy_rate_of(self, cell: Cell) -> float:
-        """Of the run that the cell is from; 0 if it was not measured."""
+        """The copy rate of the run that the cell is from; 0 if it was not measured."""
         rates = {source["id"]: source.get("copy_rate_bytes_per_s", 0) for source in self.document.get("merged_from", [])}
         return rates.get(cell.raw.get("run"), 0) or self.copy_rate or 0
-
-    @property
-    def device(self) -> str:
-        return self.facts["device"]["name"]
 
     @property
     def copy_rate(self) -> float | None:
@@ -74,21 +62,19 @@ class Run:
 
     @property
     def costs(self) -> tuple[float, float]:
-        """Of an inner node and of a triangle, in sah_cost and epo."""
-        costs = self.facts.get("node_costs", {})  # before format 1.2 there were only Aila's
-        return float(costs.get("inner", 1.2)), float(costs.get("triangle", 1.0))
+        """What an inner node and a triangle cost in sah_cost and epo."""
+        return costs_of(self.facts)
 
     def of(self, experiment: str) -> list[Cell]:
         return [cell for cell in self.builds if cell.experiment == experiment]
 
-    def has_frames(self, experiment: str) -> bool:
-        return any(cell.experiment == experiment and cell.operation == "collide" and cell.samples for cell in self.cells)
+    def all_frames(self, experiment: str) -> list[Cell]:
+        """Whole frames, from vertices to pairs or contacts."""
+        return [cell for cell in self.cells if cell.experiment == experiment and cell.operation == "collide" and cell.samples]
 
     def frames(self, experiment: str) -> list[Cell]:
-        """Whole frames, from vertices to pairs or contacts. Raises Refused if there are none."""
-        cells = [cell for cell in self.cells
-                 if cell.experiment == experiment and cell.operation == "collide" and cell.samples]
-        if not cells:
+        """As all_frames. Raises Refused if there are none."""
+        if not (cells := self.all_frames(experiment)):
             raise Refused(f"{self.path}: no measured frame of {experiment}")
         return cells
 
@@ -101,17 +87,12 @@ class Run:
 
     def left_out(self, experiment: str) -> list[str]:
         """Who has no numbers where and why, a sentence for each group of builders or pipelines and scenes."""
-        scenes: dict[tuple[str, str, str], dict[str, list[int]]] = {}
-        for cell in self.without_numbers:
-            if cell["experiment"] == experiment:
-                why = (called(cell), cell["status"], cell["reason"])
-                frames = scenes.setdefault(why, {}).setdefault(names.scene(cell["scene"]), [])
-                if "collider" in cell:
-                    frames.append(cell["scene"].get("frame", 0))
-        builders: dict[tuple[str, str, str], list[str]] = {}
-        for (builder, status, reason), where in scenes.items():
-            places = [scene + (f" ({names.frames(frames)})" if frames else "") for scene, frames in where.items()]
-            builders.setdefault((status, ", ".join(places), reason), []).append(builder)
+        builders: dict[tuple[str, str, str], list[str]] = defaultdict(list)
+        missing = [cell for cell in self.without_numbers if cell.experiment == experiment]
+        for (builder, status, reason), cells in grouped(missing, lambda cell: (cell.called, cell.status, cell.reason)).items():
+            places = [scene + (f" ({names.frames([cell.frame for cell in there])})" if there[0].collider else "")
+                      for scene, there in grouped(cells, lambda cell: cell.scene).items()]
+            builders[status, ", ".join(places), reason].append(builder)
         return [f"{('; ' if ',' in ''.join(who) else ', ').join(who)} {status} on {where}: {reason}"
                 for (status, where, reason), who in builders.items()]
 
@@ -126,12 +107,18 @@ class Run:
         counts = sorted({len(cell.samples) for cell in self.cells})
         samples = "–".join(str(count) for count in dict.fromkeys((counts[0], counts[-1]))) if counts else "0"
         each = "" if self.stress else f"; {samples} sample{'' if samples == '1' else 's'} a cell"
-        return (f"{self.device}, driver {device['driver']}, {device['opencl_c']}; "
+        return (f"{device['name']}, driver {device['driver']}, {device['opencl_c']}; "
                 f"commit {program['commit'][:10]}{state}{build}{each}")
 
 
-def quantiles(values: numpy.ndarray) -> Quantiles:
-    return Quantiles(*(float(value) for value in numpy.quantile(values, (0.1, 0.5, 0.9))))
+def costs_of(facts: dict[str, Any]) -> tuple[float, float]:
+    """The costs of an inner node and a triangle. Files before format 1.2 have the usual ones."""
+    costs = facts.get("node_costs", {})
+    return tuple(float(costs.get(key, usual)) for key, usual in zip(("inner", "triangle"), USUAL_COSTS))
+
+
+def costs_text(costs: tuple[float, float]) -> str:
+    return "an inner node {:.10g}, a triangle {:.10g}".format(*costs)
 
 
 def is_result(path: pathlib.Path) -> bool:
@@ -170,22 +157,14 @@ def load(path: pathlib.Path) -> Run:
         raise Refused(f"{path}: merged from several devices, which no figure tells apart: {'; '.join(devices)}")
     for hook, value in document["run"].get("test_hooks", {}).items():
         raise Refused(f"{path}: made under the test hook {hook}={value}: it is no result")
-    measured = [cell for cell in document["cells"] if cell["status"] == "measured"]
-    without = [cell for cell in document["cells"] if cell["status"] != "measured"]
-    return Run(path, document["run"], [cell_of(path, cell) for cell in measured], without,
-               document.get("stress", []), document)
+    return Run(path, document, [cell_of(path, cell) for cell in document["cells"] if cell["status"] == "measured"],
+               [Cell(cell) for cell in document["cells"] if cell["status"] != "measured"])
 
 
 def everything(path: str | os.PathLike[str]) -> Run:
     """Read a result file with what no figure may be made of: wrong answers, merged devices, runs under test hooks. Raises Refused
     for what is no result file."""
-    document = documents.read(os.fspath(path))
-    return Run(pathlib.Path(path), document["run"], [], [], document.get("stress", []), document)
-
-
-def called(raw: dict[str, Any]) -> str:
-    """As Cell.called, of a cell that may have no numbers."""
-    return Cell(raw).called
+    return Run(pathlib.Path(path), documents.read(os.fspath(path)))
 
 
 def cell_of(path: pathlib.Path, raw: dict[str, Any]) -> Cell:
@@ -200,3 +179,7 @@ def cell_of(path: pathlib.Path, raw: dict[str, Any]) -> Cell:
 def printed(name: str) -> dict[str, Any]:
     """Numbers printed in the paper: 'table1' to 'table4', 'fig8'."""
     return json.loads((PAPER / f"{name}.json").read_text(encoding="utf-8"))
+
+
+def printed_device(name: str) -> str:
+    return printed(name)["device"].removeprefix("NVIDIA GeForce ")

@@ -8,16 +8,11 @@ stage must read and write at the run's own copy rate, and its launches at the ru
 do. Both axes are logarithmic; a line at 1 is a stage that nothing but the memory and the driver holds up, and below
 1 the caches have helped. Builds have one scale, each of the query's stages its own.
 """
-from __future__ import annotations
-
-import math
 import sys
-from collections.abc import Hashable
 from typing import NamedTuple
 
 import matplotlib.pyplot as plt
 import numpy
-from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
 import figure
 import names
@@ -36,12 +31,10 @@ COLLIDERS = {"leaf": style.Look("#000000", "*"), "group": style.Look("#E69F00", 
 
 
 class Line(NamedTuple):
-    """One builder's or collider's ratios in a panel, by triangles."""
-
     label: str
     look: style.Look
     dash: str
-    points: list[tuple[int, results.Quantiles]]
+    points: figure.Curve
 
 
 def floor_s(run: results.Run, cell: results.Cell, stage: str) -> float | None:
@@ -52,15 +45,13 @@ def floor_s(run: results.Run, cell: results.Cell, stage: str) -> float | None:
     return numbers["moved_bytes"] / run.copy_rate + numbers["launches"] * run.launch_cost_s
 
 
-def ratio(run: results.Run, cell: results.Cell, stage: str) -> results.Quantiles | None:
-    """Of the stage's times to its floor."""
-    floor = floor_s(run, cell, stage) if cell.samples else None
-    return results.quantiles(cell.times_s(stage) / floor) if floor else None
+def points(run: results.Run, cells: list[results.Cell], stage: str) -> figure.Curve:
+    """The ratios of the stage's times to its floor."""
+    def ratios(cell: results.Cell) -> numpy.ndarray:
+        floor = floor_s(run, cell, stage) if cell.samples else None
+        return cell.times_s(stage) / floor if floor else numpy.empty(0)
 
-
-def points(run: results.Run, cells: list[results.Cell], stage: str) -> list[tuple[int, results.Quantiles]]:
-    found = [(cell.triangles, ratio(run, cell, stage)) for cell in cells]
-    return sorted((point for point in found if point[1] is not None), key=lambda point: point[0])
+    return figure.by_size(cells, ratios)
 
 
 def build_lines(run: results.Run, stage: str) -> list[Line]:
@@ -73,46 +64,28 @@ def build_lines(run: results.Run, stage: str) -> list[Line]:
 
 def query_lines(run: results.Run, stage: str) -> list[Line]:
     """By collider; lines of one collider over several trees differ in their dashes."""
-    if not run.has_frames("roofline"):
-        return []
-    groups: dict[Hashable, list[results.Cell]] = {}
-    for cell in run.frames("roofline"):
-        groups.setdefault((cell.collider, cell.collider_options, cell.builder, cell.options), []).append(cell)
-    trees = list(dict.fromkeys((cells[0].builder, cells[0].options) for cells in groups.values()
-                               if cells[0].builder != "none"))
+    groups = pipelines.grouped_by_pipeline(run.all_frames("roofline"))
+    trees = list(dict.fromkeys(style.series_of(cells[0]) for cells in groups if cells[0].builder != "none"))
     lines = []
-    for cells in groups.values():
+    for cells in groups:
         first = cells[0]
         if first.collider not in COLLIDERS:
             raise results.Refused(f"plots/roofline.py has no look for the collider '{first.collider}'")
         alone = len(trees) == 1 or first.builder == "none"
         label = names.variant(first.collider, dict(first.collider_options)) if alone else first.called
-        dash = 0 if alone else trees.index((first.builder, first.options)) % len(style.VARIANT_LINES)
+        dash = 0 if alone else trees.index(style.series_of(first)) % len(style.VARIANT_LINES)
         lines.append(Line(label, COLLIDERS[first.collider], style.VARIANT_LINES[dash], points(run, cells, stage)))
     return [line for line in lines if line.points]
 
 
-def draw_panel(axes: plt.Axes, stage: str, lines: list[Line]) -> None:
+def draw_panel(axes: plt.Axes, stage: str, lines: list[Line], sizes: list[int]) -> None:
     axes.axhline(1, color="black", linewidth=0.8)
     for line in lines:
-        sizes = [triangles for triangles, _ in line.points]
-        low, middle, high = ([getattr(quantiles, name) for _, quantiles in line.points]
-                             for name in ("p10", "median", "p90"))
-        axes.fill_between(sizes, low, high, color=line.look.colour, alpha=0.2, linewidth=0)
-        axes.plot(sizes, middle, color=line.look.colour, marker=line.look.marker, markersize=3, linestyle=line.dash,
-                  label=line.label)
+        figure.band(axes, line.points, lambda ratios: ratios, line.look, 0.2, markersize=3, linestyle=line.dash,
+                    label=line.label)
     axes.set_title(stage, loc="left")
-
-
-def dress(panels: list[plt.Axes], sizes: list[int]) -> None:
-    base = 16 if max(sizes) / min(sizes) > 2**10 else 4
-    for axes in panels:
-        axes.set_xscale("log", base=2)
-        axes.set_yscale("log")
-        axes.xaxis.set_major_locator(LogLocator(base=base, numticks=9))
-        axes.xaxis.set_minor_locator(NullLocator())
-        axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"$2^{{{round(math.log2(value))}}}$"))
-        axes.set_xlabel("triangles")
+    figure.powers_of_two(axes, figure.step_between(sizes), 9)
+    axes.set(yscale="log", xlabel="triangles")
 
 
 def scale(panels: list[plt.Axes]) -> None:
@@ -130,22 +103,16 @@ def draw(run: results.Run) -> plt.Figure:
     if not builds and not queries:
         raise results.Refused(f"{run.path}: no measured cell of roofline has a stage with a floor")
     stages = builds | queries
-    rows = math.ceil(len(stages) / COLUMNS)
-    drawing, grid = plt.subplots(rows, min(COLUMNS, len(stages)), figsize=(style.PAGE_WIDTH, 0.7 + 1.9 * rows),
-                                 layout="constrained", squeeze=False)
-    panels = list(grid.flat)
-    for axes in panels[len(stages):]:
-        axes.remove()
-    panels = panels[:len(stages)]
+    drawing, panels, columns = figure.panels(len(stages), COLUMNS, (0.7, 1.9))
+    sizes = [size for lines in stages.values() for line in lines for size, _ in line.points]
     for axes, (stage, lines) in zip(panels, stages.items()):
-        draw_panel(axes, stage, lines)
-    dress(panels, [size for lines in stages.values() for line in lines for size, _ in line.points])
+        draw_panel(axes, stage, lines, sizes)
     if builds:
         scale(panels[:len(builds)])
     for axes in panels[len(builds):]:
         scale([axes])
-    for row in range(rows):
-        panels[row * COLUMNS].set_ylabel("time over its floor")
+    for axes in panels[::columns]:
+        axes.set_ylabel("time over its floor")
     handles: dict[str, plt.Line2D] = {}
     for axes in panels:
         for handle, label in zip(*axes.get_legend_handles_labels()):

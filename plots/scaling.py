@@ -7,15 +7,11 @@ A column a stage and one for all of them, a line a builder. Above the median tim
 triangles: a line that falls pays for its launches, one that is level is proportional to the mesh. Stages that
 builders share lie over each other.
 """
-from __future__ import annotations
-
-import math
 import sys
 from collections.abc import Callable
 
 import matplotlib.pyplot as plt
 import numpy
-from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
 import figure
 import results
@@ -24,42 +20,18 @@ import style
 WHOLE = "whole build"
 COLUMNS, LINE = 4, 120  # of the legend: columns, and letters that they have room for together
 Times = Callable[[results.Cell], numpy.ndarray]  # seconds, one per sample
-Curve = list[tuple[int, results.Quantiles]]  # triangles, seconds; by size
 
 
 def stages_of(cells: list[results.Cell]) -> list[str]:
     """Every stage that took time somewhere, in the order of the list in docs/measuring.md."""
-    names = dict.fromkeys(stage for cell in cells for sample in cell.samples for stage in sample)
-    known = ["bounds", "codes", "sort", "order", "gather", "hierarchy", "refit"]
-    return [stage for stage in known if stage in names]
-
-
-def curve(cells: list[results.Cell], times: Times) -> Curve:
-    points = [(cell.triangles, results.quantiles(seconds)) for cell in cells if len(seconds := times(cell))]
-    return sorted((point for point in points if point[1].p10 > 0), key=lambda point: point[0])
-
-
-def draw_curve(axes: plt.Axes, points: Curve, per_triangle: bool, series: style.Series,
-               among: list[style.Series]) -> None:
-    """Milliseconds, or nanoseconds a triangle."""
-    look = style.look(series[0])
-    sizes = numpy.array([triangles for triangles, _ in points])
-    scale = 1e9 / sizes if per_triangle else 1e3
-    low, middle, high = (scale * numpy.array([getattr(seconds, name) for _, seconds in points])
-                         for name in ("p10", "median", "p90"))
-    axes.fill_between(sizes, low, high, color=look.colour, alpha=0.25, linewidth=0)
-    axes.plot(sizes, middle, color=look.colour, marker=look.marker, markersize=3, label=style.label(series, among),
-              linestyle=style.VARIANT_LINES[style.variant(series, among)])
+    there = {stage for cell in cells for sample in cell.samples for stage in sample}
+    return [stage for stage in ("bounds", "codes", "sort", "order", "gather", "hierarchy", "refit") if stage in there]
 
 
 def dress(upper: list[plt.Axes], lower: list[plt.Axes], sizes: list[int]) -> None:
-    base = 16 if max(sizes) / min(sizes) > 2**10 else 4  # of few sizes every other has a number
     for axes in (*upper, *lower):
         axes.set_yscale("log")
-        axes.set_xscale("log", base=2)
-        axes.xaxis.set_major_locator(LogLocator(base=base, numticks=9))
-        axes.xaxis.set_minor_locator(NullLocator())
-        axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"$2^{{{round(math.log2(value))}}}$"))
+        figure.powers_of_two(axes, figure.step_between(sizes), 9)
         axes.tick_params(labelleft=axes in (upper[0], lower[0]))
     for line, what in ((upper, "time, ms"), (lower, "per triangle, ns")):
         line[0].set_ylabel(what)
@@ -69,23 +41,25 @@ def dress(upper: list[plt.Axes], lower: list[plt.Axes], sizes: list[int]) -> Non
 
 
 def draw(run: results.Run, experiment: str = "scaling", cells: list[results.Cell] | None = None) -> plt.Figure:
-    """Of all the experiment's cells, unless some are chosen."""
+    """Draws all the experiment's cells, unless `cells` are given."""
     cells = [cell for cell in (run.of(experiment) if cells is None else cells) if cell.samples]
     stages = stages_of(cells)
     if not stages:
         raise results.Refused(f"{run.path}: no measured cell of {experiment} has a stage")
     among = style.in_order(cells)
     columns: dict[str, Times] = {stage: lambda cell, stage=stage: cell.times_s(stage) for stage in stages}
-    columns[WHOLE] = lambda cell: cell.whole_times_s()
+    columns[WHOLE] = lambda cell: cell.times_s()
     drawing, (upper, lower) = plt.subplots(2, len(columns), figsize=(style.PAGE_WIDTH, 4.2), sharex=True, sharey="row",
                                            layout="constrained", squeeze=False)
     for place, (name, times) in enumerate(columns.items()):
         upper[place].set_title(name, loc="left")
         for series in among:
-            points = curve([cell for cell in cells if style.series_of(cell) == series], times)
-            if points:
-                draw_curve(upper[place], points, False, series, among)
-                draw_curve(lower[place], points, True, series, among)
+            curve = figure.by_size([cell for cell in cells if style.series_of(cell) == series], times)
+            points = [(size, seconds) for size, seconds in curve if seconds.p10 > 0]
+            sizes = numpy.array([size for size, _ in points])
+            for axes, scale in ((upper[place], 1e3), (lower[place], 1e9 / sizes)) if points else ():
+                figure.band(axes, points, lambda seconds, scale=scale: scale * seconds, style.look(series[0]), markersize=3,
+                            **style.line(series, among))
     dress(list(upper), list(lower), [cell.triangles for cell in cells])
     handles = upper[-1].get_legend_handles_labels()[0]
     longest = max((len(handle.get_label()) for handle in handles), default=0)

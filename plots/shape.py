@@ -4,23 +4,20 @@ Checks are made of the schema once, and a place in the value is put into words o
 takes 0.3 s, where Debian's fastjsonschema takes 2.5 s. Keys that the schema does not know may hold anything, since a newer
 minor format may have them.
 """
-from __future__ import annotations
-
 import math
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 MOST_LEVELS = 20  # of lists and objects in what may be anything
 LARGEST = 1e100  # so that sums and products of numbers are still numbers
 KINDS = {"object": dict, "array": list, "string": str, "boolean": bool}
 
-Check = Callable[[Any], None]
+Json = dict[str, Any]
+Check = Callable[[Any], None]  # raises Wrong
 
 
 class Wrong(Exception):
-    """What is wrong in a value, and where."""
-
     def __init__(self, what: str):
         super().__init__(what)
         self.what, self.place = what, ""
@@ -28,13 +25,13 @@ class Wrong(Exception):
     def __str__(self) -> str:
         return f"{self.place.lstrip('.')} {self.what}".lstrip()
 
-    def inside(self, key: str | int) -> Wrong:
+    def inside(self, key: str | int) -> "Wrong":
         """The same, seen from the object or list around it."""
         self.place = (f"[{key}]" if isinstance(key, int) else f".{key}") + self.place
         return self
 
 
-def check_of(schema: dict[str, Any], root: dict[str, Any]) -> Check:
+def check_of(schema: Json, root: Json) -> Check:
     """Raises Wrong for a value of another shape. Of a schema with a keyword that is not in MAKERS, raises KeyError."""
     silent = SILENT | ({"additionalProperties"} if "properties" in schema else set())
     return all_of([MAKERS[keyword](asked, schema, root) for keyword, asked in schema.items() if keyword not in silent])
@@ -59,89 +56,57 @@ def check_any(value: Any, levels: int = MOST_LEVELS) -> None:
             check_any(item, levels - 1)
 
 
-def same_as(reference: str, root: dict[str, Any]) -> Check:
-    return check_of(root["$defs"][reference.removeprefix("#/$defs/")], root)
-
-
-def of_type(name: str) -> Check:
-    if name in NUMBERS:
-        return NUMBERS[name]
-    kind = KINDS[name]
-    return where(lambda value: type(value) is kind, f"is no {name}")
-
-
-def check_number(value: Any) -> None:
-    if type(value) is not int and not isinstance(value, float):
-        raise Wrong("is no number")
-    if not -LARGEST <= value <= LARGEST:
-        raise Wrong("is too large a number")
-
-
-def check_integer(value: Any) -> None:
-    if type(value) is not int:
-        raise Wrong("is no integer")
-    if not -(2**63) <= value < 2**64:
-        raise Wrong("is too large a number")
-
-
-NUMBERS = {"number": check_number, "integer": check_integer}
-
-
-def of_properties(known: dict[str, Any], others: dict[str, Any] | bool, root: dict[str, Any]) -> Check:
-    checks = {key: check_of(schema, root) for key, schema in known.items()}
-    other = check_of(others, root) if isinstance(others, dict) else check_any
-
-    def check(value: Any) -> None:
-        if type(value) is dict:
-            for key, item in value.items():
-                try:
-                    checks.get(key, other)(item)
-                except Wrong as wrong:
-                    raise wrong.inside(key)
-
-    return check
-
-
-def of_items(schema: dict[str, Any], root: dict[str, Any]) -> Check:
-    one = check_of(schema, root)
-
-    def check(value: Any) -> None:
-        if type(value) is list:
-            for place, item in enumerate(value):
-                try:
-                    one(item)
-                except Wrong as wrong:
-                    raise wrong.inside(place)
-
-    return check
-
-
-def requiring(keys: list[str]) -> Check:
-    def check(value: Any) -> None:
-        for key in keys:
-            if type(value) is dict and key not in value:
-                raise Wrong(f"has no '{key}'")
-
-    return check
-
-
-def of_names(schema: dict[str, Any], root: dict[str, Any]) -> Check:
-    one = check_of(schema, root)
-
-    def check(value: Any) -> None:
-        for key in value if type(value) is dict else ():
-            try:
-                one(key)
-            except Wrong as wrong:
-                raise Wrong(f"has the key '{key}', which {wrong.what}")
-
-    return check
-
-
 def where(holds: Callable[[Any], bool], what: str) -> Check:
     def check(value: Any) -> None:
         if not holds(value):
             raise Wrong(what)
+
+    return check
+
+
+def of_type(name: str, schema: Json) -> Check:
+    if name in KINDS:
+        right = where(lambda value: type(value) is KINDS[name], f"is no {name}")
+    elif name == "integer":
+        right = all_of([where(lambda value: type(value) is int, "is no integer"),
+                        where(lambda value: -(2**63) <= value < 2**64, "is too large a number")])
+    else:
+        right = all_of([where(lambda value: type(value) is int or isinstance(value, float), "is no number"),
+                        where(lambda value: -LARGEST <= value <= LARGEST, "is too large a number")])
+    return all_of([right] + [check_any] * (schema.keys() <= {"type", *SILENT}))
+
+
+def of_parts(kind: type, parts: Callable[[Any], Iterable[tuple[str | int, Any]]],
+             check_for: Callable[[str | int], Check]) -> Check:
+    """Checks each part of an object or list by the check for its key or place."""
+    def check(value: Any) -> None:
+        for key, item in parts(value) if type(value) is kind else ():
+            try:
+                check_for(key)(item)
+            except Wrong as wrong:
+                raise wrong.inside(key)
+
+    return check
+
+
+def of_properties(known: Json, others: Json | bool, root: Json) -> Check:
+    checks = {key: check_of(schema, root) for key, schema in known.items()}
+    other = check_of(others, root) if isinstance(others, dict) else check_any
+    return of_parts(dict, dict.items, lambda key: checks.get(key, other))
+
+
+def of_items(schema: Json, root: Json) -> Check:
+    one = check_of(schema, root)
+    return of_parts(list, enumerate, lambda _: one)
+
+
+def of_names(schema: Json, root: Json) -> Check:
+    one = check_of(schema, root)
+
+    def check(value: Any) -> None:
+        for key in value if type(value) is dict else ():
+            for wrong in wrongs([one], key):
+                raise Wrong(f"has the key '{key}', which {wrong.what}")
 
     return check
 
@@ -151,7 +116,7 @@ def among(values: list[Any]) -> Check:
 
 
 def wrongs(checks: list[Check], value: Any) -> list[Wrong]:
-    """Of those checks that do not hold."""
+    """What the checks raise that do not hold."""
     found = []
     for check in checks:
         try:
@@ -161,7 +126,7 @@ def wrongs(checks: list[Check], value: Any) -> list[Wrong]:
     return found
 
 
-def fitting(schemas: list[dict[str, Any]], root: dict[str, Any], most: int) -> Check:
+def fitting(schemas: list[Json], root: Json, most: int) -> Check:
     """A value that fits at least one of the schemas and at most `most` of them."""
     checks = [check_of(schema, root) for schema in schemas]
 
@@ -175,14 +140,9 @@ def fitting(schemas: list[dict[str, Any]], root: dict[str, Any], most: int) -> C
     return check
 
 
-def conditional(condition: dict[str, Any], then: dict[str, Any], root: dict[str, Any]) -> Check:
+def conditional(condition: Json, then: Json, root: Json) -> Check:
     asked, check_then = check_of(condition, root), check_of(then, root)
-
-    def check(value: Any) -> None:
-        if not wrongs([asked], value):
-            check_then(value)
-
-    return check
+    return lambda value: None if wrongs([asked], value) else check_then(value)
 
 
 def length(least: int, most: float) -> Check:
@@ -192,13 +152,14 @@ def length(least: int, most: float) -> Check:
 
 SILENT = {"$schema", "$id", "$defs", "title", "description", "format", "then"}
 # By keyword: what the schema asks, the schema around it, the whole schema.
-MAKERS: dict[str, Callable[[Any, dict[str, Any], dict[str, Any]], Check]] = {
-    "$ref": lambda asked, _, root: same_as(asked, root),
-    "type": lambda asked, schema, root: all_of([of_type(asked)] + [check_any] * (schema.keys() <= {"type", *SILENT})),
+MAKERS: dict[str, Callable[[Any, Json, Json], Check]] = {
+    "$ref": lambda asked, _, root: check_of(root["$defs"][asked.removeprefix("#/$defs/")], root),
+    "type": lambda asked, schema, root: of_type(asked, schema),
     "properties": lambda asked, schema, root: of_properties(asked, schema.get("additionalProperties", True), root),
     "additionalProperties": lambda asked, schema, root: of_properties({}, asked, root),
     "propertyNames": lambda asked, _, root: of_names(asked, root),
-    "required": lambda asked, _, root: requiring(asked),
+    "required": lambda asked, _, root: all_of([
+        where(lambda value, key=key: type(value) is not dict or key in value, f"has no '{key}'") for key in asked]),
     "items": lambda asked, _, root: of_items(asked, root),
     "minItems": lambda asked, _, root: length(asked, math.inf),
     "minProperties": lambda asked, _, root: length(asked, math.inf),

@@ -7,8 +7,6 @@ A cell is white where nothing was wrong, and says how many pairs were missed and
 that the system failed: crashed, hung, or gave no answer. Builders stand together, and so do a collider's trees and
 forms; of several the worst is shown. Libraries as their manuals show them are to the right of the line.
 """
-from __future__ import annotations
-
 import sys
 from enum import IntEnum
 from typing import Any, NamedTuple
@@ -22,8 +20,6 @@ import style
 
 
 class State(IntEnum):
-    """From what says the least on."""
-
     HOLDS = 0
     REFUSED = 1
     WRONG = 2

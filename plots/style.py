@@ -1,6 +1,4 @@
 """How every figure looks: one colour, marker and hatch per builder, type sizes, and how pictures are written."""
-from __future__ import annotations
-
 import io
 import pathlib
 import warnings
@@ -58,6 +56,9 @@ LOOKS = {
 VARIANT_LINES = ("-", "--", ":", "-.")
 VARIANT_HATCHES = ("", "\\\\\\\\", "xxxx", "oooo")
 
+PAPER_MARK = {"marker": "d", "markersize": 4.5, "markerfacecolor": "white", "markeredgecolor": "black",
+              "markeredgewidth": 0.8, "linestyle": "none"}
+
 Series = tuple[str, tuple[tuple[str, str], ...]]  # a builder's name and its options
 
 
@@ -94,6 +95,14 @@ def label(series: Series, among: list[Series]) -> str:
     differing = [f"{key} {value}" for key, value in series[1]
                  if any((key, value) not in options for options in others)]
     return series[0] + (f" ({', '.join(differing)})" if differing else "")
+
+
+def hatch(series: Series, among: list[Series]) -> str:
+    return look(series[0]).hatch or VARIANT_HATCHES[variant(series, among)]
+
+
+def line(series: Series, among: list[Series]) -> dict[str, str]:
+    return {"label": label(series, among), "linestyle": VARIANT_LINES[variant(series, among)]}
 
 
 def set_up() -> None:

@@ -7,12 +7,9 @@ A panel a sequence, a bar a pipeline: pairs of vertices and faces and of edges, 
 frames' vertices to written pairs of both. The bar's paler part is what the queries alone would make it. A pipeline that
 has one of the two queries has a bar of that one, and says so.
 """
-from __future__ import annotations
-
 import sys
 
 import matplotlib.pyplot as plt
-import numpy
 from matplotlib.patches import Patch
 
 import figure
@@ -36,10 +33,10 @@ class Step:
         return sum(cell.counters.get(counter, 0) for cell in self.cells)
 
     def seconds(self) -> float:
-        return sum(results.quantiles(cell.whole_times_s()).median for cell in self.cells)
+        return sum(results.median(cell.times_s()) for cell in self.cells)
 
     def query_seconds(self) -> float:
-        return sum(float(numpy.median(sum(cell.times_s(stage) for stage in QUERY if stage in cell.samples[0])))
+        return sum(results.median(sum(cell.times_s(stage) for stage in QUERY if stage in cell.samples[0]))
                    for cell in self.cells)
 
     @property
@@ -48,21 +45,14 @@ class Step:
 
 
 def steps_of(cells: list[results.Cell]) -> dict[str, list[Step]]:
-    """Of each scene, in the file's order."""
-    grouped: dict[str, dict[tuple, list[results.Cell]]] = {}
-    for cell in cells:
-        options = tuple(option for option in cell.collider_options if option[0] != "pairs_of")
-        key = (cell.collider, options, cell.builder, cell.options)
-        grouped.setdefault(cell.scene, {}).setdefault(key, []).append(cell)
-    return {scene: [Step(group) for group in groups.values()] for scene, groups in grouped.items()}
+    return {scene: [Step(group) for group in pipelines.grouped_by_pipeline(there, "pairs_of")]
+            for scene, there in results.grouped(cells, lambda cell: cell.scene).items()}
 
 
 def title(steps: list[Step]) -> str:
     """What is asked and answered: the same for all pipelines that have both queries."""
     first = max(steps, key=lambda step: len(step.kinds))
-    cell = first.first
-    name = f"{cell.stand_in_for}* ({cell.scene})" if pipelines.stands_in(cell) else cell.scene
-    frames = len({one.frame for one in first.cells})
+    name, frames = pipelines.scene_name(first.first), len({one.frame for one in first.cells})
     text = f"{name}, {frames} step{'' if frames == 1 else 's'}: {first.total('pairs_count') * 1e-6:,.1f} M pairs"
     truth = first.total("ground_truth_pairs")
     return text + (f", {first.total('pairs_count') / truth:,.0f} for each of the ground truth" if truth else "")
@@ -79,16 +69,11 @@ def draw_cells(run: results.Run, cells: list[results.Cell], experiment: str) -> 
             pairs = step.total("pairs_count") * 1e-6
             whole, query = pairs / step.seconds(), pairs / step.query_seconds()
             axes.barh(row, query, height=0.72, color=bar.colour, alpha=0.35, linewidth=0)
-            axes.barh(row, whole, height=0.72, color=bar.colour, hatch=bar.hatch, edgecolor=pipelines.ink(bar.colour),
-                      linewidth=0)
+            pipelines.bar(axes, row, whole, bar)
             axes.text(max(whole, query), row, f" {whole:,.{0 if whole >= 100 else 1}f}", va="center", fontsize=style.SMALL)
-        axes.set_yticks(range(len(steps)), [step.label for step in steps], fontsize=style.SMALL)
-        axes.set_ylim(len(steps) - 0.4, -0.6)
+        pipelines.dress_rows(axes, [step.label for step in steps])
         axes.set_title(title(steps), loc="left", x=-0.4)
         axes.margins(x=0.08)
-        axes.grid(axis="x")
-        axes.grid(visible=False, axis="y")
-        axes.tick_params(axis="y", length=0)
     grid[-1, 0].set_xlabel("million pairs a second")
     handles = [Patch(color="#555555", label="from two frames' vertices to pairs"),
                Patch(color="#555555", alpha=0.35, label="by the queries alone, trees given")]

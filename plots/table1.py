@@ -7,12 +7,9 @@ Above: median time, whiskers from the 10th to the 90th percentile, throughput in
 printed times, which are another machine's. Below: how near the builder comes to a plain copy of the bytes it
 must move, measured in the same run.
 """
-from __future__ import annotations
-
 import sys
 
 import matplotlib.pyplot as plt
-import numpy
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
@@ -24,8 +21,6 @@ STAGE = "hierarchy"
 GROUP_WIDTH = 0.88  # of the distance between two meshes, at most
 BAR_WIDTH = 0.16  # of that distance, at most, so that few builders do not make walls
 FOOT = 0.15  # of the panel's height, below the lowest value: where the numbers stand
-PAPER_MARK = {"marker": "d", "markersize": 4.5, "markerfacecolor": "white", "markeredgecolor": "black",
-              "markeredgewidth": 0.8, "linestyle": "none"}
 
 
 def scene_title(cell: results.Cell) -> str:
@@ -66,9 +61,8 @@ class Bars:
         look = style.look(cell.builder)
         place = self.series.index(series) - (len(self.series) - 1) / 2
         x = self.scenes.index(cell.scene) + place * self.width
-        hatch = look.hatch or style.VARIANT_HATCHES[style.variant(series, self.series)]
-        dress = {"width": 0.9 * self.width, "color": look.colour, "hatch": hatch, "edgecolor": "white",
-                 "linewidth": 0}
+        hatch = style.hatch(series, self.series)
+        dress = {"width": 0.9 * self.width, "color": look.colour, "hatch": hatch, "edgecolor": "white", "linewidth": 0}
         seconds = results.quantiles(cell.times_s(STAGE))
         spread = [[1e3 * (seconds.median - seconds.p10)], [1e3 * (seconds.p90 - seconds.median)]]
         self.time.bar(x, 1e3 * seconds.median, **dress)
@@ -79,14 +73,14 @@ class Bars:
                        bbox={"facecolor": look.colour, "linewidth": 0, "pad": 0} if hatch else None)
         printed = paper_time_ms(cell, self.rows)
         if printed is not None:
-            self.time.plot(x, printed, zorder=4, **PAPER_MARK)
+            self.time.plot(x, printed, zorder=4, **style.PAPER_MARK)
         moved = cell.moved_bytes(STAGE)
         if moved and self.copy_rate:
             self.rate.bar(x, 100 * moved / seconds.median / self.copy_rate, **dress)
 
     def scale(self, cells: list[results.Cell]) -> None:
         """A logarithmic axis that holds every value, ours and printed, above the foot."""
-        values = [1e3 * value for cell in cells for value in numpy.quantile(cell.times_s(STAGE), (0.1, 0.9))]
+        values = [1e3 * value for cell in cells for value in results.quantiles(cell.times_s(STAGE))]
         values += [printed for cell in cells if (printed := paper_time_ms(cell, self.rows)) is not None]
         low, high = min(values) / 1.2, max(values) * 1.3
         self.time.set_ylim(low / (high / low) ** (FOOT / (1 - FOOT)), high)
@@ -103,11 +97,10 @@ class Bars:
         self.rate.set(ylabel="% of copy rate")
         self.rate.set_ylim(0, max(100, self.rate.get_ylim()[1]))
         handles = [Patch(facecolor=style.look(series[0]).colour, edgecolor="white", linewidth=0,
-                         hatch=style.look(series[0]).hatch
-                         or style.VARIANT_HATCHES[style.variant(series, self.series)],
-                         label=style.label(series, self.series)) for series in self.series]
-        device = results.printed("table1")["device"].replace("NVIDIA GeForce ", "")
-        handles.append(Line2D([], [], **PAPER_MARK, label=f"printed in the paper ({device}, another machine)"))
+                         hatch=style.hatch(series, self.series), label=style.label(series, self.series))
+                   for series in self.series]
+        printed = f"printed in the paper ({results.printed_device('table1')}, another machine)"
+        handles.append(Line2D([], [], **style.PAPER_MARK, label=printed))
         self.time.legend(handles=handles, loc="lower center", bbox_to_anchor=(0.48, 1.0), ncols=5, columnspacing=1.2,
                            handlelength=1.4)
         copy = f"; copy rate {self.copy_rate / 1e9:,.0f} GB/s" if self.copy_rate else ""

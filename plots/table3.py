@@ -3,20 +3,13 @@
 
     plots/table3.py FILE... --out DIR
 """
-from __future__ import annotations
-
+import functools
 import sys
 
-import matplotlib.pyplot as plt
-
 import figure
-import frame_bars
-import results
+import table2
 
-
-def draw(run: results.Run) -> plt.Figure:
-    return frame_bars.draw(run, "table3")
-
+draw = functools.partial(table2.draw, table="table3")
 
 if __name__ == "__main__":
     sys.exit(figure.command_line("table3", __doc__, draw))

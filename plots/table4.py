@@ -7,8 +7,6 @@ Over each pair stands how many times the one is the other. The paper's printed c
 machine, so they can be compared with ours wherever the mesh is the same. They are left out for other costs of a
 node and a triangle than the usual ones.
 """
-from __future__ import annotations
-
 import sys
 
 import matplotlib.pyplot as plt
@@ -23,13 +21,9 @@ RADIX = ("apetrei", "apetrei-fused", "karras", "lbvh-levels", "radix-reference")
 OIBVH = ("oibvh-multi", "oibvh-single", "oibvh-reference")
 KINDS = (("apetrei", RADIX), ("oibvh-multi", OIBVH))  # the paper's word for a kind of tree, and ours
 WIDTH = 0.36
-PAPER_COSTS = (1.2, 1.0)
-PAPER_MARK = {"marker": "d", "markersize": 4.5, "markerfacecolor": "white", "markeredgecolor": "black",
-              "markeredgewidth": 0.8, "linestyle": "none"}
 
 
 def cost_of(cells: list[results.Cell], builders: tuple[str, ...]) -> tuple[str, float] | None:
-    """The first of these builders that has a cost, and the cost."""
     for builder in builders:
         for cell in cells:
             if cell.builder == builder and "sah_cost" in cell.counters:
@@ -52,7 +46,7 @@ def draw_mesh(axes: plt.Axes, x: int, cells: list[results.Cell], printed: dict) 
     for side, (name, builders) in enumerate(KINDS):
         place = x + (side - 0.5) * WIDTH
         if name in paper:
-            axes.plot(place, paper[name], zorder=4, **PAPER_MARK)
+            axes.plot(place, paper[name], zorder=4, **style.PAPER_MARK)
         if found := cost_of(cells, builders):
             builder, cost = found
             axes.bar(place, cost, 0.9 * WIDTH, color=style.look(builder).colour, linewidth=0)
@@ -83,15 +77,14 @@ def draw(run: results.Run) -> plt.Figure:
     if not cells:
         raise results.Refused(f"{run.path}: no cell of table4 has a surface area cost")
     printed = results.printed("table4")
-    if run.costs != PAPER_COSTS:
+    if run.costs != results.USUAL_COSTS:
         printed |= {"rows": [], "other_editions": {}}
-    scenes = list(dict.fromkeys(cell.scene for cell in cells))
+    scenes = list(results.grouped(cells, lambda cell: cell.scene).values())
     drawing, axes = plt.subplots(figsize=(style.PAGE_WIDTH, 3.4), layout="constrained")
     shown: set[str] = set()
     for x, scene in enumerate(scenes):
-        shown |= draw_mesh(axes, x, [cell for cell in cells if cell.scene == scene], printed)
-    first = [next(cell for cell in cells if cell.scene == scene) for scene in scenes]
-    axes.set_xticks(range(len(scenes)), [title(cell, printed) for cell in first])
+        shown |= draw_mesh(axes, x, scene, printed)
+    axes.set_xticks(range(len(scenes)), [title(scene[0], printed) for scene in scenes])
     axes.set_xlim(-0.6, len(scenes) - 0.4)
     scale(axes, cells, printed)
     axes.tick_params(axis="x", length=0)
@@ -99,7 +92,7 @@ def draw(run: results.Run) -> plt.Figure:
     handles = [Patch(facecolor=style.look(builder).colour, label=builder) for builder in style.LOOKS
                if builder in shown]
     if printed["rows"]:
-        handles.append(Line2D([], [], **PAPER_MARK, label="printed in the paper"))
+        handles.append(Line2D([], [], **style.PAPER_MARK, label="printed in the paper"))
     height = figure.legend_above(drawing, handles)
     remarks = [f"{run.costs_remark()} Under the names: triangles."]
     if any(cell.scene in printed["other_editions"] for cell in cells):

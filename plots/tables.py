@@ -1,8 +1,6 @@
 """Tables and numbers for the console."""
-from __future__ import annotations
-
+import math
 from collections.abc import Sequence
-from decimal import Decimal
 
 LEFT, RIGHT = "<", ">"
 
@@ -15,14 +13,14 @@ class Table:
         self.aligns = [LEFT if title.startswith(LEFT) else RIGHT for title in titles]
         self.rows: list[list[str]] = []
 
-    def row(self, entries: Sequence[str]) -> None:
+    def row(self, *entries: str) -> None:
         """One entry a column; missing ones at the end are blank."""
         self.rows.append([*entries, *[""] * (len(self.titles) - len(entries))])
 
     def text(self) -> str:
         """A line of titles if any column has one, then the rows, each ended by a newline."""
         lines = [self.titles, *self.rows] if any(self.titles) else self.rows
-        widths = [max((len(line[place]) for line in (self.titles, *self.rows))) for place in range(len(self.titles))]
+        widths = [max(map(len, column)) for column in zip(self.titles, *self.rows)]
         return "".join("  ".join(f"{entry:{align}{width}}" for entry, align, width in zip(line, self.aligns, widths)).rstrip(" ") + "\n"
                        for line in lines)
 
@@ -52,12 +50,16 @@ def counted(count: int, what: str) -> str:
     return f"{count:,} {what}{'' if count == 1 else 's'}"
 
 
+def whole(value: float | None) -> str:
+    """"1,200"; blank of what is not known, which is None or NaN."""
+    return "" if value is None or math.isnan(value) else f"{int(value):,}"
+
+
+def fixed(value: float | None, digits: int = 2) -> str:
+    """So many digits after the point; blank of what is not known."""
+    return "" if value is None or math.isnan(value) else f"{value:.{digits}f}"
+
+
 def exact(value: float) -> str:
     """With as many digits as tell a number from all others."""
-    if value == int(value) and abs(value) < 1e15:
-        return str(int(value))
-    shortest = Decimal(repr(float(value))).normalize()
-    if 1e-4 <= abs(value) < 1e15:
-        return f"{shortest:f}"
-    mantissa, _, exponent = f"{shortest:e}".lower().partition("e")
-    return f"{mantissa}e{exponent[0]}{exponent[1:]:0>2}"
+    return repr(float(value) + 0.0).removesuffix(".0")  # of -0.0 it is 0

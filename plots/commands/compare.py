@@ -1,13 +1,10 @@
 """bvhbench compare: holds a result file to an earlier one."""
-from __future__ import annotations
-
 import pathlib
 
 import command
 import documents
 from comparing import comparison, report
-from comparing.refusals import require_comparable
-from comparing.rules import Rules
+from comparing.refusals import Rules, require_comparable
 
 
 def parser() -> command.Parser:
@@ -19,7 +16,7 @@ def parser() -> command.Parser:
          ("bvhbench compare before.json after.json --threshold 10% --all", "coarser, and every cell")], "docs/comparing.md")
     words.add_argument("first", metavar="A", type=pathlib.Path, help="the earlier result file")
     words.add_argument("second", metavar="B", type=pathlib.Path, help="the later one")
-    words.add_argument("--threshold", type=command.Share(10), default="5%",
+    words.add_argument("--threshold", type=command.share(10), default="5%",
                        help="the smallest change of time that counts, as 5% or 0.05")
     words.add_argument("--all", action="store_true", help="show cells that are unchanged, too")
     words.add_argument("--allow-missing", action="store_true", help="cells and counters that only A has are no regression")

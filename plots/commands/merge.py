@@ -1,8 +1,4 @@
 """bvhbench merge: makes one result file of several."""
-from __future__ import annotations
-
-import pathlib
-
 import command
 import documents
 import output
@@ -29,7 +25,7 @@ def main(words: list[str]) -> int:
     with reserved(arguments.out, "--out", arguments.force, arguments.files):
         parts = [(path, documents.read(path)) for path in arguments.files]
         merged = merge(parts, arguments.other_devices, arguments.other_commits)
-        output.write(pathlib.Path(arguments.out), merged.text.encode())
+        output.write(arguments.out, merged.text.encode())
     repeated = f"; in more than one file, the same in each: {merged.repeated}" if merged.repeated else ""
     print(f"{counted(merged.cells, 'cell')} of {counted(merged.runs, 'run')}{repeated}\nwritten: {arguments.out}")
     return 1 if merged.differs else 0

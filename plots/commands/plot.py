@@ -1,6 +1,4 @@
 """bvhbench plot: draws every figure that result files have the cells for."""
-from __future__ import annotations
-
 import pathlib
 
 import command
@@ -21,14 +19,12 @@ def parser() -> command.Parser:
 
 def main(words: list[str]) -> int:
     arguments = parser().parse_args(words)
-    if not arguments.out:
-        raise output.WrongUsage("--out names no file or folder")
     import all  # what draws: only now, so that help needs no matplotlib
 
-    folder = pathlib.Path(arguments.out)
+    folder, files = pathlib.Path(arguments.out), [pathlib.Path(file) for file in arguments.files]
     output.make_folder(folder)
-    output.check_pictures(folder, [pathlib.Path(file) for file in arguments.files], arguments.force)
-    if refusals := all.draw_all([pathlib.Path(file) for file in arguments.files], folder, arguments.force):
+    output.check_pictures(folder, files, arguments.force)
+    if refusals := all.draw_all(files, folder, arguments.force):
         raise json_files.Refused("; ".join(refusals))
     print(f"drawn into {arguments.out}")
     return 0

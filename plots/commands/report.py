@@ -1,6 +1,4 @@
 """bvhbench report: makes one page of result files, and of small scenes in three dimensions."""
-from __future__ import annotations
-
 import argparse
 import pathlib
 import tempfile
@@ -65,8 +63,8 @@ def scene_files(arguments: argparse.Namespace, options: dict[str, str]) -> list[
 
 def view(arguments: argparse.Namespace, scene: str, options: dict[str, str], file: pathlib.Path) -> pathlib.Path:
     """A file of what the program shows of the scene. Ends this process as the program ended if it shows nothing."""
-    words = ["view", "--scene", scene, "--frame", str(arguments.frame), "--builder", arguments.builder,
-             "--collider", arguments.collider, *(word for key, value in options.items() for word in (f"--{key}", value))]
+    said = {"scene": scene, "frame": str(arguments.frame), "builder": arguments.builder, "collider": arguments.collider, **options}
+    words = ["view", *(word for key, value in said.items() for word in (f"--{key}", value))]
     code, text = child.run([*words, *command.common_words(arguments)], is_kept=True)
     if code != 0:
         raise SystemExit(code)

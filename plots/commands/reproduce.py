@@ -1,6 +1,4 @@
 """bvhbench reproduce: measures, prints and draws what the paper shows."""
-from __future__ import annotations
-
 import argparse
 import contextlib
 import os
@@ -8,7 +6,6 @@ import pathlib
 import subprocess
 import sys
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import child
 import command
@@ -47,23 +44,8 @@ def parser() -> command.Parser:
     words.add_argument("what", metavar="WHAT", help="table1 to table4, fig8, fig9, fig10, fig13; or all, and a page of all")
     words.add_argument("--out", default="out", help="folder for result files, figures and the page")
     words.add_argument("--quick", action="store_true", help="fewer scenes and samples")
-    words.add_argument("--epo", "--quality", dest="quality", action="store_true",
-                       help="compute end-point overlap, which takes long")
-    words.add_argument("--sah-inner", type=command.cost, default=1.2, help="what visiting an inner node costs")
-    words.add_argument("--sah-triangle", type=command.cost, default=1, help="what testing a triangle costs")
+    words.add_costs()
     return words
-
-
-@dataclass
-class Outcome:
-    """How the runs ended: the worst exit code of those that measured something."""
-
-    codes: list[int]
-
-    @property
-    def code(self) -> int:
-        measured = [code for code in self.codes if code != NOTHING]
-        return max(measured) if measured else NOTHING
 
 
 def main(words: list[str]) -> int:
@@ -71,10 +53,6 @@ def main(words: list[str]) -> int:
     if arguments.what not in (*SHOWN, "all"):
         raise output.WrongUsage(f"WHAT: there is no '{arguments.what}'; there are: {', '.join(SHOWN)}, all; "
                                 "`bvhbench --help` lists what there is")
-    if not arguments.out:
-        raise output.WrongUsage("--out names no file or folder")
-    if arguments.sah_inner == arguments.sah_triangle == 0:
-        raise output.WrongUsage("--sah-inner and --sah-triangle must not both be 0")
     is_all = arguments.what == "all"
     # A run is called after its experiment where figures share it, else after what was asked for.
     runs = {experiment: [name for name, (other, _) in SHOWN.items() if other == experiment]
@@ -91,10 +69,11 @@ def main(words: list[str]) -> int:
         for file in files.values():  # all before anything is measured
             with reserved(file, "--out", arguments.force):
                 pass
-        outcome = Outcome([reproduced(arguments, files[name], shown) for name, shown in runs.items()])
-    if outcome.code == NOTHING or not is_all:
-        return outcome.code
-    return page(arguments, list(files.values()), report_file) or outcome.code
+        codes = [reproduced(arguments, files[name], shown) for name, shown in runs.items()]
+    worst = max((code for code in codes if code != NOTHING), default=NOTHING)  # of the runs that measured something
+    if worst == NOTHING or not is_all:
+        return worst
+    return page(arguments, list(files.values()), report_file) or worst
 
 
 def reproduced(arguments: argparse.Namespace, file: str, shown: list[str]) -> int:
@@ -106,7 +85,7 @@ def reproduced(arguments: argparse.Namespace, file: str, shown: list[str]) -> in
     code, printed = child.run([*words, *command.common_words(arguments)], is_kept=True)
     if code not in (0, 1, NOTHING):
         raise SystemExit(code)
-    run = results.everything(pathlib.Path(file))
+    run = results.everything(file)
     print(run_page.text(run) + table(run) + printed.decode(errors="surrogateescape"), end="", flush=True)
     if code != NOTHING:
         for name in shown:
@@ -123,7 +102,7 @@ def drawn(name: str, file: str, arguments: argparse.Namespace) -> str:
         children(drawing)
         _, said = drawing.communicate()
     code = drawing.returncode
-    if -code in child.ENDING:
+    if -code in command.ENDING:
         raise SystemExit(128 - code)
     _, is_missing, module = said.rpartition("\nModuleNotFoundError: No module named '")
     if not is_missing:

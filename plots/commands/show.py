@@ -1,9 +1,7 @@
 """bvhbench show: prints a result file as tables."""
-from __future__ import annotations
-
 import command
 import results
-from console import accuracy, cell, cells, frames, quality, refit, roofline, skips, stress, swept, yardstick
+from console import accuracy, cell, cells, frames, skips, stress, swept, trees
 from console import run as run_page
 
 
@@ -35,4 +33,5 @@ def pages(run: results.Run) -> str:
         return whole + swept.text(run) + skips.text(run)
     if len(run.all_cells) == 1:
         return cell.text(run.all_cells[0], run)
-    return cells.text(run) + "".join(page.text(run) for page in (frames, swept, refit, quality, roofline, yardstick))
+    pages_of = (cells.text, frames.text, swept.text, trees.refits, trees.quality, trees.roofline, trees.yardstick)
+    return "".join(page(run) for page in pages_of)

@@ -1,6 +1,4 @@
 """bvhbench smoke: runs every builder and collider over small scenes and holds all to a baseline."""
-from __future__ import annotations
-
 import argparse
 import contextlib
 import os
@@ -39,8 +37,6 @@ def parser() -> command.Parser:
 def checked(words: list[str]) -> argparse.Namespace:
     """The command line. What is compared must not depend on which device is known, so no tuning file is looked for."""
     arguments = parser().parse_args(words)
-    if arguments.out == "":
-        raise WrongUsage("--out names no file or folder")
     if not TOLERANCE[0] <= arguments.tolerance <= TOLERANCE[1]:
         raise WrongUsage(f"--tolerance must be a ratio from {TOLERANCE[0]:g} to {TOLERANCE[1]:g}, not {arguments.tolerance:g}")
     if arguments.update and arguments.filter:
@@ -74,7 +70,7 @@ def update(arguments: argparse.Namespace, path: str, kind: str) -> int:
         if cell.verdict in ("failed", "differs"):
             raise Refused(f"--update: {cell.builder} on {cell.scene_facts['name']} is {cell.verdict}: "
                           "no baseline is made of that")
-    output.write(pathlib.Path(path), baseline.text_of(kind, baseline.of_run(run)).encode())
+    output.write(path, baseline.text_of(kind, baseline.of_run(run)).encode())
     print(f"written: {path}")
     return 0
 
@@ -86,21 +82,18 @@ def measured(arguments: argparse.Namespace, kept_from: str) -> tuple[results.Run
     if out and os.path.exists(out) and is_input(out, kept_from):
         raise WrongUsage(f"--out: {out} is read by this command; it is not replaced, choose another file")
     with contextlib.ExitStack() as stack:
-        file = out if out and is_replaced(out) else temporary(stack)
+        is_kept = out and is_replaced(out)
+        file = out if is_kept else f"{stack.enter_context(tempfile.TemporaryDirectory(prefix='bvhbench-'))}/smoke.json"
         earlier = identity(file)
         filter_ = ["--filter", arguments.filter] if arguments.filter else []
         code, _ = child.run(["run", "smoke", "--out", file, *filter_, *command.common_words(arguments)])
         if code not in (0, 1, 4) or identity(file) == earlier:
             raise SystemExit(code)
-        run = results.everything(pathlib.Path(file))
+        run = results.everything(file)
         if out and file != out:
-            output.write(pathlib.Path(out), pathlib.Path(file).read_bytes())
-    print(run_page.text(run), cells_page.text(run, cells_page.none), sep="", end="")
+            output.write(out, pathlib.Path(file).read_bytes())
+    print(run_page.text(run), cells_page.text(run, lambda cell: False), sep="", end="")
     return run, code
-
-
-def temporary(stack: contextlib.ExitStack) -> str:
-    return os.path.join(stack.enter_context(tempfile.TemporaryDirectory(prefix="bvhbench-")), "smoke.json")
 
 
 def identity(file: str) -> tuple[int, int] | None:

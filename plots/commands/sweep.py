@@ -1,11 +1,8 @@
 """bvhbench sweep: measures a product of scenes, builders, colliders and options, a process a cell, and goes on where it was."""
-from __future__ import annotations
-
 import argparse
 import contextlib
 import json
 import os
-import pathlib
 import subprocess
 import sys
 from typing import Any
@@ -15,6 +12,7 @@ import command
 import documents
 import merging
 import output
+import results
 import tables
 from cells import Cell
 from json_files import Refused, value_of
@@ -27,7 +25,6 @@ from sweeping.product import swept_of
 from sweeping.units import Shard, Unit, shard_called, shards_of, units_of
 
 LISTS = ("scenes", "builders", "orders", "colliders")  # options that take values with commas between
-USUAL_COSTS = (1.2, 1.0)
 USUAL_DOUBLES = "recentred"
 OPENING_S = 600  # compiling two kernels has taken a driver a minute
 
@@ -56,9 +53,7 @@ def parser() -> command.Parser:
         "frames and others; may be said again")
     add("--samples", type=int, help="timed runs a cell; default: 20")
     add("--warm-up", type=int, help="runs before them that do not count; default: 3")
-    add("--epo", "--quality", dest="quality", action="store_true", help="compute end-point overlap, which takes long")
-    add("--sah-inner", type=command.number, default=1.2, help="what visiting an inner node costs")
-    add("--sah-triangle", type=command.number, default=1, help="what testing a triangle costs")
+    words.add_costs()
     add("--out", required=True, help="the folder of the sweep: the same command goes on with what is there")
     add("--device", action="append",
         help="as for all commands; more than once: processes are dealt to these, which must be alike")
@@ -113,10 +108,6 @@ def planned(arguments: argparse.Namespace) -> Sweep:
 
 def main(words: list[str]) -> int:
     arguments = parser().parse_args(words)
-    if not arguments.out:
-        raise WrongUsage("--out names no file or folder")
-    if arguments.sah_inner == arguments.sah_triangle == 0:
-        raise WrongUsage("--sah-inner and --sah-triangle must not both be 0")
     if arguments.jobs is not None and not 1 <= arguments.jobs <= 1024:
         raise WrongUsage(f"--jobs: {arguments.jobs} is not from 1 to 1024")
     shard = shard_called(arguments.shard) if arguments.shard else Shard()
@@ -143,15 +134,15 @@ def cells_table(sweep: Sweep, units: list[Unit], shards: list[int], shard: Shard
             for one in unit.cells]
     rows += [(one, "", f"cannot be: {one.why_not}") for one in sweep.cells if one.why_not and shard.number == 1]
     for one, own, why in rows:
-        table.row([one.cell.scene, f"{one.triangles:,}" if one.triangles else "", one.cell.pipeline, own, why])
+        table.row(one.cell.scene, tables.whole(one.triangles or None), one.cell.pipeline, own, why)
     return table.text()
 
 
 def facts_of(arguments: argparse.Namespace, program: str, device: str | None) -> Json:
-    """Of a run on the device. Raises Refused."""
+    """The facts of a run on the device. Raises Refused."""
     words = ["facts", *command.common_words(arguments, "--device"), *processes.device_words(device)]
     try:
-        done = subprocess.run([command.PROGRAM, *words], executable=program, env=processes.environment(),
+        done = subprocess.run([command.PROGRAM, *words], executable=program, env=child.environment(),
                               stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace", check=False,
                               timeout=OPENING_S)
     except subprocess.TimeoutExpired as late:
@@ -163,13 +154,13 @@ def facts_of(arguments: argparse.Namespace, program: str, device: str | None) ->
 
 
 def devices_of(arguments: argparse.Namespace) -> list[str | None]:
-    """Of each process at a time; None: the program's choice."""
+    """The device of each process at a time; None leaves the choice to the program."""
     named = arguments.device or [None]
     return [named[place % len(named)] for place in range(arguments.jobs or len(named))]
 
 
 def facts_of_all(arguments: argparse.Namespace, program: str, devices: list[str | None]) -> Json:
-    """Of the first device, which the others must be like."""
+    """The facts of the first device, which the others must be like."""
     known = {device: facts_of(arguments, program, device) for device in dict.fromkeys(devices)}
     first = known[devices[0]]
     for other in known.values():
@@ -182,7 +173,7 @@ def facts_of_all(arguments: argparse.Namespace, program: str, devices: list[str 
 def measured(arguments: argparse.Namespace, words: list[str], sweep: Sweep, every: list[Unit], units: list[Unit],
              shard: Shard) -> int:
     costs = (arguments.sah_inner, arguments.sah_triangle)
-    cost_words = [] if costs == USUAL_COSTS else ["--sah-inner", str(costs[0]), "--sah-triangle", str(costs[1])]
+    cost_words = [] if costs == results.USUAL_COSTS else ["--sah-inner", str(costs[0]), "--sah-triangle", str(costs[1])]
     with contextlib.ExitStack() as held:
         program, devices = held.enter_context(processes.kept_program()), devices_of(arguments)
         about = facts_of_all(arguments, program, devices)
@@ -199,7 +190,8 @@ def measured(arguments: argparse.Namespace, words: list[str], sweep: Sweep, ever
             print("note: processes share a device, and disturb each other's times", flush=True)
         if folder.note:
             print(folder.note, flush=True)
-        with processes.deferred() as stop:
+        stop = processes.Stop()
+        with command.signals_to(stop.remember):
             try:
                 processes.Runner(units, folder, task, stop).run()
             except (Refused, OSError):
@@ -229,7 +221,7 @@ def written(sweep: Sweep, units: list[Unit], shard: Shard, folder: Folder, facts
     own = {"format": folder.format, "run": run, "cells": skipped}
     parts = [("the sweep", own), *((str(path), document) for path, document in filter(None, there))]
     merged = merging.merge(parts, other_commits=True)
-    output.write(pathlib.Path(folder.result_file), merged.text.encode(errors="surrogateescape"))
+    output.write(folder.result_file, merged.text.encode(errors="surrogateescape"))
     cells = [Cell(raw) for raw in value_of(merged.text.encode(errors="replace"))["cells"]]
     count = {status: sum(cell.status == status for cell in cells) for status in ("measured", "skipped", "failed")}
     print(f"{tables.counted(len(cells), 'cell')}: " + ", ".join(f"{number:,} {status}" for status, number in count.items()))

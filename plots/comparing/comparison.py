@@ -1,22 +1,18 @@
 """Two result files, cell by cell: what became faster, slower, larger or wrong."""
-from __future__ import annotations
-
 import functools
 from dataclasses import dataclass, field
 from typing import Any
 
-from cells import Cell
+from cells import Cell, grouped
 from comparing import scenes, times
 from comparing.drift import CellPair
 from comparing.facts import fact_changes, run_remarks
-from comparing.rules import Rules
+from comparing.refusals import Rules
 from comparing.scenes import SceneChange
 
 
 @dataclass
 class ComparedCell:
-    """A cell that is in both files."""
-
     first: Cell
     second: Cell
     regressions: list[str]  # of the verdict, the answer and counters
@@ -33,9 +29,6 @@ class ComparedCell:
         """Of a cell without samples there are facts, which are compared."""
         return self.time.verdict if self.first.all_samples or self.second.all_samples else times.SAME
 
-    @property
-    def is_regression(self) -> bool:
-        return self.verdict == times.SLOWER or bool(self.regressions)
 
 
 @dataclass
@@ -56,7 +49,8 @@ class Comparison:
 
     @property
     def regressions(self) -> int:
-        return (sum(cell.is_regression for cell in self.cells) + sum(scene.verdict == times.SLOWER for scene in self.scenes)
+        return (sum(cell.verdict == times.SLOWER or bool(cell.regressions) for cell in self.cells)
+                + sum(scene.verdict == times.SLOWER for scene in self.scenes)
                 + (0 if self.rules.allow_missing else len(self.only_first)))
 
 
@@ -67,17 +61,13 @@ def compare(first: dict[str, Any], second: dict[str, Any], rules: Rules) -> Comp
     runs = first["run"], second["run"]
     by_turns = all(one["id"] in other.get("turns_with", []) for one, other in (runs, runs[::-1]))
     comparison = Comparison(rules, cells, only_first, only_second, run_remarks(*runs), by_turns)
-    groups: dict[tuple[str, ...], list[ComparedCell]] = {}
-    for cell in cells:
-        if cell.has_times:
-            groups.setdefault(group_of(cell.first), []).append(cell)
-    for group in sorted(groups):
-        compare_scene(groups[group], comparison)
+    groups = grouped((cell for cell in cells if cell.has_times), lambda cell: group_of(cell.first))
+    for _, group in sorted(groups.items()):
+        compare_scene(group, comparison)
     return comparison
 
 
 def compare_scene(cells: list[ComparedCell], comparison: Comparison) -> None:
-    """All timed cells of one scene."""
     rules, error = comparison.rules, comparison.error_of_each
     pairs = [(cell.first, cell.second) for cell in cells]
     if comparison.by_turns:
@@ -97,24 +87,19 @@ def compare_scene(cells: list[ComparedCell], comparison: Comparison) -> None:
 
 def matched_cells(first: list[Cell], second: list[Cell]) -> tuple[list[CellPair], list[Cell], list[Cell]]:
     """Cells of one identity, the first with the first, and those of one file only."""
-    there: dict[str, list[Cell]] = {}
-    for cell in second:
-        there.setdefault(cell.identity, []).append(cell)
+    there = grouped(second, lambda cell: cell.identity)
     both, only_first = [], []
     for cell in first:
         candidates = there.get(cell.identity, [])
-        place = next((place for place, other in enumerate(candidates) if begin_alike(cell, other)), None)
+        # A cell without samples does not tell what they would have begun with.
+        place = next((place for place, other in enumerate(candidates) if not cell.all_samples or not other.all_samples
+                      or cell.starts_from_leaves == other.starts_from_leaves), None)
         if place is None:
             only_first.append(cell)
         else:
             both.append((cell, candidates.pop(place)))
     left = {id(cell) for candidates in there.values() for cell in candidates}
     return both, only_first, [cell for cell in second if id(cell) in left]
-
-
-def begin_alike(one: Cell, other: Cell) -> bool:
-    """A cell without samples does not tell what they would have begun with."""
-    return not one.all_samples or not other.all_samples or one.starts_from_leaves == other.starts_from_leaves
 
 
 def group_of(cell: Cell) -> tuple[str, ...]:

@@ -1,13 +1,11 @@
 """What two runs of one program differ in though nothing was changed: how fast the device was, and how that wavered."""
-from __future__ import annotations
-
 import functools
 import math
 from dataclasses import dataclass
 
 import numpy
 
-from cells import Cell, Sample, counted, elapsed_ns, whole_ns
+from cells import Cell, Sample, by_stage, counted, median, times_ns
 
 LIKENESS = 0.05  # of logarithms of speeds
 PARTS = 8
@@ -25,13 +23,11 @@ class Series:
 
     def times_ns(self, stage: str = "") -> numpy.ndarray:
         """Whole times, or those of a stage."""
-        if not stage:
-            return numpy.array([whole_ns(each) for each in self.stages], dtype=float)
-        return numpy.array([elapsed_ns(each[stage]) for each in self.stages if stage in each], dtype=float)
+        return times_ns(self.stages, stage)
 
     @functools.cached_property
     def stages(self) -> list[Sample]:
-        return [{entry["stage"]: entry for entry in sample["stages"]} for sample in self.samples]
+        return [by_stage(sample) for sample in self.samples]
 
     def __len__(self) -> int:
         return len(self.samples)
@@ -46,7 +42,6 @@ def all_pairs(cells: list[CellPair]) -> list[Pair]:
 
 
 def counted_pairs(cells: list[CellPair]) -> list[Pair]:
-    """The samples that statistics are made of."""
     return [(Series(counted(first.all_samples)), Series(counted(second.all_samples))) for first, second in cells]
 
 
@@ -57,14 +52,10 @@ def at_like_speed(cells: list[CellPair]) -> list[Pair]:
     pairs = all_pairs(cells)
     if any(sample.get("calibration_ns", 0) <= 0 for pair in pairs for series in pair for sample in series.samples):
         return counted_pairs(cells)
-    speeds = [[log_speeds(series) for series in pair] for pair in pairs]
+    speeds = [[numpy.log([sample["calibration_ns"] for sample in series.samples]) for series in pair] for pair in pairs]
     speed = shared_speed(*(numpy.sort(numpy.concatenate(of_file)) for of_file in zip(*speeds)))
     return [tuple(Series([sample for sample, own in zip(series.samples, each) if abs(own - speed) <= LIKENESS])
                   for series, each in zip(pair, of_pair)) for pair, of_pair in zip(pairs, speeds)]
-
-
-def log_speeds(series: Series) -> numpy.ndarray:
-    return numpy.log([sample["calibration_ns"] for sample in series.samples])
 
 
 def shared_speed(first: numpy.ndarray, second: numpy.ndarray) -> float:
@@ -92,28 +83,28 @@ def wavering(cells: list[Series]) -> float:
         errors.append(median_error(in_parts))
         for part, own in zip(slower, in_parts):
             if len(own) >= 3:
-                part.append(math.log(numpy.median(own) / numpy.median(times)))
-    of_parts = [float(numpy.median(part)) for part in slower if part]
+                part.append(math.log(median(own) / median(times)))
+    of_parts = [median(part) for part in slower if part]
     if not of_parts:
         return 0.0
-    chance = OF_MOST * float(numpy.median(errors)) / math.sqrt(len(errors))
+    chance = OF_MOST * median(errors) / math.sqrt(len(errors))
     return max(0.0, max(of_parts) - min(of_parts) - chance)
 
 
 def median_error(in_parts: list[numpy.ndarray]) -> float:
     """The standard error of the logarithm of a part's median, from how samples lie about the medians of their parts."""
-    distances = numpy.concatenate([numpy.abs(numpy.log(part / numpy.median(part))) for part in in_parts if len(part)] or [[]])
+    distances = numpy.concatenate([numpy.abs(numpy.log(part / median(part))) for part in in_parts if len(part)] or [[]])
     if not len(distances):
         return 0.0
-    return OF_MEDIAN * NORMAL * float(numpy.median(distances)) / math.sqrt(len(distances) / PARTS)
+    return OF_MEDIAN * NORMAL * median(distances) / math.sqrt(len(distances) / PARTS)
 
 
 def common_trend(cells: list[Pair]) -> numpy.ndarray:
     """What two runs that took turns had in common: of the cells of a scene, by how much the n-th samples in both files and those
     beside them are slower than their cells' medians, the median of all of these, as the logarithm of a ratio."""
-    rows = [times for pair in cells for series in pair if len(times := series.times_ns()) and numpy.median(times) > 0]
+    rows = [times for pair in cells for series in pair if median(times := series.times_ns()) > 0]
     slower = numpy.full((len(rows), max(map(len, rows), default=0)), math.nan)
     for row, times in zip(slower, rows):
-        row[:len(times)] = numpy.log(numpy.maximum(times, 1) / numpy.median(times))
+        row[:len(times)] = numpy.log(numpy.maximum(times, 1) / median(times))
     near_by = (slower[:, max(0, place - BESIDE):place + BESIDE + 1] for place in range(slower.shape[1]))
-    return numpy.array([numpy.nanmedian(each) for each in near_by])
+    return numpy.array([median(each[~numpy.isnan(each)]) for each in near_by])

@@ -1,6 +1,4 @@
 """What of two cells and of two runs is no time."""
-from __future__ import annotations
-
 from typing import Any
 
 from cells import Cell
@@ -64,7 +62,6 @@ def compare_counters(first: Cell, second: Cell, allow_missing: bool, found: Foun
 
 
 def run_remarks(first: dict[str, Any], second: dict[str, Any]) -> list[str]:
-    """Circumstances that two runs do not share."""
     remarks = [f"{what}: {first[part][key]} and {second[part][key]}" for what, (part, key) in CIRCUMSTANCES.items()
                if first[part][key] != second[part][key]]
     tuned = [run.get("tuning", {}).get("values", {}) for run in (first, second)]

@@ -1,11 +1,11 @@
 """The median of times that were taken one after the other, and between which two values the true one is."""
-from __future__ import annotations
-
 import functools
 import math
 from typing import NamedTuple
 
 import numpy
+
+from cells import median
 
 
 class Interval(NamedTuple):
@@ -28,7 +28,7 @@ def samples_per_independent_one(in_order: numpy.ndarray) -> float:
     """By how much more than independent ones values that were taken in this order vary together, about their median: the
     integrated autocorrelation time of being above it, at least 1. A machine that is slow for a while gives many samples that
     say one thing."""
-    side = numpy.sign(in_order - numpy.median(in_order))
+    side = numpy.sign(in_order - median(in_order))
     variance = side @ side
     time = 1.0
     if variance > 0:
@@ -57,14 +57,14 @@ def median_interval(in_order: numpy.ndarray, error: float) -> Interval:
     count = len(in_order)
     if count == 0:
         return NOTHING_KNOWN
-    median = float(numpy.median(in_order))
+    middle = median(in_order)
     independent = int(count / samples_per_independent_one(in_order))
     rank = rank_below(independent, error)
     if rank == 0:
-        return Interval(0, median, math.inf)
+        return Interval(0, middle, math.inf)
     ascending = numpy.sort(in_order)
     place = rank * count // independent  # from 1, from either end
-    return Interval(float(ascending[place - 1]), median, float(ascending[count - place]))
+    return Interval(float(ascending[place - 1]), middle, float(ascending[count - place]))
 
 
 def ratio_interval(numerator: Interval, denominator: Interval) -> Interval:

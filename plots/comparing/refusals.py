@@ -1,14 +1,22 @@
-"""What two result files must have in common before anything is compared."""
-from __future__ import annotations
-
+"""How strictly two result files are compared, and what they must have in common before anything is."""
 import pathlib
+from dataclasses import dataclass
 from typing import Any
 
-from comparing.rules import Rules
+import results
 from output import WrongUsage
 
-USUAL_COSTS = {"inner": 1.2, "triangle": 1.0}  # before format 1.2 there were no others
 Named = tuple[pathlib.Path, dict[str, Any]]  # a file's name and what it holds
+
+
+@dataclass(frozen=True)
+class Rules:
+    threshold: float = 0.05  # the smallest change of time that counts, as a share
+    error: float = 0.05  # chance that any cell of two runs of one program is called faster or slower
+    allow_missing: bool = False
+    allow_dirty: bool = False
+    other_devices: bool = False  # compare only ratios between the cells of a scene
+    allow_test_hooks: bool = False
 
 
 def require_comparable(first: Named, second: Named, rules: Rules) -> None:
@@ -20,7 +28,7 @@ def require_comparable(first: Named, second: Named, rules: Rules) -> None:
     if (minors[0] >= 4) != (minors[1] >= 4):
         raise WrongUsage(f"{name} has format 1.{minors[0]} and {other_name} 1.{minors[1]}: before 1.4 the time of a frame is "
                          "another, without the gaps between stages")
-    costs = [costs_text(document["run"]) for document in (one, other)]
+    costs = [results.costs_text(results.costs_of(document["run"])) for document in (one, other)]
     if costs[0] != costs[1]:
         raise WrongUsage(f"{name} counts {costs[0]} and {other_name} {costs[1]}, so their sah_cost are not of one kind")
     if not rules.other_devices and machine(one["run"]) != machine(other["run"]):
@@ -38,11 +46,6 @@ def require_file(name: pathlib.Path, document: dict[str, Any], rules: Rules) -> 
     for hook, value in sorted(run.get("test_hooks", {}).items()):
         if not rules.allow_test_hooks:
             raise WrongUsage(f"{name} was made under {hook}={value}, which changes times for tests: it is no result")
-
-
-def costs_text(run: dict[str, Any]) -> str:
-    costs = run.get("node_costs", USUAL_COSTS)
-    return f"an inner node {costs['inner']:.10g}, a triangle {costs['triangle']:.10g}"
 
 
 def machine(run: dict[str, Any]) -> tuple[Any, ...]:

@@ -1,7 +1,5 @@
 """A comparison as text: cells whose time changed or may have, worst first, with their stages; all other changes a line each; and
 how many cells came out how."""
-from __future__ import annotations
-
 from comparing.comparison import ComparedCell, Comparison
 from comparing.intervals import Interval
 from comparing.scenes import SceneChange
@@ -12,7 +10,6 @@ WORST_FIRST = (SLOWER, UNSURE, FASTER, SAME)
 
 
 def text(comparison: Comparison, show_all: bool = False) -> str:
-    """With `show_all`, the table has every cell."""
     lines = [f"not the same: {remark}\n" for remark in comparison.remarks]
     if comparison.rules.other_devices:
         lines.append("ratios are of the median ratio of their scene: only how cells relate counts\n")
@@ -26,11 +23,11 @@ def times_table(comparison: Comparison, show_all: bool) -> str:
         return ""
     table = Table("<cell", "A", "B", "B/A", "own", "between", "p", "n", "<")
     for cell in sorted(shown, key=lambda cell: (WORST_FIRST.index(cell.verdict), -cell.time.ratio.value)):
-        table.row([*row_of(cell.first.label, cell.time), cell.verdict])
+        table.row(*row_of(cell.first.label, cell.time), cell.verdict)
         for stage, change in cell.stages.items():
-            table.row(row_of(f"  {stage}", change))
+            table.row(*row_of(f"  {stage}", change))
     for scene in comparison.scenes:
-        table.row(scene_row(scene))
+        table.row(*scene_row(scene))
     return table.text()
 
 

@@ -1,12 +1,10 @@
 """The cells of a scene together: what they have in common, which is no change of one of them."""
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, field
 
 import numpy
 
-from cells import Cell
+from cells import Cell, median
 from comparing import drift
 from comparing.intervals import Interval
 from comparing.times import FEWEST_SAMPLES, TimeChange, time_change, verdict_of
@@ -30,8 +28,6 @@ class SceneChange:
 
 @dataclass(frozen=True)
 class Against:
-    """What a scene's cells are judged against."""
-
     pairs: list[drift.Pair]  # the samples of each cell
     trend: numpy.ndarray = field(default_factory=lambda: numpy.empty(0))  # of samples by their place, where runs took turns
     common: Interval = Interval(1, 1, 1)  # ratio that is not a cell's own
@@ -49,7 +45,7 @@ def beside_the_others(cells: list[drift.CellPair], threshold: float) -> tuple[Ag
     ratios = log_ratios(pairs)
     if not len(ratios):
         return Against(pairs, common=Interval(0, 1, math.inf)), None
-    middle, spread = float(numpy.exp(numpy.median(ratios))), spread_of(ratios)
+    middle, spread = math.exp(median(ratios)), spread_of(ratios)
     margin = margin_of(pairs, ratios, spread)
     if len(ratios) < FEWEST_CELLS:
         return Against(pairs, common=Interval(1 / margin, 1, margin)), None
@@ -62,13 +58,13 @@ def of_other_devices(cells: list[drift.CellPair]) -> Against | None:
     """None of a cell that is alone on its scene: there is nothing to hold it against."""
     pairs = drift.counted_pairs(cells)
     ratios = log_ratios(pairs)
-    middle = math.exp(numpy.median(ratios)) if len(ratios) else 1
+    middle = math.exp(median(ratios))
     return Against(pairs, common=Interval(middle, middle, middle)) if len(ratios) > 1 else None
 
 
 def log_ratios(pairs: list[drift.Pair]) -> numpy.ndarray:
-    """Of the medians of cells with samples enough."""
-    medians = [[max(numpy.median(series.times_ns()), 1) for series in pair] for pair in pairs
+    """Logarithms of the ratios of medians, of cells with samples enough."""
+    medians = [[max(median(series.times_ns()), 1) for series in pair] for pair in pairs
                if min(map(len, pair)) >= FEWEST_SAMPLES]
     return numpy.log([second / first for first, second in medians])
 
@@ -76,7 +72,7 @@ def log_ratios(pairs: list[drift.Pair]) -> numpy.ndarray:
 def spread_of(ratios: numpy.ndarray) -> float:
     """By how much one may be off their median by chance: three standard deviations, as the median of their distances tells them
     where a few of them are changed."""
-    return min(3 * drift.NORMAL * float(numpy.median(numpy.abs(ratios - numpy.median(ratios)))), MOST_DRIFT)
+    return min(3 * drift.NORMAL * median(numpy.abs(ratios - median(ratios))), MOST_DRIFT)
 
 
 def margin_of(pairs: list[drift.Pair], ratios: numpy.ndarray, spread: float) -> float:
@@ -85,7 +81,7 @@ def margin_of(pairs: list[drift.Pair], ratios: numpy.ndarray, spread: float) -> 
 
 
 def change_of(pair: drift.Pair, stage: str, against: Against, threshold: float, error: float) -> TimeChange:
-    """Of the whole time of a cell if `stage` is empty."""
+    """How a stage's time changed, or the whole time of a cell if `stage` is empty."""
     first, second = (without_trend(series.times_ns(stage), against.trend) for series in pair)
     return time_change(first, second, threshold, error, against.common)
 

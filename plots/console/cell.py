@@ -1,8 +1,8 @@
 """One cell in full: its stages as a table, its counters and its verdict."""
-from __future__ import annotations
+import itertools
 
 import results
-from cells import Cell
+from cells import Cell, median
 from console import spread
 from tables import Table, duration, size
 
@@ -38,36 +38,29 @@ def number(value: float) -> str:
 def stages(cell: Cell, copy_rate: float) -> str:
     """A line a stage, and one of all together."""
     table = Table("<stage", *spread.TITLES, "launches", "bytes", "GB/s", "% of copy", "queued", "submitted")
-
-    def row(name: str, times: list[float], launches: int, moved: float, wanted: str | None) -> None:
-        middle = spread.median(times)
-        table.row([name, *spread.of(times), str(launches) if launches else "host", size(moved) if moved else "",
-                   spread.rate(moved, middle), spread.copy_share(moved, middle, copy_rate),
-                   waited(cell, wanted, "queued_ns"), waited(cell, wanted, "submitted_ns")])
-
-    first = cell.all_samples[0]["stages"]
-    for entry in first:
-        row(entry["stage"], cell.times_ns(entry["stage"]), entry.get("launches", 0), entry.get("moved_bytes", 0), entry["stage"])
-    if len(first) > 1:
-        row("all", cell.whole_times_ns(), sum(entry.get("launches", 0) for entry in first),
-            sum(entry.get("moved_bytes", 0) for entry in first), None)
+    first = {entry["stage"]: entry for entry in cell.all_samples[0]["stages"]}
+    first |= {"": {key: spread.of_stages(cell, key) for key in ("launches", "moved_bytes")}} if len(first) > 1 else {}
+    for stage, entry in first.items():
+        launches, moved = entry.get("launches", 0), entry.get("moved_bytes", 0)
+        table.row(stage or "all", *spread.of(cell.times_ns(stage)), str(launches or "host"), size(moved) if moved else "",
+                  *spread.rates(moved, cell.median_ns(stage), copy_rate), waited(cell, stage, "queued_ns"),
+                  waited(cell, stage, "submitted_ns"))
     return table.text()
 
 
-def waited(cell: Cell, stage: str | None, state: str) -> str:
+def waited(cell: Cell, stage: str, state: str) -> str:
     """The median of what a stage's launches, or all, waited in that state; blank before format 1.8."""
-    middle = spread.median([sum(entry.get(state, 0) for name, entry in sample.items() if stage in (None, name))
-                            for sample in cell.samples])
+    middle = median([sum(entry.get(state, 0) for name, entry in sample.items() if stage in ("", name))
+                     for sample in cell.samples])
     return duration(middle) if middle > 0 else ""
 
 
 def samples(cell: Cell) -> str:
-    """How many samples there are, and why no more."""
     sampling, count = cell.raw.get("sampling", {}), len(cell.all_samples)
     line = f"{count} samples{', caches emptied before each' if sampling.get('caches') == 'cold' else ''}"
     if drifted := sum(sample.get("drifted", False) for sample in cell.all_samples):
         line += f", {drifted} of them beside drift of the device{' and left out here' if len(cell.samples) < count else ''}"
-    noise = f"{100 * spread.quartile_range(cell.whole_times_ns()):.1f} %"
+    noise = f"{100 * spread.quartile_range(cell.times_ns()):.1f} %"
     words = STOPPED.get(sampling.get("stopped", ""), "; quartiles {} apart")
     return line + words.format(noise, f"{100 * sampling.get('until', 0):.1f} %")
 
@@ -81,14 +74,10 @@ def verdict(cell: Cell) -> str:
 
 def depths(leaves_by_depth: list[int]) -> str:
     """Where the leaves are: "14–38, half by 19"; "17" if all are on one level."""
-    there = [depth for depth, leaves in enumerate(leaves_by_depth) if leaves > 0]
-    if not there:
+    first = next((depth for depth, leaves in enumerate(leaves_by_depth) if leaves > 0), None)
+    if first is None:
         return ""
-    if there[0] + 1 == len(leaves_by_depth):
-        return str(there[0])
-    met, whole = 0, sum(leaves_by_depth)
-    for depth, leaves in enumerate(leaves_by_depth):
-        met += leaves
-        if 2 * met >= whole:
-            break
-    return f"{there[0]}–{len(leaves_by_depth) - 1}, half by {depth}"
+    if first + 1 == len(leaves_by_depth):
+        return str(first)
+    half = next(depth for depth, met in enumerate(itertools.accumulate(leaves_by_depth)) if 2 * met >= sum(leaves_by_depth))
+    return f"{first}–{len(leaves_by_depth) - 1}, half by {half}"

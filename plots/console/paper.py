@@ -1,11 +1,10 @@
 """Times of the hierarchy beside those that the paper prints: Table 1 and Fig. 8."""
-from __future__ import annotations
-
 import math
 
 import results
-from cells import Cell
-from tables import Table, size
+from cells import Cell, quantiles
+from console import spread
+from tables import Table, size, whole
 
 STAGE = "hierarchy"
 
@@ -18,9 +17,9 @@ def table1(run: results.Run) -> str:
     for cell in run.all_cells:
         mesh = cell.stand_in_for or cell.scene
         row, nodes = rows.get((mesh, cell.builder)), int(cell.counters.get("nodes_count", 0))
-        table.row([mesh + (" *" if cell.stand_in_for else ""), f"{cell.triangles:,}", cell.builder, f"{nodes:,}" if nodes else "",
-                   padding_text(padding_percent(cell)) if nodes else "", row["padding_percent"] if row else "",
-                   *time_columns(cell, run.copy_rate), f"{row['hierarchy_ms']:.3f}" if row else ""])
+        table.row(mesh + (" *" if cell.stand_in_for else ""), f"{cell.triangles:,}", cell.builder, whole(nodes or None),
+                  padding_text(padding_percent(cell)) if nodes else "", row["padding_percent"] if row else "",
+                  *time_columns(cell, run.copy_rate), f"{row['hierarchy_ms']:.3f}" if row else "")
     stand_in = "* a generated stand-in with the mesh's triangle count: the mesh itself is not there\n"
     return (f"{table.text()}ms: the stage hierarchy from sorted leaves, median; paper ms: {printed['device']}\n"
             f"{stand_in if any(cell.stand_in_for for cell in run.all_cells) else ''}")
@@ -30,8 +29,8 @@ def fig8(run: results.Run) -> str:
     table = Table("triangles", "<builder", "ms", "p10–p90", "Mtris/s", "moved", "% of copy", "Gnodes/s")
     for cell in run.all_cells:
         ns = hierarchy_ns(cell)
-        table.row([f"{cell.triangles:,}", cell.builder, *time_columns(cell, run.copy_rate),
-                   f"{cell.counters.get('nodes_count', 0) / ns:.2f}" if ns else ""])
+        table.row(f"{cell.triangles:,}", cell.builder, *time_columns(cell, run.copy_rate),
+                  f"{cell.counters.get('nodes_count', 0) / ns:.2f}" if ns else "")
     crossing = crossing_triangles(run.all_cells)
     return table.text() + (f"oibvh-multi is the faster one from {crossing:,} triangles on; in the paper, from about 131,072\n" if crossing
                            else "oibvh-single and oibvh-multi do not cross here; in the paper they do at about 131,072 triangles\n")
@@ -39,19 +38,17 @@ def fig8(run: results.Run) -> str:
 
 def hierarchy_ns(cell: Cell) -> float:
     """The median of the stage; 0 of a cell that has no time to be shown."""
-    times = cell.times_ns(STAGE) if cell.verdict == "agrees" else ()
-    return results.quantiles(times).median if len(times) else 0.0
+    return cell.median_ns(STAGE) if cell.verdict == "agrees" else 0.0
 
 
 def time_columns(cell: Cell, copy_rate: float | None) -> list[str]:
     """Time, rate and memory traffic of the stage; or the word why there is none."""
-    median = hierarchy_ns(cell)
-    if not median:
+    if not (median := hierarchy_ns(cell)):
         return [cell.verdict, "", "", "", ""]
-    spread, moved = results.quantiles(cell.times_ns(STAGE)), cell.moved_bytes(STAGE) or 0
-    share = f"{100 * (moved / (median * 1e-9)) / copy_rate:.1f} %" if moved and copy_rate else ""
-    return [f"{median * 1e-6:.4f}", f"{spread.p10 * 1e-6:.4f}–{spread.p90 * 1e-6:.4f}", f"{cell.triangles * 1e3 / median:.0f}",
-            size(moved), share]
+    low, _, high = quantiles(cell.times_ns(STAGE) * 1e-6)
+    moved = cell.moved_bytes(STAGE) or 0
+    return [f"{median * 1e-6:.4f}", f"{low:.4f}–{high:.4f}", f"{cell.triangles * 1e3 / median:.0f}", size(moved),
+            spread.rates(moved, median, copy_rate or 0)[1]]
 
 
 def perfect_padding(triangles: int, nodes: float) -> float:

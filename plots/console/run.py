@@ -1,10 +1,6 @@
 """Where and with what a run was made."""
-from __future__ import annotations
-
 import results
 from tables import counted, duration
-
-USUAL_COSTS = (1.2, 1.0)
 
 
 def text(run: results.Run) -> str:
@@ -25,13 +21,9 @@ def text(run: results.Run) -> str:
         lines.append(f"tuned by {tuning['from']}: {values}")
     if run.copy_rate:
         lines.append(f"copy rate: {run.copy_rate * 1e-9:.1f} GB/s, read plus written")
-    if run.costs != USUAL_COSTS:
-        lines.append(f"costs in sah_cost and epo: {costs_text(run.costs)}")
+    if run.costs != results.USUAL_COSTS:
+        lines.append("costs in sah_cost and epo: " + results.costs_text(run.costs))
     return "".join(f"{line}\n" for line in lines)
-
-
-def costs_text(costs: tuple[float, float]) -> str:
-    return "an inner node {:.10g}, a triangle {:.10g}".format(*costs)
 
 
 def merged(run: results.Run) -> str:

@@ -1,6 +1,4 @@
 """Where the middle and the edges of samples lie, as columns of a table."""
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 
@@ -13,13 +11,8 @@ TITLES = ("median", "p10", "q1", "q3", "p90")
 FRACTIONS = (0.5, 0.1, 0.25, 0.75, 0.9)
 
 
-def median(values: Sequence[float]) -> float:
-    """0 of none."""
-    return float(numpy.median(values)) if len(values) else 0.0
-
-
 def of(values: Sequence[float]) -> list[str]:
-    """The columns TITLES, of nanoseconds; 0 of none."""
+    """The columns TITLES of some nanoseconds; all are 0 if there are none."""
     return [tables.duration(float(value)) for value in numpy.quantile(values if len(values) else [0], FRACTIONS)]
 
 
@@ -30,23 +23,20 @@ def quartile_range(values: Sequence[float]) -> float:
 
 
 def ratio(part: float, of: float) -> float:
-    """Of what is not 0 to 0 it is infinite, of 0 to 0 not a number."""
+    """A ratio to 0 is infinite, and 0 to 0 is not a number."""
     return part / of if of else math.nan if part == 0 or math.isnan(part) else math.inf
 
 
-def rate(moved: float, ns: float) -> str:
-    """GB/s: bytes a nanosecond."""
-    return f"{moved / ns:.1f}" if moved > 0 and ns > 0 else ""
+def rates(moved: float, ns: float, copy_rate: float) -> list[str]:
+    """GB/s, bytes a nanosecond, and the share of the device's copy rate; blank if something is not known."""
+    if not (moved > 0 and ns > 0):
+        return ["", ""]
+    return [f"{moved / ns:.1f}", f"{100 * (moved / (ns * 1e-9)) / copy_rate:.1f} %" if copy_rate > 0 else ""]
 
 
-def copy_share(moved: float, ns: float, copy_rate: float) -> str:
-    """Of the device's copy rate; blank if something is not known."""
-    return f"{100 * (moved / (ns * 1e-9)) / copy_rate:.1f} %" if moved > 0 and ns > 0 and copy_rate > 0 else ""
-
-
-def moved_bytes(cell: Cell) -> float:
-    """What all stages must move at the least; host stages do not say."""
-    return sum(stage.get("moved_bytes", 0) for stage in cell.all_samples[0]["stages"]) if cell.all_samples else 0
+def of_stages(cell: Cell, key: str) -> int:
+    """The sum over stages of what each says of itself; host stages say nothing."""
+    return sum(stage.get(key, 0) for stage in cell.all_samples[0]["stages"]) if cell.all_samples else 0
 
 
 def why(cell: Cell) -> str:

@@ -1,12 +1,11 @@
 """What stress found: scenes with who was right over them, systems with their invariants, and whatever of ours is wrong."""
-from __future__ import annotations
-
 from collections import Counter
 from typing import Any
 
 import documents
 import results
-from tables import Table
+from cells import grouped
+from tables import Table, whole
 
 Found = dict[str, Any]
 WORSE = {"holds": 0, "refused": 1, "broken": 2}
@@ -65,38 +64,27 @@ def tally(cells: list[dict[str, Any]]) -> str:
 def scenes(cells: list[dict[str, Any]]) -> str:
     libraries = list(dict.fromkeys(cell["system"] for cell in cells if cell["kind"] == "library"))
     table = Table("<scene", "triangles", "<ours", "<wrapped libraries", *(f"<{library}" for library in libraries))
-    rows: dict[str, list[dict[str, Any]]] = {}
-    for cell in cells:
-        rows.setdefault(f"{cell['family']}: {cell['scene']}", []).append(cell)
-    for row, those in rows.items():
-        triangles = max(cell.get("triangles", 0) for cell in those)
+    for row, those in grouped(cells, lambda cell: f"{cell['family']}: {cell['scene']}").items():
         by_library = {cell["system"]: verdict_of(cell) for cell in those if cell["kind"] == "library"}
-        others = [cell for cell in those if cell["kind"] != "library"]
-        table.row([row, f"{triangles:,}" if triangles else "", tally([cell for cell in others if not cell.get("library")]),
-                   tally([cell for cell in others if cell.get("library")]),
-                   *(by_library.get(library, "") for library in libraries)])
+        others = grouped((cell for cell in those if cell["kind"] != "library"), lambda cell: bool(cell.get("library")))
+        table.row(row, whole(max(cell.get("triangles", 0) for cell in those) or None),
+                  *(tally(others.get(is_wrapped, [])) for is_wrapped in (False, True)),
+                  *(by_library.get(library, "") for library in libraries))
     return table.text()
 
 
 def systems(cells: list[dict[str, Any]], versions: dict[str, str]) -> str:
     invariants = documents.schema()["$defs"]["stress_cell"]["properties"]["findings"]["propertyNames"]["enum"]
     table = Table("<system", "scenes", *(f"<{name}" for name in invariants), "<")
-    by_system: dict[str, list[dict[str, Any]]] = {}
-    for cell in cells:
-        by_system.setdefault(cell["system"], []).append(cell)
-    for system, those in by_system.items():
-        joined: dict[str, Found] = {}
-        for cell in those:
-            for invariant, finding in cell["findings"].items():
-                join(joined, invariant, finding)
+    for system, those in grouped(cells, lambda cell: cell["system"]).items():
+        found = {name: [cell["findings"][name] for cell in those if name in cell["findings"]] for name in invariants}
         library = those[-1].get("library", "")
-        table.row([system, str(len(those)), *(text_of(name, joined[name]) if name in joined else "" for name in invariants),
-                   f"{library} {versions[library]}" if library in versions else library])
+        table.row(system, str(len(those)), *(text_of(name, joined(own)) if own else "" for name, own in found.items()),
+                  f"{library} {versions[library]}" if library in versions else library)
     return table.text()
 
 
-def join(joined: dict[str, Found], invariant: str, finding: Found) -> None:
-    """Numbers are added up; the worse verdict stays."""
-    before = joined.get(invariant, {"verdict": "holds", "wrong": 0, "missed": 0})
-    worse = max(before, finding, key=lambda one: WORSE[one["verdict"]])
-    joined[invariant] = {"verdict": worse["verdict"], **{key: before[key] + finding[key] for key in ("wrong", "missed")}}
+def joined(findings: list[Found]) -> Found:
+    """Numbers are added up; the worst verdict stays."""
+    worst = max(findings, key=lambda one: WORSE[one["verdict"]])
+    return {"verdict": worst["verdict"], **{key: sum(one[key] for one in findings) for key in ("wrong", "missed")}}

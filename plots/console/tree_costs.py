@@ -1,13 +1,11 @@
 """Surface area costs of Oi-BVHs beside those of radix trees, as the paper prints them: Table 4 and Fig. 13."""
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import results
-from cells import Cell
-from tables import Table, exact
+from cells import Cell, grouped
+from results import USUAL_COSTS
+from tables import Table, exact, fixed, whole
 
-USUAL_COSTS = (1.2, 1.0)  # Aila, Karras and Laine 2013: of an inner node and of a triangle
 RADIX = ("apetrei", "karras", "lbvh", "radix")
 
 
@@ -15,14 +13,9 @@ RADIX = ("apetrei", "karras", "lbvh", "radix")
 class Pair:
     """Both kinds of tree over a scene in an order; None where there is none."""
 
+    either: Cell
     radix: Cell | None = None
     oi: Cell | None = None
-
-    @property
-    def either(self) -> Cell:
-        cell = self.oi or self.radix
-        assert cell is not None
-        return cell
 
     @property
     def ratio(self) -> float:
@@ -40,7 +33,7 @@ class Pair:
 
 
 def sah_cost(cell: Cell | None) -> float:
-    """0 of a tree that is not there or is wrong."""
+    """The cost; 0 if the tree is not there or is wrong."""
     if cell is None or cell.status != "measured" or cell.verdict == "differs":
         return 0.0
     return cell.counters.get("sah_cost", 0.0)
@@ -48,19 +41,15 @@ def sah_cost(cell: Cell | None) -> float:
 
 def pairs_of(run: results.Run) -> list[Pair]:
     """In the order of the cells. An order without a radix tree of its own is paired with the scene's first."""
-    pairs: dict[tuple[str, str], Pair] = {}
-    for cell in run.all_cells:
-        pair = pairs.setdefault((cell.scene_facts["name"], order_of(cell)), Pair())
-        kind = "radix" if cell.builder.startswith(RADIX) else "oi"
-        if not sah_cost(getattr(pair, kind)):  # of several builders of one tree, the first that has a cost
-            setattr(pair, kind, cell)
-    first: dict[str, Cell] = {}
-    for (scene, _), pair in pairs.items():
-        if pair.radix:
-            first.setdefault(scene, pair.radix)
-        else:
-            pair.radix = first.get(scene)
-    return list(pairs.values())
+    pairs, radix = [], {}
+    for (scene, _), cells in grouped(run.all_cells, lambda cell: (cell.scene_facts["name"], order_of(cell))).items():
+        kinds = grouped(cells, lambda cell: cell.builder.startswith(RADIX))
+        # Of several builders of one tree, the first that has a cost.
+        own, oi = (next(filter(sah_cost, kinds.get(is_radix, [])), kinds.get(is_radix, [None])[-1]) for is_radix in (True, False))
+        if own:
+            radix.setdefault(scene, own)
+        pairs.append(Pair(oi or own, own or radix.get(scene), oi))
+    return pairs
 
 
 def order_of(cell: Cell) -> str:
@@ -68,7 +57,7 @@ def order_of(cell: Cell) -> str:
 
 
 def number(value: float) -> str:
-    return f"{value:.2f}" if value > 0 else ""
+    return fixed(value if value > 0 else None)
 
 
 def table4(run: results.Run) -> str:
@@ -87,9 +76,9 @@ def table4(run: results.Run) -> str:
         mark = "*" if cell.stand_in_for else "+" if model != mesh else ""
         seen |= {mark} | ({"+"} if model != mesh else set())
         radix, oi = costs.get((model, "apetrei"), 0), costs.get((model, "oibvh-multi"), 0)
-        table.row([f"{mesh} {mark}".rstrip(), f"{cell.triangles:,}" if cell.triangles else "", order_of(cell),
-                   number(sah_cost(pair.radix)), number(radix), number(sah_cost(pair.oi)), number(oi),
-                   number(pair.ratio), number(oi / radix if radix else 0), pair.why])
+        table.row(f"{mesh} {mark}".rstrip(), whole(cell.triangles or None), order_of(cell), number(sah_cost(pair.radix)),
+                  number(radix), number(sah_cost(pair.oi)), number(oi), number(pair.ratio),
+                  number(oi / radix if radix else 0), pair.why)
     said = "surface area cost, an inner node {}, a triangle {}".format(*map(exact, run.costs))
     others = "" if is_usual else "; the paper's are for others"
     return (f"{table.text()}{said}{others}\n"
@@ -102,10 +91,10 @@ def fig13(run: results.Run) -> str:
     for pair in pairs_of(run):
         cell, outlier = pair.either, pair.either.outlier
         if not outlier:  # the scene could not be made, so it has no facts
-            table.row([cell.scene_facts["name"], order_of(cell), "", "", "", "", "", pair.why])
+            table.row(cell.scene_facts["name"], order_of(cell), "", "", "", "", "", pair.why)
             continue
-        table.row([outlier["of"], order_of(cell), str(outlier["triangle"]), f"{outlier['diameters']:.1f}",
-                   number(sah_cost(pair.radix)), number(sah_cost(pair.oi)), number(pair.ratio), pair.why])
+        table.row(outlier["of"], order_of(cell), str(outlier["triangle"]), f"{outlier['diameters']:.1f}",
+                  number(sah_cost(pair.radix)), number(sah_cost(pair.oi)), number(pair.ratio), pair.why)
         if outlier["diameters"] == 0 and not first:
             first = pair.ratio
         if first and not last and outlier["diameters"] >= 10:

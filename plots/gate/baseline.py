@@ -1,6 +1,4 @@
 """What is kept of a run of the experiment `smoke`: each cell's verdict, its fastest time, and all that no machine changes."""
-from __future__ import annotations
-
 import os
 from typing import Any
 
@@ -33,8 +31,10 @@ def of_run(run: results.Run) -> list[Kept]:
 
 def kept_of(cell: Cell, libraries: tuple[str, ...]) -> Kept:
     is_library = any(name.partition("-")[0] in libraries for name in (cell.builder, cell.collider or ""))
+    kinds = ("contacts", "pairs") if is_library else ("contacts", "pairs", "tree")
     kept = {"cell": cell.label, "scene": f"{cell.scene_facts['name']} {cell.operation}", "verdict": cell.verdict,
-            "counters": same_everywhere(cell, is_library), "hashes": hashes_of(cell, is_library)}
+            "counters": same_everywhere(cell, is_library),
+            "hashes": {kind: cell.check[f"{kind}_hash"] for kind in kinds if f"{kind}_hash" in cell.check}}
     fastest = 0 if is_library else fastest_ns(cell)
     return {**kept, "fastest_ns": fastest} if fastest > 0 else kept
 
@@ -43,13 +43,8 @@ def same_everywhere(cell: Cell, is_library: bool) -> dict[str, float]:
     """Exact counters but for bytes that depend on how many compute units there are; of libraries, whose versions differ, only
     what they found."""
     return {counter: value for counter, value in sorted(cell.counters.items())
-            if counters.is_exact(counter, cell) and not counters.depends_on_machine(counter)
+            if counters.is_exact(counter, cell) and counter not in counters.SIZED_BY_DEVICE
             and (counter in FOUND or not is_library)}
-
-
-def hashes_of(cell: Cell, is_library: bool) -> dict[str, str]:
-    kinds = ("contacts", "pairs") if is_library else ("contacts", "pairs", "tree")
-    return {kind: cell.check[f"{kind}_hash"] for kind in kinds if f"{kind}_hash" in cell.check}
 
 
 def fastest_ns(cell: Cell) -> int:

@@ -1,10 +1,8 @@
 """How a run of the experiment `smoke` departs from its baseline."""
-from __future__ import annotations
-
 import math
-import statistics
 from dataclasses import dataclass, field
 
+from cells import grouped, median
 from gate.baseline import Kept
 from tables import exact
 
@@ -70,13 +68,11 @@ def told_hashes(before: dict[str, str], now: dict[str, str]) -> list[str]:
 
 
 def compare_times(pairs: list[tuple[Kept, Kept]], tolerance: float, changes: Changes) -> None:
-    scenes: dict[str, list[tuple[str, float, float]]] = {}
-    for old, cell in pairs:
-        if old.get("fastest_ns", 0) > 0 and "fastest_ns" in cell:
-            scenes.setdefault(cell["scene"], []).append((cell["cell"], old["fastest_ns"], cell["fastest_ns"]))
-    for _, timed in sorted(scenes.items()):
-        changes.timed += len(timed)
-        common = statistics.median(now / old for _, old, now in timed)
+    timed_pairs = [pair for pair in pairs if pair[0].get("fastest_ns", 0) > 0 and "fastest_ns" in pair[1]]
+    changes.timed = len(timed_pairs)
+    for _, those in sorted(grouped(timed_pairs, lambda pair: pair[1]["scene"]).items()):
+        timed = [(cell["cell"], old["fastest_ns"], cell["fastest_ns"]) for old, cell in those]
+        common = median([now / old for _, old, now in timed])
         for name, old, now in timed:
             expected = old * common
             if now > tolerance * expected and now > expected + LEAST_EXCESS_NS:

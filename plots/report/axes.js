@@ -3,16 +3,30 @@
 const INK = "#222222";
 const FAINT = "#dddddd";
 
-function axis(title, isLog, more) {
+/** Logarithmic if there are values that its labels are for. */
+function axis(title, logValues, more) {
   return {
     title: {text: title, standoff: 8},
-    type: isLog ? "log" : "linear",
+    type: logValues ? "log" : "linear",
     automargin: true,
     gridcolor: FAINT,
     linecolor: INK,
     zerolinecolor: FAINT,
     ticks: "outside",
     tickcolor: INK,
+    ...(logValues ? logTicks(logValues) : {}),
+    ...more,
+  };
+}
+
+/** A line or marks of cells in somebody's look, each mark leading to the samples of a stage. */
+function scatter(name, look, cells, stage, {marker, ...more}) {
+  return {
+    type: "scatter",
+    name,
+    ...samplesOf(cells, stage),
+    line: {color: look.colour, dash: look.dash, width: 1.5},
+    marker: {color: look.colour, symbol: look.symbol, line: {color: INK, width: 0.4}, ...marker},
     ...more,
   };
 }

@@ -17,18 +17,12 @@ narrow.addEventListener("change", () =>
 );
 
 class Chart {
-  /** `choices`: [{label, options: [[value, text]]}]; `draw` makes {traces, layout, legend, notes} of what is chosen. */
+  /** `choices`: options by label, as for menu; `draw` makes {traces, layout, legend, notes} of what is chosen. */
   constructor(title, choices, draw) {
     this.drawing = draw;
-    this.selects = choices.map((choice) =>
-      element(
-        "select",
-        {change: () => this.draw()},
-        ...choice.options.map(([value, text]) => element("option", {value}, text))
-      )
-    );
-    const shownChoices = choices.map((choice, k) =>
-      choice.options.length > 1 ? element("label", {}, choice.label + " ", this.selects[k]) : null
+    this.selects = Object.values(choices).map((options) => menu(options, () => this.draw()));
+    const shownChoices = Object.keys(choices).map((label, k) =>
+      choices[label].length > 1 ? element("label", {}, label + " ", this.selects[k]) : null
     );
     this.plot = element("div", {class: "drawing", role: "img", "aria-label": title});
     this.legend = element("div", {class: "legend", role: "group", "aria-label": "Legend: press to hide or show"});
@@ -64,23 +58,15 @@ class Chart {
   }
 
   entry({name, look}) {
-    const button = element(
-      "button",
-      {
-        type: "button",
-        "aria-pressed": "true",
-        click: () => {
-          const isShown = button.getAttribute("aria-pressed") !== "true";
-          button.setAttribute("aria-pressed", String(isShown));
-          const places = this.plot.data.flatMap((trace, k) => (trace.name === name ? [k] : []));
-          if (places.length) {
-            Plotly.restyle(this.plot, {visible: isShown ? true : "legendonly"}, places);
-          }
-        },
-      },
-      swatch(look),
-      name
-    );
+    const toggle = () => {
+      const isShown = button.getAttribute("aria-pressed") !== "true";
+      button.setAttribute("aria-pressed", String(isShown));
+      const places = this.plot.data.flatMap((trace, k) => (trace.name === name ? [k] : []));
+      if (places.length) {
+        Plotly.restyle(this.plot, {visible: isShown ? true : "legendonly"}, places);
+      }
+    };
+    const button = element("button", {type: "button", "aria-pressed": "true", click: toggle}, swatch(look), name);
     return button;
   }
 }

@@ -16,53 +16,31 @@ function framesChart(file) {
   const counted = Object.keys(COUNTED).filter((key) => cells.some((cell) => cell.counters[key] !== undefined));
   return new Chart(
     "Time a frame",
-    [
-      {label: "Scene", options: useful.map(([name]) => [name, name])},
-      {
-        label: "Show",
-        options: [
-          ...stages.map((stage) => [stage, stage === "whole" ? "whole frame" : stage]),
-          ...counted.map((key) => [key, COUNTED[key]]),
-        ],
-      },
-      {
-        label: "Scale",
-        options: [
-          ["linear", "linear, from 0"],
-          ["log", "logarithmic"],
-        ],
-      },
-    ],
+    {
+      Scene: useful.map(([name]) => name),
+      Show: [
+        ...stages.map((stage) => [stage, stage === "whole" ? "whole frame" : stage]),
+        ...counted.map((key) => [key, COUNTED[key]]),
+      ],
+      Scale: [["linear", "linear, from 0"], ["log", "logarithmic"]],
+    },
     (scene, show, scale) => {
       const here = scenes.get(scene);
       const isTime = !(show in COUNTED);
-      const unit = isTime
-        ? unitFor(here.filter((cell) => cell.times[show]).map((cell) => cell.times[show][1]))
-        : ["", 1];
-      const value = (cell, place) =>
-        isTime
-          ? cell.times[show]
-            ? cell.times[show][place] / unit[1]
-            : null
-          : cell.times.whole
-          ? cell.counters[show]
-          : null;
+      const timed = here.filter((cell) => cell.times[isTime ? show : "whole"]);
+      const unit = isTime ? unitFor(timed.map((cell) => cell.times[show][1])) : ["", 1];
+      const value = (cell) => (isTime ? cell.times[show][1] / unit[1] : cell.counters[show]);
       const traces = [...grouped(here, (cell) => cell.who)]
         .map(([name, group]) => {
-          const look = file.looks[name];
           const points = group.sort((a, b) => a.frame - b.frame);
-          return {
-            type: "scatter",
+          return scatter(name, file.looks[name], points, isTime ? show : "whole", {
             mode: points.length > 60 ? "lines" : "lines+markers",
-            name,
-            ...samplesOf(points, isTime ? show : "whole"),
             connectgaps: false,
             x: points.map((cell) => cell.frame),
-            y: points.map((cell) => value(cell, 1)),
-            line: {color: look.colour, dash: look.dash, width: 1.5},
-            marker: {color: look.colour, symbol: look.symbol, size: 6, line: {color: INK, width: 0.4}},
+            y: points.map((cell) => (timed.includes(cell) ? value(cell) : null)),
+            marker: {size: 6},
             hovertemplate: `frame %{x}<br>%{y:,.4g} ${unit[0]}<extra>%{fullData.name}</extra>`,
-          };
+          });
         })
         .filter((trace) => trace.y.some((y) => y !== null));
       const last = Math.max(...here.map((cell) => cell.frame));
@@ -72,12 +50,12 @@ function framesChart(file) {
         legend: legendOf(here, file.looks),
         layout: {
           height: 430,
-          xaxis: axis("frame", false, {tickformat: "d", dtick: Math.max(1, Math.ceil(last / 12))}),
-          yaxis: axis(isTime ? `${show === "whole" ? "whole frame" : show}, ${unit[0]}` : COUNTED[show], isLog, {
-            tickformat: ",.4~r",
-            rangemode: "tozero",
-            ...(isLog ? logTicks(traces.flatMap((trace) => trace.y)) : {}),
-          }),
+          xaxis: axis("frame", null, {tickformat: "d", dtick: Math.max(1, Math.ceil(last / 12))}),
+          yaxis: axis(
+            isTime ? `${show === "whole" ? "whole frame" : show}, ${unit[0]}` : COUNTED[show],
+            isLog ? traces.flatMap((trace) => trace.y) : null,
+            {tickformat: ",.4~r", rangemode: "tozero"}
+          ),
         },
         notes: [isTime ? "Medians of each frame." : "", ...missingNotes(here)],
       };

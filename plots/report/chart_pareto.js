@@ -5,13 +5,8 @@ function withZero(values) {
   const least = Math.min(...values.filter((value) => value > 0));
   const most = Math.max(...values);
   if (!values.includes(0) || !Number.isFinite(least)) {
-    return {
-      place: (value) => value,
-      more: isWide(values)
-        ? logTicks(values)
-        : {rangemode: "nonnegative", ...(Math.max(...values) > 0 ? {} : {range: [-0.05, 1]})},
-      isLog: isWide(values),
-    };
+    const more = {rangemode: "nonnegative", ...(most > 0 ? {} : {range: [-0.05, 1]})};
+    return {place: (value) => value, log: isWide(values) ? values : null, more: isWide(values) ? {} : more};
   }
   const first = Math.floor(Math.log10(least));
   const last = Math.ceil(Math.log10(most));
@@ -23,8 +18,9 @@ function withZero(values) {
   const zero = 10 ** (first - step);
   return {
     place: (value) => (value === 0 ? zero : value),
-    isLog: true,
+    log: [zero, most],
     more: {
+      dtick: undefined,
       tickvals: [zero, ...powers.map((power) => 10 ** power)],
       ticktext: ["0", ...powers.map((power) => (power >= -3 && power <= 4 ? String(10 ** power) : `1e${power}`))],
     },
@@ -33,93 +29,65 @@ function withZero(values) {
 
 function paretoChart(file) {
   const scenes = grouped(file.cells, questionOf(file.cells));
-  const points = new Map(); // by scene, by measure
-  for (const [scene, cells] of scenes) {
-    const byMeasure = {};
-    for (const cell of cells.filter((one) => one.times.whole)) {
-      for (const [measure, y] of Object.entries(cell.measures)) {
-        (byMeasure[measure] = byMeasure[measure] || []).push({x: cell.times.whole[1], y, cell});
-      }
-    }
-    const useful = Object.entries(byMeasure).filter(
-      ([, found]) => new Set(found.map((point) => point.cell.who)).size > 1
-    );
-    if (useful.length) {
-      points.set(scene, Object.fromEntries(useful));
-    }
-  }
-  const measures = [...new Set([...points.values()].flatMap((found) => Object.keys(found)))];
+  const shownOf = (scene, measure) => scenes.get(scene).filter((cell) => cell.times.whole && measure in cell.measures);
+  const isUseful = (scene, measure) => new Set(shownOf(scene, measure).map((cell) => cell.who)).size > 1;
+  const all = [...new Set(file.cells.flatMap((cell) => Object.keys(cell.measures || {})))];
+  const names = [...scenes.keys()].filter((scene) => all.some((measure) => isUseful(scene, measure)));
+  const measures = all.filter((measure) => names.some((scene) => isUseful(scene, measure)));
   if (!measures.length) {
     return null;
   }
-  return new Chart(
-    "Time against quality or error",
-    [
-      {label: "Scene", options: [...points.keys()].map((name) => [name, name])},
-      {label: "Against", options: measures.map((name) => [name, name])},
-    ],
-    (scene, measure) => {
-      const here = points.get(scene)[measure] || [];
-      if (!here.length) {
-        return {traces: [], legend: [], layout: {height: 120}, notes: [`Nothing on ${scene} says its ${measure}.`]};
-      }
-      const unit = unitFor(here.map((point) => point.x));
-      const front = here.filter((point) => point.cell.front.includes(measure)).sort((a, b) => a.x - b.x);
-      const times = here.map((point) => point.x);
-      const zero = withZero(here.map((point) => point.y));
-      const line = {
-        type: "scatter",
-        mode: "lines",
-        x: front.map((point) => point.x / unit[1]),
-        y: front.map((point) => zero.place(point.y)),
-        line: {color: "#888888", width: 1},
-        hoverinfo: "skip",
-        name: "front",
-      };
-      const dots = [...grouped(here, (point) => point.cell.who)].map(([name, group]) => {
-        const look = file.looks[name];
-        return {
-          type: "scatter",
-          mode: "markers",
-          name,
-          ...samplesOf(
-            group.map((point) => point.cell),
-            "whole"
-          ),
-          x: group.map((point) => point.x / unit[1]),
-          y: group.map((point) => zero.place(point.y)),
-          customdata: group.map((point) => four(point.y)),
-          marker: {
-            size: 10,
-            color: look.colour,
-            symbol: group.map((point) => look.symbol + (front.includes(point) ? "" : "-open")),
-            line: {
-              width: group.map((point) => (front.includes(point) ? 0.6 : 1.6)),
-              color: group.map((point) => (front.includes(point) ? INK : look.colour)),
-            },
-          },
-          hovertemplate: `%{x:.4g} ${unit[0]}<br>${measure}: %{customdata}<extra>%{fullData.name}</extra>`,
-        };
-      });
-      return {
-        traces: [line, ...dots],
-        legend: legendOf(
-          here.map((point) => point.cell),
-          file.looks
-        ),
-        layout: {
-          height: 430,
-          xaxis: axis(`time, ${unit[0]}`, isWide(times), {
-            tickformat: ",.4~r",
-            ...(isWide(times) ? logTicks(times) : {}),
-          }),
-          yaxis: axis(measure, zero.isLog, {tickformat: ",.4~r", ...zero.more}),
-        },
-        notes: [
-          "Down and left is better. Filled, joined: no other is as good in both. Medians.",
-          ...missingNotes(scenes.get(scene)),
-        ],
-      };
+  return new Chart("Time against quality or error", {Scene: names, Against: measures}, (scene, measure) => {
+    if (!isUseful(scene, measure)) {
+      return {traces: [], legend: [], layout: {height: 120}, notes: [`Nothing on ${scene} says its ${measure}.`]};
     }
-  );
+    const here = shownOf(scene, measure);
+    const times = here.map((cell) => cell.times.whole[1]);
+    const unit = unitFor(times);
+    const zero = withZero(here.map((cell) => cell.measures[measure]));
+    const placesOf = (cells) => ({
+      x: cells.map((cell) => cell.times.whole[1] / unit[1]),
+      y: cells.map((cell) => zero.place(cell.measures[measure])),
+    });
+    const isBest = (cell) => cell.front.includes(measure);
+    const front = here.filter(isBest).sort((a, b) => a.times.whole[1] - b.times.whole[1]);
+    const line = {
+      type: "scatter",
+      mode: "lines",
+      ...placesOf(front),
+      line: {color: "#888888", width: 1},
+      hoverinfo: "skip",
+      name: "front",
+    };
+    const dots = [...grouped(here, (cell) => cell.who)].map(([name, cells]) => {
+      const look = file.looks[name];
+      return scatter(name, look, cells, "whole", {
+        mode: "markers",
+        ...placesOf(cells),
+        customdata: cells.map((cell) => four(cell.measures[measure])),
+        marker: {
+          size: 10,
+          symbol: cells.map((cell) => look.symbol + (isBest(cell) ? "" : "-open")),
+          line: {
+            width: cells.map((cell) => (isBest(cell) ? 0.6 : 1.6)),
+            color: cells.map((cell) => (isBest(cell) ? INK : look.colour)),
+          },
+        },
+        hovertemplate: `%{x:.4g} ${unit[0]}<br>${measure}: %{customdata}<extra>%{fullData.name}</extra>`,
+      });
+    });
+    return {
+      traces: [line, ...dots],
+      legend: legendOf(here, file.looks),
+      layout: {
+        height: 430,
+        xaxis: axis(`time, ${unit[0]}`, isWide(times) ? times : null, {tickformat: ",.4~r"}),
+        yaxis: axis(measure, zero.log, {tickformat: ",.4~r", ...zero.more}),
+      },
+      notes: [
+        "Down and left is better. Filled, joined: no other is as good in both. Medians.",
+        ...missingNotes(scenes.get(scene)),
+      ],
+    };
+  });
 }

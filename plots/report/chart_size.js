@@ -25,21 +25,12 @@ function sizeTraces(cells, stage, quantity, unit, looks) {
     const middle = points.map((cell) => value(cell, 1));
     const ends = points.map((cell) => [value(cell, 0), value(cell, 2)].sort((a, b) => a - b));
     const isLine = familyOf(line[0].scene) !== "" && points.length > 1;
-    return {
-      type: "scatter",
+    return scatter(line[0].who, look, points, stage, {
       mode: isLine ? "lines+markers" : "markers",
-      name: line[0].who,
-      ...samplesOf(points, stage),
       x: points.map((cell) => cell.triangles),
       y: middle,
       text: points.map((cell) => cell.scene),
-      line: {color: look.colour, dash: look.dash, width: 1.5},
-      marker: {
-        color: look.colour,
-        symbol: look.symbol,
-        size: points.length > 40 ? 4 : 7,
-        line: {color: INK, width: 0.4},
-      },
+      marker: {size: points.length > 40 ? 4 : 7},
       error_y: {
         type: "data",
         symmetric: false,
@@ -51,7 +42,7 @@ function sizeTraces(cells, stage, quantity, unit, looks) {
         arrayminus: ends.map((end, k) => middle[k] - end[0]),
       },
       hovertemplate: "%{text}, %{x:,} triangles<br>%{y:.4g}<extra>%{fullData.name}</extra>",
-    };
+    });
   });
 }
 
@@ -68,11 +59,11 @@ function sizeChart(file) {
   const wanted = stages.length === 2 ? ["whole"] : stages; // one stage is the whole
   return new Chart(
     "Time against size",
-    [
-      {label: "Experiment", options: experiments.map(([name]) => [name, name])},
-      {label: "Stage", options: wanted.map((stage) => [stage, stage === "whole" ? "whole build" : stage])},
-      {label: "Show", options: Object.entries(QUANTITIES).map(([key, quantity]) => [key, quantity.text])},
-    ],
+    {
+      Experiment: experiments.map(([name]) => name),
+      Stage: wanted.map((stage) => [stage, stage === "whole" ? "whole build" : stage]),
+      Show: Object.entries(QUANTITIES).map(([key, quantity]) => [key, quantity.text]),
+    },
     (experiment, stage, key) => {
       const all = sizes.get(experiment);
       const cells = all.filter((cell) => cell.times[stage] && cell.times[stage][0] > 0);
@@ -85,11 +76,8 @@ function sizeChart(file) {
         legend: legendOf(cells, file.looks),
         layout: {
           height: 430,
-          xaxis: axis("triangles", true, {tickformat: "~s", ...logTicks(cells.map((cell) => cell.triangles))}),
-          yaxis: axis(quantity.axis(unit), true, {
-            tickformat: ",.4~r",
-            ...logTicks(traces.flatMap((trace) => trace.y)),
-          }),
+          xaxis: axis("triangles", cells.map((cell) => cell.triangles), {tickformat: "~s"}),
+          yaxis: axis(quantity.axis(unit), traces.flatMap((trace) => trace.y), {tickformat: ",.4~r"}),
         },
         notes: [
           "Medians; bars from the 10th to the 90th percentile." +

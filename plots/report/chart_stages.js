@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where the time goes: a bar a builder or pipeline, its stages stacked, as plots/report_compared.py has made them.
+// Where the time goes: a bar a builder or pipeline, its stages stacked, as plots/report_cells.py has made them.
 const LONGEST = 12; // times the shortest bar: the axis ends there at first
 const ROW = 38;
 
@@ -29,7 +29,7 @@ function stagesChart(file, stageLooks) {
   if (!useful.length) {
     return null;
   }
-  return new Chart("Time by stage", [{label: "Scene", options: useful.map(([name]) => [name, name])}], (scene) => {
+  return new Chart("Time by stage", {Scene: useful.map(([name]) => name)}, (scene) => {
     const cells = scenes.get(scene);
     const bars = barsOf.get(scene);
     const timed = bars.filter((bar) => bar.stages);
@@ -37,19 +37,17 @@ function stagesChart(file, stageLooks) {
     const limit = LONGEST * Math.min(...timed.map((bar) => bar.whole));
     const longest = Math.max(...timed.map((bar) => bar.whole));
     const there = Object.keys(stageLooks).filter((stage) => timed.some((bar) => bar.stages[stage]));
+    const nameOf = (stage) => (stage === "between" ? "between stages" : stage);
     const labels = bars.map((bar) => broken(bar.who, narrow.matches ? 18 : 40));
     const traces = there.map((stage) => ({
       type: "bar",
       orientation: "h",
-      name: stage === "between" ? "between stages" : stage,
+      name: nameOf(stage),
       y: timed.map((bar) => bars.indexOf(bar)),
       x: timed.map((bar) => (bar.stages[stage] || 0) / unit[1]),
       width: 0.7,
       customdata: timed.map((bar) => bar.who),
-      ...samplesOf(
-        timed.map((bar) => file.cells[bar.cell]),
-        stage === "between" ? "whole" : stage
-      ),
+      ...samplesOf(timed.map((bar) => file.cells[bar.cell]), stage === "between" ? "whole" : stage),
       marker: {
         color: stageLooks[stage].colour,
         line: {width: 0},
@@ -61,14 +59,11 @@ function stagesChart(file, stageLooks) {
     const row = Math.max(ROW, 15 * (Math.max(...labels.map((lines) => lines.length)) + 1) + 6); // all as high as the highest
     return {
       traces,
-      legend: there.map((stage) => ({
-        name: stage === "between" ? "between stages" : stage,
-        look: {...stageLooks[stage], symbol: "square"},
-      })),
+      legend: there.map((stage) => ({name: nameOf(stage), look: {...stageLooks[stage], symbol: "square"}})),
       layout: {
         height: Math.max(240, 80 + row * bars.length),
         barmode: "stack",
-        xaxis: axis(`time, ${unit[0]}`, false, {range: [0, (1.03 * Math.min(longest, limit)) / unit[1]]}),
+        xaxis: axis(`time, ${unit[0]}`, null, {range: [0, (1.03 * Math.min(longest, limit)) / unit[1]]}),
         yaxis: {
           automargin: true,
           ticks: "outside",
@@ -80,21 +75,17 @@ function stagesChart(file, stageLooks) {
             (bar, k) => labels[k].join("<br>") + (bar.whole ? `<br><b>${four(bar.whole / unit[1])} ${unit[0]}</b>` : "")
           ),
         },
-        annotations: bars.flatMap((bar, k) =>
-          bar.said
-            ? [
-                {
-                  x: 0,
-                  y: k,
-                  xanchor: "left",
-                  showarrow: false,
-                  bgcolor: "#ffffff",
-                  font: {color: "#A11212"},
-                  text: shortened(bar.said, narrow.matches ? 24 : 90),
-                },
-              ]
-            : []
-        ),
+        annotations: bars
+          .filter((bar) => bar.said)
+          .map((bar) => ({
+            x: 0,
+            y: bars.indexOf(bar),
+            xanchor: "left",
+            showarrow: false,
+            bgcolor: "#ffffff",
+            font: {color: "#A11212"},
+            text: shortened(bar.said, narrow.matches ? 24 : 90),
+          })),
       },
       notes: [
         frames > 1 ? `Means over ${frames} frames of medians. Bold: the whole.` : "Medians. Bold: the whole.",

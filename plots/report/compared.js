@@ -33,18 +33,11 @@ function missingNotes(cells) {
   );
   const sentences = [...groups].map(([key, group]) => {
     const scenes = [...new Set(group.map((cell) => cell.scene))];
-    return `${key} on ${scenes.slice(0, 3).join(", ")}${scenes.length > 3 ? ` and ${scenes.length - 3} more` : ""}${
-      group[0].why ? ": " + group[0].why : ""
-    }.`;
+    const more = scenes.length > 3 ? ` and ${scenes.length - 3} more` : "";
+    return `${key} on ${scenes.slice(0, 3).join(", ")}${more}${group[0].why ? ": " + group[0].why : ""}.`;
   });
-  return sentences.length > 4
-    ? [
-        "Not drawn: " + sentences.slice(0, 4).join(" "),
-        `And ${sentences.length - 4} more, in the table of what has no time.`,
-      ]
-    : sentences.length
-    ? ["Not drawn: " + sentences.join(" ")]
-    : [];
+  const told = sentences.length ? ["Not drawn: " + sentences.slice(0, 4).join(" ")] : [];
+  return sentences.length > 4 ? [...told, `And ${sentences.length - 4} more, in the table of what has no time.`] : told;
 }
 
 /** A mark leads to the samples behind it: traces say of which cell each of theirs is, and of which stage. */

@@ -54,6 +54,14 @@ function element(tag, attributes, ...children) {
   return made;
 }
 
+/** A choice of options, each a value or [value, text]; `change` is called with the value that is chosen. */
+function menu(options, change) {
+  const pairs = options.map((option) => (Array.isArray(option) ? option : [option, option]));
+  const texts = pairs.map(([value, text]) => element("option", {value}, text));
+  const made = element("select", {change: () => change(made.value)}, ...texts);
+  return made;
+}
+
 /** A verdict, told by its word and its border, not by colour alone. */
 function badge(state) {
   return element("span", {class: "state state-" + String(state).split(/[ :]/)[0]}, String(state).replace("_", " "));

@@ -15,46 +15,22 @@ function runsTable(files) {
       .filter((state) => file.states[state])
       .map((state) => `${file.states[state]} ${state}`)
       .join(", ");
+  const plain = ["device", "driver", "commit", "options", "machine", "processor", "started"];
   const columns = [
-    ["file", "text"],
-    ["experiments", "text"],
-    ["cells", "count"],
-    ["wrong or missing", "text"],
-    ["device", "text"],
-    ["driver", "text"],
-    ["commit", "text"],
-    ["options", "text"],
-    ["machine", "text"],
-    ["processor", "text"],
-    ["started", "text"],
+    ["file", "text", (file) => file.title],
+    ["experiments", "text", (file) => file.experiments.join(", ")],
+    ["cells", "count", (file) => file.count],
+    ["wrong or missing", "text", (file) => bad(file) || null],
+    ...plain.map((key) => [key, "text", (file) => file[key]]),
   ];
-  const rows = files.map((file) => [
-    file.title,
-    file.experiments.join(", "),
-    file.count,
-    bad(file) || null,
-    file.device,
-    file.driver,
-    file.commit,
-    file.options,
-    file.machine,
-    file.processor,
-    file.started,
-  ]);
-  return tableSection(
-    {
-      title: "What was run on what",
-      cells: null,
-      rows,
-      links: files.map((_, k) => "#file-" + k),
-      columns: columns.map(([label, kind]) => ({
-        label,
-        kind,
-        facet: ["device", "experiments", "commit"].includes(label),
-      })),
-    },
-    0
-  );
+  const data = {
+    title: "What was run on what",
+    cells: null,
+    rows: files.map((file) => columns.map(([, , value]) => value(file))),
+    links: files.map((_, k) => "#file-" + k),
+    columns: columns.map(([label, kind]) => ({label, kind, facet: ["device", "experiments", "commit"].includes(label)})),
+  };
+  return tableSection(data, 0);
 }
 
 /** A file's tables and charts, the first time it is shown. */

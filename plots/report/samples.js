@@ -30,33 +30,21 @@ function factsOf(value, prefix) {
 }
 
 function samplesTable(samples, key, marked) {
-  const stages = Object.keys(samples.stages).filter(
-    (stage) =>
-      samples.stages[stage][key] !== undefined || (key === "span_ns" && samples.stages[stage].wall_ns !== undefined)
+  const isTime = key === "span_ns";
+  const stages = Object.entries(samples.stages).filter(
+    ([, values]) => values[key] !== undefined || (isTime && values.wall_ns !== undefined)
   );
-  const own = Object.keys(samples.own);
+  const own = Object.entries(samples.own);
+  const ofStage = (values, place) => (isTime ? nanosecondsOf(values, place) : at(values[key], place));
   const columns = [
-    ...own.map((name) => ({label: name.replace(/_/g, " "), kind: "count"})),
-    ...(key === "span_ns" ? [{label: "whole", kind: "count", unit: "ns"}] : []),
-    ...stages.map((stage) => ({label: stage, kind: "count"})),
-  ];
-  const rows = Array.from({length: samples.count}, (_, place) => [
-    ...own.map((name) => at(samples.own[name], place)),
-    ...(key === "span_ns" ? [at(samples.whole, place)] : []),
-    ...stages.map((stage) =>
-      key === "span_ns" ? nanosecondsOf(samples.stages[stage], place) : at(samples.stages[stage][key], place)
-    ),
-  ]);
-  const clean = rows.map((row) =>
-    row.map((value) =>
-      value === undefined
-        ? null
-        : typeof value === "boolean" || (typeof value === "object" && value !== null)
-        ? JSON.stringify(value)
-        : value
-    )
-  );
-  const table = new SortedTable({title: "Raw samples", columns, rows: clean, cells: null}, 0);
+    ...own.map(([name, values]) => ({label: name.replace(/_/g, " "), of: (place) => at(values, place)})),
+    ...(isTime ? [{label: "whole", unit: "ns", of: (place) => at(samples.whole, place)}] : []),
+    ...stages.map(([label, values]) => ({label, of: (place) => ofStage(values, place)})),
+  ].map((column) => ({kind: "count", ...column}));
+  const isPlain = (value) => value === null || !["boolean", "object"].includes(typeof value);
+  const plain = (value) => (isPlain(value) ? value ?? null : JSON.stringify(value));
+  const rows = Array.from({length: samples.count}, (_, place) => columns.map((column) => plain(column.of(place))));
+  const table = new SortedTable({title: "Raw samples", columns, rows, cells: null}, 0);
   const place = columns.findIndex((column) => column.label === marked);
   table.element.classList.add("raw");
   if (place >= 0) {
@@ -72,42 +60,32 @@ async function drawSamples(plot, samples, stage, quantiles, colour) {
     isWhole ? at(samples.whole, place) : nanosecondsOf(samples.stages[stage], place)
   );
   const unit = unitFor(times.filter((time) => time !== undefined && time !== null));
-  const order =
-    samples.own.order === undefined
-      ? times.map((_, place) => place)
-      : times.map((_, place) => at(samples.own.order, place));
-  const lines = quantiles
-    ? quantiles.map((value, k) => ({
-        type: "line",
-        xref: "paper",
-        x0: 0,
-        x1: 1,
-        y0: value / unit[1],
-        y1: value / unit[1],
-        line: {color: "#666666", width: 1, dash: k === 1 ? "solid" : "dot"},
-      }))
-    : [];
-  await Plotly.react(
-    plot,
-    [
-      {
-        type: "scatter",
-        mode: "markers",
-        x: order,
-        y: times.map((time) => time / unit[1]),
-        name: stage,
-        marker: {color: colour, size: 6, line: {color: INK, width: 0.4}},
-        hovertemplate: `sample %{x}<br>%{y:.5g} ${unit[0]}<extra></extra>`,
-      },
-    ],
-    layoutOf({
-      height: 260,
-      shapes: lines,
-      xaxis: axis("place in the run", false, {tickformat: "d"}),
-      yaxis: axis(`${isWhole ? "whole" : stage}, ${unit[0]}`, false, {rangemode: "tozero"}),
-    }),
-    {displaylogo: false, responsive: true, displayModeBar: false}
-  );
+  const order = times.map((_, place) => (samples.own.order === undefined ? place : at(samples.own.order, place)));
+  const lines = quantiles.map((value, k) => ({
+    type: "line",
+    xref: "paper",
+    x0: 0,
+    x1: 1,
+    y0: value / unit[1],
+    y1: value / unit[1],
+    line: {color: "#666666", width: 1, dash: k === 1 ? "solid" : "dot"},
+  }));
+  const marks = {
+    type: "scatter",
+    mode: "markers",
+    x: order,
+    y: times.map((time) => time / unit[1]),
+    name: stage,
+    marker: {color: colour, size: 6, line: {color: INK, width: 0.4}},
+    hovertemplate: `sample %{x}<br>%{y:.5g} ${unit[0]}<extra></extra>`,
+  };
+  const layout = layoutOf({
+    height: 260,
+    shapes: lines,
+    xaxis: axis("place in the run", null, {tickformat: "d"}),
+    yaxis: axis(`${isWhole ? "whole" : stage}, ${unit[0]}`, null, {rangemode: "tozero"}),
+  });
+  await Plotly.react(plot, [marks], layout, {displaylogo: false, responsive: true, displayModeBar: false});
   plot.classList.add("drawn");
 }
 
@@ -124,35 +102,23 @@ async function showSamples(file, place, stage) {
   );
   const all = [...new Set(["span_ns", ...keys, ...others])];
   const holder = element("div");
-  const fill = (key) =>
-    holder.replaceChildren(
-      samples.count ? samplesTable(samples, key, stage) : element("p", {}, "No sample was taken.")
-    );
-  const select = element(
-    "select",
-    {change: () => fill(select.value)},
-    ...all.map((key) => element("option", {value: key}, QUANTITY[key] || key.replace(/_/g, " ")))
-  );
+  const tableOf = (key) => (samples.count ? samplesTable(samples, key, stage) : element("p", {}, "No sample was taken."));
+  const fill = (key) => holder.replaceChildren(tableOf(key));
+  const select = menu(all.map((key) => [key, QUANTITY[key] || key.replace(/_/g, " ")]), fill);
   const plot = element("div", {class: "drawing", role: "img", "aria-label": "Samples in the order of the run"});
   const quantiles = cell.times[stage];
+  const [low, middle, high] = (quantiles || []).map((ns) => `${four(ns / 1e3)}`);
   const said = quantiles
-    ? `Median ${four(quantiles[1] / 1e3)} µs, 10th to 90th percentile ${four(quantiles[0] / 1e3)} to ${four(
-        quantiles[2] / 1e3
-      )} µs, ${plural(samples.count, "sample")}.`
+    ? `Median ${middle} µs, 10th to 90th percentile ${low} to ${high} µs, ${plural(samples.count, "sample")}.`
     : cell.why || "";
+  const frame = cell.frame ? `, frame ${cell.frame}` : "";
+  const title = `${cell.who} on ${cell.scene}${frame}${stage === "whole" ? "" : `: ${stage}`}`;
+  const facts = factsOf(samples.facts, "").map(([name, text]) =>
+    element("div", {}, element("dt", {}, name), element("dd", {}, text))
+  );
+  const close = element("button", {type: "button", click: () => dialog.close()}, "Close");
   dialog.replaceChildren(
-    element(
-      "div",
-      {class: "dialog-head"},
-      element(
-        "h2",
-        {id: "samples-title"},
-        `${cell.who} on ${cell.scene}${cell.frame ? `, frame ${cell.frame}` : ""}${
-          stage === "whole" ? "" : `: ${stage}`
-        }`
-      ),
-      element("button", {type: "button", click: () => dialog.close()}, "Close")
-    ),
+    element("div", {class: "dialog-head"}, element("h2", {id: "samples-title"}, title), close),
     element("p", {}, badge(cell.state), " ", said),
     ...(samples.count && quantiles
       ? [plot, element("p", {class: "note"}, "Lines: median, and dotted 10th and 90th percentile.")]
@@ -161,13 +127,7 @@ async function showSamples(file, place, stage) {
     ...(samples.count && all.length > 1 ? [element("label", {}, "Of each stage ", select)] : []),
     holder,
     element("h3", {}, "The cell"),
-    element(
-      "dl",
-      {class: "facts"},
-      ...factsOf(samples.facts, "").map(([name, text]) =>
-        element("div", {}, element("dt", {}, name), element("dd", {}, text))
-      )
-    )
+    element("dl", {class: "facts"}, ...facts)
   );
   fill("span_ns");
   if (!dialog.open) {

@@ -13,24 +13,17 @@ class SortedTable {
     this.order = null; // a column and 1 or -1
     this.all = false;
     this.choices = new Map();
-    this.text = data.rows.map((row) =>
-      row
-        .map((value, k) => shown(value, data.columns[k].kind))
-        .join(" ")
-        .toLowerCase()
-    );
-    this.short = data.columns.map((column, k) => data.rows.every((row) => shown(row[k], column.kind).length <= SHORT));
+    const texts = data.rows.map((row) => row.map((value, k) => shown(value, data.columns[k].kind)));
+    this.text = texts.map((row) => row.join(" ").toLowerCase());
+    this.short = data.columns.map((_, k) => texts.every((row) => row[k].length <= SHORT));
     this.state = data.columns.findIndex((column) => column.kind === "state");
     this.count = element("span", {class: "count", "aria-live": "polite"});
     this.body = element("tbody");
-    this.more = element("button", {
-      type: "button",
-      class: "more",
-      click: () => {
-        this.all = true;
-        this.fill();
-      },
-    });
+    const showAll = () => {
+      this.all = true;
+      this.fill();
+    };
+    this.more = element("button", {type: "button", class: "more", click: showAll});
     this.heads = data.columns.map((column, k) => this.head(column, k));
     const table = element("table", {}, element("thead", {}, element("tr", {}, ...this.heads)), this.body);
     const box = element("div", {class: "scroll", tabindex: "0", role: "region", "aria-label": data.title}, table);
@@ -40,17 +33,9 @@ class SortedTable {
 
   head(column, k) {
     const unit = column.unit ? element("span", {class: "unit"}, column.unit) : null;
-    return element(
-      "th",
-      {scope: "col", class: "kind-" + column.kind, "aria-sort": "none"},
-      element(
-        "button",
-        {type: "button", click: () => this.sort(k)},
-        column.label + "\u00a0",
-        element("span", {class: "arrow", "aria-hidden": "true"}),
-        unit
-      )
-    );
+    const arrow = element("span", {class: "arrow", "aria-hidden": "true"});
+    const button = element("button", {type: "button", click: () => this.sort(k)}, column.label + "\u00a0", arrow, unit);
+    return element("th", {scope: "col", class: "kind-" + column.kind, "aria-sort": "none"}, button);
   }
 
   controls() {
@@ -71,30 +56,19 @@ class SortedTable {
     if (there.length < 2 || there.length > MOST_CHOICES) {
       return null;
     }
-    const select = element(
-      "select",
-      {
-        change: () => {
-          this.choices.set(k, select.value);
-          this.fill();
-        },
-      },
-      element("option", {value: ""}, "all"),
-      ...there.sort(words.compare).map((value) => element("option", {value}, value))
-    );
-    return element("label", {}, column.label + " ", select);
+    const choose = (value) => {
+      this.choices.set(k, value);
+      this.fill();
+    };
+    return element("label", {}, column.label + " ", menu([["", "all"], ...there.sort(words.compare)], choose));
   }
 
   /** First up, then down, then as it was. Numbers are more often wanted from the least on. */
   sort(k) {
     const [column, direction] = this.order || [-1, 0];
     this.order = column !== k ? [k, 1] : direction === 1 ? [k, -1] : null;
-    this.heads.forEach((head, other) =>
-      head.setAttribute(
-        "aria-sort",
-        !this.order || other !== this.order[0] ? "none" : this.order[1] === 1 ? "ascending" : "descending"
-      )
-    );
+    const way = this.order && this.order[1] === 1 ? "ascending" : "descending";
+    this.heads.forEach((head, other) => head.setAttribute("aria-sort", this.order && other === k ? way : "none"));
     this.fill();
   }
 
@@ -135,18 +109,12 @@ class SortedTable {
     const row = this.data.rows[i];
     const state = this.state < 0 ? "" : row[this.state];
     const isBad = WITHOUT_TIMES.includes(state);
-    return element(
-      "tr",
-      {class: isBad ? "bad" : null},
-      ...row.map((value, k) => {
-        const column = this.data.columns[k];
-        return element(
-          k === 0 ? "th" : "td",
-          {class: `kind-${column.kind}${this.short[k] ? " short" : ""}`, scope: k === 0 ? "row" : null},
-          this.content(value, column, i, isBad ? state : null)
-        );
-      })
-    );
+    const entries = row.map((value, k) => {
+      const column = this.data.columns[k];
+      const attributes = {class: `kind-${column.kind}${this.short[k] ? " short" : ""}`, scope: k === 0 ? "row" : null};
+      return element(k === 0 ? "th" : "td", attributes, this.content(value, column, i, isBad ? state : null));
+    });
+    return element("tr", {class: isBad ? "bad" : null}, ...entries);
   }
 
   content(value, column, i, bad) {

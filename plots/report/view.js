@@ -12,8 +12,51 @@ const SEEN_FROM = [0.55, 0.5, 1];
 const FIELD = 25; // degrees: a small one bends little
 const DISTANCE = 3.9; // in radii of the scene, where it is as wide as high
 
+const EDGES = [0, 1, 1, 3, 3, 2, 2, 0, 4, 5, 5, 7, 7, 6, 6, 4, 0, 4, 1, 5, 2, 6, 3, 7]; // corners by bits: x 1, y 2, z 4
+
+/** Three corners a triangle, none shared, so that each has a normal and a colour of its own. */
+function trianglesGeometry(points, faces, colourOf) {
+  const positions = new Float32Array(faces.length * 3);
+  const colours = new Float32Array(faces.length * 3);
+  for (let k = 0; k < faces.length; ++k) {
+    positions.set(points.subarray(3 * faces[k], 3 * faces[k] + 3), 3 * k);
+    const colour = colourOf(Math.floor(k / 3));
+    colours.set([colour.r, colour.g, colour.b], 3 * k);
+  }
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
+  geometry.setAttribute("color", new THREE.BufferAttribute(colours, 3));
+  geometry.computeVertexNormals();
+  return geometry;
+}
+
+/** Boxes first to before end, six sides each: min x, y, z, max x, y, z. */
+function boxesGeometry(sides, first, end) {
+  const positions = new Float32Array((end - first) * EDGES.length * 3);
+  let place = 0;
+  for (let box = first; box < end; ++box) {
+    for (const corner of EDGES) {
+      for (let axis = 0; axis < 3; ++axis) {
+        positions[place++] = sides[6 * box + axis + ((corner >> axis) & 1 ? 3 : 0)];
+      }
+    }
+  }
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
+  return geometry;
+}
+
+/** Which triangles are in a pair: 1 for each that is. */
+function marks(pairs, count) {
+  const found = new Uint8Array(count);
+  pairs.forEach((triangle) => {
+    found[triangle] = 1;
+  });
+  return found;
+}
+
 class View {
-  /** `facts` as plots/report_view.py makes them; arrays are unpacked when it is seen. */
+  /** `facts` as plots/report_facts.py makes them; arrays are unpacked when it is seen. */
   constructor(facts, number) {
     this.facts = facts;
     this.number = number;
@@ -28,15 +71,7 @@ class View {
       value: this.level,
       input: () => this.show(),
     });
-    this.triangles = element(
-      "select",
-      {change: () => this.show()},
-      ...[
-        ["all", "all"],
-        ["some", "those that collide"],
-        ["none", "none"],
-      ].map(([value, text]) => element("option", {value}, text))
-    );
+    this.triangles = menu(["all", ["some", "those that collide"], "none"], () => this.show());
     this.hasBoxes = element("input", {type: "checkbox", checked: true, change: () => this.show()});
     this.element = element(
       "figure",
@@ -59,26 +94,19 @@ class View {
 
   title() {
     const {facts} = this;
-    return `${facts.scene}${facts.frame ? `, frame ${facts.frame}` : ""}: ${plural(facts.triangles, "triangle")}, ${
-      facts.who
-    }`;
+    const frame = facts.frame ? `, frame ${facts.frame}` : "";
+    return `${facts.scene}${frame}: ${plural(facts.triangles, "triangle")}, ${facts.who}`;
   }
 
   verdict() {
     const {facts} = this;
-    return element(
-      "p",
-      {},
-      badge(facts.state),
-      ` with ${facts.against}${facts.why ? `: ${facts.why}` : ""}. ${plural(
-        facts.pairs,
-        "pair"
-      )} of triangles have boxes that overlap, ${facts.contacts.toLocaleString(
-        "en"
-      )} intersect; neighbours that share a vertex are left out. Built and queried on ${
-        facts.device
-      }, commit ${facts.commit.slice(0, 10)}${facts.dirty ? " with local changes" : ""}.`
-    );
+    const sentences = [
+      ` with ${facts.against}${facts.why ? `: ${facts.why}` : ""}.`,
+      `${plural(facts.pairs, "pair")} of triangles have boxes that overlap,`,
+      `${facts.contacts.toLocaleString("en")} intersect; neighbours that share a vertex are left out. Built and queried on`,
+      `${facts.device}, commit ${facts.commit.slice(0, 10)}${facts.dirty ? " with local changes" : ""}.`,
+    ];
+    return element("p", {}, badge(facts.state), sentences.join(" "));
   }
 
   legend() {
@@ -88,11 +116,8 @@ class View {
       ["inner", "box of an inner node"],
       ["leaf", "box of a leaf"],
     ];
-    return element(
-      "p",
-      {class: "legend plain"},
-      ...entries.map(([key, text]) => element("span", {}, swatch({colour: SCENE[key], symbol: "square"}), text))
-    );
+    const shown = entries.map(([key, text]) => element("span", {}, swatch({colour: SCENE[key], symbol: "square"}), text));
+    return element("p", {class: "legend plain"}, ...shown);
   }
 
   /** Once it is seen. Where there is no WebGL it says so. */
@@ -101,13 +126,8 @@ class View {
     try {
       this.renderer = new THREE.WebGLRenderer({canvas: this.canvas, antialias: true, preserveDrawingBuffer: true});
     } catch (error) {
-      this.element.append(
-        element(
-          "p",
-          {class: "warning"},
-          "This browser draws nothing in three dimensions: WebGL is switched off or missing."
-        )
-      );
+      const said = "This browser draws nothing in three dimensions: WebGL is switched off or missing.";
+      this.element.append(element("p", {class: "warning"}, said));
       return;
     }
     await this.fill();
@@ -123,13 +143,10 @@ class View {
 
   async fill() {
     const name = (array) => `view-${this.number}-${array}`;
-    const [points, faces, pairs, contacts, boxes] = await Promise.all([
-      arrayOf(name("points"), Float32Array),
-      arrayOf(name("faces"), Uint32Array),
-      arrayOf(name("pairs"), Uint32Array),
-      arrayOf(name("contacts"), Uint32Array),
-      arrayOf(name("boxes"), Float32Array),
-    ]);
+    const [points, boxes] = await Promise.all(["points", "boxes"].map((one) => arrayOf(name(one), Float32Array)));
+    const [faces, pairs, contacts] = await Promise.all(
+      ["faces", "pairs", "contacts"].map((one) => arrayOf(name(one), Uint32Array))
+    );
     this.boxes = boxes;
     const [inPair, inContact] = [marks(pairs, faces.length / 3), marks(contacts, faces.length / 3)];
     const colours = Object.fromEntries(Object.entries(SCENE).map(([key, value]) => [key, new THREE.Color(value)]));
@@ -146,10 +163,7 @@ class View {
     const some = faces.filter((_, k) => inPair[Math.floor(k / 3)] || inContact[Math.floor(k / 3)]);
     const places = [...inPair.keys()].filter((triangle) => inPair[triangle] || inContact[triangle]);
     this.mesh = new THREE.Mesh(trianglesGeometry(points, faces, colouring), material());
-    this.part = new THREE.Mesh(
-      trianglesGeometry(points, some, (k) => colouring(places[k])),
-      material()
-    );
+    this.part = new THREE.Mesh(trianglesGeometry(points, some, (k) => colouring(places[k])), material());
     this.lines = ["inner", "leaf"].map(
       (kind) => new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({color: SCENE[kind]}))
     );
@@ -180,20 +194,15 @@ class View {
     this.level = Number(this.slider.value);
     const level = this.facts.levels[this.level] || {count: 0, leaves: 0};
     this.said.textContent = this.facts.levels.length
-      ? `${this.level} of ${this.facts.levels.length - 1}: ${plural(level.count, "box").replace(
-          "boxs",
-          "boxes"
-        )}, ${level.leaves.toLocaleString("en")} of leaves`
+      ? `${this.level} of ${this.facts.levels.length - 1}: ${plural(level.count, "box").replace("boxs", "boxes")}, ` +
+        `${level.leaves.toLocaleString("en")} of leaves`
       : "no boxes: the tree is wrong";
     if (!this.scene) {
       return;
     }
     const first = this.facts.levels.slice(0, this.level).reduce((sum, one) => sum + one.count, 0);
     const leaves = first + level.count - level.leaves;
-    [
-      [first, leaves],
-      [leaves, first + level.count],
-    ].forEach(([from, to], k) => {
+    [[first, leaves], [leaves, first + level.count]].forEach(([from, to], k) => {
       this.lines[k].geometry.dispose();
       this.lines[k].geometry = boxesGeometry(this.boxes, from, to);
       this.lines[k].visible = this.hasBoxes.checked;

@@ -7,8 +7,6 @@
 
 A unit's ID is the hash of what is measured, by which program and on which device.
 """
-from __future__ import annotations
-
 import contextlib
 import hashlib
 import json
@@ -22,8 +20,7 @@ import output
 import tables
 from json_files import Refused, value_of
 from output import WrongUsage
-from sweeping.hashes import hash_of
-from sweeping.planned import Sweep
+from sweeping.planned import Sweep, hash_of
 from sweeping.units import Shard, Unit
 
 PLAN_FORMAT = 2  # 1 named cells in another way

@@ -1,38 +1,33 @@
 """A process for each unit of a sweep, several at a time: a crash costs one unit."""
-from __future__ import annotations
-
 import collections
 import contextlib
 import datetime
 import os
 import select
-import signal
 import subprocess
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
+import child
 import command
 import documents
 import merging
 import output
 import tables
 from cells import Cell
-from child import ENDING
 from json_files import Refused
-from sweeping import time_left
 from sweeping.folder import Folder, finished
-from sweeping.units import Unit
+from sweeping.units import TimeLeft, Unit, rough
 
 LOOK_S = 0.1  # how often signals and time limits are looked for
 PATIENCE_S = 5  # for processes that were asked to end
 MOST_ERRORS = 1 << 16  # bytes kept of what a process says
-STOPS = {int(number) for number in ENDING}
 
 
 class Stop:
-    """The signal that asked this process to end; 0: none."""
+    """Remembers the signal that asked this process to end, so that what is done is assembled before; 0: none."""
 
     number = 0
 
@@ -40,21 +35,6 @@ class Stop:
         if self.number:  # asked twice: at once, and its processes with it
             os._exit(128 + number)
         self.number = number
-
-
-@contextlib.contextmanager
-def deferred() -> Iterator[Stop]:
-    """Signals that end this process are only remembered, until what is done is assembled."""
-    stop = Stop()
-    before = {number: signal.getsignal(number) for number in ENDING}
-    for number, handler in before.items():
-        if handler != signal.SIG_IGN:  # as under nohup
-            signal.signal(number, stop.remember)
-    try:
-        yield stop
-    finally:
-        for number, handler in before.items():
-            signal.signal(number, handler)
 
 
 @contextlib.contextmanager
@@ -80,18 +60,13 @@ class Task:
 
 
 class Process:
-    """At work on a unit."""
-
     def __init__(self, unit: Unit, folder: Folder, task: Task, device: str | None) -> None:
         folder.begin(unit)
         self.unit, self.device, self.file = unit, device, folder.cell_file(unit)
         self.began, self.given_up, self.said = time.monotonic(), "", b""
         words = ["run", str(folder.experiment_file(unit)), "--out", str(self.file), "--quiet", *task.words, *device_words(device)]
-        try:
-            self.child = subprocess.Popen([command.PROGRAM, *words], executable=task.program, env=environment(), process_group=0,
-                                          stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
-        except OSError as error:
-            raise Refused(f"the program {command.PROGRAM} cannot be run: {error.strerror}") from error
+        self.child = child.started(words, task.program, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.PIPE)
         assert self.child.stderr
         self.errors = self.child.stderr.fileno()
 
@@ -132,15 +107,8 @@ def device_words(device: str | None) -> list[str]:
     return [] if device is None else ["--device", device]
 
 
-def environment() -> dict[str, str]:
-    """Of a process that ends with this one, however that ends."""
-    return {**os.environ, "BVHBENCH_PARENT": str(os.getpid())}
-
-
 @dataclass(frozen=True)
 class Loss:
-    """Why a process has left no result."""
-
     why: str
     is_skipped: bool = False
     may_be_the_device: bool = False
@@ -151,9 +119,9 @@ def loss_of(process: Process) -> Loss:
     code, sentence = process.child.returncode, process.sentence()
     if process.given_up:
         return Loss(process.given_up)
-    if code < 0 and -code not in STOPS:
+    if code < 0 and -code not in command.ENDING:
         return Loss(f"its process crashed (signal {-code})" + (f": {sentence}" if sentence else ""), may_be_the_device=True)
-    was_stopped = (-code if code < 0 else code - 128) in STOPS
+    was_stopped = (-code if code < 0 else code - 128) in command.ENDING
     ended = f"ended with exit code {code}" if code >= 0 else f"crashed (signal {-code})"
     why = sentence if sentence and not was_stopped else f"its process {ended} and left no result"
     return Loss(why, code == 2, code == 3, was_stopped)
@@ -164,7 +132,7 @@ class Runner:
 
     def __init__(self, units: list[Unit], folder: Folder, task: Task, stop: Stop) -> None:
         self.folder, self.task, self.stop, self.total, self.done = folder, task, stop, len(units), 0
-        self.left = time_left.TimeLeft()
+        self.left = TimeLeft()
         self.waiting = collections.deque(unit for unit in units if not self.is_done(unit))
         self.slots: list[Process | None] = [None] * len(task.devices)
 
@@ -247,7 +215,7 @@ class Runner:
             what = f"{len(document['cells'])} results"
         line = f"[{self.done}/{self.total}] {unit.label}: {what}, {seconds:.1f} s"
         if self.done < self.total and self.left.all:
-            line += f"; about {time_left.rough(self.seconds_left())} left"
+            line += f"; about {rough(self.seconds_left())} left"
         print(line, flush=True)  # cluster logs are read while they grow
 
     def seconds_left(self) -> float:
@@ -261,15 +229,15 @@ class Runner:
     def end_all(self) -> None:
         """Asked first, so that they may leave a driver in order; their cells will be measured anew."""
         running = [slot.child for slot in self.slots if slot]
-        for child in running:
-            child.terminate()
+        for one in running:
+            one.terminate()
         until = time.monotonic() + PATIENCE_S
-        for child in running:
+        for one in running:
             try:
-                child.communicate(timeout=max(0.0, until - time.monotonic()))
+                one.communicate(timeout=max(0.0, until - time.monotonic()))
             except subprocess.TimeoutExpired:
-                child.kill()
-                child.wait()
+                one.kill()
+                one.wait()
 
 
 def now() -> str:

@@ -1,16 +1,14 @@
 """The product that a sweep measures: scenes, sizes, builders, orders, colliders and values of options. docs/sweeps.md tells how
 it is written. The program itself says what each cell is, or why there is none."""
-from __future__ import annotations
-
 import itertools
+import json
 import re
 from typing import Any
 
 import tables
 from output import WrongUsage
 from sweeping import sizes
-from sweeping.planned import NO_BUILDER, OPTIONS, Json, Planned, Sweep
-from sweeping.settling import Settle, settled
+from sweeping.planned import NO_BUILDER, OPTIONS, Json, Planned, Settle, Sweep, settled
 
 KEYS = ("sweep", "question", "scenes", "sizes", "builders", "orders", "colliders", "set", "samples", "warm_up", "quality")
 HOLE = "{size}"
@@ -19,54 +17,54 @@ USUAL_BUILDER, USUAL_COLLIDER = "oibvh-multi", "leaf"
 UNTOLD = ("frames", "swept")  # result files do not tell cells of several values apart
 
 
-def listed(json: Json, key: str) -> list[Any]:
-    if not isinstance(json[key], list) or not json[key]:
+def listed(described: Json, key: str) -> list[Any]:
+    if not isinstance(described[key], list) or not described[key]:
         raise WrongUsage(f"'{key}' must be a list of at least one")
-    return json[key]
+    return described[key]
 
 
 def word(value: Any) -> str:
     """A value as the command line says it."""
-    return value if isinstance(value, str) else str(value).lower() if isinstance(value, bool) else str(value)
+    return value if isinstance(value, str) else json.dumps(value)
 
 
-def whole(json: Json, key: str, least: int, usual: int) -> int:
-    value = json.get(key, usual)
+def whole(described: Json, key: str, least: int, usual: int) -> int:
+    value = described.get(key, usual)
     if type(value) is not int or not least <= value <= 1_000_000:
         raise WrongUsage(f"{key} must be a whole number from {least} to 1000000, not {word(value)}")
     return value
 
 
-def all_named(json: Json, key: str) -> list[Json]:
+def all_named(described: Json, key: str) -> list[Json]:
     """Builders or colliders as objects."""
-    items = [{"name": item} if isinstance(item, str) else item for item in listed(json, key)]
+    items = [{"name": item} if isinstance(item, str) else item for item in listed(described, key)]
     for item in items:
         if not isinstance(item, dict) or not isinstance(item.get("name"), str):
             raise WrongUsage(f"'{key}' must be names, or objects with a name")
     return items
 
 
-def swept_of(json: Json, settle: Settle) -> Sweep:
+def swept_of(described: Json, settle: Settle) -> Sweep:
     """Raises WrongUsage, in a sentence that names the key, for what makes no sense. A combination that cannot be, of things that
     can, is a cell that says why not."""
-    for key in json:
+    for key in described:
         if key not in KEYS:
             raise WrongUsage(f"'{key}' is no key of a sweep; there are: {', '.join(KEYS)}")
-    if "scenes" not in json:
+    if "scenes" not in described:
         raise WrongUsage("a sweep needs scenes")
-    name = json.get("sweep", "sweep")
+    name = described.get("sweep", "sweep")
     if not isinstance(name, str) or not re.fullmatch(r"[A-Za-z0-9_-]+", name):
         raise WrongUsage(f"'sweep' must be letters, digits, - and _, not '{word(name)}'")
-    if not isinstance(json.get("quality", False), bool):
-        raise WrongUsage(f"'quality' is true or false, not {word(json['quality'])}")
-    if not isinstance(json.get("question", ""), str):
+    if not isinstance(described.get("quality", False), bool):
+        raise WrongUsage(f"'quality' is true or false, not {word(described['quality'])}")
+    if not isinstance(described.get("question", ""), str):
         raise WrongUsage("'question' must be text")
-    sweep = Sweep(name, json.get("question", ""), whole(json, "samples", 1, 20), whole(json, "warm_up", 0, 3),
-                  json.get("quality", False), "", [])
-    scenes = scenes_of(json, sweep, settle)
-    options = options_of(json)
-    builders, colliders = builders_of(json), all_named(json, "colliders") if "colliders" in json else [None]
-    of_colliders, of_scenes = check_each(json, sweep, scenes, builders, colliders, options, settle)
+    sweep = Sweep(name, described.get("question", ""), whole(described, "samples", 1, 20), whole(described, "warm_up", 0, 3),
+                  described.get("quality", False), "", [])
+    scenes = scenes_of(described, sweep, settle)
+    options = options_of(described)
+    builders, colliders = builders_of(described), all_named(described, "colliders") if "colliders" in described else [None]
+    of_colliders, of_scenes = check_each(described, sweep, scenes, builders, colliders, options, settle)
     count = len(scenes) * len(builders) * len(colliders)
     for _, values in options:
         count *= len(values)
@@ -79,18 +77,19 @@ def swept_of(json: Json, settle: Settle) -> Sweep:
                                                                                         zip(colliders, trees))
                for chosen in itertools.product(*(values for _, values in options))]
     sweep.cells = each_once(settled(planned, sweep, settle))
-    counts = [("scene", len(scenes))] + [(key[:-1], len(json[key])) for key in ("builders", "orders", "colliders") if key in json]
+    counts = [("scene", len(scenes))]
+    counts += [(key[:-1], len(described[key])) for key in ("builders", "orders", "colliders") if key in described]
     sweep.product = " x ".join([tables.counted(number, what) for what, number in counts]
                                + [f"{tables.counted(len(values), 'value')} of {key}" for key, values in options])
     return sweep
 
 
-def scenes_of(json: Json, sweep: Sweep, settle: Settle) -> list[Json]:
+def scenes_of(described: Json, sweep: Sweep, settle: Settle) -> list[Json]:
     """Each scene once, or once a size where it leaves room for one."""
-    given = json.get("sizes", [])
-    of_sizes = [] if "sizes" not in json else sizes.called(
-        given if isinstance(given, str) else ",".join(map(word, listed(json, "sizes"))))
-    items = [{"scene": item} if isinstance(item, str) else item for item in listed(json, "scenes")]
+    given = described.get("sizes", [])
+    of_sizes = [] if "sizes" not in described else sizes.called(
+        given if isinstance(given, str) else ",".join(map(word, listed(described, "sizes"))))
+    items = [{"scene": item} if isinstance(item, str) else item for item in listed(described, "scenes")]
     for item in items:
         if not isinstance(item, dict) or not isinstance(item.get("scene"), str):
             raise WrongUsage("'scene' must be text")
@@ -112,27 +111,26 @@ def scenes_of(json: Json, sweep: Sweep, settle: Settle) -> list[Json]:
     return scenes
 
 
-def builders_of(json: Json) -> list[Json]:
-    """Each builder in each order."""
-    if "builders" not in json and "colliders" not in json:
+def builders_of(described: Json) -> list[Json]:
+    if "builders" not in described and "colliders" not in described:
         raise WrongUsage("a sweep needs builders or colliders")
-    builders = all_named(json, "builders") if "builders" in json else [{"name": USUAL_BUILDER}]
-    if "orders" not in json:
+    builders = all_named(described, "builders") if "builders" in described else [{"name": USUAL_BUILDER}]
+    if "orders" not in described:
         return builders
     if any("order" in builder for builder in builders):
         raise WrongUsage("a builder that names its order leaves none to the sweep's orders")
-    return [builder | {"order": order} for builder in builders for order in listed(json, "orders")]
+    return [builder | {"order": order} for builder in builders for order in listed(described, "orders")]
 
 
-def options_of(json: Json) -> list[tuple[str, list[str]]]:
+def options_of(described: Json) -> list[tuple[str, list[str]]]:
     """The options of `set` and their values, in the order of OPTIONS."""
-    chosen = json.get("set", {})
+    chosen = described.get("set", {})
     if not isinstance(chosen, dict):
         raise WrongUsage("'set' must be an object of options, each with a list of values")
     for key in chosen:
         if key not in OPTIONS:
             raise WrongUsage(f"a sweep sets no '{key}'; there are: {', '.join(OPTIONS)}")
-        if OPTIONS[key][0] != "builder" and "colliders" not in json:
+        if OPTIONS[key][0] != "builder" and "colliders" not in described:
             raise WrongUsage(f"'{key}' is for colliders, and the sweep has none")
     options = [(key, [word(value) for value in listed(chosen, key)]) for key in OPTIONS if key in chosen]
     for key, values in options:
@@ -153,14 +151,14 @@ def with_options(one: Planned, options: list[tuple[str, list[str]]], chosen: tup
 
 def experiment_over(scene: Json, sweep: Sweep, builder: Json | None = None, collider: Json | None = None,
                     query: Json | None = None) -> Json:
-    """Of usual parts where none are given."""
+    """An experiment over a scene, of usual parts where none are given."""
     if collider is None and len(scene) == 1:
         return {"experiment": sweep.name, "scenes": [scene["scene"]], "builders": [builder or USUAL_BUILDER]}
     return {"experiment": sweep.name, "scenes": [scene], "pipelines": [
         {"builder": builder or USUAL_BUILDER, "collider": collider or USUAL_COLLIDER, "adjacent": "drop"} | (query or {})]}
 
 
-def check_each(json: Json, sweep: Sweep, scenes: list[Json], builders: list[Json], colliders: list[Json | None],
+def check_each(described: Json, sweep: Sweep, scenes: list[Json], builders: list[Json], colliders: list[Json | None],
                options: list[tuple[str, list[str]]], settle: Settle) -> tuple[list[Json], list[Json]]:
     """What the program says of each collider and of each scene. Raises WrongUsage for what is wrong by itself, whatever it is
     combined with."""
@@ -180,7 +178,7 @@ def check_each(json: Json, sweep: Sweep, scenes: list[Json], builders: list[Json
         if answer.get("error"):
             raise WrongUsage(where + answer["error"])
     for scene in scenes:
-        if len(scene) > 1 and "colliders" not in json:
+        if len(scene) > 1 and "colliders" not in described:
             raise WrongUsage(f"the scene '{scene['scene']}' says what is for colliders, and the sweep has none")
         if "pairs_of" in scene and "pairs_of" in dict(options):
             raise WrongUsage(f"the scene '{scene['scene']}' says which pairs it is about, which leaves none to the sweep")

@@ -1,6 +1,4 @@
 """Sizes of a sweep: 1000,30000 or 1000:1000000:x10 or 1000:5000:+1000."""
-from __future__ import annotations
-
 import math
 from typing import NoReturn
 

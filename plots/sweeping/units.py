@@ -1,14 +1,18 @@
-"""What a process measures: a cell, or all cells of a scene. Units are dealt to shards."""
-from __future__ import annotations
-
+"""What a process measures: a cell, or all cells of a scene. Units are dealt to shards; those that are done tell how long the others
+will take."""
 import json
+import math
 import re
 from dataclasses import dataclass
 
+import numpy
+
+from cells import grouped
 from output import WrongUsage
-from sweeping.hashes import hash_of
-from sweeping.planned import Json, Planned, Sweep
-from sweeping.time_left import START_TRIANGLES
+from sweeping.planned import Json, Planned, Sweep, hash_of
+
+START_TRIANGLES = 100_000  # what a process costs before it measures anything, in triangles: a guess where nothing is known yet
+Done = list[tuple[float, float]]  # triangles, 0 where they are not known, and seconds
 
 
 @dataclass(frozen=True)
@@ -49,10 +53,8 @@ def shard_called(text: str) -> Shard:
 
 def units_of(sweep: Sweep, together: bool, settings: str) -> list[Unit]:
     """Of the cells that can be. `settings` is what decides what is measured besides."""
-    groups: dict[object, list[Planned]] = {}
-    for place, one in enumerate(sweep.cells):
-        if not one.why_not:
-            groups.setdefault(json.dumps(one.scene, sort_keys=True) if together else place, []).append(one)
+    groups = grouped((one for one in sweep.cells if not one.why_not),
+                     lambda one: json.dumps(one.scene, sort_keys=True) if together else id(one))
     return [unit_of(sweep, cells, settings) for cells in groups.values()]
 
 
@@ -71,3 +73,49 @@ def shards_of(units: list[Unit], count: int) -> list[int]:
         load[least] += weights[place]
         chosen[place] = least + 1
     return chosen
+
+
+class TimeLeft:
+    """A time to start and one for each triangle: of the same builder or pipeline if it is done in several sizes, else of all."""
+
+    def __init__(self) -> None:
+        self.all: Done = []
+        self.of_kind: dict[str, Done] = {}
+
+    def add(self, kind: str, triangles: int, seconds: float) -> None:
+        self.all.append((triangles, seconds))
+        self.of_kind.setdefault(kind, []).append((triangles, seconds))
+
+    def seconds_of(self, kind: str, triangles: int) -> float:
+        """At least one cell must have been added."""
+        own = self.of_kind.get(kind, [])
+        return estimate(own if own and (has_sizes(own) or not has_sizes(self.all)) else self.all, triangles)
+
+
+def has_sizes(done: Done) -> bool:
+    return len({triangles for triangles, _ in done}) > 1
+
+
+def estimate(done: Done, triangles: int) -> float:
+    """A line by least squares, neither of whose numbers is negative."""
+    sizes, seconds = (numpy.array(column, dtype=float) for column in zip(*done))
+    if triangles <= 0:
+        return float(seconds.mean())
+    if not has_sizes(done):
+        return float(seconds.mean() * (START_TRIANGLES + triangles) / (START_TRIANGLES + sizes.mean()))
+    slope = max(0.0, float(numpy.polyfit(sizes, seconds, 1)[0]))
+    start = float(seconds.mean() - slope * sizes.mean())
+    return start + slope * triangles if start >= 0 else float(seconds.sum() / sizes.sum() * triangles)
+
+
+def rough(seconds: float) -> str:
+    """"12 s", "3 min", "5 h 20 min", "2 d 3 h"."""
+    whole = math.ceil(max(seconds, 1))
+    if whole < 90:
+        return f"{whole} s"
+    minutes = -(-whole // 60)
+    if minutes < 90:
+        return f"{minutes} min"
+    hours = minutes // 60
+    large, unit, small, small_unit = (hours, "h", minutes % 60, "min") if hours < 48 else (hours // 24, "d", hours % 24, "h")
+    return f"{large} {unit}" + (f" {small} {small_unit}" if small else "")

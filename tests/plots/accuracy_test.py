@@ -1,29 +1,13 @@
 #!/usr/bin/env python3
-"""The figures of accuracy show every method, mark the best, and refuse what is wrong.
-
-Usage: accuracy_test.py <source root>
-"""
-import json
-import pathlib
-import sys
-import tempfile
+"""The figures of accuracy show every method, mark the best, and refuse what is wrong."""
 import unittest
 
-ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
-GOLDEN = ROOT / "tests" / "golden" / "accuracy.json"
-sys.path.insert(0, str(ROOT / "plots"))
+from base import GOLDEN, InFolder, golden  # first: it says where plots are
 
-import accuracy  # noqa: E402
-import pareto  # noqa: E402
-import results  # noqa: E402
-import style  # noqa: E402
-from accuracy import Cost, Point  # noqa: E402
-
-
-class Front(unittest.TestCase):
-    def test_keeps_what_no_other_is_as_good_as(self) -> None:
-        points = [Point(3, 0, "a"), Point(1, 5, "b"), Point(2, 5, "c"), Point(4, 0, "d"), Point(2.5, 1, "e")]
-        self.assertEqual([point.method for point in pareto.front(points)], ["b", "e", "a"])
+import accuracy
+import results
+import style
+from accuracy import Cost
 
 
 class Cheapest(unittest.TestCase):
@@ -39,24 +23,20 @@ class Cheapest(unittest.TestCase):
         self.assertEqual(len(accuracy.cheapest([quick, slow._replace(query=10)], 1000)), 1)
 
 
-class Figures(unittest.TestCase):
+class Figures(InFolder):
     def setUp(self) -> None:
+        super().setUp()
         style.set_up()
-        holder = tempfile.TemporaryDirectory()
-        self.addCleanup(holder.cleanup)
-        self.folder = pathlib.Path(holder.name)
-        self.document = json.loads(GOLDEN.read_text(encoding="utf-8"))
+        self.document = golden("accuracy")
 
     def run_of(self, cells: list[dict]) -> results.Run:
-        path = self.folder / "accuracy.json"
-        path.write_text(json.dumps(self.document | {"cells": cells}), encoding="utf-8")
-        return results.load(path)
+        return results.load(self.written(self.document | {"cells": cells}, "accuracy.json"))
 
     def axis(self, name: str) -> list[dict]:
         return [cell for cell in self.document["cells"] if cell["accuracy"]["axis"] == name]
 
     def drawn(self, name: str) -> accuracy.plt.Figure:
-        figures = accuracy.figures_of(self.run_of(self.axis(name)))
+        figures = accuracy.some_figures_of(self.run_of(self.axis(name)))
         self.assertEqual(list(figures), [f"accuracy-{name}"])
         drawing = figures[f"accuracy-{name}"]()
         drawing.draw_without_rendering()
@@ -91,11 +71,11 @@ class Figures(unittest.TestCase):
         cells[0]["check"]["verdict"] = "agrees"
         cells[1]["accuracy"]["method"] = "guess"
         with self.assertRaisesRegex(results.Refused, "no look for the method 'guess'"):
-            accuracy.figures_of(self.run_of(cells))["accuracy-narrow"]()
+            accuracy.some_figures_of(self.run_of(cells))["accuracy-narrow"]()
 
     def test_of_a_file_without_any_are_refused(self) -> None:
         with self.assertRaisesRegex(results.Refused, "no measured cell of an axis"):
-            accuracy.some_figures_of(results.load(ROOT / "tests" / "golden" / "table1.json"))
+            accuracy.some_figures_of(results.load(GOLDEN / "table1.json"))
 
 
 if __name__ == "__main__":

@@ -1,25 +1,17 @@
 #!/usr/bin/env python3
-"""Result files as a table of pandas.
-
-Usage: bvhbench_results_test.py <source root>
-"""
-from __future__ import annotations
-
+"""Result files as a table of pandas."""
 import importlib.util
 import lzma
 import pathlib
-import sys
 import tempfile
 import unittest
 
-ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
-sys.path.insert(0, str(ROOT / "plots"))
+from base import GOLDEN, ROOT  # first: it says where plots are
 
-import bvhbench_results  # noqa: E402
-import json_files  # noqa: E402
-import results  # noqa: E402
+import bvhbench_results
+import json_files
+import results
 
-GOLDEN = ROOT / "tests" / "golden"
 TABLE1, TABLE2 = GOLDEN / "table1.json", GOLDEN / "table2.json"
 
 

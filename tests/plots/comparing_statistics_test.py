@@ -1,23 +1,15 @@
 #!/usr/bin/env python3
-"""The statistics of `compare` against tables, SciPy's manual and chance.
-
-Usage: comparing_statistics_test.py <source root>
-"""
-from __future__ import annotations
-
+"""The statistics of `compare` against tables, SciPy's manual and chance."""
 import math
-import pathlib
-import sys
 import unittest
 from collections.abc import Callable
 
 import numpy
 
-ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
-sys.path.insert(0, str(ROOT / "plots"))
+import base  # noqa: F401  first: it says where plots are
 
-from comparing.intervals import Interval, median_interval, ratio_interval, samples_per_independent_one  # noqa: E402
-from comparing.u_test import p_value  # noqa: E402
+from comparing.intervals import Interval, median_interval, ratio_interval, samples_per_independent_one
+from comparing.times import p_value
 
 
 def shuffled(count: int, seed: int = 3) -> numpy.ndarray:

@@ -1,34 +1,25 @@
 #!/usr/bin/env python3
-"""What `compare` says of times, counters, verdicts and cells of two result files.
-
-Usage: comparing_test.py <source root>
-"""
-from __future__ import annotations
-
+"""What `compare` says of times, counters, verdicts and cells of two result files."""
 import copy
 import math
 import pathlib
-import sys
 import unittest
 from collections.abc import Callable
 from typing import Any
 
 import numpy
 
-ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
-sys.path.insert(0, str(ROOT / "plots"))
+from base import Raw  # first: it says where plots are
 
-import counters  # noqa: E402
-from cells import Cell  # noqa: E402
-from comparing import comparison, report  # noqa: E402
-from comparing.refusals import require_comparable  # noqa: E402
-from comparing.rules import Rules  # noqa: E402
-from output import WrongUsage  # noqa: E402
+import counters
+from cells import Cell
+from comparing import comparison, report
+from comparing.refusals import Rules, require_comparable
+from output import WrongUsage
 
 BUILDERS = ["perfect", "karras", "apetrei", "lbvh-levels", "oibvh-single", "oibvh-multi"]
 FOUR = ["karras", "apetrei", "perfect", "oibvh-multi"]
 SAME, FASTER, SLOWER, UNSURE = "SAME", "FASTER", "SLOWER", "UNSURE"
-Raw = dict[str, Any]
 
 
 def steady(_: float) -> float:

@@ -1,20 +1,14 @@
 #!/usr/bin/env python3
-"""What `smoke` keeps of a run, and what of another run it calls a regression.
-
-Usage: gate_test.py <source root>
-"""
+"""What `smoke` keeps of a run, and what of another run it calls a regression."""
 import copy
 import json
-import pathlib
-import sys
 import unittest
 
-ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
-sys.path.insert(0, str(ROOT / "plots"))
+from base import ROOT  # first: it says where plots are
 
-from cells import Cell  # noqa: E402
-from gate import baseline, changes  # noqa: E402
-from json_files import Refused  # noqa: E402
+from cells import Cell
+from gate import baseline, changes
+from json_files import Refused
 
 KEPT = ROOT / "results" / "baseline" / "smoke-cpu.json"
 LIBRARIES = ("embree", "fcl")

@@ -1,25 +1,17 @@
 #!/usr/bin/env python3
-"""`merge` keeps every cell once and as it was, and refuses what is not alike; an output is reserved for one command.
-
-Usage: merge_test.py <source root>
-"""
+"""`merge` keeps every cell once and as it was, and refuses what is not alike; an output is reserved for one command."""
 import copy
 import json
-import pathlib
-import sys
-import tempfile
 import unittest
 
-ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
-GOLDEN = ROOT / "tests" / "golden"
-sys.path.insert(0, str(ROOT / "plots"))
+from base import GOLDEN, InFolder  # first: it says where plots are
 
-import documents  # noqa: E402
-import file_lock  # noqa: E402
-import merging  # noqa: E402
-from json_files import Refused  # noqa: E402
-from output import WrongUsage  # noqa: E402
-from reserved import reserved  # noqa: E402
+import documents
+import file_lock
+import merging
+from json_files import Refused
+from output import WrongUsage
+from reserved import reserved
 
 
 def golden(name: str = "table1") -> dict:
@@ -128,12 +120,7 @@ class Merging(unittest.TestCase):
         documents.document_of(merged.text.encode(), "merged")
 
 
-class Reserving(unittest.TestCase):
-    def setUp(self) -> None:
-        holder = tempfile.TemporaryDirectory()
-        self.addCleanup(holder.cleanup)
-        self.folder = pathlib.Path(holder.name)
-
+class Reserving(InFolder):
     def reserve(self, name: str, force: bool = False, inputs: tuple = ()) -> None:
         with reserved(str(self.folder / name), "--out", force, inputs):
             pass

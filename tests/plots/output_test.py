@@ -1,8 +1,5 @@
 #!/usr/bin/env python3
-"""What becomes of files that pages and pictures are written to, and of files that are no results.
-
-Usage: output_test.py <source root>
-"""
+"""What becomes of files that pages and pictures are written to, and of files that are no results."""
 import json
 import os
 import pathlib
@@ -13,7 +10,7 @@ import sys
 import tempfile
 import unittest
 
-from plots_test import GOLDEN, ROOT, TemporaryFolder
+from base import GOLDEN, ROOT, InFolder
 
 TABLE1 = GOLDEN / "table1.json"
 DEEP = "[" * 100_000
@@ -38,7 +35,7 @@ CHANGES = {  # of a cell
 }
 
 
-class Malformed(TemporaryFolder):
+class Malformed(InFolder):
     def assert_told(self, path: pathlib.Path, words: str) -> None:
         for script, out in (("report.py", self.folder / "r.html"), ("all.py", self.folder / "out")):
             done = self.run_script(script, path, "--out", out)
@@ -80,7 +77,7 @@ class Malformed(TemporaryFolder):
         self.assertIn(b"\xff.html", done.stdout)
 
 
-class Outputs(TemporaryFolder):
+class Outputs(InFolder):
     """A page and a picture, each over what stood there."""
 
     def setUp(self) -> None:
@@ -167,4 +164,4 @@ class Outputs(TemporaryFolder):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1])
+    unittest.main()

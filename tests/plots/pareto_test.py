@@ -1,28 +1,19 @@
 #!/usr/bin/env python3
-"""The figure of orders shows every point, marks the best, and keeps its numbers apart.
-
-Usage: pareto_test.py <source root>
-"""
+"""The figure of orders shows every point, marks the best, and keeps its numbers apart."""
 import copy
 import itertools
-import json
 import math
-import pathlib
 import random
-import sys
-import tempfile
 import unittest
 
-ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
-GOLDEN = ROOT / "tests" / "golden" / "quality.json"
-sys.path.insert(0, str(ROOT / "plots"))
+from base import InFolder, golden  # first: it says where plots are
 
-import labels  # noqa: E402
-import pareto  # noqa: E402
-import pareto_orders  # noqa: E402
-import results  # noqa: E402
-import style  # noqa: E402
-from matplotlib.text import Text  # noqa: E402
+import labels
+import pareto
+import pareto_orders
+import results
+import style
+from matplotlib.text import Text
 
 ORDERS = [f"order{number}" for number in range(1, 15)]
 
@@ -61,13 +52,11 @@ class Labels(unittest.TestCase):
             self.assertEqual(labels.meets(box, start, end), expected, (start, end))
 
 
-class Figure(unittest.TestCase):
+class Figure(InFolder):
     def setUp(self) -> None:
+        super().setUp()
         style.set_up()
-        holder = tempfile.TemporaryDirectory()
-        self.addCleanup(holder.cleanup)
-        self.path = pathlib.Path(holder.name) / "quality.json"
-        self.document = json.loads(GOLDEN.read_text(encoding="utf-8"))
+        self.document = golden("quality")
 
     def many(self, with_tests: bool) -> results.Run:
         """Fourteen orders of two builders on two scenes, one order much worse than all others, and a host builder."""
@@ -89,8 +78,7 @@ class Figure(unittest.TestCase):
                 cell["counters"]["box_tests_count"] = int(worse * noise.uniform(1e6, 2e6))
             cell["samples"] = [{"order": 0, "stages": [stage]}]
             cells.append(cell)
-        self.path.write_text(json.dumps(self.document | {"cells": cells}), encoding="utf-8")
-        return results.load(self.path)
+        return results.load(self.written(self.document | {"cells": cells}, "quality.json"))
 
     def test_shows_every_point_with_its_number(self) -> None:
         drawing = pareto_orders.draw(self.many(with_tests=False))

@@ -1,10 +1,5 @@
 #!/usr/bin/env python3
-"""What `reproduce` runs, prints and ends with, beside a program that measures nothing but hands out finished files.
-
-Usage: reproduce_test.py <source root>
-"""
-from __future__ import annotations
-
+"""What `reproduce` runs, prints and ends with, beside a program that measures nothing but hands out finished files."""
 import io
 import os
 import pathlib
@@ -16,13 +11,10 @@ import tempfile
 import unittest
 from unittest import mock
 
-ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
-sys.path.insert(0, str(ROOT / "plots"))
+from base import GOLDEN, ROOT  # first: it says where plots are
 
-import results  # noqa: E402
-from commands import reproduce  # noqa: E402
-
-GOLDEN = ROOT / "tests/golden"
+import results
+from commands import reproduce
 
 # Its exit codes are in CODES, as "table1=1 view=3"; each call is a line of the file "calls".
 PROGRAM = f"""#!{sys.executable}

@@ -1,14 +1,8 @@
 #!/usr/bin/env python3
-"""What `show` prints of result files.
-
-Usage: show_test.py <source root>
-"""
-from __future__ import annotations
-
+"""What `show` prints of result files."""
 import copy
 import json
 import os
-import pathlib
 import re
 import subprocess
 import sys
@@ -16,31 +10,13 @@ import tempfile
 import unittest
 from typing import Any
 
-ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
-sys.path.insert(0, str(ROOT / "plots"))
+from base import ROOT, Raw, cell, document, run_of, stage  # first: it says where plots are
 
-import results  # noqa: E402
-from cells import Cell  # noqa: E402
-from console import cells, frames, quality, refit, roofline, skips, swept, yardstick  # noqa: E402
-from console import cell as one_cell  # noqa: E402
-from console import run as run_page  # noqa: E402
-
-GOLDEN = json.loads((ROOT / "tests" / "golden" / "table1.json").read_text(encoding="utf-8"))
-Raw = dict[str, Any]
-
-
-def stage(name: str, span_ns: int, moved_bytes: int = 0, **more: int) -> Raw:
-    return {"stage": name, "busy_ns": span_ns - 10, "span_ns": span_ns, "launches": 2, "moved_bytes": moved_bytes, **more}
-
-
-def cell(builder: str = "oibvh-multi", ns: int = 100000, **more: Any) -> Raw:
-    """The hierarchy of a tree over 144,046 triangles, in three samples."""
-    return {"experiment": "table1", "scene": {"name": "bunny", "triangles": 144046}, "builder": {"name": builder},
-            "status": "measured",
-            "samples": [{"order": 7 + place, "stages": [stage("hierarchy", ns + off, 50000000)]}
-                        for place, off in enumerate((10000, 0, -10000))],
-            "counters": {"nodes_count": 288100, "tree_bytes": 6914400, "scratch_bytes": 0},
-            "check": {"verdict": "agrees", "against": "oibvh-reference", "tree_hash": "00000000000000ff"}, **copy.deepcopy(more)}
+import results
+from cells import Cell
+from console import cells, frames, skips, swept, trees
+from console import cell as one_cell
+from console import run as run_page
 
 
 def frame(number: int = 0, builder: str = "oibvh-multi", ns: int = 1000000, **collider: Any) -> Raw:
@@ -56,17 +32,6 @@ def frame(number: int = 0, builder: str = "oibvh-multi", ns: int = 1000000, **co
 
 def wrong(raw: Raw, detail: str = "node 3 is lost") -> Raw:
     return {**copy.deepcopy(raw), "check": {"verdict": "differs", "detail": detail}}
-
-
-def document(*all_cells: Raw, **facts: Any) -> Raw:
-    """1e12 bytes a second."""
-    run = {**copy.deepcopy(GOLDEN["run"]), "copy_rate_bytes_per_s": 1e12, **facts}
-    return {"format": GOLDEN["format"], "run": run, "cells": copy.deepcopy(list(all_cells))}
-
-
-def run_of(*all_cells: Raw, **facts: Any) -> results.Run:
-    made = document(*all_cells, **facts)
-    return results.Run(pathlib.Path("made.json"), made["run"], [], [], [], made)
 
 
 def shown(raw: Raw) -> str:
@@ -205,9 +170,9 @@ class OfTrees(unittest.TestCase):
         raw = cell(leaves_by_depth=[0, 0, 4])
         raw["builder"]["options"] = {"order": "hilbert30"}
         raw["counters"]["sah_cost"] = 90
-        self.assertEqual(quality.text(run_of(raw)), "")
+        self.assertEqual(trees.quality(run_of(raw)), "")
         raw["counters"]["epo"] = 12.345
-        self.assertEqual(quality.text(run_of(raw)), (
+        self.assertEqual(trees.quality(run_of(raw)), (
             "scene  builder                   SAH    EPO  sibling overlap  levels of leaves\n"
             "bunny  oibvh-multi, hilbert30  90.00  12.35                   2\n"))
 
@@ -217,11 +182,11 @@ class OfTrees(unittest.TestCase):
         unchecked = cell("oibvh-single", 900000)
         unchecked["check"]["verdict"] = "not_checked"
         run = run_of(cell("oibvh-multi", 125000), cell("oibvh-host"), other, unchecked)
-        self.assertEqual(yardstick.text(run), (
+        self.assertEqual(trees.yardstick(run), (
             "scene  triangles  builder      hierarchy  oibvh-host  times\n"
             "bunny    144,046  oibvh-multi     125 us      100 us   1.25\n"
             "medians of the stage hierarchy, of trees that are equal: at most 1.25 times as long as by threads of the host\n"))
-        self.assertEqual(yardstick.text(run_of(cell("oibvh-multi"))), "")
+        self.assertEqual(trees.yardstick(run_of(cell("oibvh-multi"))), "")
 
     def test_a_rebuild_stands_beside_a_refit_by_the_same_builder(self) -> None:
         rebuild, again = cell("karras", 300000), cell("karras", 200000, operation="refit")
@@ -231,10 +196,10 @@ class OfTrees(unittest.TestCase):
         for sample in again["samples"]:
             sample["stages"][0]["stage"] = "refit"
         other = {**again, "builder": {"name": "karras", "options": {"order": "morton63"}}}  # has no rebuild beside it
-        _, line, *note = refit.text(run_of(rebuild, other, wrong(again), again)).splitlines()
+        _, line, *note = trees.refits(run_of(rebuild, other, wrong(again), again)).splitlines()
         self.assertEqual(line.split(), "bunny 144,046 karras 400 us 200 us 2.00 300 us 200 us 1.50 50.00 51.50".split())
         self.assertEqual(note[1], "rebuilding takes longer than refitting in 1 of 1 cases")
-        self.assertEqual(refit.text(run_of(rebuild, other, wrong(again))), "")
+        self.assertEqual(trees.refits(run_of(rebuild, other, wrong(again))), "")
         self.assertTrue(shown(again).startswith("karras, refit on bunny"))
 
 
@@ -242,11 +207,11 @@ class OfFloors(unittest.TestCase):
     def of(self, *all_cells: Raw, **facts: Any) -> list[list[str]]:
         for raw in all_cells:
             raw["experiment"] = "roofline"
-        return [line.split() for line in roofline.text(run_of(*all_cells, **{"launch_cost_ns": 4000, **facts})).splitlines()[2:]]
+        return [line.split() for line in trees.roofline(run_of(*all_cells, **{"launch_cost_ns": 4000, **facts})).splitlines()[2:]]
 
     def test_are_bytes_at_the_copy_rate_and_launches_at_their_cost(self) -> None:
         self.assertEqual(self.of(cell()), ["bunny oibvh-multi hierarchy 2 50.0 MB 347.1 58.0 us 100 us 1.72".split()])
-        self.assertEqual(roofline.text(run_of(cell())), "", "of another experiment")
+        self.assertEqual(trees.roofline(run_of(cell())), "", "of another experiment")
 
     def test_are_of_the_query_alone_where_frames_have_a_tree(self) -> None:
         lines = self.of(frame(), frame(builder="none"))

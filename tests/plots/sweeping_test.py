@@ -1,24 +1,21 @@
 #!/usr/bin/env python3
-"""A sweep's product, its units, shards and plan, how it guesses the time left, and what it makes of a process that ends.
-
-Usage: sweeping_test.py <source root>
-"""
+"""A sweep's product, its units, shards and plan, how it guesses the time left, and what it makes of a process that ends."""
 import collections
 import json
 import os
 import pathlib
 import signal
-import sys
 import tempfile
 import types
 import unittest
 
-ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
-sys.path.insert(0, str(ROOT / "plots"))
+import base  # noqa: F401  first: it says where plots are
 
-from json_files import Refused  # noqa: E402
-from output import WrongUsage  # noqa: E402
-from sweeping import folder, planned, processes, product, sizes, time_left, units  # noqa: E402
+import command
+from commands import sweep
+from json_files import Refused
+from output import WrongUsage
+from sweeping import folder, planned, processes, product, sizes, units
 
 BUILDERS, COLLIDERS, GENERATORS = ("perfect", "karras", "oibvh-wide4", "oibvh-multi"), ("leaf", "bvtt", "grid"), ("torus", "soup")
 USUAL = {"order": "morton30", "group_size": 0, "items": 0, "boxes": "f32", "leaves": "mesh"}
@@ -154,6 +151,12 @@ class Product(unittest.TestCase):
                      {"scenes": [{"scene": "soup:9", "frames": "0:1"}]}):
             with self.subTest(str(keys)), self.assertRaises(WrongUsage):
                 swept(**soup | keys)
+        for keys, says in (({"samples": None}, "not null$"), ({"quality": ["a"]}, r'not \["a"\]$'),
+                           ({"warm_up": True}, "not true$")):
+            with self.assertRaisesRegex(WrongUsage, says):
+                swept(**soup | keys)
+        with self.assertRaisesRegex(WrongUsage, "--sah-inner: must be a number from 0 to 1000000, not '1000001'"):
+            sweep.parser().parse_args(["--out", "x", "--sah-inner", "1000001"])
 
 
 class Units(unittest.TestCase):
@@ -192,7 +195,7 @@ class Units(unittest.TestCase):
 
 class TimeLeft(unittest.TestCase):
     def test_it_goes_by_the_triangles_of_a_kind(self) -> None:
-        left = time_left.TimeLeft()
+        left = units.TimeLeft()
 
         def expect(kind: str, triangles: int, seconds: float) -> None:
             self.assertAlmostEqual(left.seconds_of(kind, triangles), seconds)
@@ -214,7 +217,7 @@ class TimeLeft(unittest.TestCase):
     def test_it_is_told_roughly(self) -> None:
         for seconds, told in ((0.2, "1 s"), (89, "89 s"), (89.5, "2 min"), (3600, "60 min"), (3600 * 5 + 1200, "5 h 20 min"),
                               (7200, "2 h"), (86400 * 2 + 3 * 3600, "2 d 3 h")):
-            self.assertEqual(time_left.rough(seconds), told)
+            self.assertEqual(units.rough(seconds), told)
 
 
 class Folder(unittest.TestCase):
@@ -262,7 +265,8 @@ class Ends(unittest.TestCase):
 
     def test_a_signal_is_remembered_until_the_end(self) -> None:
         before = signal.getsignal(signal.SIGTERM)
-        with processes.deferred() as stop:
+        stop = processes.Stop()
+        with command.signals_to(stop.remember):
             self.assertEqual(stop.number, 0)
             os.kill(os.getpid(), signal.SIGTERM)
             self.assertEqual(stop.number, signal.SIGTERM)

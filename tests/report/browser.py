@@ -1,6 +1,4 @@
 """A page in headless Chromium, as a reader has it: opened from disk, without a network, at a width."""
-from __future__ import annotations
-
 import json
 import pathlib
 import time

@@ -2,8 +2,6 @@
 
 Called as `<test> <source root> <bvhbench>`: the test takes both words off the command line through this module.
 """
-from __future__ import annotations
-
 import atexit
 import copy
 import functools

@@ -112,7 +112,7 @@ class Tables(Page):
             for entry in sample["stages"]:
                 self.assertEqual(number[heads.index(entry["stage"])], entry.get("span_ns", entry.get("wall_ns")))
         self.assertEqual(self.browser.run("return document.querySelector('dialog .drawing').data[0].y.length"), len(samples))
-        whole = [1e9 * time for time in results.load(GOLDEN / "table2.json").cells[place].whole_times_s()]
+        whole = [1e9 * time for time in results.load(GOLDEN / "table2.json").cells[place].times_s()]
         self.assertEqual([row[heads.index("whole")] for row in numbers], [round(time) for time in whole])
         self.browser.run("document.querySelector('dialog button').click()")
         self.browser.wait_for("!document.querySelector('dialog[open]') && location.hash === '#file-2'")

@@ -1,9 +1,6 @@
 #!/usr/bin/env python3
 """A report in a browser: charts draw what the files say, tables sort and filter, a number leads to its samples, and what has
-no time is shown as that. Nothing is asked of the network.
-
-Usage: page_test.py <source root> <bvhbench>
-"""
+no time is shown as that. Nothing is asked of the network."""
 import pathlib
 import tempfile
 import unittest

@@ -5,8 +5,6 @@
 
 Of results/h200/table1.json.xz and orders.json.xz, and of a cloth on a ball, by the program in build/release.
 """
-from __future__ import annotations
-
 import argparse
 import base64
 import os

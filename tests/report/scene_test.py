@@ -1,9 +1,6 @@
 #!/usr/bin/env python3
 """A scene in three dimensions is what the program built and found: the boxes of `build --dump`, the pairs of `collide --pairs`. A
-browser draws it.
-
-Usage: scene_test.py <source root> <bvhbench>
-"""
+browser draws it."""
 import array
 import base64
 import gzip
@@ -19,11 +16,11 @@ import unittest
 
 import matplotlib.image
 
-ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
-PROGRAM = pathlib.Path(sys.argv.pop(1)).resolve()
-SCENE, FRAME, BUILDER = "two-spheres:1200", "5", "oibvh-multi"
+from page import GOLDEN, PROGRAM, ROOT, golden  # first: it takes the command line's words
 
-from browser import Browser  # noqa: E402
+from browser import Browser
+
+SCENE, FRAME, BUILDER = "two-spheres:1200", "5", "oibvh-multi"
 
 
 def run(*words: object) -> subprocess.CompletedProcess:
@@ -38,7 +35,7 @@ class Scene(unittest.TestCase):
         cls.addClassCleanup(holder.cleanup)
         cls.folder = pathlib.Path(holder.name)
         cls.page = cls.folder / "scene.html"
-        cls.made = run("report", ROOT / "tests" / "golden" / "table4.json", "--scene", SCENE, "--frame", FRAME,
+        cls.made = run("report", GOLDEN / "table4.json", "--scene", SCENE, "--frame", FRAME,
                        "--builder", BUILDER, "--out", cls.page)
         if not cls.page.exists():
             raise AssertionError(f"no page was made: {cls.made}")
@@ -138,7 +135,7 @@ class Scene(unittest.TestCase):
         view = self.folder / "wrong.view"
         cell = {"experiment": "view", "scene": {"name": SCENE}, "builder": {"name": BUILDER}, "status": "measured", "samples": [],
                 "counters": {}, "check": {"verdict": "differs", "against": "contract", "detail": "box 7 is too small"}}
-        run_facts = json.loads((ROOT / "tests" / "golden" / "table4.json").read_text(encoding="utf-8"))["run"]
+        run_facts = golden("table4")["run"]
         view.write_text(json.dumps({"run": run_facts, "cell": cell, "points": [0] * 9, "faces": [0, 1, 2], "levels": [], "pairs": [],
                                     "contacts": []}), encoding="utf-8")
         done = subprocess.run([sys.executable, ROOT / "plots" / "report.py", "--view", view, "--out", self.folder / "wrong.html"],

@@ -1,0 +1,100 @@
+"""What tests of plots share: the source root, which is each test's one word; result files and runs that are made; and a way to
+run scripts."""
+import copy
+import json
+import os
+import pathlib
+import runpy
+import subprocess
+import sys
+import tempfile
+import traceback
+import unittest
+from typing import Any
+
+ROOT = pathlib.Path(sys.argv.pop(1)).resolve()
+GOLDEN = ROOT / "tests" / "golden"
+sys.path.insert(0, str(ROOT / "plots"))
+Raw = dict[str, Any]
+
+
+def golden(name: str) -> Raw:
+    return json.loads((GOLDEN / f"{name}.json").read_text(encoding="utf-8"))
+
+
+def stage(name: str, span_ns: int, moved_bytes: int = 0, **more: int) -> Raw:
+    return {"stage": name, "busy_ns": span_ns - 10, "span_ns": span_ns, "launches": 2, "moved_bytes": moved_bytes, **more}
+
+
+def cell(builder: str = "oibvh-multi", ns: int = 100000, **more: Any) -> Raw:
+    """The hierarchy of a tree over 144,046 triangles, in three samples."""
+    return {"experiment": "table1", "scene": {"name": "bunny", "triangles": 144046}, "builder": {"name": builder},
+            "status": "measured",
+            "samples": [{"order": 7 + place, "stages": [stage("hierarchy", ns + off, 50000000)]}
+                        for place, off in enumerate((10000, 0, -10000))],
+            "counters": {"nodes_count": 288100, "tree_bytes": 6914400, "scratch_bytes": 0},
+            "check": {"verdict": "agrees", "against": "oibvh-reference", "tree_hash": "00000000000000ff"}, **copy.deepcopy(more)}
+
+
+def document(*all_cells: Raw, **facts: Any) -> Raw:
+    """1e12 bytes a second."""
+    table1 = golden("table1")
+    return {"format": table1["format"], "run": {**table1["run"], "copy_rate_bytes_per_s": 1e12, **facts},
+            "cells": copy.deepcopy(list(all_cells))}
+
+
+def run_of(*all_cells: Raw, **facts: Any) -> Any:
+    import results
+
+    return results.Run(pathlib.Path("made.json"), document(*all_cells, **facts))
+
+
+def code_of_script() -> int:
+    """Runs what sys.argv names as the main program: what the interpreter would have ended with."""
+    code = 1
+    try:
+        runpy.run_path(sys.argv[0], run_name="__main__")
+        code = 0
+    except SystemExit as end:
+        code = end.code if isinstance(end.code, int) else 0 if end.code is None else 1
+        if isinstance(end.code, str):
+            print(end.code, file=sys.stderr)
+    except BaseException:
+        traceback.print_exc()
+    sys.stdout.flush(), sys.stderr.flush()
+    return code
+
+
+class InFolder(unittest.TestCase):
+    """Has a folder of its own, and the golden file of Table 1."""
+
+    def setUp(self) -> None:
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.folder = pathlib.Path(holder.name)
+        self.document = golden("table1")
+
+    def written(self, document: Raw, name: str = "table1.json") -> pathlib.Path:
+        path = self.folder / name
+        path.write_text(json.dumps(document), encoding="utf-8")
+        return path
+
+    def run_script(self, name: str, *arguments: object) -> subprocess.CompletedProcess:
+        """As from a shell, but split off from this process, where matplotlib is loaded already."""
+        command = [str(ROOT / "plots" / name), *map(str, arguments)]
+        with tempfile.TemporaryFile("w+") as out, tempfile.TemporaryFile("w+") as errors:
+            sys.stdout.flush(), sys.stderr.flush()
+            if (child := os.fork()) == 0:
+                os.dup2(out.fileno(), 1)
+                os.dup2(errors.fileno(), 2)
+                sys.stdout, sys.stderr, sys.argv = open(1, "w", closefd=False), open(2, "w", closefd=False), command
+                os._exit(code_of_script())
+            status = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+            out.seek(0), errors.seek(0)
+            return subprocess.CompletedProcess(command, status, out.read(), errors.read())
+
+    def made(self, name: str, *arguments: object, code: int = 0) -> subprocess.CompletedProcess:
+        """Of a script that ends with this code, and says nothing on standard error where that is 0."""
+        done = self.run_script(name, *arguments)
+        self.assertEqual((done.returncode, done.stderr if code == 0 else ""), (code, ""), done)
+        return done

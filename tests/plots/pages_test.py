@@ -1,0 +1,214 @@
+#!/usr/bin/env python3
+"""Tables and numbers of the console; what `show` prints of axes of accuracy and of stress, what `reproduce` prints beside the
+paper's numbers, and how `show` reads and writes."""
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+from typing import Any
+
+import base  # first: it says where plots are
+from base import GOLDEN, ROOT, Raw, run_of
+
+import results
+from cells import Cell
+from commands import show
+from console import accuracy, paper, stress, tree_costs
+from tables import Table, counted, duration, exact, size
+
+
+class OfTables(unittest.TestCase):
+    def test_words_stand_left_and_numbers_right_by_characters(self) -> None:
+        table = Table("<name", "ms")
+        for row in (["a–b", "1"], ["longer", "10"], ["c"]):
+            table.row(*row)
+        self.assertEqual(table.text(), "name    ms\na–b      1\nlonger  10\nc\n")
+
+    def test_without_titles_there_are_only_rows(self) -> None:
+        table = Table("<", "")
+        table.row("a", "10")
+        self.assertEqual(table.text(), "a  10\n")
+
+
+class OfNumbers(unittest.TestCase):
+    def test_have_three_digits_and_a_unit(self) -> None:
+        self.assertEqual([duration(ns) for ns in (0, 950, 999.7, 71230, 1300000)],
+                         ["0 ns", "950 ns", "1.00 us", "71.2 us", "1.30 ms"])
+        self.assertEqual([size(512), size(6914400)], ["512 B", "6.91 MB"])
+        self.assertEqual([counted(1, "cell"), counted(1200, "cell")], ["1 cell", "1,200 cells"])
+
+    def test_exact_ones_have_the_digits_that_tell_them_from_others(self) -> None:
+        self.assertEqual([exact(value) for value in (3.0, 0.1, 1e-7, 1234.5)], ["3", "0.1", "1e-07", "1234.5"])
+
+
+def page(*cells: Raw) -> list[list[str]]:
+    """The words of each line."""
+    return [line.split() for line in accuracy.text(run_of(*cells)).splitlines()]
+
+
+def on_axis(axis: str, method: str, counters: dict[str, float], *samples: dict[str, int]) -> Raw:
+    """A sample is stage to nanoseconds on the host, one stage after the other."""
+    return {"experiment": "accuracy", "operation": "accuracy", "scene": {"name": "slivers"}, "builder": {"name": "none"},
+            "accuracy": {"axis": axis, "method": method, "seed": 5}, "status": "measured", "check": {"verdict": "counted"},
+            "counters": counters,
+            "samples": [{"order": 0, "stages": [{"stage": name, "wall_ns": ns} for name, ns in stages.items()]}
+                        for stages in samples]}
+
+
+def narrow(method: str, pairs: int, ns: int, missed: int = 0) -> Raw:
+    return on_axis("narrow", method, {"pairs_count": pairs, "meeting_count": 3, "missed_count": missed, "false_count": 0,
+                                   "narrow_exact_count": 0}, {"narrow": ns})
+
+
+class OfNarrow(unittest.TestCase):
+    def test_times_stand_beside_those_of_the_yardstick(self) -> None:
+        _, yardstick, fast, *totals = page(narrow("guigue-f64", 10, 1000), narrow("guigue-f32", 10, 250, missed=2))
+        self.assertEqual(yardstick[-3:], ["100.00", "1.00", "counted"])
+        self.assertEqual(fast[-3:], ["25.00", "0.25", "counted"])
+        self.assertEqual([" ".join(line) for line in totals], [
+            "guigue-f64: 0 missed and 0 false of 10 pairs, wrong in 0 of 1 classes",
+            "guigue-f32: 2 missed and 0 false of 10 pairs, wrong in 1 of 1 classes", "seed 5"])
+
+    def test_a_class_without_pairs_and_a_time_of_0_are_told(self) -> None:
+        _, none, no_time, *_ = page(narrow("guigue-f64", 0, 1000), narrow("guigue-f32", 10, 0))
+        self.assertEqual(none, ["slivers", "guigue-f64", "0", "3", "0", "0", "inf", "nan", "counted"])
+        self.assertEqual(no_time[-3:], ["0.00", "0.00", "counted"])
+
+    def test_a_counter_that_must_be_there_is_missed(self) -> None:
+        for key in ("pairs_count", "meeting_count", "missed_count", "false_count", "narrow_exact_count"):
+            raw = narrow("guigue-f32", 10, 250)
+            del raw["counters"][key]
+            with self.assertRaisesRegex(KeyError, key):
+                page(raw)
+
+
+class OfCodes(unittest.TestCase):
+    def test_a_build_is_all_but_the_query_of_samples_that_have_one(self) -> None:
+        counters = {"duplicates_count": 1, "longest_run_count": 1, "box_tests_count": 1, "missed_count": 0, "false_count": 0}
+        stages = {"codes": 1000, "sort": 2000, "broad": 50000}
+        for samples, build, query in (((stages, stages), "3.00", "50.0"),
+                                      ((stages, {"codes": 900000, "sort": 1}), "3.00", "50.0"),
+                                      (({"codes": 1000, "sort": 2000},), "0", "0")):
+            row = page(on_axis("codes", "morton30", counters, *samples))[1]
+            times = [word for word, unit in zip(row, row[1:]) if unit in ("ns", "us", "ms")]
+            self.assertEqual(times[1:], [build, query], row)
+
+
+def cell(builder: str, ns: int = 100000, scene: str = "bunny", sah_cost: float | None = None, **facts: Any) -> Raw:
+    return base.cell(builder, ns, scene={"name": scene, "triangles": 144046, **facts},
+                     counters={"nodes_count": 288100} if sah_cost is None else {"sah_cost": sah_cost})
+
+
+class OfTable1(unittest.TestCase):
+    def test_stands_beside_the_paper_and_marks_stand_ins(self) -> None:
+        run = run_of(cell("oibvh-multi"), cell("oibvh-single", scene="torus:144046", stand_in_for="bunny"))
+        titles, *lines, about, mark = paper.table1(run).splitlines()
+        self.assertEqual(titles.split()[3:], "nodes padding % paper ms p10–p90 Mtris/s moved % of copy paper ms".split())
+        self.assertEqual([line.split() for line in lines], [
+            "bunny 144,046 oibvh-multi 288,100 3.1e-3 3.1e-3 0.1000 0.0920–0.1080 1440 50.0 MB 50.0 % 0.077".split(),
+            "bunny * 144,046 oibvh-single 288,100 3.1e-3 3.1e-3 0.1000 0.0920–0.1080 1440 50.0 MB 50.0 % 0.074".split()])
+        self.assertEqual(about, "ms: the stage hierarchy from sorted leaves, median; paper ms: NVIDIA GeForce GTX 1080")
+        self.assertTrue(mark.startswith("* a generated stand-in"))
+
+    def test_a_wrong_tree_has_no_time(self) -> None:
+        wrong = {**cell("oibvh-multi"), "check": {"verdict": "differs"}}
+        line = paper.table1(run_of(wrong)).splitlines()[1]
+        self.assertEqual(line.split(), ["bunny", "144,046", "oibvh-multi", "288,100", "3.1e-3", "3.1e-3", "differs", "0.077"])
+
+    def test_padding_is_cut_as_in_the_paper(self) -> None:
+        perfect = Cell(cell("perfect"))
+        perfect.counters["nodes_count"] = 524287
+        self.assertEqual(paper.padding_text(paper.padding_percent(perfect)), "45.05")
+        shares = (0, 100 * 7 / 825337, 100 * 10 / 2174947, 100 * 5 / 5759999, 0.01)
+        self.assertEqual([paper.padding_text(share) for share in shares], ["0", "8.4e-4", "4.5e-4", "8.6e-5", "1.0e-2"])
+
+
+class OfFig8(unittest.TestCase):
+    def test_finds_the_size_from_which_multi_stays_ahead(self) -> None:
+        made = [cell(builder, ns, triangles=1024 << size) for size, times in enumerate(((20, 25), (30, 29), (50, 51), (80, 70)))
+                for builder, ns in zip(("oibvh-single", "oibvh-multi"), (1000 * time for time in times))]
+        self.assertIn("oibvh-multi is the faster one from 8,192 triangles on;", paper.fig8(run_of(*made)))
+        self.assertIn("do not cross here", paper.fig8(run_of(*made[:2])))
+
+
+class OfTreeCosts(unittest.TestCase):
+    def test_table4_stands_beside_the_paper_and_says_what_is_missing(self) -> None:
+        buddha = "happy_buddha_1087716"
+        absent = {**cell("apetrei-fused", sah_cost=0), "status": "skipped", "reason": "no such builder"}
+        run = run_of(cell("apetrei-fused", scene=buddha, sah_cost=86.02), cell("oibvh-multi", scene=buddha, sah_cost=228.01),
+                     cell("oibvh-single", scene=buddha, sah_cost=228.01), absent, cell("oibvh-multi", sah_cost=100))
+        self.assertEqual(tree_costs.table4(run), (
+            "mesh                    triangles  order     radix  paper  Oi-BVH   paper  times  paper\n"
+            "happy_buddha_1087716 +    144,046  morton30  86.02  86.00  228.01  229.16   2.65   2.66\n"
+            "bunny                     144,046  morton30                100.00                        skipped: no such builder\n"
+            "surface area cost, an inner node 1.2, a triangle 1\n"
+            "+ another edition of the paper's model, with another triangle count\n"))
+
+    def test_table4_does_not_compare_costs_of_other_constants(self) -> None:
+        made = [cell(builder, scene="buddha", sah_cost=90) for builder in ("apetrei-fused", "oibvh-multi")]
+        usual, text = (tree_costs.table4(run_of(*made, **facts))
+                       for facts in ({}, {"node_costs": {"inner": 2.5, "triangle": 1}}))
+        self.assertEqual([len(page.splitlines()[1].split()) for page in (usual, text)], [9, 6])
+        self.assertIn("an inner node 2.5, a triangle 1; the paper's are for others\n", text)
+
+    def test_fig13_says_which_tree_suffers_more(self) -> None:
+        made = [cell(builder, 1000, f"outlier:bunny:0:{far}", cost, outlier={"of": "bunny", "triangle": 0, "diameters": far})
+                for far, costs in ((0, (10, 20)), (10, (10, 70))) for builder, cost in zip(("karras", "oibvh-single"), costs)]
+        text = tree_costs.fig13(run_of(*made))
+        self.assertIn("bunny  morton30         0       10.0  10.00   70.00   7.00\n", text)
+        self.assertIn("relative to the radix tree's grows, from 2.00 to 7.00 times", text)
+
+
+class OfGoldenFiles(unittest.TestCase):
+    def test_the_axes_and_what_stress_found_have_their_pages(self) -> None:
+        axes = results.everything(GOLDEN / "accuracy.json")
+        self.assertEqual(show.pages(axes), accuracy.text(axes))
+        self.assertEqual(sorted(set(re.findall(r"^seed \d+$", accuracy.text(axes), re.M))), ["seed 1"])
+        self.assertIn("guigue-f64: 8,000 missed and 40 false of 150,000 pairs, wrong in 2 of 3 classes\n", accuracy.text(axes))
+        self.assertRegex(accuracy.text(axes), r"\ngeneric +filter-f64\+exact +50,000 +20,000 +0 +0 +0.0 % +19.30 +0.41  agrees\n")
+        self.assertEqual(accuracy.text(results.everything(GOLDEN / "table1.json")), "")
+        found = results.everything(GOLDEN / "stress.json")
+        self.assertEqual(show.pages(found), stress.text(found))
+        self.assertTrue(stress.text(found).endswith("9 cells of ours, all right\n"))
+
+    def test_what_stress_found_wrong_of_ours_is_told_at_the_end(self) -> None:
+        found = results.everything(GOLDEN / "stress.json")
+        first, second = [one for one in found.stress if not one.get("library") and one["kind"] != "host"][:2]
+        for one, verdict in ((first, "broken"), (second, "refused")):
+            one["findings"] = {"pairs": {"verdict": verdict, "checked": 9, "wrong": 5, "missed": 2, "detail": "why"}}
+        where = [f"{one['family']}: {one['scene']}, {one['system']}, pairs: why" for one in (first, second)]
+        text = stress.text(found)
+        self.assertTrue(text.endswith(f"\nWRONG {where[0]}\nrefused {where[1]}\n9 cells of ours, 1 wrong, 1 refused\n"))
+        self.assertRegex(text, rf"(?m)^{re.escape(first['system'])} .* -2 \+3")
+
+
+class OfTheCommand(unittest.TestCase):
+    def show(self, path: pathlib.Path | str, code: int = 0, **environment: str) -> str:
+        done = subprocess.run([sys.executable, ROOT / "plots", "show", path], encoding="utf-8", capture_output=True, check=False,
+                              env={**os.environ, **environment})
+        self.assertEqual(done.returncode, code, done)
+        return done.stderr if code else done.stdout
+
+    def test_a_path_is_named_as_it_was_given(self) -> None:
+        for path in ("./no//where.json", ""):
+            self.assertEqual(self.show(path, 3),
+                             f"bvhbench: the result file '{path}' cannot be read: No such file or directory\n")
+
+    def test_is_in_utf_8_in_any_locale(self) -> None:
+        path = GOLDEN / "pairs.json"
+        self.assertIn("±", self.show(path))
+        self.assertEqual(self.show(path, PYTHONIOENCODING="ascii"), self.show(path))
+
+    def test_a_mark_before_the_text_is_passed_over(self) -> None:
+        path = GOLDEN / "table1.json"
+        with tempfile.NamedTemporaryFile() as file:
+            file.write(b"\xef\xbb\xbf" + path.read_bytes())
+            file.flush()
+            self.assertEqual(self.show(file.name), self.show(path))
+
+
+if __name__ == "__main__":
+    unittest.main()
