@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include "collide/colliders.h"
+#include "collide/collider.h"
 #include "collide/counters.h"
 #include "geometry/error.h"
 #include "library/tree.h"

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "collide/colliders.h"
 #include "collide/oracles/host_collider.h"
 #include "collide/oracles/sweep.h"
 #include "geometry/host_memory.h"

@@ -3,7 +3,7 @@
 
 #include "baselines/colliders.h"
 #include "baselines/libraries.h"
-#include "collide/colliders.h"
+#include "collide/collider.h"
 #include "collide/narrow/narrow_methods.h"
 #include "geometry/error.h"
 

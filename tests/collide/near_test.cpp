@@ -113,9 +113,8 @@ TEST_P(Near, HaveThePairsBetweenObjects)
         session().build_once(*builder, frame, Start::from_triangles, &tree);
         for (const char* collider_name : {"leaf", "bvtt", "group"}) {
             SCOPED_TRACE(std::string(name) + ' ' + collider_name);
-            const auto collider = find_collider(collider_name)
-                                      .make(session().programs(), {.among = Among::between_objects,
-                                                                   .form = options().form});
+            const auto collider =
+                made(collider_name, {.among = Among::between_objects, .form = options().form});
             collider->reserve(tree, frame);
             find_pairs(*collider, tree, frame, session().queue());
             near.map_back(collider->device_pairs(session().queue()), session().queue());
@@ -125,13 +124,9 @@ TEST_P(Near, HaveThePairsBetweenObjects)
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Forms, Near,
-                         testing::Combine(testing::Values(KernelForm::groups, KernelForm::chunks),
-                                          testing::Values(1u, 256u)),
+INSTANTIATE_TEST_SUITE_P(Forms, Near, testing::Combine(both_forms, testing::Values(1u, 256u)),
                          [](const auto& tested) {
-                             return std::string(std::get<0>(tested.param) == KernelForm::groups
-                                                    ? "groups"
-                                                    : "chunks") +
+                             return name_of(std::get<0>(tested.param)) +
                                     (std::get<1>(tested.param) == 1 ? "_ran_over" : "_listed");
                          });
 
