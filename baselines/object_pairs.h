@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "collide/oracles/sweep.h"
-#include "collide/relation.h"
+#include "collide/pairs.h"
 
 namespace bvhbench {
 

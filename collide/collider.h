@@ -12,7 +12,7 @@
 #include "builders/input.h"
 #include "builders/stages/kernel_form.h"
 #include "builders/tree.h"
-#include "collide/relation.h"
+#include "collide/pairs.h"
 #include "device/arena.h"
 #include "device/program.h"
 #include "device/queue.h"
@@ -119,5 +119,14 @@ int find_pairs(Collider& collider, const Tree* tree, const Input& input, Queue& 
 /// Makes a collider on the device that `programs` compiles for. Throws BadUsage for options it cannot keep.
 using MakeCollider = std::unique_ptr<Collider> (*)(Programs& programs,
                                                    const ColliderOptions& options);
+
+/// Every way to find pairs; docs/architecture.md tells what each does.
+std::unique_ptr<Collider> make_leaf(Programs& programs, const ColliderOptions& options);
+std::unique_ptr<Collider> make_bvtt(Programs& programs, const ColliderOptions& options);
+std::unique_ptr<Collider> make_front(Programs& programs, const ColliderOptions& options);
+std::unique_ptr<Collider> make_group(Programs& programs, const ColliderOptions& options);
+std::unique_ptr<Collider> make_block(Programs& programs, const ColliderOptions& options);
+std::unique_ptr<Collider> make_grid(Programs& programs, const ColliderOptions& options);
+std::unique_ptr<Collider> make_brute(Programs& programs, const ColliderOptions& options);
 
 }  // namespace bvhbench

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What a query counts on the device: 64-bit counts of two words each (collide/wide_count.clh).
+// What a query counts on the device: 64-bit counts of two words each (collide/found.clh).
 #ifndef BVHBENCH_COLLIDE_COUNTERS_H
 #define BVHBENCH_COLLIDE_COUNTERS_H
 

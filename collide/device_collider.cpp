@@ -1,100 +1,172 @@
 // SPDX-License-Identifier: MIT
 #include "collide/device_collider.h"
 
+#include <algorithm>
+#include <bit>
 #include <cassert>
 
 #include "collide/counters.h"
+#include "collide/device_lists.h"
 #include "geometry/bits.h"
-#include "geometry/error.h"
 
 namespace bvhbench {
+namespace {
+
+/// What a group of `group` keeps in local memory grows with its size: this many fit into 48 KB.
+constexpr std::size_t most_group_size = 256;
+
+uint chosen_group_size(const Device& device, KernelForm form, unsigned asked,
+                       const Parameter& usual)
+{
+    const std::size_t most = std::min<std::size_t>(
+        most_group_size, std::bit_floor(device.cl.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>()));
+    if (asked == 0 && chosen_form(device, form) == KernelForm::chunks)
+        return 1;  // groups of the form for few cores are of one work-item
+    if (asked == 0)
+        return static_cast<uint>(std::min<std::size_t>(device.tuned(usual), most));
+    if (!std::has_single_bit(asked) || asked > most || asked < usual.least)
+        throw BadUsage("a collider's group size is a power of two from " +
+                       std::to_string(usual.least) + " up to " + std::to_string(most) + " on " +
+                       device.name() + ", not " + std::to_string(asked));
+    return asked;
+}
+
+}  // namespace
+
+int find_pairs(Collider& collider, const Tree* tree, const Input& input, Queue& queue)
+{
+    for (int queries = 1;; ++queries) {
+        collider.query(tree, input, queue);
+        if (collider.complete(queue))
+            return queries;
+    }
+}
 
 DeviceCollider::DeviceCollider(Programs& programs, const ColliderCard& card,
-                               const ColliderOptions& options, const Parameter& group_size)
-    : PairCollider(programs, card, options, group_size)
+                               const ColliderOptions& options, const Parameter& group_size,
+                               Wants wants)
+    : options_(options)
+    , group_size_(
+          chosen_group_size(programs.device(), options.form, options.group_size, group_size))
+    , chunks_(chunk_count(programs.device()))
+    , programs_(programs)
+    , card_(card)
+    , wants_(wants)
+    , form_(chosen_form(programs.device(), options.form))
 {}
 
 std::string DeviceCollider::refusal(const Tree& tree) const
 {
+    if (!needs_tree())
+        return {};
     const auto* on_device = dynamic_cast<const DeviceTree*>(&tree);
     if (on_device == nullptr)
-        return std::string(card().name) + " needs a tree in device memory";
+        return std::string(card_.name) + " needs a tree in device memory";
+    if (std::string why = objection(*on_device); !why.empty())
+        return why;
     if (has_ropes(*on_device) && device().ends_loops)
-        return std::string(card().name) + " follows pointers of a tree in loops that " +
+        return std::string(card_.name) + " follows pointers of a tree in loops that " +
                device().name() + " ends early";
     return {};
 }
 
-cl::Kernel DeviceCollider::kernel(const DeviceTree& tree, std::string_view path, const char* name,
-                                  std::vector<Define> more, Optimise optimise) const
+cl::Kernel DeviceCollider::kernel(std::string_view path, const char* name, std::vector<Define> more,
+                                  Optimise optimise) const
 {
-    more.push_back({"SORTED_LEAVES", tree.has_sorted_leaves() ? 1u : 0u});
-    more.push_back({"BOX_FORMAT", tree.box_format().number});
+    more.push_back({"SORTED_LEAVES", tree().has_sorted_leaves() ? 1u : 0u});
+    more.push_back({"BOX_FORMAT", tree().box_format().number});
     more.push_back({"KEEP_ADJACENT", options_.keep_adjacent ? 1u : 0u});
-    return programs().kernel(tree.access_header(), path, name, more, optimise);
+    return programs().kernel(tree().access_header(), path, name, more, optimise);
 }
 
-void DeviceCollider::reserve(const Tree* tree, const Input&)
+void DeviceCollider::reserve(const Tree* tree, const Input& input)
 {
-    assert(tree != nullptr);
-    if (const std::string why = refusal(*tree); !why.empty())
-        throw BadUsage(why);
-    tree_ = dynamic_cast<const DeviceTree*>(tree);
-    compile(*tree_);
-    if (has_ropes(*tree_))
-        ropes_kernel_ = kernel(*tree_, "collide/walks/ropes.cl", "ropes", {});
-    take_memory_for(tree_->leaf_count());
+    triangles_ = input.triangle_count();
+    if (needs_tree()) {
+        assert(tree != nullptr);
+        if (const std::string why = refusal(*tree); !why.empty())
+            throw BadUsage(why);
+        tree_ = dynamic_cast<const DeviceTree*>(tree);
+        triangles_ = tree_->leaf_count();
+        if (has_ropes(*tree_))
+            ropes_kernel_ = kernel("collide/walks/ropes.cl", "ropes");
+    }
+    compile(input);
+    pair_room_ = first_room(std::max<std::size_t>(1024, 8 * std::size_t{triangles_}));
+    take_all();
 }
 
-void DeviceCollider::plan_rest(Arena& arena)
+void DeviceCollider::take_all()
 {
-    ropes_ = arena.take<uint>(has_ropes(*tree_) ? 2 * std::size_t{tree_->leaf_count()} - 1 : 1,
-                              Use::scratch);
-    plan(arena, *tree_);
-}
-
-void DeviceCollider::enqueue_ropes(const DeviceTree& tree, Queue& queue)
-{
-    const std::size_t group = by_groups() ? group_size_ : 1;
-    const std::size_t items =
-        by_groups() ? divided_up(tree.leaf_count(), group_size_) * group : chunks_;
-    set_arguments_from(ropes_kernel_, tree.bind(ropes_kernel_, 0), ropes_);
-    queue.begin("ropes");
-    queue.launch(
-        ropes_kernel_, items, group,
-        2 * static_cast<std::int64_t>(ropes_.bytes()));  // each child read, each rope written
+    const cl::CommandQueue queue(device().context, device().cl);
+    if (arena_)
+        save(queue);
+    take_memory(arena_, device(), [&](Arena& arena) {
+        counters_ = arena.take<uint>(QUEUES_COUNT + 2 * queue_count_, Use::scratch);
+        const bool with_ropes = tree_ != nullptr && has_ropes(*tree_);
+        ropes_ = arena.take<uint>(with_ropes ? 2 * std::size_t{triangles_} - 1 : 1, Use::scratch);
+        plan(arena);
+        pairs_ = arena.take<Pair>(pair_room_, Use::scratch);
+    });
+    fill(queue);
 }
 
 void DeviceCollider::query(const Tree* tree, const Input& input, Queue& queue)
 {
-    const auto& on_device = dynamic_cast<const DeviceTree&>(*tree);
-    assert(tree_ != nullptr && on_device.leaf_count() == tree_->leaf_count());
-    const bool has_pairs = on_device.leaf_count() > 1;
-    if (has_ropes(on_device) && has_pairs)
-        enqueue_ropes(on_device, queue);
+    if (needs_tree())
+        tree_ = &dynamic_cast<const DeviceTree&>(*tree);
+    assert(arena_ && triangles_ == (needs_tree() ? tree_->leaf_count() : input.triangle_count()));
+    const bool has_pairs = triangles_ > 1;
+    if (has_pairs && needs_tree() && has_ropes(*tree_)) {
+        queue.begin("ropes");
+        set_arguments_from(ropes_kernel_, tree_->bind(ropes_kernel_, 0), ropes_);
+        launch(
+            ropes_kernel_, by_groups() ? triangles_ : chunks_, by_groups() ? group_size_ : 1, queue,
+            2 * static_cast<std::int64_t>(ropes_.bytes()));  // each child read, each rope written
+    }
+    if (has_pairs)
+        enqueue_before(input, queue);
     queue.begin("broad");
     queue.clear(counters_.cl(), counters_.bytes());
-    queue.declare(has_pairs ? reads_at_least(on_device) : 0);
+    queue.declare(has_pairs ? reads_at_least() : 0);
     if (has_pairs)
-        enqueue(on_device, input, queue);
+        enqueue(input, queue);
 }
 
-std::int64_t DeviceCollider::reads_at_least(const DeviceTree& tree) const
+std::int64_t DeviceCollider::reads_at_least() const
 {
     if (!within())  // of trees that are apart from all others hardly anything is read
         return 0;
-    const std::int64_t leaves = tree.leaf_count();
-    const std::int64_t nodes = 2 * leaves - std::ssize(tree.objects);
-    return nodes * static_cast<std::int64_t>(tree.box_format().box_bytes()) +
+    const std::int64_t leaves = triangles_, nodes = 2 * leaves - std::ssize(tree_->objects);
+    return nodes * static_cast<std::int64_t>(tree_->box_format().box_bytes()) +
            leaves * std::int64_t{sizeof(uint)};
+}
+
+bool DeviceCollider::complete(const Queue& queue)
+{
+    const std::vector<std::uint64_t> counts = wide_counts(counters_, queue);
+    const std::uint64_t found = counts[PAIRS_COUNT / 2];
+    const bool pairs_fit = had_room(pair_room_, found, found / 8, sizeof(Pair), device(), "pairs");
+    const bool rest_fits =
+        make_room(counts[TASKS_COUNT / 2], {counts.begin() + QUEUES_COUNT / 2, counts.end()});
+    if (!pairs_fit || !rest_fits)
+        take_all();
+    return pairs_fit && rest_fits;
 }
 
 QueryCounts DeviceCollider::counts(const Queue& queue) const
 {
-    QueryCounts result = PairCollider::counts(queue);
-    if (tree_->objects.size() > 1)
-        result.tasks = counters(queue)[TASKS_COUNT / 2];
+    const std::vector<std::uint64_t> counts = wide_counts(counters_, queue);
+    QueryCounts result = {counts[PAIRS_COUNT / 2], counts[BOX_TESTS_COUNT / 2], {}, {}};
+    if (needs_tree() && object_count() > 1)
+        result.tasks = counts[TASKS_COUNT / 2];
     return result;
+}
+
+std::vector<Pair> DeviceCollider::pairs(const Queue& queue) const
+{
+    return first_entries(pairs_, wide_counts(counters_, queue)[PAIRS_COUNT / 2], queue,
+                         "the pairs found");
 }
 
 }  // namespace bvhbench

@@ -13,7 +13,7 @@
 //
 // A group, or a work-item that is one, has neighbouring items in all of them: GROUP_SIZE is 1 on few cores.
 #include "builders/stages/chunk.clh"
-#include "collide/wide_count.clh"
+#include "collide/found.clh"
 #include "geometry/bounds.h"
 #include "geometry/box_words.clh"
 
@@ -128,7 +128,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void map_pairs(
     global uint2* restrict pairs, global const uint* restrict pair_count, const uint capacity,
     global const uint* restrict near_ids)
 {
-    const uint found = pair_count[1] != 0u ? capacity : min(pair_count[0], capacity);
+    const uint found = count_in_room(pair_count, capacity);
     const Chunk part = own_chunk(found);
     for (uint k = part.first; k < part.end; ++k) {
         const uint2 pair = pairs[k];

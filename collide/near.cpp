@@ -5,6 +5,7 @@
 #include <cassert>
 
 #include "collide/counters.h"
+#include "collide/device_lists.h"
 #include "geometry/bits.h"
 
 namespace bvhbench {
@@ -61,11 +62,7 @@ void NearTriangles::plan(Arena& arena, const Input& input)
 void NearTriangles::reserve(const Input& input)
 {
     assert(input.objects.size() > 1);
-    Arena measuring = Arena::measuring(programs_.device());
-    plan(measuring, input);
-    arena_.reset();  // the old memory goes before the new comes
-    arena_ = Arena::reserved(programs_.device(), measuring.used());
-    plan(*arena_, input);
+    take_memory(arena_, programs_.device(), [&](Arena& arena) { plan(arena, input); });
     std::vector<uint> first_faces;
     for (const FaceRange& object : input.objects)
         first_faces.push_back(object.first);
@@ -142,8 +139,7 @@ void NearTriangles::map_back(const DevicePairs& found, Queue& queue)
 
 std::uint64_t NearTriangles::box_tests(const Queue& queue) const
 {
-    const std::vector<uint> words = test_count_.download(queue.cl());
-    return words[0] | std::uint64_t{words[1]} << 32;
+    return wide_counts(test_count_, queue).front();
 }
 
 }  // namespace bvhbench

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "collide/colliders.h"
+#include "collide/collider.h"
 #include "collide/counters.h"
 #include "geometry/error.h"
 #include "library/tree.h"

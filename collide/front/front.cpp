@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <numeric>
 #include <optional>
 
-#include "collide/colliders.h"
 #include "collide/counters.h"
 #include "collide/device_collider.h"
+#include "collide/device_lists.h"
 #include "collide/parameters.h"
-#include "geometry/bits.h"
-#include "geometry/error.h"
+#include "collide/queues/node_pairs.h"
 
 namespace bvhbench {
 namespace {
@@ -27,8 +25,6 @@ constexpr uint frames_to_climb = 16;
 /// not one a frame.
 constexpr double growth_to_restart = 2;
 
-constexpr std::uint64_t most_entries = std::numeric_limits<uint>::max();
-
 /// Entries, 128 MiB of them, from which on room is given sparingly: repeating a query costs less than what it would take.
 constexpr std::size_t many = std::size_t{1} << 24;
 
@@ -40,21 +36,10 @@ public:
         : DeviceCollider(
               programs,
               {"front", "Front tracking over refitted boxes [Lauterbach2010], [Wang2018]"}, options,
-              bvtt_group_size)
+              bvtt_group_size, Wants::tree)
     {
         if (options.jump > 1 || options.start_level > 0)
             throw BadUsage("front descends a level after the other and starts where it stands");
-    }
-
-    std::string refusal(const Tree& tree) const override
-    {
-        const auto* on_device = dynamic_cast<const DeviceTree*>(&tree);
-        if (on_device != nullptr && label_bits(*on_device) < 32 &&
-            label_bits(*on_device) + ceil_log2(static_cast<uint>(on_device->objects.size())) > 32)
-            return "front names an object and its node in 32 bits, too few for " +
-                   std::to_string(on_device->objects.size()) + " objects with trees of up to " +
-                   std::to_string(on_device->most_levels()) + " levels";
-        return DeviceCollider::refusal(tree);
     }
 
     bool keeps_tree() const override { return true; }
@@ -86,7 +71,7 @@ public:
     {
         QueryCounts counts = DeviceCollider::counts(queue);
         counts.tasks.reset();
-        const std::vector<std::uint64_t> all = counters(queue);
+        const std::vector<std::uint64_t> all = wide_counts(counters_, queue);
         const auto queues = all.begin() + FRONT_QUEUES_COUNT / 2 + 1;
         const std::uint64_t front = all[FRONT_COUNT / 2];
         counts.bvtt_peak = std::max(
@@ -99,71 +84,65 @@ public:
     }
 
 private:
-    bool needs_ropes() const override { return false; }
-
-    /// Entries of a work-item's own, of the form for few cores, for each of three lists.
-    uint block_pairs() const { return device().tuned(bvtt_block_pairs); }
-    /// Tasks a work-item has a turn, of the form for many lanes.
-    uint items() const { return device().tuned(bvtt_items); }
-
-    /// Of a node in an entry; the object is in the rest.
-    static uint label_bits(const DeviceTree& tree)
+    std::string objection(const DeviceTree& tree) const override
     {
-        return tree.objects.size() > 1 && tree.is_implicit() ? tree.label_bits() : 32;
+        return naming_objection("front", tree);
     }
 
     /// Entries of the front that tracking begins with.
-    std::uint64_t root_count(const DeviceTree& tree) const
+    std::uint64_t root_count() const
     {
-        const std::uint64_t objects = tree.objects.size();
-        return (within() ? objects : 0) + (between(tree) ? objects * (objects - 1) / 2 : 0);
+        const std::uint64_t objects = object_count();
+        return (within() ? objects : 0) + (between(objects) ? objects * (objects - 1) / 2 : 0);
     }
 
-    void compile(const DeviceTree& tree) override
+    /// Levels below the root: a step each, behind that of the front itself.
+    uint descents() const { return tree().most_levels() - 1; }
+
+    void compile(const Input&) override
     {
-        const std::uint64_t roots = root_count(tree);
+        const std::uint64_t roots = root_count();
         if (roots > most_entries)
             throw Unavailable(std::to_string(roots) + " pairs of objects: a front holds at most " +
                               std::to_string(most_entries));
-        const Define label{"LABEL_BITS", label_bits(tree)};
-        advance_ = by_groups() ? kernel(tree, "collide/front/front_groups.cl", "advance",
-                                        {{"GROUP_SIZE", group_size_}, {"ITEMS", items()}, label})
-                               : kernel(tree, "collide/front/front_chunks.cl", "advance",
-                                        {{"SINK_BLOCK", block_pairs()}, label});
-        roots_ = kernel(tree, "collide/front/front_roots.cl", "list_roots", {label});
-        if (!tree.is_implicit()) {
-            list_parents_ = kernel(tree, "collide/front/front_parents.cl", "list_parents", {});
-            cut_off_roots_ = kernel(tree, "collide/front/front_parents.cl", "cut_off_roots", {});
-            list_depths_ = kernel(tree, "collide/front/front_parents.cl", "list_depths", {});
+        block_pairs_ = by_groups() ? 0 : device().tuned(bvtt_block_pairs);
+        queue_count_ = 3 + descents();  // of the front, of prunes, and behind each descent
+        const Define label{"LABEL_BITS", node_bits(tree())};
+        advance_ =
+            by_groups()
+                ? kernel(
+                      "collide/front/front_groups.cl", "advance",
+                      {{"GROUP_SIZE", group_size_}, {"ITEMS", device().tuned(bvtt_items)}, label})
+                : kernel("collide/front/front_chunks.cl", "advance",
+                         {{"SINK_BLOCK", block_pairs_}, label});
+        roots_ = kernel("collide/queues/roots.cl", "list_roots", {label, {"SKIP_APART", 0}});
+        if (!tree().is_implicit()) {
+            list_parents_ = kernel("collide/front/front_parents.cl", "list_parents");
+            cut_off_roots_ = kernel("collide/front/front_parents.cl", "cut_off_roots");
+            list_depths_ = kernel("collide/front/front_parents.cl", "list_depths");
         }
-        const std::size_t leaves = tree.leaf_count();
-        const std::size_t guess =
-            options_.capacity != 0
-                ? options_.capacity
-                : device().room_for(
-                      std::clamp<std::size_t>(8 * leaves, 1024, std::max(leaves, many)),
-                      sizeof(Pair));
-        queue_capacity_ = guess;
-        front_capacity_ = std::max(guess, static_cast<std::size_t>(roots));
+        const std::size_t leaves = triangles_;
+        queue_room_ = first_room(std::clamp<std::size_t>(8 * leaves, 1024, std::max(leaves, many)));
+        front_room_ = std::max(queue_room_, static_cast<std::size_t>(roots));
         standing_.reset();
         last_front_.reset();
         climbs_ = false;
         restarts_ = 0;
     }
 
-    void plan(Arena& arena, const DeviceTree& tree) override
+    void plan(Arena& arena) override
     {
         for (Buffer<Pair>& front : fronts_)
-            front = arena.take<Pair>(front_capacity_, Use::scratch);
+            front = arena.take<Pair>(front_room_, Use::scratch);
         for (Buffer<Pair>& queue : queues_)
-            queue = arena.take<Pair>(queue_capacity_, Use::scratch);
-        parents_ = arena.take<Pair>(tree.is_implicit() ? 1 : 2 * std::size_t{tree.leaf_count()} - 1,
+            queue = arena.take<Pair>(queue_room_, Use::scratch);
+        parents_ = arena.take<Pair>(tree().is_implicit() ? 1 : 2 * std::size_t{triangles_} - 1,
                                     Use::scratch);
-        blocks_ = arena.take<Pair>(by_groups() ? 1 : 3 * block_pairs() * chunks_, Use::scratch);
+        blocks_ = arena.take<Pair>(by_groups() ? 1 : 3 * block_pairs_ * chunks_, Use::scratch);
     }
 
     /// What the frame goes on from is all that more memory must not lose.
-    void set_aside(const cl::CommandQueue& queue) override
+    void save(const cl::CommandQueue& queue) override
     {
         set_aside_.resize(standing_.value_or(0));
         if (!set_aside_.empty())
@@ -173,7 +152,7 @@ private:
             standing_ && parents_.size() > 1 ? parents_.download(queue) : std::vector<Pair>{};
     }
 
-    void prepare(const DeviceTree&, const cl::CommandQueue& queue) override
+    void fill(const cl::CommandQueue& queue) override
     {
         if (!set_aside_.empty())
             queue.enqueueWriteBuffer(fronts_[0].cl(), CL_TRUE, 0, set_aside_.size() * sizeof(Pair),
@@ -185,94 +164,70 @@ private:
         last_front_.reset();
     }
 
-    /// Levels below the root: a step each, behind that of the front itself.
-    static uint descents(const DeviceTree& tree) { return tree.most_levels() - 1; }
-
-    /// Of the front, of prunes, one a descent, and what the last of them would leave.
-    uint queue_count(const DeviceTree& tree) const override { return 3 + descents(tree); }
-
     bool make_room(std::uint64_t, const std::vector<std::uint64_t>& sizes) override
     {
         constexpr std::size_t queues = (FRONT_QUEUES_COUNT - QUEUES_COUNT) / 2 + 1;
         const std::uint64_t waiting = *std::max_element(sizes.begin() + queues, sizes.end());
         // Steps behind one that ran over have seen only some of their entries: they, and the front, will need more.
-        const bool queues_had_room =
-            had_room(queue_capacity_, waiting, waiting < many ? waiting : waiting / 16);
-        const bool front_had_room = had_room(front_capacity_, sizes.front(),
-                                             sizes.front() / (sizes.front() < many ? 4 : 16));
-        if (queues_had_room && front_had_room)
-            last_front_ = static_cast<uint>(sizes.front());
-        return queues_had_room && front_had_room;
-    }
-
-    /// Whether `needed` entries had room; if not, they will, and `more` besides.
-    bool had_room(std::size_t& capacity, std::uint64_t needed, std::uint64_t more) const
-    {
-        if (needed <= capacity)
-            return true;
-        if (needed > most_entries)
-            throw Unavailable(std::to_string(needed) + " pairs of nodes or more: a front holds " +
-                              std::to_string(most_entries));
-        capacity = device().room_for(std::min(most_entries, needed + more), sizeof(Pair), needed);
-        return false;
+        const bool queues_fit =
+            had_room(queue_room_, waiting, waiting < many ? waiting : waiting / 16, sizeof(Pair),
+                     device(), "pairs of nodes");
+        const std::uint64_t front = sizes.front();
+        const bool front_fits = had_room(front_room_, front, front / (front < many ? 4 : 16),
+                                         sizeof(Pair), device(), "pairs of nodes");
+        if (queues_fit && front_fits)
+            last_front_ = static_cast<uint>(front);
+        return queues_fit && front_fits;
     }
 
     /// The front that stands. What of the tree it leads to depends on how it stands.
-    std::int64_t reads_at_least(const DeviceTree&) const override
+    std::int64_t reads_at_least() const override
     {
         return std::int64_t{standing_.value_or(0)} * std::int64_t{sizeof(Pair)};
     }
 
-    void enqueue(const DeviceTree& tree, const Input& input, Queue& queue) override
+    void enqueue(const Input& input, Queue& queue) override
     {
         if (!standing_)
-            start_from_roots(tree, queue);
-        const auto standing = standing_.value_or(static_cast<uint>(root_count(tree)));
-        for (uint step = 0; step <= descents(tree); ++step) {
+            start_from_roots(queue);
+        const auto standing = standing_.value_or(static_cast<uint>(root_count()));
+        for (uint step = 0; step <= descents(); ++step) {
             const Buffer<Pair>& from = step == 0 ? fronts_[0] : queues_[step % 2];
-            bind(advance_, tree, input, parents_, from, queues_[(step + 1) % 2],
-                 static_cast<uint>(queue_capacity_), fronts_[1], static_cast<uint>(front_capacity_),
-                 step, standing, climbs_ ? 1u : 0u, blocks_);
+            bind(advance_, input, parents_, from, queues_[(step + 1) % 2],
+                 static_cast<uint>(queue_room_), fronts_[1], static_cast<uint>(front_room_), step,
+                 standing, climbs_ ? 1u : 0u, blocks_);
+            // An entry has 4 pairs of children a level of binary trees.
+            const std::size_t tasks = std::size_t{standing}
+                                      << std::min(2 * tree().child_bits() * step, 30u);
             if (by_groups())
-                queue.launch(advance_, groups(standing, tree.child_bits() * step) * group_size_,
-                             group_size_, 0);
+                launch(advance_, group_count(device(), tasks, group_size_) * group_size_,
+                       group_size_, queue);
             else
-                queue.launch(advance_, chunks_, 1, 0);
+                launch(advance_, chunks_, 1, queue);
         }
     }
 
-    /// As many as have something to do, up to what fills the device: an entry has 4 children a level of binary trees.
-    std::size_t groups(uint standing, uint levels) const
-    {
-        const std::size_t most = device().tuned(bvtt_groups_per_unit) *
-                                 std::size_t{device().cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()};
-        const std::size_t tasks = std::size_t{standing} << std::min(2 * levels, 30u);
-        const std::size_t a_group = std::size_t{group_size_} * items();
-        return std::clamp<std::size_t>((tasks + a_group - 1) / a_group, 1, most);
-    }
-
-    void start_from_roots(const DeviceTree& tree, Queue& queue)
+    void start_from_roots(Queue& queue)
     {
         constexpr std::size_t group = 64;
-        const auto rounded = [](std::size_t count) { return (count + group - 1) / group * group; };
-        const auto objects = static_cast<uint>(tree.objects.size());
-        set_arguments_from(roots_, tree.bind(roots_, 0), objects, within() ? 1u : 0u,
-                           between(tree) ? 1u : 0u, fronts_[0]);
-        queue.launch(roots_, rounded(std::size_t{objects} * objects), group, 0);
-        if (tree.is_implicit())
+        const uint objects = object_count();
+        set_arguments_from(roots_, tree().bind(roots_, 0), objects, within() ? 1u : 0u,
+                           between(objects) ? 1u : 0u, fronts_[0]);
+        launch(roots_, std::size_t{objects} * objects, group, queue);
+        if (tree().is_implicit())
             return;
-        const std::size_t lanes =
-            by_groups() ? rounded(tree.leaf_count()) : (chunks_ + group - 1) / group * group;
-        set_arguments_from(list_parents_, tree.bind(list_parents_, 0), parents_);
-        queue.launch(list_parents_, lanes, group, 0);
-        set_arguments_from(cut_off_roots_, tree.bind(cut_off_roots_, 0), parents_, objects);
-        queue.launch(cut_off_roots_, rounded(objects), group, 0);
-        set_arguments_from(list_depths_, tree.bind(list_depths_, 0), parents_);
-        queue.launch(list_depths_, lanes, group, 0);
+        const std::size_t items = by_groups() ? triangles_ : chunks_;
+        set_arguments_from(list_parents_, tree().bind(list_parents_, 0), parents_);
+        launch(list_parents_, items, group, queue);
+        set_arguments_from(cut_off_roots_, tree().bind(cut_off_roots_, 0), parents_, objects);
+        launch(cut_off_roots_, objects, group, queue);
+        set_arguments_from(list_depths_, tree().bind(list_depths_, 0), parents_);
+        launch(list_depths_, items, group, queue);
     }
 
     cl::Kernel advance_, roots_, list_parents_, cut_off_roots_, list_depths_;
-    std::size_t queue_capacity_ = 0, front_capacity_ = 0;
+    uint block_pairs_ = 0;  ///< of a work-item's own, for each of three lists, on few cores
+    std::size_t queue_room_ = 0, front_room_ = 0;
     std::array<Buffer<Pair>, 2> fronts_;  ///< that stands, and that the query leaves
     std::array<Buffer<Pair>, 2>
         queues_;            ///< of nodes that sprout; a step goes from one to the other

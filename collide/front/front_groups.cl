@@ -2,59 +2,15 @@
 // check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=0 -DGROUP_SIZE=64u -DITEMS=4u -DLABEL_BITS=20
 // check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DGROUP_SIZE=64u -DITEMS=4u -DLABEL_BITS=32
 //
-// A step of front tracking by groups: ITEMS tasks a work-item a turn. What a group keeps it lines up in local memory,
-// nodes that sprout from the front of a list and pairs from its back, entries of the front in a list of their own, and
-// writes each out with one atomic.
-#include "collide/counters.h"
-#include "collide/sinks/sum_tests.clh"
-#include "collide/sinks/wanted.clh"
-#include "collide/wide_count.clh"
-
-#define KEPT (GROUP_SIZE * ITEMS)  // tasks of a turn: none keeps more than one in a list
-
-#define LISTS_PARAMETERS \
-    local uint2 *kept, local uint2 *kept_entries, volatile local uint *kept_counts
-#define LISTS_PASSED kept, kept_entries, kept_counts
-
-static inline void keep_node(LISTS_PARAMETERS, const uint2 pair)
-{
-    (void)kept_entries;
-    kept[atomic_inc(&kept_counts[0])] = pair;
-}
-
-static inline void keep_pair(LISTS_PARAMETERS, const uint2 pair)
-{
-    (void)kept_entries;
-    kept[KEPT - 1u - atomic_inc(&kept_counts[1])] = pair;
-}
-
-static inline void keep_entry(LISTS_PARAMETERS, const uint2 pair)
-{
-    (void)kept;
-    kept_entries[atomic_inc(&kept_counts[2])] = pair;
-}
-
-static inline void count_prune(LISTS_PARAMETERS)
-{
-    (void)kept, (void)kept_entries;
-    atomic_inc(&kept_counts[3]);
-}
+// A step of front tracking by groups: ITEMS tasks a work-item a turn. What a group keeps of a turn is in
+// the lists of sinks/lists_groups.clh: nodes that sprout, pairs, and entries of the front.
+#include "collide/sinks/lists_groups.clh"
 
 #include "collide/front/front.clh"
 
-/// Write `count` of `kept`, from `first` on in steps of `by`, to `out` from `slot` on, as far as there is room.
-static inline void write_out(local const uint2* kept, const uint first, const int by,
-                             const uint count, global uint2* out, const uint slot,
-                             const uint capacity)
-{
-    const uint room = capacity - min(capacity, slot);
-    for (uint k = (uint)get_local_id(0); k < min(count, room); k += GROUP_SIZE)
-        out[slot + k] = kept[(int)first + by * (int)k];
-}
-
 /// Step 0 takes the old front, `standing` entries, from `queue`; a later one the nodes that the step before it left
-/// there. With `climbs`, entries of the old front do. `next` gets those of the step after it, `front` what stays, and `pairs` what is found. Nothing is written
-/// where there is no room, but all is counted.
+/// there. With `climbs`, entries of the old front do. `next` gets those of the step after it, `front` what stays, and
+/// `pairs` what is found. Nothing is written where there is no room, but all is counted.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void advance(
     FOREST_PARAMETERS, global const uint* ropes, global const Face* faces, global uint2* pairs,
     const uint capacity, volatile global uint* counters, global const uint2* parents,
@@ -62,7 +18,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void advance(
     const uint front_capacity, const uint step, const uint standing, const uint climbs,
     global uint2* blocks)
 {
-    local uint2 kept[KEPT], kept_entries[KEPT];
+    local uint2 kept[2u * KEPT];
     local uint kept_counts[4], counts[4], slots[4], tests[GROUP_SIZE];
     const ulong tasks = tasks_of(counters, standing, queue_capacity, step);
     const ulong a_turn = (ulong)get_num_groups(0) * KEPT;
@@ -77,21 +33,18 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void advance(
         for (uint k = 0u; k < ITEMS; ++k) {
             const ulong task = first + k * GROUP_SIZE + item;
             if (task < tasks)
-                tests[item] += do_task(FOREST, faces, parents, queue, step, climbs, task, kept,
-                                       kept_entries, kept_counts);
+                tests[item] += do_task(FOREST, faces, parents, queue, step, climbs, task, LISTS);
         }
         barrier(CLK_LOCAL_MEM_FENCE);
         if (item < 4u) {
             const uint places[4] = {FRONT_QUEUES_COUNT + 2u * (step + 1u), PAIRS_COUNT, FRONT_COUNT,
                                     PRUNES_COUNT};
-            counts[item] = kept_counts[item];
-            kept_counts[item] = 0u;
-            slots[item] = counts[item] != 0u ? add_wide(counters + places[item], counts[item]) : 0u;
+            take_slots(kept_counts, item, counts, slots, counters + places[item]);
         }
         barrier(CLK_LOCAL_MEM_FENCE);
         write_out(kept, 0u, 1, counts[0], next, slots[0], queue_capacity);
         write_out(kept, KEPT - 1u, -1, counts[1], pairs, slots[1], capacity);
-        write_out(kept_entries, 0u, 1, counts[2], front, slots[2], front_capacity);
+        write_out(kept, KEPT, 1, counts[2], front, slots[2], front_capacity);
         barrier(CLK_LOCAL_MEM_FENCE);
     }
     count_tests(tests, counters);

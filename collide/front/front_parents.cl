@@ -2,7 +2,7 @@
 // check: -include baselines/radix/access.clh -DSORTED_LEAVES=0
 //
 // For trees that know only their children: each node's parent and how deep it lies below its object's root, by its
-// number. Three launches, after each build; a refit leaves them right. Compiled behind an access header.
+// number. Three launches, after each build; a refit leaves them right.
 #include "builders/stages/chunk.clh"
 
 kernel void list_parents(FOREST_PARAMETERS, global uint2* parents)

@@ -10,9 +10,10 @@
 #include "builders/device_tree.h"
 #include "builders/stages/bounds.h"
 #include "builders/stages/scan.h"
-#include "collide/colliders.h"
+#include "collide/counters.h"
+#include "collide/device_collider.h"
+#include "collide/device_lists.h"
 #include "collide/grid/hash_grid.h"
-#include "collide/pair_collider.h"
 #include "collide/parameters.h"
 #include "geometry/bits.h"
 
@@ -28,62 +29,63 @@ constexpr float cell_sides = 2.0f;
 
 constexpr std::size_t entries_each = 4;  // a triangle, that there is room for at first
 
-/// As collide/grid/grid_entry.clh reads it. 32 bytes.
-struct Entry {
-    Aabb box;
-    uint number, triangle;
-};
-
-class HashedGrid final : public PairCollider {
+class HashedGrid final : public DeviceCollider {
 public:
     HashedGrid(Programs& programs, const ColliderOptions& options)
-        : PairCollider(programs,
-                       {"grid", "Hierarchical hashed grid, after [Fan2011] and [Tang2018]"},
-                       options, grid_group_size)
+        : DeviceCollider(programs,
+                         {"grid", "Hierarchical hashed grid, after [Fan2011] and [Tang2018]"},
+                         options, grid_group_size, Wants::no_tree)
         , bounds_(programs, options.form)
         , scan_(programs, options.form)
         , table_group_(std::min<std::size_t>(sum_group,
                                              device().cl.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>()))
     {}
 
-    bool needs_tree() const override { return false; }
-    std::string refusal(const Tree&) const override { return {}; }
-    void reserve(const Tree*, const Input& input) override;
-    void query(const Tree*, const Input& input, Queue& queue) override;
-
 private:
-    void compile(const Input& input);
-    void plan_rest(Arena& arena) override;
-    void write_down(const cl::CommandQueue& queue) override { bounds_.prepare(queue); }
-    uint wide_counters() const override { return 1; }
-    bool make_room(std::uint64_t, const std::vector<std::uint64_t>& queue_sizes) override;
-    bool has_pairs(const Input& input) const;
-    /// That a work-item of the form for few cores collects before it passes them on.
-    uint block_pairs() const { return device().tuned(grid_block_pairs); }
+    void compile(const Input& input) override;
+    void plan(Arena& arena) override;
+    void fill(const cl::CommandQueue& queue) override { bounds_.prepare(queue); }
+    bool make_room(std::uint64_t, const std::vector<std::uint64_t>& queues) override
+    {
+        return had_room(entry_room_, queues[0], queues[0] / 8, sizeof(GridEntry), device(),
+                        "entries of cells");
+    }
+    std::int64_t reads_at_least() const override  // one entry a triangle, or more
+    {
+        return has_pairs_ ? std::int64_t{triangles_} * std::int64_t{sizeof(GridEntry)} : 0;
+    }
+    void enqueue_before(const Input& input, Queue& queue) override;
+    void enqueue(const Input& input, Queue& queue) override;
     void enqueue_cells(Queue& queue);
     void enqueue_entries(Queue& queue);
-    void enqueue_pairs(const Input& input, Queue& queue);
-    uint bucket_shift() const;
-    void launch_each(cl::Kernel& kernel, std::size_t bytes, Queue& queue);
+
+    /// That a work-item of the form for few cores collects before it passes them on.
+    uint block_pairs() const { return device().tuned(grid_block_pairs); }
+
+    /// What leaves of a hashed word the number of a bucket.
+    uint bucket_shift() const
+    {
+        return static_cast<uint>(std::countl_zero(static_cast<uint>(ends_.size()))) + 1;
+    }
+
+    /// A work-item a triangle, in either form: what these kernels do is scatter.
+    void launch_each(const cl::Kernel& kernel, std::size_t bytes, Queue& queue) const
+    {
+        launch(kernel, triangles_, table_group_, queue, static_cast<std::int64_t>(bytes));
+    }
 
     BoundsStage bounds_;
     ScanStage scan_;
     std::size_t table_group_;
     cl::Kernel add_sides_, choose_cells_, count_cells_, enter_cells_, cell_pairs_, level_pairs_;
-    uint triangles_ = 0;
+    bool has_pairs_ = false;  ///< with one object there are none between objects
     std::size_t entry_room_ = 0;
     Buffer<float> sides_;  ///< partial sums
     Buffer<HashGrid> grid_;
-    Buffer<uint> ends_;      ///< of the buckets
-    Buffer<Entry> entries_;  ///< bucket after bucket
+    Buffer<uint> ends_;          ///< of the buckets
+    Buffer<GridEntry> entries_;  ///< bucket after bucket
     Buffer<Pair> blocks_;
 };
-
-/// With one object there are no others, and all pairs are within it.
-bool HashedGrid::has_pairs(const Input& input) const
-{
-    return triangles_ > 1 && (options_.among != Among::between_objects || input.objects.size() > 1);
-}
 
 void HashedGrid::compile(const Input& input)
 {
@@ -96,10 +98,9 @@ void HashedGrid::compile(const Input& input)
     choose_cells_ = table("choose_cells");
     count_cells_ = table("count_cells");
     enter_cells_ = table("enter_cells");
-    const uint among = input.objects.size() == 1                  ? 0
-                       : options_.among == Among::between_objects ? 1
-                       : options_.among == Among::within_objects  ? 2
-                                                                  : 0;
+    const bool one_object = input.objects.size() == 1;  // then all pairs are within it
+    has_pairs_ = !one_object || within();
+    const uint among = one_object ? 0 : static_cast<uint>(options_.among);
     const auto pairs = [&](const char* name) {
         return programs().kernel(
             by_groups() ? "collide/grid/grid_groups.cl" : "collide/grid/grid_chunks.cl", name,
@@ -110,19 +111,11 @@ void HashedGrid::compile(const Input& input)
     };
     cell_pairs_ = pairs("cell_pairs");
     level_pairs_ = pairs("level_pairs");
+    queue_count_ = 1;
+    entry_room_ = first_room(entries_each * std::size_t{triangles_}, sizeof(GridEntry));
 }
 
-void HashedGrid::reserve(const Tree*, const Input& input)
-{
-    triangles_ = input.triangle_count();
-    compile(input);
-    entry_room_ = options_.capacity != 0
-                      ? options_.capacity
-                      : device().room_for(std::uint64_t{entries_each} * triangles_, sizeof(Entry));
-    take_memory_for(triangles_);
-}
-
-void HashedGrid::plan_rest(Arena& arena)
+void HashedGrid::plan(Arena& arena)
 {
     const std::size_t units = device().cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
     bounds_.plan(arena, triangles_, Use::scratch);
@@ -133,31 +126,18 @@ void HashedGrid::plan_rest(Arena& arena)
                                  16, std::size_t{device().tuned(grid_buckets_each)} * triangles_)),
                              Use::scratch);
     scan_.plan(arena, ends_.size());
-    entries_ = arena.take<Entry>(entry_room_, Use::scratch);
+    entries_ = arena.take<GridEntry>(entry_room_, Use::scratch);
     if (!by_groups())
         blocks_ = arena.take<Pair>(block_pairs() * chunks_, Use::scratch);
 }
 
-bool HashedGrid::make_room(std::uint64_t, const std::vector<std::uint64_t>& queue_sizes)
+void HashedGrid::enqueue_before(const Input& input, Queue& queue)
 {
-    if (queue_sizes[0] <= entry_room_)
-        return true;
-    entry_room_ =
-        device().room_for(queue_sizes[0] + queue_sizes[0] / 8, sizeof(Entry), queue_sizes[0]);
-    return false;
-}
-
-/// What leaves of a hashed word the number of a bucket.
-uint HashedGrid::bucket_shift() const
-{
-    return static_cast<uint>(std::countl_zero(static_cast<uint>(ends_.size()))) + 1;
-}
-
-/// A work-item a triangle, in either form: what these kernels do is scatter.
-void HashedGrid::launch_each(cl::Kernel& kernel, std::size_t bytes, Queue& queue)
-{
-    queue.launch(kernel, divided_up(triangles_, static_cast<uint>(table_group_)) * table_group_,
-                 table_group_, static_cast<std::int64_t>(bytes));
+    if (!has_pairs_)
+        return;
+    bounds_.enqueue(input, queue);
+    enqueue_cells(queue);
+    enqueue_entries(queue);
 }
 
 void HashedGrid::enqueue_cells(Queue& queue)
@@ -184,46 +164,22 @@ void HashedGrid::enqueue_entries(Queue& queue)
     launch_each(enter_cells_, bounds_.boxes().bytes() + ends_.bytes(), queue);
 }
 
-void HashedGrid::enqueue_pairs(const Input& input, Queue& queue)
+void HashedGrid::enqueue(const Input& input, Queue& queue)
 {
-    const auto bind = [&](cl::Kernel& kernel) {
-        cl_uint next = set_arguments_from(kernel, 0, bounds_.boxes(), grid_, ends_, entries_,
+    if (!has_pairs_)
+        return;
+    for (cl::Kernel* kernel : {&cell_pairs_, &level_pairs_}) {
+        cl_uint next = set_arguments_from(*kernel, 0, bounds_.boxes(), grid_, ends_, entries_,
                                           static_cast<uint>(entry_room_), bucket_shift(),
                                           input.device_faces, input.device_owners, pairs_,
                                           static_cast<uint>(pairs_.size()), counters_);
         if (!by_groups())
-            next = set_arguments_from(kernel, next, blocks_);
-        return next;
-    };
-    const auto launch = [&](const cl::Kernel& kernel, std::size_t most) {
-        if (by_groups())
-            queue.launch(
-                kernel, divided_up(static_cast<uint>(most), group_size_) * std::size_t{group_size_},
-                group_size_, 0);
-        else
-            queue.launch(kernel, chunks_, 1, 0);
-    };
-    bind(cell_pairs_);
-    launch(cell_pairs_, entry_room_);
-    set_arguments_from(level_pairs_, bind(level_pairs_), triangles_);
-    launch(level_pairs_, triangles_);
-}
-
-void HashedGrid::query(const Tree*, const Input& input, Queue& queue)
-{
-    assert(input.triangle_count() == triangles_);
-    if (has_pairs(input)) {
-        bounds_.enqueue(input, queue);
-        enqueue_cells(queue);
-        enqueue_entries(queue);
+            next = set_arguments_from(*kernel, next, blocks_);
+        if (kernel == &level_pairs_)
+            set_arguments_from(*kernel, next, triangles_);
+        const std::size_t most = kernel == &cell_pairs_ ? entry_room_ : triangles_;
+        launch(*kernel, by_groups() ? most : chunks_, by_groups() ? group_size_ : 1, queue);
     }
-    queue.begin("broad");
-    queue.clear(counters_.cl(), counters_.bytes());
-    if (!has_pairs(input))
-        return;
-    queue.declare(std::int64_t{triangles_} *
-                  std::int64_t{sizeof(Entry)});  // one a triangle, or more
-    enqueue_pairs(input, queue);
 }
 
 }  // namespace

@@ -15,12 +15,12 @@ kernel void cell_pairs(TABLE_PARAMETERS, global uint2* pairs, const uint capacit
     if (get_global_id(0) == 0)
         counters[QUEUES_COUNT] = ends[(1u << (32u - shift)) - 1u];
     const Chunk chunk = own_chunk(entry_count(TABLE));
-    uint block_count = 0u;
+    OPEN_SINK
     ulong tests = 0ul;
     for (uint k = chunk.first; k < chunk.end; ++k)
         tests += meet_behind(TABLE, SINK, k);
     add_wide(counters + BOX_TESTS_COUNT, tests);
-    empty_block(SINK);
+    close_sink(SINK);
 }
 
 kernel void level_pairs(TABLE_PARAMETERS, global uint2* pairs, const uint capacity,
@@ -30,10 +30,10 @@ kernel void level_pairs(TABLE_PARAMETERS, global uint2* pairs, const uint capaci
     if (levels == 1u)
         return;  // the smallest boxes are of level 0, and there are no others
     const Chunk chunk = own_chunk(triangles);
-    uint block_count = 0u;
+    OPEN_SINK
     ulong tests = 0ul;
     for (uint k = chunk.first; k < chunk.end; ++k)
         tests += meet_coarser(TABLE, SINK, load_box(boxes, k), k);
     add_wide(counters + BOX_TESTS_COUNT, tests);
-    empty_block(SINK);
+    close_sink(SINK);
 }

@@ -4,7 +4,6 @@
 //
 // A work-item an entry, or a triangle; a group's neighbouring entries read much the same others.
 #include "collide/sinks/sink_groups.clh"
-#include "collide/sinks/sum_tests.clh"
 
 #include "collide/grid/grid_walk.clh"
 
@@ -13,7 +12,7 @@
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void cell_pairs(
     TABLE_PARAMETERS, global uint2* pairs, const uint capacity, volatile global uint* counters)
 {
-    SINK_LOCAL
+    OPEN_SINK
     local uint tests[GROUP_SIZE];
     const uint item = (uint)get_local_id(0);
     if (get_global_id(0) == 0)
@@ -21,7 +20,6 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void cell_pairs(
     const uint count = entry_count(TABLE);
     if ((uint)get_group_id(0) * GROUP_SIZE >= count)
         return;
-    open_sink(&kept_count);
     barrier(CLK_LOCAL_MEM_FENCE);
     tests[item] = 0u;
     if (get_global_id(0) < count)
@@ -36,13 +34,12 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void level_pairs(
     TABLE_PARAMETERS, global uint2* pairs, const uint capacity, volatile global uint* counters,
     const uint triangles)
 {
-    SINK_LOCAL
+    OPEN_SINK
     local uint tests[GROUP_SIZE];
     const uint item = (uint)get_local_id(0);
     const uint levels = grid->levels;
     if (levels == 1u)
         return;  // the smallest boxes are of level 0, and there are no others
-    open_sink(&kept_count);
     barrier(CLK_LOCAL_MEM_FENCE);
     tests[item] = 0u;
     if (get_global_id(0) < triangles)

@@ -8,12 +8,11 @@
 //     choose_cells  *grid        the side of cells, from the mean
 //     count_cells   ends[b]      how many entries bucket b gets
 //       ... a scan of ends ...   where bucket b begins
-//     enter_cells   entries      as in grid_entry.clh, bucket after bucket; ends[b] is where b ends
+//     enter_cells   entries      as in hash_grid.h, bucket after bucket; ends[b] is where b ends
 //
 // Counting by buckets places every entry with no list of unsorted ones, and no pass over a number of entries that only
 // the device knows.
 #include "builders/stages/chunk.clh"
-#include "collide/grid/grid_entry.clh"
 #include "collide/grid/hash_grid.h"
 #include "geometry/bounds.h"
 #include "geometry/box_words.clh"

@@ -17,7 +17,7 @@
 #define BVHBENCH_COLLIDE_DOUBLE_FILTER_H
 
 #include "collide/narrow/exact_contact.h"
-#include "collide/narrow/verdicts.h"
+#include "collide/narrow/narrow_words.h"
 
 #if HAS_DOUBLES
 SHARED_BEGIN

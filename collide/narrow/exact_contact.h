@@ -25,6 +25,14 @@ typedef struct {
     Point at[3];
 } Corners;
 
+#ifdef __OPENCL_C_VERSION__
+static inline Corners corners_of(global const Point* points, const Face face)
+{
+    const Corners corners = {{points[face.a], points[face.b], points[face.c]}};
+    return corners;
+}
+#endif
+
 /// Of three corners to a plane or line: -1, 0 or 1 each.
 typedef struct {
     int of[3];

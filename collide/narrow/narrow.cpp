@@ -3,38 +3,29 @@
 
 #include <algorithm>
 #include <cassert>
-#include <limits>
 #include <string>
 
+#include "collide/device_lists.h"
 #include "collide/narrow/exact_adjacent.h"
-#include "collide/narrow/narrow_counters.h"
+#include "collide/narrow/narrow_words.h"
 #include "collide/narrow/sharing.h"
 #include "collide/parameters.h"
 #include "geometry/bits.h"
-#include "geometry/error.h"
-#include "geometry/host_memory.h"
 
 namespace bvhbench {
 namespace {
 
+// To add a narrow phase that rounds, add its line here and its text to rounded.clh.
+constexpr NarrowMethod catalog[] = {
+    {"filter-f64+exact", "floats, then doubles with error bounds, then exact sums: no error", true},
+    {"guigue-f64", "orientations in doubles, as computed", false, 2, 64},
+    {"guigue-f32", "orientations in floats, as computed", false, 2, 32},
+    {"moller-f32", "intervals in floats, heights below 1e-6 taken for 0", false, 1, 32},
+};
+
 bool has_doubles(const Device& device)
 {
     return device.cl.getInfo<CL_DEVICE_DOUBLE_FP_CONFIG>() != 0;
-}
-
-std::uint64_t count_in(const std::vector<uint>& words, uint at)
-{
-    return words[at] | std::uint64_t{words[at + 1]} << 32;
-}
-
-/// Room for `wanted` and some more; throws Unavailable for what 32 bits cannot count.
-std::size_t grown_to(std::uint64_t wanted)
-{
-    constexpr std::uint64_t most = std::numeric_limits<uint>::max();
-    if (wanted > most)
-        throw Unavailable(std::to_string(wanted) + " contacts or more: a query holds at most " +
-                          std::to_string(most));
-    return static_cast<std::size_t>(std::min(most, wanted + wanted / 8));
 }
 
 Corners corners_of(std::span<const Point> points, Face face)
@@ -52,6 +43,28 @@ bool meet(const Input& input, Pair pair, bool keep_adjacent)
 }
 
 }  // namespace
+
+std::span<const NarrowMethod> narrow_methods() { return catalog; }
+
+const NarrowMethod& find_narrow_method(std::string_view name)
+{
+    std::string known;
+    for (const NarrowMethod& method : catalog) {
+        if (method.name == name || (method.is_exact && name == "exact"))
+            return method;
+        known += ", " + std::string(method.name);
+    }
+    throw BadUsage("no narrow phase is called '" + std::string(name) + "'; there are: exact" +
+                   known);
+}
+
+void check_narrow(std::string_view name, bool keep_adjacent)
+{
+    if (name != "none" && !find_narrow_method(name).is_exact && keep_adjacent)
+        throw BadUsage("--narrow " + std::string(name) +
+                       " cannot tell what triangles that share a corner have beyond it: it needs "
+                       "--adjacent drop");
+}
 
 NarrowPhase::NarrowPhase(Programs& programs, const NarrowOptions& options)
     : programs_(programs)
@@ -88,7 +101,7 @@ cl::Kernel NarrowPhase::compiled_filter(const NarrowMethod& method)
         defines.insert(defines.end(),
                        {{"ROUNDED_TEST", method.rounded_test}, {"REAL_BITS", method.real_bits}});
     const char* const verdict =
-        method.is_exact ? "collide/narrow/verdict.clh" : "collide/narrow/rounded_verdict.clh";
+        method.is_exact ? "collide/narrow/verdict.clh" : "collide/narrow/rounded.clh";
     const char* const chunks =
         method.is_exact ? "collide/narrow/narrow_chunks.cl" : "collide/narrow/rounded_chunks.cl";
     return programs_.kernel(verdict, by_groups() ? "collide/narrow/narrow_groups.cl" : chunks,
@@ -98,26 +111,19 @@ cl::Kernel NarrowPhase::compiled_filter(const NarrowMethod& method)
 void NarrowPhase::reserve(std::size_t triangles)
 {
     const std::size_t guess = std::max<std::size_t>(1024, triangles);
-    room_.contacts = options_.capacity != 0 ? options_.capacity : guess;
-    room_.unsure = !is_exact_ ? 1 : options_.capacity != 0 ? options_.capacity : guess;
-    take_memory();
+    contact_room_ = options_.capacity != 0 ? options_.capacity : guess;
+    unsure_room_ = is_exact_ ? contact_room_ : 1;
+    take_all();
 }
 
-void NarrowPhase::take_all(Arena& arena)
+void NarrowPhase::take_all()
 {
-    counters_ = arena.take<uint>(NARROW_COUNTERS, Use::scratch);
-    unsure_ = arena.take<Pair>(room_.unsure, Use::scratch);
-    blocks_ = arena.take<Pair>(by_groups() ? 1 : 2 * block_pairs_ * chunks_, Use::scratch);
-    contacts_ = arena.take<Pair>(room_.contacts, Use::scratch);
-}
-
-void NarrowPhase::take_memory()
-{
-    Arena measuring = Arena::measuring(programs_.device());
-    take_all(measuring);
-    arena_.reset();  // the old memory goes before the new comes
-    arena_ = Arena::reserved(programs_.device(), measuring.used());
-    take_all(*arena_);
+    take_memory(arena_, programs_.device(), [&](Arena& arena) {
+        counters_ = arena.take<uint>(NARROW_COUNTERS, Use::scratch);
+        unsure_ = arena.take<Pair>(unsure_room_, Use::scratch);
+        blocks_ = arena.take<Pair>(by_groups() ? 1 : 2 * block_pairs_ * chunks_, Use::scratch);
+        contacts_ = arena.take<Pair>(contact_room_, Use::scratch);
+    });
 }
 
 /// No more than make every compute unit's lanes full. The kernels' turns see to the rest.
@@ -158,13 +164,11 @@ void NarrowPhase::query(const Input& input, const Buffer<Pair>& candidates,
 
 void NarrowPhase::decide_on_host(const Input& input, Queue& queue)
 {
-    std::vector<uint> words = counters_.download(queue.cl());
-    const std::uint64_t found = count_in(words, CONTACTS_COUNT);
-    std::vector<Pair> unsure(
-        std::min<std::uint64_t>(count_in(words, NARROW_EXACT_COUNT), unsure_.size()));
-    if (!unsure.empty())
-        queue.cl().enqueueReadBuffer(unsure_.cl(), CL_TRUE, 0, unsure.size() * sizeof(Pair),
-                                     unsure.data());
+    const std::vector<std::uint64_t> counts = wide_counts(counters_, queue);
+    const std::uint64_t found = counts[CONTACTS_COUNT / 2];
+    std::vector<Pair> unsure = first_entries(
+        unsure_, std::min<std::uint64_t>(counts[NARROW_EXACT_COUNT / 2], unsure_.size()), queue,
+        "the candidates left to the host");
     std::erase_if(unsure, [&](Pair pair) { return !meet(input, pair, options_.keep_adjacent); });
 
     const std::size_t room = contacts_.size() - std::min<std::uint64_t>(found, contacts_.size());
@@ -173,55 +177,46 @@ void NarrowPhase::decide_on_host(const Input& input, Queue& queue)
         queue.cl().enqueueWriteBuffer(contacts_.cl(), CL_TRUE, found * sizeof(Pair),
                                       written * sizeof(Pair), unsure.data());
     const std::uint64_t total = found + unsure.size();
-    words[CONTACTS_COUNT] = static_cast<uint>(total);
-    words[CONTACTS_COUNT + 1] = static_cast<uint>(total >> 32);
-    queue.cl().enqueueWriteBuffer(counters_.cl(), CL_TRUE, 0, counters_.bytes(), words.data());
+    const uint words[] = {static_cast<uint>(total), static_cast<uint>(total >> 32)};
+    queue.cl().enqueueWriteBuffer(counters_.cl(), CL_TRUE, CONTACTS_COUNT * sizeof(uint),
+                                  sizeof words, words);
 }
 
 bool NarrowPhase::complete(const Queue& queue)
 {
-    const std::vector<uint> words = counters_.download(queue.cl());
-    const std::uint64_t contacts = count_in(words, CONTACTS_COUNT);
-    const std::uint64_t unsure = count_in(words, NARROW_EXACT_COUNT);
-    if (contacts <= room_.contacts && unsure <= room_.unsure)
-        return true;
-    if (contacts > room_.contacts)
-        room_.contacts = grown_to(contacts);
-    if (unsure > room_.unsure)
-        room_.unsure = grown_to(unsure);
-    take_memory();
-    return false;
+    const std::vector<std::uint64_t> counts = wide_counts(counters_, queue);
+    const std::uint64_t contacts = counts[CONTACTS_COUNT / 2],
+                        unsure = counts[NARROW_EXACT_COUNT / 2];
+    const Device& device = programs_.device();
+    const bool contacts_fit =
+        had_room(contact_room_, contacts, contacts / 8, sizeof(Pair), device, "contacts");
+    const bool unsure_fit =
+        had_room(unsure_room_, unsure, unsure / 8, sizeof(Pair), device, "unsure candidates");
+    if (!contacts_fit || !unsure_fit)
+        take_all();
+    return contacts_fit && unsure_fit;
 }
 
 NarrowCounts NarrowPhase::counts(const Queue& queue) const
 {
-    const std::vector<uint> words = counters_.download(queue.cl());
-    return {count_in(words, CONTACTS_COUNT), count_in(words, NARROW_FLOAT_COUNT),
-            count_in(words, NARROW_DOUBLE_COUNT), count_in(words, NARROW_EXACT_COUNT)};
+    const std::vector<std::uint64_t> counts = wide_counts(counters_, queue);
+    return {counts[CONTACTS_COUNT / 2], counts[NARROW_FLOAT_COUNT / 2],
+            counts[NARROW_DOUBLE_COUNT / 2], counts[NARROW_EXACT_COUNT / 2]};
 }
 
 std::vector<Pair> NarrowPhase::contacts(const Queue& queue) const
 {
-    const auto count = static_cast<std::size_t>(counts(queue).contacts);
-    require_host_memory("the contacts found, " + std::to_string(count) + " of them,",
-                        count * sizeof(Pair));
-    std::vector<Pair> found(count);
-    assert(found.size() <= contacts_.size());
-    if (!found.empty())
-        queue.cl().enqueueReadBuffer(contacts_.cl(), CL_TRUE, 0, found.size() * sizeof(Pair),
-                                     found.data());
-    return found;
+    return first_entries(contacts_, counts(queue).contacts, queue, "the contacts found");
 }
 
 int find_contacts(NarrowPhase& narrow, const Input& input, const Buffer<Pair>& candidates,
                   const Buffer<uint>& candidate_counters, Queue& queue)
 {
-    int queries = 0;
-    do {
+    for (int queries = 1;; ++queries) {
         narrow.query(input, candidates, candidate_counters, queue);
-        ++queries;
-    } while (!narrow.complete(queue));
-    return queries;
+        if (narrow.complete(queue))
+            return queries;
+    }
 }
 
 }  // namespace bvhbench

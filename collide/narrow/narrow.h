@@ -74,21 +74,11 @@ public:
     NarrowCounts counts(const Queue& queue) const;
     std::vector<Pair> contacts(const Queue& queue) const;
 
-    /// Contacts where they are, in no order, the smaller id first; counters as collide/narrow/narrow_counters.h says.
-    const Buffer<Pair>& device_contacts() const { return contacts_; }
-    const Buffer<uint>& device_counters() const { return counters_; }
-
 private:
-    struct Room {
-        std::size_t contacts = 0;
-        std::size_t unsure = 0;
-    };
-
     bool by_groups() const { return form_ == KernelForm::groups; }
     cl::Kernel compiled_filter(const NarrowMethod& method);
     std::size_t group_count(std::size_t candidates) const;
-    void take_all(Arena& arena);
-    void take_memory();
+    void take_all();
     void decide_on_host(const Input& input, Queue& queue);
 
     Programs& programs_;
@@ -99,14 +89,14 @@ private:
     std::size_t chunks_;
     uint group_size_ = 1;
     uint block_pairs_ = 0;  ///< of each kind, that a work-item of the form for few cores collects
-    Room room_;
+    std::size_t contact_room_ = 0, unsure_room_ = 0;
     std::optional<Arena> arena_;
     cl::Kernel filter_;
     cl::Kernel exact_;
     Buffer<Pair> contacts_;
     Buffer<Pair> unsure_;    ///< candidates that wait for exact arithmetic
     Buffer<Pair> blocks_;    ///< of the form for few cores
-    Buffer<uint> counters_;  ///< as collide/narrow/narrow_counters.h says
+    Buffer<uint> counters_;  ///< as collide/narrow/narrow_words.h says
 };
 
 /// Query until it is complete; how many queries that took. Waits.

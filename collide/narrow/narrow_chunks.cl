@@ -98,10 +98,10 @@ kernel void filter_pairs(global const Point* points, global const Face* faces,
                          global uint2* unsure, const uint unsure_room,
                          volatile global uint* counters, global uint2* blocks)
 {
-    const uint count = candidate_count(candidate_counters, candidate_room);
-    global uint2* const meeting = blocks + 2u * SINK_BLOCK * get_global_id(0);
-    global uint2* const doubtful = meeting + SINK_BLOCK;
-    uint meeting_count = 0u, doubtful_count = 0u;
+    const uint count = count_in_room(candidate_counters, candidate_room);
+    global uint2* const own = blocks + 2u * SINK_BLOCK * get_global_id(0);
+    List meeting = {own, 0u, contacts, contact_room, counters + CONTACTS_COUNT};
+    List doubtful = {own + SINK_BLOCK, 0u, unsure, unsure_room, counters + NARROW_EXACT_COUNT};
     uint by_floats = 0u, by_doubles = 0u;
     Batch batch;
     uint adjacent[BATCH], list[BATCH], verdicts[BATCH];
@@ -120,15 +120,13 @@ kernel void filter_pairs(global const Point* points, global const Face* faces,
             by_doubles += verdict & BY_DOUBLES ? 1u : 0u;
             by_floats += verdict == VERDICT_MEET ? 1u : 0u;
             if ((verdict & VERDICT_MEET) != 0u)
-                put(meeting, &meeting_count, contacts, contact_room, counters + CONTACTS_COUNT,
-                    pair);
+                put(&meeting, pair);
             if ((verdict & VERDICT_UNSURE) != 0u)
-                put(doubtful, &doubtful_count, unsure, unsure_room, counters + NARROW_EXACT_COUNT,
-                    pair);
+                put(&doubtful, pair);
         }
     }
-    empty_block(meeting, &meeting_count, contacts, contact_room, counters + CONTACTS_COUNT);
-    empty_block(doubtful, &doubtful_count, unsure, unsure_room, counters + NARROW_EXACT_COUNT);
+    close_sink(&meeting);
+    close_sink(&doubtful);
     add_wide(counters + NARROW_FLOAT_COUNT, by_floats);
     add_wide(counters + NARROW_DOUBLE_COUNT, by_doubles);
 }

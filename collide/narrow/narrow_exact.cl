@@ -5,11 +5,10 @@
 // The pairs that no filter could decide, in exact arithmetic. One kernel for both forms: without barriers, which many
 // helpers in one kernel and PoCL 3.1 do not go together with, and with an atomic a contact, which is little beside
 // what it takes to find one.
-#include "collide/narrow/corners.clh"
+#include "collide/found.clh"
 #include "collide/narrow/exact_adjacent.h"
-#include "collide/narrow/narrow_counters.h"
+#include "collide/narrow/narrow_words.h"
 #include "collide/narrow/sharing.h"
-#include "collide/wide_count.clh"
 
 /// Behind filter_pairs, whose `unsure` and `counters` these are. Adds to `contacts`.
 kernel void decide_exactly(global const Point* points, global const Face* faces,

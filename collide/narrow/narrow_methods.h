@@ -11,9 +11,8 @@ struct NarrowMethod {
     std::string_view name;
     std::string_view summary;  ///< one line, for listings
     bool is_exact;  ///< promises the answer for the coordinates as stored; else errors are counted
-    unsigned rounded_test =
-        0;  ///< ROUNDED_TEST of collide/narrow/rounded_verdict.clh; 0: none of these
-    unsigned real_bits = 0;  ///< REAL_BITS of it
+    unsigned rounded_test = 0;  ///< ROUNDED_TEST of collide/narrow/rounded.clh; 0: none of these
+    unsigned real_bits = 0;     ///< REAL_BITS of it
 };
 
 /// Every narrow phase, in the order in which tables list them.

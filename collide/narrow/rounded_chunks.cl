@@ -4,8 +4,7 @@
 // check: -DSINK_BLOCK=512u -DROUNDED_TEST=2 -DREAL_BITS=64
 //
 // As narrow_chunks.cl, of a test in rounded arithmetic: pair by pair, since these tests branch, and nothing is unsure.
-#include "collide/narrow/narrow_counters.h"
-#include "collide/narrow/rounded_verdict.clh"
+#include "collide/narrow/rounded.clh"
 #include "collide/sinks/sink_chunks.clh"
 
 #define BATCH 256u
@@ -17,9 +16,10 @@ kernel void filter_pairs(global const Point* points, global const Face* faces,
                          volatile global uint* counters, global uint2* blocks)
 {
     (void)unsure, (void)unsure_room;
-    const uint count = candidate_count(candidate_counters, candidate_room);
-    global uint2* const meeting = blocks + SINK_BLOCK * get_global_id(0);
-    uint meeting_count = 0u, looked_at = 0u;
+    const uint count = count_in_room(candidate_counters, candidate_room);
+    List meeting = {blocks + SINK_BLOCK * get_global_id(0), 0u, contacts, contact_room,
+                    counters + CONTACTS_COUNT};
+    uint looked_at = 0u;
     for (ulong first = (ulong)BATCH * atomic_inc(counters + BATCHES_BEGUN); first < count;
          first = (ulong)BATCH * atomic_inc(counters + BATCHES_BEGUN)) {
         const uint in_batch = (uint)min((ulong)BATCH, count - first);
@@ -27,10 +27,9 @@ kernel void filter_pairs(global const Point* points, global const Face* faces,
         for (uint k = 0u; k < in_batch; ++k) {
             const uint2 pair = candidates[first + k];
             if ((first_verdict(points, faces[pair.x], faces[pair.y]) & VERDICT_MEET) != 0u)
-                put(meeting, &meeting_count, contacts, contact_room, counters + CONTACTS_COUNT,
-                    pair);
+                put(&meeting, pair);
         }
     }
-    empty_block(meeting, &meeting_count, contacts, contact_room, counters + CONTACTS_COUNT);
+    close_sink(&meeting);
     add_wide(counters + (REAL_BITS == 64 ? NARROW_DOUBLE_COUNT : NARROW_FLOAT_COUNT), looked_at);
 }

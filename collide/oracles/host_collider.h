@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-//
-// What colliders on the host share: the pairs they found, there and on their way to the device.
 #pragma once
 
 #include <span>
@@ -15,6 +13,7 @@ DevicePairs room_for_pairs(const Device& device, std::size_t count);
 /// Put `found` where there is room for them. Waits.
 void copy_pairs(std::span<const Pair> found, DevicePairs& to, const Queue& queue);
 
+/// What colliders on the host share: the pairs they found, there and on their way to the device.
 class HostCollider : public Collider {
 public:
     HostCollider(const Device& device, const ColliderCard& card, const ColliderOptions& options)

@@ -148,18 +148,6 @@ PairList overlapping_pairs(std::span<const Aabb> boxes, const Wanted& wanted)
 }
 
 PairList touching_pairs(std::span<const Aabb> boxes, std::span<const Face> faces,
-                        bool keep_adjacent)
-{
-    return touching_pairs(boxes, faces, keep_adjacent, {}, Among::all);
-}
-
-PairList touching_pairs(std::span<const Point> points, std::span<const Face> faces,
-                        bool keep_adjacent)
-{
-    return touching_pairs(face_boxes(points, faces), faces, keep_adjacent);
-}
-
-PairList touching_pairs(std::span<const Aabb> boxes, std::span<const Face> faces,
                         bool keep_adjacent, std::span<const FaceRange> objects, Among among)
 {
     const auto wanted = [&](uint a, uint b) {
@@ -167,6 +155,12 @@ PairList touching_pairs(std::span<const Aabb> boxes, std::span<const Face> faces
                is_among({a, b}, objects, among);
     };
     return overlapping_pairs(boxes, wanted);
+}
+
+PairList touching_pairs(std::span<const Point> points, std::span<const Face> faces,
+                        bool keep_adjacent, std::span<const FaceRange> objects, Among among)
+{
+    return touching_pairs(face_boxes(points, faces), faces, keep_adjacent, objects, among);
 }
 
 }  // namespace bvhbench

@@ -5,7 +5,6 @@
 #include <span>
 
 #include "collide/pairs.h"
-#include "collide/relation.h"
 #include "geometry/mesh.h"
 
 namespace bvhbench {
@@ -20,16 +19,14 @@ using Wanted = std::function<bool(uint a, uint b)>;
 /// so that memory is asked for before it is taken, and once to list. Throws Unavailable when the host has not enough.
 PairList overlapping_pairs(std::span<const Aabb> boxes, const Wanted& wanted = {});
 
-/// The same; without `keep_adjacent`, only pairs of triangles that share no vertex index.
+/// The same of triangles that lie among `objects` so; without `keep_adjacent`, only pairs that share no vertex index.
 PairList touching_pairs(std::span<const Aabb> boxes, std::span<const Face> faces,
-                        bool keep_adjacent);
+                        bool keep_adjacent, std::span<const FaceRange> objects = {},
+                        Among among = Among::all);
 
 /// Of the boxes that the triangles have in one frame.
 PairList touching_pairs(std::span<const Point> points, std::span<const Face> faces,
-                        bool keep_adjacent);
-
-/// Of triangles of several objects, those that lie among them so.
-PairList touching_pairs(std::span<const Aabb> boxes, std::span<const Face> faces,
-                        bool keep_adjacent, std::span<const FaceRange> objects, Among among);
+                        bool keep_adjacent, std::span<const FaceRange> objects = {},
+                        Among among = Among::all);
 
 }  // namespace bvhbench

@@ -1,20 +1,14 @@
 // SPDX-License-Identifier: MIT
-// check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DTASK_LEAVES=64u -DSKIP_APART=1 -DSKIP_OVERLAP=1 -DOTHERS=16u
-// check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DTASK_LEAVES=64u -DSKIP_APART=0 -DSKIP_OVERLAP=0 -DOTHERS=16u
+// check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DTASK_LEAVES=64u -DSKIP_APART=1 -DSKIP_OVERLAP=1
+// check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DTASK_LEAVES=64u -DSKIP_APART=0 -DSKIP_OVERLAP=0
 //
 // The tasks between objects: leaves of the object that has more, against every object whose box meets theirs. Their
 // box is that of the subtree over them, Eq. (13); in a tree with pointers it is that of their object. SKIP_OVERLAP and
-// SKIP_APART: whether that box's test, and the whole object's, leave tasks out (skips.h). A work-item holds its leaves against
-// OTHERS objects, one after the other.
+// SKIP_APART: whether that box's test, and the whole object's, leave tasks out (skips.h). A work-item holds its leaves
+// against OTHERS_A_WORK_ITEM objects, one after the other.
 #include "builders/stages/chunk.clh"
+#include "collide/found.clh"
 #include "collide/walks/task.clh"
-#include "collide/wide_count.clh"
-
-static inline Aabb root_box(FOREST_PARAMETERS, const uint object)
-{
-    PICK_TREE(object)
-    return tree_box(TREE, tree_root(TREE));
-}
 
 static inline Aabb task_box(FOREST_PARAMETERS, const QueryTask task)
 {
@@ -39,7 +33,7 @@ kernel void find_between(FOREST_PARAMETERS, global const QueryTask* chunks, cons
                          const uint object_count, global QueryTask* between,
                          const uint most_between, volatile global uint* counters)
 {
-    const uint blocks = (object_count + OTHERS - 1u) / OTHERS;
+    const uint blocks = divided_up(object_count, OTHERS_A_WORK_ITEM);
     const Chunk part = own_chunk(chunk_count * blocks);
     ulong tests = 0ul;
     for (uint k = part.first; k < part.end; ++k) {
@@ -47,7 +41,8 @@ kernel void find_between(FOREST_PARAMETERS, global const QueryTask* chunks, cons
         const ForestObject own = objects[task.own];
         const Aabb box __attribute__((unused)) = task_box(FOREST, task);
         const Aabb whole __attribute__((unused)) = root_box(FOREST, task.own);
-        const uint first = k % blocks * OTHERS, end = min(object_count, first + OTHERS);
+        const uint first = k % blocks * OTHERS_A_WORK_ITEM;
+        const uint end = min(object_count, first + OTHERS_A_WORK_ITEM);
         for (uint other = first; other < end; ++other) {
             if (other == task.own || !asks(own, objects[other], task.own < other))
                 continue;

@@ -2,39 +2,11 @@
 // check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=0 -DGROUP_SIZE=64u -DITEMS=4u -DONE_OBJECT=0 -DLABEL_BITS=20
 // check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DGROUP_SIZE=64u -DITEMS=4u -DONE_OBJECT=1 -DLABEL_BITS=32
 //
-// A step of the traversal by groups: ITEMS tasks a work-item a turn. What a group keeps it lines up in local memory,
-// nodes from the front and pairs from the back, and writes out with one atomic each.
-#include "collide/counters.h"
-#include "collide/sinks/sum_tests.clh"
-#include "collide/sinks/wanted.clh"
-#include "collide/wide_count.clh"
-
-#define KEPT (GROUP_SIZE * ITEMS)  // tasks of a turn: none keeps more than one
-
-#define LISTS_PARAMETERS local uint2 *kept, volatile local uint *kept_counts
-#define LISTS_PASSED kept, kept_counts
-
-static inline void keep_node(LISTS_PARAMETERS, const uint2 pair)
-{
-    kept[atomic_inc(&kept_counts[0])] = pair;
-}
-
-static inline void keep_pair(LISTS_PARAMETERS, const uint2 pair)
-{
-    kept[KEPT - 1u - atomic_inc(&kept_counts[1])] = pair;
-}
+// A step of the traversal by groups: ITEMS tasks a work-item a turn. What a group keeps of a turn is in the
+// lists of sinks/lists_groups.clh.
+#include "collide/sinks/lists_groups.clh"
 
 #include "collide/queues/bvtt.clh"
-
-/// Write `count` of `kept`, from `first` on in steps of `by`, to `out` from `slot` on, as far as there is room.
-static inline void write_out(local const uint2* kept, const uint first, const int by,
-                             const uint count, global uint2* out, const uint slot,
-                             const uint capacity)
-{
-    const uint room = capacity - min(capacity, slot);
-    for (uint k = (uint)get_local_id(0); k < min(count, room); k += GROUP_SIZE)
-        out[slot + k] = kept[(int)first + by * (int)k];
-}
 
 /// `queue` holds the entries of this step, counted before it; `next` gets those of the step after it, and `pairs`
 /// what is found. Nothing is written where there is no room, but all is counted.
@@ -60,15 +32,12 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void expand(
         for (uint k = 0u; k < ITEMS; ++k) {
             const ulong task = first + k * GROUP_SIZE + item;
             if (task < tasks)
-                tests[item] += do_task(FOREST, faces, queue, step, levels, task, kept, kept_counts);
+                tests[item] += do_task(FOREST, faces, queue, step, levels, task, LISTS);
         }
         barrier(CLK_LOCAL_MEM_FENCE);
-        if (item < 2u) {
-            counts[item] = kept_counts[item];
-            kept_counts[item] = 0u;
-            volatile global uint* total = item == 0u ? sizes + 2 : counters + PAIRS_COUNT;
-            slots[item] = counts[item] != 0u ? add_wide(total, counts[item]) : 0u;
-        }
+        if (item < 2u)
+            take_slots(kept_counts, item, counts, slots,
+                       item == 0u ? sizes + 2 : counters + PAIRS_COUNT);
         barrier(CLK_LOCAL_MEM_FENCE);
         write_out(kept, 0u, 1, counts[0], next, slots[0], queue_capacity);
         write_out(kept, KEPT - 1u, -1, counts[1], pairs, slots[1], capacity);

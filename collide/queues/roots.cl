@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DLABEL_BITS=20 -DSKIP_APART=1 -DOTHERS=16u
-// check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DLABEL_BITS=32 -DSKIP_APART=0 -DOTHERS=16u
+// check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DLABEL_BITS=20 -DSKIP_APART=1
+// check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DLABEL_BITS=32 -DSKIP_APART=0
 //
-// What a simultaneous traversal of several objects begins with: each root with itself, untested, if pairs within
-// objects are wanted, and the roots of two objects whose boxes overlap, if pairs between them are; without SKIP_APART
-// (skips.h) of all two objects.
-#include "collide/counters.h"
-#include "collide/walks/node_word.clh"
-#include "collide/wide_count.clh"
+// What traversals of pairs of nodes begin with, of several objects: each root with itself, if pairs within objects are
+// wanted, and the roots of two objects, if pairs between them are.
+#include "collide/found.clh"
+#include "collide/queues/nodes.clh"
+#include "collide/walks/task.h"
+#include "geometry/bits.h"
 
 static inline void push(global uint2* queue, const uint capacity, volatile global uint* counters,
                         const uint2 entry)
@@ -17,35 +17,42 @@ static inline void push(global uint2* queue, const uint capacity, volatile globa
         queue[slot] = entry;
 }
 
-static inline Aabb root_of(FOREST_PARAMETERS, const uint object, uint* word, bool* is_leaf)
-{
-    PICK_TREE(object)
-    const uint root = tree_root(TREE);
-    *word = word_of(object, root);
-    *is_leaf = tree_is_leaf(TREE, root);
-    return tree_box(TREE, root);
-}
-
+/// The first queue of bvtt: roots that are no leaves, with themselves, untested, and those of two objects whose boxes
+/// overlap; without SKIP_APART (skips.h) of all two objects. A work-item holds an object against OTHERS_A_WORK_ITEM.
 kernel void find_roots(FOREST_PARAMETERS, const uint object_count, const uint within,
                        const uint between, global uint2* queue, const uint capacity,
                        volatile global uint* counters)
 {
-    const uint blocks = (object_count + OTHERS - 1u) / OTHERS;
+    const uint blocks = divided_up(object_count, OTHERS_A_WORK_ITEM);
     const uint own = (uint)get_global_id(0) / blocks;
-    const uint first = (uint)get_global_id(0) % blocks * OTHERS;
+    const uint first = (uint)get_global_id(0) % blocks * OTHERS_A_WORK_ITEM;
     if (own >= object_count)
         return;
-    uint word, other_word, tests = 0u;
-    bool is_leaf, other_is_leaf;
-    const Aabb box = root_of(FOREST, own, &word, &is_leaf);
-    if (within != 0u && first == 0u && !is_leaf)
+    const uint word = root_word(FOREST, own);
+    const Aabb box = root_box(FOREST, own);
+    if (within != 0u && first == 0u && !is_leaf_word(FOREST, word))
         push(queue, capacity, counters, (uint2)(word, word));
-    const uint end = between != 0u ? min(object_count, first + OTHERS) : 0u;
+    const uint end = between != 0u ? min(object_count, first + OTHERS_A_WORK_ITEM) : 0u;
+    uint tests = 0u;
     for (uint other = max(first, own + 1u); other < end; ++other) {
         ++tests;
-        const Aabb others = root_of(FOREST, other, &other_word, &other_is_leaf);
+        const Aabb others = root_box(FOREST, other);
         if (!SKIP_APART || overlap(box, others))
-            push(queue, capacity, counters, (uint2)(word, other_word));
+            push(queue, capacity, counters, (uint2)(word, root_word(FOREST, other)));
     }
     add_wide(counters + BOX_TESTS_COUNT, tests);
+}
+
+/// The front that tracking begins with: the same of all, be their boxes apart or not, for else nobody would notice when
+/// objects meet. A work-item for each of object_count^2 pairs of objects, ordered; `front` has room for all.
+kernel void list_roots(FOREST_PARAMETERS, const uint object_count, const uint within,
+                       const uint between, global uint2* front)
+{
+    const ulong count = object_count, all_between = count * (count - 1ul) / 2ul;
+    const ulong a = get_global_id(0) / count, b = get_global_id(0) % count;
+    if (a >= count || (a == b ? within == 0u : a > b || between == 0u))
+        return;
+    const ulong slot = a == b ? (between != 0u ? all_between : 0ul) + a
+                              : a * (2ul * count - a - 1ul) / 2ul + (b - a - 1ul);
+    front[slot] = (uint2)(root_word(FOREST, (uint)a), root_word(FOREST, (uint)b));
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=0 -DTEAMS=1u -DBLOCK=32u -DLOOSE=4u
-// check: -include oibvh/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DTEAMS=4u -DBLOCK=32u -DLOOSE=4u
-// check: -include oibvh/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DTEAMS=4u -DBLOCK=32u -DLOOSE=4u -DBOX_FORMAT=1u
-// check: -include oibvh/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DTEAMS=4u -DBLOCK=32u -DLOOSE=4u -DBOX_FORMAT=2u
+// check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=0 -DTEAMS=1u -DLOOSE=4u
+// check: -include oibvh/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DTEAMS=4u -DLOOSE=4u
+// check: -include oibvh/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DTEAMS=4u -DLOOSE=4u -DBOX_FORMAT=1u
+// check: -include oibvh/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DTEAMS=4u -DLOOSE=4u -DBOX_FORMAT=2u
 //
 // A block of 32 neighbouring leaves, a subtree, as one query of a team, which takes an implicit tree for one of nodes
 // with 32 children each: five levels are skipped, Eq. (12), and a node's descendants there are neighbours in memory. A
@@ -24,7 +24,11 @@
 #include "collide/sinks/sink_teams.clh"
 #include "collide/walks/task.clh"
 
-#define BLOCK_LEVELS 5u                   // of a subtree of BLOCK leaves
+#if LANES != 1u && LANES != TEAM_LANES
+#error "the host launches TEAM_LANES work-items a team"
+#endif
+
+#define BLOCK BLOCK_LEAVES
 #define WIDE_LEVELS 7u                    // of a tree of 2^31 leaves
 #define STACK (32u * (WIDE_LEVELS - 1u))  // 31 a wide level and one more, and five ancestors
 #define SEEN (2u * BLOCK)
@@ -48,14 +52,8 @@ typedef struct {
     uint rows[WIDE_LEVELS], ends[WIDE_LEVELS];  ///< of the other tree's wide levels
 } Team;
 
-#define TEAM_SINK team->kept, lane, faces, pairs, capacity, counters
-#define TEAM_PARAMETERS                                                               \
-    local Team *team, const uint lane, global const Face *faces, global uint2 *pairs, \
-        const uint capacity, volatile global uint *counters
-#define TEAM team, lane, faces, pairs, capacity, counters
-
 /// Each of a block's leaves against those behind it around the circle, half way. How many pairs are kept.
-static inline uint meet_within(TEAM_PARAMETERS, uint kept, const uint count)
+static inline uint meet_within(local Team *team, SINK_PARAMETERS, uint kept_count, const uint count)
 {
     EACH (k) {
         const Aabb box = load_local_box(team->own, k);
@@ -67,14 +65,15 @@ static inline uint meet_within(TEAM_PARAMETERS, uint kept, const uint count)
         if (k >= BLOCK / 2u)  // the one opposite counts it
             behind &= ~(1u << (BLOCK / 2u - 1u));
         const uint hits = rotate(behind, k + 1u) & (0xffffffffu >> (BLOCK - count));
-        kept = put_hits(TEAM_SINK, kept, team->own_ids[k], team->own_ids, k < count ? hits : 0u);
+        kept_count =
+            put_hits(SINK, kept_count, team->own_ids[k], team->own_ids, k < count ? hits : 0u);
     }
-    return kept;
+    return kept_count;
 }
 
 /// The block's `own_count` leaves against `count` seen ones from `first` on, 1 to 32. How many pairs are kept.
-static inline uint meet_seen(TEAM_PARAMETERS, TREE_PARAMETERS, uint kept, const uint own_count,
-                             const uint first, const uint count)
+static inline uint meet_seen(local Team *team, SINK_PARAMETERS, TREE_PARAMETERS, uint kept_count,
+                             const uint own_count, const uint first, const uint count)
 {
     EACH (k)
         if (k < count)
@@ -90,11 +89,11 @@ static inline uint meet_seen(TEAM_PARAMETERS, TREE_PARAMETERS, uint kept, const 
                     hits |= 1u << other;
         }
         hits &= 0xffffffffu >> (BLOCK - count);
-        kept = put_hits(TEAM_SINK, kept, team->own_ids[k], team->seen_ids + first,
-                        k < own_count ? hits : 0u);
+        kept_count = put_hits(SINK, kept_count, team->own_ids[k], team->seen_ids + first,
+                              k < own_count ? hits : 0u);
     }
     team_fence();
-    return kept;
+    return kept_count;
 }
 
 /// Whether one of a block's boxes overlaps `box`.
@@ -147,17 +146,17 @@ static inline uint open_walk(TREE_PARAMETERS, local Team *team, const uint lane,
 }
 
 /// The pairs of a task's leaves. How many boxes it tested.
-static inline uint walk_block(FOREST_PARAMETERS, TEAM_PARAMETERS, const QueryTask task,
-                              const Aabb common)
+static inline uint walk_block(FOREST_PARAMETERS, local Team *team, SINK_PARAMETERS,
+                              const QueryTask task, const Aabb common)
 {
     const bool is_own = task.own == task.other;
     const bool is_loose = load_block(FOREST, team, lane, task, common);
     PICK_TREE(task.other)
     const uint leaf_level = ceil_log2(leaves);
     const uint own_leaf = is_own ? tree_leaf(TREE, task.first) : 0u;
-    uint tests = 0u, kept = 0u, seen = 0u;
+    uint tests = 0u, kept_count = 0u, seen = 0u;
     if (is_own) {
-        kept = meet_within(TEAM, kept, task.count);
+        kept_count = meet_within(team, SINK, kept_count, task.count);
         tests = task.count * (task.count - 1u) / 2u;
     }
     uint waiting = open_walk(TREE, team, lane, own_leaf);
@@ -198,10 +197,10 @@ static inline uint walk_block(FOREST_PARAMETERS, TEAM_PARAMETERS, const QueryTas
             const uint many = min(seen, BLOCK);
             seen -= many;
             tests += many * task.count;
-            kept = meet_seen(TEAM, TREE, kept, task.count, seen, many);
+            kept_count = meet_seen(team, SINK, TREE, kept_count, task.count, seen, many);
         }
     }
-    close_sink(TEAM_SINK, kept);
+    close_sink(SINK, kept_count);
     return tests;
 }
 
@@ -221,10 +220,11 @@ __attribute__((reqd_work_group_size(TEAMS * LANES, 1, 1))) kernel void block_pai
     (void)ropes;
     const uint lane = (uint)get_local_id(0) % LANES, own = (uint)get_local_id(0) / LANES;
     local Team *team = teams + own;
+    local uint2 *kept = team->kept;
     const QueryTask task = task_of(TASKS, counters, (uint)get_group_id(0) * TEAMS + own);
     uint tested = 0u;
     if (task.count > 0u)
-        tested = walk_block(FOREST, TEAM, task, block_box(FOREST, task));
+        tested = walk_block(FOREST, team, SINK, task, block_box(FOREST, task));
     if (lane == 0u)
         tests[own] = tested;
     barrier(CLK_LOCAL_MEM_FENCE);

@@ -17,9 +17,8 @@
 //     leaf x step      a hit: the lanes that the leaf meets; then those that share no corner with it; then pairs
 //
 // Each of these is a loop without a branch on what was found: entries are written always and counted only if wanted.
-#include "collide/sinks/wanted.clh"
+#include "collide/found.clh"
 #include "collide/walks/line_walk.clh"
-#include "collide/wide_count.clh"
 #include "geometry/bits.h"
 
 /// What leaf `leaf` of the task's, of 256 at most, meets in a step: lanes lowest, then the step, then the leaf.

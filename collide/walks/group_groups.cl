@@ -2,6 +2,7 @@
 // check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=0 -DGROUP_SIZE=64u -DFRONTIER=512u -DRESERVE=97u -DLOOSE=4u
 // check: -include oibvh/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=0 -DGROUP_SIZE=64u -DFRONTIER=512u -DRESERVE=97u -DLOOSE=4u -DBOX_FORMAT=2u
 // check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DGROUP_SIZE=64u -DFRONTIER=512u -DRESERVE=97u -DLOOSE=4u
+// check: -include baselines/radix/access_apetrei.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=1 -DGROUP_SIZE=64u -DFRONTIER=512u -DRESERVE=97u -DLOOSE=4u
 //
 // A task's neighbouring leaves as one query: their common box goes down the tree, so that a node is fetched once a
 // group, and each leaf that it meets is tested by every work-item against its own. Where the order of leaves jumps, a
@@ -18,7 +19,6 @@
 //
 // A turn has one barrier between taking and doing and one behind it. Everything it hands on is in local memory.
 #include "collide/sinks/sink_groups.clh"
-#include "collide/sinks/sum_tests.clh"
 
 #include "collide/walks/group_descent.clh"
 
@@ -27,7 +27,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void group_pairs(
     FOREST_PARAMETERS, global const uint* ropes, global const Face* faces, global uint2* pairs,
     const uint capacity, volatile global uint* counters, TASKS_PARAMETERS)
 {
-    SINK_LOCAL
+    OPEN_SINK
     local uint tests[GROUP_SIZE];
     local float areas[GROUP_SIZE];
     local BoxWord own[3 * GROUP_SIZE], seen[3 * GROUP_SIZE], common[3];
@@ -40,30 +40,10 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void group_pairs(
     const bool is_own = task.own == task.other;
     PICK_TREE(task.other)
 
-    // Own leaves; items without one repeat the last, and meet nothing.
-    const uint last = task.first + max(count, 1u) - 1u;
-    const uint place = min(task.first + item, last);
-    const Aabb box = leaf_box_of(FOREST, task.own, place);
-    store_local_box(own, item, box);
-    store_local_box(seen, item, box);
-    own_ids[item] = leaf_triangle_of(FOREST, task.own, place);
-    areas[item] = half_surface(box);
+    const uint last = task.first + max(count, 1u) - 1u, place = min(task.first + item, last);
+    load_query(FOREST, task.own, place, own, own_ids, seen, areas);
     tests[item] = 0u;
-    open_sink(&kept_count);
-    barrier(CLK_LOCAL_MEM_FENCE);
-    for (uint half_size = GROUP_SIZE / 2u; half_size > 0u; half_size /= 2u) {
-        if (item < half_size) {
-            store_local_box(
-                seen, item,
-                merged(load_local_box(seen, item), load_local_box(seen, item + half_size)));
-            areas[item] += areas[item + half_size];
-        }
-        barrier(CLK_LOCAL_MEM_FENCE);
-    }
-    if (item < 3u)
-        common[item] = seen[item];
-    barrier(CLK_LOCAL_MEM_FENCE);
-    const bool is_loose = half_surface(load_local_box(common, 0u)) > LOOSE * areas[0];
+    const bool is_loose = take_common_box(seen, areas, common);
     if (item == 0u) {
         waiting[0] = is_loose || count == 0u
                          ? 0u

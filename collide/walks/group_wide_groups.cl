@@ -12,11 +12,8 @@
 // The frontier cannot run over, as there: a node that is taken leaves TREE_CHILDREN - 1 more at most, and RESERVE is
 // that on every level. A turn has one barrier between taking and doing and one behind it.
 #include "collide/sinks/sink_groups.clh"
-#include "collide/sinks/sum_tests.clh"
 
 #include "collide/walks/group_descent.clh"
-
-#define GROUP_KERNEL __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel
 
 /// How many nodes a turn takes.
 static inline uint wide_nodes_taken(const uint nodes_there)
@@ -31,7 +28,7 @@ static inline uint wide_nodes_taken(const uint nodes_there)
 static inline void descend_to_child(TREE_PARAMETERS, const uint node, const uint k,
                                     const uint first, const uint last_leaf, const Aabb common,
                                     local uint* frontier, volatile local uint* waiting,
-                                    local float2* met_boxes, local uint* met_ids,
+                                    local BoxWord* met_boxes, local uint* met_ids,
                                     volatile local uint* met_count)
 {
     const uint child = (node << TREE_CHILD_BITS) + k;
@@ -52,14 +49,14 @@ static inline void descend_to_child(TREE_PARAMETERS, const uint node, const uint
 }
 
 /// `counters` are zero but for the tasks. Afterwards `pairs` begin with all of them, if there was room.
-GROUP_KERNEL void group_pairs(FOREST_PARAMETERS, global const uint* ropes, global const Face* faces,
-                              global uint2* pairs, const uint capacity,
-                              volatile global uint* counters, TASKS_PARAMETERS)
+__attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void group_pairs(
+    FOREST_PARAMETERS, global const uint* ropes, global const Face* faces, global uint2* pairs,
+    const uint capacity, volatile global uint* counters, TASKS_PARAMETERS)
 {
-    SINK_LOCAL
+    OPEN_SINK
     local uint tests[GROUP_SIZE];
     local float areas[GROUP_SIZE];
-    local float2 own[3 * GROUP_SIZE], met_boxes[6 * GROUP_SIZE], common[3];
+    local BoxWord own[3 * GROUP_SIZE], met_boxes[6 * GROUP_SIZE], common[3];
     local uint own_ids[GROUP_SIZE], met_ids[2 * GROUP_SIZE], taken[GROUP_SIZE / TREE_CHILDREN];
     local uint frontier[FRONTIER];
     local uint waiting[2], met_count[2];  // before turn t in [t % 2]
@@ -69,30 +66,10 @@ GROUP_KERNEL void group_pairs(FOREST_PARAMETERS, global const uint* ropes, globa
     const bool is_own = task.own == task.other;
     PICK_TREE(task.other)
 
-    // Own leaves; items without one repeat the last, and meet nothing.
-    const uint last = task.first + max(count, 1u) - 1u;
-    const uint place = min(task.first + item, last);
-    const Aabb box = leaf_box_of(FOREST, task.own, place);
-    store_local_box(own, item, box);
-    store_local_box(met_boxes, item, box);
-    own_ids[item] = leaf_triangle_of(FOREST, task.own, place);
-    areas[item] = half_surface(box);
+    const uint last = task.first + max(count, 1u) - 1u, place = min(task.first + item, last);
+    load_query(FOREST, task.own, place, own, own_ids, met_boxes, areas);
     tests[item] = 0u;
-    open_sink(&kept_count);
-    barrier(CLK_LOCAL_MEM_FENCE);
-    for (uint half_size = GROUP_SIZE / 2u; half_size > 0u; half_size /= 2u) {
-        if (item < half_size) {
-            store_local_box(met_boxes, item,
-                            merged(load_local_box(met_boxes, item),
-                                   load_local_box(met_boxes, item + half_size)));
-            areas[item] += areas[item + half_size];
-        }
-        barrier(CLK_LOCAL_MEM_FENCE);
-    }
-    if (item < 3u)
-        common[item] = met_boxes[item];
-    barrier(CLK_LOCAL_MEM_FENCE);
-    const bool is_loose = half_surface(load_local_box(common, 0u)) > LOOSE * areas[0];
+    const bool is_loose = take_common_box(met_boxes, areas, common);
     const uint first = is_own ? last + 1u : 0u, last_leaf = is_own ? tree_leaf(TREE, last) : 0u;
     const uint levels_above = is_own ? tree_leaf_level(TREE) : 1u;  // other trees start at the root
     if (item == 0u) {

@@ -15,7 +15,7 @@ kernel void leaf_pairs(FOREST_PARAMETERS, global const uint* ropes, global const
                        TASKS_PARAMETERS, global uint2* blocks)
 {
     const Chunk chunk = own_chunk(task_count(TASKS, counters));
-    uint block_count = 0u;
+    OPEN_SINK
     ulong tests = 0ul;
     for (uint k = chunk.first; k < chunk.end; ++k) {
         const QueryTask task = task_of(TASKS, counters, k);
@@ -27,5 +27,5 @@ kernel void leaf_pairs(FOREST_PARAMETERS, global const uint* ropes, global const
         }
     }
     add_wide(counters + BOX_TESTS_COUNT, tests);
-    empty_block(SINK);
+    close_sink(SINK);
 }

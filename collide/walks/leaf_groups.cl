@@ -6,7 +6,6 @@
 //
 // A group a task, a work-item a leaf; a group's neighbouring leaves walk much the same nodes and write their pairs together.
 #include "collide/sinks/sink_groups.clh"
-#include "collide/sinks/sum_tests.clh"
 
 #include "collide/walks/leaf.clh"
 
@@ -15,9 +14,8 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void leaf_pairs(
     FOREST_PARAMETERS, global const uint* ropes, global const Face* faces, global uint2* pairs,
     const uint capacity, volatile global uint* counters, TASKS_PARAMETERS)
 {
-    SINK_LOCAL
+    OPEN_SINK
     local uint tests[GROUP_SIZE];
-    open_sink(&kept_count);
     barrier(CLK_LOCAL_MEM_FENCE);
     const QueryTask task = task_of(TASKS, counters, (uint)get_group_id(0));
     const uint item = (uint)get_local_id(0);

@@ -3,7 +3,6 @@
 //
 // Ropes for trees that know only their children: for each node, by its number, the node after its subtree in
 // depth-first order. Of several objects, whose trees are parts of one, the last rope of one leads into the next.
-// Compiled behind an access header.
 //
 // The nodes whose subtrees end with a left child's are that child, its right child, that one's, and so on down to
 // a leaf; after all of them comes the right sibling. Every node but those on the root's right edge is in one such

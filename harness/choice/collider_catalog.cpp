@@ -2,7 +2,7 @@
 #include "harness/choice/collider_catalog.h"
 
 #include "baselines/baselines.h"
-#include "collide/colliders.h"
+#include "collide/collider.h"
 #include "collide/narrow/narrow_methods.h"
 #include "geometry/error.h"
 

@@ -7,7 +7,6 @@
 #include "builders/spell_out.h"
 #include "collide/oracles/exact_reference.h"
 #include "collide/oracles/sweep.h"
-#include "collide/relation.h"
 #include "geometry/hash.h"
 
 namespace bvhbench {

@@ -15,7 +15,6 @@
 
 #include "collide/oracles/exact_reference.h"
 #include "collide/oracles/sweep.h"
-#include "collide/relation.h"
 #include "geometry/error.h"
 #include "harness/base/failure.h"
 #include "harness/base/interrupt.h"

@@ -3,7 +3,6 @@
 // Queries over trees whose boxes are rounded find exactly the pairs whose rounded boxes overlap, so that none of the
 // pairs of exact boxes is missed, and how many are false is known beforehand.
 #include "builders/device_tree.h"
-#include "collide/relation.h"
 #include "tests/collide/collider_testing.h"
 #include "tests/collide/many_objects.h"
 
@@ -64,17 +63,15 @@ protected:
 
     BuildOptions options() const { return {.sorted_leaves = true, .boxes = format().name}; }
 
-    PairList found(const Tree* tree, const Input& input) const
+    /// Hold what is found to the pairs of rounded boxes.
+    PairList expect_rounded_pairs(const Standing& standing) const
     {
-        const auto collider = std::get<1>(GetParam())
-                                  .make(session().programs(),
-                                        {.keep_adjacent = false, .form = std::get<2>(GetParam())});
-        collider->reserve(tree, input);
-        find_pairs(*collider, tree, input, session().queue());
-        PairList pairs(collider->pairs(session().queue()));
-        session().queue().finish();
-        EXPECT_EQ(pairs.surplus(), 0u);
-        return pairs;
+        const auto collider = made(std::get<1>(GetParam()).name,
+                                   {.keep_adjacent = false, .form = std::get<2>(GetParam())});
+        collider->reserve(standing.tree, standing.input);
+        PairList rounded = rounded_pairs(standing.mesh, format());
+        expect_pairs(*collider, standing, rounded);
+        return rounded;
     }
 };
 
@@ -82,10 +79,8 @@ TEST_P(BoxFormats, FindThePairsOfRoundedBoxesAndMissNone)
 {
     for (const auto& [name, mesh] : telling_meshes()) {
         SCOPED_TRACE(name + ", " + std::to_string(mesh.faces.size()) + " triangles");
-        const Standing standing(mesh, find_builder("oibvh-multi").make, options());
-        const PairList pairs = found(standing.tree, standing.input);
-        EXPECT_EQ(pairs, rounded_pairs(mesh, format()));
-        const PairList exact = touching_pairs(mesh.points, mesh.faces, false);
+        const Standing standing(mesh, "oibvh-multi", options());
+        const PairList pairs = expect_rounded_pairs(standing), exact = standing.expected(false);
         EXPECT_TRUE(std::includes(pairs.pairs().begin(), pairs.pairs().end(), exact.pairs().begin(),
                                   exact.pairs().end()));
     }
@@ -94,24 +89,17 @@ TEST_P(BoxFormats, FindThePairsOfRoundedBoxesAndMissNone)
 /// For the device that checks every access.
 TEST_P(BoxFormats, FindThePairsOfFew)
 {
-    const Mesh mesh = crowded_mesh(21);
-    const Standing standing(mesh, find_builder("oibvh-single").make, options());
-    EXPECT_EQ(found(standing.tree, standing.input), rounded_pairs(mesh, format()));
+    expect_rounded_pairs(Standing(crowded_mesh(21), "oibvh-single", options()));
 }
 
 /// Boxes of different trees are compared, so one set of cells serves them all.
 TEST_P(BoxFormats, FindThePairsOfSeveralObjectsToo)
 {
-    const ManyObjects many({1, 70, 3, 2, 129, 200, 1});
-    const StandingForest standing(many, find_builder("oibvh-single").make, options());
-    EXPECT_EQ(found(standing.tree, standing.input), rounded_pairs(many.mesh, format()));
+    expect_rounded_pairs(ManyObjects({1, 70, 3, 2, 129, 200, 1})
+                             .standing(find_builder("oibvh-single").make, options()));
 }
 
-INSTANTIATE_TEST_SUITE_P(Catalog, BoxFormats, testing::ValuesIn(cases()), [](const auto& tested) {
-    return test_name(std::string(std::get<0>(tested.param).name) + '_' +
-                     std::string(std::get<1>(tested.param).name) + '_' +
-                     (std::get<2>(tested.param) == KernelForm::groups ? "groups" : "chunks"));
-});
+INSTANTIATE_TEST_SUITE_P(Catalog, BoxFormats, testing::ValuesIn(cases()), CaseName());
 
 }  // namespace
 }  // namespace bvhbench

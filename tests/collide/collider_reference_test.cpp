@@ -1,28 +1,23 @@
 // SPDX-License-Identifier: MIT
 //
 // Every collider against what a separate program counted on real meshes.
-#include <cstdlib>
-#include <iostream>
-#include <nlohmann/json.hpp>
-
-#include "geometry/hash.h"
 #include "tests/collide/collider_testing.h"
-#include "tests/collide/data_set.h"
+#include "tests/collide/reference_testing.h"
 
 namespace bvhbench {
 namespace {
 
 class ColliderReference : public testing::TestWithParam<std::tuple<ColliderEntry, KernelForm>> {};
 
-std::unique_ptr<Collider> made(bool keep_adjacent)
+std::unique_ptr<Collider> tested(bool keep_adjacent)
 {
     const auto& [entry, form] = ColliderReference::GetParam();
-    return entry.make(session().programs(), {.keep_adjacent = keep_adjacent, .form = form});
+    return made(entry.name, {.keep_adjacent = keep_adjacent, .form = form});
 }
 
 PairList pairs_found(const Standing& standing, bool keep_adjacent)
 {
-    const auto collider = made(keep_adjacent);
+    const auto collider = tested(keep_adjacent);
     collider->reserve(standing.tree, standing.input);
     find_pairs(*collider, standing.tree, standing.input, session().queue());
     PairList found(collider->pairs(session().queue()));
@@ -33,19 +28,17 @@ PairList pairs_found(const Standing& standing, bool keep_adjacent)
 
 TEST_P(ColliderReference, CountedThePairsThatTheColliderFinds)
 {
-    const char* data = std::getenv("BVHBENCH_DATA");
-    if (data == nullptr || *data == '\0')
-        GTEST_SKIP() << "BVHBENCH_DATA is not set: nothing is compared with the data sets";
-    const std::filesystem::path folder = std::filesystem::path(data) / "static";
-    std::ifstream in(folder / "reference.json");
-    const nlohmann::json references = nlohmann::json::parse(in);
+    if (data_sets().empty())
+        GTEST_SKIP() << no_data_sets;
+    const std::filesystem::path folder = data_sets() / "static";
+    const nlohmann::json references = read_json(folder / "reference.json");
     for (const char* name : {"bunny_69451.ply", "armadillo_86482.ply"}) {
         const DataSetMesh file = read_data_set_mesh(folder / name);
         const nlohmann::json& reference = references[name];
         for (const char* builder : {"oibvh-multi", "lbvh-levels"}) {
             SCOPED_TRACE(std::string(name) + ", " + builder);
-            const Standing standing({file.points, file.faces}, find_builder(builder).make);
-            if (!takes(*made(true), standing)) {
+            const Standing standing({file.points, file.faces}, builder);
+            if (!takes(*tested(true), standing)) {
                 EXPECT_EQ(builder, std::string("lbvh-levels"));
                 continue;
             }
@@ -60,13 +53,8 @@ TEST_P(ColliderReference, CountedThePairsThatTheColliderFinds)
 }
 
 INSTANTIATE_TEST_SUITE_P(Catalog, ColliderReference,
-                         testing::Combine(testing::ValuesIn(box_colliders(false)),
-                                          testing::Values(KernelForm::groups, KernelForm::chunks)),
-                         [](const auto& tested) {
-                             return test_name(std::string(std::get<0>(tested.param).name)) + '_' +
-                                    (std::get<1>(tested.param) == KernelForm::groups ? "groups"
-                                                                                     : "chunks");
-                         });
+                         testing::Combine(testing::ValuesIn(box_colliders(false)), both_forms),
+                         CaseName());
 
 }  // namespace
 }  // namespace bvhbench

@@ -1,20 +1,43 @@
 // SPDX-License-Identifier: MIT
 //
-// Every collider of the catalog finds the oracle's pairs on every device tree. A new one is tested the moment it is
-// listed, as is a new builder.
+// Every collider of the catalog finds the oracle's pairs on every device tree, or without one. A new one is tested the
+// moment it is listed, as is a new builder.
 #include <span>
 
 #include "builders/device_tree.h"
 #include "collide/parameters.h"
-#include "tests/collide/collider_testing.h"
+#include "tests/collide/many_objects.h"
 
 namespace bvhbench {
 namespace {
 
 constexpr std::size_t few_sizes[] = {1, 2, 3, 5, 8, 33, 65}, fewer_sizes[] = {1, 3, 33};
 
-class ColliderContract
-    : public testing::TestWithParam<std::tuple<ColliderEntry, BuilderEntry, KernelForm>> {
+/// A collider, over trees of a builder if it wants any, in one form of its kernels.
+using Case = std::tuple<ColliderEntry, BuilderEntry, KernelForm>;
+
+std::vector<Case> cases()
+{
+    std::vector<Case> all;
+    for (const ColliderEntry& collider : box_colliders(false))
+        for (const BuilderEntry& builder : collider.needs_tree
+                                               ? device_builders()
+                                               : std::vector{BuilderEntry{"none", "", "", nullptr}})
+            for (const KernelForm form : {KernelForm::groups, KernelForm::chunks})
+                if (!collider.is_library)
+                    all.emplace_back(collider, builder, form);
+    return all;
+}
+
+/// Meshes that are hard on builders and queries, one of them with boxes of many sizes.
+std::vector<NamedMesh> meshes(std::size_t count)
+{
+    std::vector<NamedMesh> all = hard_meshes(count);
+    all.push_back({"many sizes", mesh_of_many_sizes(static_cast<uint>(count))});
+    return all;
+}
+
+class ColliderContract : public testing::TestWithParam<Case> {
 protected:
     const ColliderEntry& collider() const { return std::get<0>(GetParam()); }
     const BuilderEntry& builder() const { return std::get<1>(GetParam()); }
@@ -35,8 +58,9 @@ protected:
 
     std::unique_ptr<Collider> made(const ColliderOptions& options) const
     {
-        return collider().make(session().programs(), options);
+        return bvhbench::made(collider().name, options);
     }
+    Standing standing(const Mesh& mesh) const { return {mesh, builder().make}; }
 };
 
 TEST_P(ColliderContract, FindsTheOraclesPairsOfFew)
@@ -45,9 +69,9 @@ TEST_P(ColliderContract, FindsTheOraclesPairsOfFew)
     EXPECT_EQ(one->card().name, collider().name);
     const std::span<const std::size_t> all(few_sizes), some(fewer_sizes);
     for (const std::size_t size : is_thorough() ? all : some)
-        for (const auto& [name, mesh] : hard_meshes(size)) {
+        for (const auto& [name, mesh] : meshes(size)) {
             SCOPED_TRACE(name + ", " + std::to_string(size) + " triangles");
-            expect_oracles_pairs(*one, Standing(mesh, builder().make), true);
+            expect_oracles_pairs(*one, standing(mesh));
         }
 }
 
@@ -57,11 +81,11 @@ TEST_P(ColliderContract, FindsTheOraclesPairsOfMany)
     for (const bool keep_adjacent : {true, false}) {
         wanted.keep_adjacent = keep_adjacent;
         const auto one = made(wanted);
-        for (const auto& [name, mesh] : hard_meshes(is_thorough() ? 777 : 130)) {
+        for (const auto& [name, mesh] : meshes(is_thorough() ? 777 : 130)) {
             if (!keep_adjacent && !shares_vertices(mesh))
                 continue;  // as before
             SCOPED_TRACE(name + (keep_adjacent ? ", adjacent kept" : ", adjacent dropped"));
-            expect_oracles_pairs(*one, Standing(mesh, builder().make), keep_adjacent);
+            expect_oracles_pairs(*one, standing(mesh), keep_adjacent);
         }
     }
 }
@@ -71,9 +95,9 @@ TEST_P(ColliderContract, DropsNothingWhenBuffersBeginWithOneEntry)
     ColliderOptions tiny = options();
     tiny.capacity = 1;
     const auto one = made(tiny);
-    for (const auto& [name, mesh] : hard_meshes(300)) {
+    for (const auto& [name, mesh] : meshes(300)) {
         SCOPED_TRACE(name);
-        expect_oracles_pairs(*one, Standing(mesh, builder().make), true);
+        expect_oracles_pairs(*one, standing(mesh));
     }
 }
 
@@ -83,76 +107,70 @@ TEST_P(ColliderContract, WalksSortedLeavesAndOtherOrders)
     const Mesh mesh = hard_inputs().front().make(1500);
     for (const char* order : {"morton30", "hilbert63"})
         expect_oracles_pairs(
-            *one, Standing(mesh, builder().make, {.order = order, .sorted_leaves = true}), true);
+            *one, Standing(mesh, builder().make, {.order = order, .sorted_leaves = true}));
 }
 
 TEST_P(ColliderContract, CountsTheSameEveryTime)
 {
     const auto one = made(options());
-    const Standing standing(crowded_mesh(500), builder().make);
-    if (!takes(*one, standing))
+    const Standing crowd = standing(crowded_mesh(500));
+    if (!takes(*one, crowd))
         return;
-    one->reserve(standing.tree, standing.input);
-    find_pairs(*one, standing.tree, standing.input, session().queue());
+    expect_oracles_pairs(*one, crowd);
     const QueryCounts first = one->counts(session().queue());
     for (int repeat = 0; repeat < 5; ++repeat) {
-        EXPECT_EQ(find_pairs(*one, standing.tree, standing.input, session().queue()), 1);
+        EXPECT_EQ(expect_pairs(*one, crowd, crowd.expected(true)), 1);
         const QueryCounts again = one->counts(session().queue());
-        EXPECT_EQ(again.pairs, first.pairs);
         EXPECT_EQ(again.box_tests, first.box_tests);
         EXPECT_EQ(again.bvtt_peak, first.bvtt_peak);
     }
-    session().queue().finish();
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Catalog, ColliderContract,
-    testing::Combine(testing::ValuesIn(box_colliders(true)), testing::ValuesIn(device_builders()),
-                     testing::Values(KernelForm::groups, KernelForm::chunks)),
-    [](const auto& tested) {
-        return test_name(std::string(std::get<0>(tested.param).name) + '_' +
-                         std::string(std::get<1>(tested.param).name) + '_' +
-                         (std::get<2>(tested.param) == KernelForm::groups ? "groups" : "chunks"));
-    });
+INSTANTIATE_TEST_SUITE_P(Catalog, ColliderContract, testing::ValuesIn(cases()), CaseName());
 
-class Bvtt : public testing::TestWithParam<KernelForm> {};
+class Bvtt : public testing::TestWithParam<KernelForm> {
+protected:
+    /// Every jump and start level of these.
+    static void expect_oracles_pairs_of_all(const Standing& standing, unsigned most_jump,
+                                            std::initializer_list<unsigned> start_levels)
+    {
+        for (unsigned jump = 1; jump <= most_jump; ++jump)
+            for (const unsigned start_level : start_levels) {
+                SCOPED_TRACE("jump " + std::to_string(jump) + " from level " +
+                             std::to_string(start_level));
+                const auto bvtt =
+                    made("bvtt", {.jump = jump, .start_level = start_level, .form = GetParam()});
+                expect_oracles_pairs(*bvtt, standing);
+                EXPECT_GE(bvtt->counts(session().queue()).bvtt_peak, 1u);
+            }
+    }
+};
 
 TEST_P(Bvtt, FindsTheSameWhateverItJumpsAndWhereverItStarts)
 {
     for (const std::size_t size : {2u, 3u, 9u, 700u}) {
-        const Standing standing(crowded_mesh(size), find_builder("oibvh-multi").make);
-        for (unsigned jump = 1; jump <= 5; ++jump)
-            for (const unsigned start_level : {0u, 1u, 3u, 7u}) {
-                SCOPED_TRACE(std::to_string(size) + " triangles, jump " + std::to_string(jump) +
-                             " from level " + std::to_string(start_level));
-                const auto bvtt = find_collider("bvtt").make(
-                    session().programs(),
-                    {.jump = jump, .start_level = start_level, .form = GetParam()});
-                expect_oracles_pairs(*bvtt, standing, true);
-                EXPECT_GE(bvtt->counts(session().queue()).bvtt_peak, 1u);
-            }
+        SCOPED_TRACE(size);
+        expect_oracles_pairs_of_all({crowded_mesh(size), "oibvh-multi"}, 5, {0, 1, 3, 7});
     }
 }
 
 TEST_P(Bvtt, JumpsAndStartsBelowTheRootOfWideTreesAsFarAsTheyAllow)
 {
-    const Standing standing(crowded_mesh(700), find_builder("oibvh-wide4").make);
-    for (unsigned jump = 1; jump <= 2; ++jump)
-        for (const unsigned start_level : {0u, 1u, 3u, 6u}) {
-            SCOPED_TRACE("jump " + std::to_string(jump) + " from level " +
-                         std::to_string(start_level));
-            const auto bvtt = find_collider("bvtt").make(
-                session().programs(),
-                {.jump = jump, .start_level = start_level, .form = GetParam()});
-            expect_oracles_pairs(*bvtt, standing, true);
-        }
+    const Standing standing(crowded_mesh(700), "oibvh-wide4");
+    expect_oracles_pairs_of_all(standing, 2, {0, 1, 3, 6});
     for (const ColliderOptions& options :
          {ColliderOptions{.jump = 3}, ColliderOptions{.start_level = 7}}) {
-        const auto bvtt = find_collider("bvtt").make(session().programs(), options);
+        const auto bvtt = made("bvtt", options);
         EXPECT_EQ(bvtt->refusal(*standing.tree),
                   "bvtt jumps at most 2 levels and starts on level 6 at most where a node has 4 "
                   "children");
     }
+}
+
+TEST_P(Bvtt, JumpsAndStartsBelowTheRootsOfSeveralObjects)
+{
+    const ManyObjects many({1, 70, 3, 2, 129, 200, 1});
+    expect_oracles_pairs_of_all(many.standing(find_builder("oibvh-multi").make), 3, {0, 3, 12});
 }
 
 TEST_P(Bvtt, TakesTunedLevelsForThoseOfBinaryTrees)
@@ -161,12 +179,11 @@ TEST_P(Bvtt, TakesTunedLevelsForThoseOfBinaryTrees)
     device.tuning.set(bvtt_start_level, 12);
     device.tuning.set(bvtt_jump, 4);
     Programs programs(device);
-    const Standing standing(crowded_mesh(700), find_builder("oibvh-wide4").make);
+    const Standing standing(crowded_mesh(700), "oibvh-wide4");
     const auto tuned = find_collider("bvtt").make(programs, {.form = GetParam()});
-    expect_oracles_pairs(*tuned, standing, true);
-    const auto asked = find_collider("bvtt").make(
-        session().programs(), {.jump = 2, .start_level = 6, .form = GetParam()});
-    expect_oracles_pairs(*asked, standing, true);
+    expect_oracles_pairs(*tuned, standing);
+    const auto asked = made("bvtt", {.jump = 2, .start_level = 6, .form = GetParam()});
+    expect_oracles_pairs(*asked, standing);
     EXPECT_EQ(tuned->counts(session().queue()).box_tests,
               asked->counts(session().queue()).box_tests);
 }
@@ -174,9 +191,9 @@ TEST_P(Bvtt, TakesTunedLevelsForThoseOfBinaryTrees)
 TEST_P(Bvtt, CountsWhatAHandCounts)
 {
     // Four triangles in a row, each overlapping the next: the levels of the tree are 01 23 and 0 1 2 3.
-    const Standing standing(collinear_mesh(4), find_builder("oibvh-multi").make);
-    const auto bvtt = find_collider("bvtt").make(session().programs(), {.form = GetParam()});
-    expect_oracles_pairs(*bvtt, standing, true);
+    const Standing standing(collinear_mesh(4), "oibvh-multi");
+    const auto bvtt = made("bvtt", {.form = GetParam()});
+    expect_oracles_pairs(*bvtt, standing);
     const QueryCounts counts = bvtt->counts(session().queue());
     EXPECT_EQ(counts.pairs, 5u);      // 01 12 23 and, 2.5 being long, 02 13
     EXPECT_EQ(counts.box_tests, 7u);  // (01, 23); 01; 23; 02 03 12 13
@@ -185,52 +202,44 @@ TEST_P(Bvtt, CountsWhatAHandCounts)
 
 TEST_P(Bvtt, RefusesWhatAnArithmeticWouldBeNeededFor)
 {
-    const Standing standing(crowded_mesh(20), find_builder("karras").make);
+    const Standing standing(crowded_mesh(20), "karras");
     for (const ColliderOptions& options :
          {ColliderOptions{.jump = 2}, ColliderOptions{.start_level = 1}})
-        EXPECT_THROW(find_collider("bvtt")
-                         .make(session().programs(), options)
-                         ->reserve(standing.tree, standing.input),
-                     BadUsage);
-    EXPECT_THROW(find_collider("bvtt").make(session().programs(), {.jump = 6}), BadUsage);
-    EXPECT_THROW(find_collider("bvtt").make(session().programs(), {.start_level = 13}), BadUsage);
-    EXPECT_THROW(find_collider("bvtt").make(session().programs(), {.group_size = 48}), BadUsage);
+        EXPECT_THROW(made("bvtt", options)->reserve(standing.tree, standing.input), BadUsage);
+    EXPECT_THROW(made("bvtt", {.jump = 6}), BadUsage);
+    EXPECT_THROW(made("bvtt", {.start_level = 13}), BadUsage);
+    EXPECT_THROW(made("bvtt", {.group_size = 48}), BadUsage);
 }
 
-INSTANTIATE_TEST_SUITE_P(Forms, Bvtt, testing::Values(KernelForm::groups, KernelForm::chunks),
-                         [](const auto& tested) {
-                             return tested.param == KernelForm::groups ? "groups" : "chunks";
-                         });
+INSTANTIATE_TEST_SUITE_P(Forms, Bvtt, both_forms, CaseName());
 
 TEST(Group, IsRightWhereItsFrontierHasNoRoom)
 {
     for (const char* builder : {"oibvh-multi", "karras", "oibvh-wide4", "oibvh-wide8"})
         for (const Mesh& mesh : {crowded_mesh(200), hard_inputs()[1].make(70)}) {
             SCOPED_TRACE(builder);
-            const auto group = find_collider("group").make(
-                session().programs(),
-                {.group_size = 32, .form = KernelForm::groups, .capacity = 1});
-            expect_oracles_pairs(*group, Standing(mesh, find_builder(builder).make), true);
+            const auto group =
+                made("group", {.group_size = 32, .form = KernelForm::groups, .capacity = 1});
+            expect_oracles_pairs(*group, Standing(mesh, builder));
         }
 }
 
 // In between, and those of parameters, are in `bvhbench stress`, family group-sizes.
 TEST(Colliders, TakeTheLeastAndTheMostOfGroupSizesAndRefuseOthers)
 {
-    const Standing standing(crowded_mesh(600), find_builder("karras").make);
-    const Standing wide(crowded_mesh(600), find_builder("oibvh-wide8").make);
-    for (const char* name : {"leaf", "bvtt", "group", "front"})
+    const Standing standing(crowded_mesh(600), "karras");
+    const Standing wide(crowded_mesh(600), "oibvh-wide8");
+    for (const char* name : {"leaf", "bvtt", "group", "front", "grid"})
         for (const unsigned group_size : {8u, 256u}) {
             SCOPED_TRACE(std::string(name) + ", groups of " + std::to_string(group_size));
-            const auto collider = find_collider(name).make(
-                session().programs(), {.group_size = group_size, .form = KernelForm::groups});
-            expect_oracles_pairs(*collider, standing, true);
-            expect_oracles_pairs(*collider, wide, true);
+            const auto collider =
+                made(name, {.group_size = group_size, .form = KernelForm::groups});
+            expect_oracles_pairs(*collider, standing);
+            expect_oracles_pairs(*collider, wide);
         }
     // Groups of 4 would not take a node of 8 children, ever, and groups of 1 count two things with one work-item.
     for (const unsigned group_size : {1u, 2u, 4u, 48u, 512u})
-        EXPECT_THROW(find_collider("leaf").make(session().programs(), {.group_size = group_size}),
-                     BadUsage);
+        EXPECT_THROW(made("leaf", {.group_size = group_size}), BadUsage);
 }
 
 TEST(Colliders, TakeEveryTreeOnADeviceButBlockBinaryImplicitOnes)
@@ -255,12 +264,9 @@ TEST(Block, FindsTheOraclesPairsWhereItsTreeHasSeveralLevelsOfBlocks)
     for (const std::size_t size : {31u, 32u, 1023u, 1024u, 1025u, 32769u})
         for (const char* order : {"morton30", "kd"}) {
             SCOPED_TRACE(std::to_string(size) + " triangles, " + order);
-            const auto block =
-                find_collider("block").make(session().programs(), {.form = KernelForm::groups});
-            const Scene surface = load_scene("torus:" + std::to_string(size), {});
-            const Mesh mesh{surface.frames.front(), surface.faces};
-            expect_oracles_pairs(
-                *block, Standing(mesh, find_builder("oibvh-multi").make, {.order = order}), true);
+            const auto block = made("block", {.form = KernelForm::groups});
+            const Mesh surface = scene_mesh("torus:" + std::to_string(size));
+            expect_oracles_pairs(*block, Standing(surface, "oibvh-multi", {.order = order}));
         }
 }
 
@@ -268,17 +274,16 @@ TEST(Block, FindsMorePairsThanATeamKeeps)
 {
     // The same triangle 200 times: seven blocks meet each other, more than 256 pairs most times.
     Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, std::vector<Face>(200, Face{0, 1, 2})};
-    const auto block =
-        find_collider("block").make(session().programs(), {.form = KernelForm::groups});
-    const Standing standing(mesh, find_builder("perfect").make);
-    expect_oracles_pairs(*block, standing, true);
+    const auto block = made("block", {.form = KernelForm::groups});
+    const Standing standing(mesh, "perfect");
+    expect_oracles_pairs(*block, standing);
     EXPECT_EQ(block->counts(session().queue()).pairs, 200u * 199 / 2);
 }
 
 // A thousand are in `bvhbench stress`, family repeats.
 TEST(Colliders, FindOneSetOfPairsInAHundredRepeats)
 {
-    const Standing standing(hard_meshes(900).back().mesh, find_builder("oibvh-multi").make);
+    const Standing standing(hard_meshes(900).back().mesh, "oibvh-multi");
     for (const ColliderEntry& entry : box_colliders(true)) {
         SCOPED_TRACE(std::string(entry.name));
         const auto collider = entry.make(session().programs(), {});
@@ -295,13 +300,11 @@ TEST(Colliders, FindOneSetOfPairsInAHundredRepeats)
     }
 }
 
-TEST(Brute, FindsWhatTheSweepFindsWhateverTheTree)
+TEST(Colliders, ThatWantATreeOnTheDeviceRefuseOthers)
 {
-    const Standing standing(crowded_mesh(200), find_builder("median-split").make);
-    const auto brute = find_collider("brute").make(session().programs(), {});
-    expect_oracles_pairs(*brute, standing, true);
-    const auto leaf = find_collider("leaf").make(session().programs(), {});
-    EXPECT_EQ(brute->refusal(*standing.tree), "");
+    const Standing standing(crowded_mesh(200), "median-split");
+    expect_oracles_pairs(*made("brute"), standing);
+    const auto leaf = made("leaf");
     EXPECT_NE(leaf->refusal(*standing.tree), "");
     EXPECT_THROW(leaf->reserve(standing.tree, standing.input), BadUsage);
 }

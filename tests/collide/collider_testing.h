@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -42,6 +44,13 @@ struct NamedMesh {
     Mesh mesh;
 };
 
+/// The first frame of a scene.
+inline Mesh scene_mesh(const std::string& name)
+{
+    const Scene scene = load_scene(name, {});
+    return {scene.frames.front(), scene.faces};
+}
+
 /// All triangles along a line, each overlapping the next few.
 inline Mesh collinear_mesh(uint count)
 {
@@ -66,6 +75,23 @@ inline Mesh crowded_mesh(std::size_t count)
     return mesh;
 }
 
+/// Sides from a thousandth to a hundred, so that many levels are in use.
+inline Mesh mesh_of_many_sizes(uint count)
+{
+    std::mt19937 engine{7};
+    const auto random = [&] { return static_cast<float>(engine() >> 8) * 0x1p-24f; };
+    Mesh mesh;
+    for (uint k = 0; k < count; ++k) {
+        const float side = 0.001f * std::pow(10.0f, 5 * random() * random() * random());
+        const Point at{4 * random() - 2, 4 * random() - 2, 4 * random() - 2};
+        mesh.points.insert(mesh.points.end(), {at,
+                                               {at.x + side * random(), at.y + side, at.z},
+                                               {at.x, at.y - side, at.z + side * random()}});
+        mesh.faces.push_back({3 * k, 3 * k + 1, 3 * k + 2});
+    }
+    return mesh;
+}
+
 /// The hard inputs of builders at `count` triangles, and more that are hard on queries.
 inline std::vector<NamedMesh> hard_meshes(std::size_t count)
 {
@@ -75,12 +101,12 @@ inline std::vector<NamedMesh> hard_meshes(std::size_t count)
     meshes.push_back({"collinear", collinear_mesh(static_cast<uint>(count))});
     meshes.push_back({"crowded", crowded_mesh(count)});
     if (count > 1) {  // with shared vertices, and each triangle twice
-        Scene surface = load_scene("sphere:" + std::to_string(std::max<std::size_t>(8, count)), {});
-        meshes.push_back({"surface", {surface.frames.front(), surface.faces}});
+        Mesh surface = scene_mesh("sphere:" + std::to_string(std::max<std::size_t>(8, count)));
+        meshes.push_back({"surface", surface});
         const std::size_t once = surface.faces.size() / 2;
         std::copy_n(surface.faces.begin(), once,
                     surface.faces.begin() + static_cast<std::ptrdiff_t>(once));
-        meshes.push_back({"duplicates", {surface.frames.front(), surface.faces}});
+        meshes.push_back({"duplicates", surface});
     }
     return meshes;
 }
@@ -130,44 +156,110 @@ inline std::string test_name(std::string name)
     return name;
 }
 
-/// A mesh on the device with a tree over it.
+inline std::string name_of(bool is_so) { return is_so ? "yes" : "no"; }
+inline std::string name_of(KernelForm form)
+{
+    return form == KernelForm::groups ? "groups" : "chunks";
+}
+template <class Entry>
+std::string name_of(const Entry& entry)
+{
+    return test_name(std::string(entry.name));
+}
+
+/// Names a case of a parameterized test by its parameters, in their order.
+struct CaseName {
+    template <class... Parts>
+    std::string operator()(const testing::TestParamInfo<std::tuple<Parts...>>& tested) const
+    {
+        std::string name;
+        std::apply([&](const Parts&... parts) { ((name += name_of(parts) + '_'), ...); },
+                   tested.param);
+        return name.substr(0, name.size() - 1);
+    }
+    template <class Part>
+    std::string operator()(const testing::TestParamInfo<Part>& tested) const
+    {
+        return name_of(tested.param);
+    }
+};
+
+inline const auto both_forms = testing::Values(KernelForm::groups, KernelForm::chunks);
+
+/// A collider of the catalog.
+inline std::unique_ptr<Collider> made(std::string_view name, const ColliderOptions& options = {})
+{
+    return find_collider(name).make(session().programs(), options);
+}
+
+/// Objects of a mesh on the device, one or several, with a tree of each if there is a builder.
 struct Standing {
     Mesh mesh;
     Input input;
     std::unique_ptr<Builder> builder;
     const Tree* tree = nullptr;
 
-    Standing(const Mesh& over, MakeBuilder make, const BuildOptions& options = {})
+    Standing(const Mesh& over, MakeBuilder make, const BuildOptions& options = {},
+             std::span<const FaceRange> objects = {})
         : mesh(over)
-        , input(upload(session().device(), session().queue(), mesh.points, mesh.faces))
-        , builder(make(session().programs(), options))
+        , input(upload(session().device(), session().queue(), mesh.points, mesh.faces, objects))
+        , builder(make != nullptr ? make(session().programs(), options) : nullptr)
     {
-        builder->reserve(mesh.faces.size());
-        session().build_once(*builder, input, Start::from_triangles, &tree);
+        if (builder == nullptr)
+            return;
+        builder->reserve_objects(object_sizes(input));
+        build();
+    }
+    Standing(const Mesh& over, std::string_view builder_name, const BuildOptions& options = {},
+             std::span<const FaceRange> objects = {})
+        : Standing(over, find_builder(builder_name).make, options, objects)
+    {}
+
+    /// Go on to these points, without a tree over them.
+    void place(const std::vector<Point>& points)
+    {
+        mesh.points = points;
+        input.points = mesh.points;
+        input.device_points.upload(session().queue().cl(), mesh.points);
+    }
+
+    void build() { session().build_once(*builder, input, Start::from_triangles, &tree); }
+
+    PairList expected(bool keep_adjacent, Among among = Among::all) const
+    {
+        return touching_pairs(input.points, input.faces, keep_adjacent, input.objects, among);
     }
 };
 
 /// Whether it queries such trees; if not, it says so before anything is taken.
 inline bool takes(Collider& collider, const Standing& standing)
 {
-    if (collider.refusal(*standing.tree).empty())
+    if (standing.tree == nullptr || collider.refusal(*standing.tree).empty())
         return true;
     EXPECT_THROW(collider.reserve(standing.tree, standing.input), BadUsage);
     return false;
 }
 
-/// Hold one query, repeated until complete, to the oracle's pairs.
-inline void expect_oracles_pairs(Collider& collider, const Standing& standing, bool keep_adjacent)
+/// Hold one query of a collider with memory for it, repeated until complete, to these pairs. How many queries that took.
+inline int expect_pairs(Collider& collider, const Standing& standing, const PairList& expected)
+{
+    const int queries = find_pairs(collider, standing.tree, standing.input, session().queue());
+    const PairList found(collider.pairs(session().queue()));
+    session().queue().finish();
+    EXPECT_EQ(found.surplus(), 0u);
+    EXPECT_EQ(found, expected);
+    EXPECT_EQ(collider.counts(session().queue()).pairs, found.size());
+    return queries;
+}
+
+/// The same from the start, with the oracle's pairs, if it takes such trees.
+inline void expect_oracles_pairs(Collider& collider, const Standing& standing,
+                                 bool keep_adjacent = true, Among among = Among::all)
 {
     if (!takes(collider, standing))
         return;
     collider.reserve(standing.tree, standing.input);
-    find_pairs(collider, standing.tree, standing.input, session().queue());
-    const PairList found(collider.pairs(session().queue()));
-    session().queue().finish();
-    EXPECT_EQ(found.surplus(), 0u);
-    EXPECT_EQ(found, touching_pairs(standing.input.points, standing.input.faces, keep_adjacent));
-    EXPECT_EQ(collider.counts(session().queue()).pairs, found.size());
+    expect_pairs(collider, standing, standing.expected(keep_adjacent, among));
 }
 
 }  // namespace bvhbench

@@ -15,19 +15,12 @@ bool same_bits(const Aabb& a, const Aabb& b) { return std::memcmp(&a, &b, sizeof
 
 const std::vector<std::size_t> few_sizes = {1, 70, 3, 2, 129, 200, 1};
 
-void expect_pairs(Collider& collider, const StandingForest& standing, const PairList& expected)
+const DeviceTree& forest_of(const Standing& standing)
 {
-    collider.reserve(standing.tree, standing.input);
-    find_pairs(collider, standing.tree, standing.input, session().queue());
-    const PairList found(collider.pairs(session().queue()));
-    session().queue().finish();
-    EXPECT_EQ(found.surplus(), 0u);
-    EXPECT_EQ(found, expected);
+    return dynamic_cast<const DeviceTree&>(*standing.tree);
 }
 
-using Tested = std::tuple<BuilderEntry, bool>;
-
-class Objects : public testing::TestWithParam<Tested> {
+class Objects : public testing::TestWithParam<std::tuple<BuilderEntry, bool>> {
 protected:
     const BuilderEntry& builder() const { return std::get<0>(GetParam()); }
     BuildOptions options() const { return {.sorted_leaves = std::get<1>(GetParam())}; }
@@ -36,8 +29,8 @@ protected:
 TEST_P(Objects, HaveEachATreeOverTheirOwnTriangles)
 {
     const ManyObjects many(few_sizes);
-    const StandingForest standing(many, builder().make, options());
-    const DeviceTree& forest = standing.device_tree();
+    const Standing standing = many.standing(builder().make, options());
+    const DeviceTree& forest = forest_of(standing);
     ASSERT_EQ(forest.objects.size(), many.objects.size());
     std::size_t nodes = 0;
     for (uint k = 0; k < many.objects.size(); ++k) {
@@ -71,8 +64,8 @@ TEST_P(Objects, HaveEachATreeOverTheirOwnTriangles)
 TEST_P(Objects, HaveTheTreesThatTheyHaveAlone)
 {
     const ManyObjects many({300, 64, 65, 1});
-    const StandingForest standing(many, builder().make, options());
-    if (!standing.device_tree().is_implicit())
+    const Standing standing = many.standing(builder().make, options());
+    if (!forest_of(standing).is_implicit())
         return;
     for (uint k = 0; k < many.objects.size(); ++k) {
         const FaceRange& range = many.objects[k];
@@ -80,7 +73,7 @@ TEST_P(Objects, HaveTheTreesThatTheyHaveAlone)
                          {many.mesh.faces.begin() + range.first,
                           many.mesh.faces.begin() + range.first + range.count}};
         const HostTree expected = Standing(alone, builder().make, options()).tree->spelled_out();
-        const HostTree found = standing.device_tree().spelled_out_object(k);
+        const HostTree found = forest_of(standing).spelled_out_object(k);
         ASSERT_EQ(found.nodes.size(), expected.nodes.size());
         for (std::size_t i = 0; i < found.nodes.size(); ++i) {
             EXPECT_TRUE(same_bits(found.nodes[i].box, expected.nodes[i].box));
@@ -96,55 +89,40 @@ TEST_P(Objects, HaveTheTreesThatTheyHaveAlone)
 TEST_P(Objects, AreHeldAgainstEachOtherByEveryCollider)
 {
     const ManyObjects many(few_sizes);
-    const StandingForest standing(many, builder().make, options());
+    const Standing standing = many.standing(builder().make, options());
     for (const char* name : {"leaf", "bvtt", "group"})
         for (const KernelForm form : {KernelForm::groups, KernelForm::chunks})
             for (const Among among : {Among::all, Among::between_objects, Among::within_objects})
                 for (const std::size_t capacity : {0u, 1u}) {
-                    SCOPED_TRACE(std::string(name) +
-                                 (form == KernelForm::groups ? " groups " : " chunks ") +
+                    SCOPED_TRACE(std::string(name) + ' ' + name_of(form) + ' ' +
                                  std::to_string(static_cast<int>(among)) + " capacity " +
                                  std::to_string(capacity));
-                    const auto collider = find_collider(name).make(session().programs(),
-                                                                   {.among = among,
-                                                                    .keep_adjacent = capacity == 0,
-                                                                    .form = form,
-                                                                    .capacity = capacity});
-                    expect_pairs(*collider, standing, expected_pairs(many, among, capacity == 0));
+                    const bool keep_adjacent = capacity == 0;
+                    const auto collider = made(name, {.among = among,
+                                                      .keep_adjacent = keep_adjacent,
+                                                      .form = form,
+                                                      .capacity = capacity});
+                    expect_oracles_pairs(*collider, standing, keep_adjacent, among);
                 }
 }
 
 INSTANTIATE_TEST_SUITE_P(Catalog, Objects,
                          testing::Combine(testing::ValuesIn(device_builders()), testing::Bool()),
                          [](const auto& tested) {
-                             return test_name(std::string(std::get<0>(tested.param).name) +
-                                              (std::get<1>(tested.param) ? "_sorted" : "_mesh"));
+                             return name_of(std::get<0>(tested.param)) +
+                                    (std::get<1>(tested.param) ? "_sorted" : "_mesh");
                          });
 
 TEST(ObjectsOfOneBuild, MayBeHundreds)
 {
     const ManyObjects many(std::vector<std::size_t>(100, 30));
     for (const char* builder : {"oibvh-multi", "oibvh-single", "karras"}) {
-        const StandingForest standing(many, find_builder(builder).make);
+        const Standing standing = many.standing(find_builder(builder).make);
         for (const char* name : {"leaf", "bvtt", "group"}) {
             SCOPED_TRACE(std::string(builder) + ' ' + name);
-            const auto collider = find_collider(name).make(session().programs(), {});
-            expect_pairs(*collider, standing, expected_pairs(many, Among::all, true));
+            expect_oracles_pairs(*made(name), standing);
         }
     }
-}
-
-TEST(ObjectsOfOneBuild, JumpAndStartBelowTheRoot)
-{
-    const ManyObjects many(few_sizes);
-    const StandingForest standing(many, find_builder("oibvh-multi").make);
-    for (unsigned jump = 1; jump <= 3; ++jump)
-        for (const unsigned start_level : {0u, 3u, 12u}) {
-            SCOPED_TRACE(std::to_string(jump) + " from " + std::to_string(start_level));
-            const auto bvtt = find_collider("bvtt").make(
-                session().programs(), {.jump = jump, .start_level = start_level});
-            expect_pairs(*bvtt, standing, expected_pairs(many, Among::all, true));
-        }
 }
 
 /// Two objects that move through each other: as many steps are launched as the frame before had use for, and if that
@@ -158,20 +136,18 @@ TEST(ObjectsOfOneBuild, AreGivenNoStepsForEmptyQueues)
             const Mesh part = hard_inputs().front().make(100);
             many.add(part, 0);
             many.add(part, 1000);
-            StandingForest standing(many, find_builder(builder).make);
-            const auto made = [&](unsigned rules_off) {
-                auto collider = find_collider("bvtt").make(
-                    session().programs(),
-                    {.among = Among::between_objects, .rules_off = rules_off, .form = form});
+            Standing standing = many.standing(find_builder(builder).make);
+            const auto made_without = [&](unsigned rules_off) {
+                auto collider =
+                    made("bvtt",
+                         {.among = Among::between_objects, .rules_off = rules_off, .form = form});
                 collider->reserve(standing.tree, standing.input);
                 return collider;
             };
-            const auto with = made(0), without = made(skip_empty_queue);
+            const auto with = made_without(0), without = made_without(skip_empty_queue);
             const auto launches_of = [&](Collider& collider) {
-                const PairList expected = expected_pairs(many, Among::between_objects, true);
-                find_pairs(collider, standing.tree, standing.input, session().queue());
-                EXPECT_EQ(PairList(collider.pairs(session().queue())), expected);
-                session().queue().finish();
+                const PairList expected = standing.expected(true, Among::between_objects);
+                expect_pairs(collider, standing, expected);
                 collider.query(standing.tree, standing.input, session().queue());
                 const std::vector<StageTime> stages = session().queue().finish();
                 EXPECT_TRUE(collider.complete(session().queue()));
@@ -185,10 +161,8 @@ TEST(ObjectsOfOneBuild, AreGivenNoStepsForEmptyQueues)
                  {0.25f, 1000.0f, 0.25f}) {  // into each other, apart, and again
                 for (uint k = 0; k < part.points.size(); ++k)
                     many.mesh.points[part.points.size() + k].x = part.points[k].x + along;
-                standing.input.points = many.mesh.points;
-                standing.input.device_points.upload(session().queue().cl(), many.mesh.points);
-                session().build_once(*standing.builder, standing.input, Start::from_triangles,
-                                     &standing.tree);
+                standing.place(many.mesh.points);
+                standing.build();
                 const int launched = launches_of(*with);
                 EXPECT_EQ(launched == none, along > 1);
                 EXPECT_LE(launched, all);
@@ -200,8 +174,8 @@ TEST(ObjectsOfOneBuild, AreGivenNoStepsForEmptyQueues)
 TEST(ObjectsOfOneBuild, AreRefusedWhereOneTreeIsBuilt)
 {
     const ManyObjects many(few_sizes);
-    EXPECT_THROW(StandingForest(many, find_builder("median-split").make), Unavailable);
-    EXPECT_THROW(StandingForest(many, find_builder("oibvh-multi").make, {.order = "kd"}), BadUsage);
+    EXPECT_THROW(many.standing(find_builder("median-split").make), Unavailable);
+    EXPECT_THROW(many.standing(find_builder("oibvh-multi").make, {.order = "kd"}), BadUsage);
 }
 
 }  // namespace

@@ -5,30 +5,18 @@
 #include <cmath>
 #include <map>
 
-#include "collide/relation.h"
 #include "harness/measure/pipeline.h"
-#include "tests/collide/collider_testing.h"
+#include "tests/collide/many_objects.h"
 
 namespace bvhbench {
 namespace {
 
 /// Three objects in each other's way, one of them a single triangle.
-struct Moving {
-    Mesh mesh;
-    std::vector<FaceRange> objects;
-    std::vector<std::size_t> owners;  ///< of vertices
-
-    explicit Moving(const std::vector<Mesh>& parts)
+struct Moving : ManyObjects {
+    Moving() : ManyObjects({})
     {
-        for (const Mesh& part : parts) {
-            const auto base = static_cast<uint>(mesh.points.size());
-            objects.push_back(
-                {static_cast<uint>(mesh.faces.size()), static_cast<uint>(part.faces.size())});
-            mesh.points.insert(mesh.points.end(), part.points.begin(), part.points.end());
-            owners.resize(mesh.points.size(), objects.size() - 1);
-            for (const Face& face : part.faces)
-                mesh.faces.push_back({face.a + base, face.b + base, face.c + base});
-        }
+        for (const Mesh& part : {scene_mesh("sphere:300"), crowded_mesh(90), crowded_mesh(1)})
+            add(part);
     }
 
     /// Every vertex on a way of its own, `by` long at most; each object besides by (apart, 0, 0) from the last.
@@ -37,7 +25,7 @@ struct Moving {
         std::vector<Point> points = mesh.points;
         for (std::size_t k = 0; k < points.size(); ++k) {
             const auto phase = static_cast<float>(k * (static_cast<std::size_t>(frame) + 1));
-            points[k].x += by * std::sin(phase) + apart * static_cast<float>(owners[k]);
+            points[k].x += by * std::sin(phase) + apart * static_cast<float>(point_owners[k]);
             points[k].y += by * std::sin(1.3f * phase);
             points[k].z += by * std::cos(0.7f * phase);
         }
@@ -45,36 +33,23 @@ struct Moving {
     }
 };
 
-Moving three_objects()
-{
-    const Scene sphere = load_scene("sphere:300", {});
-    return Moving({{sphere.frames.front(), sphere.faces}, crowded_mesh(90), crowded_mesh(1)});
-}
-
 /// A front and the tree that it keeps, from frame to frame.
 class Tracked {
 public:
     Tracked(const Moving& moving, bool as_one, MakeBuilder make, const ColliderOptions& options,
             const BuildOptions& build = {})
         : options_(options)
-        , points_(moving.mesh.points)
-        , input_(upload(session().device(), session().queue(), points_, moving.mesh.faces,
-                        as_one ? std::span<const FaceRange>{} : moving.objects))
-        , builder_(make(session().programs(), build))
-        , front_(find_collider("front").make(session().programs(), options))
+        , standing_(moving.mesh, make, build,
+                    as_one ? std::span<const FaceRange>{} : moving.objects)
+        , front_(made("front", options))
     {
-        builder_->reserve_objects(object_sizes(input_));
-        const Tree* tree = nullptr;
-        session().build_once(*builder_, input_, Start::from_triangles, &tree);
-        front_->reserve(tree, input_);
+        front_->reserve(standing_.tree, standing_.input);
     }
 
     /// Go on to these points and hold what is found to the oracle's pairs.
     void expect_pairs_at(const std::vector<Point>& points)
     {
-        points_ = points;
-        input_.points = points_;
-        input_.device_points.upload(session().queue().cl(), points_);
+        standing_.place(points);
         update_ = front_->next_frame();
         refits += update_ == TreeUpdate::refit ? 1 : 0;
         while (!query()) {
@@ -109,27 +84,24 @@ public:
 private:
     bool query()
     {
-        const Tree& tree = update_ == TreeUpdate::refit
-                               ? builder_->refit(input_, session().queue())
-                               : builder_->build(input_, session().queue());
-        front_->query(&tree, input_, session().queue());
-        session().queue().finish();
-        return front_->complete(session().queue());
+        Queue& queue = session().queue();
+        const Input& input = standing_.input;
+        const Tree& tree = update_ == TreeUpdate::refit ? standing_.builder->refit(input, queue)
+                                                        : standing_.builder->build(input, queue);
+        front_->query(&tree, input, queue);
+        queue.finish();
+        return front_->complete(queue);
     }
 
     void expect_pairs() const
     {
         const PairList found(front_->pairs(session().queue()));
         EXPECT_EQ(found.surplus(), 0u);
-        EXPECT_EQ(found,
-                  among_objects(touching_pairs(points_, input_.faces, options_.keep_adjacent),
-                                input_.objects, options_.among));
+        EXPECT_EQ(found, standing_.expected(options_.keep_adjacent, options_.among));
     }
 
     ColliderOptions options_;
-    std::vector<Point> points_;
-    Input input_;
-    std::unique_ptr<Builder> builder_;
+    Standing standing_;
     std::unique_ptr<Collider> front_;
     TreeUpdate update_ = TreeUpdate::rebuild;
 };
@@ -156,7 +128,7 @@ void run_all(Tracked& tracked, const Moving& moving)
 
 TEST_P(FrontOver, FindsTheOraclesPairsInEveryFrameOfOneObject)
 {
-    const Moving moving = three_objects();
+    const Moving moving;
     for (const bool keep_adjacent : {true, false})
         for (const std::size_t capacity : {0u, 1u})
             for (const bool sorted_leaves : {true, false}) {
@@ -173,7 +145,7 @@ TEST_P(FrontOver, FindsTheOraclesPairsInEveryFrameOfOneObject)
 
 TEST_P(FrontOver, FindsTheOraclesPairsInEveryFrameOfSeveralObjects)
 {
-    const Moving moving = three_objects();
+    const Moving moving;
     for (const Among among : {Among::all, Among::between_objects, Among::within_objects})
         for (const std::size_t capacity : {0u, 1u}) {
             SCOPED_TRACE(std::to_string(static_cast<int>(among)) + ' ' + std::to_string(capacity));
@@ -185,7 +157,7 @@ TEST_P(FrontOver, FindsTheOraclesPairsInEveryFrameOfSeveralObjects)
 
 TEST_P(FrontOver, NoticesObjectsThatComeBack)
 {
-    const Moving moving = three_objects();
+    const Moving moving;
     Tracked tracked(moving, false, make(), {.among = Among::between_objects, .form = form()});
     const auto move_to = [&](float x) {
         SCOPED_TRACE(x);
@@ -202,7 +174,7 @@ TEST_P(FrontOver, NoticesObjectsThatComeBack)
 
 TEST_P(FrontOver, NeitherSproutsNorPrunesWhereNothingMoves)
 {
-    const Moving moving = three_objects();
+    const Moving moving;
     Tracked tracked(moving, true, make(), {.form = form()});
     tracked.expect_pairs_at(moving.moved(0.01f, 1));
     const auto first = tracked.counted();
@@ -220,7 +192,7 @@ TEST_P(FrontOver, NeitherSproutsNorPrunesWhereNothingMoves)
 
 TEST_P(FrontOver, MayBeRepeatedWhileItMoves)
 {
-    const Moving moving = three_objects();
+    const Moving moving;
     Tracked tracked(moving, false, make(), {.form = form()});
     for (int frame = 0; frame < 6; ++frame) {
         tracked.expect_pairs_at(moving.moved(0.03f, frame));
@@ -233,7 +205,7 @@ TEST_P(FrontOver, MayBeRepeatedWhileItMoves)
 TEST_P(FrontOver, ClimbsBackWhenItHasGrown)
 {
     // Over the same tree the highest front depends on the points alone, not on the way there.
-    const Moving moving = three_objects();
+    const Moving moving;
     for (const bool as_one : {true, false}) {
         Tracked tracked(moving, as_one, make(), {.form = form()});
         tracked.expect_pairs_at(moving.moved(0, 0));
@@ -249,18 +221,12 @@ TEST_P(FrontOver, ClimbsBackWhenItHasGrown)
 }
 
 INSTANTIATE_TEST_SUITE_P(Catalog, FrontOver,
-                         testing::Combine(testing::ValuesIn(device_builders()),
-                                          testing::Values(KernelForm::groups, KernelForm::chunks)),
-                         [](const auto& tested) {
-                             return test_name(std::string(std::get<0>(tested.param).name) +
-                                              (std::get<1>(tested.param) == KernelForm::groups
-                                                   ? "_groups"
-                                                   : "_chunks"));
-                         });
+                         testing::Combine(testing::ValuesIn(device_builders()), both_forms),
+                         CaseName());
 
 TEST(FrontPipeline, KeepsItsTreeWhileOthersBuildTheirs)
 {
-    const Moving moving = three_objects();
+    const Moving moving;
     std::vector<Point> points = moving.mesh.points;
     Input input = upload(session().device(), session().queue(), points, moving.mesh.faces);
     const BuilderChoice builder{.name = "oibvh-multi"};
@@ -291,7 +257,7 @@ TEST(Front, RefusesToJump)
 {
     for (const ColliderOptions& options :
          {ColliderOptions{.jump = 2}, ColliderOptions{.start_level = 1}})
-        EXPECT_THROW(find_collider("front").make(session().programs(), options), BadUsage);
+        EXPECT_THROW(made("front", options), BadUsage);
 }
 
 }  // namespace

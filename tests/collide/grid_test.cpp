@@ -1,35 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// The hashed grid finds the oracle's pairs: on every mesh that is hard, of one object or many, frame after frame.
-#include <cmath>
+// The hashed grid of one object or many, frame after frame, and its arithmetic. collider_test holds it to the oracle on
+// hard meshes, as every collider.
 #include <limits>
-#include <random>
 
 #include "collide/grid/hash_grid.h"
-#include "collide/relation.h"
-#include "tests/collide/collider_testing.h"
+#include "tests/collide/many_objects.h"
 
 namespace bvhbench {
 namespace {
-
-constexpr std::size_t few_sizes[] = {1, 2, 3, 4, 5, 8, 9, 33, 64, 65};
-
-/// Sides from a thousandth to a hundred, so that many levels are in use.
-Mesh mesh_of_many_sizes(uint count)
-{
-    std::mt19937 engine{7};
-    const auto random = [&] { return static_cast<float>(engine() >> 8) * 0x1p-24f; };
-    Mesh mesh;
-    for (uint k = 0; k < count; ++k) {
-        const float side = 0.001f * std::pow(10.0f, 5 * random() * random() * random());
-        const Point at{4 * random() - 2, 4 * random() - 2, 4 * random() - 2};
-        mesh.points.insert(mesh.points.end(), {at,
-                                               {at.x + side * random(), at.y + side, at.z},
-                                               {at.x, at.y - side, at.z + side * random()}});
-        mesh.faces.push_back({3 * k, 3 * k + 1, 3 * k + 2});
-    }
-    return mesh;
-}
 
 /// Corners on whole numbers: boxes that only touch, where cells touch as well.
 Mesh mesh_of_touching_boxes()
@@ -45,150 +24,59 @@ Mesh mesh_of_touching_boxes()
     return mesh;
 }
 
-std::vector<NamedMesh> meshes(std::size_t count)
-{
-    std::vector<NamedMesh> all = hard_meshes(count);
-    all.push_back({"many sizes", mesh_of_many_sizes(static_cast<uint>(count))});
-    return all;
-}
-
-/// One query, repeated until complete; how many that took.
-int expect_pairs(Collider& grid, const Input& input, const PairList& expected)
-{
-    const int queries = find_pairs(grid, nullptr, input, session().queue());
-    const PairList found(grid.pairs(session().queue()));
-    session().queue().finish();
-    EXPECT_EQ(found.surplus(), 0u);
-    EXPECT_EQ(found, expected);
-    EXPECT_EQ(grid.counts(session().queue()).pairs, found.size());
-    return queries;
-}
-
-Input uploaded(const Mesh& mesh, std::span<const FaceRange> objects = {})
-{
-    return upload(session().device(), session().queue(), mesh.points, mesh.faces, objects);
-}
-
 class GridCollider : public testing::TestWithParam<KernelForm> {
 protected:
-    std::unique_ptr<Collider> made(ColliderOptions options) const
+    std::unique_ptr<Collider> made(ColliderOptions options = {}) const
     {
         options.form = GetParam();
-        return find_collider("grid").make(session().programs(), options);
-    }
-
-    void expect_oracles_pairs_of(const std::vector<NamedMesh>& all,
-                                 const ColliderOptions& options) const
-    {
-        const auto grid = made(options);
-        for (const auto& [name, mesh] : all) {
-            SCOPED_TRACE(name + ", " + std::to_string(mesh.faces.size()) + " triangles");
-            const Input input = uploaded(mesh);
-            grid->reserve(nullptr, input);
-            expect_pairs(*grid, input,
-                         touching_pairs(mesh.points, mesh.faces, options.keep_adjacent));
-        }
+        return bvhbench::made("grid", options);
     }
 };
 
-TEST_P(GridCollider, FindsTheOraclesPairsOfFew)
+TEST_P(GridCollider, FindsTheOraclesPairsOnManyLevels)
 {
-    for (const std::size_t size : few_sizes)
-        expect_oracles_pairs_of(meshes(size), {});
-}
-
-TEST_P(GridCollider, FindsTheOraclesPairsOfMany)
-{
-    for (const bool keep_adjacent : {true, false})
-        expect_oracles_pairs_of(meshes(777), {.keep_adjacent = keep_adjacent});
-    expect_oracles_pairs_of(
-        {{"touching", mesh_of_touching_boxes()}, {"many sizes", mesh_of_many_sizes(5000)}}, {});
-}
-
-TEST_P(GridCollider, DropsNothingWhenBuffersBeginWithOneEntry)
-{
-    expect_oracles_pairs_of(meshes(300), {.capacity = 1});
-}
-
-TEST_P(GridCollider, TakesEveryGroupSizeThatItSaysItDoes)
-{
-    for (const unsigned group_size : {8u, 16u, 256u})
-        expect_oracles_pairs_of({{"many sizes", mesh_of_many_sizes(1000)}},
-                                {.group_size = group_size});
-}
-
-TEST_P(GridCollider, CountsTheSameEveryTime)
-{
-    const Mesh mesh = mesh_of_many_sizes(2000);
-    const Input input = uploaded(mesh);
-    const auto grid = made({});
-    grid->reserve(nullptr, input);
-    const PairList expected = touching_pairs(mesh.points, mesh.faces, true);
-    expect_pairs(*grid, input, expected);
-    const QueryCounts first = grid->counts(session().queue());
-    for (int repeat = 0; repeat < 5; ++repeat) {
-        EXPECT_EQ(expect_pairs(*grid, input, expected), 1);
-        EXPECT_EQ(grid->counts(session().queue()).box_tests, first.box_tests);
-    }
+    expect_oracles_pairs(*made(), Standing(mesh_of_many_sizes(5000), nullptr));
 }
 
 TEST_P(GridCollider, KeepsUpWithPointsThatMoveAndFacesThatGrow)
 {
-    Mesh mesh = mesh_of_many_sizes(1500);
-    Input input = uploaded(mesh);
-    const auto grid = made({});
-    grid->reserve(nullptr, input);
+    Standing standing(mesh_of_many_sizes(1500), nullptr);
+    const auto grid = made();
+    grid->reserve(nullptr, standing.input);
+    std::vector<Point> points = standing.mesh.points;
     for (const float factor : {1.0f, 3.0f, 0.01f, -40.0f}) {
-        for (std::size_t k = 0; k < mesh.points.size(); k += 3)
-            mesh.points[k].x *=
-                factor;  // triangles change their sizes, and so the levels they are on
-        input.device_points.upload(session().queue().cl(), mesh.points);
-        expect_pairs(*grid, input, touching_pairs(mesh.points, mesh.faces, true));
+        for (std::size_t k = 0; k < points.size(); k += 3)
+            points[k].x *= factor;  // triangles change their sizes, and so the levels they are on
+        standing.place(points);
+        expect_pairs(*grid, standing, standing.expected(true));
     }
 }
 
 TEST_P(GridCollider, TellsObjectsApart)
 {
-    Mesh mesh;
-    std::vector<FaceRange> objects;
-    for (const std::size_t size : {1u, 70u, 3u, 200u}) {
-        const Mesh part = mesh_of_many_sizes(static_cast<uint>(size));
-        const auto base = static_cast<uint>(mesh.points.size());
-        objects.push_back({static_cast<uint>(mesh.faces.size()), static_cast<uint>(size)});
-        mesh.points.insert(mesh.points.end(), part.points.begin(), part.points.end());
-        for (const Face& face : part.faces)
-            mesh.faces.push_back({face.a + base, face.b + base, face.c + base});
-    }
-    const PairList all = touching_pairs(mesh.points, mesh.faces, true);
-    const std::vector<FaceRange> one = {{0, static_cast<uint>(mesh.faces.size())}};
-    for (const std::vector<FaceRange>& ranges : {objects, one})
+    ManyObjects many({});
+    for (const uint size : {1u, 70u, 3u, 200u})
+        many.add(mesh_of_many_sizes(size));
+    const std::vector<FaceRange> one = {{0, static_cast<uint>(many.mesh.faces.size())}};
+    for (const std::vector<FaceRange>& ranges : {many.objects, one})
         for (const Among among : {Among::all, Among::between_objects, Among::within_objects})
             for (const std::size_t capacity : {0u, 1u}) {
                 SCOPED_TRACE(std::to_string(ranges.size()) + " objects, among " +
                              std::to_string(static_cast<int>(among)));
-                const Input input = uploaded(mesh, ranges);
-                const auto grid = made({.among = among, .capacity = capacity});
-                grid->reserve(nullptr, input);
-                expect_pairs(*grid, input, among_objects(all, ranges, among));
+                expect_oracles_pairs(*made({.among = among, .capacity = capacity}),
+                                     Standing(many.mesh, nullptr, {}, ranges), true, among);
             }
 }
 
 TEST_P(GridCollider, TestsLittleMoreThanThereIsWhereAllBoxesAreAlike)
 {
-    const Mesh mesh = mesh_of_touching_boxes();
-    const Input input = uploaded(mesh);
-    const auto grid = made({});
-    grid->reserve(nullptr, input);
-    const PairList expected = touching_pairs(mesh.points, mesh.faces, true);
-    expect_pairs(*grid, input, expected);
-    EXPECT_LT(grid->counts(session().queue()).box_tests, 8 * expected.size());
+    const auto grid = made();
+    expect_oracles_pairs(*grid, Standing(mesh_of_touching_boxes(), nullptr));
+    const QueryCounts counts = grid->counts(session().queue());
+    EXPECT_LT(counts.box_tests, 8 * counts.pairs);
 }
 
-INSTANTIATE_TEST_SUITE_P(Forms, GridCollider,
-                         testing::Values(KernelForm::groups, KernelForm::chunks),
-                         [](const auto& tested) {
-                             return tested.param == KernelForm::groups ? "groups" : "chunks";
-                         });
+INSTANTIATE_TEST_SUITE_P(Forms, GridCollider, both_forms, CaseName());
 
 TEST(HashGrid, NeverFallsWhereACoordinateRises)
 {
@@ -209,7 +97,9 @@ TEST(HashGrid, NeverFallsWhereACoordinateRises)
 
 TEST(HashGrid, HasNoMoreThanThreeCellsAnAxisForABoxOfItsLevel)
 {
-    for (const auto& [name, mesh] : meshes(1000)) {
+    std::vector<NamedMesh> meshes = hard_meshes(1000);
+    meshes.push_back({"many sizes", mesh_of_many_sizes(1000)});
+    for (const auto& [name, mesh] : meshes) {
         SCOPED_TRACE(name);
         double mean = 0;
         for (const Face& face : mesh.faces)

@@ -3,18 +3,19 @@
 
 #include <vector>
 
-#include "builders/device_tree.h"
-#include "collide/relation.h"
+#include "collide/pairs.h"
 #include "tests/collide/collider_testing.h"
 
 namespace bvhbench {
 
-/// Objects that lie across each other, one of them a single triangle, and one far from all others.
+/// A mesh of several objects.
 struct ManyObjects {
     Mesh mesh;
     std::vector<FaceRange> objects;
-    std::vector<uint> owners;
+    std::vector<uint> owners;        ///< of faces
+    std::vector<uint> point_owners;  ///< of vertices
 
+    /// Objects that lie across each other, one of them a single triangle, and one far from all others.
     explicit ManyObjects(const std::vector<std::size_t>& sizes)
     {
         for (std::size_t k = 0; k < sizes.size(); ++k) {
@@ -24,7 +25,7 @@ struct ManyObjects {
         }
     }
 
-    void add(const Mesh& part, float along)
+    void add(const Mesh& part, float along = 0)
     {
         const auto base = static_cast<uint>(mesh.points.size());
         objects.push_back(
@@ -34,36 +35,18 @@ struct ManyObjects {
         for (const Face& face : part.faces)
             mesh.faces.push_back({face.a + base, face.b + base, face.c + base});
         owners.resize(mesh.faces.size(), static_cast<uint>(objects.size() - 1));
+        point_owners.resize(mesh.points.size(), static_cast<uint>(objects.size() - 1));
     }
-};
 
-/// Trees of many objects on the device.
-struct StandingForest {
-    Input input;
-    std::unique_ptr<Builder> builder;
-    const Tree* tree = nullptr;
-
-    StandingForest(const ManyObjects& many, MakeBuilder make, const BuildOptions& options = {})
-        : input(upload(session().device(), session().queue(), many.mesh.points, many.mesh.faces,
-                       many.objects))
-        , builder(make(session().programs(), options))
+    Standing standing(MakeBuilder make, const BuildOptions& options = {}) const
     {
-        builder->reserve_objects(object_sizes(input));
-        session().build_once(*builder, input, Start::from_triangles, &tree);
+        return {mesh, make, options, objects};
     }
-    const DeviceTree& device_tree() const { return dynamic_cast<const DeviceTree&>(*tree); }
 };
 
 inline PairList expected_pairs(const ManyObjects& many, Among among, bool keep_adjacent)
 {
-    const PairList all = touching_pairs(many.mesh.points, many.mesh.faces, keep_adjacent);
-    std::vector<Pair> chosen;
-    for (const Pair pair : all.pairs()) {
-        const bool is_between = many.owners[pair.a] != many.owners[pair.b];
-        if (among == Among::all || is_between == (among == Among::between_objects))
-            chosen.push_back(pair);
-    }
-    return PairList(std::move(chosen));
+    return touching_pairs(many.mesh.points, many.mesh.faces, keep_adjacent, many.objects, among);
 }
 
 }  // namespace bvhbench

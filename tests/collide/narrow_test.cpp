@@ -6,7 +6,6 @@
 #include <map>
 
 #include "geometry/error.h"
-#include "tests/collide/adjacent_pairs.h"
 #include "tests/collide/narrow_testing.h"
 
 namespace bvhbench {
@@ -29,53 +28,37 @@ protected:
                 .without_doubles = std::get<1>(GetParam())};
     }
 
-    static void hold_to_reference(NarrowPhase& narrow, const Mesh& mesh, bool keep_adjacent)
+    /// So many pairs of every class, without and with shared corners, as the reference decides them.
+    static void hold_to_reference(const NarrowOptions& options, uint apart, uint adjacent)
     {
-        const Candidates candidates(mesh, neighbours(mesh));
-        narrow.reserve(mesh.faces.size());
-        expect_equal(mesh, contacts_found(narrow, candidates),
-                     intersecting_pairs(mesh.points, mesh.faces, candidates.pairs, keep_adjacent));
+        NarrowPhase narrow(bench().programs, options);
+        for (const PairClass& of : pair_classes())
+            for (const Mesh& mesh : {apart_pairs(of, apart, 1), adjacent_pairs(of, adjacent)}) {
+                SCOPED_TRACE(of.name);
+                const Candidates candidates(mesh, neighbours(mesh));
+                narrow.reserve(mesh.faces.size());
+                expect_equal(mesh, contacts_found(narrow, candidates),
+                             intersecting_pairs(mesh.points, mesh.faces, candidates.pairs,
+                                                options.keep_adjacent));
+            }
     }
 };
 
-TEST_P(Narrow, TellsWhatMeetsInEveryClass)
+TEST_P(Narrow, TellsWhatMeetsInEveryClassAndLeavesOutWhatSharesACorner)
 {
-    NarrowPhase narrow(bench().programs, options(false));
-    for (const PairClass& of : pair_classes()) {
-        SCOPED_TRACE(of.name);
-        hold_to_reference(narrow, apart_pairs(of, pairs_a_class, 1), false);
-    }
+    hold_to_reference(options(false), pairs_a_class, 500);
 }
 
 TEST_P(Narrow, TellsWhatMeetsBeyondSharedCornersInEveryClass)
 {
-    NarrowPhase narrow(bench().programs, options(true));
-    for (const PairClass& of : pair_classes()) {
-        SCOPED_TRACE(of.name);
-        hold_to_reference(narrow, adjacent_pairs(of, pairs_a_class), true);
-        hold_to_reference(narrow, apart_pairs(of, 1'000, 1), true);
-    }
-}
-
-TEST_P(Narrow, LeavesOutWhatSharesACornerUnlessAsked)
-{
-    NarrowPhase narrow(bench().programs, options(false));
-    for (const PairClass& of : pair_classes()) {
-        SCOPED_TRACE(of.name);
-        hold_to_reference(narrow, adjacent_pairs(of, 500), false);
-    }
+    hold_to_reference(options(true), 1'000, pairs_a_class);
 }
 
 TEST_P(Narrow, DropsNothingWhenBuffersBeginWithOneEntry)
 {
     NarrowOptions tiny = options(true);
     tiny.capacity = 1;
-    NarrowPhase narrow(bench().programs, tiny);
-    for (const PairClass& of : pair_classes()) {
-        SCOPED_TRACE(of.name);
-        hold_to_reference(narrow, apart_pairs(of, 3'000, 1), true);
-        hold_to_reference(narrow, adjacent_pairs(of, 3'000), true);
-    }
+    hold_to_reference(tiny, 3'000, 3'000);
 }
 
 TEST_P(Narrow, LooksAtNoMoreThanWasCountedAndNoMoreThanThereIsRoomFor)

@@ -5,11 +5,15 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <iterator>
+#include <utility>
 
 #include "collide/counters.h"
+#include "collide/device_lists.h"
 #include "collide/narrow/narrow.h"
 #include "collide/oracles/exact_reference.h"
+#include "scenes/generate/pair_classes.h"
 #include "tests/builders/stage_testing.h"
 
 namespace bvhbench {
@@ -19,37 +23,51 @@ struct Candidates {
     Mesh mesh;
     PairList pairs;
     Input input;
+    std::optional<Arena> arena;
     Buffer<Pair> on_device;
     Buffer<uint> counters;
-    Arena arena;
 
     Candidates(const Mesh& of, std::vector<Pair> found)
         : mesh(of)
         , pairs(found)
         , input(upload(bench().device, bench().queue, mesh.points, mesh.faces))
-        , arena(reserved(found.size()))
     {
-        const auto count = static_cast<uint>(found.size());
-        const std::vector<uint> counts = {count, 0, 0, 0};
+        const std::vector<uint> counts = {static_cast<uint>(found.size()), 0, 0, 0};
         found.resize(found.size() + 1);  // what is behind the last must not be looked at
-        take_all(arena, found.size());
-        on_device.upload(bench().queue.cl(), std::span<const Pair>(found));
-        counters.upload(bench().queue.cl(), std::span<const uint>(counts));
-    }
-
-private:
-    void take_all(Arena& from, std::size_t count)
-    {
-        on_device = from.take<Pair>(count, Use::scratch);
-        counters = from.take<uint>(4, Use::scratch);
-    }
-    Arena reserved(std::size_t count)
-    {
-        Arena measuring = Arena::measuring(bench().device);
-        take_all(measuring, count + 1);
-        return Arena::reserved(bench().device, measuring.used());
+        take_memory(arena, bench().device, [&](Arena& from) {
+            on_device = from.take<Pair>(found.size(), Use::scratch);
+            counters = from.take<uint>(counts.size(), Use::scratch);
+        });
+        on_device.upload(bench().queue.cl(), found);
+        counters.upload(bench().queue.cl(), counts);
     }
 };
+
+/// Pairs of a class, with one to three indices of each second face, at any corners, those of the first; now and then an
+/// index twice in a face.
+inline Mesh adjacent_pairs(const PairClass& of, uint count)
+{
+    Mesh mesh = apart_pairs(of, count, count);
+    Dice dice(count + 1);
+    for (uint k = 0; k < count; ++k) {
+        const uint place = 6 * k;
+        std::array<uint, 3> first = {place, place + 1, place + 2};
+        std::array<uint, 3> second = {place + 3, place + 4, place + 5};
+        const uint shared = dice.below(8) == 0 ? 3 : 1 + dice.below(2), turn = dice.below(3);
+        for (uint s = 0; s < shared; ++s)
+            second[(s + turn) % 3] = first[s];
+        if (dice.below(2) == 0)
+            std::swap(second[0], second[1]);
+        if (dice.below(16) == 0)
+            first[dice.below(3)] = first[dice.below(3)];
+        if (dice.below(16) == 0)
+            second[dice.below(3)] = second[dice.below(3)];
+        std::swap(first[0], first[dice.below(3)]);
+        mesh.faces[2 * k] = {first[0], first[1], first[2]};
+        mesh.faces[2 * k + 1] = {second[0], second[1], second[2]};
+    }
+    return mesh;
+}
 
 /// Of a mesh made of pairs: 0 with 1, 2 with 3.
 inline std::vector<Pair> neighbours(const Mesh& mesh)

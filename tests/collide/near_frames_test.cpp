@@ -24,12 +24,21 @@ bool has_stage(const std::vector<StageTime>& stages, std::string_view name)
                        [&](const StageTime& stage) { return stage.stage == name; });
 }
 
-class NearPipeline : public testing::TestWithParam<BuilderChoice> {};
+/// Tests of frames under the rule, where it may pay.
+template <class Test>
+struct IfItMayPay : Test {
+    void SetUp() override
+    {
+        if (!NearTriangles::may_pay(session().device(), 1))
+            GTEST_SKIP() << "not worth it on this device";
+    }
+};
+
+struct NearPipeline : IfItMayPay<testing::TestWithParam<BuilderChoice>> {};
+using NearFrames = IfItMayPay<testing::Test>;
 
 TEST_P(NearPipeline, FindsWhatIsFoundWithoutTheRule)
 {
-    if (!NearTriangles::may_pay(session().device(), 1))
-        GTEST_SKIP() << "not worth it on this device";
     for (const NamedObjects& one : all_objects())
         for (const char* name : {"leaf", "bvtt", "group"}) {
             SCOPED_TRACE(one.name + ' ' + name);
@@ -90,8 +99,8 @@ public:
         pipeline_.begin_frame(motions);
         pipeline_.settle(input_);
         stages_ = pipeline_.once(input_);
-        const PairList all = touching_pairs(points_, many_.mesh.faces, false);
-        EXPECT_EQ(pipeline_.pairs(), among_objects(all, many_.objects, Among::between_objects));
+        EXPECT_EQ(pipeline_.pairs(), touching_pairs(points_, many_.mesh.faces, false, many_.objects,
+                                                    Among::between_objects));
         const std::map<std::string, double> counters = pipeline_.counters();
         return counters.contains("entered_count") ? counters.at("entered_count")
                                                   : static_cast<double>(many_.mesh.faces.size());
@@ -114,10 +123,8 @@ private:
     std::vector<StageTime> stages_;
 };
 
-TEST(NearFrames, TakeInWhatIsNearThen)
+TEST_F(NearFrames, TakeInWhatIsNearThen)
 {
-    if (!NearTriangles::may_pay(session().device(), 1))
-        GTEST_SKIP() << "not worth it on this device";
     Frames frames;
     const double some = frames.entered_at(0.9f, Motion::deforming);
     EXPECT_GT(some, 0);
@@ -133,10 +140,8 @@ TEST(NearFrames, TakeInWhatIsNearThen)
     EXPECT_EQ(frames.entered_at(0.9f, Motion::deforming), some);
 }
 
-TEST(NearFrames, AreKeptWhenNothingMoves)
+TEST_F(NearFrames, AreKeptWhenNothingMoves)
 {
-    if (!NearTriangles::may_pay(session().device(), 1))
-        GTEST_SKIP() << "not worth it on this device";
     Frames frames;
     const double some = frames.entered_at(0.9f, Motion::deforming);
     EXPECT_EQ(frames.entered_at(0.9f, Motion::unchanged), some);
@@ -149,10 +154,8 @@ TEST(NearFrames, AreKeptWhenNothingMoves)
 }
 
 /// What is refitted is a tree of all triangles, and a frame of fewer has left none.
-TEST(NearFrames, AreRefittedAsAWholeOnly)
+TEST_F(NearFrames, AreRefittedAsAWholeOnly)
 {
-    if (!NearTriangles::may_pay(session().device(), 1))
-        GTEST_SKIP() << "not worth it on this device";
     Frames frames;
     EXPECT_EQ(frames.entered_at(0.1f, Motion::deforming), 800);
     EXPECT_EQ(frames.entered_at(0.9f, Motion::rigid), 800);
@@ -166,7 +169,7 @@ TEST(NearFrames, AreRefittedAsAWholeOnly)
     EXPECT_EQ(frames.update(), TreeUpdate::refit);
 }
 
-TEST(NearFrames, AreOnlyThoseOfPairsBetweenObjects)
+TEST(NearRule, IsOnlyForPairsBetweenObjects)
 {
     const ManyObjects many = row(2, 0.9f);
     const Input input = uploaded(many);
@@ -180,14 +183,11 @@ TEST(NearFrames, AreOnlyThoseOfPairsBetweenObjects)
     }
 }
 
-TEST(NearFrames, ThatLaterChangeTheirMindAreAnError)
+TEST_F(NearFrames, ThatLaterChangeTheirMindAreAnError)
 {
-    if (!NearTriangles::may_pay(session().device(), 1))
-        GTEST_SKIP() << "not worth it on this device";
     const ManyObjects many = row(2, 0.9f);
     std::vector<Point> points = many.mesh.points;
-    Input input =
-        upload(session().device(), session().queue(), points, many.mesh.faces, many.objects);
+    Input input = uploaded(many);
     Pipeline pipeline(session(), {.name = "oibvh-multi"}, between("leaf"), input);
     pipeline.settle(input);
     points.back().x = -100;  // so that its object's box goes round all of the other

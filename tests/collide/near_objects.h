@@ -11,8 +11,7 @@ namespace bvhbench {
 
 inline Mesh sphere(std::size_t triangles)
 {
-    const Scene scene = load_scene("sphere:" + std::to_string(triangles), {});
-    return {scene.frames.front(), scene.faces};
+    return scene_mesh("sphere:" + std::to_string(triangles));
 }
 
 inline float width(const Mesh& mesh)
@@ -36,13 +35,11 @@ inline Mesh squares(uint first, uint count)
     return mesh;
 }
 
-inline ManyObjects none() { return ManyObjects(std::vector<std::size_t>{}); }
-
 /// Spheres in a row, so many of their widths apart from one to the next.
 inline ManyObjects row(uint count, float step, std::size_t triangles = 400)
 {
     const Mesh part = sphere(triangles);
-    ManyObjects many = none();
+    ManyObjects many({});
     for (uint k = 0; k < count; ++k)
         many.add(part, static_cast<float>(k) * step * width(part));
     return many;
@@ -50,7 +47,7 @@ inline ManyObjects row(uint count, float step, std::size_t triangles = 400)
 
 inline ManyObjects touching_squares()
 {
-    ManyObjects many = none();
+    ManyObjects many({});
     many.add(squares(0, 6), 0);
     many.add(squares(6, 5), 0);
     many.add(squares(12, 4), 0);  // one square further on
@@ -79,12 +76,12 @@ inline ManyObjects one_inside()
 inline ManyObjects bodies()
 {
     const Scene scene = load_scene("n-body:6100:3", {});
-    ManyObjects many = none();
+    ManyObjects many({});
     many.mesh = {scene.frames.front(), scene.faces};
     for (const SceneObject& object : scene.objects) {
-        many.objects.push_back({object.first_face, object.face_count});
         many.owners.resize(object.first_face + object.face_count,
-                           static_cast<uint>(many.objects.size() - 1));
+                           static_cast<uint>(many.objects.size()));
+        many.objects.push_back({object.first_face, object.face_count});
     }
     return many;
 }
@@ -96,26 +93,21 @@ struct NamedObjects {
 
 inline std::vector<NamedObjects> all_objects()
 {
-    std::vector<NamedObjects> all;
-    all.push_back({"overlapping", row(2, 0.9f)});
-    all.push_back({"apart", row(3, 1.5f)});
-    all.push_back({"some far", some_far()});
-    all.push_back({"touching", touching_squares()});
-    all.push_back({"one inside", one_inside()});
-    all.push_back({"bodies", bodies()});
-    return all;
+    return {{"overlapping", row(2, 0.9f)}, {"apart", row(3, 1.5f)},
+            {"some far", some_far()},      {"touching", touching_squares()},
+            {"one inside", one_inside()},  {"bodies", bodies()}};
 }
 
 /// By the definition: of each object, the triangles whose box touches another object's.
 inline std::vector<std::vector<uint>> near_by_definition(const ManyObjects& many)
 {
+    const std::vector<Aabb> triangles = face_boxes(many.mesh.points, many.mesh.faces);
     std::vector<Aabb> boxes(many.objects.size(), empty_box());
-    for (std::size_t k = 0; k < many.mesh.faces.size(); ++k)
-        boxes[many.owners[k]] =
-            merged(boxes[many.owners[k]], face_box(many.mesh.points, many.mesh.faces[k]));
+    for (std::size_t k = 0; k < triangles.size(); ++k)
+        boxes[many.owners[k]] = merged(boxes[many.owners[k]], triangles[k]);
     std::vector<std::vector<uint>> near(many.objects.size());
-    for (uint k = 0; k < many.mesh.faces.size(); ++k) {
-        const Aabb box = face_box(many.mesh.points, many.mesh.faces[k]);
+    for (uint k = 0; k < triangles.size(); ++k) {
+        const Aabb box = triangles[k];
         for (uint other = 0; other < boxes.size(); ++other)
             if (other != many.owners[k] && overlap(box, boxes[other])) {
                 near[many.owners[k]].push_back(k);

@@ -36,30 +36,26 @@ private:
     {
         std::vector<Face> faces;
         const Input frame = near.frame(input, counts, faces, session().queue());
-        const std::vector<Face> on_device =
-            frame.triangle_count() > 0 ? frame.device_faces.download(session().queue().cl())
-                                       : std::vector<Face>{};
-        const std::vector<uint> owners = frame.triangle_count() > 0
-                                             ? frame.device_owners.download(session().queue().cl())
-                                             : std::vector<uint>{};
-        std::size_t place = 0, object = 0;
+        std::vector<FaceRange> objects;
+        std::vector<uint> owners, ids;
         for (const std::vector<uint>& triangles : expected) {
             if (triangles.empty())
                 continue;
-            ASSERT_LT(object, frame.objects.size());
-            EXPECT_EQ(frame.objects[object],
-                      (FaceRange{static_cast<uint>(place), static_cast<uint>(triangles.size())}));
-            for (const uint triangle : triangles) {
-                const Face& face = input.faces[triangle];
-                EXPECT_EQ(faces[place].a, face.a);
-                EXPECT_EQ(on_device[place].c, face.c);
-                EXPECT_EQ(owners[place], object);
-                ++place;
-            }
-            ++object;
+            objects.push_back({static_cast<uint>(ids.size()), static_cast<uint>(triangles.size())});
+            ids.insert(ids.end(), triangles.begin(), triangles.end());
+            owners.resize(ids.size(), static_cast<uint>(objects.size() - 1));
         }
-        EXPECT_EQ(frame.objects.size(), object);
-        EXPECT_EQ(frame.triangle_count(), place);
+        EXPECT_EQ(frame.objects, objects);
+        ASSERT_EQ(frame.triangle_count(), ids.size());
+        if (ids.empty())
+            return;
+        const cl::CommandQueue& queue = session().queue().cl();
+        const std::vector<Face> on_device = frame.device_faces.download(queue);
+        EXPECT_EQ(frame.device_owners.download(queue), owners);
+        for (std::size_t k = 0; k < ids.size(); ++k) {
+            EXPECT_EQ(faces[k].a, input.faces[ids[k]].a);
+            EXPECT_EQ(on_device[k].c, input.faces[ids[k]].c);
+        }
     }
 };
 
@@ -113,9 +109,8 @@ TEST_P(Near, HaveThePairsBetweenObjects)
         session().build_once(*builder, frame, Start::from_triangles, &tree);
         for (const char* collider_name : {"leaf", "bvtt", "group"}) {
             SCOPED_TRACE(std::string(name) + ' ' + collider_name);
-            const auto collider = find_collider(collider_name)
-                                      .make(session().programs(), {.among = Among::between_objects,
-                                                                   .form = options().form});
+            const auto collider =
+                made(collider_name, {.among = Among::between_objects, .form = options().form});
             collider->reserve(tree, frame);
             find_pairs(*collider, tree, frame, session().queue());
             near.map_back(collider->device_pairs(session().queue()), session().queue());
@@ -125,13 +120,9 @@ TEST_P(Near, HaveThePairsBetweenObjects)
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Forms, Near,
-                         testing::Combine(testing::Values(KernelForm::groups, KernelForm::chunks),
-                                          testing::Values(1u, 256u)),
+INSTANTIATE_TEST_SUITE_P(Forms, Near, testing::Combine(both_forms, testing::Values(1u, 256u)),
                          [](const auto& tested) {
-                             return std::string(std::get<0>(tested.param) == KernelForm::groups
-                                                    ? "groups"
-                                                    : "chunks") +
+                             return name_of(std::get<0>(tested.param)) +
                                     (std::get<1>(tested.param) == 1 ? "_ran_over" : "_listed");
                          });
 

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "collide/relation.h"
 #include "geometry/hash.h"
 
 namespace bvhbench {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "collide/oracles/sweep.h"
-#include "collide/relation.h"
+#include "collide/pairs.h"
 #include "device/device.h"
 #include "geometry/error.h"
 #include "library/include/bvhbench/oibvh.h"

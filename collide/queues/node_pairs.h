@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+//
+// What traversals of pairs of nodes share, bvtt and front.
+#pragma once
+
+#include <algorithm>
+#include <string>
+
+#include "builders/device_tree.h"
+#include "collide/parameters.h"
+#include "geometry/bits.h"
+
+namespace bvhbench {
+
+/// Bits of a node in the word that names it (queues/nodes.clh); the object is in the rest.
+inline uint node_bits(const DeviceTree& tree)
+{
+    return tree.objects.size() > 1 && tree.is_implicit() ? tree.label_bits() : 32;
+}
+
+/// Why objects and nodes of these trees cannot be named so, as a sentence; empty if they can.
+inline std::string naming_objection(std::string_view collider, const DeviceTree& tree)
+{
+    const auto objects = static_cast<uint>(tree.objects.size());
+    if (node_bits(tree) == 32 || node_bits(tree) + ceil_log2(objects) <= 32)
+        return {};
+    return std::string(collider) + " names an object and its node in 32 bits, too few for " +
+           std::to_string(objects) + " objects with labels of up to " +
+           std::to_string(tree.label_bits()) + " bits";
+}
+
+/// Groups for so many tasks: as many as have something to do, up to what fills the device.
+inline std::size_t group_count(const Device& device, std::size_t tasks, uint group_size)
+{
+    const std::size_t a_group = std::size_t{group_size} * device.tuned(bvtt_items);
+    const std::size_t most = device.tuned(bvtt_groups_per_unit) *
+                             std::size_t{device.cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()};
+    return std::clamp<std::size_t>((tasks + a_group - 1) / a_group, 1, most);
+}
+
+}  // namespace bvhbench

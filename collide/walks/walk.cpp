@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+//
+// Colliders that find all pairs in one launch: tasks of neighbouring leaves, each against an object's tree.
+#include <algorithm>
+
+#include "collide/counters.h"
+#include "collide/device_collider.h"
+#include "collide/device_lists.h"
+#include "collide/parameters.h"
+#include "collide/walks/task.h"
+#include "geometry/bits.h"
+
+namespace bvhbench {
+namespace {
+
+enum class By { leaf, group, block };
+
+constexpr ColliderCard cards[] = {
+    {"leaf", "Leaf against tree, without a stack [Prokopenko2024]"},
+    {"group", "Neighbouring leaves as one query [Chitalu2020, Eq. 12]"},
+    {"block", "Blocks of leaves against blocks [Chitalu2020, Eq. 12]"},
+};
+
+class Walk final : public DeviceCollider {
+public:
+    Walk(Programs& programs, const ColliderOptions& options, By by)
+        : DeviceCollider(programs, cards[static_cast<int>(by)], options,
+                         by == By::leaf ? leaf_group_size : group_group_size,
+                         Wants::tree_with_ropes)
+        , by_(by)
+    {}
+
+private:
+    std::string objection(const DeviceTree& tree) const override
+    {
+        if (by_ == By::block && (!tree.is_implicit() || tree.child_bits() != 1))
+            return "block needs a binary implicit tree, whose blocks of leaves are subtrees";
+        return {};
+    }
+
+    void compile(const Input&) override
+    {
+        if (by_groups())
+            compile_groups();
+        else
+            compile_chunks();
+        own_list_.clear();
+        for (uint k = 0; k < object_count(); ++k)
+            for (uint first = 0; first < tree().objects[k].leaves; first += task_leaves_)
+                own_list_.push_back(
+                    {k, k, first, std::min(task_leaves_, tree().objects[k].leaves - first)});
+        between_room_ = 0;
+        if (!between(object_count()))
+            return;
+        between_kernel_ = kernel("collide/queues/between.cl", "find_between",
+                                 {{"TASK_LEAVES", task_leaves_},
+                                  {"SKIP_APART", skips(skip_apart) ? 1u : 0u},
+                                  {"SKIP_OVERLAP", skips(skip_overlap) ? 1u : 0u}});
+        between_room_ =
+            first_room(std::max<std::size_t>(256, 2 * own_list_.size()), sizeof(QueryTask));
+    }
+
+    /// A group a task, or of `block` a team of a group.
+    void compile_groups()
+    {
+        task_leaves_ = group_size_;
+        items_a_task_ = launch_group_ = group_size_;
+        if (by_ == By::leaf) {
+            walk_ =
+                kernel("collide/walks/leaf_groups.cl", "leaf_pairs", {{"GROUP_SIZE", group_size_}});
+        } else if (by_ == By::group) {
+            compile_group();
+        } else {
+            const bool has_warps = device().lets_groups_wait();
+            const uint teams = has_warps ? device().tuned(block_teams) : 1;
+            task_leaves_ = BLOCK_LEAVES;
+            items_a_task_ = has_warps ? TEAM_LANES : 1;
+            launch_group_ = teams * items_a_task_;
+            walk_ = kernel("collide/walks/block.cl", "block_pairs",
+                           {{"TEAMS", teams}, {"LOOSE", device().tuned(block_loose)}},
+                           Optimise::on_gpus);
+        }
+    }
+
+    void compile_group()
+    {
+        // Of a binary tree one more node than there are levels, for the way down from the last one. A node of a wide
+        // tree leaves its other children waiting on each level. A query starts with a node a level at most, so that twice
+        // as much is enough for any tree, if not for speed.
+        const bool is_wide = tree().child_bits() > 1;
+        const uint levels = tree().most_levels();
+        const uint reserve = (is_wide ? levels << tree().child_bits() : levels) + 1;
+        const uint more =
+            is_wide ? wide_frontier_per_item : device().tuned(group_frontier_per_item);
+        walk_ =
+            kernel(is_wide ? "collide/walks/group_wide_groups.cl" : "collide/walks/group_groups.cl",
+                   "group_pairs",
+                   {{"GROUP_SIZE", group_size_},
+                    {"FRONTIER", 2 * reserve + (options_.capacity != 0 ? 0 : more * group_size_)},
+                    {"RESERVE", reserve},
+                    {"LOOSE", device().tuned(group_loose)}},
+                   Optimise::on_gpus);
+    }
+
+    /// A few work-items share all tasks: of `leaf` a run of neighbouring ones each, in which they collect pairs in a block;
+    /// of the others, the same without warps, from a counter.
+    void compile_chunks()
+    {
+        task_leaves_ = device().tuned(walk_task_leaves);
+        items_a_task_ = 0;
+        launch_group_ = 1;
+        if (by_ == By::leaf) {
+            block_pairs_ = device().tuned(walk_block_pairs);
+            walk_ = kernel("collide/walks/leaf_chunks.cl", "leaf_pairs",
+                           {{"SINK_BLOCK", block_pairs_}});
+        } else {
+            queue_count_ = 1;  // the place of TASKS_BEGUN
+            walk_ = kernel(
+                "collide/walks/group_chunks.cl", "group_pairs",
+                {{"TASK_LEAVES", task_leaves_}, {"SKIP_OVERLAP", skips(skip_overlap) ? 1u : 0u}});
+        }
+    }
+
+    void plan(Arena& arena) override
+    {
+        own_ = arena.take<QueryTask>(own_list_.size(), Use::scratch);
+        between_ = arena.take<QueryTask>(std::max<std::size_t>(1, between_room_), Use::scratch);
+        if (block_pairs_ > 0)
+            blocks_ = arena.take<Pair>(block_pairs_ * chunks_, Use::scratch);
+    }
+
+    void fill(const cl::CommandQueue& queue) override { own_.upload(queue, own_list_); }
+
+    bool make_room(std::uint64_t tasks, const std::vector<std::uint64_t>&) override
+    {
+        return had_room(between_room_, tasks, tasks / 8, sizeof(QueryTask), device(), "tasks");
+    }
+
+    void enqueue(const Input& input, Queue& queue) override
+    {
+        const auto own_count = static_cast<uint>(own_.size());
+        const auto between_room = static_cast<uint>(between_room_);
+        if (between(object_count())) {
+            set_arguments_from(between_kernel_, tree().bind(between_kernel_, 0), own_, own_count,
+                               object_count(), between_, between_room, counters_);
+            const std::size_t items = own_.size() * divided_up(object_count(), OTHERS_A_WORK_ITEM);
+            launch(between_kernel_, by_groups() ? items : chunks_, by_groups() ? group_size_ : 1,
+                   queue);
+        }
+        const uint tasks_within = within() ? own_count : 0;
+        if (tasks_within + between_room == 0)
+            return;
+        if (block_pairs_ > 0)
+            bind(walk_, input, own_, tasks_within, between_, between_room, blocks_);
+        else
+            bind(walk_, input, own_, tasks_within, between_, between_room);
+        const std::size_t tasks = tasks_within + between_room_;
+        launch(walk_, items_a_task_ > 0 ? tasks * items_a_task_ : chunks_, launch_group_, queue);
+    }
+
+    static constexpr uint wide_frontier_per_item = 4;
+
+    By by_;
+    uint task_leaves_ = 0;  ///< neighbouring leaves of a task, at most; a power of two
+    std::size_t items_a_task_ = 0, launch_group_ = 1;  ///< work-items; 0: all share all tasks
+    uint block_pairs_ = 0;  ///< that a work-item collects before it passes them on, if it does
+    cl::Kernel walk_, between_kernel_;
+    std::vector<QueryTask> own_list_;  ///< neighbouring leaves of each object, against its own tree
+    std::size_t between_room_ = 0;     ///< tasks between objects that there is room for
+    Buffer<QueryTask> own_;
+    Buffer<QueryTask> between_;
+    Buffer<Pair> blocks_;
+};
+
+}  // namespace
+
+std::unique_ptr<Collider> make_leaf(Programs& programs, const ColliderOptions& options)
+{
+    return std::make_unique<Walk>(programs, options, By::leaf);
+}
+
+std::unique_ptr<Collider> make_group(Programs& programs, const ColliderOptions& options)
+{
+    return std::make_unique<Walk>(programs, options, By::group);
+}
+
+std::unique_ptr<Collider> make_block(Programs& programs, const ColliderOptions& options)
+{
+    return std::make_unique<Walk>(programs, options, By::block);
+}
+
+}  // namespace bvhbench

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+//
+// Data sets with what a separate program counted on them, as the tests that are held to it go through them.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "geometry/hash.h"
+#include "tests/collide/data_set.h"
+
+namespace bvhbench {
+
+constexpr auto no_data_sets = "BVHBENCH_DATA is not set: nothing is compared with the data sets";
+
+/// Where data sets are; empty without.
+inline std::filesystem::path data_sets()
+{
+    const char* folder = std::getenv("BVHBENCH_DATA");
+    return folder != nullptr ? folder : "";
+}
+
+inline nlohmann::json read_json(const std::filesystem::path& path)
+{
+    std::ifstream in(path);
+    return nlohmann::json::parse(in);
+}
+
+/// Calls compare(mesh, reference) for every static mesh that is there and has at most so many triangles.
+template <class Compare>
+void compare_static_meshes(std::size_t most_triangles, const Compare& compare)
+{
+    std::size_t compared = 0;
+    const nlohmann::json references = read_json(data_sets() / "static/reference.json");
+    for (const auto& [name, reference] : references.items()) {
+        SCOPED_TRACE(name);
+        const std::filesystem::path path = data_sets() / "static" / name;
+        if (reference["tris"] > most_triangles || !std::filesystem::exists(path)) {
+            std::cout << "large or not there, not compared: " << name << '\n';
+            continue;
+        }
+        compare(read_data_set_mesh(path), reference);
+        ++compared;
+    }
+    EXPECT_GT(compared, 0u);
+}
+
+/// Calls compare(mesh, reference, whether it is its sequence's last) for every frame with a reference.
+template <class Compare>
+void compare_frames(const Compare& compare)
+{
+    std::size_t compared = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(data_sets() / "dynamic")) {
+        SCOPED_TRACE(entry.path().filename().string());
+        const nlohmann::json meta = read_json(entry.path() / "meta.json");
+        DataSetMesh mesh = read_data_set_mesh(entry.path() / "mesh.ply");
+        const auto frames =
+            read_frames(entry.path() / "frames.f32", meta["frames"], mesh.points.size());
+        for (const nlohmann::json& reference : meta["reference"]) {
+            SCOPED_TRACE("frame " + reference["index"].dump());
+            mesh.points = frames.at(reference["index"]);
+            compare(mesh, reference, reference == meta["reference"].back());
+            ++compared;
+        }
+    }
+    EXPECT_GT(compared, 0u);
+}
+
+}  // namespace bvhbench
