@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scenes/manifest.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "scenes/embedded.h"
@@ -103,6 +104,50 @@ std::filesystem::path located(const ManifestEntry& entry, const std::filesystem:
                                 : std::filesystem::is_regular_file(path, error))
                 return path;
     return {};
+}
+
+std::string summary(const ManifestEntry& entry, const std::filesystem::path& data)
+{
+    const std::filesystem::path path = located(entry, data);
+    std::string text = entry.note;
+    if (entry.set.triangles != 0)
+        text += "; " + std::to_string(entry.set.triangles) + " triangles";
+    if (entry.frames > 1)
+        text += ", " + std::to_string(entry.frames) + " frames";
+    return text + (path.empty() ? "; not found: " + entry.source : "; found: " + path.string());
+}
+
+const DataSet* find_data_set(std::string_view name)
+{
+    const ManifestEntry* const entry = manifest_entry(name);
+    return entry == nullptr ? nullptr : &entry->set;
+}
+
+Scene load_or_stand_in(const DataSet& set, const SceneLibrary& library)
+{
+    const ManifestEntry* const entry = manifest_entry(set.name);
+    if (entry == nullptr)
+        throw BadUsage("no data set is called '" + set.name + "'");
+    // What is generated always is; else the files that it is made of are there.
+    const auto is_possible = [&](const std::string& scene) {
+        return !std::ranges::count(scene_files(scene, library), "");
+    };
+    // A file of another size is another edition of the model: not this data set, and no error.
+    if (!located(*entry, library.data).empty()) {
+        try {
+            return load_scene(set.name, library);
+        } catch (const OtherCounts&) {
+            if (entry->stand_ins.empty())
+                throw;
+        }
+    }
+    for (const std::string& stand_in : entry->stand_ins)
+        if (is_possible(stand_in)) {
+            Scene scene = load_scene(stand_in, library);
+            scene.stand_in_for = set.name;
+            return scene;
+        }
+    return load_scene(set.name, library);  // says what is missing
 }
 
 }  // namespace bvhbench

@@ -40,4 +40,7 @@ const ManifestEntry* manifest_entry(std::string_view name);
 /// Where the data set lies under `data`; empty if it is not there.
 std::filesystem::path located(const ManifestEntry& entry, const std::filesystem::path& data);
 
+/// A line for people: its note, its counts and where it was found, or where to get it.
+std::string summary(const ManifestEntry& entry, const std::filesystem::path& data);
+
 }  // namespace bvhbench

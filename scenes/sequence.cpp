@@ -8,7 +8,6 @@
 #include "geometry/error.h"
 #include "scenes/face_order.h"
 #include "scenes/formats/text.h"
-#include "scenes/sequence_facts.h"
 
 namespace bvhbench {
 namespace {
@@ -46,14 +45,12 @@ std::optional<std::int64_t> frame_number(const std::filesystem::path& path)
     return number;
 }
 
-struct NumberedFile {
-    std::int64_t number;
-    std::filesystem::path path;
-};
+/// The mesh files of a folder by their numbers.
+using NumberedFiles = std::map<std::int64_t, std::filesystem::path>;
 
-std::vector<NumberedFile> numbered_files(const std::filesystem::path& folder)
+NumberedFiles numbered_files(const std::filesystem::path& folder)
 {
-    std::map<std::int64_t, std::filesystem::path> files;
+    NumberedFiles files;
     std::error_code error;
     const std::filesystem::directory_iterator entries(folder, error);
     if (error)
@@ -69,10 +66,7 @@ std::vector<NumberedFile> numbered_files(const std::filesystem::path& folder)
             throw Unavailable(folder.string() + " has two files for frame " +
                               std::to_string(*number));
     }
-    std::vector<NumberedFile> result;
-    for (const auto& [number, path] : files)
-        result.push_back({number, path});
-    return result;
+    return files;
 }
 
 bool same(const std::vector<Face>& a, const std::vector<Face>& b)
@@ -81,7 +75,7 @@ bool same(const std::vector<Face>& a, const std::vector<Face>& b)
 }
 
 /// As the files have them. Read once more: few sequences are in doubles, and those that are not need no room for any.
-std::vector<std::vector<WidePoint>> wide_frames(const std::vector<NumberedFile>& files,
+std::vector<std::vector<WidePoint>> wide_frames(const NumberedFiles& files,
                                                 const WorkerLimits& limits)
 {
     std::vector<std::vector<WidePoint>> frames;
@@ -98,7 +92,7 @@ std::vector<std::vector<WidePoint>> wide_frames(const std::vector<NumberedFile>&
 Scene read_numbered(const std::filesystem::path& folder, const WorkerLimits& limits,
                     Doubles doubles)
 {
-    const std::vector<NumberedFile> files = numbered_files(folder);
+    const NumberedFiles files = numbered_files(folder);
     if (files.empty())
         throw Unavailable(folder.string() +
                           " has neither mesh.ply and frames.f32 nor numbered mesh files");
@@ -110,7 +104,7 @@ Scene read_numbered(const std::filesystem::path& folder, const WorkerLimits& lim
         floats_hold = floats_hold && file.floats_hold;
         if (!scene.frames.empty() && !same(first.mesh.faces, file.mesh.faces))
             throw Unavailable(path.string() + " has other triangles than " +
-                              files[0].path.string() + ", and frames share theirs");
+                              files.begin()->second.string() + ", and frames share theirs");
         scene.frames.push_back(std::move(file.mesh.points));
         if (scene.frames.size() == 1)
             first = std::move(file);

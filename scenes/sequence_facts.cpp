@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "scenes/sequence_facts.h"
+#include "scenes/sequence.h"
 
 #include <algorithm>
 #include <functional>
 #include <nlohmann/json.hpp>
 
 #include "geometry/error.h"
-#include "scenes/mesh_file.h"
 
 namespace bvhbench {
 namespace {

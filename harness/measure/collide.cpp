@@ -7,7 +7,7 @@
 #include "harness/base/failure.h"
 #include "harness/measure/frame_cells.h"
 #include "harness/measure/swept.h"
-#include "scenes/frames_between.h"
+#include "scenes/generate/derived.h"
 
 namespace bvhbench {
 namespace {

@@ -2,7 +2,6 @@
 #include "scenes/mesh_worker.h"
 
 #include "helpers.h"
-#include "scenes/worker/message.h"
 #include "scenes/worker/process.h"
 
 namespace bvhbench {
