@@ -7,6 +7,8 @@
 #include <cstring>
 #include <utility>
 
+#include "scenes/generate/vector.h"
+
 namespace bvhbench {
 namespace {
 

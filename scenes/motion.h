@@ -4,7 +4,7 @@
 #include <array>
 #include <span>
 
-#include "scenes/generate/vector.h"
+#include "geometry/vectors.h"
 #include "scenes/scene.h"
 
 namespace bvhbench {

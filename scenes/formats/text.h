@@ -6,8 +6,6 @@
 #include <string>
 #include <string_view>
 
-#include "scenes/doubles.h"
-
 namespace bvhbench {
 
 /// A number of a file: as it is there, and the float nearest to it.

@@ -70,12 +70,6 @@ const std::vector<std::pair<uint, uint>>& NearPairs::find(const std::vector<Vect
     return pairs_;
 }
 
-void Cloth::add_spring(uint a, uint b, double compliance)
-{
-    const double rest = length(positions_[b] - positions_[a]);
-    springs_.push_back({a, b, rest, compliance});
-}
-
 // Every other cell first, then the ones between: no direction is favoured, and no spring waits for the last.
 void Cloth::add_springs(const Sheet& sheet)
 {
@@ -88,7 +82,8 @@ void Cloth::add_springs(const Sheet& sheet)
                     add(i, j);
     };
     const auto join = [&](uint i, uint j, uint k, uint l, double compliance) {
-        add_spring(sheet.particle(i, j), sheet.particle(k, l), compliance);
+        const uint a = sheet.particle(i, j), b = sheet.particle(k, l);
+        springs_.push_back({a, b, length(positions_[b] - positions_[a]), compliance});
     };
     each(1, 0, [&](uint i, uint j) { join(i, j, i + 1, j, 0); });
     each(0, 1, [&](uint i, uint j) { join(i, j, i, j + 1, 0); });
@@ -154,19 +149,13 @@ bool Cloth::are_neighbours(uint a, uint b) const
     return down <= 1 && (across <= 1 || (sheet.closed && across + 1 == stride));
 }
 
-/// A little early, as they move on for some steps.
-void Cloth::find_near()
-{
-    pairs_.clear();
-    for (const auto& [i, j] : near_.find(positions_, 1.25 * apart_))
-        if (!are_neighbours(i, j))
-            pairs_.emplace_back(i, j);
-}
-
 void Cloth::keep_apart()
 {
-    if (steps_ % pairs_hold_for == 0)
-        find_near();
+    if (steps_ % pairs_hold_for == 0) {
+        pairs_ = near_.find(positions_, 1.25 * apart_);  // a little early, as they move on
+        std::erase_if(pairs_,
+                      [&](const auto& pair) { return are_neighbours(pair.first, pair.second); });
+    }
     for (const auto& [i, j] : pairs_) {
         const Vector between = positions_[j] - positions_[i];
         const double square = dot(between, between);

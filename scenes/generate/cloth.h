@@ -84,10 +84,8 @@ private:
         uint a, b;
         double length, compliance;
     };
-    void add_spring(uint a, uint b, double compliance);
     void add_springs(const Sheet& sheet);
     bool are_neighbours(uint a, uint b) const;
-    void find_near();
     void stretch();
     void keep_apart();
     void meet(const std::vector<const Obstacle*>& obstacles);

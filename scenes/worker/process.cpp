@@ -29,31 +29,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr const char* parent = "BVHBENCH_PARENT";
 
-/// posix_spawn's list of what happens to file descriptors in the new process.
-class Redirections {
-public:
-    Redirections()
-    {
-        posix_spawn_file_actions_init(&actions_);
-        posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    }
-    Redirections(const Redirections&) = delete;
-    Redirections& operator=(const Redirections&) = delete;
-    ~Redirections() { posix_spawn_file_actions_destroy(&actions_); }
-
-    void stream(int file, Child::Stream where, int writer)
-    {
-        if (where == Child::Stream::captured)
-            posix_spawn_file_actions_adddup2(&actions_, writer, file);
-        else if (where == Child::Stream::dropped)
-            posix_spawn_file_actions_addopen(&actions_, file, "/dev/null", O_WRONLY, 0);
-    }
-    const posix_spawn_file_actions_t* get() const { return &actions_; }
-
-private:
-    posix_spawn_file_actions_t actions_;
-};
-
 std::vector<char*> pointers(std::vector<std::string>& words)
 {
     std::vector<char*> result;
@@ -113,15 +88,23 @@ std::string spelled(const ProcessEnd& end, double time_limit_s)
 Child::Child(Start start)
 {
     std::vector<std::string> environment = environment_under(std::move(start.environment));
+    const std::vector<char*> words = pointers(start.words), variables = pointers(environment);
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0)
         throw Unavailable("no pipe to a process of its own: " +
                           std::system_category().message(errno));
-    Redirections redirections;
-    redirections.stream(STDOUT_FILENO, start.output, ends[1]);
-    redirections.stream(STDERR_FILENO, start.errors, ends[1]);
-    const int error = posix_spawnp(&process_, start.path.c_str(), redirections.get(), nullptr,
-                                   pointers(start.words).data(), pointers(environment).data());
+    posix_spawn_file_actions_t files;
+    posix_spawn_file_actions_init(&files);
+    posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    for (const auto& [file, where] :
+         {std::pair(STDOUT_FILENO, start.output), {STDERR_FILENO, start.errors}})
+        if (where == Stream::captured)
+            posix_spawn_file_actions_adddup2(&files, ends[1], file);
+        else if (where == Stream::dropped)
+            posix_spawn_file_actions_addopen(&files, file, "/dev/null", O_WRONLY, 0);
+    const int error = posix_spawnp(&process_, start.path.c_str(), &files, nullptr, words.data(),
+                                   variables.data());
+    posix_spawn_file_actions_destroy(&files);
     close(ends[1]);
     reader_ = ends[0];
     if (error == 0)

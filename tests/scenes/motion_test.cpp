@@ -8,6 +8,7 @@
 #include "helpers.h"
 #include "scenes/generate/derived.h"
 #include "scenes/generate/random.h"
+#include "scenes/generate/vector.h"
 
 namespace bvhbench {
 namespace {
