@@ -18,18 +18,6 @@ namespace {
 
 Scene load_any(std::string_view text, const SceneLibrary& library);
 
-WorkerLimits limits_of(const SceneLibrary& library)
-{
-    WorkerLimits limits;
-    if (library.memory_limit_bytes != 0)
-        limits.memory_bytes = library.memory_limit_bytes;
-    // What it reads is in its memory and in this process's.
-    limits.memory_bytes = std::min<std::uint64_t>(limits.memory_bytes, host_memory_left() / 2);
-    if (library.time_limit_s > 0)
-        limits.time_s = library.time_limit_s;
-    return limits;
-}
-
 /// Throws Unavailable, naming `scene` as the user typed it, if the host has fewer than `bytes` bytes left.
 void require_memory(std::string_view scene, std::uint64_t bytes)
 {
@@ -153,10 +141,10 @@ Scene from_path(const std::filesystem::path& path, const SceneLibrary& library)
     Scene scene;
     std::error_code error;
     if (std::filesystem::is_directory(path, error)) {
-        scene = read_sequence(path, limits_of(library), library.doubles);
+        scene = read_sequence(path, library);
         scene.folder = path;
     } else {
-        FileMesh file = read_mesh_file(path, limits_of(library));
+        FileMesh file = read_mesh_file(path, library);
         scene.frames.push_back(std::move(file.mesh.points));
         if (!file.floats_hold)
             scene.rounding = round_frames({&file.wide, 1}, library.doubles, scene.frames);
@@ -170,18 +158,18 @@ void expect(const ManifestEntry& entry, const Scene& scene, const char* what, st
             std::size_t found)
 {
     if (expected != 0 && found != expected)
-        throw OtherCounts("data set '" + entry.set.name + "' has " + std::to_string(expected) +
-                          " " + what + ", and " + scene.source + " has " + std::to_string(found));
+        throw OtherCounts("data set '" + entry.name + "' has " + std::to_string(expected) + " " +
+                          what + ", and " + scene.source + " has " + std::to_string(found));
 }
 
 Scene from_data_set(const ManifestEntry& entry, const SceneLibrary& library)
 {
     const std::filesystem::path path = located(entry, library.data);
     if (path.empty())
-        throw Unavailable("data set '" + entry.set.name + "' is not in the data folder " +
+        throw Unavailable("data set '" + entry.name + "' is not in the data folder " +
                           in_quotes(library.data.string()) + ": " + entry.source);
     Scene scene = from_path(path, library);
-    expect(entry, scene, "triangles", entry.set.triangles, scene.faces.size());
+    expect(entry, scene, "triangles", entry.triangles, scene.faces.size());
     expect(entry, scene, "vertices", entry.vertices, scene.frames.front().size());
     expect(entry, scene, "frames", entry.frames, scene.frames.size());
     if (!scene.objects.empty())
@@ -244,7 +232,7 @@ std::vector<SceneListing> list_scenes(const SceneLibrary& library)
     for (const Derivation& derivation : derivations)
         lines.push_back({std::string(derivation.form), std::string(derivation.summary)});
     for (const ManifestEntry& entry : manifest())
-        lines.push_back({entry.set.name, summary(entry, library.data)});
+        lines.push_back({entry.name, summary(entry, library.data)});
     return lines;
 }
 
@@ -268,7 +256,7 @@ std::size_t triangles_said(std::string_view text)
                    : count;
     }
     if (const ManifestEntry* const entry = manifest_entry(text))
-        return entry->set.triangles;
+        return entry->triangles;
     const Parts parts(text);
     if (const Generator* const generator = generator_called(parts.head)) {
         const std::size_t colon = generator->moves ? parts.rest.find(':') : parts.rest.npos;

@@ -71,7 +71,7 @@ bool is_mesh_file(const std::filesystem::path& path)
     return plain_reader(extension) != nullptr || assimp_knows(extension);
 }
 
-FileMesh read_mesh_file(const std::filesystem::path& path, const WorkerLimits& limits)
+FileMesh read_mesh_file(const std::filesystem::path& path, const SceneLibrary& library)
 {
     check_is_file(path);
     const std::string extension = lower_extension(path);
@@ -81,7 +81,7 @@ FileMesh read_mesh_file(const std::filesystem::path& path, const WorkerLimits& l
     } else if (assimp_knows(extension)) {
         require_host_memory("reading " + in_quotes(path.string()),
                             bytes_a_file_byte * std::filesystem::file_size(path));
-        file = read_in_worker(path, limits);
+        file = read_in_worker(path, library);
     } else {
         throw Unavailable(path.string() + " is of a format that is not read, '" + extension + "'");
     }

@@ -3,12 +3,14 @@
 
 #include <assimp/scene.h>
 
+#include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cstdlib>
 #include <cstring>
 #include <new>
 
 #include "geometry/error.h"
+#include "geometry/host_memory.h"
 #include "scenes/worker/process.h"
 
 namespace bvhbench {
@@ -189,16 +191,20 @@ bool assimp_knows(const std::string& extension)
     return extension.size() > 1 && Assimp::Importer().IsExtensionSupported(extension);
 }
 
-FileMesh read_in_worker(const std::filesystem::path& path, const WorkerLimits& limits)
+FileMesh read_in_worker(const std::filesystem::path& path, const SceneLibrary& library)
 {
     if (std::getenv(marker) != nullptr)
         throw std::logic_error("main does not begin with is_mesh_worker, see scenes/mesh_worker.h");
-    const ProcessEnd end = run_process(
-        {"/proc/self/exe", argument, path.string(), std::to_string(limits.memory_bytes)},
-        limits.time_s, std::string(marker) + "=1");
+    // What the worker reads is in its memory and in this process's.
+    const std::uint64_t memory =
+        std::min<std::uint64_t>(library.memory_limit_bytes, host_memory_left() / 2);
+    const ProcessEnd end =
+        run_process({"/proc/self/exe", argument, path.string(), std::to_string(memory)},
+                    library.time_limit_s, std::string(marker) + "=1");
     auto answer = decoded(end.output);
     if (end.how != ProcessEnd::How::exited || !answer)
-        throw Unavailable("the reader " + spelled(end, limits.time_s) + " on " + path.string());
+        throw Unavailable("the reader " + spelled(end, library.time_limit_s) + " on " +
+                          path.string());
     if (const auto* const why = std::get_if<std::string>(&*answer))
         throw Unavailable(path.string() + " is not read: " + *why);
     return std::get<FileMesh>(std::move(*answer));

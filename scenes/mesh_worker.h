@@ -8,20 +8,14 @@
 //         return mesh_worker_main(argc, argv);
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <variant>
 
+#include "scenes/catalog.h"
 #include "scenes/formats/formats.h"
 
 namespace bvhbench {
-
-/// What the worker may use.
-struct WorkerLimits {
-    std::size_t memory_bytes = std::size_t{8} << 30;  ///< in all
-    double time_s = 120;
-};
 
 /// Whether this process was started by `read_in_worker`.
 bool is_mesh_worker(int argc, char** argv);
@@ -35,8 +29,8 @@ bool assimp_knows(const std::string& extension);
 
 /// What assimp reads from `path`, each instance of a mesh an object, transformed by the nodes above it. Nothing is merged,
 /// points and lines are passed over, and polygons are cut into fans.
-/// Throws Unavailable when assimp refuses, crashes, or passes a limit.
-FileMesh read_in_worker(const std::filesystem::path& path, const WorkerLimits& limits);
+/// Throws Unavailable when assimp refuses, crashes, or passes a limit of `library`.
+FileMesh read_in_worker(const std::filesystem::path& path, const SceneLibrary& library);
 
 /// What the worker sends back, in the byte order of the machine both run on:
 ///

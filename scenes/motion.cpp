@@ -71,19 +71,19 @@ Matrix<3> products(std::span<const Vector> from, Vector from_centre, std::span<c
 }
 
 /// How far rounding may move a point of these.
-double rounding_of(std::span<const Vector> points, double rounding)
+double rounding_of(std::span<const Vector> points)
 {
     double largest = 0;
     for (const Vector a : points)
         largest = std::max({largest, std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)});
     constexpr double smallest = 0x1p-150;  // half of the least float above 0
-    return std::sqrt(3.0) * std::max(rounding * largest, smallest);
+    return std::sqrt(3.0) * std::max(0x1p-24 * largest, smallest);
 }
 
-bool is_rigid(std::span<const Vector> from, std::span<const Vector> to, double rounding)
+bool is_rigid(std::span<const Vector> from, std::span<const Vector> to)
 {
     constexpr double slack = 1 + 1e-3;  // what is not of first order, and arithmetic in double
-    const double each = slack * (rounding_of(from, rounding) + rounding_of(to, rounding));
+    const double each = slack * (rounding_of(from) + rounding_of(to));
     const RigidFit fit = fit_rigid(from, to);
     const std::vector<double> allowances = fit_allowances(from);
     for (std::size_t k = 0; k < from.size(); ++k)
@@ -148,8 +148,7 @@ std::vector<double> fit_allowances(std::span<const Vector> from)
     return allowances;
 }
 
-std::vector<Motion> object_motions(const Scene& scene, std::size_t from, std::size_t to,
-                                   double rounding)
+std::vector<Motion> object_motions(const Scene& scene, std::size_t from, std::size_t to)
 {
     assert(from < scene.frames.size() && to < scene.frames.size());
     const std::vector<Point>& old_points = scene.frames[from];
@@ -172,9 +171,9 @@ std::vector<Motion> object_motions(const Scene& scene, std::size_t from, std::si
                                                            sizeof(Point)) == 0;
             }
         }
-        motions.push_back(is_unchanged                        ? Motion::unchanged
-                          : is_rigid(before, after, rounding) ? Motion::rigid
-                                                              : Motion::deforming);
+        motions.push_back(is_unchanged              ? Motion::unchanged
+                          : is_rigid(before, after) ? Motion::rigid
+                                                    : Motion::deforming);
     }
     return motions;
 }

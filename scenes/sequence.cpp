@@ -76,11 +76,11 @@ bool same(const std::vector<Face>& a, const std::vector<Face>& b)
 
 /// As the files have them. Read once more: few sequences are in doubles, and those that are not need no room for any.
 std::vector<std::vector<WidePoint>> wide_frames(const NumberedFiles& files,
-                                                const WorkerLimits& limits)
+                                                const SceneLibrary& library)
 {
     std::vector<std::vector<WidePoint>> frames;
     for (const auto& [number, path] : files) {
-        FileMesh file = read_mesh_file(path, limits);
+        FileMesh file = read_mesh_file(path, library);
         if (!file.has_doubles || file.wide.empty())
             for (const Point& point : file.mesh.points)
                 file.wide.push_back({point.x, point.y, point.z});
@@ -89,8 +89,7 @@ std::vector<std::vector<WidePoint>> wide_frames(const NumberedFiles& files,
     return frames;
 }
 
-Scene read_numbered(const std::filesystem::path& folder, const WorkerLimits& limits,
-                    Doubles doubles)
+Scene read_numbered(const std::filesystem::path& folder, const SceneLibrary& library)
 {
     const NumberedFiles files = numbered_files(folder);
     if (files.empty())
@@ -100,7 +99,7 @@ Scene read_numbered(const std::filesystem::path& folder, const WorkerLimits& lim
     FileMesh first;
     bool floats_hold = true;
     for (const auto& [number, path] : files) {
-        FileMesh file = read_mesh_file(path, limits);
+        FileMesh file = read_mesh_file(path, library);
         floats_hold = floats_hold && file.floats_hold;
         if (!scene.frames.empty() && !same(first.mesh.faces, file.mesh.faces))
             throw Unavailable(path.string() + " has other triangles than " +
@@ -111,7 +110,7 @@ Scene read_numbered(const std::filesystem::path& folder, const WorkerLimits& lim
         scene.frame_labels.push_back(std::to_string(number));
     }
     if (!floats_hold)
-        scene.rounding = round_frames(wide_frames(files, limits), doubles, scene.frames);
+        scene.rounding = round_frames(wide_frames(files, library), library.doubles, scene.frames);
     take_mesh(scene, std::move(first));
     if (scene.objects.empty())
         group_by_parts(scene);
@@ -120,13 +119,12 @@ Scene read_numbered(const std::filesystem::path& folder, const WorkerLimits& lim
 
 }  // namespace
 
-Scene read_sequence(const std::filesystem::path& folder, const WorkerLimits& limits,
-                    Doubles doubles)
+Scene read_sequence(const std::filesystem::path& folder, const SceneLibrary& library)
 {
     std::error_code error;
     if (!exists(symlink_status(folder / "mesh.ply", error)))
-        return read_numbered(folder, limits, doubles);
-    FileMesh file = read_mesh_file(folder / "mesh.ply", limits);
+        return read_numbered(folder, library);
+    FileMesh file = read_mesh_file(folder / "mesh.ply", library);
     Scene scene;
     scene.frames = read_frames(folder / "frames.f32", file.mesh.points.size());
     take_mesh(scene, std::move(file));

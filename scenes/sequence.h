@@ -16,11 +16,10 @@ namespace bvhbench {
 /// or mesh files whose names differ in a number, one a frame, in the order of those numbers. Where these
 /// name no objects, connected parts are objects.
 ///
-/// Where floats cannot hold what any of those files says, all frames are rounded alike, as `doubles` says.
+/// Where floats cannot hold what any of those files says, all frames are rounded alike, as `library.doubles` says.
 ///
 /// Throws Unavailable. The caller names the result and makes it `finished`.
-Scene read_sequence(const std::filesystem::path& folder, const WorkerLimits& limits,
-                    Doubles doubles);
+Scene read_sequence(const std::filesystem::path& folder, const SceneLibrary& library);
 
 /// Takes names of objects and labels of frames from `meta.json`, if it is there, and holds the rest of what it
 /// says about them to `scene`, whose mesh and frames were read. Where the mesh names no objects, the table's are

@@ -110,22 +110,6 @@ TEST(Motion, IsToldForEachObject)
         EXPECT_EQ(motions[k], k == 3 ? Motion::deforming : Motion::unchanged);
 }
 
-TEST(Motion, AllowsForCoarserRoundingWhereTold)
-{
-    const Move second = [](Vector a) {
-        const Vector b = turned_and_shifted(a, 0.1, {});
-        const auto coarse = [](double x) { return std::round(x * 1e5) / 1e5; };
-        return Vector{coarse(b.x), coarse(b.y), coarse(b.z)};
-    };
-    Scene scene = load_scene("sphere:2000", {});
-    std::vector<Point> now;
-    for (const Point& point : scene.frames[0])
-        now.push_back(rounded(second(vector_of(point))));
-    scene.frames.push_back(now);
-    EXPECT_EQ(object_motions(scene, 0, 1).at(0), Motion::deforming);
-    EXPECT_EQ(object_motions(scene, 0, 1, 5e-6).at(0), Motion::rigid);
-}
-
 // The bound itself: over many roundings of points in all shapes, the fit is never off by more.
 TEST(RigidFit, LeavesNoMoreThanItsAllowance)
 {
