@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "geometry/cgroup_memory.h"
-
 #include <algorithm>
 #include <fstream>
 #include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "geometry/host_memory.h"
 
 namespace bvhbench {
 namespace {

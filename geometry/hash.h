@@ -11,7 +11,14 @@ namespace bvhbench {
 /// FNV-1a, 64 bits: hashes that mean "the same content", in result files and tests. Not for security.
 class Hash {
 public:
-    void bytes(const void* data, std::size_t size);
+    void bytes(const void* data, std::size_t size)
+    {
+        const auto* byte = static_cast<const unsigned char*>(data);
+        std::uint64_t state = state_;
+        for (std::size_t i = 0; i < size; ++i)
+            state = (state ^ byte[i]) * 1099511628211u;
+        state_ = state;
+    }
 
     template <class T>
     void values(std::span<const T> values)
@@ -31,6 +38,12 @@ private:
 };
 
 /// 16 hexadecimal digits: JSON numbers are doubles, so 64 bits travel as text.
-std::string hex(std::uint64_t value);
+inline std::string hex(std::uint64_t value)
+{
+    std::string text(16, '0');
+    for (std::size_t i = 16; i-- > 0; value >>= 4)
+        text[i] = "0123456789abcdef"[value & 15];
+    return text;
+}
 
 }  // namespace bvhbench

@@ -10,7 +10,6 @@
 #include <limits>
 #include <string>
 
-#include "geometry/cgroup_memory.h"
 #include "geometry/error.h"
 
 namespace bvhbench {

@@ -6,6 +6,8 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <optional>
 #include <string_view>
 
 namespace bvhbench {
@@ -31,5 +33,10 @@ struct HostMemoryFacts {
     std::uint64_t peak = 0;  ///< the most that was in memory: VmHWM
 };
 HostMemoryFacts host_memory_facts();
+
+/// Bytes that this process may still take before a memory limit of its control group, or of one around it, is reached;
+/// nothing where none has a limit. Files that the kernel keeps in memory count as free: it drops them first. Reads
+/// cgroup v2 (memory.max) and v1 (memory.limit_in_bytes) below `root`, which is another folder in tests.
+std::optional<std::uint64_t> cgroup_memory_left(const std::filesystem::path& root = "/");
 
 }  // namespace bvhbench

@@ -7,7 +7,7 @@
 #include "harness/commands/program.h"
 #include "harness/stress/libraries.h"
 #include "scenes/mesh_worker.h"
-#include "scenes/worker/worker.h"
+#include "scenes/worker/process.h"
 
 namespace {
 

@@ -7,12 +7,9 @@
 
 #include "geometry/error.h"
 #include "geometry/host_memory.h"
-#include "scenes/finish.h"
 #include "scenes/formats/text.h"
-#include "scenes/generate/bend.h"
-#include "scenes/generate/catalog.h"
-#include "scenes/generate/outlier.h"
-#include "scenes/generate/refine.h"
+#include "scenes/generate/derived.h"
+#include "scenes/generate/generators.h"
 #include "scenes/manifest.h"
 #include "scenes/sequence.h"
 
@@ -21,101 +18,114 @@ namespace {
 
 Scene load_any(std::string_view text, const SceneLibrary& library);
 
-WorkerLimits limits_of(const SceneLibrary& library)
-{
-    WorkerLimits limits;
-    if (library.memory_limit_bytes != 0)
-        limits.memory_bytes = library.memory_limit_bytes;
-    // What it reads is in its memory and in this process's.
-    limits.memory_bytes = std::min<std::uint64_t>(limits.memory_bytes, host_memory_left() / 2);
-    if (library.time_limit_s > 0)
-        limits.time_s = library.time_limit_s;
-    return limits;
-}
-
 /// Throws Unavailable, naming `scene` as the user typed it, if the host has fewer than `bytes` bytes left.
 void require_memory(std::string_view scene, std::uint64_t bytes)
 {
     require_host_memory("scene " + in_quotes(scene), bytes);
 }
 
-/// The N of "torus:N".
-uint triangle_count(std::string_view scene, std::string_view number, uint most)
+/// The whole number that `number`, a part of the name `scene`, is; `what` it counts is at least 1.
+uint count_in(std::string_view scene, std::string_view number, const char* what, uint most)
 {
     const bool digits = !number.empty() && number.find_first_not_of("0123456789") == number.npos;
     const auto value = digits ? parse_integer(number) : std::nullopt;
     if (!value || *value < 1 || *value > std::int64_t{most})
-        throw BadUsage("scene " + in_quotes(scene) + " ends in " + in_quotes(number) +
-                       " where a triangle count from 1 to " + std::to_string(most) + " goes");
+        throw BadUsage("scene " + in_quotes(scene) + " ends in " + in_quotes(number) + " where a " +
+                       what + " from 1 to " + std::to_string(most) + " goes");
     return static_cast<uint>(*value);
 }
 
-Scene generated(std::string_view text, const Generator& generator, std::string_view number)
+uint triangle_count(std::string_view scene, std::string_view number, uint most)
 {
-    const uint count = triangle_count(text, number, generator.most);
-    require_memory(text, std::uint64_t{count} * generator.bytes_a_triangle);
-    Mesh mesh = generator.make(count);
-    Scene scene;
-    scene.faces = std::move(mesh.faces);
-    scene.frames.push_back(std::move(mesh.points));
-    scene.source = "generated";
-    return scene;
+    return count_in(scene, number, "triangle count", most);
 }
 
-/// "N" or "N:F", what follows "cloth-ball:".
-Scene moving(std::string_view text, const MovingGenerator& generator, std::string_view rest)
+/// A scene's name up to its first colon and from there on.
+struct Parts {
+    std::string_view head, rest;
+
+    explicit Parts(std::string_view text)
+        : head(text.substr(0, text.find(':')))
+        , rest(text.substr(std::min(head.size() + 1, text.size())))
+    {}
+};
+
+/// `rest` is "N", or "N:F" of what moves.
+Scene generated(std::string_view text, const Generator& generator, std::string_view rest)
 {
-    const std::size_t colon = rest.find(':');
+    const std::size_t colon = generator.moves ? rest.find(':') : rest.npos;
     const uint count = triangle_count(text, rest.substr(0, colon), generator.most);
     if (count < generator.least)
         throw BadUsage("scene " + in_quotes(text) + " has too few triangles: there must be " +
                        std::to_string(generator.least) + " at least, one for each object");
-    std::int64_t frames = generator.usual_frames;
-    if (colon != rest.npos) {
-        const std::string_view number = rest.substr(colon + 1);
-        const bool digits = !number.empty() && number.find_first_not_of("0123456789") == rest.npos;
-        frames = digits ? parse_integer(number).value_or(0) : 0;
-        if (frames < 1 || frames > generator.most_frames)
-            throw BadUsage("scene " + in_quotes(text) + " ends in " + in_quotes(number) +
-                           " where a number of frames from 1 to " +
-                           std::to_string(generator.most_frames) + " goes");
-    }
+    const uint frames = colon == rest.npos ? generator.usual_frames
+                                           : count_in(text, rest.substr(colon + 1),
+                                                      "number of frames", generator.most_frames);
     const std::uint64_t bytes_each =
-        generator.bytes_a_triangle + generator.bytes_a_frame * static_cast<std::uint64_t>(frames);
+        generator.bytes_a_triangle + std::uint64_t{generator.bytes_a_frame} * frames;
     require_memory(text, count * bytes_each);
-    Scene scene = generator.make(count, static_cast<uint>(frames));
-    scene.has_meshes = true;
+    Scene scene = generator.make(count, frames);
+    scene.has_meshes = generator.moves;
     return scene;
 }
 
-/// "SCENE:N", what follows "refine:".
-Scene refinement(std::string_view text, std::string_view rest, const SceneLibrary& library)
+/// A way to make a scene of another one, as "refine:SCENE:N".
+struct Derivation {
+    std::string_view name, form, summary;
+    std::size_t words;  ///< behind SCENE
+};
+
+constexpr Derivation derivations[] = {
+    {"refine", "refine:SCENE:N", "any scene with its longest edges cut until it has N triangles",
+     1},
+    {"outlier", "outlier:SCENE:K:D",
+     "any scene with triangle K moved away by D diagonals of its box", 2},
+    {"bend", "bend:SCENE", "any scene of one frame with a second one, in which it is bent", 0},
+};
+constexpr uint most_refined = 0xffffffffu / 3;  // three half-edges a triangle
+
+/// A name like "refine:SCENE:N" taken apart.
+struct Derived {
+    const Derivation* how = nullptr;
+    std::string_view base;      ///< SCENE
+    std::string_view words[2];  ///< behind it; empty where they are missing
+};
+
+std::optional<Derived> taken_apart(std::string_view text)
 {
-    const std::size_t colon = rest.rfind(':');
-    if (colon == rest.npos || colon == 0)
-        throw BadUsage("scene " + in_quotes(text) + " is not of the form refine:SCENE:N");
-    constexpr uint most = 0xffffffffu / 3;  // three half-edges a triangle
-    const uint count = triangle_count(text, rest.substr(colon + 1), most);
-    require_memory(text, std::uint64_t{count} * 90);
-    return refined(load_any(rest.substr(0, colon), library), count);
+    const Parts parts(text);
+    const auto how = std::ranges::find(derivations, parts.head, &Derivation::name);
+    if (how == std::end(derivations))
+        return std::nullopt;
+    Derived derived{how, parts.rest, {}};
+    for (std::size_t k = how->words; k-- > 0;) {
+        const std::size_t colon = std::min(derived.base.rfind(':'), derived.base.size());
+        derived.words[k] = derived.base.substr(std::min(colon + 1, derived.base.size()));
+        derived.base = derived.base.substr(0, colon);
+    }
+    return derived;
 }
 
-/// "SCENE:K:D", what follows "outlier:".
-Scene outlier(std::string_view text, std::string_view rest, const SceneLibrary& library)
+Scene made_of_another(std::string_view text, const Derived& derived, const SceneLibrary& library)
 {
-    const std::size_t last = std::min(rest.rfind(':'), rest.size());
-    const std::size_t colon = std::min(rest.substr(0, last).rfind(':'), last);
-    const std::string_view number =
-        rest.substr(std::min(colon + 1, last), last - std::min(colon + 1, last));
-    const std::int64_t triangle = parse_integer(number).value_or(-1);
-    const float diameters =
-        parse_float(rest.substr(std::min(last + 1, rest.size()))).value_or(INFINITY);
-    if (colon == 0 || triangle < 0 || triangle > 0xffffffffll || !(std::fabs(diameters) <= 1e6f))
+    const auto& [how, base, words] = derived;
+    if (how->name == "refine") {
+        if (base.empty() || base.end() == text.end())
+            throw BadUsage("scene " + in_quotes(text) + " is not of the form refine:SCENE:N");
+        const uint count = triangle_count(text, words[0], most_refined);
+        require_memory(text, std::uint64_t{count} * 90);
+        return refined(load_any(base, library), count);
+    }
+    if (how->name == "bend")
+        return with_bend(load_any(base, library));
+    const std::int64_t triangle = parse_integer(words[0]).value_or(-1);
+    const auto diameters = parse_number(words[1]);
+    if (base.empty() || triangle < 0 || triangle > 0xffffffffll || !diameters ||
+        !(std::fabs(diameters->rounded) <= 1e6f))
         throw BadUsage("scene " + in_quotes(text) +
                        " is not of the form outlier:SCENE:K:D, K a triangle and D a distance in "
                        "diagonals of the scene's box");
-    return with_outlier(load_any(rest.substr(0, colon), library), static_cast<uint>(triangle),
-                        diameters);
+    return with_outlier(load_any(base, library), static_cast<uint>(triangle), diameters->rounded);
 }
 
 /// Within the data folder, the path from there: where the folder lies says nothing to who reads it elsewhere.
@@ -131,10 +141,10 @@ Scene from_path(const std::filesystem::path& path, const SceneLibrary& library)
     Scene scene;
     std::error_code error;
     if (std::filesystem::is_directory(path, error)) {
-        scene = read_sequence(path, limits_of(library), library.doubles);
+        scene = read_sequence(path, library);
         scene.folder = path;
     } else {
-        FileMesh file = read_mesh_file(path, limits_of(library));
+        FileMesh file = read_mesh_file(path, library);
         scene.frames.push_back(std::move(file.mesh.points));
         if (!file.floats_hold)
             scene.rounding = round_frames({&file.wide, 1}, library.doubles, scene.frames);
@@ -148,18 +158,18 @@ void expect(const ManifestEntry& entry, const Scene& scene, const char* what, st
             std::size_t found)
 {
     if (expected != 0 && found != expected)
-        throw OtherCounts("data set '" + entry.set.name + "' has " + std::to_string(expected) +
-                          " " + what + ", and " + scene.source + " has " + std::to_string(found));
+        throw OtherCounts("data set '" + entry.name + "' has " + std::to_string(expected) + " " +
+                          what + ", and " + scene.source + " has " + std::to_string(found));
 }
 
 Scene from_data_set(const ManifestEntry& entry, const SceneLibrary& library)
 {
     const std::filesystem::path path = located(entry, library.data);
     if (path.empty())
-        throw Unavailable("data set '" + entry.set.name + "' is not in the data folder " +
+        throw Unavailable("data set '" + entry.name + "' is not in the data folder " +
                           in_quotes(library.data.string()) + ": " + entry.source);
     Scene scene = from_path(path, library);
-    expect(entry, scene, "triangles", entry.set.triangles, scene.faces.size());
+    expect(entry, scene, "triangles", entry.triangles, scene.faces.size());
     expect(entry, scene, "vertices", entry.vertices, scene.frames.front().size());
     expect(entry, scene, "frames", entry.frames, scene.frames.size());
     if (!scene.objects.empty())
@@ -170,20 +180,10 @@ Scene from_data_set(const ManifestEntry& entry, const SceneLibrary& library)
 [[noreturn]] void unknown(std::string_view text)
 {
     std::string known;
-    for (const Generator& generator : generators())
-        known += std::string(generator.name) + ":N, ";
-    for (const MovingGenerator& generator : moving_generators())
-        known += std::string(generator.name) + ":N:F, ";
-    known += "refine:SCENE:N, outlier:SCENE:K:D, bend:SCENE, ";
-    for (const ManifestEntry& entry : manifest())
-        known += entry.set.name + ", ";
+    for (const SceneListing& line : list_scenes({}))
+        known += line.name + ", ";
     throw BadUsage("no scene is called " + in_quotes(text) + "; there are: " + known +
                    "or a path to a mesh file");
-}
-
-std::string_view before_last_colon(std::string_view words)
-{
-    return words.substr(0, std::min(words.rfind(':'), words.size()));
 }
 
 bool looks_like_path(std::string_view text)
@@ -193,39 +193,18 @@ bool looks_like_path(std::string_view text)
            is_mesh_file(text);
 }
 
-template <class G>
-const G* called(std::string_view name, std::span<const G> among)
-{
-    for (const G& generator : among)
-        if (generator.name == name)
-            return &generator;
-    return nullptr;
-}
-
-/// Of other triangles or frames than the folder that it comes from, if it does.
-Scene made_of_another(Scene scene)
-{
-    scene.folder.clear();
-    return scene;
-}
-
 Scene unfinished(std::string_view text, const SceneLibrary& library)
 {
-    const std::size_t colon = std::min(text.find(':'), text.size());
-    const std::string_view head = text.substr(0, colon);
-    const std::string_view rest = text.substr(std::min(colon + 1, text.size()));
-    if (head == "refine")
-        return made_of_another(refinement(text, rest, library));
-    if (head == "outlier")
-        return made_of_another(outlier(text, rest, library));
-    if (head == "bend")
-        return made_of_another(with_bend(load_any(rest, library)));
+    if (const auto derived = taken_apart(text)) {
+        Scene scene = made_of_another(text, *derived, library);
+        scene.folder.clear();  // which has other triangles or frames
+        return scene;
+    }
     if (const ManifestEntry* const entry = manifest_entry(text))
         return from_data_set(*entry, library);
-    if (const Generator* const generator = called(head, generators()))
-        return generated(text, *generator, rest);
-    if (const MovingGenerator* const generator = called(head, moving_generators()))
-        return moving(text, *generator, rest);
+    const Parts parts(text);
+    if (const Generator* const generator = generator_called(parts.head))
+        return generated(text, *generator, parts.rest);
     if (looks_like_path(text))
         return from_path(text, library);
     unknown(text);
@@ -240,54 +219,55 @@ Scene load_any(std::string_view text, const SceneLibrary& library)
 
 }  // namespace
 
+std::vector<SceneListing> list_scenes(const SceneLibrary& library)
+{
+    std::vector<SceneListing> lines;
+    for (const Generator& generator : generators())
+        lines.push_back(
+            {std::string(generator.name) + (generator.moves ? ":N:F" : ":N"),
+             std::string(generator.summary) +
+                 (generator.moves
+                      ? "; F frames, " + std::to_string(generator.usual_frames) + " if left out"
+                      : "")});
+    for (const Derivation& derivation : derivations)
+        lines.push_back({std::string(derivation.form), std::string(derivation.summary)});
+    for (const ManifestEntry& entry : manifest())
+        lines.push_back({entry.name, summary(entry, library.data)});
+    return lines;
+}
+
 std::vector<std::string> scene_files(std::string_view text, const SceneLibrary& library)
 {
-    const std::size_t colon = std::min(text.find(':'), text.size());
-    const std::string_view head = text.substr(0, colon);
-    const std::string_view rest = text.substr(std::min(colon + 1, text.size()));
-    if (head == "refine")
-        return scene_files(before_last_colon(rest), library);
-    if (head == "outlier")
-        return scene_files(before_last_colon(before_last_colon(rest)), library);
-    if (head == "bend")
-        return scene_files(rest, library);
+    if (const auto derived = taken_apart(text))
+        return scene_files(derived->base, library);
     if (const ManifestEntry* const entry = manifest_entry(text))
         return {located(*entry, library.data).string()};
-    if (is_sized_generator(head))
+    if (generator_called(Parts(text).head) != nullptr)
         return {};
     return {std::string(text)};
 }
 
 std::size_t triangles_said(std::string_view text)
 {
-    const std::size_t colon = std::min(text.find(':'), text.size());
-    const std::string_view head = text.substr(0, colon);
-    const std::string_view rest = text.substr(std::min(colon + 1, text.size()));
-    if (head == "refine") {
-        const std::string_view inner = before_last_colon(rest);
-        triangles_said(inner);
-        return triangle_count(text, rest.substr(std::min(inner.size() + 1, rest.size())),
-                              0xffffffffu / 3);
+    if (const auto derived = taken_apart(text)) {
+        const std::size_t count = triangles_said(derived->base);
+        return derived->how->name == "refine"
+                   ? triangle_count(text, derived->words[0], most_refined)
+                   : count;
     }
-    if (head == "outlier")
-        return triangles_said(before_last_colon(before_last_colon(rest)));
-    if (head == "bend")
-        return triangles_said(rest);
     if (const ManifestEntry* const entry = manifest_entry(text))
-        return entry->set.triangles;
-    if (const Generator* const generator = called(head, generators()))
-        return triangle_count(text, rest, generator->most);
-    if (const MovingGenerator* const generator = called(head, moving_generators()))
-        return triangle_count(text, rest.substr(0, rest.find(':')), generator->most);
+        return entry->triangles;
+    const Parts parts(text);
+    if (const Generator* const generator = generator_called(parts.head)) {
+        const std::size_t colon = generator->moves ? parts.rest.find(':') : parts.rest.npos;
+        return triangle_count(text, parts.rest.substr(0, colon), generator->most);
+    }
     if (!looks_like_path(text))
         unknown(text);
     return 0;
 }
 
-bool is_sized_generator(std::string_view text)
-{
-    return called(text, generators()) != nullptr || called(text, moving_generators()) != nullptr;
-}
+bool is_sized_generator(std::string_view text) { return generator_called(text) != nullptr; }
 
 Scene load_scene(std::string_view text, const SceneLibrary& library)
 {

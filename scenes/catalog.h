@@ -13,9 +13,10 @@ namespace bvhbench {
 
 /// Where scenes come from and what reading one may cost.
 struct SceneLibrary {
-    std::filesystem::path data;            ///< --data, else BVHBENCH_DATA, else empty
-    std::size_t memory_limit_bytes = 0;    ///< for the process that reads a file; 0: a default
-    double time_limit_s = 0;               ///< for that process; 0: a default
+    std::filesystem::path data;  ///< --data, else BVHBENCH_DATA, else empty
+    /// Of a process that reads a file, which gets no more than half of the host's memory either.
+    std::size_t memory_limit_bytes = std::size_t{8} << 30;
+    double time_limit_s = 120;             ///< for that process
     Doubles doubles = Doubles::recentred;  ///< what becomes of coordinates that floats cannot hold
     /// Told, in one line, what became of them; may be empty.
     std::function<void(const std::string& line)> tell = {};
@@ -47,18 +48,9 @@ struct SceneListing {
 };
 std::vector<SceneListing> list_scenes(const SceneLibrary& library);
 
-/// What a data set's file must hold, from the manifest; nullptr if no data set is called so.
-struct DataSet {
-    std::string name;
-    std::size_t triangles = 0;
-    std::string
-        stand_in;  ///< the scene to build over when no file is there; of a mesh as many triangles
-};
-const DataSet* find_data_set(std::string_view name);
-
-/// The data set's own file if it is there, else the first of its stand-ins that is possible, with `stand_in_for`
-/// set. What stands in for a mesh has as many triangles; for a sequence, it is other frames or a simulation of
-/// about its size, and how many triangles, objects and frames it has must be read from the scene.
-Scene load_or_stand_in(const DataSet& set, const SceneLibrary& library);
+/// The same, but where `text` is a data set whose own file is not there or is another edition: the first of its stand-ins
+/// that is possible, with `stand_in_for` set. What stands in for a mesh has as many triangles; for a sequence, it is other
+/// frames or a simulation of about its size, and how many triangles, objects and frames it has must be read from the scene.
+Scene load_or_stand_in(std::string_view text, const SceneLibrary& library);
 
 }  // namespace bvhbench

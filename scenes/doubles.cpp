@@ -84,21 +84,20 @@ std::string rounding_text(const Rounding& rounding)
 {
     if (!rounding.how)
         return "floats hold all coordinates";
-    std::array<char, 300> text{};
-    const WidePoint offset = rounding.offset;
-    if (*rounding.how == Doubles::recentred)
-        std::snprintf(text.data(), text.size(),
-                      "doubles, recentred by (%.17g, %.17g, %.17g)%s and rounded to floats",
-                      offset.x, offset.y, offset.z,
-                      rounding.scale_log2 == 0
-                          ? ""
-                          : (", scaled by 2^" + std::to_string(rounding.scale_log2)).c_str());
-    else
-        std::snprintf(text.data(), text.size(), "doubles, rounded to floats as they are");
-    std::array<char, 100> loss{};
-    std::snprintf(loss.data(), loss.size(), ": %llu coordinates are off, by %.3g at most",
-                  static_cast<unsigned long long>(rounding.rounded_count), rounding.largest_error);
-    return std::string(text.data()) + loss.data();
+    std::string text = "doubles, rounded to floats as they are";
+    std::array<char, 200> part{};
+    if (*rounding.how == Doubles::recentred) {
+        const WidePoint offset = rounding.offset;
+        std::snprintf(part.data(), part.size(), "doubles, recentred by (%.17g, %.17g, %.17g)",
+                      offset.x, offset.y, offset.z);
+        text = part.data();
+        if (rounding.scale_log2 != 0)
+            text += ", scaled by 2^" + std::to_string(rounding.scale_log2);
+        text += " and rounded to floats";
+    }
+    std::snprintf(part.data(), part.size(), "%.3g", rounding.largest_error);
+    return text + ": " + std::to_string(rounding.rounded_count) + " coordinates are off, by " +
+           part.data() + " at most";
 }
 
 Rounding round_frames(std::span<const std::vector<WidePoint>> wide, Doubles how,

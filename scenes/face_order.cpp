@@ -2,10 +2,10 @@
 #include "scenes/face_order.h"
 
 #include <algorithm>
+#include <numeric>
+#include <utility>
 
-#include "scenes/finish.h"
-#include "scenes/parts.h"
-
+#include "geometry/error.h"
 namespace bvhbench {
 namespace {
 
@@ -18,6 +18,39 @@ std::vector<T> taken(const std::vector<T>& values, const std::vector<uint>& from
         result.push_back(values[k]);
     return result;
 }
+
+/// Disjoint sets of vertices, each known by its smallest.
+class Sets {
+public:
+    explicit Sets(std::size_t count) : parent_(count)
+    {
+        std::iota(parent_.begin(), parent_.end(), 0u);
+    }
+
+    uint find(uint vertex)
+    {
+        while (parent_[vertex] != vertex)
+            vertex = parent_[vertex] = parent_[parent_[vertex]];
+        return vertex;
+    }
+
+    void join(uint a, uint b)
+    {
+        a = find(a);
+        b = find(b);
+        (a < b ? parent_[b] : parent_[a]) = a < b ? a : b;
+    }
+
+private:
+    std::vector<uint> parent_;
+};
+
+constexpr std::pair<const char*, ObjectsBy> names[] = {
+    {"auto", ObjectsBy::automatic},
+    {"one", ObjectsBy::one},
+    {"mesh", ObjectsBy::mesh},
+    {"components", ObjectsBy::components},
+};
 
 }  // namespace
 
@@ -45,12 +78,27 @@ void group_faces(Scene& scene, std::span<const uint> object_of_face)
 
 void group_by_parts(Scene& scene)
 {
-    const Parts parts = parts_of(scene.faces, scene.frames.front().size());
+    const std::size_t vertices = scene.frames.front().size();
+    Sets sets(vertices);
+    for (const Face& face : scene.faces) {
+        sets.join(face.a, face.b);
+        sets.join(face.a, face.c);
+    }
+    constexpr uint none = 0xffffffffu;
+    std::vector<uint> number(vertices, none);  // of the part whose smallest vertex it is
+    std::vector<uint> part_of_face;
+    part_of_face.reserve(scene.faces.size());
     scene.objects.clear();
-    for (uint part = 0; part < parts.count; ++part)
-        scene.objects.push_back({"part " + std::to_string(part), 0, 0});
     scene.object_ids.clear();
-    group_faces(scene, parts.of_face);
+    for (const Face& face : scene.faces) {
+        uint& part = number[sets.find(face.a)];
+        if (part == none) {
+            part = static_cast<uint>(scene.objects.size());
+            scene.objects.push_back({"part " + std::to_string(part), 0, 0});
+        }
+        part_of_face.push_back(part);
+    }
+    group_faces(scene, part_of_face);
 }
 
 std::vector<Face> faces_in_file(const Scene& scene)
@@ -82,6 +130,47 @@ Scene in_file_order(Scene scene)
     scene.file_faces.clear();
     scene.objects.clear();  // finishing makes it one
     scene.object_ids.clear();
+    scene.has_meshes = false;
+    return finished(std::move(scene));
+}
+
+ObjectsBy objects_by_called(std::string_view name)
+{
+    for (const auto& [known, by] : names)
+        if (name == known)
+            return by;
+    throw BadUsage("objects are chosen by auto, one, mesh or components, not by '" +
+                   std::string(name) + "'");
+}
+
+std::string_view objects_by_name(ObjectsBy by)
+{
+    for (const auto& [name, known] : names)
+        if (by == known)
+            return name;
+    return "";
+}
+
+Scene with_objects(Scene scene, ObjectsBy by)
+{
+    switch (by) {
+        case ObjectsBy::automatic:
+            return scene;
+        case ObjectsBy::mesh:
+            if (!scene.has_meshes)
+                throw BadUsage(
+                    "scene '" + scene.name +
+                    "' has no meshes to take for objects: what it was made from names none");
+            return scene;
+        case ObjectsBy::one:
+            scene.objects.clear();  // finishing makes it one
+            scene.object_ids.clear();
+            scene = in_file_order(std::move(scene));
+            break;
+        case ObjectsBy::components:
+            group_by_parts(scene);
+            break;
+    }
     scene.has_meshes = false;
     return finished(std::move(scene));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scenes/finish.h"
+#include "scenes/scene.h"
 
 #include <cmath>
 

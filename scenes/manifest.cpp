@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "scenes/manifest.h"
 
+#include <algorithm>
 #include <stdexcept>
 
+#include "scenes/catalog.h"
 #include "scenes/embedded.h"
 #include "scenes/formats/text.h"
 
@@ -46,8 +48,9 @@ ManifestEntry parse_entry(std::string_view line)
     if (field.size() != 13 || (field[1] != "mesh" && field[1] != "frames"))
         throw std::logic_error("scenes/manifest.tsv has a line like " + in_quotes(line));
     ManifestEntry entry;
+    entry.name = field[0];
+    entry.triangles = count(field[2]);
     entry.stand_ins = list(field[9]);
-    entry.set = {field[0], count(field[2]), entry.stand_ins.empty() ? "" : entry.stand_ins.back()};
     entry.is_frames = field[1] == "frames";
     entry.vertices = count(field[3]);
     entry.objects = count(field[4]);
@@ -87,7 +90,7 @@ std::span<const ManifestEntry> manifest()
 const ManifestEntry* manifest_entry(std::string_view name)
 {
     for (const ManifestEntry& entry : manifest())
-        if (entry.set.name == name)
+        if (entry.name == name)
             return &entry;
     return nullptr;
 }
@@ -103,6 +106,44 @@ std::filesystem::path located(const ManifestEntry& entry, const std::filesystem:
                                 : std::filesystem::is_regular_file(path, error))
                 return path;
     return {};
+}
+
+std::string summary(const ManifestEntry& entry, const std::filesystem::path& data)
+{
+    const std::filesystem::path path = located(entry, data);
+    std::string text = entry.note;
+    if (entry.triangles != 0)
+        text += "; " + std::to_string(entry.triangles) + " triangles";
+    if (entry.frames > 1)
+        text += ", " + std::to_string(entry.frames) + " frames";
+    return text + (path.empty() ? "; not found: " + entry.source : "; found: " + path.string());
+}
+
+Scene load_or_stand_in(std::string_view text, const SceneLibrary& library)
+{
+    const ManifestEntry* const entry = manifest_entry(text);
+    if (entry == nullptr)
+        return load_scene(text, library);
+    // What is generated always is; else the files that it is made of are there.
+    const auto is_possible = [&](const std::string& scene) {
+        return !std::ranges::count(scene_files(scene, library), "");
+    };
+    // A file of another size is another edition of the model: not this data set, and no error.
+    if (!located(*entry, library.data).empty()) {
+        try {
+            return load_scene(text, library);
+        } catch (const OtherCounts&) {
+            if (entry->stand_ins.empty())
+                throw;
+        }
+    }
+    for (const std::string& stand_in : entry->stand_ins)
+        if (is_possible(stand_in)) {
+            Scene scene = load_scene(stand_in, library);
+            scene.stand_in_for = text;
+            return scene;
+        }
+    return load_scene(text, library);  // says what is missing
 }
 
 }  // namespace bvhbench

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "geometry/error.h"
-#include "scenes/catalog.h"
 
 namespace bvhbench {
 
@@ -19,14 +18,15 @@ class OtherCounts : public Unavailable {
 
 /// A line of scenes/manifest.tsv. A count of 0 is not known and not checked.
 struct ManifestEntry {
-    DataSet set;
+    std::string name;
+    std::size_t triangles = 0;
     bool is_frames = false;  ///< a folder of frames, not one mesh file
     std::size_t vertices = 0;
     std::size_t objects = 0;
     std::size_t frames = 0;
-    std::vector<std::string> files;  ///< where it may lie under the data folder
-    std::vector<std::string> stand_ins;
-    std::string source;  ///< where to get it
+    std::vector<std::string> files;      ///< where it may lie under the data folder
+    std::vector<std::string> stand_ins;  ///< scenes to build over when no file is there
+    std::string source;                  ///< where to get it
     std::string note;
 };
 
@@ -39,5 +39,8 @@ const ManifestEntry* manifest_entry(std::string_view name);
 
 /// Where the data set lies under `data`; empty if it is not there.
 std::filesystem::path located(const ManifestEntry& entry, const std::filesystem::path& data);
+
+/// A line for people: its note, its counts and where it was found, or where to get it.
+std::string summary(const ManifestEntry& entry, const std::filesystem::path& data);
 
 }  // namespace bvhbench

@@ -7,23 +7,11 @@
 #include "geometry/error.h"
 #include "geometry/host_memory.h"
 #include "scenes/face_order.h"
-#include "scenes/formats/text.h"
-#include "scenes/worker/assimp_reader.h"
 
 namespace bvhbench {
 namespace {
 
-struct PlainFormat {
-    const char* extension;
-    FileMesh (*read)(std::string_view bytes, const std::string& name);
-};
-
-constexpr PlainFormat plain_formats[] = {
-    {".obj", read_obj},
-    {".off", read_off},
-    {".ply", read_ply},
-    {".stl", read_stl},
-};
+using Reader = FileMesh (*)(std::string_view bytes, const std::string& name);
 
 /// The share of a mesh that a byte of its file stands for: a vertex in doubles, as a float and, while arrays grow, once more
 /// takes about three bytes for one of text, beside that. What a file of short numbers takes besides meets RLIMIT_DATA.
@@ -37,12 +25,14 @@ std::string lower_extension(const std::filesystem::path& path)
     return extension;
 }
 
-const PlainFormat* plain_format(const std::string& extension)
+/// Of the files that end so; nullptr of those that assimp has to read.
+Reader plain_reader(const std::string& extension)
 {
-    for (const PlainFormat& format : plain_formats)
-        if (extension == format.extension)
-            return &format;
-    return nullptr;
+    return extension == ".obj"   ? read_obj
+           : extension == ".off" ? read_off
+           : extension == ".ply" ? read_ply
+           : extension == ".stl" ? read_stl
+                                 : nullptr;
 }
 
 void check_is_file(const std::filesystem::path& path)
@@ -78,20 +68,20 @@ std::string file_bytes(const std::filesystem::path& path, std::uint64_t times)
 bool is_mesh_file(const std::filesystem::path& path)
 {
     const std::string extension = lower_extension(path);
-    return plain_format(extension) != nullptr || assimp_knows(extension);
+    return plain_reader(extension) != nullptr || assimp_knows(extension);
 }
 
-FileMesh read_mesh_file(const std::filesystem::path& path, const WorkerLimits& limits)
+FileMesh read_mesh_file(const std::filesystem::path& path, const SceneLibrary& library)
 {
     check_is_file(path);
     const std::string extension = lower_extension(path);
     FileMesh file;
-    if (const PlainFormat* const plain = plain_format(extension)) {
-        file = plain->read(file_bytes(path, bytes_a_file_byte), path.string());
+    if (const Reader read = plain_reader(extension)) {
+        file = read(file_bytes(path, bytes_a_file_byte), path.string());
     } else if (assimp_knows(extension)) {
         require_host_memory("reading " + in_quotes(path.string()),
                             bytes_a_file_byte * std::filesystem::file_size(path));
-        file = read_in_worker(path, limits);
+        file = read_in_worker(path, library);
     } else {
         throw Unavailable(path.string() + " is of a format that is not read, '" + extension + "'");
     }

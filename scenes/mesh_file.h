@@ -14,7 +14,7 @@ bool is_mesh_file(const std::filesystem::path& path);
 
 /// What a mesh file holds, by its extension: .obj, .ply, .off and .stl by the readers of formats/, what
 /// else assimp knows by assimp in a worker. Throws Unavailable.
-FileMesh read_mesh_file(const std::filesystem::path& path, const WorkerLimits& limits);
+FileMesh read_mesh_file(const std::filesystem::path& path, const SceneLibrary& library);
 
 /// Makes the file's triangles and objects the scene's, grouped (scenes/face_order.h). Not its points.
 void take_mesh(Scene& scene, FileMesh&& file);

@@ -18,7 +18,7 @@ struct SceneObject {
     uint face_count = 0;
 };
 
-/// How a scene differs from another one: by a triangle that was moved away (scenes/generate/outlier.h).
+/// How a scene differs from another one: by a triangle that was moved away (scenes/generate/derived.h).
 struct Outlier {
     std::string of;  ///< that scene; empty: none was moved
     uint triangle = 0;
@@ -55,5 +55,12 @@ struct Scene {
 
     uint triangle_count() const { return static_cast<uint>(faces.size()); }
 };
+
+/// Makes a Scene valid or refuses it: negative zeros become positive, `content_hash` is set, and a scene
+/// without objects gets one over all faces. `name` and `source` must be set.
+///
+/// Throws Unavailable, in one sentence, when the scene has no triangles or frames, an index is out of
+/// range, a position is not finite, or the objects do not cover the faces in order.
+Scene finished(Scene scene);
 
 }  // namespace bvhbench

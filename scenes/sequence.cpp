@@ -8,7 +8,6 @@
 #include "geometry/error.h"
 #include "scenes/face_order.h"
 #include "scenes/formats/text.h"
-#include "scenes/sequence_facts.h"
 
 namespace bvhbench {
 namespace {
@@ -46,14 +45,12 @@ std::optional<std::int64_t> frame_number(const std::filesystem::path& path)
     return number;
 }
 
-struct NumberedFile {
-    std::int64_t number;
-    std::filesystem::path path;
-};
+/// The mesh files of a folder by their numbers.
+using NumberedFiles = std::map<std::int64_t, std::filesystem::path>;
 
-std::vector<NumberedFile> numbered_files(const std::filesystem::path& folder)
+NumberedFiles numbered_files(const std::filesystem::path& folder)
 {
-    std::map<std::int64_t, std::filesystem::path> files;
+    NumberedFiles files;
     std::error_code error;
     const std::filesystem::directory_iterator entries(folder, error);
     if (error)
@@ -69,10 +66,7 @@ std::vector<NumberedFile> numbered_files(const std::filesystem::path& folder)
             throw Unavailable(folder.string() + " has two files for frame " +
                               std::to_string(*number));
     }
-    std::vector<NumberedFile> result;
-    for (const auto& [number, path] : files)
-        result.push_back({number, path});
-    return result;
+    return files;
 }
 
 bool same(const std::vector<Face>& a, const std::vector<Face>& b)
@@ -81,12 +75,12 @@ bool same(const std::vector<Face>& a, const std::vector<Face>& b)
 }
 
 /// As the files have them. Read once more: few sequences are in doubles, and those that are not need no room for any.
-std::vector<std::vector<WidePoint>> wide_frames(const std::vector<NumberedFile>& files,
-                                                const WorkerLimits& limits)
+std::vector<std::vector<WidePoint>> wide_frames(const NumberedFiles& files,
+                                                const SceneLibrary& library)
 {
     std::vector<std::vector<WidePoint>> frames;
     for (const auto& [number, path] : files) {
-        FileMesh file = read_mesh_file(path, limits);
+        FileMesh file = read_mesh_file(path, library);
         if (!file.has_doubles || file.wide.empty())
             for (const Point& point : file.mesh.points)
                 file.wide.push_back({point.x, point.y, point.z});
@@ -95,10 +89,9 @@ std::vector<std::vector<WidePoint>> wide_frames(const std::vector<NumberedFile>&
     return frames;
 }
 
-Scene read_numbered(const std::filesystem::path& folder, const WorkerLimits& limits,
-                    Doubles doubles)
+Scene read_numbered(const std::filesystem::path& folder, const SceneLibrary& library)
 {
-    const std::vector<NumberedFile> files = numbered_files(folder);
+    const NumberedFiles files = numbered_files(folder);
     if (files.empty())
         throw Unavailable(folder.string() +
                           " has neither mesh.ply and frames.f32 nor numbered mesh files");
@@ -106,18 +99,18 @@ Scene read_numbered(const std::filesystem::path& folder, const WorkerLimits& lim
     FileMesh first;
     bool floats_hold = true;
     for (const auto& [number, path] : files) {
-        FileMesh file = read_mesh_file(path, limits);
+        FileMesh file = read_mesh_file(path, library);
         floats_hold = floats_hold && file.floats_hold;
         if (!scene.frames.empty() && !same(first.mesh.faces, file.mesh.faces))
             throw Unavailable(path.string() + " has other triangles than " +
-                              files[0].path.string() + ", and frames share theirs");
+                              files.begin()->second.string() + ", and frames share theirs");
         scene.frames.push_back(std::move(file.mesh.points));
         if (scene.frames.size() == 1)
             first = std::move(file);
         scene.frame_labels.push_back(std::to_string(number));
     }
     if (!floats_hold)
-        scene.rounding = round_frames(wide_frames(files, limits), doubles, scene.frames);
+        scene.rounding = round_frames(wide_frames(files, library), library.doubles, scene.frames);
     take_mesh(scene, std::move(first));
     if (scene.objects.empty())
         group_by_parts(scene);
@@ -126,13 +119,12 @@ Scene read_numbered(const std::filesystem::path& folder, const WorkerLimits& lim
 
 }  // namespace
 
-Scene read_sequence(const std::filesystem::path& folder, const WorkerLimits& limits,
-                    Doubles doubles)
+Scene read_sequence(const std::filesystem::path& folder, const SceneLibrary& library)
 {
     std::error_code error;
     if (!exists(symlink_status(folder / "mesh.ply", error)))
-        return read_numbered(folder, limits, doubles);
-    FileMesh file = read_mesh_file(folder / "mesh.ply", limits);
+        return read_numbered(folder, library);
+    FileMesh file = read_mesh_file(folder / "mesh.ply", library);
     Scene scene;
     scene.frames = read_frames(folder / "frames.f32", file.mesh.points.size());
     take_mesh(scene, std::move(file));

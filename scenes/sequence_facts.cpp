@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "scenes/sequence_facts.h"
+#include "scenes/sequence.h"
 
 #include <algorithm>
 #include <functional>
 #include <nlohmann/json.hpp>
 
 #include "geometry/error.h"
-#include "scenes/mesh_file.h"
 
 namespace bvhbench {
 namespace {
@@ -85,17 +84,6 @@ void take_objects(Scene& scene, std::vector<SceneObject> table)
     }
 }
 
-std::vector<std::string> labels(const Json& list)
-{
-    std::vector<std::string> result;
-    for (const Json& label : list) {
-        if (!label.is_string() && !label.is_number_integer())
-            throw Fault{"has a frame label that is neither text nor a whole number"};
-        result.push_back(label.is_string() ? label.get<std::string>() : label.dump());
-    }
-    return result;
-}
-
 void take(Scene& scene, const Json& json)
 {
     expect(json, "frames", scene.frames.size());
@@ -106,7 +94,12 @@ void take(Scene& scene, const Json& json)
         scene.has_meshes = true;
     }
     if (const auto list = json.find("frame_labels"); list != json.end()) {
-        scene.frame_labels = labels(*list);
+        for (const Json& label : *list) {
+            if (!label.is_string() && !label.is_number_integer())
+                throw Fault{"has a frame label that is neither text nor a whole number"};
+            scene.frame_labels.push_back(label.is_string() ? label.get<std::string>()
+                                                           : label.dump());
+        }
         if (scene.frame_labels.size() != scene.frames.size())
             throw Fault{"has " + std::to_string(scene.frame_labels.size()) + " frame labels for " +
                         std::to_string(scene.frames.size()) + " frames"};

@@ -3,60 +3,45 @@
 // What both examples need besides the library: a queue, and a torus to build over.
 #pragma once
 
+#define CL_HPP_ENABLE_EXCEPTIONS
+#define CL_HPP_TARGET_OPENCL_VERSION 120
+#define CL_HPP_MINIMUM_OPENCL_VERSION 120
 #define CL_TARGET_OPENCL_VERSION 120
-#include <CL/cl.h>
-
-#include <cmath>
-#include <cstdint>
-#include <stdexcept>
-#include <string>
-#include <utility>
-#include <vector>
+#include <CL/opencl.hpp>
 
 #include <bvhbench/oibvh.h>
 
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <stdexcept>
+#include <vector>
+
 namespace example {
 
-inline void check(cl_int code, const char* call)
+/// A queue as a program may have it, on the first device of the first platform that has one.
+inline cl::CommandQueue first_queue()
 {
-    if (code != CL_SUCCESS)
-        throw std::runtime_error(std::string(call) + " failed with " + std::to_string(code));
+    std::vector<cl::Platform> platforms;
+    std::vector<cl::Device> devices;
+    cl::Platform::get(&platforms);
+    for (std::size_t k = 0; k < platforms.size() && devices.empty(); ++k)
+        platforms[k].getDevices(CL_DEVICE_TYPE_ALL, &devices);
+    if (devices.empty())
+        throw std::runtime_error("there is no OpenCL device");
+    return {cl::Context(devices.front()), devices.front(), CL_QUEUE_PROFILING_ENABLE};
 }
 
-/// The first device of the first platform that has one, its context, and a queue as a program may have it.
-struct OpenCl {
-    cl_device_id device = nullptr;
-    cl_context context = nullptr;
-    cl_command_queue queue = nullptr;
-
-    OpenCl()
-    {
-        cl_uint platform_count = 0;
-        clGetPlatformIDs(0, nullptr, &platform_count);
-        std::vector<cl_platform_id> platforms(platform_count);
-        if (platform_count > 0)
-            check(clGetPlatformIDs(platform_count, platforms.data(), nullptr), "clGetPlatformIDs");
-        for (const cl_platform_id platform : platforms)
-            if (device == nullptr)
-                clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, 1, &device, nullptr);
-        if (device == nullptr)
-            throw std::runtime_error("there is no OpenCL device");
-        cl_int code = CL_SUCCESS;
-        context = clCreateContext(nullptr, 1, &device, nullptr, nullptr, &code);
-        check(code, "clCreateContext");
-        queue = clCreateCommandQueue(context, device, CL_QUEUE_PROFILING_ENABLE, &code);
-        check(code, "clCreateCommandQueue");
+/// What main does: runs `run` and tells what it throws. Returns the exit code.
+inline int run_example(const char* name, int (*run)())
+{
+    try {
+        return run();
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "%s: %s\n", name, error.what());
+        return 3;
     }
-    OpenCl(const OpenCl&) = delete;
-    OpenCl& operator=(const OpenCl&) = delete;
-    ~OpenCl()
-    {
-        if (queue != nullptr)
-            clReleaseCommandQueue(queue);
-        if (context != nullptr)
-            clReleaseContext(context);
-    }
-};
+}
 
 struct Mesh {
     std::vector<bvhbench::oibvh::Point> points;

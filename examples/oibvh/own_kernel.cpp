@@ -2,9 +2,6 @@
 //
 // A kernel of the caller's own that walks the tree where it stands: how many triangles' boxes does each of some points lie
 // in? Holds the counts to brute force: exits 1 if they differ, 3 if there is no device.
-#include <cstdio>
-#include <exception>
-
 #include "example.h"
 
 namespace oibvh = bvhbench::oibvh;
@@ -32,59 +29,35 @@ kernel void count_boxes(FOREST_PARAMETERS, global const float* points, global ui
 }
 )";
 
-/// Compile it behind the tree's functions. The kernel, which the caller releases.
-cl_kernel compiled(const example::OpenCl& opencl, const std::string& text)
+std::vector<cl_uint> counted(const cl::CommandQueue& queue, const oibvh::Tree& tree,
+                             std::vector<oibvh::Point> points)
 {
-    const char* source = text.c_str();
-    cl_int code = CL_SUCCESS;
-    const cl_program program =
-        clCreateProgramWithSource(opencl.context, 1, &source, nullptr, &code);
-    example::check(code, "clCreateProgramWithSource");
-    code = clBuildProgram(program, 1, &opencl.device, "-cl-std=CL1.2", nullptr, nullptr);
-    const cl_kernel kernel =
-        code == CL_SUCCESS ? clCreateKernel(program, "count_boxes", &code) : nullptr;
-    clReleaseProgram(program);
-    example::check(code, "compiling count_boxes");
-    return kernel;
-}
+    const auto context = queue.getInfo<CL_QUEUE_CONTEXT>();
+    const cl::Program program(context, tree.kernel_text() + count_boxes);
+    program.build("-cl-std=CL1.2");
+    cl::Kernel kernel(program, "count_boxes");
 
-std::vector<cl_uint> counted(const example::OpenCl& opencl, const oibvh::Tree& tree,
-                             const std::vector<oibvh::Point>& points)
-{
-    const oibvh::Buffers buffers = tree.buffers();
-    const cl_kernel kernel = compiled(opencl, tree.kernel_text() + count_boxes);
-    const cl_mem at = clCreateBuffer(opencl.context, CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR,
-                                     points.size() * sizeof points[0],
-                                     const_cast<oibvh::Point*>(points.data()), nullptr);
-    const cl_mem counts = clCreateBuffer(opencl.context, CL_MEM_WRITE_ONLY,
-                                         points.size() * sizeof(cl_uint), nullptr, nullptr);
-    cl_uint index = 0;
-    for (const cl_mem* buffer :
-         {&buffers.nodes, &buffers.leaf_boxes, &buffers.ids, &buffers.objects, &at, &counts})
-        example::check(clSetKernelArg(kernel, index++, sizeof(cl_mem), buffer), "clSetKernelArg");
-    const std::size_t items = points.size();
-    example::check(clEnqueueNDRangeKernel(opencl.queue, kernel, 1, nullptr, &items, nullptr, 0,
-                                          nullptr, nullptr),
-                   "clEnqueueNDRangeKernel");
     std::vector<cl_uint> found(points.size());
-    example::check(
-        clEnqueueReadBuffer(opencl.queue, counts, CL_TRUE, 0, found.size() * sizeof(cl_uint),
-                            found.data(), 0, nullptr, nullptr),
-        "clEnqueueReadBuffer");
-    clReleaseMemObject(at);
-    clReleaseMemObject(counts);
-    clReleaseKernel(kernel);
+    const cl::Buffer at(context, points.begin(), points.end(), true);
+    const cl::Buffer counts(context, CL_MEM_WRITE_ONLY, found.size() * sizeof(cl_uint));
+    const oibvh::Buffers buffers = tree.buffers();
+    cl_uint index = 0;
+    for (const cl_mem buffer :
+         {buffers.nodes, buffers.leaf_boxes, buffers.ids, buffers.objects, at(), counts()})
+        kernel.setArg(index++, sizeof buffer, &buffer);
+    queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(points.size()));
+    cl::copy(queue, counts, found.begin(), found.end());
     return found;
 }
 
 int run()
 {
-    const example::OpenCl opencl;
+    const cl::CommandQueue queue = example::first_queue();
     const example::Mesh mesh = example::torus(60, 40);
-    oibvh::Tree tree(opencl.queue);
+    oibvh::Tree tree(queue());
     tree.build(oibvh::HostTriangles{mesh.points, mesh.faces});
 
-    const std::vector<cl_uint> found = counted(opencl, tree, mesh.points);
+    const std::vector<cl_uint> found = counted(queue, tree, mesh.points);
     std::size_t all = 0, wrong = 0;
     for (std::size_t k = 0; k < found.size(); ++k) {
         const oibvh::Point point = mesh.points[k];
@@ -104,12 +77,4 @@ int run()
 
 }  // namespace
 
-int main()
-{
-    try {
-        return run();
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "own_kernel: %s\n", error.what());
-        return 3;
-    }
-}
+int main() { return example::run_example("own_kernel", run); }

@@ -3,8 +3,6 @@
 // Builds a tree over a torus, says what it is like, and finds the pairs of triangles whose boxes overlap. Holds them to
 // brute force: exits 1 if they differ, 3 if there is no device.
 #include <algorithm>
-#include <cstdio>
-#include <exception>
 
 #include "example.h"
 
@@ -33,10 +31,10 @@ std::vector<oibvh::Pair> by_brute_force(const example::Mesh& mesh)
 
 int run()
 {
-    const example::OpenCl opencl;
+    const cl::CommandQueue queue = example::first_queue();
     const example::Mesh mesh = example::torus(60, 40);
 
-    oibvh::Device device(opencl.queue);
+    oibvh::Device device(queue());
     oibvh::Tree tree(device);
     tree.build(oibvh::HostTriangles{mesh.points, mesh.faces});
 
@@ -64,12 +62,4 @@ int run()
 
 }  // namespace
 
-int main()
-{
-    try {
-        return run();
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "torus: %s\n", error.what());
-        return 3;
-    }
-}
+int main() { return example::run_example("torus", run); }

@@ -14,8 +14,7 @@
 #include "geometry/error.h"
 #include "harness/base/build_info.h"
 #include "harness/base/interrupt.h"
-#include "scenes/worker/child.h"
-#include "scenes/worker/worker.h"
+#include "scenes/worker/process.h"
 
 namespace bvhbench {
 namespace {

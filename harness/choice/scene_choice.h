@@ -6,7 +6,7 @@
 
 #include "harness/choice/catalog.h"
 #include "harness/choice/collider_catalog.h"
-#include "scenes/objects_by.h"
+#include "scenes/face_order.h"
 
 namespace bvhbench {
 

@@ -7,7 +7,7 @@
 #include "harness/base/failure.h"
 #include "harness/measure/frame_cells.h"
 #include "harness/measure/swept.h"
-#include "scenes/frames_between.h"
+#include "scenes/generate/derived.h"
 
 namespace bvhbench {
 namespace {
@@ -44,9 +44,8 @@ std::vector<Cell> skipped_cells(const CollideTask& task, const std::string& why)
 
 Scene scene_of(const CollideTask& task, const SceneLibrary& library)
 {
-    const DataSet* set = task.may_stand_in ? find_data_set(task.scene) : nullptr;
     Scene scene =
-        set != nullptr ? load_or_stand_in(*set, library) : load_scene(task.scene, library);
+        task.may_stand_in ? load_or_stand_in(task.scene, library) : load_scene(task.scene, library);
     if (task.objects != ObjectsBy::automatic)
         scene = with_objects(std::move(scene), task.objects);
     return task.between > 0 ? with_frames_between(scene, task.between) : scene;

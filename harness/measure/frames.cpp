@@ -9,9 +9,7 @@ namespace {
 
 Scene scene_of(const Experiment& experiment, const std::string& name, const SceneLibrary& library)
 {
-    if (const DataSet* set = find_data_set(name); set != nullptr && experiment.may_stand_in)
-        return load_or_stand_in(*set, library);
-    return load_scene(name, library);
+    return experiment.may_stand_in ? load_or_stand_in(name, library) : load_scene(name, library);
 }
 
 }  // namespace

@@ -19,7 +19,6 @@
 #include "harness/base/failure.h"
 #include "harness/base/interrupt.h"
 #include "scenes/worker/process.h"
-#include "scenes/worker/worker.h"
 
 namespace bvhbench {
 namespace {

@@ -9,7 +9,7 @@
 #include "harness/base/progress.h"
 #include "harness/judge/hard_inputs.h"
 #include "harness/stress/libraries.h"
-#include "scenes/finish.h"
+#include "scenes/scene.h"
 
 namespace bvhbench {
 namespace {

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scenes/formats/file_point.h"
+#include "scenes/formats/text.h"
 #include "scenes/scene.h"
 
 namespace bvhbench {
@@ -24,21 +24,21 @@ struct FileMesh {
     std::vector<SceneObject> objects;
     /// The place in `objects` of each face's; empty: objects are runs of faces, one after the other.
     std::vector<uint> object_of_face = {};
-    std::vector<std::int64_t> object_ids =
-        {};  ///< the file's numbers of the objects; empty: 0, 1, ...
+    /// The file's numbers of the objects; empty: 0, 1, ...
+    std::vector<std::int64_t> object_ids = {};
     /// The same vertices as the file has them; empty of a file whose numbers are floats, which must say so first.
     std::vector<WidePoint> wide = {};
     bool has_doubles = true;
     /// Whether the floats of `mesh` are all that the file says: a double is one, or a text has no digits that differ.
     bool floats_hold = true;
 
-    void add(const FilePoint& point)
-    {
-        mesh.points.push_back(point.rounded);
-        if (has_doubles)
-            wide.push_back(point.wide);
-        floats_hold = floats_hold && point.floats_hold;
-    }
+    void add_point(const FileNumber& x, const FileNumber& y, const FileNumber& z);
+
+    /// Cuts a polygon into a fan round its first corner.
+    void add_polygon(const std::vector<uint>& corners);
+
+    /// Makes the faces from `first` on an object, if there are any.
+    void add_object(std::string_view name, std::size_t first);
 };
 
 /// Wavefront OBJ: v and f lines, relative indices, continued lines; "o" begins an object.

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "geometry/error.h"
-#include "scenes/formats/formats.h"
-#include "scenes/formats/text.h"
+#include "scenes/formats/line_reader.h"
 
 namespace bvhbench {
 namespace {
 
-class OffReader {
+class OffReader : LineReader {
 public:
     OffReader(std::string_view bytes, const std::string& name)
-        : lines_(bytes), words_(""), size_(bytes.size()), name_(name)
+        : LineReader(bytes, name), size_(bytes.size())
     {}
 
     FileMesh read()
@@ -18,51 +16,55 @@ public:
         const std::size_t vertices = count("vertices");
         const std::size_t faces = count("faces");
         file_.mesh.points.reserve(vertices);
-        for (std::size_t k = 0; k < vertices; ++k)
-            vertex(k, vertices);
-        for (std::size_t k = 0; k < faces; ++k)
-            face(k, faces);
+        for (std::size_t k = 0; k < vertices; ++k) {
+            expect_line("vertex", k, vertices);
+            add_vertex(words_);
+        }
+        for (std::size_t k = 0; k < faces; ++k) {
+            expect_line("face", k, faces);
+            face();
+        }
         if (next_line())
-            refuse("there is more than the header says: " + in_quotes(words_.rest()));
-        return std::move(file_);
+            refuse("there is more than the header says: " + in_quotes(words_));
+        return result();
     }
 
 private:
-    [[noreturn]] void refuse(const std::string& what) const
-    {
-        throw Unavailable(name_ + ", line " + std::to_string(lines_.number()) + ": " + what);
-    }
-
     /// Moves on to the next line with anything but white space and a comment on it.
     bool next_line()
     {
-        while (auto line = lines_.next()) {
-            const std::string_view text = line->substr(0, line->find('#'));
-            if (Words(text).next().empty())
-                continue;
-            words_ = Words(text);
-            return true;
+        while (const auto line = lines_.next()) {
+            words_ = line->substr(0, line->find('#'));
+            std::string_view rest = words_;
+            if (!next_word(rest).empty())
+                return true;
         }
         return false;
     }
 
+    void expect_line(const char* of, std::size_t k, std::size_t count)
+    {
+        if (!next_line())
+            refuse(std::string("the file ends at ") + of + ' ' + std::to_string(k) + " of " +
+                   std::to_string(count));
+    }
+
     void header()
     {
-        const bool any = next_line();
-        const std::string_view word = any ? words_.next() : "";
-        const std::size_t end = word.find("OFF");
-        const std::string_view prefix = word.substr(0, std::min(end, word.size()));
-        if (end == word.npos || end + 3 != word.size() ||
-            prefix.find_first_not_of("STCN") != prefix.npos)
-            refuse("an OFF file begins with OFF, and there is " + in_quotes(word));
+        std::string_view word = next_line() ? next_word(words_) : "";
+        const std::string_view whole = word;
+        while (!word.empty() && std::string_view("STCN").find(word[0]) != word.npos)
+            word.remove_prefix(1);
+        if (word != "OFF")
+            refuse("an OFF file begins with OFF, and there is " + in_quotes(whole));
     }
 
     /// The vertex or face count, which no file can exceed that takes two bytes at least for each.
     std::size_t count(const std::string& what)
     {
-        std::string_view word = words_.next();
+        std::string_view word = next_word(words_);
         if (word.empty() && next_line())
-            word = words_.next();
+            word = next_word(words_);
         const auto value = parse_integer(word);
         if (!value || *value < 0)
             refuse("the number of " + what + " is " + in_quotes(word));
@@ -72,29 +74,15 @@ private:
         return static_cast<std::size_t>(*value);
     }
 
-    void vertex(std::size_t k, std::size_t vertices)
+    void face()
     {
-        if (!next_line())
-            refuse("the file ends at vertex " + std::to_string(k) + " of " +
-                   std::to_string(vertices));
-        const std::string_view text = words_.rest();
-        const auto point = parse_point(words_);
-        if (!point)
-            refuse("a vertex takes three numbers, and there is " + in_quotes(text));
-        file_.add(*point);
-    }
-
-    void face(std::size_t k, std::size_t faces)
-    {
-        if (!next_line())
-            refuse("the file ends at face " + std::to_string(k) + " of " + std::to_string(faces));
-        const std::string_view text = words_.rest();
-        const auto size = parse_integer(words_.next());
+        const std::string_view text = words_;
+        const auto size = parse_integer(next_word(words_));
         if (!size || *size < 3)
             refuse("a face takes three corners, and there is " + in_quotes(text));
         corners_.clear();
         for (std::int64_t corner = 0; corner < *size; ++corner) {
-            const auto index = parse_integer(words_.next());
+            const auto index = parse_integer(next_word(words_));
             if (!index)
                 refuse("a face of " + std::to_string(*size) + " corners is " + in_quotes(text));
             if (*index < 0 || static_cast<std::uint64_t>(*index) >= file_.mesh.points.size())
@@ -102,15 +90,11 @@ private:
                        std::to_string(file_.mesh.points.size()));
             corners_.push_back(static_cast<uint>(*index));
         }
-        add_fan(file_.mesh.faces, corners_);
+        file_.add_polygon(corners_);
     }
 
-    Lines lines_;
-    Words words_;
+    std::string_view words_;  ///< what is left of the line
     std::size_t size_;
-    const std::string& name_;
-    FileMesh file_;
-    std::vector<uint> corners_;
 };
 
 }  // namespace

@@ -1,27 +1,143 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <optional>
+#include <array>
+#include <cmath>
+#include <limits>
 
 #include "geometry/error.h"
 #include "scenes/formats/formats.h"
-#include "scenes/formats/ply_values.h"
-#include "scenes/formats/text.h"
+#include "scenes/formats/ply_header.h"
 
 namespace bvhbench {
 namespace {
 
-bool is_corner_list(const PlyProperty& property)
-{
-    return property.is_list &&
-           (property.name == "vertex_indices" || property.name == "vertex_index");
-}
+/// The values behind a header, one after the other, whatever the format. Throws Unavailable where the
+/// file ends too soon or holds something that is no number.
+class Values {
+public:
+    Values(const PlyHeader& header, const std::string& name)
+        : rest_(header.data), format_(header.format), name_(name)
+    {}
+
+    /// What is read from now on. Throws if the rest of the file cannot hold that many.
+    void begin(const PlyElement& element)
+    {
+        element_ = &element;
+        const std::uint64_t least = element.least_size(format_);
+        if (least != 0 && element.count > rest_.size() / least)
+            throw Unavailable(name_ + " ends too soon: its header says " +
+                              std::to_string(element.count) + " of element " +
+                              in_quotes(element.name) + ", and " + std::to_string(rest_.size()) +
+                              " bytes are left for them");
+    }
+
+    /// Calls `read` as often as there are data of the element.
+    template <class Read>
+    void each(const Read& read)
+    {
+        for (index_ = 0; index_ < element_->count; ++index_)
+            read();
+    }
+
+    /// Beyond the floats, the nearest float is infinity, which is refused later with its vertex. A text whose type is a float
+    /// is held by floats, however many digits it has.
+    FileNumber number(const PlyType& type)
+    {
+        if (format_ == PlyFormat::ascii && !type.is_integer) {
+            const std::string_view text = word();
+            const auto value = parse_number(text);
+            if (!value)
+                refuse("not a number: " + in_quotes(text));
+            if (type.name == "float")
+                return {value->rounded, value->rounded, true};
+            return *value;
+        }
+        const double value =
+            type.is_integer ? static_cast<double>(integer(type)) : binary_value(type);
+        constexpr double largest = std::numeric_limits<float>::max();
+        if (value > largest || value < -largest)
+            return {value, std::numeric_limits<float>::infinity(), false};
+        const auto rounded = static_cast<float>(value);
+        return {value, rounded, double{rounded} == value || std::isnan(value)};
+    }
+
+    std::int64_t integer(const PlyType& type)
+    {
+        if (format_ != PlyFormat::ascii)
+            return static_cast<std::int64_t>(binary_value(type));
+        const std::string_view text = word();
+        const auto value = parse_integer(text);
+        if (!value)
+            refuse("not an integer: " + in_quotes(text));
+        return *value;
+    }
+
+    void skip(const PlyProperty& property)
+    {
+        const std::int64_t count = property.count_type ? integer(*property.count_type) : 1;
+        if (count < 0)
+            refuse("a list of length " + std::to_string(count));
+        if (format_ != PlyFormat::ascii)
+            bytes(static_cast<std::uint64_t>(count) * property.type->size);
+        else
+            for (std::int64_t k = 0; k < count; ++k)
+                word();
+    }
+
+    /// After the last element. Throws if more than white space is left.
+    void end() const
+    {
+        std::string_view rest = rest_;
+        if (!next_word(rest).empty())
+            throw Unavailable(name_ + " has " + std::to_string(rest_.size()) +
+                              " bytes more than its header says");
+    }
+
+    [[noreturn]] void refuse(const std::string& what) const
+    {
+        throw Unavailable(name_ + ", " + element_->name + " " + std::to_string(index_) + " of " +
+                          std::to_string(element_->count) + ": " + what);
+    }
+
+private:
+    std::string_view word()
+    {
+        const std::string_view result = next_word(rest_);
+        if (result.empty())
+            refuse("the file ends too soon");
+        return result;
+    }
+
+    std::string_view bytes(std::uint64_t count)
+    {
+        if (count > rest_.size())
+            refuse("the file ends too soon");
+        const std::string_view result = rest_.substr(0, count);
+        rest_.remove_prefix(count);
+        return result;
+    }
+
+    double binary_value(const PlyType& type)
+    {
+        const std::string_view raw = bytes(type.size);
+        if (format_ == PlyFormat::binary_little_endian)
+            return type.value(raw.data());
+        char swapped[8];
+        std::reverse_copy(raw.begin(), raw.end(), swapped);
+        return type.value(swapped);
+    }
+
+    std::string_view rest_;
+    PlyFormat format_;
+    const std::string& name_;
+    const PlyElement* element_ = nullptr;
+    std::uint64_t index_ = 0;
+};
 
 class PlyReader {
 public:
     PlyReader(std::string_view bytes, const std::string& name)
-        : name_(name)
-        , header_(read_ply_header(bytes, name))
-        , values_(bytes.substr(header_.size), header_.format, name)
+        : name_(name), header_(read_ply_header(bytes, name)), values_(header_, name)
     {}
 
     FileMesh read()
@@ -36,7 +152,10 @@ public:
             else if (element.name == "face")
                 faces(element);
             else
-                skip(element);
+                values_.each([&] {
+                    for (const PlyProperty& property : element.properties)
+                        values_.skip(property);
+                });
         }
         values_.end();
         if (!ids_.empty())
@@ -64,14 +183,10 @@ private:
         if (vertex == nullptr || face == nullptr || face->count == 0)
             throw Unavailable(name_ + " has no triangles");
         vertex_count_ = vertex->count;
-        for (const char* axis : {"x", "y", "z"})
-            if (std::count_if(vertex->properties.begin(), vertex->properties.end(),
-                              [&](const PlyProperty& property) {
-                                  return property.name == axis && !property.is_list;
-                              }) != 1)
-                throw Unavailable(name_ + " has vertices without one " + axis);
-        const auto lists =
-            std::count_if(face->properties.begin(), face->properties.end(), is_corner_list);
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            if (std::ranges::count(vertex->properties, axis, &PlyProperty::axis) != 1)
+                throw Unavailable(name_ + " has vertices without one " + "xyz"[axis]);
+        const auto lists = std::ranges::count(face->properties, true, &PlyProperty::is_corner_list);
         if (lists != 1)
             throw Unavailable(name_ + " has faces with " + std::to_string(lists) +
                               " lists called vertex_indices or vertex_index instead of one");
@@ -81,57 +196,49 @@ private:
     {
         file_.has_doubles =
             std::ranges::any_of(element.properties, [](const PlyProperty& property) {
-                return property.name.size() == 1 && property.type != PlyType::float32;
+                return property.name.size() == 1 && property.type->name != "float";
             });
         file_.mesh.points.reserve(element.count);
-        for (std::uint64_t k = 0; k < element.count; ++k) {
-            values_.at(k);
-            FileNumber x, y, z;
+        values_.each([&] {
+            FileNumber at[3];
             for (const PlyProperty& property : element.properties)
-                if (property.is_list || property.name.size() != 1)
-                    values_.skip(property);
-                else if (property.name == "x")
-                    x = values_.number(property.type);
-                else if (property.name == "y")
-                    y = values_.number(property.type);
-                else if (property.name == "z")
-                    z = values_.number(property.type);
+                if (property.axis < 3)
+                    at[property.axis] = values_.number(*property.type);
                 else
                     values_.skip(property);
-            file_.add({x, y, z});
-        }
+            file_.add_point(at[0], at[1], at[2]);
+        });
     }
 
     void faces(const PlyElement& element)
     {
         file_.mesh.faces.reserve(element.count);
-        for (std::uint64_t k = 0; k < element.count; ++k) {
-            values_.at(k);
+        values_.each([&] {
             std::optional<std::int64_t> object;
             for (const PlyProperty& property : element.properties)
-                if (is_corner_list(property))
+                if (property.is_corner_list())
                     corners(property);
-                else if (property.name == "object_id" && !property.is_list &&
-                         is_integer(property.type))
-                    object = values_.integer(property.type);
+                else if (property.name == "object_id" && property.count_type == nullptr &&
+                         property.type->is_integer)
+                    object = values_.integer(*property.type);
                 else
                     values_.skip(property);
-            add_fan(file_.mesh.faces, corners_);
+            file_.add_polygon(corners_);
             if (object)
                 ids_.resize(file_.mesh.faces.size(), *object);
-        }
+        });
     }
 
     void corners(const PlyProperty& property)
     {
-        if (!is_integer(property.type))
+        if (!property.type->is_integer)
             values_.refuse("its corners are not integers");
-        const std::int64_t count = values_.integer(property.count_type);
+        const std::int64_t count = values_.integer(*property.count_type);
         if (count < 3)
             values_.refuse("a face takes three corners, and there are " + std::to_string(count));
         corners_.clear();
         for (std::int64_t k = 0; k < count; ++k) {
-            const std::int64_t index = values_.integer(property.type);
+            const std::int64_t index = values_.integer(*property.type);
             if (index < 0 || static_cast<std::uint64_t>(index) >= vertex_count_)
                 values_.refuse("it names vertex " + std::to_string(index) + " of " +
                                std::to_string(vertex_count_));
@@ -156,18 +263,9 @@ private:
             file_.objects.push_back({"object " + std::to_string(id), 0, 0});
     }
 
-    void skip(const PlyElement& element)
-    {
-        for (std::uint64_t k = 0; k < element.count; ++k) {
-            values_.at(k);
-            for (const PlyProperty& property : element.properties)
-                values_.skip(property);
-        }
-    }
-
     const std::string& name_;
     PlyHeader header_;
-    PlyValues values_;
+    Values values_;
     FileMesh file_;
     std::vector<uint> corners_;
     std::vector<std::int64_t> ids_;  ///< object_id of each triangle; empty: the file has none

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "scenes/formats/ply_header.h"
 
-#include <optional>
-#include <utility>
+#include <algorithm>
+#include <bit>
+#include <cstring>
 
 #include "geometry/error.h"
 #include "scenes/formats/text.h"
@@ -10,38 +11,50 @@
 namespace bvhbench {
 namespace {
 
-std::optional<PlyType> type_called(std::string_view word)
+static_assert(std::endian::native == std::endian::little);
+
+template <class T>
+double value_of(const char* bytes)
 {
-    static constexpr std::pair<std::string_view, PlyType> names[] = {
-        {"char", PlyType::int8},       {"int8", PlyType::int8},       {"uchar", PlyType::uint8},
-        {"uint8", PlyType::uint8},     {"short", PlyType::int16},     {"int16", PlyType::int16},
-        {"ushort", PlyType::uint16},   {"uint16", PlyType::uint16},   {"int", PlyType::int32},
-        {"int32", PlyType::int32},     {"uint", PlyType::uint32},     {"uint32", PlyType::uint32},
-        {"float", PlyType::float32},   {"float32", PlyType::float32}, {"double", PlyType::float64},
-        {"float64", PlyType::float64},
-    };
-    for (const auto& [name, type] : names)
-        if (name == word)
-            return type;
-    return std::nullopt;
+    T value;
+    std::memcpy(&value, bytes, sizeof value);
+    return static_cast<double>(value);
 }
 
-class PlyHeaderReader {
+constexpr PlyType types[] = {
+    {"char", "int8", true, 1, value_of<std::int8_t>},
+    {"uchar", "uint8", true, 1, value_of<std::uint8_t>},
+    {"short", "int16", true, 2, value_of<std::int16_t>},
+    {"ushort", "uint16", true, 2, value_of<std::uint16_t>},
+    {"int", "int32", true, 4, value_of<std::int32_t>},
+    {"uint", "uint32", true, 4, value_of<std::uint32_t>},
+    {"float", "float32", false, 4, value_of<float>},
+    {"double", "float64", false, 8, value_of<double>},
+};
+
+constexpr std::string_view formats[] = {"ascii", "binary_little_endian", "binary_big_endian"};
+
+class HeaderReader {
 public:
-    PlyHeaderReader(std::string_view bytes, const std::string& name)
+    HeaderReader(std::string_view bytes, const std::string& name)
         : bytes_(bytes), rest_(bytes), name_(name)
-    {}
+    {
+        // The first line shows how lines end. It matters for the last: binary data may begin with a newline.
+        const std::size_t end = bytes.find_first_of("\r\n");
+        if (end != bytes.npos && bytes[end] == '\r')
+            line_end_ = bytes.substr(end, 2) == "\r\n" ? "\r\n" : "\r";
+    }
 
     PlyHeader read()
     {
-        find_line_end();
-        if (Words(line()).next() != "ply")
+        std::string_view first = line();
+        if (next_word(first) != "ply")
             refuse("a PLY file begins with ply, and there is " + in_quotes(bytes_.substr(0, 8)));
         while (statement(line())) {
         }
         if (!has_format_)
             refuse("the header names no format");
-        header_.size = bytes_.size() - rest_.size();
+        header_.data = rest_;
         return std::move(header_);
     }
 
@@ -49,14 +62,6 @@ private:
     [[noreturn]] void refuse(const std::string& what) const
     {
         throw Unavailable(name_ + ", line " + std::to_string(number_) + ": " + what);
-    }
-
-    // The first line shows how lines end. It matters for the last: binary data may begin with a newline.
-    void find_line_end()
-    {
-        const std::size_t end = bytes_.find_first_of("\r\n");
-        if (end != bytes_.npos && bytes_[end] == '\r')
-            line_end_ = bytes_.substr(end, 2) == "\r\n" ? "\r\n" : "\r";
     }
 
     std::string_view line()
@@ -71,12 +76,11 @@ private:
     }
 
     /// False at the end of the header.
-    bool statement(std::string_view text)
+    bool statement(std::string_view words)
     {
-        Words words(text);
-        const std::string_view keyword = words.next();
+        const std::string_view keyword = next_word(words);
         if (keyword == "format")
-            format(words);
+            format(next_word(words));
         else if (keyword == "element")
             element(words);
         else if (keyword == "property")
@@ -87,22 +91,18 @@ private:
         return keyword != "end_header";
     }
 
-    void format(Words words)
+    void format(std::string_view word)
     {
-        const std::string_view word = words.next();
-        if (word == "binary_little_endian")
-            header_.format = PlyFormat::little_endian;
-        else if (word == "binary_big_endian")
-            header_.format = PlyFormat::big_endian;
-        else if (word != "ascii")
+        const auto found = std::ranges::find(formats, word);
+        if (found == std::end(formats))
             refuse("not a format of PLY: " + in_quotes(word));
+        header_.format = static_cast<PlyFormat>(found - formats);
         has_format_ = true;
     }
 
-    void element(Words words)
+    void element(std::string_view words)
     {
-        const std::string_view name = words.next();
-        const std::string_view count = words.next();
+        const std::string_view name = next_word(words), count = next_word(words);
         const auto value = parse_integer(count);
         if (name.empty() || !value || *value < 0)
             refuse("an element takes a name and a count, and there is " + in_quotes(name) + " " +
@@ -110,29 +110,30 @@ private:
         header_.elements.push_back({std::string(name), static_cast<std::uint64_t>(*value), {}});
     }
 
-    PlyType type(std::string_view word) const
+    const PlyType* type(std::string_view word) const
     {
-        const auto found = type_called(word);
-        if (!found)
-            refuse("not a type of PLY: " + in_quotes(word));
-        return *found;
+        for (const PlyType& type : types)
+            if (word == type.name || word == type.other_name)
+                return &type;
+        refuse("not a type of PLY: " + in_quotes(word));
     }
 
-    void property(Words words)
+    void property(std::string_view words)
     {
         if (header_.elements.empty())
             refuse("a property belongs to an element, and there is none yet");
         PlyProperty result;
-        std::string_view word = words.next();
+        std::string_view word = next_word(words);
         if (word == "list") {
-            result.is_list = true;
-            result.count_type = type(words.next());
-            if (!is_integer(result.count_type))
+            result.count_type = type(next_word(words));
+            if (!result.count_type->is_integer)
                 refuse("the length of a list is an integer, and its type here is not");
-            word = words.next();
+            word = next_word(words);
         }
         result.type = type(word);
-        result.name = words.next();
+        result.name = next_word(words);
+        if (result.count_type == nullptr && result.name.size() == 1)
+            result.axis = std::min<std::size_t>(std::string_view("xyz").find(result.name), 3);
         header_.elements.back().properties.push_back(result);
     }
 
@@ -146,27 +147,24 @@ private:
 
 }  // namespace
 
-std::size_t ply_size(PlyType type)
+bool PlyProperty::is_corner_list() const
 {
-    switch (type) {
-        case PlyType::int8:
-        case PlyType::uint8:
-            return 1;
-        case PlyType::int16:
-        case PlyType::uint16:
-            return 2;
-        case PlyType::float64:
-            return 8;
-        default:
-            return 4;
-    }
+    return count_type != nullptr && (name == "vertex_indices" || name == "vertex_index");
 }
 
-bool is_integer(PlyType type) { return type != PlyType::float32 && type != PlyType::float64; }
+std::uint64_t PlyElement::least_size(PlyFormat format) const
+{
+    std::uint64_t size = 0;
+    for (const PlyProperty& property : properties)
+        size += format == PlyFormat::ascii ? 1
+                : property.count_type      ? property.count_type->size
+                                           : property.type->size;
+    return size;
+}
 
 PlyHeader read_ply_header(std::string_view bytes, const std::string& name)
 {
-    return PlyHeaderReader(bytes, name).read();
+    return HeaderReader(bytes, name).read();
 }
 
 }  // namespace bvhbench

@@ -2,8 +2,7 @@
 #include <cstring>
 
 #include "geometry/error.h"
-#include "scenes/formats/formats.h"
-#include "scenes/formats/text.h"
+#include "scenes/formats/line_reader.h"
 
 namespace bvhbench {
 namespace {
@@ -22,106 +21,87 @@ std::uint32_t facet_count(std::string_view bytes)
     return count;
 }
 
+void add_facet(Mesh& mesh)
+{
+    const auto last = static_cast<uint>(mesh.points.size() - 1);
+    mesh.faces.push_back({last - 2, last - 1, last});
+}
+
 FileMesh read_binary(std::string_view bytes)
 {
     FileMesh file;
+    Mesh& mesh = file.mesh;
     const std::uint32_t facets = facet_count(bytes);
-    file.mesh.faces.reserve(facets);
-    file.mesh.points.reserve(std::size_t{3} * facets);
+    mesh.faces.reserve(facets);
+    mesh.points.reserve(std::size_t{3} * facets);
     for (std::size_t k = 0; k < facets; ++k) {
         Point corners[3];
         std::memcpy(corners, bytes.data() + binary_header + k * binary_facet + 12, sizeof corners);
-        const auto first = static_cast<uint>(file.mesh.points.size());
-        file.mesh.points.insert(file.mesh.points.end(), std::begin(corners), std::end(corners));
-        file.mesh.faces.push_back({first, first + 1, first + 2});
+        mesh.points.insert(mesh.points.end(), std::begin(corners), std::end(corners));
+        add_facet(mesh);
     }
     return file;
 }
 
-class AsciiStl {
+class AsciiStl : LineReader {
 public:
-    AsciiStl(std::string_view bytes, const std::string& name) : lines_(bytes), name_(name) {}
+    using LineReader::LineReader;
 
     FileMesh read()
     {
         while (const auto line = lines_.next())
-            statement(Words(*line));
+            statement(*line);
         if (in_solid_)
             refuse("the file ends inside a solid");
-        if (file_.objects.size() == 1)
-            file_.objects.clear();
-        return std::move(file_);
+        return result();
     }
 
 private:
-    [[noreturn]] void refuse(const std::string& what) const
+    void statement(std::string_view words)
     {
-        throw Unavailable(name_ + ", line " + std::to_string(lines_.number()) + ": " + what);
-    }
-
-    void statement(Words words)
-    {
-        const std::string_view word = words.next();
-        if (word == "solid" || word == "SOLID")
-            open_solid(words);
-        else if (word == "endsolid" || word == "ENDSOLID")
-            close_solid();
-        else if (word == "facet" || word == "FACET")
-            corners_.clear();
-        else if (word == "vertex" || word == "VERTEX")
-            corner(words);
-        else if (word == "endfacet" || word == "ENDFACET")
+        const std::string_view keyword = next_word(words);
+        const auto is = [keyword](std::string_view lower, std::string_view upper) {
+            return keyword == lower || keyword == upper;
+        };
+        if (is("solid", "SOLID")) {
+            in_solid_ = true;
+            solid_ = next_word(words);
+            first_face_ = file_.mesh.faces.size();
+        } else if (is("endsolid", "ENDSOLID")) {
+            in_solid_ = false;
+            file_.add_object(solid_, first_face_);
+            first_face_ = file_.mesh.faces.size();
+        } else if (is("facet", "FACET")) {
+            facet_.clear();
+        } else if (is("vertex", "VERTEX")) {
+            vertex(words);
+        } else if (is("endfacet", "ENDFACET")) {
             close_facet();
-        else if (!word.empty() && word != "outer" && word != "OUTER" && word != "endloop" &&
-                 word != "ENDLOOP")
-            refuse("not a word of an ascii STL file: " + in_quotes(word));
+        } else if (!keyword.empty() && !is("outer", "OUTER") && !is("endloop", "ENDLOOP")) {
+            refuse("not a word of an ascii STL file: " + in_quotes(keyword));
+        }
     }
 
-    void open_solid(Words words)
+    void vertex(std::string_view words)
     {
-        in_solid_ = true;
-        const std::string_view title = words.next();
-        solid_ = title.empty() ? "unnamed" : title;
-        first_face_ = static_cast<uint>(file_.mesh.faces.size());
-    }
-
-    void close_solid()
-    {
-        in_solid_ = false;
-        const auto faces = static_cast<uint>(file_.mesh.faces.size());
-        if (faces > first_face_)
-            file_.objects.push_back({solid_, first_face_, faces - first_face_});
-        first_face_ = faces;
-    }
-
-    void corner(Words words)
-    {
-        const std::string_view text = words.rest();
-        const auto point = parse_point(words);
-        if (!point || corners_.size() == 3 || !in_solid_)
-            refuse("a facet takes three vertices of three numbers, and there is " +
-                   in_quotes(text));
-        corners_.push_back(*point);
+        constexpr const char* what = "a facet takes three vertices of three numbers, and there is ";
+        facet_.push_back(point(words, what));
+        if (facet_.size() > 3 || !in_solid_)
+            refuse(what + in_quotes(words));
     }
 
     void close_facet()
     {
-        if (corners_.size() != 3)
-            refuse("a facet takes three vertices, and there are " +
-                   std::to_string(corners_.size()));
-        const auto first = static_cast<uint>(file_.mesh.points.size());
-        for (const FilePoint& corner : corners_)
-            file_.add(corner);
-        file_.mesh.faces.push_back({first, first + 1, first + 2});
-        corners_.clear();
+        if (facet_.size() != 3)
+            refuse("a facet takes three vertices, and there are " + std::to_string(facet_.size()));
+        for (const auto& [x, y, z] : facet_)
+            file_.add_point(x, y, z);
+        add_facet(file_.mesh);
+        facet_.clear();
     }
 
-    Lines lines_;
-    const std::string& name_;
-    FileMesh file_;
-    std::vector<FilePoint> corners_;
+    std::vector<std::array<FileNumber, 3>> facet_;
     std::string solid_;
-    uint first_face_ = 0;
     bool in_solid_ = false;
 };
 
@@ -135,7 +115,8 @@ FileMesh read_stl(std::string_view bytes, const std::string& name)
         has_header ? binary_header + binary_facet * std::size_t{facet_count(bytes)} : 0;
     if (has_header && bytes.size() == expected)
         return read_binary(bytes);
-    const std::string_view first = Words(bytes.substr(0, 1000)).next();
+    std::string_view words = bytes.substr(0, 1000);
+    const std::string_view first = next_word(words);
     if (first == "solid" || first == "SOLID")
         return AsciiStl(bytes, name).read();
     if (!has_header)

@@ -42,51 +42,34 @@ std::optional<std::string_view> Lines::next()
     return line;
 }
 
-std::string_view Words::next()
+std::string_view next_word(std::string_view& text)
 {
-    std::size_t begin = 0;
-    while (begin < rest_.size() && is_space(rest_[begin]))
-        ++begin;
-    std::size_t end = begin;
-    while (end < rest_.size() && !is_space(rest_[end]))
-        ++end;
-    const std::string_view word = rest_.substr(begin, end - begin);
-    rest_.remove_prefix(end);
-    return word;
-}
-
-std::optional<float> parse_float(std::string_view word)
-{
-    word = without_plus(word);
-    float value = 0;
-    const char* const end = word.data() + word.size();
-    const auto [stop, error] = std::from_chars(word.data(), end, value);
-    if (stop != end || error == std::errc::invalid_argument)
-        return std::nullopt;
-    if (error != std::errc::result_out_of_range)
-        return value;
-    // from_chars does not say on which side; a negative exponent, or a text that begins 0., does.
-    double wide = 0;
-    if (std::from_chars(word.data(), end, wide).ec == std::errc{})
-        return static_cast<float>(wide);
-    const bool small = word.find("e-") != word.npos || word.find("E-") != word.npos;
-    return small ? 0.0f : std::numeric_limits<float>::infinity();
+    const auto begin = std::find_if_not(text.begin(), text.end(), is_space);
+    const auto end = std::find_if(begin, text.end(), is_space);
+    text.remove_prefix(static_cast<std::size_t>(end - text.begin()));
+    return {begin, end};
 }
 
 std::optional<FileNumber> parse_number(std::string_view word)
 {
-    const std::optional<float> rounded = parse_float(word);
-    if (!rounded)
-        return std::nullopt;
     word = without_plus(word);
-    FileNumber number{*rounded, *rounded, true};
-    double wide = 0;
-    if (std::from_chars(word.data(), word.data() + word.size(), wide).ec != std::errc{})
-        return number;  // beyond doubles too
-    number.wide = wide;
+    const char* const begin = word.data();
+    const char* const end = begin + word.size();
+    FileNumber number;
+    const auto [stop, error] = std::from_chars(begin, end, number.wide);
+    if (stop != end || error == std::errc::invalid_argument)
+        return std::nullopt;
+    if (error == std::errc::result_out_of_range) {  // on which side it is, the exponent says
+        const bool small = word.find("e-") != word.npos || word.find("E-") != word.npos;
+        number.rounded = small ? 0.0f : std::numeric_limits<float>::infinity();
+        number.wide = number.rounded;
+        return number;
+    }
+    if (std::from_chars(begin, end, number.rounded).ec != std::errc{})
+        number.rounded = static_cast<float>(number.wide);  // zero or infinity
     // `wide` is itself rounded: where a tie was printed, the difference may come out larger than half by that.
-    const double allowed = 0.5 * last_unit(word) + 0x1p-53 * std::fabs(wide);
-    number.floats_hold = !(std::fabs(wide - double{*rounded}) > allowed);
+    const double allowed = 0.5 * last_unit(word) + 0x1p-53 * std::fabs(number.wide);
+    number.floats_hold = !(std::fabs(number.wide - double{number.rounded}) > allowed);
     return number;
 }
 
@@ -101,16 +84,6 @@ std::optional<std::int64_t> parse_integer(std::string_view word)
     return value;
 }
 
-std::optional<FilePoint> parse_point(Words& words)
-{
-    const auto x = parse_number(words.next());
-    const auto y = parse_number(words.next());
-    const auto z = parse_number(words.next());
-    if (!x || !y || !z)
-        return std::nullopt;
-    return FilePoint{*x, *y, *z};
-}
-
 std::string in_quotes(std::string_view word)
 {
     constexpr std::size_t longest = 40;
@@ -120,17 +93,6 @@ std::string in_quotes(std::string_view word)
         if (c < ' ' || c > '~')
             c = '?';
     return "'" + text + (word.size() > longest ? "...'" : "'");
-}
-
-bool is_utf16(std::string_view text)
-{
-    return text.substr(0, 2) == "\xfe\xff" || text.substr(0, 2) == "\xff\xfe";
-}
-
-void add_fan(std::vector<Face>& faces, const std::vector<uint>& corners)
-{
-    for (std::size_t k = 2; k < corners.size(); ++k)
-        faces.push_back({corners[0], corners[k - 1], corners[k]});
 }
 
 }  // namespace bvhbench

@@ -1,40 +1,70 @@
 // SPDX-License-Identifier: MIT
-#include "scenes/generate/catalog.h"
+#include <algorithm>
 
 #include "scenes/generate/generators.h"
-#include "scenes/generate/moving.h"
 
 namespace bvhbench {
 namespace {
+
+/// A scene of one frame.
+template <Mesh (*make)(uint triangles)>
+Scene still(uint triangles, uint)
+{
+    Mesh mesh = make(triangles);
+    Scene scene;
+    scene.faces = std::move(mesh.faces);
+    scene.frames.push_back(std::move(mesh.points));
+    scene.source = "generated";
+    return scene;
+}
+
+constexpr Generator standing(std::string_view name, Scene (*make)(uint, uint), uint most,
+                             uint bytes_a_triangle, std::string_view summary)
+{
+    return {name, make, false, 1, most, bytes_a_triangle, 0, summary};
+}
+
+constexpr Generator moving(std::string_view name, Scene (*make)(uint, uint), uint objects,
+                           std::string_view summary)
+{
+    return {name, make, true, objects, 0x10000000u, 48, 7, summary};
+}
 
 constexpr uint any = 0x80000000u;
 constexpr uint unshared = 0xffffffffu / 3;
 
 // To add a generator, add its line here. Nothing registers itself.
 constexpr Generator catalog[] = {
-    {"torus", make_torus, any, 18, "a bumpy torus: an even closed surface, like a scanned model"},
-    {"sphere", make_sphere, any, 18, "a sphere, closed when N is even and at least 6"},
-    {"grid", make_grid, any, 18, "a flat sheet: boxes without volume that touch exactly"},
-    {"hairball", make_hairball, any, 19,
-     "long thin curling strands: boxes overlap, triangles do not"},
-    {"soup", make_soup, unshared, 48,
-     "small random triangles in the unit cube, no shared vertices"},
-};
-
-constexpr MovingGenerator moving_catalog[] = {
-    {"cloth-ball", make_cloth_ball, 2, "a cloth falls on a ball that turns; 2 objects"},
-    {"cloth-layers", make_cloth_layers, 4, "three cloths fall on a ball that turns; 4 objects"},
-    {"cloth-funnel", make_cloth_funnel, 4, "a ball pushes a cloth through a funnel; 4 objects"},
-    {"cloth-dress", make_cloth_dress, 10, "nine skirts in layers round a dancer; 10 objects"},
-    {"n-body", make_n_body, n_body_count,
-     "balls fall to their centre and bounce; 305 rigid objects"},
-    {"two-spheres", make_two_spheres, 2,
-     "one sphere sinks into another, both turn; 2 rigid objects"},
+    standing("torus", still<make_torus>, any, 18,
+             "a bumpy torus: an even closed surface, like a scanned model"),
+    standing("sphere", still<make_sphere>, any, 18,
+             "a sphere, closed when N is even and at least 6"),
+    standing("grid", still<make_grid>, any, 18,
+             "a flat sheet: boxes without volume that touch exactly"),
+    standing("hairball", still<make_hairball>, any, 19,
+             "long thin curling strands: boxes overlap, triangles do not"),
+    standing("soup", still<make_soup>, unshared, 48,
+             "small random triangles in the unit cube, no shared vertices"),
+    moving("cloth-ball", make_cloth_ball, 2, "a cloth falls on a ball that turns; 2 objects"),
+    moving("cloth-layers", make_cloth_layers, 4,
+           "three cloths fall on a ball that turns; 4 objects"),
+    moving("cloth-funnel", make_cloth_funnel, 4,
+           "a ball pushes a cloth through a funnel; 4 objects"),
+    moving("cloth-dress", make_cloth_dress, 10, "nine skirts in layers round a dancer; 10 objects"),
+    moving("n-body", make_n_body, n_body_count,
+           "balls fall to their centre and bounce; 305 rigid objects"),
+    moving("two-spheres", make_two_spheres, 2,
+           "one sphere sinks into another, both turn; 2 rigid objects"),
 };
 
 }  // namespace
 
 std::span<const Generator> generators() { return catalog; }
-std::span<const MovingGenerator> moving_generators() { return moving_catalog; }
+
+const Generator* generator_called(std::string_view name)
+{
+    const auto found = std::ranges::find(catalog, name, &Generator::name);
+    return found == std::end(catalog) ? nullptr : found;
+}
 
 }  // namespace bvhbench

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
 #include "scenes/generate/random.h"
 
@@ -23,10 +24,50 @@ std::array<double, 4> weights(double t)
 
 }  // namespace
 
-void Cloth::add_spring(uint a, uint b, double compliance)
+std::size_t NearPairs::bucket(const Cell& cell) const
 {
-    const double rest = length(positions_[b] - positions_[a]);
-    springs_.push_back({a, b, rest, compliance});
+    const std::uint64_t mixed = static_cast<std::uint64_t>(cell[0]) * 0x9e3779b97f4a7c15u ^
+                                static_cast<std::uint64_t>(cell[1]) * 0xbf58476d1ce4e5b9u ^
+                                static_cast<std::uint64_t>(cell[2]) * 0x94d049bb133111ebu;
+    return (mixed >> 20) & (begin_.size() - 2);  // a power of two of buckets
+}
+
+void NearPairs::sort(const std::vector<Vector>& points, double distance)
+{
+    const auto along = [distance](double x) {
+        return static_cast<std::int64_t>(std::floor(x / distance));
+    };
+    cells_.clear();
+    for (const Vector& point : points)
+        cells_.push_back({along(point.x), along(point.y), along(point.z)});
+    begin_.assign(std::bit_ceil(2 * points.size() + 2) + 1, 0);
+    for (const Cell& cell : cells_)
+        ++begin_[bucket(cell)];
+    for (std::size_t k = 1; k < begin_.size(); ++k)
+        begin_[k] += begin_[k - 1];
+    members_.resize(points.size());
+    for (std::size_t k = points.size(); k-- > 0;)  // from the back, which turns ends into begins
+        members_[--begin_[bucket(cells_[k])]] = static_cast<uint>(k);
+}
+
+const std::vector<std::pair<uint, uint>>& NearPairs::find(const std::vector<Vector>& points,
+                                                          double distance)
+{
+    sort(points, distance);
+    pairs_.clear();
+    for (uint i = 0; i < points.size(); ++i)
+        for (int k = 0; k < 27; ++k) {
+            const Cell cell = {cells_[i][0] + k % 3 - 1, cells_[i][1] + k / 3 % 3 - 1,
+                               cells_[i][2] + k / 9 - 1};
+            const std::size_t home = bucket(cell);
+            for (uint m = begin_[home]; m < begin_[home + 1]; ++m) {
+                const uint j = members_[m];
+                const Vector between = points[j] - points[i];
+                if (j > i && cells_[j] == cell && dot(between, between) < distance * distance)
+                    pairs_.emplace_back(i, j);
+            }
+        }
+    return pairs_;
 }
 
 // Every other cell first, then the ones between: no direction is favoured, and no spring waits for the last.
@@ -41,7 +82,8 @@ void Cloth::add_springs(const Sheet& sheet)
                     add(i, j);
     };
     const auto join = [&](uint i, uint j, uint k, uint l, double compliance) {
-        add_spring(sheet.particle(i, j), sheet.particle(k, l), compliance);
+        const uint a = sheet.particle(i, j), b = sheet.particle(k, l);
+        springs_.push_back({a, b, length(positions_[b] - positions_[a]), compliance});
     };
     each(1, 0, [&](uint i, uint j) { join(i, j, i + 1, j, 0); });
     each(0, 1, [&](uint i, uint j) { join(i, j, i, j + 1, 0); });
@@ -107,19 +149,13 @@ bool Cloth::are_neighbours(uint a, uint b) const
     return down <= 1 && (across <= 1 || (sheet.closed && across + 1 == stride));
 }
 
-/// A little early, as they move on for some steps.
-void Cloth::find_near()
-{
-    pairs_.clear();
-    for (const auto& [i, j] : near_.find(positions_, 1.25 * apart_))
-        if (!are_neighbours(i, j))
-            pairs_.emplace_back(i, j);
-}
-
 void Cloth::keep_apart()
 {
-    if (steps_ % pairs_hold_for == 0)
-        find_near();
+    if (steps_ % pairs_hold_for == 0) {
+        pairs_ = near_.find(positions_, 1.25 * apart_);  // a little early, as they move on
+        std::erase_if(pairs_,
+                      [&](const auto& pair) { return are_neighbours(pair.first, pair.second); });
+    }
     for (const auto& [i, j] : pairs_) {
         const Vector between = positions_[j] - positions_[i];
         const double square = dot(between, between);
@@ -192,12 +228,12 @@ Vector Cloth::surface(const Sheet& sheet, double u, double v,
         return at(i + k - 1);
     };
     const auto row = [&](uint index) {
-        Vector sum;
+        Vector sum = {};
         for (uint k = 0; k < 4; ++k)
             sum = sum + across[k] * in_row(index, k);
         return sum;
     };
-    Vector sum;
+    Vector sum = {};
     for (uint k = 0; k < 4; ++k)
         if (j + k == 0)
             sum = sum + down[k] * (2 * row(0) - row(1));

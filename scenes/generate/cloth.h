@@ -10,9 +10,11 @@
 // One order of all operations, one thread, and only operations that IEEE 754 fixes: the same everywhere.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <functional>
+#include <utility>
 
-#include "scenes/generate/near_pairs.h"
 #include "scenes/generate/obstacles.h"
 
 namespace bvhbench {
@@ -35,6 +37,25 @@ struct Sheet {
 
     uint stride() const { return closed ? columns : columns + 1; }
     uint particle(uint i, uint j) const { return first + j * stride() + i % stride(); }
+};
+
+/// Finds pairs of points that are near each other, by a hashed grid. Keeps its memory between calls.
+class NearPairs {
+public:
+    /// All (i, j), i < j, of points nearer than `distance`, each once; in an order that depends on nothing but
+    /// the points. Holds until the next call.
+    const std::vector<std::pair<uint, uint>>& find(const std::vector<Vector>& points,
+                                                   double distance);
+
+private:
+    using Cell = std::array<std::int64_t, 3>;
+    std::size_t bucket(const Cell& cell) const;
+    void sort(const std::vector<Vector>& points, double distance);
+
+    std::vector<Cell> cells_;    ///< of the points
+    std::vector<uint> begin_;    ///< of each bucket in `members_`, and the end of the last
+    std::vector<uint> members_;  ///< points by bucket, ascending in each
+    std::vector<std::pair<uint, uint>> pairs_;
 };
 
 class Cloth {
@@ -63,10 +84,8 @@ private:
         uint a, b;
         double length, compliance;
     };
-    void add_spring(uint a, uint b, double compliance);
     void add_springs(const Sheet& sheet);
     bool are_neighbours(uint a, uint b) const;
-    void find_near();
     void stretch();
     void keep_apart();
     void meet(const std::vector<const Obstacle*>& obstacles);

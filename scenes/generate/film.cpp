@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "scenes/generate/generators.h"
+
 namespace bvhbench {
 
 void Film::add(std::string name, Mesh mesh, Place place)
@@ -13,21 +15,19 @@ void Film::add(std::string name, Mesh mesh, Place place)
 Scene Film::shoot(uint frames, uint steps, const std::function<void(uint step)>& advance) const
 {
     Scene scene;
-    std::size_t points = 0;
+    Mesh all;
     for (const Actor& actor : actors_) {
-        scene.objects.push_back(
-            {actor.name, scene.triangle_count(), static_cast<uint>(actor.mesh.faces.size())});
-        const auto first = static_cast<uint>(points);
-        for (const Face& face : actor.mesh.faces)
-            scene.faces.push_back({face.a + first, face.b + first, face.c + first});
-        points += actor.mesh.points.size();
+        scene.objects.push_back({actor.name, static_cast<uint>(all.faces.size()),
+                                 static_cast<uint>(actor.mesh.faces.size())});
+        append(all, actor.mesh);
     }
+    scene.faces = std::move(all.faces);
     uint made = 0;
     for (std::uint64_t frame = 1; frame <= frames; ++frame) {
         for (const std::uint64_t until = steps * frame / frames; made < until; ++made)
             advance(made);
         std::vector<Point>& now = scene.frames.emplace_back();
-        now.reserve(points);
+        now.reserve(all.points.size());
         for (const Actor& actor : actors_)
             for (const Point& point : actor.mesh.points)
                 now.push_back(rounded(actor.place(point)));

@@ -11,6 +11,7 @@
 
 #include "scenes/generate/generators.h"
 #include "scenes/generate/random.h"
+#include "scenes/generate/vector.h"
 
 namespace bvhbench {
 namespace {
@@ -20,19 +21,10 @@ constexpr float root_radius = 0.2f;
 constexpr float step = 0.045f;
 constexpr float thickness = 0.002f;
 
-Point plus(Point a, Point b, float scale)
-{
-    return {a.x + scale * b.x, a.y + scale * b.y, a.z + scale * b.z};
-}
-float dot(Point a, Point b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-Point cross(Point a, Point b)
-{
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 Point normalised(Point a)
 {
-    const float length = std::sqrt(dot(a, a));
-    return length > 0 ? Point{a.x / length, a.y / length, a.z / length} : Point{1, 0, 0};
+    const float size = length(a);
+    return size > 0 ? Point{a.x / size, a.y / size, a.z / size} : Point{1, 0, 0};
 }
 
 /// Some unit vector across `direction`, the same for the same direction.
@@ -46,9 +38,9 @@ void add_ring(Mesh& mesh, Point centre, Point direction)
 {
     const Point u = across(direction);
     const Point v = cross(direction, u);
-    mesh.points.push_back(plus(centre, u, thickness));
-    mesh.points.push_back(plus(plus(centre, u, -0.5f * thickness), v, 0.866f * thickness));
-    mesh.points.push_back(plus(plus(centre, u, -0.5f * thickness), v, -0.866f * thickness));
+    mesh.points.push_back(centre + thickness * u);
+    mesh.points.push_back(centre + (-0.5f * thickness) * u + (0.866f * thickness) * v);
+    mesh.points.push_back(centre + (-0.5f * thickness) * u + (-0.866f * thickness) * v);
 }
 
 void add_segment(Mesh& mesh, uint ring)
@@ -60,23 +52,22 @@ void add_segment(Mesh& mesh, uint ring)
     }
 }
 
-void add_strand(Mesh& mesh, Random& random, uint length)
+void add_strand(Mesh& mesh, Random& random, uint segment_count)
 {
     Point direction = normalised(random.in_ball());
-    Point centre = {root_radius * direction.x, root_radius * direction.y,
-                    root_radius * direction.z};
+    Point centre = root_radius * direction;
     const Point axis = normalised(random.in_ball());   // the strand's own curl is round this axis
     const float curl = 0.15f + 0.35f * random.unit();  // radians a step, about
     add_ring(mesh, centre, direction);
-    for (uint k = 0; k < length; ++k) {
-        direction = plus(direction, cross(axis, direction), curl);
-        direction = plus(direction, random.in_ball(), 0.2f);
-        const float radius = std::sqrt(dot(centre, centre));
+    for (uint k = 0; k < segment_count; ++k) {
+        direction = direction + curl * cross(axis, direction);
+        direction = direction + 0.2f * random.in_ball();
+        const float radius = length(centre);
         if (radius > 0.8f)
-            direction = plus(direction, centre, -3.0f * (radius - 0.8f));
+            direction = direction + (-3.0f * (radius - 0.8f)) * centre;
         direction = normalised(direction);
         const auto ring = static_cast<uint>(mesh.points.size() - 3);
-        centre = plus(centre, direction, step);
+        centre = centre + step * direction;
         add_ring(mesh, centre, direction);
         add_segment(mesh, ring);
     }

@@ -5,9 +5,9 @@ namespace bvhbench {
 
 std::optional<Contact> Floor::contact(Vector at) const
 {
-    if (at.y >= height + gap)
+    if (at.y >= gap)
         return std::nullopt;
-    return Contact{{0, 1, 0}, height + gap - at.y, {}};
+    return Contact{{0, 1, 0}, gap - at.y, {}};
 }
 
 void Placement::advance(double seconds)

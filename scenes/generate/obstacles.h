@@ -10,9 +10,9 @@ namespace bvhbench {
 
 /// How deep a point is in an obstacle, and how the obstacle moves there.
 struct Contact {
-    Vector normal;  ///< of length 1, the way out
+    Vector normal = {};  ///< of length 1, the way out
     double depth = 0;
-    Vector velocity;
+    Vector velocity = {};
 };
 
 /// Something hard that cloth lies on. All keep cloth `gap` away from their surface.
@@ -25,16 +25,15 @@ public:
     virtual std::optional<Contact> contact(Vector at) const = 0;
 };
 
-/// Everything below a height.
+/// Everything below height 0.
 struct Floor : Obstacle {
-    double height = 0;
     std::optional<Contact> contact(Vector at) const override;
 };
 
 /// Where an obstacle is and how it moves: it may turn about the vertical line through its centre.
 struct Placement {
-    Vector centre;
-    Vector velocity;
+    Vector centre = {};
+    Vector velocity = {};
     double spin = 0;  ///< radians a second, from z to x
     Turn turn;        ///< how far it has turned
 

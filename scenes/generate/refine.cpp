@@ -9,15 +9,15 @@
 //
 // Half-edge 3f + k is the side of triangle f from its corner k to the next. Half-edges of one edge form a
 // ring through `next_in_ring_`; meshes may have any number of triangles at an edge.
-#include "scenes/generate/refine.h"
+#include "scenes/generate/derived.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <numeric>
 #include <queue>
 
 #include "geometry/error.h"
+#include "scenes/generate/vector.h"
 
 namespace bvhbench {
 namespace {
@@ -27,10 +27,7 @@ struct Middle {
     uint a, b;
 };
 
-Point middle_of(Point a, Point b)
-{
-    return {0.5f * a.x + 0.5f * b.x, 0.5f * a.y + 0.5f * b.y, 0.5f * a.z + 0.5f * b.z};
-}
+Point middle_of(Point a, Point b) { return 0.5f * a + 0.5f * b; }
 
 class Refiner {
 public:
@@ -128,8 +125,7 @@ private:
     void enqueue(uint edge)
     {
         const Point a = points_[start_of(half_of_[edge])], b = points_[end_of(half_of_[edge])];
-        const double x = double{a.x} - b.x, y = double{a.y} - b.y, z = double{a.z} - b.z;
-        queue_.push({static_cast<float>(0.5 * std::sqrt(x * x + y * y + z * z)), edge});
+        queue_.push({static_cast<float>(0.5 * length(difference(a, b))), edge});
     }
 
     void cut_longest()

@@ -13,6 +13,7 @@
 #include <numbers>
 
 #include "scenes/generate/generators.h"
+#include "scenes/generate/vector.h"
 
 namespace bvhbench {
 namespace {
@@ -55,9 +56,8 @@ void place(Mesh& mesh, const std::vector<Ring>& rings)
             std::numbers::pi * static_cast<double>(k + 1) / static_cast<double>(rings.size() + 1);
         for (uint i = 0; i < rings[k].count; ++i) {
             const double phi = 2.0 * std::numbers::pi * i / rings[k].count;
-            mesh.points.push_back({static_cast<float>(std::sin(theta) * std::cos(phi)),
-                                   static_cast<float>(std::sin(theta) * std::sin(phi)),
-                                   static_cast<float>(std::cos(theta))});
+            mesh.points.push_back(rounded({std::sin(theta) * std::cos(phi),
+                                           std::sin(theta) * std::sin(phi), std::cos(theta)}));
         }
     }
     mesh.points.push_back({0, 0, -1});

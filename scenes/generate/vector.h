@@ -1,32 +1,49 @@
 // SPDX-License-Identifier: MIT
 //
-// Points and directions in double, for what is simulated before it is rounded to float once. Only operations
-// that IEEE 754 fixes: a simulation that called sin would come out otherwise with another C library, by far
+// Arithmetic of points (floats) and of vectors (doubles), for what is simulated before it is rounded to float once. Only
+// operations that IEEE 754 fixes: a simulation that called sin would come out otherwise with another C library, by far
 // more than a last bit.
 #pragma once
 
 #include <cmath>
+#include <concepts>
 
-#include "geometry/triangle.h"
+#include "geometry/vectors.h"
 
 namespace bvhbench {
 
-struct Vector {
-    double x = 0, y = 0, z = 0;
-};
+template <class V>
+concept Triple = std::same_as<V, Point> || std::same_as<V, Vector>;
 
-inline Vector operator+(Vector a, Vector b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline Vector operator-(Vector a, Vector b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline Vector operator*(double s, Vector a) { return {s * a.x, s * a.y, s * a.z}; }
-inline double dot(Vector a, Vector b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline Vector cross(Vector a, Vector b)
+template <Triple V>
+constexpr V operator+(V a, V b)
+{
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <Triple V>
+constexpr V operator-(V a, V b)
+{
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <Triple V>
+constexpr V operator*(decltype(V::x) s, V a)
+{
+    return {s * a.x, s * a.y, s * a.z};
+}
+template <Triple V>
+constexpr V cross(V a, V b)
 {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-inline double length(Vector a) { return std::sqrt(dot(a, a)); }
+constexpr float dot(Point a, Point b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+template <Triple V>
+auto length(V a)
+{
+    return std::sqrt(dot(a, a));
+}
 
-inline Vector vector_of(Point point) { return {point.x, point.y, point.z}; }
-inline Point rounded(Vector a)
+constexpr Vector vector_of(Point point) { return {point.x, point.y, point.z}; }
+constexpr Point rounded(Vector a)
 {
     return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
 }

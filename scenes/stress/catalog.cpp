@@ -1,12 +1,139 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
+#include <limits>
 
 #include "scenes/generate/generators.h"
 #include "scenes/generate/random.h"
+#include "scenes/generate/vector.h"
 #include "scenes/stress/stress_scene.h"
 
 namespace bvhbench {
 namespace {
+
+struct Named {
+    const char* name;
+    double value;
+};
+
+// Where the numbers are: far from the origin, and of any size that a float can have. Pairs are exact for the floats that are
+// stored.
+
+std::vector<StressCase> translated_cases(const StressSize& size)
+{
+    std::vector<StressCase> cases;
+    for (const auto& [name, by] :
+         {Named{"1", 1}, {"1e3", 1e3}, {"1e6", 1e6}, {"1e9", 1e9}, {"1e12", 1e12}}) {
+        const bool is_one_place = by > 1e7;  // floats are a unit apart, and more
+        const uint triangles = is_one_place ? size.crowded_triangles() : size.triangles();
+        cases.push_back({name, [=, seed = size.seed, by = by] {
+                             return changed(crossed_spheres(triangles, seed),
+                                            [by](double x) { return x + by; });
+                         }});
+    }
+    return cases;
+}
+
+std::vector<StressCase> scaled_cases(const StressSize& size)
+{
+    std::vector<StressCase> cases;
+    for (const auto& [name, by] : {Named{"denormal", 0x1p-140},
+                                   {"1e-38", 1e-38},
+                                   {"1e-30", 1e-30},
+                                   {"1e-20", 1e-20},
+                                   {"1e-10", 1e-10},
+                                   {"1e10", 1e10},
+                                   {"1e17", 1e17},
+                                   {"1e20", 1e20},
+                                   {"1e30", 1e30}})
+        cases.push_back({name, [size, by = by] {
+                             return changed(crossed_spheres(size.triangles(), size.seed),
+                                            [by](double x) { return x * by; });
+                         }});
+    return cases;
+}
+
+// Two spheres with vertices that are no places. A scene that is loaded never has any: `finished` refuses it.
+
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+StressScene with(const StressSize& size, std::initializer_list<Point> places)
+{
+    StressScene scene = crossed_spheres(size.triangles(), size.seed);
+    std::size_t at = scene.mesh.points.size() / 3;
+    for (const Point& place : places) {
+        scene.mesh.points[at] = place;
+        at += 7;
+    }
+    return scene;
+}
+
+std::vector<StressCase> not_finite_cases(const StressSize& size)
+{
+    return {{"one NaN",
+             [=] {
+                 return with(size, {{nan, nan, nan}});
+             }},
+            {"one NaN coordinate",
+             [=] {
+                 return with(size, {{0, nan, 0}});
+             }},
+            {"one infinite",
+             [=] {
+                 return with(size, {{infinity, infinity, infinity}});
+             }},
+            {"infinite both ways", [=] {
+                 return with(size, {{infinity, 0, 0}, {-infinity, 0, 0}, {0, infinity, -infinity}});
+             }}};
+}
+
+// How many triangles there are: at powers of two and beside them, where implicit layouts go wrong, and past 2^24, where
+// a float no longer tells a number from the next.
+
+std::vector<StressCase> counted_cases(const StressSize& size)
+{
+    std::vector<StressCase> cases;
+    const auto add = [&](uint triangles) {
+        cases.push_back({std::to_string(triangles), [=] { return single(make_soup(triangles)); }});
+    };
+    for (const uint few : {1u, 2u, 3u})
+        add(few);
+    for (uint k = size.quick ? 3 : 2; k <= (size.quick ? 9u : 17u); k += 3)
+        for (const uint beside : {(1u << k) - 1, 1u << k, (1u << k) + 1})
+            if (beside > 3)
+                add(beside);
+    return cases;
+}
+
+/// Sixteen rows of degenerate triangles, each over the next two of its row: pairs can be counted, and a sweep along the rows
+/// finds them soon however many there are. What is over goes into the last row: with a row more for it, the scene would have
+/// other bounds and so other codes, and fronts three times as large, too large for one piece of memory on PoCL.
+Mesh rows(uint triangles)
+{
+    static constexpr uint row = 1u << 20, last = 15;
+    Mesh mesh;
+    mesh.points.reserve(triangles + std::size_t{1});
+    mesh.faces.reserve(triangles);
+    const auto row_of = [](uint k) { return k / row < last ? k / row : last; };
+    for (uint k = 0; k < triangles; ++k) {
+        const auto x = static_cast<float>(k - row_of(k) * row),
+                   y = static_cast<float>(4 * row_of(k));
+        mesh.points.push_back({x, y, static_cast<float>(k % 3)});
+        const uint next = k + 1 < triangles && row_of(k + 1) == row_of(k) ? k + 1 : k;
+        mesh.faces.push_back({k, next, k});
+    }
+    return mesh;
+}
+
+std::vector<StressCase> large_cases(const StressSize& size)
+{
+    std::vector<StressCase> cases;
+    if (!size.quick)
+        for (const uint triangles : {(1u << 24) - 1, (1u << 24) + 1})
+            cases.push_back(
+                {std::to_string(triangles), [=] { return single(rows(triangles)); }, true});
+    return cases;
+}
 
 // To add a family, add its line here.
 constexpr StressFamily families[] = {
@@ -23,16 +150,6 @@ constexpr StressFamily families[] = {
     {"large", "past 2^24 leaves, where floats no longer count", large_cases},
 };
 
-void append(StressScene& scene, const Mesh& part)
-{
-    const auto base = static_cast<uint>(scene.mesh.points.size());
-    scene.objects.push_back(
-        {static_cast<uint>(scene.mesh.faces.size()), static_cast<uint>(part.faces.size())});
-    scene.mesh.points.insert(scene.mesh.points.end(), part.points.begin(), part.points.end());
-    for (const Face& face : part.faces)
-        scene.mesh.faces.push_back({face.a + base, face.b + base, face.c + base});
-}
-
 }  // namespace
 
 std::span<const StressFamily> stress_families() { return families; }
@@ -45,10 +162,10 @@ StressScene single(Mesh mesh)
 
 StressScene together(const Mesh& first, const Mesh& second)
 {
-    StressScene scene;
-    append(scene, first);
-    append(scene, second);
-    return scene;
+    const auto faces = static_cast<uint>(first.faces.size());
+    Mesh both = first;
+    append(both, second);
+    return {std::move(both), {{0, faces}, {faces, static_cast<uint>(second.faces.size())}}};
 }
 
 StressScene crossed_spheres(uint triangles, std::uint64_t seed)
@@ -58,7 +175,7 @@ StressScene crossed_spheres(uint triangles, std::uint64_t seed)
     Random random(seed);
     const Point by = random.in_ball();
     for (Point& p : second.points)
-        p = {p.x + 0.5f * by.x, p.y + 0.5f * by.y, p.z + 0.5f * by.z};
+        p = p + 0.5f * by;
     return together(first, second);
 }
 

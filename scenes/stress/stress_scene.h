@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Scenes on which builders, colliders and libraries have failed, by families: one file a family, one line each in the
-// catalog. All are generated, and the same for the same seed on every machine but for a last bit of sin and cos.
+// Scenes on which builders, colliders and libraries have failed, by families, one line each in the catalog. All are
+// generated, and the same for the same seed on every machine but for a last bit of sin and cos.
 #pragma once
 
 #include <cstdint>
@@ -69,15 +69,10 @@ StressScene changed(StressScene scene, const Change& change)
     return scene;
 }
 
-std::vector<StressCase> translated_cases(const StressSize& size);
-std::vector<StressCase> scaled_cases(const StressSize& size);
 std::vector<StressCase> degenerate_cases(const StressSize& size);
 std::vector<StressCase> needle_cases(const StressSize& size);
 std::vector<StressCase> coplanar_cases(const StressSize& size);
 std::vector<StressCase> coincident_cases(const StressSize& size);
 std::vector<StressCase> far_triangle_cases(const StressSize& size);
-std::vector<StressCase> not_finite_cases(const StressSize& size);
-std::vector<StressCase> counted_cases(const StressSize& size);
-std::vector<StressCase> large_cases(const StressSize& size);
 
 }  // namespace bvhbench

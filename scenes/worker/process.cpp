@@ -1,19 +1,56 @@
 // SPDX-License-Identifier: MIT
 #include "scenes/worker/process.h"
 
+#include <fcntl.h>
 #include <poll.h>
+#include <spawn.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <system_error>
+#include <utility>
 
-#include "scenes/worker/worker.h"
+#include "geometry/error.h"
+#include "geometry/host_memory.h"
 
 namespace bvhbench {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+constexpr const char* parent = "BVHBENCH_PARENT";
+
+std::vector<char*> pointers(std::vector<std::string>& words)
+{
+    std::vector<char*> result;
+    for (std::string& word : words)
+        result.push_back(word.data());
+    result.push_back(nullptr);
+    return result;
+}
+
+/// `variables`, and those of this process's own that none of them names: of two of one name the first counts.
+std::vector<std::string> environment_under(std::vector<std::string> variables)
+{
+    const auto name = [](std::string_view variable) {
+        return variable.substr(0, variable.find('='));
+    };
+    const std::size_t given = variables.size();
+    for (char** own = environ; *own != nullptr; ++own)
+        if (std::none_of(variables.begin(), variables.begin() + static_cast<std::ptrdiff_t>(given),
+                         [&](const std::string& other) { return name(other) == name(*own); }))
+            variables.emplace_back(*own);
+    return variables;
+}
 
 /// Reads to the end of the pipe. False if `until` comes first.
 bool drain(Child& child, Clock::time_point until)
@@ -37,15 +74,90 @@ bool drain(Child& child, Clock::time_point until)
 
 }  // namespace
 
+std::string spelled(const ProcessEnd& end, double time_limit_s)
+{
+    if (end.how == ProcessEnd::How::signalled)
+        return "crashed (signal " + std::to_string(end.code) + ")";
+    if (end.how == ProcessEnd::How::exited)
+        return "ended with exit code " + std::to_string(end.code);
+    char limit[32];
+    std::snprintf(limit, sizeof limit, "%g", time_limit_s);
+    return std::string("took longer than ") + limit + " s";
+}
+
+Child::Child(Start start)
+{
+    std::vector<std::string> environment = environment_under(std::move(start.environment));
+    const std::vector<char*> words = pointers(start.words), variables = pointers(environment);
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0)
+        throw Unavailable("no pipe to a process of its own: " +
+                          std::system_category().message(errno));
+    posix_spawn_file_actions_t files;
+    posix_spawn_file_actions_init(&files);
+    posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    for (const auto& [file, where] :
+         {std::pair(STDOUT_FILENO, start.output), {STDERR_FILENO, start.errors}})
+        if (where == Stream::captured)
+            posix_spawn_file_actions_adddup2(&files, ends[1], file);
+        else if (where == Stream::dropped)
+            posix_spawn_file_actions_addopen(&files, file, "/dev/null", O_WRONLY, 0);
+    const int error = posix_spawnp(&process_, start.path.c_str(), &files, nullptr, words.data(),
+                                   variables.data());
+    posix_spawn_file_actions_destroy(&files);
+    close(ends[1]);
+    reader_ = ends[0];
+    if (error == 0)
+        return;
+    close(reader_);
+    throw Unavailable(start.path + " cannot be started: " + std::system_category().message(error));
+}
+
+Child::~Child()
+{
+    if (process_ > 0) {
+        send(SIGKILL);
+        wait();
+    }
+    close(reader_);
+}
+
+bool Child::take()
+{
+    std::array<char, std::size_t{1} << 16> more;
+    const ssize_t count = read(reader_, more.data(), more.size());
+    if (count > 0)
+        text_.append(more.data(), static_cast<std::size_t>(count));
+    return count > 0 || (count < 0 && errno == EINTR);
+}
+
+void Child::send(int signal) const
+{
+    if (process_ > 0)
+        kill(process_, signal);
+}
+
+ProcessEnd Child::wait()
+{
+    int status = 0;
+    while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+    }
+    process_ = 0;
+    if (WIFSIGNALED(status))
+        return {ProcessEnd::How::signalled, WTERMSIG(status), std::move(text_)};
+    return {ProcessEnd::How::exited, WEXITSTATUS(status), std::move(text_)};
+}
+
 ProcessEnd run_process(const std::vector<std::string>& command, double time_limit_s,
                        const std::string& extra_environment)
 {
     const auto until =
         Clock::now() + std::chrono::duration_cast<Clock::duration>(
                            std::chrono::duration<double>(std::min(time_limit_s, 1e6)));
-    Child child({.path = command.front(),
-                 .words = command,
-                 .environment = {extra_environment, ends_with_this_process()}});
+    Child child(
+        {.path = command.front(),
+         .words = command,
+         .environment = {extra_environment, std::string(parent) + '=' + std::to_string(getpid())}});
     const bool finished = drain(child, until);
     if (!finished)
         child.send(SIGKILL);
@@ -53,6 +165,48 @@ ProcessEnd run_process(const std::vector<std::string>& command, double time_limi
     if (!finished)
         end.how = ProcessEnd::How::timed_out;
     return end;
+}
+
+void end_with_parent()
+{
+    const char* const wanted = std::getenv(parent);
+    if (wanted == nullptr)
+        return;
+    const long process = std::strtol(wanted, nullptr, 10);
+    unsetenv(parent);  // it says nothing to those that this one starts
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != process)  // it was over before the line above
+        _exit(128 + SIGKILL);
+}
+
+void limit_worker(std::size_t memory_bytes)
+{
+    end_with_parent();
+    const rlimit no_core{0, 0};
+    setrlimit(RLIMIT_CORE, &no_core);
+    limit_host_memory(std::min<std::uint64_t>(memory_bytes, host_memory_left()));
+}
+
+int take_standard_output()
+{
+    const int answer = dup(STDOUT_FILENO);
+    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    dup2(nowhere, STDOUT_FILENO);
+    dup2(nowhere, STDERR_FILENO);
+    return answer;
+}
+
+bool write_all(int file, std::string_view bytes)
+{
+    while (!bytes.empty()) {
+        const ssize_t count = write(file, bytes.data(), bytes.size());
+        if (count < 0 && errno == EINTR)
+            continue;
+        if (count <= 0)
+            return false;
+        bytes.remove_prefix(static_cast<std::size_t>(count));
+    }
+    return true;
 }
 
 }  // namespace bvhbench

@@ -8,9 +8,8 @@
 #include "harness/measure/collide.h"
 #include "harness/measure/pipeline.h"
 #include "harness/measure/swept.h"
-#include "scenes/finish.h"
-#include "scenes/frames_between.h"
-#include "scenes/swept_parts.h"
+#include "scenes/generate/derived.h"
+#include "scenes/ground_truth.h"
 #include "tests/collide/collider_testing.h"
 
 namespace bvhbench {

@@ -17,7 +17,7 @@ mkdir -p "$to"
 flags=(-std=c++20 -O1 -g1 -march=x86-64-v3 -fsanitize=address,undefined -fno-sanitize-recover=undefined -I.
     -DBVHBENCH_HAS_CGAL=1 -DBVHBENCH_HAS_EMBREE=1 -DBVHBENCH_HAS_FCL=1)
 objects=()
-for source in scenes/formats/{obj,off,ply,ply_header,ply_values,stl,text}.cpp scenes/{ground_truth,sequence_facts}.cpp \
+for source in scenes/formats/{formats,obj,off,ply,ply_header,stl,text}.cpp scenes/{ground_truth,sequence_facts}.cpp \
     harness/choice/{choices,collide_task,experiment,experiment_pipelines,scene_choice}.cpp \
     harness/base/json_keys.cpp harness/commands/{program,words}.cpp harness/session/tuning_file.cpp; do
     object=$to/${source//\//_}.o

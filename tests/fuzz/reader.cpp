@@ -11,7 +11,7 @@
 #include "harness/session/tuning_file.h"
 #include "scenes/formats/formats.h"
 #include "scenes/ground_truth.h"
-#include "scenes/sequence_facts.h"
+#include "scenes/sequence.h"
 
 namespace bvhbench {
 namespace {

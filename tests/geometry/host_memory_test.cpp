@@ -9,7 +9,6 @@
 #include <fstream>
 #include <string>
 
-#include "geometry/cgroup_memory.h"
 #include "geometry/error.h"
 
 namespace bvhbench {

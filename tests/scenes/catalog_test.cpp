@@ -2,7 +2,7 @@
 #include <set>
 
 #include "helpers.h"
-#include "scenes/generate/catalog.h"
+#include "scenes/generate/generators.h"
 #include "scenes/manifest.h"
 
 namespace bvhbench {
@@ -34,11 +34,9 @@ TEST(Catalog, ListsEveryGeneratorAndDataSetByTheNameTyped)
     for (const SceneListing& line : list_scenes({}))
         EXPECT_TRUE(names.insert(line.name).second) << line.name;
     for (const Generator& generator : generators())
-        EXPECT_TRUE(names.count(std::string(generator.name) + ":N"));
-    for (const MovingGenerator& generator : moving_generators())
-        EXPECT_TRUE(names.count(std::string(generator.name) + ":N:F"));
+        EXPECT_TRUE(names.count(std::string(generator.name) + (generator.moves ? ":N:F" : ":N")));
     for (const ManifestEntry& entry : manifest())
-        EXPECT_TRUE(names.count(entry.set.name));
+        EXPECT_TRUE(names.count(entry.name));
     EXPECT_TRUE(names.count("refine:SCENE:N"));
     EXPECT_TRUE(names.count("outlier:SCENE:K:D"));
     EXPECT_TRUE(names.count("bend:SCENE"));
@@ -48,7 +46,7 @@ TEST(Catalog, ListsWhetherAFileIsThere)
 {
     const Folder folder;
     const auto summary = [&] {
-        for (const SceneListing& line : list_scenes({folder.path(), 0, 0}))
+        for (const SceneListing& line : list_scenes({folder.path()}))
             if (line.name == "bunny")
                 return line.summary;
         return std::string();
@@ -61,28 +59,28 @@ TEST(Catalog, ListsWhetherAFileIsThere)
 TEST(DataSets, OfTableOneHaveStandInsOfTheSameCount)
 {
     for (const char* name : {"bunny", "erato", "dragon", "buddha", "hairball"}) {
-        const DataSet* const set = find_data_set(name);
-        ASSERT_NE(set, nullptr);
-        const Scene scene = load_or_stand_in(*set, {});
-        EXPECT_EQ(scene.triangle_count(), set->triangles);
+        const ManifestEntry& set = *manifest_entry(name);
+        const Scene scene = load_or_stand_in(name, {});
+        EXPECT_EQ(scene.triangle_count(), set.triangles);
         EXPECT_EQ(scene.stand_in_for, name);
-        EXPECT_EQ(scene.name, set->stand_in);
+        EXPECT_EQ(scene.name, set.stand_ins.back());
     }
-    EXPECT_EQ(find_data_set("nothing"), nullptr);
+    EXPECT_EQ(load_or_stand_in("soup:5", {}).stand_in_for, "");
+    EXPECT_THROW(load_or_stand_in("nothing", {}), BadUsage);
 }
 
 TEST(DataSets, OfAnotherCountAreStoodInForAndRefusedByName)
 {
     const Folder folder;
     folder.file("bunny/bunny.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    const SceneLibrary library{folder.path(), 0, 0};
-    EXPECT_EQ(load_or_stand_in(*find_data_set("bunny"), library).stand_in_for, "bunny");
+    const SceneLibrary library{folder.path()};
+    EXPECT_EQ(load_or_stand_in("bunny", library).stand_in_for, "bunny");
     EXPECT_TRUE(contains(refusal("bunny", library),
                          "Unavailable: data set 'bunny' has 144046 triangles, and "));
     folder.file("bunny.obj", "v 0 0 0\n");  // the folder of its own comes first
     EXPECT_TRUE(contains(refusal("bunny", library), "bunny/bunny.obj has 1"));
     folder.file("bunny/bunny.obj", "v 0\n");  // damaged is not absent
-    EXPECT_THROW(load_or_stand_in(*find_data_set("bunny"), library), Unavailable);
+    EXPECT_THROW(load_or_stand_in("bunny", library), Unavailable);
 }
 
 TEST(DataSets, ThatAreNotThereSayWhereToGetThem)
@@ -90,21 +88,21 @@ TEST(DataSets, ThatAreNotThereSayWhereToGetThem)
     EXPECT_TRUE(
         contains(refusal("erato"), "Unavailable: data set 'erato' is not in the data folder ''"));
     EXPECT_TRUE(contains(refusal("erato"), "https://casual-effects.com/data/"));
-    EXPECT_THROW(load_or_stand_in(*find_data_set("unc_nbody"), {}), Unavailable);
+    EXPECT_THROW(load_or_stand_in("unc_nbody", {}), Unavailable);
 }
 
 TEST(DataSets, ThatAreSequencesHaveTheNearestThereIsForStandIn)
 {
     const Folder folder;
-    const SceneLibrary library{folder.path(), 0, 0};
-    const Scene generated = load_or_stand_in(*find_data_set("n-body"), library);
+    const SceneLibrary library{folder.path()};
+    const Scene generated = load_or_stand_in("n-body", library);
     EXPECT_EQ(generated.stand_in_for, "n-body");
     EXPECT_EQ(generated.name, "n-body:146480");
     EXPECT_EQ(generated.triangle_count(), 146480u);
     EXPECT_EQ(generated.objects.size(), 305u);
     if (data_folder().empty())
         return;
-    const Scene real = load_or_stand_in(*find_data_set("n-body"), {data_folder(), 0, 0});
+    const Scene real = load_or_stand_in("n-body", {data_folder()});
     EXPECT_EQ(real.stand_in_for, "n-body");
     EXPECT_EQ(real.name, "unc_nbody");
 }
@@ -116,11 +114,9 @@ TEST(DataSets, OfTablesTwoAndThreeEndInAStandInOfAsManyObjects)
         {"andy", 4},       {"bridson", 2}, {"bridson-3", 4},
     };
     for (const auto& [name, objects] : tables) {
-        const DataSet* const set = find_data_set(name);
-        ASSERT_NE(set, nullptr) << name;
-        const std::size_t colon = set->stand_in.find(':');
-        const std::string small = set->stand_in.substr(0, colon) + ":400:1";
-        EXPECT_EQ(load_scene(small, {}).objects.size(), objects) << set->stand_in;
+        const std::string stand_in = manifest_entry(name)->stand_ins.back();
+        const std::string small = stand_in.substr(0, stand_in.find(':')) + ":400:1";
+        EXPECT_EQ(load_scene(small, {}).objects.size(), objects) << stand_in;
         EXPECT_THROW(load_scene(name, {}), Unavailable);  // by name it is itself or nothing
     }
 }
@@ -129,11 +125,11 @@ TEST(Manifest, HasStandInsOfTheSameCountForMeshesAndGeneratedLastForAll)
 {
     std::set<std::string> names;
     for (const ManifestEntry& entry : manifest())
-        EXPECT_TRUE(names.insert(entry.set.name).second) << entry.set.name;
+        EXPECT_TRUE(names.insert(entry.name).second) << entry.name;
     for (const ManifestEntry& entry : manifest()) {
         EXPECT_FALSE(entry.files.empty());
         for (const std::string& stand_in : entry.stand_ins) {
-            SCOPED_TRACE(entry.set.name + " " + stand_in);
+            SCOPED_TRACE(entry.name + " " + stand_in);
             const bool is_last = &stand_in == &entry.stand_ins.back();
             if (entry.is_frames && !is_last) {
                 EXPECT_TRUE(names.count(stand_in));
@@ -142,9 +138,9 @@ TEST(Manifest, HasStandInsOfTheSameCountForMeshesAndGeneratedLastForAll)
                 EXPECT_NE(stand_in.find(':'), stand_in.npos);
                 EXPECT_FALSE(stand_in.starts_with("refine:"));
             }
-            if (!entry.is_frames || (is_last && entry.set.triangles != 0)) {
+            if (!entry.is_frames || (is_last && entry.triangles != 0)) {
                 EXPECT_EQ(stand_in.substr(stand_in.rfind(':') + 1),
-                          std::to_string(entry.set.triangles));
+                          std::to_string(entry.triangles));
             }
         }
     }

@@ -6,8 +6,8 @@
 
 #include "helpers.h"
 #include "scenes/generate/film.h"
+#include "scenes/generate/generators.h"
 #include "scenes/generate/random.h"
-#include "scenes/generate/sheet_mesh.h"
 
 namespace bvhbench {
 namespace {

@@ -102,27 +102,25 @@ std::string ply_of(const std::vector<WidePoint>& points, const char* type)
     return ply;
 }
 
-std::string obj_of(const std::vector<WidePoint>& points)
+/// A line for each vertex and for each triangle, whose corners are counted from `first`.
+std::string lines_of(const std::vector<WidePoint>& points, const std::string& vertex,
+                     const std::string& face, std::size_t first)
 {
-    std::string obj;
+    std::string lines;
     for (const WidePoint& p : points)
-        obj += "v " + words(p) + '\n';
-    for (std::size_t k = 0; k < triangles; ++k)
-        obj += "f " + std::to_string(3 * k + 1) + ' ' + std::to_string(3 * k + 2) + ' ' +
-               std::to_string(3 * k + 3) + '\n';
-    return obj;
+        lines += vertex + words(p) + '\n';
+    for (std::size_t k = first; k < points.size() + first; k += 3)
+        lines += face + std::to_string(k) + ' ' + std::to_string(k + 1) + ' ' +
+                 std::to_string(k + 2) + '\n';
+    return lines;
 }
+
+std::string obj_of(const std::vector<WidePoint>& points) { return lines_of(points, "v ", "f ", 1); }
 
 std::string off_of(const std::vector<WidePoint>& points)
 {
-    std::string off =
-        "OFF\n" + std::to_string(points.size()) + ' ' + std::to_string(triangles) + " 0\n";
-    for (const WidePoint& p : points)
-        off += words(p) + '\n';
-    for (std::size_t k = 0; k < triangles; ++k)
-        off += "3 " + std::to_string(3 * k) + ' ' + std::to_string(3 * k + 1) + ' ' +
-               std::to_string(3 * k + 2) + '\n';
-    return off;
+    return "OFF\n" + std::to_string(points.size()) + ' ' + std::to_string(triangles) + " 0\n" +
+           lines_of(points, "", "3 ", 0);
 }
 
 std::string stl_of(const std::vector<WidePoint>& points)

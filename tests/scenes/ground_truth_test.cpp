@@ -2,7 +2,7 @@
 #include "scenes/ground_truth.h"
 
 #include "helpers.h"
-#include "scenes/frames_between.h"
+#include "scenes/generate/derived.h"
 
 namespace bvhbench {
 namespace {

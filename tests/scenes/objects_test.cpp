@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "scenes/objects_by.h"
+#include "scenes/face_order.h"
 
 #include <set>
 

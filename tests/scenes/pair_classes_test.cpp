@@ -11,57 +11,51 @@
 #include <set>
 
 #include "geometry/error.h"
+#include "scenes/generate/vector.h"
 
 namespace bvhbench {
 namespace {
 
 constexpr uint pairs = 3'000;
 
-using Whole = std::array<std::int64_t, 3>;
-
-Whole whole(Point p, float of_half = 0)
+Vector whole(Point p, float of_half)
 {
-    const Whole w = {std::llround(p.x), std::llround(p.y), std::llround(p.z - of_half)};
-    EXPECT_EQ(static_cast<float>(w[0]), p.x);
-    EXPECT_EQ(static_cast<float>(w[1]), p.y);
-    EXPECT_EQ(static_cast<float>(w[2]), p.z - of_half);
+    const Vector w = {p.x, p.y, p.z - of_half};
+    for (const double x : {w.x, w.y, w.z})
+        EXPECT_EQ(x, std::round(x));
     return w;
 }
 
-Whole minus(Whole a, Whole b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-
-std::int64_t volume(Whole a, Whole b, Whole c, Whole d)
-{
-    const Whole u = minus(b, a), v = minus(c, a), w = minus(d, a);
-    return w[0] * (u[1] * v[2] - u[2] * v[1]) + w[1] * (u[2] * v[0] - u[0] * v[2]) +
-           w[2] * (u[0] * v[1] - u[1] * v[0]);
-}
+double volume(Vector a, Vector b, Vector c, Vector d) { return dot(d - a, cross(b - a, c - a)); }
 
 /// The turn of a, b, c as seen along z.
-std::int64_t turn(Whole a, Whole b, Whole c)
+double turn(Vector a, Vector b, Vector c) { return cross(b - a, c - a).z; }
+
+/// With `axis` in the place of z.
+Vector seen_along(std::size_t axis, Vector p)
 {
-    const Whole u = minus(b, a), v = minus(c, a);
-    return u[0] * v[1] - u[1] * v[0];
+    const double along[] = {p.x, p.y, p.z};
+    return {along[(axis + 1) % 3], along[(axis + 2) % 3], 0};
 }
 
-using Three = std::array<Whole, 3>;
+using Three = std::array<Vector, 3>;
 
 /// Whether the line of an edge of `a` has `b` on the other side, all of it strictly or touching the line as well.
 bool parts(const Three& a, const Three& b, bool strictly)
 {
-    const std::int64_t way = turn(a[0], a[1], a[2]) < 0 ? -1 : 1;
+    const double way = turn(a[0], a[1], a[2]) < 0 ? -1 : 1;
     for (std::size_t i = 0; i < 3; ++i)
-        if (std::all_of(b.begin(), b.end(), [&](Whole p) {
-                const std::int64_t side = way * turn(a[i], a[(i + 1) % 3], p);
+        if (std::all_of(b.begin(), b.end(), [&](Vector p) {
+                const double side = way * turn(a[i], a[(i + 1) % 3], p);
                 return strictly ? side < 0 : side <= 0;
             }))
             return true;
     return false;
 }
 
-bool is_strictly_within(const Three& a, Whole p)
+bool is_strictly_within(const Three& a, Vector p)
 {
-    const std::int64_t way = turn(a[0], a[1], a[2]) < 0 ? -1 : 1;
+    const double way = turn(a[0], a[1], a[2]) < 0 ? -1 : 1;
     return way * turn(a[0], a[1], p) > 0 && way * turn(a[1], a[2], p) > 0 &&
            way * turn(a[2], a[0], p) > 0;
 }
@@ -87,8 +81,8 @@ std::vector<SixWholes> coplanar(const char* name)
     std::vector<SixWholes> all = wholes_of(name, 0.5f);
     for (const SixWholes& six : all)
         for (const Three& three : {six.a, six.b})
-            for (const Whole p : three)
-                EXPECT_EQ(p[2], p[0] + 2 * p[1]);
+            for (const Vector p : three)
+                EXPECT_EQ(p.z, p.x + 2 * p.y);
     return all;
 }
 
@@ -137,7 +131,7 @@ TEST(PairClasses, InOnePlaneTouchOverlapOrMissExactly)
     for (const SixWholes& six : coplanar("coplanar_nested")) {
         const auto holds = [](const Three& out, const Three& in) {
             return std::all_of(in.begin(), in.end(),
-                               [&](Whole p) { return is_strictly_within(out, p); });
+                               [&](Vector p) { return is_strictly_within(out, p); });
         };
         EXPECT_TRUE(holds(six.a, six.b) || holds(six.b, six.a));
     }
@@ -146,7 +140,7 @@ TEST(PairClasses, InOnePlaneTouchOverlapOrMissExactly)
 /// Whether a corner of `b` is in the plane of `a`, within it as seen along some axis, and nothing of `b` is below.
 bool stands_on(const Three& a, const Three& b)
 {
-    std::array<std::int64_t, 3> heights;
+    std::array<double, 3> heights;
     for (std::size_t c = 0; c < 3; ++c)
         heights[c] = volume(a[0], a[1], a[2], b[c]);
     const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
@@ -156,9 +150,7 @@ bool stands_on(const Three& a, const Three& b)
         if (heights[c] != 0)
             continue;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const auto seen = [&](Whole p) {
-                return Whole{p[(axis + 1) % 3], p[(axis + 2) % 3], 0};
-            };
+            const auto seen = [&](Vector p) { return seen_along(axis, p); };
             if (is_strictly_within({seen(a[0]), seen(a[1]), seen(a[2])}, seen(b[c])))
                 return true;
         }
@@ -175,12 +167,12 @@ TEST(PairClasses, WithACornerOnAFaceTouchThereExactly)
 /// Whether edge i of `a` and edge j of `b` cross in their middles.
 bool cross(const Three& a, std::size_t i, const Three& b, std::size_t j)
 {
-    const Whole p = a[i], q = a[(i + 1) % 3], r = b[j], s = b[(j + 1) % 3];
+    const Vector p = a[i], q = a[(i + 1) % 3], r = b[j], s = b[(j + 1) % 3];
     if (volume(p, q, r, s) != 0)
         return false;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const auto seen = [&](Whole w) { return Whole{w[(axis + 1) % 3], w[(axis + 2) % 3], 0}; };
-        const auto opposite = [&](Whole from, Whole to, Whole one, Whole other) {
+        const auto seen = [&](Vector p) { return seen_along(axis, p); };
+        const auto opposite = [&](Vector from, Vector to, Vector one, Vector other) {
             return turn(seen(from), seen(to), seen(one)) * turn(seen(from), seen(to), seen(other)) <
                    0;
         };

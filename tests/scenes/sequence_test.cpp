@@ -167,15 +167,15 @@ TEST(Sequence, IsNotAnyFolder)
 
 TEST(DataSets, ThatAreHereHoldWhatTheManifestSays)
 {
-    const SceneLibrary library{data_folder(), 0, 0};
+    const SceneLibrary library{data_folder()};
     int found = 0;
     for (const ManifestEntry& entry : manifest()) {
         if (located(entry, library.data).empty())
             continue;
         ++found;
-        SCOPED_TRACE(entry.set.name);
-        const Scene scene = load_scene(entry.set.name, library);  // throws when a count differs
-        EXPECT_EQ(scene.triangle_count(), entry.set.triangles);
+        SCOPED_TRACE(entry.name);
+        const Scene scene = load_scene(entry.name, library);  // throws when a count differs
+        EXPECT_EQ(scene.triangle_count(), entry.triangles);
         if (entry.objects != 0) {
             EXPECT_EQ(scene.objects.size(), entry.objects);
         }

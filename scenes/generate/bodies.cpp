@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "scenes/generate/film.h"
 #include "scenes/generate/generators.h"
-#include "scenes/generate/moving.h"
 #include "scenes/generate/random.h"
 
 namespace bvhbench {
 namespace {
 
-constexpr uint steps = 1600;
+constexpr uint n_body_steps = 1600;
 constexpr double step_s = 1.0 / 640;
 constexpr double pull = 6;       // acceleration towards the centre, a unit of distance
 constexpr double drag = 0.25;    // of speed, a second
@@ -18,7 +17,7 @@ constexpr double below = 0.985;
 /// A turn by a quaternion: w + (x, y, z).
 struct Attitude {
     double w = 1;
-    Vector v;
+    Vector v = {};
 
     Vector operator()(Vector a) const
     {
@@ -37,7 +36,7 @@ struct Attitude {
 
 struct Body {
     double radius;
-    Vector at, velocity, spin;
+    Vector at = {}, velocity = {}, spin = {};
     Attitude attitude;
 };
 
@@ -94,6 +93,12 @@ void advance(std::vector<Body>& bodies)
             meet(bodies[i], bodies[j]);
 }
 
+constexpr uint sphere_steps = 1000;
+constexpr double sphere_radius = 0.5;
+// Between centres: they touch at 1. At the end a twentieth of each surface is within the other.
+constexpr double first_distance = 1.025, last_distance = 0.9;
+constexpr double turns = 0.25;  // of each by the end, one against the other
+
 }  // namespace
 
 Scene make_n_body(uint triangles, uint frames)
@@ -106,7 +111,25 @@ Scene make_n_body(uint triangles, uint frames)
             const Body& body = bodies[k];
             return body.at + body.attitude(body.radius * vector_of(at));
         });
-    return film.shoot(frames, steps, [&](uint) { advance(bodies); });
+    return film.shoot(frames, n_body_steps, [&](uint) { advance(bodies); });
+}
+
+Scene make_two_spheres(uint triangles, uint frames)
+{
+    const std::vector<uint> shares = even_shares(triangles, 2);
+    const Vector along = {0.9, 0.3, 0.316};  // nearly a unit, and no axis of anything
+    double part = 0;                         // of the way that is behind them
+    Film film;
+    film.add("standing", make_sphere(shares[0]), [&part](Point at) {
+        return turned(sphere_radius * vector_of(at), turn_of(turns * part));
+    });
+    film.add("coming", make_sphere(shares[1]), [&part, along](Point at) {
+        const double distance = first_distance + part * (last_distance - first_distance);
+        return distance * along +
+               turned(sphere_radius * vector_of(at), turn_of(0.1 - turns * part));
+    });
+    return film.shoot(frames, sphere_steps,
+                      [&part](uint step) { part = (step + 1.0) / sphere_steps; });
 }
 
 }  // namespace bvhbench

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
+//
+// Scenes made of another one: refine, outlier, bend.
 #include <cmath>
+#include <cstring>
 #include <map>
 #include <set>
 
@@ -139,6 +142,111 @@ TEST(Refine, TakesNoTrianglesAway)
                          "BadUsage: 'torus:100' has 100 triangles already"));
     EXPECT_TRUE(contains(refusal("refine:100"), "BadUsage: scene 'refine:100' is not of the form"));
     EXPECT_TRUE(contains(refusal("refine:torus:0:99"), "BadUsage: scene 'torus:0' ends in '0'"));
+}
+
+bool same(Point a, Point b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+
+TEST(Outlier, MovesOneTriangleAlongItsNormalAndNothingElse)
+{
+    const Scene before = load_scene("grid:50", {});
+    const Scene after = load_scene("outlier:grid:50:7:2.5", {});
+    Aabb box = empty_box();
+    for (const Face& face : before.faces)
+        box = merged(box, face_box(before.frames[0], face));
+    const double diagonal = std::hypot(box.max_x - box.min_x, box.max_y - box.min_y);
+    ASSERT_EQ(after.triangle_count(), 50u);
+    for (uint k = 0; k < 50; ++k) {
+        const uint old_ids[] = {before.faces[k].a, before.faces[k].b, before.faces[k].c};
+        const uint new_ids[] = {after.faces[k].a, after.faces[k].b, after.faces[k].c};
+        for (int corner = 0; corner < 3; ++corner) {
+            const Point was = before.frames[0][old_ids[corner]];
+            const Point is = after.frames[0][new_ids[corner]];
+            if (k != 7) {
+                EXPECT_TRUE(same(is, was)) << "triangle " << k;
+                continue;
+            }
+            EXPECT_EQ(is.x, was.x);  // a grid is flat: its normal is z
+            EXPECT_EQ(is.y, was.y);
+            EXPECT_NEAR(std::fabs(is.z), 2.5 * diagonal, 1e-6);
+        }
+    }
+    EXPECT_EQ(after.outlier.of, "grid:50");
+    EXPECT_EQ(after.outlier.triangle, 7u);
+    EXPECT_EQ(after.outlier.diameters, 2.5);
+    EXPECT_TRUE(before.outlier.of.empty());
+}
+
+TEST(Outlier, AtNoDistanceChangesNoTriangle)
+{
+    const Scene before = load_scene("soup:20", {});
+    const Scene after = load_scene("outlier:soup:20:0:0", {});
+    for (uint k = 0; k < 20; ++k) {
+        const Aabb was = face_box(before.frames[0], before.faces[k]);
+        const Aabb is = face_box(after.frames[0], after.faces[k]);
+        EXPECT_EQ(std::memcmp(&was, &is, sizeof was), 0);
+    }
+}
+
+TEST(Outlier, RefusesWhatIsNoTriangleOrDistance)
+{
+    for (const char* text : {"outlier:", "outlier:grid:5", "outlier:grid:5:x:1",
+                             "outlier:grid:5:0:", "outlier:grid:5:-1:1", "outlier:grid:5:0:nan",
+                             "outlier::0:1", "outlier:grid:5:0:1e30", "outlier:0:1"})
+        EXPECT_TRUE(refusal(text).starts_with("BadUsage: ")) << text << ": " << refusal(text);
+    EXPECT_TRUE(contains(refusal("outlier:grid:5:5:1"), "has no triangle 5 to move, but 5"));
+}
+
+TEST(Bend, AddsAFrameInWhichEveryPointIsWhereTheFormulaSays)
+{
+    const Scene before = load_scene("soup:50", {});
+    const Scene after = load_scene("bend:soup:50", {});
+    ASSERT_EQ(after.frames.size(), 2u);
+    Aabb box = empty_box();
+    for (const Point& point : before.frames[0])
+        box = merged(box, {point.x, point.y, point.z, point.x, point.y, point.z});
+    const double sides[] = {box.max_x - box.min_x, box.max_y - box.min_y, box.max_z - box.min_z};
+    const double reach = std::max({sides[0], sides[1], sides[2]}) / 32;
+    const auto b = [](double t) { return 4 * t * (1 - t); };
+    for (std::size_t k = 0; k < before.frames[0].size(); ++k) {
+        const Point was = before.frames[0][k];
+        const Point is = after.frames[1][k];
+        EXPECT_EQ(after.frames[0][k].x, was.x);
+        EXPECT_NEAR(is.x - was.x, reach * b((was.y - box.min_y) / sides[1]), 1e-6);
+        EXPECT_NEAR(is.y - was.y, reach * b((was.z - box.min_z) / sides[2]), 1e-6);
+        EXPECT_NEAR(is.z - was.z, reach * b((was.x - box.min_x) / sides[0]), 1e-6);
+    }
+    EXPECT_EQ(after.bend_of, "soup:50");
+    EXPECT_TRUE(before.bend_of.empty());
+}
+
+TEST(Bend, LeavesAFlatSheetsEdgesInPlaceAndLiftsItsMiddle)
+{
+    const Scene sheet = load_scene("bend:grid:800", {});
+    float highest = 0;
+    for (std::size_t k = 0; k < sheet.frames[0].size(); ++k) {
+        const Point was = sheet.frames[0][k];
+        const Point is = sheet.frames[1][k];
+        EXPECT_EQ(is.y, was.y);  // it is flat in z, so nothing moves along y
+        if (was.x == 0 || was.x == 1) {
+            EXPECT_EQ(is.z, was.z);
+        }
+        highest = std::max(highest, is.z);
+    }
+    EXPECT_NEAR(highest, 1.0 / 32, 1e-3);
+}
+
+TEST(Bend, IsTheSameEachTimeAndAnotherSceneThanTheOneItBends)
+{
+    EXPECT_EQ(load_scene("bend:soup:50", {}).content_hash,
+              load_scene("bend:soup:50", {}).content_hash);
+    EXPECT_NE(load_scene("bend:soup:50", {}).content_hash, load_scene("soup:50", {}).content_hash);
+}
+
+TEST(Bend, RefusesWhatMovesAlready)
+{
+    EXPECT_EQ(refusal("bend:bend:soup:5"),
+              "BadUsage: scene 'bend:soup:5' has 2 frames and needs no other");
+    EXPECT_TRUE(refusal("bend:").starts_with("BadUsage: "));
 }
 
 }  // namespace

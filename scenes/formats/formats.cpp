@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "scenes/formats/formats.h"
+
+#include "geometry/error.h"
+#include "scenes/formats/line_reader.h"
+
+namespace bvhbench {
+
+void FileMesh::add_point(const FileNumber& x, const FileNumber& y, const FileNumber& z)
+{
+    mesh.points.push_back({x.rounded, y.rounded, z.rounded});
+    if (has_doubles)
+        wide.push_back({x.wide, y.wide, z.wide});
+    floats_hold = floats_hold && x.floats_hold && y.floats_hold && z.floats_hold;
+}
+
+void FileMesh::add_polygon(const std::vector<uint>& corners)
+{
+    for (std::size_t k = 2; k < corners.size(); ++k)
+        mesh.faces.push_back({corners[0], corners[k - 1], corners[k]});
+}
+
+void FileMesh::add_object(std::string_view name, std::size_t first)
+{
+    if (mesh.faces.size() > first)
+        objects.push_back({std::string(name.empty() ? "unnamed" : name), static_cast<uint>(first),
+                           static_cast<uint>(mesh.faces.size() - first)});
+}
+
+void LineReader::refuse(const std::string& what) const
+{
+    throw Unavailable(name_ + ", line " + std::to_string(lines_.number()) + ": " + what);
+}
+
+std::array<FileNumber, 3> LineReader::point(std::string_view words, const char* otherwise) const
+{
+    std::array<FileNumber, 3> numbers;
+    std::string_view rest = words;
+    for (FileNumber& number : numbers) {
+        const auto parsed = parse_number(next_word(rest));
+        if (!parsed)
+            refuse(otherwise + in_quotes(words));
+        number = *parsed;
+    }
+    return numbers;
+}
+
+void LineReader::add_vertex(std::string_view words)
+{
+    const auto [x, y, z] = point(words, "a vertex takes three numbers, and there is ");
+    file_.add_point(x, y, z);
+}
+
+FileMesh LineReader::result()
+{
+    if (file_.objects.size() == 1)
+        file_.objects.clear();
+    return std::move(file_);
+}
+
+}  // namespace bvhbench

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT
+#include "scenes/mesh_worker.h"
+
+#include <assimp/scene.h>
+
+#include <algorithm>
+#include <assimp/Importer.hpp>
+#include <cstdlib>
+#include <cstring>
+#include <new>
+
+#include "geometry/error.h"
+#include "geometry/host_memory.h"
+#include "scenes/worker/process.h"
+
+namespace bvhbench {
+namespace {
+
+constexpr const char* argument = "--read-mesh";
+// A program whose main forgets to ask is_mesh_worker would start itself again and again.
+constexpr const char* marker = "BVHBENCH_MESH_WORKER";
+
+constexpr std::string_view magic = "BVHMESH1";
+
+template <class List>
+void put(std::string& message, const List& list)
+{
+    const std::uint64_t count = list.size();
+    message.append(reinterpret_cast<const char*>(&count), sizeof count);
+    message.append(reinterpret_cast<const char*>(list.data()), count * sizeof list[0]);
+}
+
+/// Takes a list off the front of `message`. False if it is not there in full.
+template <class List>
+bool take(std::string_view& message, List& list)
+{
+    std::uint64_t count = 0;
+    if (message.size() < sizeof count)
+        return false;
+    std::memcpy(&count, message.data(), sizeof count);
+    message.remove_prefix(sizeof count);
+    if (count > message.size() / sizeof list[0])
+        return false;
+    list.resize(count);
+    message.copy(reinterpret_cast<char*>(list.data()), count * sizeof list[0]);
+    message.remove_prefix(count * sizeof list[0]);
+    return true;
+}
+
+/// The hierarchy laid out flat, each mesh of each node an object.
+class Flattened {
+public:
+    explicit Flattened(const aiScene& scene) : scene_(scene) {}
+
+    FileMesh file;
+
+    void add(const aiNode& node, const aiMatrix4x4& above)
+    {
+        const aiMatrix4x4 transform = above * node.mTransformation;
+        for (unsigned k = 0; k < node.mNumMeshes; ++k) {
+            if (node.mMeshes[k] >= scene_.mNumMeshes)
+                throw Unavailable("a node names a mesh that is not there");
+            add_mesh(*scene_.mMeshes[node.mMeshes[k]], transform, node.mName.C_Str());
+        }
+        for (unsigned k = 0; k < node.mNumChildren; ++k)
+            add(*node.mChildren[k], transform);
+    }
+
+private:
+    void add_mesh(const aiMesh& mesh, const aiMatrix4x4& transform, const std::string& name)
+    {
+        const std::size_t first_point = file.mesh.points.size();
+        const std::size_t first_face = file.mesh.faces.size();
+        if (first_point + mesh.mNumVertices > 0xffffffffu)
+            throw Unavailable("there are more than 2^32 vertices");
+        for (unsigned k = 0; k < mesh.mNumVertices; ++k) {
+            const aiVector3D at = transform * mesh.mVertices[k];
+            file.mesh.points.push_back({at.x, at.y, at.z});
+        }
+        std::vector<uint> corners;
+        for (unsigned k = 0; k < mesh.mNumFaces; ++k) {
+            const aiFace& face = mesh.mFaces[k];
+            corners.clear();
+            for (unsigned corner = 0; corner < face.mNumIndices; ++corner) {
+                if (face.mIndices[corner] >= mesh.mNumVertices)
+                    throw Unavailable("a face names vertex " +
+                                      std::to_string(face.mIndices[corner]) + " of " +
+                                      std::to_string(mesh.mNumVertices));
+                corners.push_back(static_cast<uint>(first_point) + face.mIndices[corner]);
+            }
+            file.add_polygon(corners);  // nothing for points and lines
+        }
+        file.add_object(name, first_face);
+    }
+
+    const aiScene& scene_;
+};
+
+/// Reads in this process, which may crash it.
+FileMesh read_with_assimp(const std::string& path)
+{
+    Assimp::Importer importer;
+    // No post-processing: its steps merge vertices and remove faces that have no area.
+    const aiScene* const scene = importer.ReadFile(path, 0);
+    if (scene == nullptr || scene->mRootNode == nullptr) {
+        const std::string error = importer.GetErrorString();
+        const std::size_t begin = error.find_first_not_of(" \t\r\n");
+        throw Unavailable(begin == error.npos ? "assimp finds no scene in it, and says no more"
+                                              : "assimp says: " + error.substr(begin));
+    }
+    if ((scene->mFlags & AI_SCENE_FLAGS_INCOMPLETE) != 0)
+        throw Unavailable("assimp could not read all of it");
+    Flattened flattened(*scene);
+    flattened.add(*scene->mRootNode, aiMatrix4x4());
+    return std::move(flattened.file);
+}
+
+std::string answer_for(const std::string& path, std::size_t memory_bytes)
+{
+    try {
+        limit_worker(memory_bytes);
+        return mesh_message(read_with_assimp(path));
+    } catch (const std::bad_alloc&) {
+        return refusal_message("it takes more memory than the reader may use");
+    } catch (const std::exception& error) {
+        const std::string_view why = error.what();
+        const std::string_view sentence = why.substr(0, why.find('\n'));
+        return refusal_message(sentence.empty() ? "it fails without a reason" : sentence);
+    }
+}
+
+}  // namespace
+
+std::string mesh_message(const FileMesh& file)
+{
+    std::vector<uint> ranges;
+    for (const SceneObject& object : file.objects)
+        ranges.insert(ranges.end(), {object.first_face, object.face_count});
+    std::string message(magic);
+    message += 'M';
+    put(message, file.mesh.points);
+    put(message, file.mesh.faces);
+    put(message, ranges);
+    for (const SceneObject& object : file.objects)
+        put(message, object.name);
+    return message;
+}
+
+std::string refusal_message(std::string_view why)
+{
+    return std::string(magic) + 'E' + std::string(why);
+}
+
+std::optional<std::variant<FileMesh, std::string>> decoded(std::string_view message)
+{
+    if (!message.starts_with(magic) || message.size() == magic.size())
+        return std::nullopt;
+    const char kind = message[magic.size()];
+    message.remove_prefix(magic.size() + 1);
+    if (kind == 'E')
+        return std::string(message);
+    FileMesh file;
+    std::vector<uint> ranges;
+    if (kind != 'M' || !take(message, file.mesh.points) || !take(message, file.mesh.faces) ||
+        !take(message, ranges))
+        return std::nullopt;
+    for (std::size_t k = 0; k + 1 < ranges.size(); k += 2) {
+        std::string name;
+        if (!take(message, name))
+            return std::nullopt;
+        file.objects.push_back({name, ranges[k], ranges[k + 1]});
+    }
+    if (!message.empty())
+        return std::nullopt;
+    return file;
+}
+
+bool is_mesh_worker(int argc, char** argv)
+{
+    return argc == 4 && std::string_view(argv[1]) == argument;
+}
+
+int mesh_worker_main(int, char** argv)
+{
+    const int answer = take_standard_output();
+    return write_all(answer, answer_for(argv[2], std::strtoull(argv[3], nullptr, 10))) ? 0 : 1;
+}
+
+bool assimp_knows(const std::string& extension)
+{
+    return extension.size() > 1 && Assimp::Importer().IsExtensionSupported(extension);
+}
+
+FileMesh read_in_worker(const std::filesystem::path& path, const SceneLibrary& library)
+{
+    if (std::getenv(marker) != nullptr)
+        throw std::logic_error("main does not begin with is_mesh_worker, see scenes/mesh_worker.h");
+    // What the worker reads is in its memory and in this process's.
+    const std::uint64_t memory =
+        std::min<std::uint64_t>(library.memory_limit_bytes, host_memory_left() / 2);
+    const ProcessEnd end =
+        run_process({"/proc/self/exe", argument, path.string(), std::to_string(memory)},
+                    library.time_limit_s, std::string(marker) + "=1");
+    auto answer = decoded(end.output);
+    if (end.how != ProcessEnd::How::exited || !answer)
+        throw Unavailable("the reader " + spelled(end, library.time_limit_s) + " on " +
+                          path.string());
+    if (const auto* const why = std::get_if<std::string>(&*answer))
+        throw Unavailable(path.string() + " is not read: " + *why);
+    return std::get<FileMesh>(std::move(*answer));
+}
+
+}  // namespace bvhbench
