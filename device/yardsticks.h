@@ -3,8 +3,6 @@
 // What times of stages are held against, and what is run between samples so that they are worth comparing.
 #pragma once
 
-#include <optional>
-
 #include "device/arena.h"
 #include "device/program.h"
 #include "device/queue.h"
