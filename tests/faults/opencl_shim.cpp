@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <map>
 #include <mutex>
+#include <string_view>
 #include <tuple>
 #include <type_traits>
 
@@ -33,7 +34,7 @@ struct State {
     std::string failed;
     bool remembers = false;
     int depth_of_begin = 0;
-    std::vector<Call> remembered;
+    std::vector<std::uint64_t> ways;  ///< by which calls each call was reached
     std::map<void*, Object> objects;
     std::vector<std::string> misused;
 };
@@ -80,7 +81,7 @@ bool fails(const char* name, const char* error)
     const std::lock_guard lock(now.mutex);
     ++now.calls;
     if (now.remembers)
-        now.remembered.push_back({name, stack_hash()});
+        now.ways.push_back(stack_hash());
     const bool is_hit = now.plan.nth > 0 && (now.plan.from_there_on ? now.calls >= now.plan.nth
                                                                     : now.calls == now.plan.nth);
     if (is_hit && now.failed.empty())
@@ -88,34 +89,19 @@ bool fails(const char* name, const char* error)
     return is_hit;
 }
 
-/// Where an object is on the account; its end, and a note, if it is not.
-auto on_account(void* object, const char* call)
-{
-    State& now = state();
-    const auto found = now.objects.find(object);
-    if (found == now.objects.end())
-        now.misused.push_back(std::string(call) + " of what is not there");
-    return found;
-}
-
-void retained(void* object, const char* call)
-{
-    const std::lock_guard lock(state().mutex);
-    if (const auto found = on_account(object, call); found != state().objects.end())
-        ++found->second.count;
-}
-
-/// False if there is nothing that could be released: the driver is spared it.
-bool released(void* object, bool refused, const char* call)
+/// Whether an object is on the account. It gets so many owners more; a release that is refused is noted and has no effect.
+bool counted(void* object, int more, bool is_refused, const char* call)
 {
     State& now = state();
     const std::lock_guard lock(now.mutex);
-    const auto found = on_account(object, call);
-    if (found == now.objects.end())
+    const auto found = now.objects.find(object);
+    if (found == now.objects.end()) {
+        now.misused.push_back(std::string(call) + " of what is not there");
         return false;
-    if (refused)
-        ++found->second.refused;
-    else if (--found->second.count == 0)
+    }
+    if (is_refused)
+        found->second.refused += more < 0;
+    else if ((found->second.count += more) == 0)
         now.objects.erase(found);
     return true;
 }
@@ -180,32 +166,18 @@ struct Any<Call, Result(Arguments...)> {
     }
 };
 
+/// Stands before a function that retains or releases an object. The driver is spared one that is not there.
 template <class Call, class Function>
-struct Retain;
+struct Count;
 
 template <class Call, class Handle>
-struct Retain<Call, cl_int(Handle)> {
+struct Count<Call, cl_int(Handle)> {
     static cl_int call(Handle object)
     {
         static auto* const real = loaders<cl_int(Handle)>(Call::name);
-        if (fails(Call::name, Call::error_name))
-            return Call::error;
-        retained(object, Call::name);
-        return real(object);
-    }
-};
-
-template <class Call, class Function>
-struct Release;
-
-/// A release that fails has no effect, like any call that fails: who made the object is not to blame if it stays.
-template <class Call, class Handle>
-struct Release<Call, cl_int(Handle)> {
-    static cl_int call(Handle object)
-    {
-        static auto* const real = loaders<cl_int(Handle)>(Call::name);
+        constexpr int more = std::string_view(Call::name).starts_with("clRetain") ? 1 : -1;
         const bool is_refused = fails(Call::name, Call::error_name);
-        const bool is_there = released(object, is_refused, Call::name);
+        const bool is_there = counted(object, more, is_refused, Call::name);
         return is_refused || !is_there ? Call::error : real(object);
     }
 };
@@ -224,7 +196,7 @@ void begin(Plan plan)
     now.plan = plan;
     now.calls = 0;
     now.failed.clear();
-    now.remembered.clear();
+    now.ways.clear();
     now.objects.clear();
     now.misused.clear();
 }
@@ -232,8 +204,29 @@ void begin(Plan plan)
 long calls() { return state().calls; }
 std::string failed_call() { return state().failed; }
 void remember_calls(bool wanted) { state().remembers = wanted; }
-const std::vector<Call>& remembered() { return state().remembered; }
 const std::vector<std::string>& misused() { return state().misused; }
+
+bool every_call_fails()
+{
+    const char* faults = std::getenv("BVHBENCH_FAULTS");
+    return faults != nullptr && std::string_view(faults) == "calls";
+}
+
+std::vector<long> chosen_calls(std::set<std::uint64_t>& tried, long behind, std::size_t share)
+{
+    const std::vector<std::uint64_t>& ways = state().ways;
+    std::set<std::uint64_t> added;
+    std::vector<long> chosen;
+    for (std::size_t call = static_cast<std::size_t>(behind); call < ways.size(); ++call) {
+        const bool is_new = tried.insert(ways[call]).second;
+        if (is_new)
+            added.insert(ways[call]);
+        if (every_call_fails() ? added.contains(ways[call]) : is_new && tried.size() % share == 0)
+            chosen.push_back(static_cast<long>(call) + 1);
+    }
+    std::printf("%zu calls, %zu of them fail\n", ways.size(), chosen.size());
+    return chosen;
+}
 
 std::vector<std::string> leaked()
 {
@@ -259,9 +252,9 @@ std::vector<std::string> leaked()
     }                                                              \
     extern "C" __attribute__((ifunc("resolve_" #function))) decltype(::function) function;
 
-#define STAND_BEFORE_COUNTS(what)                             \
-    STAND_BEFORE(clRetain##what, Retain, CL_OUT_OF_RESOURCES) \
-    STAND_BEFORE(clRelease##what, Release, CL_OUT_OF_RESOURCES)
+#define STAND_BEFORE_COUNTS(what)                            \
+    STAND_BEFORE(clRetain##what, Count, CL_OUT_OF_RESOURCES) \
+    STAND_BEFORE(clRelease##what, Count, CL_OUT_OF_RESOURCES)
 
 // clang-format off
 STAND_BEFORE_COUNTS(CommandQueue)
