@@ -115,7 +115,8 @@ def exactness() -> Iterator[str]:
             yield f"{path}: FP_CONTRACT is set in {HOME} alone"
         for call in INEXACT.findall(text) if not path.endswith(".cpp") else ():
             yield f"{path}: {call}...) differs from device to device"
-    for path in (ROOT / "CMakeLists.txt", ROOT / "CMakePresets.json", *files("cmake", kinds=(".cmake",)), *files(*LIBRARY, kinds=(".cpp",))):
+    for path in (ROOT / "CMakeLists.txt", ROOT / "CMakePresets.json", *files("cmake", kinds=(".cmake",)),
+                 *files(*LIBRARY, kinds=(".cpp",))):
         for option in LOOSE_OPTIONS.findall(path.read_text()):
             yield f"{path.relative_to(ROOT)}: {option}"
     own = [command for command in json.loads(pathlib.Path(MORE).read_text()) if pathlib.Path(command["file"]).is_relative_to(ROOT)

@@ -51,7 +51,8 @@ def test_killed_at_any_time_every_file_that_was_there_is_old_or_new():
             if name == "sweep":  # some of its cells are to be measured again
                 for cell in sorted(folder.glob("cells/*.json"))[::2]:
                     cell.unlink()
-            before = {path: (path.read_bytes(), path.stat().st_ino) for path in folder.rglob("*") if path.suffix in (".json", ".png", ".svg")}
+            before = {path: (path.read_bytes(), path.stat().st_ino) for path in folder.rglob("*")
+                      if path.suffix in (".json", ".png", ".svg")}
             with at_work(*words) as process:
                 time.sleep(draw.uniform(0, 1.1 * seconds))
                 process.kill()

@@ -93,7 +93,8 @@ def test_what_cannot_even_begin_ends_with_2_or_3_and_writes_nothing():
     for code, says, words in ((2, "no scene is called 'nonsense'", (*one, "nonsense")), (3, "gone.obj", (*one, "gone.obj")),
                               (2, "has frames 0 to 0", (*LEAF, "--json", "none.json", "--scene", "soup:10", "--frames", "7")),
                               (2, "karas", ("run", unknown, "--out", "none.json")), (2, "sample", ("run", more, "--out", "none.json")),
-                              (2, "--filter: no cell of stress matches 'zzz'", ("stress", "--quick", "--filter", "zzz", "--out", "none.json"))):
+                              (2, "--filter: no cell of stress matches 'zzz'",
+                               ("stress", "--quick", "--filter", "zzz", "--out", "none.json"))):
         expect(code, *words, says=says)
     assert not pathlib.Path("none.json").exists()
 

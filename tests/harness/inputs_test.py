@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Hold the program to one sentence, soon, for what a user gives it: patterns, folders of frames, JSON, and lists of nothing."""
+import lzma
 import os
 import pathlib
 import re
@@ -68,7 +69,8 @@ def test_connected_parts_of_frames_are_objects_wherever_their_triangles_are():
     for number in (1, 2):
         (folder / f"{number}.obj").write_text(two + "f 1 2 3\nf 5 6 7\nf 1 3 4\nf 5 7 8\n")
     expect(0, *LEAF, "turns/", "--frames", "0:", "--pairs-of", "within", "--pairs", "turns.csv")
-    assert pathlib.Path("turns.csv").read_text().split() == ["frame,object_a,object_b,a,b", "0,0,0,0,2", "0,1,1,1,3", "1,0,0,0,2", "1,1,1,1,3"]
+    assert pathlib.Path("turns.csv").read_text().split() == ["frame,object_a,object_b,a,b", "0,0,0,0,2", "0,1,1,1,3",
+                                                             "1,0,0,0,2", "1,1,1,1,3"]
 
 
 def test_a_list_of_nothing_is_refused():
@@ -107,6 +109,25 @@ def test_json_that_is_none_and_a_folder_are_a_sentence_without_the_parsers_words
     pathlib.Path("folder.json").mkdir()
     for words, _ in READERS[:2] + MORE_READERS:
         one_sentence("folder.json", *(word.replace("FILE", "folder.json") for word in words), codes=(2, 3))
+
+
+def test_every_reader_takes_a_result_packed_by_xz_and_a_damaged_one_is_a_sentence():
+    expect(0, "build", "--builder", "karras", "--scene", "soup:100", "--samples", "2", "--json", "r.json")
+    packed = lzma.compress(pathlib.Path("r.json").read_bytes())
+    pathlib.Path("r.json.xz").write_bytes(packed)
+    assert expect(0, "show", "r.json.xz").replace("r.json.xz", "r.json") == expect(0, "show", "r.json")
+    expect(0, "compare", "r.json", "r.json.xz", "--allow-dirty")
+    expect(0, "merge", "r.json.xz", "-o", "merged.json")
+    expect(0, "report", "r.json.xz", "-o", "r.html")
+    assert "<h2>r</h2>" in pathlib.Path("r.html").read_text()
+    large = lzma.compress(bytes(257 << 20), preset=0)
+    for data, says in ((packed[:-9], "cut off or damaged"), (packed[:40] + b"!" + packed[41:], "cut off or damaged"),
+                       (packed + b"more", "cut off or damaged"), (large, "cannot be unpacked: it would be larger than 256 MiB")):
+        pathlib.Path("bad.json.xz").write_bytes(data)
+        expect(3, "show", "bad.json.xz", says=f"bad.json.xz' {says}" if data is large else says)
+    expect(3, "report", "bad.json.xz", "-o", "none.html", says="larger than 256 MiB")
+    expect(2, "build", "--builder", "karras", "--scene", "soup:10", "--json", "new.json.xz", says="pack it with xz")
+    assert not pathlib.Path("new.json.xz").exists()
 
 
 sys.exit(main(globals()))

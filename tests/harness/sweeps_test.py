@@ -225,7 +225,8 @@ def test_a_file_says_what_the_command_line_does_not():
     assert all(cell["experiment"] == "mine" and cell["collider"]["options"]["adjacent"] == "drop" for cell in result["cells"])
     orders = sorted(sample["order"] for cell in result["cells"] for sample in cell["samples"])
     assert orders == list(range(6)), "samples of one process are counted through"
-    expect(2, "sweep", "s.json", "--scenes", "soup:70,cloth-ball:1300:3", "--out", "mine", says="s.json: none of the scenes has room for a size")
+    expect(2, "sweep", "s.json", "--scenes", "soup:70,cloth-ball:1300:3", "--out", "mine",
+           says="s.json: none of the scenes has room for a size")
 
 
 def test_what_cannot_be_is_one_sentence():
