@@ -196,7 +196,8 @@ def test_files_of_numbers_that_are_short_meet_the_limit():
 
 
 def test_a_group_of_processes_limits_without_being_asked():
-    for limit, words in ((1536, ("build", "--builder", "karras", "--scene", "torus:6000000", "--samples", "1")),
+    limit, scene = (1536, "torus:6000000") if FULL else (800, "torus:3000000")
+    for limit, words in ((limit, ("build", "--builder", "karras", "--scene", scene, "--samples", "1")),
                          (600, ("collide", "--collider", "leaf", "--scene", copies(10000), "--samples", "1"))):
         with group_of(limit * MIB) as group:
             # Address space is more than memory: what drivers map they hardly use.
