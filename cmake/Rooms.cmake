@@ -4,7 +4,7 @@
 # A room is a folder, a library and a rule. Its files may include, by path from the source root, only
 # their own headers and those of the rooms they NEED. A library's headers (<CL/...>, <assimp/...>) may be
 # included only by a room that OWNS their prefix; two do where both read or write files of that kind.
-# tests/rooms_test.py reads the rules back from rooms.json, so this call is the only place where they are
+# tests/sources_test.py reads the rules back from rooms.json, so this call is the only place where they are
 # written.
 #
 # FLOORS lists the folders of a large room, the lowest first: a file may include those of its own folder and of folders before

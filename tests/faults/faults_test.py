@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Take away from the program what it needs while it runs, and hold it to what docs/reliability.md promises.
 
-Usage: faults_test.py <bvhbench> <result schema> <opencl_shim.so> <source root>
+Usage: faults_test.py <bvhbench> <result schema> <opencl_shim.so>
 
 FAULT_KILLS is how often it is killed in a test (10), FAULT_SEED when (1).
 """
@@ -13,20 +13,14 @@ import random
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 
-SHIM, SOURCE = (pathlib.Path(word).resolve() for word in sys.argv[3:5])
-sys.path.insert(0, str(SOURCE / "tests/harness"))
-from program import PROGRAM, expect, planted_kernels, run, valid  # noqa: E402
+sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "harness"))
+from program import SOURCE, at_work, copied_kernels, expect, experiment, main, only, planted_karras, run, valid  # noqa: E402
 
+SHIM = str(pathlib.Path(sys.argv[3]).resolve())
+KILLS, SEED = int(os.environ.get("FAULT_KILLS", 10)), int(os.environ.get("FAULT_SEED", 1))
 BUILD = ("build", "--builder", "oibvh-multi", "--scene", "soup:300", "--samples", "1")
-
-
-def experiment(path: str, **keys) -> str:
-    pathlib.Path(path).write_text(json.dumps({"experiment": "faults", "question": "?", "samples": 1,
-                                              "warm_up": 0, **keys}))
-    return path
 
 
 def whole(path: pathlib.Path) -> bool:
@@ -39,7 +33,7 @@ def whole(path: pathlib.Path) -> bool:
 
 def test_killed_at_any_time_every_file_that_was_there_is_old_or_new():
     """A fifth of the kills each of run, sweep, tune, accuracy and merge, in a folder that holds what was left before."""
-    kills, draw = int(os.environ.get("FAULT_KILLS", 10)) // 5, random.Random(int(os.environ.get("FAULT_SEED", 1)))
+    kills, draw = KILLS // 5, random.Random(SEED)
     plan = experiment("replaced.json", scenes=["soup:9", "soup:99", "soup:999"], builders=["perfect", "median-split"])
     product = ("--scenes", "soup:9,soup:99", "--builders", "perfect,median-split", "--samples", "1")
     commands = {"run": ("run", plan, "--out", "run/r.json", "--force"),
@@ -57,8 +51,9 @@ def test_killed_at_any_time_every_file_that_was_there_is_old_or_new():
             if name == "sweep":  # some of its cells are to be measured again
                 for cell in sorted(folder.glob("cells/*.json"))[::2]:
                     cell.unlink()
-            before = {path: (path.read_bytes(), path.stat().st_ino) for path in folder.rglob("*") if path.suffix in (".json", ".png", ".svg")}
-            with subprocess.Popen([PROGRAM, *words], stdout=subprocess.PIPE, stderr=subprocess.STDOUT) as process:
+            before = {path: (path.read_bytes(), path.stat().st_ino) for path in folder.rglob("*")
+                      if path.suffix in (".json", ".png", ".svg")}
+            with at_work(*words) as process:
                 time.sleep(draw.uniform(0, 1.1 * seconds))
                 process.kill()
                 process.communicate(timeout=60)  # what it had begun to have drawn ends, too
@@ -73,8 +68,8 @@ def test_killed_at_any_time_every_file_that_was_there_is_old_or_new():
 
 def test_a_device_that_is_lost_is_one_sentence():
     for call, says in (("1+", "no OpenCL device"), ("40+", "failed: CL_"), ("2000+", "failed: CL_")):
-        expect(3, *BUILD, says=says, LD_PRELOAD=str(SHIM), BVHBENCH_FAIL_CALL=call)
-    expect(0, *BUILD, says="agrees", LD_PRELOAD=str(SHIM))
+        expect(3, *BUILD, says=says, LD_PRELOAD=SHIM, BVHBENCH_FAIL_CALL=call)
+    expect(0, *BUILD, says="agrees", LD_PRELOAD=SHIM)
 
 
 def test_no_device_is_one_sentence():
@@ -83,13 +78,13 @@ def test_no_device_is_one_sentence():
 
 
 def test_killed_at_any_time_it_leaves_a_whole_result_file():
-    kills, draw = int(os.environ.get("FAULT_KILLS", 10)), random.Random(int(os.environ.get("FAULT_SEED", 1)))
+    kills, draw = KILLS, random.Random(SEED)
     plan = experiment("killed.json", scenes=[{"scene": "soup:{t}", "t": {"from": 1, "to": 100000}}],
                       builders=["perfect", "median-split"])
     written, oldest = 0, 0.0
     for number in range(kills):
         path = pathlib.Path(f"killed-{number}.json")
-        with subprocess.Popen([PROGRAM, "run", plan, "--out", str(path)], stderr=subprocess.DEVNULL) as process:
+        with at_work("run", plan, "--out", str(path)) as process:
             # A quarter of them at any time from the start on, the others while cells are written.
             if draw.random() < 0.25:
                 time.sleep(draw.uniform(0, 0.6))
@@ -116,14 +111,9 @@ def test_killed_at_any_time_it_leaves_a_whole_result_file():
     print(f"  killed {kills} times, {written} with cells; the oldest file was {oldest:.2f} s old")
 
 
-def hanging_kernels(folder: str) -> str:
-    """A copy of the kernels in which karras never ends."""
-    endless = r"\1\n    while (*(volatile global const uint*)\2 != 0xdeadbeefu) {}\n"
-    return planted_kernels(folder, r"(kernel void \w+\(global const \w+\* restrict (\w+)[^{]*\{)", endless)
-
-
 def test_a_build_that_hangs_is_given_up_and_the_rest_is_done():
-    kernels = hanging_kernels("hangs")
+    endless = r"\1\n    while (*(volatile global const uint*)\2 != 0xdeadbeefu) {}\n"
+    kernels = planted_karras("hangs", r"(kernel void \w+\(global const \w+\* restrict (\w+)[^{]*\{)", endless)
     common = ("--time-limit", "2", "--kernels", kernels)
     plan = experiment("hangs.json", scenes=["soup:1", "soup:200", "soup:300"], builders=["perfect", "karras", "apetrei"],
                       samples=2)
@@ -145,8 +135,7 @@ def test_a_build_that_hangs_is_given_up_and_the_rest_is_done():
     expect(4, "build", "--builder", "karras", "--scene", "soup:300", "--samples", "1", *common, says="took longer than 2 s")
     expect(4, "collide", "--builder", "karras", "--collider", "leaf", "--scene", "soup:300", "--samples", "1", "--json",
            "hangs-collide.json", *common, says="took longer than 2 s")
-    cell, = valid(pathlib.Path("hangs-collide.json"))["cells"]
-    assert cell["status"] == "failed", cell
+    assert only("hangs-collide.json")["status"] == "failed"
     expect(3, "check", "--builder", "karras", "--scene", "soup:300", *common, says="what was to be done took longer than 2 s")
 
 
@@ -237,7 +226,7 @@ def test_names_with_blanks_and_quotes_are_names_and_nothing_else():
            str(folder / "d 'x'.json"), says="agrees")
     assert valid(out)["cells"][0]["scene"]["name"] == str(mesh)
     expect(0, "show", str(out), says="agrees")
-    kernels = hanging_kernels(str(folder / "ker nels"))
+    kernels = copied_kernels(str(folder / "ker nels"))
     expect(0, "build", "--builder", "oibvh-multi", "--scene", "soup:30", "--samples", "1", "--kernels", kernels, says="agrees")
     expect(0, *BUILD, "--data", str(folder), says="agrees", BVHBENCH_DATA=str(folder))
     plan = experiment(str(folder / "p 'q'.json"), scenes=[str(mesh)], builders=["perfect", "$(touch owned)"])
@@ -257,19 +246,4 @@ def test_no_shell_is_ever_asked():
     assert not asks, asks
 
 
-def main() -> int:
-    wanted = os.environ.get("FAULT_TESTS", "")
-    tests = [value for name, value in globals().items() if name.startswith("test_") and wanted in name]
-    with tempfile.TemporaryDirectory() as folder:
-        os.chdir(folder)
-        for test in tests:
-            started = time.time()
-            test()
-            print("passed:", test.__name__.removeprefix("test_").replace("_", " "), f"({time.time() - started:.1f} s)",
-                  flush=True)
-        os.chdir("/")
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())
+sys.exit(main(globals()))

@@ -3,14 +3,13 @@
 // The program's commands, run again and again in one process, with another OpenCL call failing each time. The shim is
 // linked in before the loader, so every call of the program goes through it.
 //
-// Which calls fail is told by BVHBENCH_FAULTS. "calls": every call, alone and with all that follow. "ways": of each way in
-// which calls are reached the first call, and of every fifth way all that follow with it. By default every sixteenth of those.
+// By default, of every sixteenth way in which calls are reached the first call fails, and of every fifth of those also all that
+// follow it. BVHBENCH_FAULTS=calls: every call, alone and with all that follow.
 #include <gtest/gtest.h>
 
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -42,15 +41,6 @@ private:
     std::ostringstream text_;
     std::streambuf* before_;
 };
-
-enum class Faults { calls, ways, some };
-
-Faults wanted_faults()
-{
-    const char* text = std::getenv("BVHBENCH_FAULTS");
-    const std::string wanted = text != nullptr ? text : "";
-    return wanted == "calls" ? Faults::calls : wanted == "ways" ? Faults::ways : Faults::some;
-}
 
 struct Outcome {
     int code;
@@ -109,7 +99,6 @@ protected:
     void fail_calls_of(const std::vector<std::string>& words, std::size_t cells);
 
 private:
-    std::vector<long> chosen(const std::vector<std::string>& words);
     void expect_clean(const Outcome& outcome, const shim::Plan& plan, std::size_t cells) const;
 
     std::set<std::uint64_t> tried_;  ///< ways of calls, in this test
@@ -117,26 +106,6 @@ private:
 protected:
     fs::path folder_, file_;
 };
-
-std::vector<long> Injected::chosen(const std::vector<std::string>& words)
-{
-    shim::remember_calls(true);
-    run(words, {});
-    shim::remember_calls(false);
-    std::map<std::uint64_t, std::vector<long>> ways;
-    const std::vector<shim::Call>& calls = shim::remembered();
-    for (std::size_t i = 0; i < calls.size(); ++i)
-        ways[calls[i].stack].push_back(static_cast<long>(i) + 1);
-    std::set<long> picked;
-    for (const auto& [stack, where] : ways)
-        if (tried_.insert(stack).second &&
-            (wanted_faults() != Faults::some || tried_.size() % 16 == 0))
-            picked.insert(where.begin(),
-                          wanted_faults() == Faults::calls ? where.end() : where.begin() + 1);
-    std::cout << calls.size() << " calls by " << ways.size() << " ways, " << picked.size()
-              << " of them fail" << std::endl;
-    return {picked.begin(), picked.end()};
-}
 
 void Injected::expect_clean(const Outcome& outcome, const shim::Plan& plan, std::size_t cells) const
 {
@@ -175,17 +144,20 @@ void Injected::fail_calls_of(const std::vector<std::string>& words, std::size_t 
     ASSERT_EQ(whole.code, 0) << whole.error;
     ASSERT_EQ(document()["cells"].size(), cells);
     ASSERT_EQ(shim::leaked(), std::vector<std::string>());
+    shim::remember_calls(true);
+    run(words, {});
+    shim::remember_calls(false);
     std::map<int, int> ends;
     int number = 0;
-    for (const long nth : chosen(words))
+    for (const long nth : shim::chosen_calls(tried_, 0, 16))
         for (const bool from_there_on : {false, true}) {
-            if (from_there_on && wanted_faults() != Faults::calls && number++ % 5 != 0)
+            if (from_there_on && !shim::every_call_fails() && number++ % 5 != 0)
                 continue;
             const shim::Plan plan{nth, from_there_on};
             const Outcome outcome = run(words, plan);
             expect_clean(outcome, plan, cells);
             ++ends[outcome.code];
-            if (HasFailure() && wanted_faults() == Faults::some)
+            if (HasFailure() && !shim::every_call_fails())
                 return;  // one is enough to look at
         }
     for (const auto& [code, times] : ends)

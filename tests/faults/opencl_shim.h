@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,12 +19,6 @@ struct Plan {
     bool from_there_on = false;
 };
 
-/// One call: what it was, and by which way of calls it was reached.
-struct Call {
-    const char* name;
-    std::uint64_t stack;
-};
-
 /// Begin to count anew, with no object on the account.
 void begin(Plan plan);
 
@@ -33,9 +28,13 @@ long calls();
 /// The name of the first one that was made to fail, and the error it gave; empty if none was.
 std::string failed_call();
 
-/// Every call since, if `begin` was told to remember them.
+/// Whether calls are remembered from the next `begin` on.
 void remember_calls(bool wanted);
-const std::vector<Call>& remembered();
+
+/// Numbers of the remembered calls behind the first ones that are to fail: of every `share`-th way that is not among `tried`
+/// the first call, or with BVHBENCH_FAULTS=calls every call of such a way. Adds the ways to `tried`.
+std::vector<long> chosen_calls(std::set<std::uint64_t>& tried, long behind, std::size_t share);
+bool every_call_fails();
 
 /// Objects that were made and are not released as often as they were made and retained, by the call that made them.
 std::vector<std::string> leaked();

@@ -7,8 +7,6 @@ Each case is a small result file with some of its cells, changed in its tree of 
 and figures of every tenth: what ends with another code than 0, 3, or 1 for a wrong answer, or says anything but one sentence, is
 a find. Finds lie in build/fuzz/results; make one a test, and then a seed in tests/fuzz/results.
 """
-from __future__ import annotations
-
 import argparse
 import collections
 import contextlib

@@ -1,32 +1,30 @@
 #!/usr/bin/env python3
-"""Hold the program to one sentence, soon, for what a user gives it: patterns, folders of frames, JSON, and lists of nothing.
-
-Usage: inputs_test.py <bvhbench> <result schema>
-"""
+"""Hold the program to one sentence, soon, for what a user gives it: patterns, folders of frames, JSON, and lists of nothing."""
+import lzma
 import os
 import pathlib
+import re
 import sys
 import time
 
-from program import expect, main, run
+from program import expect, experiment, main, run
 
 SHEET = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 LEAF = ("collide", "--collider", "leaf", "--samples", "1", "--scene")
 
 
 def test_patterns_are_read_and_matched_at_once():
-    pathlib.Path("few.json").write_text('{"experiment": "few", "scenes": ["soup:%s"], "builders": ["perfect"]}' % ("1" * 9))
-    for command in (("run", "few.json", "--out", "f.json"), ("smoke",), ("stress", "--quick"), ("accuracy", "--axis", "sums", "--out", "a")):
-        for pattern in ("(" * 60_000, "[", "(?=x)", "a**"):
-            started = time.monotonic()
-            expect(2, *command, "--filter", pattern, says="is no regular expression: ")
-            assert time.monotonic() - started < 20, (command, pattern[:9])
-    name = "soup:" + "1" * 9 + "/perfect"
-    for pattern in ("(.*)*(.*)*(.*)*(.*)*x$", "(x+x+)+y", "(a|aa)+$"):
+    experiment("few.json", scenes=["soup:%s" % ("1" * 9)], builders=["perfect"])
+    few = ("run", "few.json", "--out", "f.json")
+    name, none = "soup:" + "1" * 9 + "/perfect", "is no regular expression: "
+    for command, pattern, says in (
+            *((few, pattern, none) for pattern in ("(" * 60_000, "[", "(?=x)", "a**")),
+            *((command, "[", none) for command in (("smoke",), ("stress", "--quick"), ("accuracy", "--axis", "sums", "--out", "a"))),
+            *((few, pattern, f"matches '{pattern}'") for pattern in ("(.*)*(.*)*(.*)*(.*)*x$", "(x+x+)+y", "(a|aa)+$"))):
         started = time.monotonic()
-        expect(2, "run", "few.json", "--out", "f.json", "--filter", pattern, says=f"matches '{pattern}'")
-        assert time.monotonic() - started < 20, pattern
-    done = run("run", "few.json", "--out", "f.json", "--memory-limit", "1M", "--filter", f"^{name}$|x{{2}}")
+        expect(2, *command, "--filter", pattern, says=says)
+        assert time.monotonic() - started < 20, (command, pattern[:9])
+    done = run(*few, "--memory-limit", "1M", "--filter", f"^{name}$|x{{2}}")
     assert "matches" not in done.stderr and "regular" not in done.stderr, done
 
 
@@ -71,7 +69,8 @@ def test_connected_parts_of_frames_are_objects_wherever_their_triangles_are():
     for number in (1, 2):
         (folder / f"{number}.obj").write_text(two + "f 1 2 3\nf 5 6 7\nf 1 3 4\nf 5 7 8\n")
     expect(0, *LEAF, "turns/", "--frames", "0:", "--pairs-of", "within", "--pairs", "turns.csv")
-    assert pathlib.Path("turns.csv").read_text().split() == ["frame,object_a,object_b,a,b", "0,0,0,0,2", "0,1,1,1,3", "1,0,0,0,2", "1,1,1,1,3"]
+    assert pathlib.Path("turns.csv").read_text().split() == ["frame,object_a,object_b,a,b", "0,0,0,0,2", "0,1,1,1,3",
+                                                             "1,0,0,0,2", "1,1,1,1,3"]
 
 
 def test_a_list_of_nothing_is_refused():
@@ -86,30 +85,49 @@ def test_a_list_of_nothing_is_refused():
     assert not os.path.exists("nonexist") and not os.path.exists("two.csv")
 
 
-def test_json_that_is_none_is_a_sentence_without_the_parsers_words():
+def one_sentence(path: str, *words: str, codes: tuple[int, ...]) -> None:
+    done = run(*words)
+    assert done.returncode in codes and done.stderr.count("\n") == 1 and path in done.stderr, (words, done)
+    assert not re.search("json.exception|basic_", done.stderr), done.stderr
+    assert len(done.stderr) < 500 and done.stderr.strip().isprintable(), done.stderr
+
+
+# Who reads a file, and the exit code for what cannot be read.
+READERS = ((("run", "FILE", "--out", "o.json"), 2), (("show", "FILE"), 3),
+           (("build", "--builder", "perfect", "--scene", "soup:9", "--tuning", "FILE"), 3))
+MORE_READERS = ((("sweep", "FILE", "--out", "o"), 2), (("compare", "FILE", "FILE"), 3), (("merge", "FILE", "-o", "m.json"), 3),
+                (("smoke", "--baseline", "FILE"), 3))
+
+
+def test_json_that_is_none_and_a_folder_are_a_sentence_without_the_parsers_words():
     texts = ("{", "", "[1, 2", '{"experiment": 3}', '{"experiment": "x", "scenes": [], "builders": []}', '{"a": \x01}', "\xff\xfe",
              '{"experiment": "x", "scenes": [7], "builders": ["perfect"]}', "[" * 5000, '"' + "a" * 100_000)
-    for k, text in enumerate(texts):
+    for number, text in enumerate(texts):
         pathlib.Path("bad.json").write_text(text, encoding="latin-1")
-        for words, code in ((("run", "bad.json", "--out", "o.json"), 2), (("sweep", "bad.json", "--out", "o"), 2),
-                            (("show", "bad.json"), 3), (("compare", "bad.json", "bad.json"), 3), (("merge", "bad.json", "-o", "m.json"), 3),
-                            (("build", "--builder", "perfect", "--scene", "soup:9", "--tuning", "bad.json"), 3),
-                            (("smoke", "--baseline", "bad.json"), 3)):
-            if words[0] == "smoke" and k > 3:
-                continue  # it takes its time: the device is opened first
-            done = run(*words)
-            assert done.returncode in (code, 2) and done.stderr.count("\n") == 1, (words, text[:20], done)
-            assert "json.exception" not in done.stderr and len(done.stderr) < 500 and done.stderr.strip().isprintable(), done.stderr
-            assert "bad.json" in done.stderr, (words, done.stderr)
-
-
-def test_a_folder_in_the_place_of_a_file_is_a_sentence():
+        for words, code in READERS if number else READERS + MORE_READERS:
+            one_sentence("bad.json", *(word.replace("FILE", "bad.json") for word in words), codes=(code, 2))
     pathlib.Path("folder.json").mkdir()
-    for words in (("show", "folder.json"), ("run", "folder.json"), ("compare", "folder.json", "folder.json"),
-                  ("sweep", "folder.json", "--out", "o"), ("merge", "folder.json", "-o", "m.json"), ("smoke", "--baseline", "folder.json")):
-        done = run(*words)
-        assert done.returncode in (2, 3) and "folder.json" in done.stderr and "basic_" not in done.stderr, (words, done)
+    for words, _ in READERS[:2] + MORE_READERS:
+        one_sentence("folder.json", *(word.replace("FILE", "folder.json") for word in words), codes=(2, 3))
 
 
-if __name__ == "__main__":
-    sys.exit(main(globals()))
+def test_every_reader_takes_a_result_packed_by_xz_and_a_damaged_one_is_a_sentence():
+    expect(0, "build", "--builder", "karras", "--scene", "soup:100", "--samples", "2", "--json", "r.json")
+    packed = lzma.compress(pathlib.Path("r.json").read_bytes())
+    pathlib.Path("r.json.xz").write_bytes(packed)
+    assert expect(0, "show", "r.json.xz").replace("r.json.xz", "r.json") == expect(0, "show", "r.json")
+    expect(0, "compare", "r.json", "r.json.xz", "--allow-dirty")
+    expect(0, "merge", "r.json.xz", "-o", "merged.json")
+    expect(0, "report", "r.json.xz", "-o", "r.html")
+    assert "<h2>r</h2>" in pathlib.Path("r.html").read_text()
+    large = lzma.compress(bytes(257 << 20), preset=0)
+    for data, says in ((packed[:-9], "cut off or damaged"), (packed[:40] + b"!" + packed[41:], "cut off or damaged"),
+                       (packed + b"more", "cut off or damaged"), (large, "cannot be unpacked: it would be larger than 256 MiB")):
+        pathlib.Path("bad.json.xz").write_bytes(data)
+        expect(3, "show", "bad.json.xz", says=f"bad.json.xz' {says}" if data is large else says)
+    expect(3, "report", "bad.json.xz", "-o", "none.html", says="larger than 256 MiB")
+    expect(2, "build", "--builder", "karras", "--scene", "soup:10", "--json", "new.json.xz", says="pack it with xz")
+    assert not pathlib.Path("new.json.xz").exists()
+
+
+sys.exit(main(globals()))

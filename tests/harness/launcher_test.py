@@ -1,18 +1,15 @@
 #!/usr/bin/env python3
 """The launcher where a user may not write, and in folders whose paths have what builds do not take. Nothing is built here:
-the checkout is a copy of the launcher with a program that prints its words.
-
-Usage: launcher_test.py <bvhbench> <result schema>
-"""
+the checkout is a copy of the launcher with a program that prints its words."""
 import os
 import pathlib
 import shutil
 import subprocess
 import sys
 
-from program import SCHEMA, main
+from program import SOURCE, main
 
-LAUNCHER = SCHEMA.parents[2] / "bvhbench"
+LAUNCHER = SOURCE / "bvhbench"
 NOBODY = 65534
 
 
@@ -79,5 +76,4 @@ def test_a_path_that_builds_do_not_take_is_refused_at_once_but_run_if_it_is_buil
     assert (done.returncode, done.stdout) == (0, "ran: list\n"), done
 
 
-if __name__ == "__main__":
-    sys.exit(main(globals()))
+sys.exit(main(globals()))

@@ -2,12 +2,9 @@
 """Give the program too little memory, and hold it to what docs/measuring.md promises: a sentence or a cell that says so, the
 scenes behind it measured, the limit kept, and no process ended by the kernel.
 
-Usage: memory_test.py <bvhbench> <result schema>
-
 MEMORY_SIZES=full runs the sizes that take minutes, too.
 """
 import contextlib
-import json
 import os
 import pathlib
 import re
@@ -16,7 +13,7 @@ import struct
 import subprocess
 import time
 
-from program import PROGRAM, expect, main, valid
+from program import PROGRAM, expect, experiment, main, only, valid
 
 FULL = os.environ.get("MEMORY_SIZES") == "full"
 MIB = 1 << 20
@@ -37,41 +34,38 @@ def copies(count: int) -> str:
     return path
 
 
-def own_cgroup() -> pathlib.Path | None:
-    """The folder of the control group that limits this process's memory."""
-    groups = [line.split(":", 2) for line in pathlib.Path("/proc/self/cgroup").read_text().splitlines()]
-    for _, controllers, path in groups:
-        root = {"memory": "/sys/fs/cgroup/memory", "": "/sys/fs/cgroup"}.get(controllers)
-        folder = pathlib.Path(f"{root}{path}") if root else None
-        if folder and any((folder / name).exists() for name in ("memory.limit_in_bytes", "memory.max")):
-            return folder
+def own_limit() -> pathlib.Path | None:
+    """The file with the memory limit of this process's control group."""
+    for line in pathlib.Path("/proc/self/cgroup").read_text().splitlines():
+        _, controllers, path = line.split(":", 2)
+        file = {"memory": f"/sys/fs/cgroup/memory{path}/memory.limit_in_bytes", "": f"/sys/fs/cgroup{path}/memory.max"}.get(controllers)
+        if file and os.path.exists(file):
+            return pathlib.Path(file)
     return None
 
 
 @contextlib.contextmanager
 def group_of(limit: int):
     """A control group of so much memory; None where none can be made."""
-    group, made = None, None
-    try:
-        parent = own_cgroup()
-        if parent:
-            made = parent / f"bvhbench-test-{os.getpid()}"
-            made.mkdir()
-            limits = [made / name for name in ("memory.limit_in_bytes", "memory.max") if (made / name).exists()]
-            limits[0].write_text(str(limit))
-            group = made
-    except (OSError, IndexError):
-        pass
-    try:
+    file = own_limit()
+    group = file.parent / f"bvhbench-test-{os.getpid()}" if file else None
+    with contextlib.ExitStack() as stack:
+        try:
+            if group:
+                group.mkdir()
+                stack.callback(removed, group)
+                (group / file.name).write_text(str(limit))
+        except OSError:
+            group = None
         yield group
-    finally:
-        if made and made.is_dir():
-            for _ in range(50):  # processes leave a group a moment after they have ended
-                try:
-                    made.rmdir()
-                    break
-                except OSError:
-                    time.sleep(0.1)
+
+
+def removed(group: pathlib.Path) -> None:
+    for _ in range(50):  # processes leave a group a moment after they have ended
+        with contextlib.suppress(OSError):
+            group.rmdir()
+            return
+        time.sleep(0.1)
 
 
 def measured(*words: str, limit: int = 0, group: pathlib.Path | None = None, ulimit: int = 0):
@@ -94,16 +88,14 @@ def measured(*words: str, limit: int = 0, group: pathlib.Path | None = None, uli
     return done
 
 
+def limited(*words: str) -> subprocess.CompletedProcess:
+    return measured(*words, "--memory-limit", "500M", limit=LIMIT)
+
+
 def refused(done: subprocess.CompletedProcess, *says: str):
     assert done.returncode in (3, 4), done
     assert done.stderr.startswith("bvhbench: ") and done.stderr.count("\n") == 1, done
     assert any(words in done.stderr for words in says), done
-
-
-def plan(name: str, **keys) -> str:
-    pathlib.Path(f"{name}.json").write_text(json.dumps(
-        {"experiment": name, "question": "?", "samples": 1, "warm_up": 0, **keys}))
-    return f"{name}.json"
 
 
 def test_a_limit_must_be_a_number_of_bytes():
@@ -126,49 +118,47 @@ def test_what_the_program_takes_itself_is_within_its_limit():
 
 
 def test_a_scene_is_refused_before_it_is_made():
-    done = measured("build", "--builder", "karras", "--scene", "torus:60000000", "--memory-limit", "500M", limit=LIMIT)
+    done = limited("build", "--builder", "karras", "--scene", "torus:60000000")
     refused(done, "out of host memory: scene 'torus:60000000' takes about ")
     assert re.search(r"about \d+ bytes, and the host gives \d+\n$", done.stderr), done
 
 
 def test_pairs_are_counted_before_they_are_listed():
+    collide, too_many = ("collide", "--samples", "1", "--scene"), "a query holds at most 4294967295"
     for count in (10000, 30000, 100000) if FULL else (10000,):
-        for collider, says in (("leaf", "out of "), ("brute", "out of host memory"), ("embree", "out of host memory")):
-            if count > 10000 and collider != "leaf":
-                continue
-            done = measured("collide", "--collider", collider, "--scene", copies(count), "--samples", "1", "--memory-limit",
-                            "500M", limit=LIMIT)
-            if "built without" not in done.stderr:
-                refused(done, says, "a query holds at most 4294967295")
+        refused(limited(*collide, copies(count), "--collider", "leaf"), "out of ", too_many)
+    for collider in ("brute", "embree"):
+        done = limited(*collide, copies(10000), "--collider", collider)
+        if "built without" not in done.stderr:
+            refused(done, "out of host memory", too_many)
     # Where there is room they are listed.
-    done = measured("collide", "--collider", "leaf", "--scene", copies(2000), "--samples", "1", "--memory-limit", "500M",
-                    "--json", "room.json", limit=LIMIT)
+    done = limited(*collide, copies(2000), "--collider", "leaf", "--json", "room.json")
     assert done.returncode == 0 and "agrees" in done.stdout, done
-    assert valid("room.json")["cells"][0]["counters"]["pairs_count"] == 2000 * 1999 / 2
+    assert only("room.json")["counters"]["pairs_count"] == 2000 * 1999 / 2
     if FULL:
-        measured("collide", "--collider", "leaf", "--scene", copies(10000), "--samples", "1", "--memory-limit", "1G",
-                 limit=1024 * MIB)
-        refused(measured("collide", "--collider", "leaf", "--scene", copies(100000), "--samples", "1", "--memory-limit",
-                         "2G", limit=2048 * MIB), "out of ", "a query holds at most 4294967295")
+        measured(*collide, copies(10000), "--collider", "leaf", "--memory-limit", "1G", limit=1024 * MIB)
+        refused(measured(*collide, copies(100000), "--collider", "leaf", "--memory-limit", "2G", limit=2048 * MIB), "out of ", too_many)
 
 
-def scenes_around_one_too_large(name: str) -> str:
-    return plan(name, scenes=[{"scene": scene} for scene in ("torus:1000", copies(10000), "torus:1200")],
-                pipelines=[{"builder": "karras", "collider": collider} for collider in ("leaf", "grid")])
+def around_one_too_large(*words: str, **limits) -> dict:
+    """The result of a run over three scenes, of which that in the middle is too large."""
+    plan = experiment("three.json", scenes=["torus:1000", copies(10000), "torus:1200"],
+                      pipelines=[{"builder": "karras", "collider": collider} for collider in ("leaf", "grid")])
+    done = measured("run", plan, "--out", "three-out.json", "--force", *words, **limits)
+    result = valid("three-out.json")
+    states = [(cell["scene"]["name"], cell["status"]) for cell in result["cells"]]
+    assert states == [("torus:1000", "measured")] * 2 + [(copies(10000), "failed")] * 2 + [("torus:1200", "measured")] * 2, (states, done)
+    assert "finished_at" in result["run"], done
+    return result
 
 
 def test_a_run_goes_on_behind_a_scene_that_is_too_large():
-    path = scenes_around_one_too_large("too-large")
-    done = measured("run", path, "--out", "too-large-out.json", "--memory-limit", "500M", limit=LIMIT)
-    result = valid("too-large-out.json")
-    assert "finished_at" in result["run"], done
-    states = [(cell["scene"]["name"], cell["status"]) for cell in result["cells"]]
-    assert states == [("torus:1000", "measured")] * 2 + [(copies(10000), "failed")] * 2 + [("torus:1200", "measured")] * 2, states
+    result = around_one_too_large("--memory-limit", "500M", limit=LIMIT)
     assert all("out of " in cell["reason"] and " memory: " in cell["reason"] for cell in result["cells"][2:4]), result["cells"]
     memory = result["run"]["host_memory"]
     assert 64 * MIB < memory["predicted_bytes"] <= LIMIT and memory["given_bytes"] == LIMIT, memory
     assert abs(memory["peak_bytes"] // MIB - peaks[-1][1]) <= 1, (memory, peaks[-1])
-    assert f"memory: {memory['peak_bytes'] // MIB} MiB at most, " in expect(0, "show", "too-large-out.json")
+    assert f"memory: {memory['peak_bytes'] // MIB} MiB at most, " in expect(0, "show", "three-out.json")
 
 
 def test_every_command_keeps_its_limit():
@@ -177,7 +167,7 @@ def test_every_command_keeps_its_limit():
                    "--out", "swept"),
                   ("tune", "leaf", "--scene", many, "--builder", "karras", "--quick", "--samples", "3", "--out", "tuned.json"),
                   ("accuracy", "--axis", "codes", "--scene", many, "--samples", "1", "--out", ".")):
-        done = measured(*words, "--memory-limit", "500M", limit=LIMIT)
+        done = limited(*words)
         assert done.returncode in (0, 3, 4) and "memory" in done.stderr + done.stdout, done
 
 
@@ -189,11 +179,10 @@ def test_files_are_refused_by_their_size():
             with open(path, "wb") as file:
                 file.truncate(size)
             words = ("show", path) if ending == "json" else ("build", "--builder", "perfect", "--scene", path)
-            refused(measured(*words, "--memory-limit", "500M", limit=LIMIT),
-                    f"out of host memory: reading '{path}' takes about ")
+            says = f"out of host memory: reading '{path}' takes about "
+            refused(limited(*words), says)
             with group_of(2 << 30) as group:
-                refused(measured(*words, group=group, ulimit=0 if group else 2 << 30),
-                        f"out of host memory: reading '{path}' takes about ")
+                refused(measured(*words, group=group, ulimit=0 if group else 2 << 30), says)
 
 
 def test_files_of_numbers_that_are_short_meet_the_limit():
@@ -202,28 +191,25 @@ def test_files_of_numbers_that_are_short_meet_the_limit():
         for _ in range(20):
             file.write("v 1 2 3\n" * 400000)
         file.write("f 1 2 3\n")
-    done = measured("build", "--builder", "perfect", "--scene", "short.obj", "--memory-limit", "500M", limit=LIMIT)
+    done = limited("build", "--builder", "perfect", "--scene", "short.obj")
     refused(done, "out of host memory", "there is not enough memory for scene 'short.obj'")
 
 
 def test_a_group_of_processes_limits_without_being_asked():
-    for limit, words in ((1536, ("build", "--builder", "karras", "--scene", "torus:6000000", "--samples", "1")),
+    limit, scene = (1536, "torus:6000000") if FULL else (800, "torus:3000000")
+    for limit, words in ((limit, ("build", "--builder", "karras", "--scene", scene, "--samples", "1")),
                          (600, ("collide", "--collider", "leaf", "--scene", copies(10000), "--samples", "1"))):
         with group_of(limit * MIB) as group:
             # Address space is more than memory: what drivers map they hardly use.
             done = measured(*words, group=group, ulimit=0 if group else (limit + 600) * MIB)
             refused(done, "out of host memory: ", "out of device memory: ")
     with group_of(700 * MIB) as group:
-        path = scenes_around_one_too_large("grouped")
-        done = measured("run", path, "--out", "grouped-out.json", group=group, ulimit=0 if group else 1300 * MIB)
-        states = [cell["status"] for cell in valid("grouped-out.json")["cells"]]
-        assert states == ["measured"] * 2 + ["failed"] * 2 + ["measured"] * 2, (states, done)
+        around_one_too_large(group=group, ulimit=0 if group else 1300 * MIB)
         if not group:
             print("  no control group can be made here: RLIMIT_AS in its place")
 
 
-if __name__ == "__main__":
-    ended = main(globals())
-    for words, peak, limit in peaks if FULL else []:
-        print(f"{peak:6} MiB of {limit or '-':>5}  {words}")
-    raise SystemExit(ended)
+ended = main(globals())
+for words, peak, limit in peaks if FULL else []:
+    print(f"{peak:6} MiB of {limit or '-':>5}  {words}")
+raise SystemExit(ended)

@@ -1,8 +1,5 @@
 #!/usr/bin/env python3
-"""Objects whose triangles take turns in their file: pairs, contacts, hashes, trees and ground truth have the file's numbers.
-
-Usage: objects_test.py <bvhbench> <result schema>
-"""
+"""Objects whose triangles take turns in their file: pairs, contacts, hashes, trees and ground truth have the file's numbers."""
 import array
 import csv
 import json
@@ -161,5 +158,4 @@ def test_a_table_of_objects_is_held_to_the_file():
     expect(3, "collide", "--scene", "mixed", "--collider", "leaf", says="meta.json has an object, 'b', over 70 triangles from ")
 
 
-if __name__ == "__main__":
-    sys.exit(main(globals()))
+sys.exit(main(globals()))

@@ -1,16 +1,13 @@
 #!/usr/bin/env python3
-"""Hold the program to what it promises of a device that is neither PoCL's nor NVIDIA's: Mesa's llvmpipe, through Rusticl.
-
-Usage: portable_test.py <bvhbench> <result schema>
-"""
+"""Hold the program to what it promises of a device that is neither PoCL's nor NVIDIA's: Mesa's llvmpipe, through Rusticl."""
 import os
 import sys
 
-from program import SCHEMA, expect, main, run, valid
+from program import SOURCE, expect, main, run, valid
 
 os.environ["RUSTICL_ENABLE"] = "llvmpipe"
 LLVMPIPE = ("--device", "rusticl llvmpipe")
-BASELINE = SCHEMA.parents[1] / "baseline/smoke-llvmpipe.json"
+BASELINE = SOURCE / "results/baseline/smoke-llvmpipe.json"
 ENDS_LOOPS = "ends early"
 
 
@@ -46,5 +43,4 @@ def test_a_report_on_the_device_names_every_verdict():
     assert "differs" not in report and "failed" not in report, report
 
 
-if __name__ == "__main__":
-    sys.exit(main(globals()))
+sys.exit(main(globals()))

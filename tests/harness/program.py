@@ -1,15 +1,20 @@
+# SPDX-License-Identifier: MIT
 """What tests of the program share: run it and hold it to its exit codes, its output and the result schema.
 
 A test script is called with the program and the result schema, and ends with `sys.exit(main(globals()))`.
 """
+import contextlib
 import json
 import os
 import pathlib
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
+import time
+from collections.abc import Callable, Iterator
 
 try:
     import jsonschema
@@ -17,6 +22,10 @@ except ImportError:
     jsonschema = None
 
 PROGRAM, SCHEMA = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
+SOURCE = SCHEMA.parents[2]
+ROOMS_OF_KERNELS = ("baselines", "builders", "collide", "device", "geometry", "library", "oibvh")
+KEPT = "bvhbench: stopped; finished cells are kept\n"
+_validator = jsonschema and jsonschema.Draft202012Validator(json.loads(SCHEMA.read_text()))
 
 
 def run(*words: str, **environment: str) -> subprocess.CompletedProcess:
@@ -34,43 +43,93 @@ def expect(code: int, *words: str, says: str = "", **environment: str) -> str:
     return done.stdout
 
 
-def valid(path: str) -> dict:
+def valid(path: str | pathlib.Path) -> dict:
     text = pathlib.Path(path).read_text()
     assert "NaN" not in text
     result = json.loads(text)
-    if jsonschema:
-        jsonschema.validate(result, json.loads(SCHEMA.read_text()))
+    if _validator:
+        _validator.validate(result)
     return result
 
 
-def copied_kernels(folder: str) -> str:
-    """A folder of all kernels' text, for --kernels, to be changed there."""
-    source = SCHEMA.parents[2]
-    for path in source.rglob("*"):
-        if path.suffix in (".cl", ".clh", ".h") and "build" not in path.relative_to(source).parts[:1]:
-            to = pathlib.Path(folder, path.relative_to(source))
-            to.parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy(path, to)
+def only(path: str) -> dict:
+    """The one cell of a result file."""
+    cell, = valid(path)["cells"]
+    return cell
+
+
+def experiment(path: str, **keys) -> str:
+    """The path, where now is an experiment: one sample, not warmed up, where the keys say nothing else."""
+    pathlib.Path(path).write_text(json.dumps({"experiment": "test", "question": "?", "samples": 1, "warm_up": 0, **keys}))
+    return path
+
+
+def copied_kernels(folder: str, file: str = "", pattern: str = "", replacement: str = "") -> str:
+    """A folder of all kernels' text, for --kernels; in one file each match of a pattern is replaced."""
+    for room in ROOMS_OF_KERNELS:
+        shutil.copytree(SOURCE / room, pathlib.Path(folder, room), ignore=shutil.ignore_patterns("*.cpp", "*.txt"), dirs_exist_ok=True)
+    if file:
+        planted = pathlib.Path(folder, file)
+        text, count = re.subn(pattern, replacement, planted.read_text())
+        assert count > 0, (file, pattern)
+        planted.write_text(text)
     return folder
 
 
-def planted_kernels(folder: str, pattern: str, replacement: str) -> str:
-    """The same, those of karras changed."""
-    planted = pathlib.Path(copied_kernels(folder), "baselines/radix/karras.cl")
-    text, kernels = re.subn(pattern, replacement, planted.read_text())
-    assert kernels > 0
-    planted.write_text(text)
-    return folder
+def planted_karras(folder: str, pattern: str, replacement: str) -> str:
+    return copied_kernels(folder, "baselines/radix/karras.cl", pattern, replacement)
 
 
-def main(names: dict) -> int:
-    """Run every test of a script in a folder that is removed in the end."""
-    tests = [value for name, value in names.items() if name.startswith("test_")]
+@contextlib.contextmanager
+def at_work(*words: str, **environment: str) -> Iterator[subprocess.Popen]:
+    """The program as it runs, in a process group of its own; it is killed if it has not ended."""
+    with subprocess.Popen([PROGRAM, *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True,
+                          env={**os.environ, **environment}) as process:
+        try:
+            yield process
+        finally:
+            process.kill()
+
+
+def ended(process: subprocess.Popen, sent: signal.Signals) -> tuple[str, str]:
+    """What a process has printed when it was ended by a signal: output and errors."""
+    assert process.poll() is None, process.communicate()
+    process.send_signal(sent)
+    return process.communicate(timeout=60)
+
+
+def wait_until(happens: Callable[[], object], seconds: float = 60) -> None:
+    until = time.time() + seconds
+    while not happens():
+        assert time.time() < until
+        time.sleep(0.02)
+
+
+def ours() -> list[str]:
+    """Command lines of other processes that were started in this folder."""
+    found = []
+    for entry in pathlib.Path("/proc").iterdir():
+        with contextlib.suppress(OSError):
+            if entry.name.isdigit() and int(entry.name) != os.getpid() and os.readlink(entry / "cwd") == os.getcwd():
+                found.append((entry / "cmdline").read_bytes().replace(b"\0", b" ").decode(errors="replace").strip())
+    return [line for line in found if line]
+
+
+def main(names: dict, begin: Callable[[], None] | None = None) -> int:
+    """Run every test of a script, or those with TESTS in their names, in a folder that is removed in the end; each in a folder
+    of its own if there is something to begin with."""
+    wanted = os.environ.get("TESTS", "")
+    tests = {name.removeprefix("test_"): value for name, value in names.items() if name.startswith("test_") and wanted in name}
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
-        for test in tests:
+        for name, test in tests.items():
+            if begin:
+                os.mkdir(f"{folder}/{name}")
+                os.chdir(f"{folder}/{name}")
+                begin()
+            started = time.time()
             test()
-            print("passed:", test.__name__.removeprefix("test_").replace("_", " "))
+            print(f"passed: {name.replace('_', ' ')} ({time.time() - started:.1f} s)", flush=True)
         os.chdir("/")
     if not jsonschema:
         print("not held to the schema: there is no jsonschema for this Python")

@@ -1,23 +1,13 @@
 #!/usr/bin/env python3
-"""How samples are taken, as the program and its result files tell it.
-
-Usage: sampling_test.py <bvhbench> <result schema>
-"""
-import json
+"""How samples are taken, as the program and its result files tell it."""
 import pathlib
-import re
 import statistics
 import subprocess
 import sys
 
-from program import PROGRAM, copied_kernels, expect, main, valid
+from program import PROGRAM, copied_kernels, expect, experiment, main, only, valid
 
 BUILD = ("build", "--builder", "oibvh-multi", "--scene", "torus:3000")
-
-
-def only(path: str) -> dict:
-    cell, = valid(path)["cells"]
-    return cell
 
 
 def test_a_fixed_number_is_what_was_asked_for() -> None:
@@ -42,9 +32,8 @@ def test_a_target_stops_and_says_why() -> None:
     expect(0, *BUILD, "--until", "0.01%", "--min-samples", "9", "--max-samples", "100000", "--time-budget", "0.2",
            "--json", "a.json", "--force")
     assert only("a.json")["sampling"]["stopped"] in ("budget", "noisy")
-    pathlib.Path("until.json").write_text(json.dumps({
-        "experiment": "until", "scenes": ["soup:500"], "builders": ["perfect"], "until": 0.9, "caches": "cold",
-        "pipelines": [{"builder": "karras", "collider": "leaf"}]}))
+    experiment("until.json", scenes=["soup:500"], builders=["perfect"], until=0.9, caches="cold",
+               pipelines=[{"builder": "karras", "collider": "leaf"}])
     expect(0, "run", "until.json", "--out", "a.json", "--force")
     for cell in valid("a.json")["cells"]:
         assert cell["sampling"]["caches"] == "cold" and cell["sampling"]["until"] == 0.9, cell
@@ -63,11 +52,8 @@ def test_what_makes_no_sense_is_refused() -> None:
 
 def test_cold_caches_are_emptied_before_each_sample() -> None:
     """Counted by a line that the kernel prints then; what it gains in time depends on the machine."""
-    planted = pathlib.Path(copied_kernels("kernels"), "device/limits.cl")
-    text, walks = re.subn(r"(kernel void walk\([^)]*\)\s*\{)", r'\1 if (get_global_id(0) == 0) printf("walked\\n");',
-                          planted.read_text())
-    assert walks == 1
-    planted.write_text(text)
+    copied_kernels("kernels", "device/limits.cl", r"(kernel void walk\([^)]*\)\s*\{)",
+                   r'\1 if (get_global_id(0) == 0) printf("walked\\n");')
     for words, times in (((), 0), (("--cold",), 1)):
         said = expect(0, *BUILD, "--samples", "5", "--kernels", "kernels", "--json", "a.json", "--force", *words)
         cell = only("a.json")
@@ -77,9 +63,8 @@ def test_cold_caches_are_emptied_before_each_sample() -> None:
 
 
 def test_runs_by_turns_know_each_other_and_are_of_one_time() -> None:
-    pathlib.Path("few.json").write_text(json.dumps({
-        "experiment": "few", "scenes": ["torus:3000", "soup:500"], "builders": ["perfect", "karras"], "samples": 20}))
-    runs = [subprocess.Popen([PROGRAM, "run", "few.json", "--out", f"{name}.json", "--force", "--turns", "turns:2"],
+    few = experiment("few.json", scenes=["torus:3000", "soup:500"], builders=["perfect", "karras"], samples=20)
+    runs = [subprocess.Popen([PROGRAM, "run", few, "--out", f"{name}.json", "--force", "--turns", "turns:2"],
                              stdout=subprocess.DEVNULL) for name in ("a", "b")]
     assert [run.wait(timeout=200) for run in runs] == [0, 0]
     a, b = valid("a.json"), valid("b.json")

@@ -1,10 +1,5 @@
 #!/usr/bin/env python3
-"""Sweeps: killed and resumed, crashed, cut into shards, merged and drawn.
-
-Usage: sweeps_test.py <bvhbench> <result schema>
-
-SWEEP_SEED is when it is killed (1).
-"""
+"""Sweeps: killed and resumed, crashed, cut into shards, merged and drawn. SWEEP_SEED is when they are killed (1)."""
 import collections
 import fcntl
 import hashlib
@@ -19,9 +14,8 @@ import subprocess
 import sys
 import time
 
-from program import PROGRAM, SCHEMA, expect, main, planted_kernels, run, valid
+from program import KEPT, PROGRAM, SCHEMA, SOURCE, at_work, expect, experiment, main, ours, planted_karras, run, valid, wait_until
 
-SOURCE = SCHEMA.parents[2]
 PRODUCT = ("--scenes", "soup:70,torus:500", "--builders", "perfect,karras", "--orders", "morton30,hilbert30", "--samples", "2",
            "--warm-up", "0")
 
@@ -45,20 +39,6 @@ def statuses(path: str) -> collections.Counter:
     return collections.Counter(cell["status"] for cell in valid(path)["cells"])
 
 
-def processes_of(folder: str) -> list[str]:
-    """Command lines that name something in the folder, of processes that were started here: other tests have such folders too."""
-    found = []
-    for entry in pathlib.Path("/proc").iterdir():
-        if entry.name.isdigit():
-            try:
-                line = (entry / "cmdline").read_bytes().replace(b"\0", b" ").decode(errors="replace")
-                is_ours = os.readlink(entry / "cwd") == os.getcwd()
-            except OSError:
-                continue
-            found += [line] if is_ours and f"{folder}/" in line else []
-    return found
-
-
 def finished(folder: str) -> dict[str, str]:
     """The cells in a folder that are whole, by file, as they are."""
     found = {}
@@ -79,21 +59,15 @@ def test_killed_three_times_it_has_the_cells_of_one_that_was_not():
     before: dict[str, str] = {}
     progress = []
     for kill in range(3):
-        with subprocess.Popen([PROGRAM, "sweep", *PRODUCT, "--out", "killed"], stdout=subprocess.DEVNULL,
-                              start_new_session=True) as process:
+        with at_work("sweep", *PRODUCT, "--out", "killed") as process:
             # Once it has begun with cells, so that there is something to go on with; the last time only the sweep itself.
-            until = time.time() + 60
-            while not finished("killed").keys() - before.keys() and process.poll() is None and time.time() < until:
-                time.sleep(0.02)
+            wait_until(lambda: finished("killed").keys() - before.keys() or process.poll() is not None)
             time.sleep(draw.uniform(0, 0.8))
             if kill < 2:
                 os.killpg(process.pid, signal.SIGKILL)
             else:
                 process.kill()
-            process.wait(60)
-        until = time.time() + 10
-        while processes_of("killed") and time.time() < until:  # what was killed is gone in a moment
-            time.sleep(0.02)
+        wait_until(lambda: not ours(), 10)  # what was killed is gone in a moment
         now = finished("killed")
         assert all(now[name] == text for name, text in before.items()), "a finished cell was measured again"
         before = now
@@ -117,43 +91,33 @@ def test_killed_three_times_it_has_the_cells_of_one_that_was_not():
 
 def test_no_process_outlives_a_sweep_that_is_killed():
     words = ("sweep", "--scenes", "soup:70", "--builders", "perfect", "--samples", "1000000", "--out", "outlived")
-    with subprocess.Popen([PROGRAM, *words], stdout=subprocess.DEVNULL) as process:
-        while not any(" run outlived/" in line for line in processes_of("outlived")):
-            time.sleep(0.02)
+    with at_work(*words) as process:
+        wait_until(lambda: any(" run outlived/" in line for line in ours()))
         time.sleep(0.5)  # it is at work by now, and would be for minutes
         process.kill()
-        process.wait(60)
-    until = time.time() + 5
-    while processes_of("outlived") and time.time() < until:
-        time.sleep(0.02)
-    assert not processes_of("outlived"), processes_of("outlived")
+    wait_until(lambda: not ours(), 5)
 
 
 def test_an_interrupt_ends_it_and_keeps_what_is_done():
-    with subprocess.Popen([PROGRAM, "sweep", *PRODUCT, "--out", "stopped"], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                          text=True, start_new_session=True) as process:
+    with at_work("sweep", *PRODUCT, "--out", "stopped") as process:
         for line in process.stdout:
             if line.startswith("[2/8]"):
                 break
         os.killpg(process.pid, signal.SIGINT)  # as a terminal does: to the cell's process too
         output, errors = process.communicate(timeout=60)
-    assert process.returncode == 130 and errors == "bvhbench: stopped; finished cells are kept\n", (process.returncode, errors)
+    assert process.returncode == 130 and errors == KEPT, (process.returncode, errors)
     kept = cells_of("stopped/sweep.json")
     assert 2 <= len(kept) < 8 and "written: stopped/sweep.json" in output, (kept, output)
     assert "finished_at" not in valid("stopped/sweep.json")["run"]
-    assert not processes_of("stopped")
-
-
-def crashing_kernels(folder: str) -> str:
-    """A copy of the kernels in which karras writes where nothing is."""
-    crash = r"\1\n    *(volatile global uint*)(ulong)(get_global_size(0) & 0) = 1;\n"
-    return planted_kernels(folder, r"(kernel void \w+\([^{]*\{)", crash)
+    assert not ours()
 
 
 def test_a_crash_costs_one_cell():
     # Without a watchdog, which would catch it in the process: a crash is a crash, and the sweep sees the process end.
+    crash = r"\1\n    *(volatile global uint*)(ulong)(get_global_size(0) & 0) = 1;\n"  # writes where nothing is
+    kernels = planted_karras("crashing", r"(kernel void \w+\([^{]*\{)", crash)
     words = ("sweep", "--scenes", "soup:70", "--builders", "perfect,karras,median-split", "--samples", "2", "--out", "crash",
-             "--kernels", crashing_kernels("crashing"), "--time-limit", "0")
+             "--kernels", kernels, "--time-limit", "0")
     expect(0, *words, says="3 cells: 2 measured, 0 skipped, 1 failed")
     cells = {cell["builder"]["name"]: cell for cell in valid("crash/sweep.json")["cells"]}
     assert cells["karras"]["status"] == "failed", cells["karras"]
@@ -181,9 +145,7 @@ def test_a_device_that_goes_away_ends_it_with_what_is_done():
     for path in pathlib.Path(os.environ.get("OCL_ICD_VENDORS", "/etc/OpenCL/vendors")).glob("*.icd"):
         shutil.copy(path, vendors)
     words = ("sweep", "--scenes", "soup:70,torus:500", "--builders", "perfect,karras", "--samples", "1", "--out", "gone")
-    environment = {**os.environ, "OCL_ICD_VENDORS": str(vendors)}
-    with subprocess.Popen([PROGRAM, *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                          env=environment) as process:
+    with at_work(*words, OCL_ICD_VENDORS=str(vendors)) as process:
         for line in process.stdout:
             if line.startswith("[1/4]"):
                 shutil.rmtree(vendors)
@@ -198,22 +160,19 @@ def test_shards_together_are_the_whole():
     words = ("sweep", "--scenes", "soup:70,torus:500", "--builders", "perfect,oibvh-wide4", "--set", "boxes=f32,u16", "--samples",
              "1", "--warm-up", "0")
     cannot_be = "oibvh-wide4 keeps its boxes in its own way"
-    whole = expect(0, *words, "--out", "all", says="8 cells: 6 measured, 2 skipped, 0 failed")
-    assert "8 cells, 2 of which cannot be" in whole, whole
-    sizes = []
+    expect(0, *words, "--out", "all", "--dry-run", says="8 cells, 2 of which cannot be")
+    parts = ("part/sweep-1of3.json", "elsewhere/sweep-2of3.json", "part/sweep-3of3.json")  # two in one folder, as on a shared file system
     pathlib.Path("part").mkdir()
-    for shard in ("1/3", "2/3", "3/3"):  # two of them in one folder, as on a shared file system
+    for shard, path in zip(("1/3", "2/3", "3/3"), parts):
+        out = os.path.dirname(path)
         with open("part/lock", "w", encoding="utf-8") as lock:
             fcntl.flock(lock, fcntl.LOCK_SH)  # as another shard has it while it measures
-            expect(0, *words, "--out", "part" if shard != "2/3" else "elsewhere", "--shard", shard, says="written: ")
+            expect(0, *words, "--out", out, "--shard", shard, says="written: ")
             if shard == "3/3":
                 expect(3, *words, "--out", "part", says="part is being written by another process")
-        path = f"{'part' if shard != '2/3' else 'elsewhere'}/sweep-{shard.replace('/', 'of')}.json"
-        sizes.append(statuses(path)["measured"])
-    assert sizes == [2, 2, 2], sizes
-    parts = ("part/sweep-1of3.json", "elsewhere/sweep-2of3.json", "part/sweep-3of3.json")
+        assert statuses(path)["measured"] == 2
     expect(0, "merge", *parts, "-o", "merged.json", says="8 cells of 7 runs")
-    assert cells_of("merged.json") == cells_of("all/sweep.json")
+    assert list(cells_of("merged.json").values()) == [1] * 8
     skipped = [cell for cell in valid("merged.json")["cells"] if cell["status"] == "skipped"]
     assert len(skipped) == 2 and all(cell["reason"].startswith(cannot_be) for cell in skipped), skipped
     expect(0, "show", "merged.json", says="merged from 7 runs on ")
@@ -249,16 +208,14 @@ def test_two_processes_over_two_devices():
 
 
 def test_a_file_says_what_the_command_line_does_not():
-    pathlib.Path("s.json").write_text(json.dumps({
-        "sweep": "mine", "question": "?", "scenes": ["soup", {"scene": "cloth-ball:1300:3", "frames": "0:2"}],
-        "sizes": [70, "200:400:+200"], "builders": ["perfect", {"name": "oibvh-multi", "boxes": "u16"}],
-        "colliders": ["leaf", {"name": "bvtt", "jump": 2}, "grid"], "set": {"adjacent": ["drop"]}, "samples": 1, "warm_up": 0}))
+    keys = {"sweep": "mine", "question": "?", "builders": ["perfect", {"name": "oibvh-multi", "boxes": "u16"}],
+            "colliders": ["leaf", {"name": "bvtt", "jump": 2}, "grid"], "set": {"adjacent": ["drop"]}, "samples": 1, "warm_up": 0}
+    scenes = {"scenes": ["soup", {"scene": "cloth-ball:1300:3", "frames": "0:2"}], "sizes": [70, "200:400:+200"]}
+    pathlib.Path("s.json").write_text(json.dumps(keys | scenes))
+    pathlib.Path("t.json").write_text(json.dumps(keys | {"scenes": ["cloth-ball:1300:3"]}))
     listed = expect(0, "sweep", "s.json", "--out", "mine", "--dry-run",
                     says="mine: 4 scenes x 2 builders x 3 colliders x 1 value of adjacent: 20 cells\n")
     assert listed.count("bvtt") == 8 and listed.count(" grid") == 4 and not pathlib.Path("mine").exists(), listed
-    words = ("sweep", "s.json", "--scenes", "soup:70,cloth-ball:1300:3", "--colliders", "leaf,grid", "--set", "frames=0:2")
-    pathlib.Path("t.json").write_text(json.dumps({key: value for key, value in json.loads(
-        pathlib.Path("s.json").read_text()).items() if key != "sizes"} | {"scenes": ["cloth-ball:1300:3"]}))
     expect(0, "sweep", "t.json", "--colliders", "leaf,grid", "--set", "frames=0:2", "--out", "mine", "--together", "scene",
            says="[1/1] cloth-ball:1300:3, 3 cells: 6 results")
     result = valid("mine/mine.json")
@@ -268,55 +225,50 @@ def test_a_file_says_what_the_command_line_does_not():
     assert all(cell["experiment"] == "mine" and cell["collider"]["options"]["adjacent"] == "drop" for cell in result["cells"])
     orders = sorted(sample["order"] for cell in result["cells"] for sample in cell["samples"])
     assert orders == list(range(6)), "samples of one process are counted through"
-    expect(2, *words, "--out", "mine", says="s.json: none of the scenes has room for a size")
+    expect(2, "sweep", "s.json", "--scenes", "soup:70,cloth-ball:1300:3", "--out", "mine",
+           says="s.json: none of the scenes has room for a size")
 
 
 def test_what_cannot_be_is_one_sentence():
-    def refused(*words: str, says: str, code: int = 2) -> None:
-        expect(code, "sweep", "--out", "refused", *words, says=says)
-
-    soup = ("--scenes", "soup:70", "--builders", "perfect")
-    refused("--scenes", "soup:70", "--builders", "perfekt", says="no builder is called 'perfekt'; there are: perfect, ")
-    refused("--scenes", "sooup:70", "--builders", "perfect", says="no scene is called 'sooup:70'; there are: torus:N, ")
-    refused("--scenes", "refine:bunnny:5", "--builders", "perfect", says="no scene is called 'bunnny'")
-    refused(*soup, "--orders", "up", says="there are: morton30, ")
-    refused(*soup, "--colliders", "x", says="no collider is called 'x'; there are: leaf, ")
-    refused("--scenes", "soup:70", says="a sweep needs builders or colliders")
-    refused("--builders", "perfect", says="a sweep needs scenes")
-    for sizes, why in (("1000:10:x10", "1000 is more than 10"), ("10:1000", "a range is FROM:TO:xFACTOR or FROM:TO:+STEP"),
-                       ("10:1000:x1", "'x1' leads nowhere"), ("10:1000:+0", "'0' is no number"), ("ten", "'ten' is no number"),
-                       ("0", "'0' is no number from 1 to"), ("1:2000000000:+1", "they are more than 10000"), (",", "'' is no")):
-        refused("--scenes", "soup", "--builders", "perfect", "--sizes", sizes, says=f"'{sizes}' are no sizes: {why}")
-    refused(*soup, "--sizes", "10", says="none of the scenes has room for a size")
-    refused("--scenes", "soup:{size}", "--builders", "perfect", says="asks for sizes, and the sweep has none")
-    refused("--scenes", "soup", "--builders", "perfect", says="where a triangle count from 1 to")
-    for shard in ("4/3", "0/3", "1", "1/3/5", "a/b", "1/0"):
-        refused(*soup, "--shard", shard, says=f"--shard is i/n with i from 1 to n, not '{shard}'")
-    refused(*soup, "--set", "boxes=u15", says="no format of boxes is called 'u15'; there are: f32, ")
-    refused(*soup, "--set", "colour=red", says="a sweep sets no 'colour'; there are: grid, ")
-    refused(*soup, "--set", "boxes", says="--set is KEY=V1,V2, not 'boxes'")
-    refused(*soup, "--set", "narrow=exact", says="'narrow' is for colliders, and the sweep has none")
-    refused(*soup, "--colliders", "leaf", "--set", "frames=0:1,1:2", says="'frames' may have one value")
-    refused(*soup, "--colliders", "leaf", "--set", "frames=2:1", says="frames 2:1 are none")
-    refused(*soup, "--set", "builder.group_size=3", says="'group_size' takes a power of two up to 65536, 0 for the builder's choice, not '3'")
-    refused(*soup, "--name", "a b", says="'sweep' must be letters, digits, - and _, not 'a b'")
-    refused("nowhere.json", says="the sweep's file 'nowhere.json' cannot be read", code=3)
-    for text, why in (('{"scenes": ["soup:70"], "builders": []}', "'builders' must be a list of at least one"),
-                      ('{"scenes": [], "builders": ["perfect"]}', "'scenes' must be a list of at least one"),
-                      ('{"scenes": ["soup:70"], "builders": ["perfect"], "set": {"boxes": []}}', "'boxes' must be a list"),
-                      ('{"scene": ["soup:70"]}', "'scene' is no key of a sweep; there are: sweep, question, scenes"),
-                      ('{"scenes": ["soup:70", {"scene": "soup:70", "frames": "0:1"}], "colliders": ["leaf"]}',
-                       "the scene 'soup:70' is there twice"), ("[]", "must be an object"), ("{", "parse error")):
-        pathlib.Path("bad.json").write_text(text)
-        refused("bad.json", says=why)
-    assert not pathlib.Path("refused").exists()
-    expect(2, "sweep", *soup, says="--out is required")
-    expect(2, "sweep", *soup, "--out", "whole", says="whole holds another sweep, 'sweep' of 2 scenes x 2 builders x 2 orders: "
-                                                     "8 of the 8 cells that it measures are none of these; choose another --out")
     pathlib.Path("taken").mkdir()
-    expect(0, "build", "--builder", "perfect", "--scene", "soup:70", "--samples", "1", "--json", "taken/sweep.json")
-    expect(2, "sweep", *soup, "--out", "taken", says="taken/sweep.json is there and no sweep's")
-    expect(3, "sweep", *soup, "--out", "/proc/sweep", says="/proc/sweep/cells cannot be made")
+    shutil.copy("hot.json", "taken/sweep.json")
+    soup, one = "--scenes soup:70 --builders perfect", "--scenes soup --builders perfect"
+    for says, words in (
+            ("no builder is called 'perfekt'; there are: perfect, ", "--scenes soup:70 --builders perfekt"),
+            ("no scene is called 'sooup:70'; there are: torus:N, ", "--scenes sooup:70 --builders perfect"),
+            ("no order is called 'x'; there are: morton30, ", f"{soup} --orders x"),
+            ("no collider is called 'x'; there are: leaf, ", f"{soup} --colliders x"),
+            ("no format of boxes is called 'u15'; there are: f32, ", f"{soup} --set boxes=u15"),
+            ("'group_size' takes a power of two up to 65536, 0 for the builder's choice, not '3'", f"{soup} --set builder.group_size=3"),
+            ("where a triangle count from 1 to", one),
+            ("frames 2:1 are none", f"{soup} --colliders leaf --set frames=2:1"),
+            ("a sweep needs builders or colliders", "--scenes soup:70"),
+            ("a sweep needs scenes", "--builders perfect"),
+            *((f"'{sizes}' are no sizes: {why}", f"{one} --sizes {sizes}") for sizes, why in (
+                ("1000:10:x10", "1000 is more than 10"), ("10:1000", "a range is FROM:TO:xFACTOR or FROM:TO:+STEP"),
+                ("10:1000:x1", "'x1' leads nowhere"), ("10:1000:+0", "'0' is no number"), ("0", "'0' is no number from 1 to"),
+                ("1:2000000000:+1", "they are more than 10000"), (",", "'' is no"))),
+            ("none of the scenes has room for a size", f"{soup} --sizes 10"),
+            ("asks for sizes, and the sweep has none", "--scenes soup:{size} --builders perfect"),
+            ("--shard is i/n with i from 1 to n, not '4/3'", f"{soup} --shard 4/3"),
+            ("a sweep sets no 'colour'; there are: grid, ", f"{soup} --set colour=red"),
+            ("--set is KEY=V1,V2, not 'boxes'", f"{soup} --set boxes"),
+            ("'narrow' is for colliders, and the sweep has none", f"{soup} --set narrow=exact"),
+            ("'builders' must be a list of at least one", '{"scenes":["soup:70"],"builders":[]}'),
+            ("'boxes' must be a list", '{"scenes":["soup:70"],"builders":["perfect"],"set":{"boxes":[]}}'),
+            ("'scene' is no key of a sweep; there are: sweep, question, scenes", '{"scene":["soup:70"]}'),
+            ("must be an object", "[]"), ("parse error", "{"), ("--out is required", ""),
+            ("whole holds another sweep, 'sweep' of 2 scenes x 2 builders x 2 orders: 8 of the 8 cells that it measures are none of these; "
+             "choose another --out", f"{soup} --out whole"),
+            ("taken/sweep.json is there and no sweep's", f"{soup} --out taken")):
+        if words[:1] in ("{", "["):
+            pathlib.Path("bad.json").write_text(words)
+            words = "bad.json"
+        out = () if "--out" in says + words else ("--out", "refused")
+        expect(2, "sweep", *words.split(), *out, says=says)
+    expect(3, "sweep", "nowhere.json", "--out", "refused", says="the sweep's file 'nowhere.json' cannot be read")
+    expect(3, "sweep", *soup.split(), "--out", "/proc/sweep", says="/proc/sweep/cells cannot be made")
+    assert not pathlib.Path("refused").exists()
 
 
 def test_the_documented_examples_work():
@@ -376,12 +328,10 @@ def test_merge_refuses_what_is_not_alike():
     build = ("build", "--builder", "perfect", "--scene", "soup:70", "--samples", "1", "--json")
     expect(0, *build, "a.json")
     expect(0, *build, "b.json")
-    expect(2, "merge", "a.json", "b.json", "-o", "m.json", "--force",
-           says="a.json and b.json both have soup:70, perfect, and not the same of it")
-    expect(0, "merge", "a.json", "a.json", "-o", "m.json", "--force", says="1 cell of 1 run; in more than one file, the same in each: 1\n")
-    expect(3, "merge", "a.json", "nowhere.json", "-o", "m.json", "--force", says="the result file 'nowhere.json' cannot be read")
-    expect(3, "merge", "a.json", str(SCHEMA), "-o", "m.json", "--force", says="is no result file")
     document = valid("b.json")
+
+    def merge(code: int, *files: str, says: str = "") -> None:
+        expect(code, "merge", *files, "-o", "m.json", "--force", says=says)
 
     def changed(name: str, change) -> str:
         other = json.loads(json.dumps(document))
@@ -389,27 +339,22 @@ def test_merge_refuses_what_is_not_alike():
         pathlib.Path(name).write_text(json.dumps(other))
         return name
 
-    old = changed("old.json", lambda other: other.update(format="1.7"))
-    expect(2, "merge", "a.json", old, "-o", "m.json", "--force", says=f"a.json has format {document['format']} and old.json 1.7")
-    expect(0, "merge", old, "-o", "m.json", "--force", says="1 cell of 1 run")
-    assert float(valid("m.json")["format"].split(".")[1]) >= 8
+    merge(2, "a.json", "b.json", says="a.json and b.json both have soup:70, perfect, and not the same of it")
+    merge(0, "a.json", "a.json", says="1 cell of 1 run; in more than one file, the same in each: 1\n")
+    merge(3, "a.json", "nowhere.json", says="the result file 'nowhere.json' cannot be read")
+    merge(3, "a.json", str(SCHEMA), says="is no result file")
     device = changed("device.json", lambda other: other["run"]["device"].update(name="other"))
-    expect(2, "merge", "a.json", device, "-o", "m.json", "--force", says="--other-devices merges them all the same")
-    expect(0, "merge", "a.json", device, "-o", "m.json", "--force", "--other-devices", says="2 cells of 2 runs")
-    expect(0, "show", "m.json", says="of several devices: ")
+    merge(2, "a.json", device, says="--other-devices merges them all the same")
+    merge(0, "a.json", device, "--other-devices", says="2 cells of 2 runs")
     assert sorted(source["device"] for source in valid("m.json")["merged_from"])[0] == "other"
+    expect(0, "show", "m.json", says="of several devices: ")
     refused = run("plot", "m.json", "--out", "pictures", BVHBENCH_HOME=str(SOURCE))
     assert refused.returncode == 3 and "merged from several devices" in refused.stderr, refused
     commit = changed("commit.json", lambda other: (other["run"]["program"].update(commit="0" * 40),
                                                    other["cells"][0]["builder"].update(name="karras")))
-    expect(2, "merge", "a.json", commit, "-o", "m.json", "--force", says="--other-commits merges them all the same")
-    expect(0, "merge", "a.json", commit, "-o", "m.json", "--force", "--other-commits", says="2 cells of 2 runs")
-    wrong = changed("wrong.json", lambda other: other["cells"][0]["check"].update(verdict="differs"))
-    expect(1, "merge", wrong, "-o", "m.json", "--force", says="")
-    # What a newer program has put into a cell stays there.
-    newer = changed("newer.json", lambda other: other["cells"][0].update(colour="red"))
-    expect(0, "merge", newer, "-o", "m.json", "--force")
-    assert json.loads(pathlib.Path("m.json").read_text())["cells"][0]["colour"] == "red"
+    merge(2, "a.json", commit, says="--other-commits merges them all the same")
+    merge(0, "a.json", commit, "--other-commits", says="2 cells of 2 runs")
+    merge(1, changed("wrong.json", lambda other: other["cells"][0]["check"].update(verdict="differs")))
 
 
 def test_plot_draws_what_there_is_or_says_what_there_is():
@@ -422,5 +367,4 @@ def test_plot_draws_what_there_is_or_says_what_there_is():
     expect(3, "plot", "a.json", BVHBENCH_HOME="/nowhere", says="/nowhere/plots/__main__.py is not there")
 
 
-if __name__ == "__main__":
-    sys.exit(main(globals()))
+sys.exit(main(globals()))

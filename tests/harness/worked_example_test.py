@@ -7,11 +7,11 @@ import pathlib
 import shutil
 import sys
 
-from program import SCHEMA, copied_kernels, expect, main, valid
+from program import SOURCE, copied_kernels, expect, main, valid
 from worked_example import files_of
 
 NAME = "oibvh-levels"
-FILES = files_of(SCHEMA.parents[2], "docs/adding-a-builder.md")
+FILES = files_of(SOURCE, "docs/adding-a-builder.md")
 FOLDER = pathlib.Path(sys.argv[3]).resolve()
 
 

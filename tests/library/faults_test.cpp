@@ -5,9 +5,6 @@
 // before the loader, so every call goes through it.
 //
 // BVHBENCH_FAULTS=calls: every call, alone and with all that follow. By default every eightieth way in which calls are reached.
-#include <cstdlib>
-#include <iostream>
-#include <map>
 #include <optional>
 #include <set>
 
@@ -73,8 +70,7 @@ private:
 
 struct Outcome {
     int errors = 0;
-    long callers = 0,
-         calls = 0;  ///< those of the caller before the library's, and all before he was gone
+    long callers = 0;  ///< calls of the caller before the library's
 };
 
 /// One caller's life. With one call that fails his second try has to go well.
@@ -96,25 +92,8 @@ Outcome live(cl_command_queue_properties kind, cl_device_id device, shim::Plan p
             EXPECT_STRNE(error.what(), "");
         }
     }
-    outcome.calls = shim::calls();
     EXPECT_LE(outcome.errors, plan.from_there_on ? 2 : 1);
     return outcome;
-}
-
-std::vector<long> chosen(const Outcome& whole)
-{
-    const char* faults = std::getenv("BVHBENCH_FAULTS");
-    const bool wants_all = faults != nullptr && std::string(faults) == "calls";
-    std::set<std::uint64_t> ways;
-    std::vector<long> picked;
-    for (long call = whole.callers + 1; call <= whole.calls; ++call) {
-        const auto& remembered = shim::remembered()[static_cast<std::size_t>(call) - 1];
-        if (wants_all || (ways.insert(remembered.stack).second && ways.size() % 80 == 0))
-            picked.push_back(call);
-    }
-    std::cout << whole.calls - whole.callers << " calls, " << picked.size() << " of them fail"
-              << std::endl;
-    return picked;
 }
 
 class LibraryFaults : public testing::TestWithParam<cl_command_queue_properties> {};
@@ -134,7 +113,8 @@ TEST_P(LibraryFaults, EndInAnErrorAndLeaveNothing)
     ASSERT_EQ(whole.errors, 0);
     ASSERT_EQ(shim::leaked(), std::vector<std::string>());
     int errors = 0;
-    for (const long nth : chosen(whole))
+    std::set<std::uint64_t> tried;
+    for (const long nth : shim::chosen_calls(tried, whole.callers, 80))
         for (const bool from_there_on : {false, true}) {
             const Outcome outcome = live(GetParam(), device, {nth, from_there_on}, right);
             EXPECT_EQ(shim::leaked(), std::vector<std::string>()) << nth << shim::failed_call();
