@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The formats that trees may keep their boxes in: geometry/box_format.h for the host.
+// The formats that trees may keep their boxes in: geometry/box_cells.h for the host.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "geometry/aabb.h"
-#include "geometry/box_format.h"
+#include "geometry/box_cells.h"
 
 namespace bvhbench {
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-#include "geometry/bounds.h"
+#include "geometry/scene_bounds.h"
 
 namespace bvhbench {
 

@@ -14,7 +14,7 @@
 // A group, or a work-item that is one, has neighbouring items in all of them: GROUP_SIZE is 1 on few cores.
 #include "builders/stages/chunk.clh"
 #include "collide/found.clh"
-#include "geometry/bounds.h"
+#include "geometry/scene_bounds.h"
 #include "geometry/box_words.clh"
 
 /// Add what a group's work-items have counted.

@@ -3,7 +3,7 @@
 // What numbers the sides of a tree's boxes are: BOX_FORMAT, given when a kernel over trees is compiled. Floats where it is
 // not, and on the host.
 //
-// All but f32 and f64 are made from floats by rounding outward (geometry/box_format.h), and that keeps their order. So
+// All but f32 and f64 are made from floats by rounding outward (geometry/box_cells.h), and that keeps their order. So
 // boxes of integers are merged and compared as integers, and nobody who builds or walks a tree ever reads a number back.
 // Halves are stored as the place that they have among all halves: f16 and u16 are one text.
 #ifndef BVHBENCH_GEOMETRY_BOX_SIDE_H

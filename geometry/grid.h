@@ -11,7 +11,7 @@
 #ifndef BVHBENCH_GEOMETRY_GRID_H
 #define BVHBENCH_GEOMETRY_GRID_H
 
-#include "geometry/bounds.h"
+#include "geometry/scene_bounds.h"
 
 SHARED_BEGIN
 

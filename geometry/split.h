@@ -12,7 +12,7 @@
 #ifndef BVHBENCH_GEOMETRY_SPLIT_H
 #define BVHBENCH_GEOMETRY_SPLIT_H
 
-#include "geometry/bounds.h"
+#include "geometry/scene_bounds.h"
 
 SHARED_BEGIN
 

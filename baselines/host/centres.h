@@ -7,7 +7,7 @@
 #include <array>
 #include <span>
 
-#include "geometry/bounds.h"
+#include "geometry/scene_bounds.h"
 
 namespace bvhbench {
 

@@ -10,7 +10,7 @@
 #include "builders/stages/object_runs.h"
 #include "device/arena.h"
 #include "device/program.h"
-#include "geometry/bounds.h"
+#include "geometry/scene_bounds.h"
 
 namespace bvhbench {
 

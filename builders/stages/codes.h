@@ -7,7 +7,7 @@
 #include "builders/stages/object_runs.h"
 #include "device/program.h"
 #include "geometry/bits.h"
-#include "geometry/bounds.h"
+#include "geometry/scene_bounds.h"
 
 namespace bvhbench {
 

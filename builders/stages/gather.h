@@ -6,7 +6,7 @@
 #include "device/arena.h"
 #include "device/program.h"
 #include "device/queue.h"
-#include "geometry/bounds.h"
+#include "geometry/scene_bounds.h"
 
 namespace bvhbench {
 

@@ -5,7 +5,7 @@
 // The cells that a scene is cut into in the format of boxes that CELLS_OF names, from the bounds of its objects: one
 // object's or all of them together, so that boxes of different trees can be compared. A kernel of its own, of one group.
 #include "builders/stages/bounds_parts.clh"
-#include "geometry/box_format.h"
+#include "geometry/box_cells.h"
 
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void find_cells(
     global const Bounds* restrict bounds, const uint object_count,

@@ -14,7 +14,7 @@
 // the device knows.
 #include "builders/stages/chunk.clh"
 #include "collide/grid/hash_grid.h"
-#include "geometry/bounds.h"
+#include "geometry/scene_bounds.h"
 #include "geometry/box_words.clh"
 
 /// partials[i] is what work-item i's share of the boxes adds to the mean half side. The order of adding is fixed.

@@ -76,7 +76,7 @@ def test_accuracy_counts_what_formats_of_boxes_add_and_finds_what_they_lose():
         assert cell["check"]["contacts_hash"] == cells["f32"]["check"]["contacts_hash"], cell
     # A side is rounded alone or three at a time, as the device likes it: inward in both.
     plant("inward", ("geometry", "device", "builders", "oibvh", "collide"),
-          ("geometry/box_format.h", "(is_upper ? whole_above(product)", "(!is_upper ? whole_above(product)"),
+          ("geometry/box_cells.h", "(is_upper ? whole_above(product)", "(!is_upper ? whole_above(product)"),
           ("builders/stages/stored_box.clh", "is_upper ? (near < product", "!is_upper ? (near < product"))
     expect(1, *axis, "--filter", "/u8$", "--kernels", "inward", "--out", "inward-out", says="pairs missed")
     cell, = valid("inward-out/accuracy-boxes.json")["cells"]

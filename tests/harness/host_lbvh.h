@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "builders/tree.h"
-#include "geometry/bounds.h"
+#include "geometry/scene_bounds.h"
 #include "geometry/mesh.h"
 #include "geometry/morton.h"
 

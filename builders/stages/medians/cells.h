@@ -8,7 +8,7 @@
 #include "device/arena.h"
 #include "device/program.h"
 #include "device/queue.h"
-#include "geometry/bounds.h"
+#include "geometry/scene_bounds.h"
 #include "geometry/split.h"
 
 namespace bvhbench {

@@ -17,8 +17,8 @@
 //     f64         no cells: a float is a double
 //
 // [Ylitie2017] rounds the boxes of a node outward on a grid of its own; here one grid serves a scene.
-#ifndef BVHBENCH_GEOMETRY_BOX_FORMAT_H
-#define BVHBENCH_GEOMETRY_BOX_FORMAT_H
+#ifndef BVHBENCH_GEOMETRY_BOX_CELLS_H
+#define BVHBENCH_GEOMETRY_BOX_CELLS_H
 
 #include "geometry/box_side.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#ifndef BVHBENCH_GEOMETRY_BOUNDS_H
-#define BVHBENCH_GEOMETRY_BOUNDS_H
+#ifndef BVHBENCH_GEOMETRY_SCENE_BOUNDS_H
+#define BVHBENCH_GEOMETRY_SCENE_BOUNDS_H
 
 #include "geometry/triangle.h"
 
