@@ -3,220 +3,173 @@
 
 #include <algorithm>
 #include <future>
+#include <map>
+#include <set>
+#include <thread>
 
-#include "geometry/error.h"
+#include "builders/spell_out.h"
+#include "geometry/host_memory.h"
 #include "harness/base/failure.h"
 #include "harness/base/progress.h"
-#include "harness/judge/hard_inputs.h"
-#include "harness/stress/libraries.h"
-#include "scenes/finish.h"
+#include "harness/stress/run.h"
 
 namespace bvhbench {
 namespace {
 
 using enum Finding::Verdict;
+using Kind = StressCell::Kind;
 
-constexpr double quick_limit_s = 20, full_limit_s = 60;  ///< of a library
+/// A tree past 2^24 leaves, judged on the host while others are built.
+struct LargeTree {
+    Findings findings;
+    std::uint64_t hash = 0;
+};
 
-/// What builders are checked over, as a family of scenes.
-std::vector<StressCase> hard_cases(const StressSize& size)
+std::future<LargeTree> begin_large_build(Session& session, const Input& input, StressCell& cell)
 {
-    std::vector<StressCase> cases;
-    for (const HardInput& input : hard_inputs()) {
-        const bool is_crowded = input.name == "identical" || input.name == "same-centre" ||
-                                input.name == "negative-zero";  // all on one line
-        const uint triangles = is_crowded ? size.crowded_triangles() : size.triangles();
-        cases.push_back({std::string(input.name), [=] { return single(input.make(triangles)); }});
-    }
-    return cases;
+    HostTree tree;
+    cell.findings = settled(session, false, [&] {
+        const auto builder = make_builder({.name = cell.system}, session.programs());
+        BuiltOnce built = built_once(session, *builder, find_builder(cell.system), input);
+        tree = std::move(built.tree);
+        return built.findings;
+    });
+    return std::async(std::launch::async, [&input, tree = std::move(tree)] {
+        return tree.nodes.empty()
+                   ? LargeTree{}
+                   : LargeTree{judge_tree(tree, input.points, input.faces), tree_hash(tree)};
+    });
 }
 
-constexpr StressFamily hard_family = {
-    "hard", "those of `check`: equal boxes, equal centres, flat, -0, huge and more", hard_cases};
-
-bool is_all_finite(const StressScene& scene)
-{
-    return finite_part(scene).original.size() == scene.mesh.faces.size();
-}
-
-/// What stops all systems, such as a scene that the device has no room for, is a finding too.
-void guarded(Session& session, StressCell cell, const AddStressCell& add,
-             const std::function<void()>& work)
-{
-    const std::string failure = reason_of_failure(work);
-    if (failure.empty())
-        return;
-    session.renew_queue();
-    cell.system = "device";
-    cell.kind = StressCell::Kind::host;
-    cell.library.clear();
-    cell.findings = {{Invariant::ends, {broken, 1, 1, 0, failure}}};
-    add(std::move(cell));
-}
-
-/// All systems over one scene.
-class SceneStress {
+class Run {
 public:
-    SceneStress(Session& session, const StressTask& task,
-                const std::vector<StressPipeline>& pipelines, const AddStressCell& add)
-        : session_(session), task_(task), pipelines_(pipelines), add_(add)
+    Run(Session& session, const StressTask& task, const std::function<void(StressCell&&)>& add)
+        : session_(session), task_(task), add_(add)
     {}
 
-    void over(const StressFamily& family, const StressCase& one)
+    /// What stops all systems, such as a scene that the device has no room for, is a finding too.
+    void over(const StressPart& part)
     {
-        cell_ = {};
-        cell_.family = family.name;
-        cell_.scene = one.name;
-        const StressScene scene = one.make();
-        cell_.triangles = static_cast<std::int64_t>(scene.mesh.faces.size());
-        // Meanwhile, for they need no device.
-        auto libraries = std::async(std::launch::async, [&] { return of_libraries(scene); });
-        if (is_all_finite(scene)) {
-            const StressCell as_it_is = cell_;
-            guarded(session_, as_it_is, add_, [&] { of_builders(scene); });
-            of_pipelines(scene);
-        } else {
-            of_loading(scene);
-        }
-        for (StressCell& cell : libraries.get())
-            add_(std::move(cell));
+        StressCell place;
+        place.family = part.family, place.scene = part.scene.name;
+        guarded(place, [&] {
+            if (part.scene.is_large)
+                build_large(place, part.scene);
+            judge_all(part);
+        });
     }
 
 private:
-    bool begins(std::string system, StressCell::Kind kind, std::string library = {})
+    bool guarded(StressCell cell, const std::function<void()>& work)
     {
-        cell_.system = std::move(system);
-        cell_.kind = kind;
-        cell_.library = std::move(library);
-        return task_.wants(cell_);
-    }
-
-    void done(Findings findings)
-    {
-        StressCell cell = cell_;
-        cell.findings = std::move(findings);
+        const std::string failure = reason_of_failure(work);
+        if (failure.empty())
+            return true;
+        session_.renew_queue();
+        cell.system = "device", cell.kind = Kind::host, cell.library.clear();
+        cell.findings = {{Invariant::ends, {broken, 1, 1, 0, failure}}};
         add_(std::move(cell));
+        return false;
     }
 
-    void of_builders(const StressScene& scene)
+    void judge_all(const StressPart& part)
     {
-        std::optional<Input> input;
-        std::optional<Oracle> oracle;
-        for (const BuilderEntry& entry : builder_catalog())
-            for (const BoxFormat& format : box_formats()) {
-                const BuilderChoice choice = in_format(entry.name, format.name);
-                const bool is_had = format.number == BOX_F32 ||
-                                    (entry.takes_formats &&
-                                     (!task_.size.quick || entry.name == builder_in_formats));
-                if (entry.make == nullptr || !is_had ||
-                    !begins(system_name(choice), StressCell::Kind::builder,
-                            entry.is_library ? library_of(entry.name) : ""))
-                    continue;
-                if (!input) {
-                    input = upload(session_.device(), session_.queue(), scene.mesh.points,
-                                   scene.mesh.faces);
-                    oracle.emplace(session_, *input);
-                }
-                done(judge_builder(session_, choice, *input, *oracle, 0));
-            }
-    }
-
-    void of_pipelines(const StressScene& scene)
-    {
-        std::optional<StressQuestion> question, apart;
-        for (const StressPipeline& pipeline : pipelines_) {
-            if (!begins(system_name(pipeline.builder, pipeline.collider),
-                        StressCell::Kind::collider,
-                        pipeline.is_library ? library_of(pipeline.collider.name) : ""))
-                continue;
-            if (!question)
-                question = question_of(scene, task_.size.seed);
-            if (!pipeline.collider.keep_adjacent && !apart)
-                apart = without_adjacent(*question);
-            done(judge_pipeline(session_, pipeline,
-                                pipeline.collider.keep_adjacent ? *question : *apart));
+        std::vector<StressSystem> here, beside;
+        for (StressSystem one : *part.systems) {
+            one.cell.family = part.family, one.cell.scene = part.scene.name;
+            if (task_.wants(one.cell))
+                (one.cell.kind == Kind::library ? beside : here).push_back(std::move(one));
+        }
+        if (here.empty() && beside.empty())
+            return;
+        SceneUnderStress scene(session_, part.scene.make, task_.size.seed);
+        const auto triangles = static_cast<std::int64_t>(scene.scene().mesh.faces.size());
+        const auto libraries = std::async(std::launch::async, [&] {  // which need no device
+            for (StressSystem& one : beside)
+                one.cell.findings = one.judge(scene).value();
+        });
+        judge_each(here, scene, triangles);
+        libraries.wait();
+        for (StressSystem& one : beside) {
+            one.cell.triangles = triangles;
+            add_(std::move(one.cell));
         }
     }
 
-    /// Ours never see such a scene: loading it ends in one sentence that names the vertex.
-    void of_loading(const StressScene& scene)
+    void judge_each(std::vector<StressSystem>& all, SceneUnderStress& scene, std::int64_t triangles)
     {
-        if (!begins("loading", StressCell::Kind::host))
-            return;
-        Scene loaded;
-        loaded.name = cell_.scene;
-        loaded.faces = scene.mesh.faces;
-        loaded.frames = {scene.mesh.points};
-        const std::string reason = reason_of_failure([&] { finished(std::move(loaded)); });
-        const bool is_named = reason.find("has a vertex, ") != reason.npos &&
-                              reason.find("not finite") != reason.npos;
-        done({{Invariant::ends, is_named ? Finding{refused, 1, 0, 0, reason}
-                                         : Finding{broken, 1, 1, 0, "it was loaded: " + reason}}});
+        std::set<Kind> stopped;  // what fails for one of a kind fails for the others
+        for (auto& [cell, judge] : all) {
+            if (stopped.contains(cell.kind))
+                continue;
+            cell.triangles = triangles;
+            std::optional<Findings> findings;
+            if (!guarded(cell, [&] { findings = judge(scene); }))
+                stopped.insert(cell.kind);
+            if (!findings)
+                continue;
+            cell.findings = std::move(*findings);
+            add_(std::move(cell));
+        }
     }
 
-    std::vector<StressCell> of_libraries(const StressScene& scene) const
+    /// Every builder over a scene past 2^24 leaves, as many trees at once as there are cores and memory to check them with.
+    void build_large(const StressCell& place, const StressCase& one)
     {
         std::vector<StressCell> cells;
-        for (const PlainLibrary& library : plain_libraries()) {
-            StressCell cell = cell_;
-            cell.system = library.name;
-            cell.kind = StressCell::Kind::library;
-            cell.library = library.library;
-            if (!task_.wants(cell))
-                continue;
-            cell.findings =
-                judge_library(library, scene, task_.size.quick ? quick_limit_s : full_limit_s);
-            cells.push_back(std::move(cell));
+        for (const BuilderChoice& builder : device_builders(session_)) {
+            StressCell cell = place;
+            cell.system = builder.name;
+            if (task_.wants(cell))
+                cells.push_back(std::move(cell));
         }
-        return cells;
-    }
-
-    static std::string library_of(std::string_view name)
-    {
-        return name.starts_with("embree") ? "Embree" : "FCL";
+        if (cells.empty())
+            return;
+        SceneUnderStress scene(session_, one.make, task_.size.seed);
+        const Input& input = scene.input();
+        const std::size_t most =
+            std::clamp<std::size_t>(host_memory_left() / 2 / check_bytes(input.triangle_count()), 1,
+                                    std::max(1u, std::thread::hardware_concurrency()));
+        std::map<std::string_view, std::uint64_t> hashes;  // of trees, by the reference's name
+        for (std::size_t first = 0; first < cells.size(); first += most) {
+            const auto batch =
+                std::span(cells).subspan(first, std::min(most, cells.size() - first));
+            std::vector<std::future<LargeTree>> trees;
+            for (StressCell& cell : batch)
+                trees.push_back(begin_large_build(session_, input, cell));
+            for (std::size_t k = 0; k < batch.size(); ++k) {
+                const LargeTree tree = trees[k].get();
+                StressCell& cell = batch[k];
+                cell.triangles = input.triangle_count();
+                join(cell.findings, tree.findings);
+                const std::string_view oracle = find_builder(cell.system).oracle;
+                if (!oracle.empty() && !tree.findings.empty() &&
+                    hashes.try_emplace(oracle, tree.hash).first->second != tree.hash)
+                    cell.findings[Invariant::layout] = {
+                        broken, 1, 0, 0,
+                        "it is another tree than another builder's, which must leave the same"};
+                add_(std::move(cell));
+            }
+        }
     }
 
     Session& session_;
     const StressTask& task_;
-    const std::vector<StressPipeline>& pipelines_;
-    const AddStressCell& add_;
-    StressCell cell_;
+    const std::function<void(StressCell&&)>& add_;
 };
 
 }  // namespace
 
-void stress_all(Session& session, const StressTask& task, const AddStressCell& add)
+void stress_all(Session& session, const StressTask& task,
+                const std::function<void(StressCell&&)>& add)
 {
-    std::vector<const StressFamily*> families = {&hard_family};
-    for (const StressFamily& family : stress_families())
-        families.push_back(&family);
-    std::size_t total = 3;
-    for (const StressFamily* family : families)
-        total += family->cases(task.size).size();
-    Progress progress(total);
-
-    const std::vector<StressPipeline> pipelines =
-        stress_pipelines(session, task.size.quick, wants_other_forms(session, task.size));
-    SceneStress scenes(session, task, pipelines, add);
-    const auto part = [&](std::string_view family, const std::string& scene,
-                          const std::function<void()>& work) {
-        progress.step(std::string(family) + ", " + scene);
-        StressCell cell;
-        cell.family = family;
-        cell.scene = scene;
-        guarded(session, std::move(cell), add, work);
-    };
-    for (const StressFamily* family : families)
-        for (const StressCase& one : family->cases(task.size))
-            part(family->name, one.name, [&] {
-                if (one.is_large)
-                    stress_large(session, task, *family, one, add);
-                else
-                    scenes.over(*family, one);
-            });
-    part("layout", "arithmetic", [&] { stress_layout(task, add); });
-    part("group-sizes", "all", [&] { stress_group_sizes(session, task, add); });
-    part("repeats", "all", [&] { stress_repeats(session, task, add); });
+    const std::vector<StressPart> parts = stress_parts(session, task.size);
+    Progress progress(parts.size());
+    Run run(session, task, add);
+    for (const StressPart& part : parts) {
+        progress.step(part.family + ", " + part.scene.name);
+        run.over(part);
+    }
 }
 
 }  // namespace bvhbench

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-//
-// The surface area cost of a tree, summed in several ways: those that may be chosen, and one to hold them to.
 #pragma once
 
 #include <span>
@@ -10,6 +8,7 @@
 
 namespace bvhbench {
 
+/// A way to sum the surface area cost of a tree.
 struct SumMethod {
     std::string_view name;
     std::string_view summary;
