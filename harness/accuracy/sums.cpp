@@ -79,16 +79,15 @@ double cost_as_double(const HostTree& tree)
     return static_cast<double>(cost_by<Real, Sum>(tree));
 }
 
-// To add a way to sum, add its line here.
+// Areas in floats or doubles, and their sums; or in parts, whose sums are added up; or with what is rounded off kept. To add
+// a way to sum, add its line here.
 constexpr SumMethod catalog[] = {
-    {"f32", "areas and one sum in floats", cost_as_double<float, PlainSum<float>>},
-    {"f32-pairwise", "the same, sums of sums of two", cost_as_double<float, PairwiseSum<float>>},
-    {"f32-compensated", "the same, what is rounded off kept",
-     cost_as_double<float, CompensatedSum<float>>},
-    {"f64", "areas and one sum in doubles", cost_as_double<double, PlainSum<double>>},
-    {"f64-pairwise", "the same, sums of sums of two", cost_as_double<double, PairwiseSum<double>>},
-    {"f64-compensated", "the same, what is rounded off kept: sah_cost",
-     [](const HostTree& tree) { return area_sums(tree)->cost(); }, true},
+    {"f32", cost_as_double<float, PlainSum<float>>},
+    {"f32-pairwise", cost_as_double<float, PairwiseSum<float>>},
+    {"f32-compensated", cost_as_double<float, CompensatedSum<float>>},
+    {"f64", cost_as_double<double, PlainSum<double>>},
+    {"f64-pairwise", cost_as_double<double, PairwiseSum<double>>},
+    {"f64-compensated", [](const HostTree& tree) { return area_sums(tree)->cost(); }, true},
 };
 
 /// What our own sum may be off by: a few roundings of doubles, however many nodes.

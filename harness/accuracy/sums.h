@@ -11,10 +11,9 @@ namespace bvhbench {
 /// A way to sum the surface area cost of a tree.
 struct SumMethod {
     std::string_view name;
-    std::string_view summary;
-    double (*cost)(
-        const HostTree& tree);  ///< with the usual node costs; of a root that has an area
-    bool is_ours = false;       ///< what the counter sah_cost is made by
+    /// With the usual node costs; of a root that has an area.
+    double (*cost)(const HostTree& tree);
+    bool is_ours = false;  ///< what the counter sah_cost is made by
 };
 
 /// In the order of tables.

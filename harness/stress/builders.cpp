@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <future>
 
 #include "builders/spell_out.h"
 #include "collide/oracles/sweep.h"
@@ -47,6 +48,24 @@ bool is_any_broken(const Findings& findings)
 {
     return std::any_of(findings.begin(), findings.end(),
                        [](const auto& one) { return one.second.verdict == broken; });
+}
+
+/// One build, whose launches and layout are judged, and its tree, whose leaves and boxes are not yet.
+struct BuiltOnce {
+    Findings findings;
+    HostTree tree;
+};
+
+BuiltOnce built_once(Session& session, Builder& builder, const BuilderEntry& entry,
+                     const Input& input)
+{
+    const uint triangles = input.triangle_count();
+    builder.reserve(triangles);
+    const Tree* tree = nullptr;
+    const auto stages = session.build_once(builder, input, Start::from_triangles, &tree);
+    return {{{Invariant::ends, judge_launches(stages, triangles)},
+             {Invariant::layout, judge_layout(entry, *tree, builder, triangles)}},
+            tree->spelled_out()};
 }
 
 /// Builds, and which invariants they break.
@@ -129,18 +148,6 @@ std::vector<BuilderChoice> device_builders(Session& session)
     return builders;
 }
 
-BuiltOnce built_once(Session& session, Builder& builder, const BuilderEntry& entry,
-                     const Input& input)
-{
-    const uint triangles = input.triangle_count();
-    builder.reserve(triangles);
-    const Tree* tree = nullptr;
-    const auto stages = session.build_once(builder, input, Start::from_triangles, &tree);
-    return {{{Invariant::ends, judge_launches(stages, triangles)},
-             {Invariant::layout, judge_layout(entry, *tree, builder, triangles)}},
-            tree->spelled_out()};
-}
-
 Findings judge_builder(Session& session, const BuilderChoice& choice, SceneUnderStress& scene,
                        int repeats)
 {
@@ -157,6 +164,25 @@ Findings judge_builder(Session& session, const BuilderChoice& choice, SceneUnder
     if (!wrong.empty() && !is_any_broken(findings))  // the second build, sorted leaves, a refit
         findings[Invariant::same] = {broken, 1, 1, 0, wrong};
     return findings;
+}
+
+Findings judge_large_build(Session& session, const BuilderChoice& choice, SceneUnderStress& scene)
+{
+    const Input& input = scene.input();
+    return settled(session, false, [&] {
+        const BuilderEntry& entry = find_builder(choice.name);
+        const auto builder = make_builder(choice, session.programs());
+        auto [findings, tree] = built_once(session, *builder, entry, input);
+        const auto hash =
+            std::async(std::launch::async, [&tree] { return tree_hash(tree); }).share();
+        join(findings, judge_tree(tree, input.points, input.faces));
+        if (!entry.oracle.empty() &&
+            scene.hashes.try_emplace(entry.oracle, hash.get()).first->second != hash.get())
+            findings[Invariant::layout] = {
+                broken, 1, 0, 0,
+                "it is another tree than another builder's, which must leave the same"};
+        return findings;
+    });
 }
 
 Findings judge_layout_formulas(const StressSize& size)

@@ -6,9 +6,7 @@
 #include <memory>
 #include <set>
 
-#include "baselines/parameters.h"
-#include "builders/parameters.h"
-#include "collide/parameters.h"
+#include "harness/session/tuning_file.h"
 #include "harness/stress/run.h"
 
 namespace bvhbench {
@@ -102,12 +100,14 @@ std::vector<uint> values_of(const Parameter& parameter, bool few)
     return values;
 }
 
-/// A system that is judged with each value, so that its findings say at which.
+/// What `judge` finds with each value, so that findings say at which.
 template <class JudgeAt>
-void join_values(Findings& findings, const Parameter& parameter, bool few, const JudgeAt& judge)
+Findings judged_values(const Parameter& parameter, bool few, const JudgeAt& judge)
 {
+    Findings findings;
     for (const uint value : values_of(parameter, few))
         join(findings, with_words("at " + std::to_string(value), judge(value)));
+    return findings;
 }
 
 /// The option of builders, in which kernels in groups are had on every device.
@@ -124,47 +124,38 @@ constexpr Parameter builder_option{.name = "--group-size",
 std::vector<StressSystem> group_size_systems(Session& session, bool few)
 {
     std::vector<StressSystem> systems;
-    const auto all_askers = std::make_shared<Askers>(session);
-    const auto add = [&](const auto& parameters) {
-        for (const Parameter* parameter : parameters) {
-            if (parameter->values != ValueIs::group_size)
-                continue;
-            const auto judge = [&session, all_askers, parameter,
-                                few](SceneUnderStress& scene) -> std::optional<Findings> {
+    const auto add = [&](std::string name, const auto& judge) {
+        systems.push_back(stress_system(std::move(name), StressCell::Kind::builder, "", judge));
+    };
+    const auto askers = std::make_shared<Askers>(session);
+    for (const Parameter* parameter : tuning_parameters()) {
+        if (parameter->values != ValueIs::group_size)
+            continue;
+        add(std::string(parameter->name),
+            [&session, askers, parameter, few](SceneUnderStress& scene) -> std::optional<Findings> {
                 Findings findings;
-                const StressPipeline* asker = all_askers->of(*parameter, scene, findings);
+                const StressPipeline* asker = askers->of(*parameter, scene, findings);
                 if (asker == nullptr)
                     return {};
-                join_values(findings, *parameter, few, [&](uint value) {
-                    // A device that has no such groups, or not the local memory for them, says so.
-                    return settled(session, true, [&] {
-                        Tuning tuning("stress");
-                        tuning.set(*parameter, value);
-                        return tried(session, scene, *asker, tuning).findings;
-                    });
-                });
+                // A device that has no such groups, or not the local memory for them, says so.
+                join(findings, judged_values(*parameter, few, [&](uint value) {
+                         return settled(session, true, [&] {
+                             Tuning tuning("stress");
+                             tuning.set(*parameter, value);
+                             return tried(session, scene, *asker, tuning).findings;
+                         });
+                     }));
                 return findings;
-            };
-            systems.push_back(
-                stress_system(std::string(parameter->name), StressCell::Kind::builder, "", judge));
-        }
-    };
-    add(builder_parameters);
-    add(baseline_parameters);
-    add(collider_parameters);
-    for (const BuilderChoice& builder : device_builders(session)) {
-        const auto judge = [&session, builder, few](SceneUnderStress& scene) {
-            Findings findings;
-            join_values(findings, builder_option, few, [&](uint value) {
+            });
+    }
+    for (const BuilderChoice& builder : device_builders(session))
+        add(builder.name + " --group-size", [&session, builder, few](SceneUnderStress& scene) {
+            return judged_values(builder_option, few, [&](uint value) {
                 BuilderChoice sized = builder;
                 sized.group_size = value;
                 return judge_builder(session, sized, scene, 0);
             });
-            return std::optional(std::move(findings));
-        };
-        systems.push_back(
-            stress_system(builder.name + " --group-size", StressCell::Kind::builder, "", judge));
-    }
+        });
     return systems;
 }
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "harness/stress/libraries.h"
 
+#include <sys/mman.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
+#include <array>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 
 #include "collide/oracles/exact_reference.h"
@@ -15,7 +15,6 @@
 #include "collide/relation.h"
 #include "geometry/error.h"
 #include "harness/base/failure.h"
-#include "harness/base/interrupt.h"
 #include "scenes/mesh_file.h"
 #include "scenes/worker/message.h"
 #include "scenes/worker/process.h"
@@ -30,35 +29,28 @@ constexpr std::string_view argument = "--plain-library";
 constexpr std::size_t memory_limit = std::size_t{12} << 30;  ///< of a worker
 constexpr std::string_view answer_mark = "PAIRS 1\n", refusal_mark = "ERROR 1\n";
 
-/// A scene in a file for a worker, gone with the object.
+/// A scene in memory, which a worker reads as a file while the object is there.
 class SceneFile {
 public:
-    explicit SceneFile(const StressScene& scene)
+    explicit SceneFile(const StressScene& scene) : file_(memfd_create("scene", MFD_CLOEXEC))
     {
-        static std::atomic<int> made = 0;
-        path_ = std::filesystem::temp_directory_path() /
-                ("bvhbench-stress-" + std::to_string(getpid()) + '-' + std::to_string(++made));
         FileMesh file{scene.mesh, {}};
         for (const FaceRange& range : scene.objects)
             file.objects.push_back({{}, range.first, range.count});
-        std::ofstream out(path_, std::ios::binary);
-        out << mesh_message(file);
-        if (!out.flush())
-            throw Unavailable(path_.string() + " cannot be written");
+        if (file_ < 0 || !write_all(file_, mesh_message(file)))
+            throw Unavailable("there is no room for a scene that a library is to read");
     }
-    ~SceneFile()
-    {
-        std::error_code ignored;
-        std::filesystem::remove(path_, ignored);
-    }
+    ~SceneFile() { close(file_); }
     SceneFile(const SceneFile&) = delete;
     SceneFile& operator=(const SceneFile&) = delete;
 
-    std::string path() const { return path_.string(); }
+    std::string path() const
+    {
+        return "/proc/" + std::to_string(getpid()) + "/fd/" + std::to_string(file_);
+    }
 
 private:
-    std::filesystem::path path_;
-    const AtSignal removed_{[this] { std::filesystem::remove(path_); }};
+    int file_;
 };
 
 /// What the library of that name finds in the scene of a file.

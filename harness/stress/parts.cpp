@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
 // The table of `stress`: scenes, and the systems that are judged over each.
-#include "collide/oracles/sweep.h"
 #include "harness/base/failure.h"
 #include "harness/judge/hard_inputs.h"
 #include "harness/stress/libraries.h"
@@ -14,7 +13,6 @@ namespace {
 using enum Finding::Verdict;
 using Kind = StressCell::Kind;
 using Systems = std::vector<StressSystem>;
-using Pipelines = std::vector<StressPipeline>;
 
 /// What builders are checked over, as a family of scenes.
 std::vector<StressCase> hard_cases(const StressSize& size)
@@ -37,20 +35,27 @@ std::string library_of(bool is_library, std::string_view name)
     return !is_library ? "" : name.starts_with("embree") ? "Embree" : "FCL";
 }
 
-StressSystem of_builder(Session& session, const BuilderChoice& choice, int repeats)
+/// Each of them, by judge(builder, scene).
+template <class Judge>
+void add_builders(Systems& systems, const std::vector<BuilderChoice>& builders, const Judge& judge)
 {
-    return stress_system(system_name(choice), Kind::builder,
-                         library_of(find_builder(choice.name).is_library, choice.name),
-                         [&session, choice, repeats](SceneUnderStress& scene) {
-                             return judge_builder(session, choice, scene, repeats);
-                         });
+    for (const BuilderChoice& choice : builders)
+        systems.push_back(stress_system(
+            system_name(choice), Kind::builder,
+            library_of(find_builder(choice.name).is_library, choice.name),
+            [choice, judge](SceneUnderStress& scene) { return judge(choice, scene); }));
 }
 
+/// Each of them, by judge(pipeline, scene).
 template <class Judge>
-StressSystem of_pipeline(const StressPipeline& pipeline, const Judge& judge)
+void add_pipelines(Systems& systems, const std::vector<StressPipeline>& pipelines,
+                   const Judge& judge)
 {
-    return stress_system(system_name(pipeline.builder, pipeline.collider), Kind::collider,
-                         library_of(pipeline.is_library, pipeline.collider.name), judge);
+    for (const StressPipeline& choice : pipelines)
+        systems.push_back(stress_system(
+            system_name(choice.builder, choice.collider), Kind::collider,
+            library_of(choice.is_library, choice.collider.name),
+            [choice, judge](SceneUnderStress& scene) { return judge(choice, scene); }));
 }
 
 void add_libraries(Systems& systems, bool quick)
@@ -64,24 +69,16 @@ void add_libraries(Systems& systems, bool quick)
                                         }));
 }
 
-/// Over a scene of an ordinary size.
-Systems ordinary_systems(Session& session, const Pipelines& pipelines, bool quick)
+std::vector<BuilderChoice> builders_in_formats(bool quick)
 {
-    Systems systems;
+    std::vector<BuilderChoice> builders;
     for (const BuilderEntry& entry : builder_catalog())
         for (const BoxFormat& format : box_formats())
             if (entry.make != nullptr &&
                 (format.number == BOX_F32 ||
                  (entry.takes_formats && (!quick || entry.name == builder_in_formats))))
-                systems.push_back(of_builder(session, in_format(entry.name, format.name), 0));
-    for (const StressPipeline& pipeline : pipelines)
-        systems.push_back(of_pipeline(pipeline, [&session, pipeline](SceneUnderStress& scene) {
-            return judge_pipeline(
-                session, pipeline,
-                pipeline.collider.keep_adjacent ? scene.question() : scene.question_apart());
-        }));
-    add_libraries(systems, quick);
-    return systems;
+                builders.push_back(in_format(entry.name, format.name));
+    return builders;
 }
 
 /// Ours never see a scene with a vertex that is not finite: loading it ends in one sentence that names the vertex.
@@ -98,35 +95,12 @@ Findings judge_loading(const std::string& name, const StressScene& scene)
                                        : Finding{broken, 1, 1, 0, "it was loaded: " + reason}}};
 }
 
-Systems systems_of_not_finite(const std::string& name, bool quick)
+/// Past 2^24 leaves, without the intersections of pairs: of triangles without area there is nothing more to find out.
+Findings judge_large_query(Session& session, StressPipeline pipeline, SceneUnderStress& scene)
 {
-    Systems systems = {stress_system("loading", Kind::host, "", [name](SceneUnderStress& scene) {
-        return judge_loading(name, scene.scene());
-    })};
-    add_libraries(systems, quick);
-    return systems;
-}
-
-/// The same built and asked so often.
-Systems repeated_systems(Session& session, const Pipelines& pipelines, int repeats)
-{
-    Systems systems;
-    for (const BuilderChoice& builder : device_builders(session))
-        systems.push_back(of_builder(session, builder, repeats));
-    for (const StressPipeline& pipeline : pipelines)
-        if (!pipeline.is_library)
-            systems.push_back(
-                of_pipeline(pipeline, [&session, pipeline, repeats](SceneUnderStress& scene) {
-                    return judge_frames(session, pipeline, scene.scene(), repeats);
-                }));
-    return systems;
-}
-
-/// Past 2^24 leaves: pairs without their intersections, for of triangles without area there is nothing more to find out.
-Findings judge_large_query(Session& session, const StressPipeline& pipeline,
-                           SceneUnderStress& scene)
-{
+    pipeline.collider.narrow = "none";
     const PairList& expected = scene.pairs();
+    scene.input.forget();  // a pipeline takes memory for its own
     Findings findings = settled(session, false, [&]() -> Findings {
         const FoundPairs found = finder_of(session, pipeline)(scene.scene(), 0);
         return {{Invariant::pairs, judge_pairs(*found.pairs, expected)}};
@@ -137,20 +111,52 @@ Findings judge_large_query(Session& session, const StressPipeline& pipeline,
     return findings;
 }
 
-Systems large_pipelines(Session& session, const Pipelines& pipelines)
+/// Who is judged over ordinary scenes, who many times over one, and who past 2^24 leaves.
+struct SystemsBySize {
+    Systems ordinary, repeated, large;
+};
+
+SystemsBySize systems_by_size(Session& session, bool quick, int repeats)
 {
-    Systems systems;
-    for (StressPipeline pipeline : pipelines) {
-        // In cells of a whole scene, thousands of these triangles are one: brute would take them all against each other.
-        if (pipeline.is_library || pipeline.collider.name == "brute" ||
-            pipeline.collider.form != KernelForm::of_device || pipeline.builder.boxes != "f32")
-            continue;
-        pipeline.collider.narrow = "none";
-        systems.push_back(of_pipeline(pipeline, [&session, pipeline](SceneUnderStress& scene) {
-            return judge_large_query(session, pipeline, scene);
-        }));
-    }
-    return systems;
+    // On a CPU groups show what they do on a GPU. The kernels for few cores take minutes a scene on a GPU, where nobody runs
+    // them: there they are with small scenes.
+    const bool other_forms = quick || session.device().is_cpu();
+    std::vector<StressPipeline> few = stress_pipelines(session, true, other_forms);
+    const std::vector<BuilderChoice> builders = device_builders(session);
+
+    SystemsBySize all;
+    add_builders(all.ordinary, builders_in_formats(quick), [&session](auto& builder, auto& scene) {
+        return judge_builder(session, builder, scene, 0);
+    });
+    add_pipelines(all.ordinary, quick ? few : stress_pipelines(session, false, other_forms),
+                  [&session](auto& pipeline, auto& scene) {
+                      return judge_pipeline(session, pipeline,
+                                            pipeline.collider.keep_adjacent
+                                                ? scene.question()
+                                                : scene.question_apart());
+                  });
+    add_libraries(all.ordinary, quick);
+
+    std::erase_if(few, [](const StressPipeline& one) { return one.is_library; });
+    add_builders(all.repeated, builders, [&session, repeats](auto& builder, auto& scene) {
+        return judge_builder(session, builder, scene, repeats);
+    });
+    add_pipelines(all.repeated, few, [&session, repeats](auto& pipeline, auto& scene) {
+        return judge_frames(session, pipeline, scene.scene(), repeats);
+    });
+
+    // In cells of a whole scene, thousands of large scenes' triangles are one: brute would take them all against each other.
+    std::erase_if(few, [](const StressPipeline& one) {
+        return one.collider.name == "brute" || one.collider.form != KernelForm::of_device ||
+               one.builder.boxes != "f32";
+    });
+    add_builders(all.large, builders, [&session](auto& builder, auto& scene) {
+        return judge_large_build(session, builder, scene);
+    });
+    add_pipelines(all.large, few, [&session](auto& pipeline, auto& scene) {
+        return judge_large_query(session, pipeline, scene);
+    });
+    return all;
 }
 
 }  // namespace
@@ -158,43 +164,36 @@ Systems large_pipelines(Session& session, const Pipelines& pipelines)
 std::vector<StressPart> stress_parts(Session& session, const StressSize& size)
 {
     const bool quick = size.quick;
-    // On a CPU groups show what they do on a GPU. The kernels for few cores take minutes a scene on a GPU, where nobody runs
-    // them: there they are with small scenes.
-    const bool other_forms = quick || session.device().is_cpu();
-    const Pipelines few = stress_pipelines(session, true, other_forms);
-    const Pipelines all = quick ? few : stress_pipelines(session, false, other_forms);
-    const auto shared = [](Systems systems) {
-        return std::make_shared<const Systems>(std::move(systems));
-    };
-    const auto ordinary = shared(ordinary_systems(session, all, quick));
-    const auto large = shared(large_pipelines(session, few));
-
+    const int repeats = quick ? 20 : 1000;
+    const auto [ordinary, repeated, large] = systems_by_size(session, quick, repeats);
     std::vector<StressPart> parts;
-    const auto add_family = [&](const StressFamily& family) {
-        for (const StressCase& one : family.cases(size))
-            parts.push_back({std::string(family.name), one,
-                             one.is_large ? large
-                             : family.name == "not-finite"
-                                 ? shared(systems_of_not_finite(one.name, quick))
-                                 : ordinary});
+    const auto add = [&](std::string_view family, const StressCase& scene, Systems systems) {
+        parts.push_back({std::string(family), scene, std::move(systems)});
     };
-    add_family(hard_family);
-    for (const StressFamily& family : stress_families())
-        add_family(family);
+    std::vector<StressFamily> families = {hard_family};
+    families.insert(families.end(), stress_families().begin(), stress_families().end());
+    for (const StressFamily& family : families)
+        for (const StressCase& one : family.cases(size)) {
+            Systems not_finite = {stress_system("loading", Kind::host, "",
+                                                [name = one.name](SceneUnderStress& scene) {
+                                                    return judge_loading(name, scene.scene());
+                                                })};
+            add_libraries(not_finite, quick);
+            add(family.name, one,
+                one.is_large                  ? large
+                : family.name == "not-finite" ? not_finite
+                                              : ordinary);
+        }
     const auto spheres = [size](uint triangles) {
         return [=] { return crossed_spheres(triangles, size.seed); };
     };
-    const auto layout = stress_system("layout.h", Kind::host, "",
-                                      [size](auto&) { return judge_layout_formulas(size); });
-    parts.push_back({"layout", {"to 2^31 leaves", [] { return StressScene(); }}, shared({layout})});
+    add("layout", {"to 2^31 leaves", [] { return StressScene(); }},
+        {stress_system("layout.h", Kind::host, "",
+                       [size](auto&) { return judge_layout_formulas(size); })});
     const uint triangles = quick ? 500 : 5000;
-    parts.push_back({"group-sizes",
-                     {std::to_string(triangles) + " triangles", spheres(triangles)},
-                     shared(group_size_systems(session, quick))});
-    const int repeats = quick ? 20 : 1000;
-    parts.push_back({"repeats",
-                     {std::to_string(repeats) + " times", spheres(1000)},
-                     shared(repeated_systems(session, few, repeats))});
+    add("group-sizes", {std::to_string(triangles) + " triangles", spheres(triangles)},
+        group_size_systems(session, quick));
+    add("repeats", {std::to_string(repeats) + " times", spheres(1000)}, repeated);
     return parts;
 }
 

@@ -5,7 +5,7 @@
 #pragma once
 
 #include <functional>
-#include <memory>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,6 +45,7 @@ public:
             value_.emplace(make_());
         return *value_;
     }
+    void forget() { value_.reset(); }
 
 private:
     std::function<T()> make_;
@@ -60,6 +61,8 @@ struct SceneUnderStress {
     Lazy<Input> input;     ///< all triangles as one object
     Lazy<Oracle> oracle;   ///< of that input
     Lazy<StressQuestion> question, question_apart;
+    std::map<std::string_view, std::uint64_t> hashes =
+        {};  ///< of large trees, by the reference's name
 };
 
 /// A system, and how it is judged over a scene: nothing where it says nothing about this device.
@@ -92,14 +95,8 @@ std::vector<BuilderChoice> device_builders(Session& session);
 Findings judge_builder(Session& session, const BuilderChoice& builder, SceneUnderStress& scene,
                        int repeats);
 
-/// One build, whose launches and layout are judged, and its tree, whose leaves and boxes are not yet. Throws what the
-/// builder throws.
-struct BuiltOnce {
-    Findings findings;
-    HostTree tree;
-};
-BuiltOnce built_once(Session& session, Builder& builder, const BuilderEntry& entry,
-                     const Input& input);
+/// One build past 2^24 leaves: its launches, layout, leaves and boxes. Builders with one reference must leave one tree.
+Findings judge_large_build(Session& session, const BuilderChoice& builder, SceneUnderStress& scene);
 
 /// A builder and a collider over its trees, or a collider without.
 struct StressPipeline {
@@ -131,8 +128,8 @@ std::vector<StressSystem> group_size_systems(Session& session, bool few);
 /// A row of the table: a scene, and the systems that are judged over it.
 struct StressPart {
     std::string family;
-    StressCase scene;  ///< of a large one, builders are judged besides
-    std::shared_ptr<const std::vector<StressSystem>> systems;
+    StressCase scene;
+    std::vector<StressSystem> systems;
 };
 
 /// Each family's scenes; layouts, group sizes and repetitions are families after those of scenes.
