@@ -81,6 +81,20 @@ struct AxisMethod {
 void measure_methods(const AxisRun& run, std::string_view axis, const SceneFacts& input,
                      std::span<const AxisMethod> methods);
 
+/// A way to sum the surface area cost of a tree, on the axis sums.
+struct SumMethod {
+    std::string_view name;
+    /// With the usual node costs; of a root that has an area.
+    double (*cost)(const HostTree& tree);
+    bool is_ours = false;  ///< what the counter sah_cost is made by
+};
+
+/// In the order of tables.
+std::span<const SumMethod> sum_methods();
+
+/// The reference: areas and sums in long double, 64 bits of mantissa on x86.
+long double cost_in_long_double(const HostTree& tree);
+
 void measure_narrow(const AxisRun& run);
 void measure_swept(const AxisRun& run);
 void measure_sums(const AxisRun& run, const SceneFacts& scene, const Input& input);

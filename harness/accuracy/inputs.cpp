@@ -103,7 +103,7 @@ PairList overlapping_pairs_in_doubles(std::span<const WidePoint> points,
                                       std::span<const Face> faces)
 {
     if (points.size() >= 1u << 24)
-        throw Unavailable("so many points have no places that are floats");
+        throw Unavailable("the axis input takes scenes of fewer than 2^24 points");
     // Whether boxes overlap depends on the order of coordinates alone. So each gives way to its place among all of its axis,
     // a whole number that a float holds.
     std::vector<Point> places(points.size());

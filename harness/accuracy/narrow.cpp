@@ -233,21 +233,15 @@ void measure_class(const AxisRun& run, const PairClass& of, std::size_t pairs)
     }
 }
 
-bool is_wanted(const AxisTask& task, const PairClass& of)
-{
-    const auto methods = narrow_methods();
-    return std::any_of(methods.begin(), methods.end(), [&](const NarrowMethod& method) {
-        return task.wants(of.name, method.name);
-    });
-}
-
 }  // namespace
 
 void measure_narrow(const AxisRun& run)
 {
     std::vector<const PairClass*> wanted;
     for (const PairClass& of : pair_classes())
-        if (is_wanted(run.task, of))
+        if (std::ranges::any_of(narrow_methods(), [&](const NarrowMethod& method) {
+                return run.task.wants(of.name, method.name);
+            }))
             wanted.push_back(&of);
     const std::size_t pairs = run.task.pairs;
     for (std::size_t k = 0; k < wanted.size(); ++k) {

@@ -56,10 +56,10 @@ void allow_more(const PairList& right, bool is_counted_anyway, Cell& cell)
 }
 
 /// The surface area cost of trees over an input, one an object: the sum of their nodes' costs, of the sum of their roots'
-/// areas. Nothing if no root has any.
-std::optional<double> forest_cost(Session& session, const BuilderChoice& choice, const Input& input)
+/// areas.
+void add_forest_cost(Session& session, const Input& input, Cell& cell)
 {
-    Builder& builder = session.builder(choice);
+    Builder& builder = session.builder(cell.builder);
     builder.reserve_objects(object_sizes(input));
     const Tree* built = nullptr;
     session.build_once(builder, input, Start::from_triangles, &built);
@@ -73,13 +73,8 @@ std::optional<double> forest_cost(Session& session, const BuilderChoice& choice,
             area += root;
         }
     }
-    return area > 0 ? std::optional(cost / area) : std::nullopt;
-}
-
-void add_cost(Session& session, const Input& input, Cell& cell)
-{
-    if (const auto cost = forest_cost(session, cell.builder, input))
-        cell.counters["sah_cost"] = *cost;
+    if (area > 0)
+        cell.counters["sah_cost"] = cost / area;
     else
         cell.left_out["sah_cost"] = "no root has an area";
 }
@@ -99,7 +94,7 @@ void measure_codes(const AxisRun& run, const SceneFacts& scene, const Input& inp
             settle_pipeline(session, input, one, [&](const Pipeline& pipeline, Cell& cell) {
                 judge_pairs(pipeline, right, "brute", cell);
             });
-            add_cost(session, input, one.cell);
+            add_forest_cost(session, input, one.cell);
             if (codes == nullptr)
                 return;
             const CodeCounts counts = code_counts(*codes, input.points, input.faces, input.objects,

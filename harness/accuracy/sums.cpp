@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
 // The axis sums: the surface area cost of a tree by several ways of adding areas up, against long double.
-#include "harness/accuracy/sums.h"
-
 #include <cmath>
 #include <limits>
 #include <vector>

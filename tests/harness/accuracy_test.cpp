@@ -11,7 +11,6 @@
 #include "geometry/error.h"
 #include "harness/accuracy/axis.h"
 #include "harness/accuracy/inputs.h"
-#include "harness/accuracy/sums.h"
 #include "harness/judge/metrics.h"
 #include "harness/judge/pair_counts.h"
 #include "scenes/generate/pair_classes.h"
