@@ -1,23 +1,31 @@
 // SPDX-License-Identifier: MIT
-#include "harness/accuracy/axes.h"
-
 #include "geometry/error.h"
 #include "harness/accuracy/axis.h"
+#include "harness/base/failure.h"
+#include "harness/measure/frames.h"
 
 namespace bvhbench {
 namespace {
+
+constexpr const char* two_scenes[] = {"torus:100000", "hairball:100000"};
+constexpr const char* scenes_of_sums[] = {"torus:100000", "hairball:100000", "torus:1000000"};
+constexpr const char* scenes_of_codes[] = {"torus:100000", "hairball:100000", "grid:100000",
+                                           "outlier:sphere:100000:0:1000", "n-body:100000"};
+constexpr const char* small_torus[] = {"torus:20000"};
 
 // To add an axis, add its file and its line here.
 constexpr Axis catalog[] = {
     {"narrow",
      "which narrow phase is wrong how often, on which pairs of triangles, and what it takes",
      measure_narrow},
-    {"sums", "how far off is the surface area cost, by how areas are summed", measure_sums},
-    {"codes", "what do more bits a code and cubic cells buy: duplicates, tree, box tests",
-     measure_codes},
+    {"sums", "how far off is the surface area cost, by how areas are summed", nullptr, measure_sums,
+     scenes_of_sums},
+    {"codes", "what do more bits a code and cubic cells buy: duplicates, tree, box tests", nullptr,
+     measure_codes, scenes_of_codes, true},
     {"input", "what does rounding vertices from doubles to floats add to the pairs of boxes",
-     measure_input},
-    {"boxes", "what do fewer bytes a box cost in false pairs and save in time", measure_boxes},
+     nullptr, measure_input, small_torus},
+    {"boxes", "what do fewer bytes a box cost in false pairs and save in time", nullptr,
+     measure_boxes, two_scenes},
     {"swept",
      "who finds the pairs that may meet between two frames, how soon, and how many for each that "
      "does",
@@ -44,30 +52,63 @@ bool AxisTask::wants(std::string_view input, std::string_view method) const
     return !filter || filter->is_in(std::string(input) + '/' + std::string(method));
 }
 
-Cell accuracy_cell(std::string axis, std::string method, SceneFacts input)
+void Axis::measure(const AxisRun& run) const
+{
+    if (measure_all != nullptr)
+        return measure_all(run);
+    std::vector<std::string> scenes = run.task.scenes;
+    if (scenes.empty())
+        scenes.assign(own_scenes.begin(), own_scenes.end());
+    for (const std::string& scene : scenes) {
+        run.progress.note("accuracy, " + std::string(name) + ": " + scene);
+        SceneFacts facts;
+        facts.name = scene;
+        bool is_there = false;
+        const std::string failure = reason_of_failure([&] {
+            Frames frames;
+            frames.load(Experiment{}, scene, run.session.scenes());
+            facts = frames.facts();
+            frames.upload(run.session, by_objects);
+            is_there = true;
+            measure_frame(run, facts, frames.now());
+        });
+        if (failure.empty())
+            continue;
+        Subject all{accuracy_cell(name, "all", facts)};
+        run.engine().refuse(all, is_there ? Cell::Status::failed : Cell::Status::skipped, failure);
+        run.add(std::move(all.cell));
+    }
+}
+
+Cell accuracy_cell(std::string_view axis, std::string_view method, SceneFacts input)
 {
     Cell cell;
     cell.experiment = "accuracy";
     cell.scene = std::move(input);
     cell.builder = {.name = "none"};
-    cell.accuracy = {.axis = std::move(axis), .method = std::move(method)};
+    cell.accuracy = {.axis = std::string(axis), .method = std::string(method)};
     cell.operation = Operation::accuracy;
     return cell;
 }
 
-void fail(Session& session, Subject& subject, const std::string& why)
+void measure_methods(const AxisRun& run, std::string_view axis, const SceneFacts& input,
+                     std::span<const AxisMethod> methods)
 {
-    int order = 0;
-    Engine(session, {}, order).refuse(subject, Cell::Status::failed, why);
-    subject.once = nullptr;
-}
-
-void take_samples_of(const AxisRun& run, std::span<Subject> cells)
-{
-    Engine(run.session, {.samples = run.task.samples, .warm_up = 1}, run.order).sample(cells);
-    for (Subject& cell : cells)
-        if (cell.cell.status != Cell::Status::measured)
-            cell.once = nullptr;
+    Engine engine = run.engine();
+    std::vector<Subject> subjects;
+    subjects.reserve(methods.size());  // what settles one may keep a reference to it
+    for (const AxisMethod& method : methods) {
+        if (!run.task.wants(input.name, method.name))
+            continue;
+        Subject& one = subjects.emplace_back();
+        one.cell = accuracy_cell(axis, method.name, input);
+        one.cell.builder = method.builder;
+        one.cell.collider = method.collider;
+        engine.settle(one, [&] { method.settle(one); });
+    }
+    engine.sample(subjects);
+    for (Subject& one : subjects)
+        run.add(std::move(one.cell));
 }
 
 }  // namespace bvhbench

@@ -38,13 +38,24 @@ struct AxisRun {
     int& order;  ///< of samples
     Progress& progress;
     std::function<void(Cell&&)> add;
+
+    /// Samples are taken after one to warm up.
+    Engine engine() const { return {session, {.samples = task.samples, .warm_up = 1}, order}; }
 };
 
 struct Axis {
     std::string_view name;      ///< the key on the command line and in result files
     std::string_view question;  ///< one line
-    /// Cells that cannot be had, for want of a scene or a reference, say so.
-    void (*measure)(const AxisRun& run);
+    void (*measure_all)(const AxisRun& run) = nullptr;  ///< of an axis that is not about frames
+    /// Of one that is: over a scene's first frame on the device, as one object, or, `by_objects`, as those that the scene
+    /// names. It is called for each scene asked for, or for the axis's own.
+    void (*measure_frame)(const AxisRun& run, const SceneFacts& scene,
+                          const Input& input) = nullptr;
+    std::span<const char* const> own_scenes = {};
+    bool by_objects = false;
+
+    /// Cells that cannot be had, for want of a scene or a reference, say so; of a scene, by one of the method "all".
+    void measure(const AxisRun& run) const;
 };
 
 /// Every axis, in the order in which they are run.
@@ -53,13 +64,42 @@ std::span<const Axis> accuracy_axes();
 /// By name. Throws BadUsage with the known names when there is none.
 const Axis& find_axis(std::string_view name);
 
+// What the files of axes share.
+
 /// A cell that says what is measured: on which axis, of what, by which method.
-Cell accuracy_cell(std::string axis, std::string method, SceneFacts input);
+Cell accuracy_cell(std::string_view axis, std::string_view method, SceneFacts input);
 
-/// The cell has no numbers, and why, and is not sampled. What it left in the queue is forgotten.
-void fail(Session& session, Subject& subject, const std::string& why);
+/// A way to answer an axis's question over an input.
+struct AxisMethod {
+    std::string name;
+    BuilderChoice builder = {.name = "none"};
+    ColliderChoice collider = {};
+    std::function<void(Subject&)> settle;  ///< as Engine::settle says of its work
+};
 
-/// Samples all that have something to sample, interleaved, after a warm-up sample. One that fails says so, as fail() does.
-void take_samples_of(const AxisRun& run, std::span<Subject> cells);
+/// A cell of each method that is asked for: settled, sampled interleaved with the others, and judged.
+void measure_methods(const AxisRun& run, std::string_view axis, const SceneFacts& input,
+                     std::span<const AxisMethod> methods);
+
+/// A way to sum the surface area cost of a tree, on the axis sums.
+struct SumMethod {
+    std::string_view name;
+    /// With the usual node costs; of a root that has an area.
+    double (*cost)(const HostTree& tree);
+    bool is_ours = false;  ///< what the counter sah_cost is made by
+};
+
+/// In the order of tables.
+std::span<const SumMethod> sum_methods();
+
+/// The reference: areas and sums in long double, 64 bits of mantissa on x86.
+long double cost_in_long_double(const HostTree& tree);
+
+void measure_narrow(const AxisRun& run);
+void measure_swept(const AxisRun& run);
+void measure_sums(const AxisRun& run, const SceneFacts& scene, const Input& input);
+void measure_codes(const AxisRun& run, const SceneFacts& scene, const Input& input);
+void measure_input(const AxisRun& run, const SceneFacts& scene, const Input& input);
+void measure_boxes(const AxisRun& run, const SceneFacts& scene, const Input& input);
 
 }  // namespace bvhbench

@@ -2,6 +2,8 @@
 //
 // The axis narrow: narrow phases over classes of pairs of triangles, against CGAL's exact predicates.
 #include <algorithm>
+#include <future>
+#include <thread>
 
 #include "collide/narrow/narrow.h"
 #include "collide/oracles/exact_reference.h"
@@ -9,12 +11,9 @@
 #include "geometry/error.h"
 #include "geometry/hash.h"
 #include "geometry/host_memory.h"
-#include "harness/accuracy/axes.h"
 #include "harness/accuracy/axis.h"
-#include "harness/accuracy/narrow_truth.h"
 #include "harness/base/failure.h"
-#include "harness/judge/differences.h"
-#include "harness/judge/query_bytes.h"
+#include "harness/judge/pair_counts.h"
 #include "scenes/generate/pair_classes.h"
 
 namespace bvhbench {
@@ -32,6 +31,36 @@ struct Phase {
     std::uint64_t hash = 0;  ///< of the contacts of the piece at hand
 };
 
+/// Of a mesh made of pairs, triangles 0 and 1, 2 and 3 and so on.
+std::vector<Pair> pairs_of_neighbours(const Mesh& mesh)
+{
+    std::vector<Pair> pairs;
+    pairs.reserve(mesh.faces.size() / 2);
+    for (uint k = 0; k + 1 < mesh.faces.size(); k += 2)
+        pairs.push_back({k, k + 1});
+    return pairs;
+}
+
+/// Those of the pairs that intersect by CGAL's exact predicates, on all cores of the host.
+PairList pairs_that_meet(const Mesh& mesh, std::span<const Pair> pairs)
+{
+    const std::size_t workers = std::max(1u, std::thread::hardware_concurrency());
+    const std::size_t share = pairs.size() / workers + 1;
+    std::vector<std::future<PairList>> parts;
+    for (std::size_t first = 0; first < pairs.size(); first += share)
+        parts.push_back(std::async(std::launch::async, [&mesh, pairs, first, share] {
+            const auto own = pairs.subspan(first, std::min(share, pairs.size() - first));
+            return intersecting_pairs(mesh.points, mesh.faces, PairList({own.begin(), own.end()}),
+                                      false);
+        }));
+    std::vector<Pair> meeting;
+    for (auto& part : parts) {
+        const PairList found = part.get();
+        meeting.insert(meeting.end(), found.pairs().begin(), found.pairs().end());
+    }
+    return PairList(std::move(meeting));
+}
+
 /// Some pairs of a class: on the host and on the device, with the right answer.
 struct Piece {
     Mesh mesh;
@@ -43,7 +72,7 @@ struct Piece {
     Piece(Session& session, const PairClass& of, uint count, uint seed)
         : mesh(apart_pairs(of, count, seed))
         , pairs(pairs_of_neighbours(mesh))
-        , meeting(neighbours_that_meet(mesh))
+        , meeting(pairs_that_meet(mesh, pairs))
         , input(upload(session.device(), session.queue(), mesh.points, mesh.faces))
         , candidates(room_for_pairs(session.device(), count))
     {
@@ -97,40 +126,30 @@ void add_samples(std::vector<Sample>& to, std::vector<Sample>&& more, std::int64
 }
 
 /// Each is held to the right answer before it is timed, and to that answer after: a race may strike only sometimes.
-void measure_piece(const AxisRun& run, std::span<Subject> cells, std::span<Phase> phases,
-                   const Piece& piece)
+void measure_piece(Session& session, Engine& engine, std::span<Subject> cells,
+                   std::span<Phase> phases, const Piece& piece)
 {
-    Session& session = run.session;
+    const std::int64_t corners = corner_bytes(piece.pairs, piece.input);
     for (std::size_t k = 0; k < cells.size(); ++k) {
-        if (cells[k].cell.status != Cell::Status::measured)
-            continue;
+        Subject& one = cells[k];
         Phase& phase = phases[k];
-        const std::string failure = reason_of_failure([&] {
+        if (one.cell.status != Cell::Status::measured)
+            continue;
+        engine.settle(one, [&] {
             phase.narrow->reserve(piece.mesh.faces.size());
             judge(phase, piece, session);
         });
-        if (!failure.empty())
-            fail(session, cells[k], failure);
-        else
-            cells[k].once = [&] { return query_once(*phase.narrow, piece, session); };
-    }
-    take_samples_of(run, cells);
-    const std::int64_t corners = corner_bytes(piece.pairs, piece.input);
-    for (std::size_t k = 0; k < cells.size(); ++k) {
-        if (!cells[k].once)
-            continue;
-        cells[k].once = nullptr;
-        const std::string failure = reason_of_failure([&] {
-            const PairList found = contacts_of(*phases[k].narrow, piece, session);
-            if (found.hash() != phases[k].hash)
+        one.once = [&] { return query_once(*phase.narrow, piece, session); };
+        one.judge_again = [&, corners] {
+            const PairList found = contacts_of(*phase.narrow, piece, session);
+            if (found.hash() != phase.hash)
                 throw Unavailable("it found other contacts after the samples than before");
             const std::size_t pairs = piece.pairs.size() + found.size();
-            add_samples(phases[k].samples, std::move(cells[k].cell.samples),
+            add_samples(phase.samples, std::move(one.cell.samples),
                         corners + static_cast<std::int64_t>(pairs * sizeof(Pair)));
-        });
-        if (!failure.empty())
-            fail(session, cells[k], failure);
+        };
     }
+    engine.sample(cells);
 }
 
 void conclude(Cell& cell, Phase& phase, std::size_t pairs, std::size_t meeting)
@@ -154,45 +173,35 @@ void conclude(Cell& cell, Phase& phase, std::size_t pairs, std::size_t meeting)
                          : phase.wrong == Differences{} ? Check::Verdict::agrees
                                                         : Check::Verdict::differs;
     if (cell.check.verdict == Check::Verdict::differs)
-        cell.check.detail = std::to_string(phase.wrong.missed) + " pairs missed, " +
-                            std::to_string(phase.wrong.false_ones) + " false";
+        cell.check.detail = phase.wrong.text();
 }
 
-/// What doubles are needed for is skipped where there are none, and all of it where there is no reference; what cannot be
-/// compiled has failed.
-Phase compiled(Session& session, const NarrowMethod& method, Subject& one)
+/// What lacks doubles, or the reference, is skipped; what cannot be compiled has failed.
+std::unique_ptr<NarrowPhase> compiled(Session& session, const NarrowMethod& method)
 {
-    Phase phase;
-    std::string lacking =
-        has_exact_reference ? "" : "built without CGAL, which errors are counted against";
-    const std::string failure = reason_of_failure([&] {
-        if (!lacking.empty())
-            return;
-        try {
-            phase.narrow = std::make_unique<NarrowPhase>(session.programs(),
-                                                         NarrowOptions{.method = method.name});
-        } catch (const Unavailable& error) {
-            lacking = error.what();
-        }
-    });
-    if (!failure.empty() || !lacking.empty())
-        fail(session, one, failure + lacking);
-    if (!lacking.empty())
-        one.cell.status = Cell::Status::skipped;
-    return phase;
+    if (!has_exact_reference)
+        throw BadUsage("built without CGAL, which errors are counted against");
+    try {
+        return std::make_unique<NarrowPhase>(session.programs(),
+                                             NarrowOptions{.method = method.name});
+    } catch (const Unavailable& error) {
+        throw BadUsage(error.what());
+    }
 }
 
 void measure_class(const AxisRun& run, const PairClass& of, std::size_t pairs)
 {
+    Engine engine = run.engine();
     std::vector<Subject> cells;
     std::vector<Phase> phases;
     for (const NarrowMethod& method : narrow_methods()) {
         if (!run.task.wants(of.name, method.name))
             continue;
         Subject& one = cells.emplace_back();
-        one.cell = accuracy_cell("narrow", std::string(method.name), {});
+        one.cell = accuracy_cell("narrow", method.name, {});
         one.cell.accuracy.seed = run.task.seed;
-        phases.push_back(compiled(run.session, method, one));
+        Phase& phase = phases.emplace_back();
+        engine.settle(one, [&] { phase.narrow = compiled(run.session, method); });
     }
     Hash hash;
     std::size_t meeting = 0;
@@ -205,7 +214,7 @@ void measure_class(const AxisRun& run, const PairClass& of, std::size_t pairs)
             const Piece piece(run.session, of, static_cast<uint>(count), seed++);
             hash.values(std::span<const Point>(piece.mesh.points));
             meeting += piece.meeting.size();
-            measure_piece(run, cells, phases, piece);
+            measure_piece(run.session, engine, cells, phases, piece);
         }
     });
     const auto many = static_cast<std::int64_t>(pairs);
@@ -218,18 +227,10 @@ void measure_class(const AxisRun& run, const PairClass& of, std::size_t pairs)
         cell.scene.source = "pairs: " + of.summary;
         cell.scene.content_hash = hash.get();
         if (!no_piece.empty())
-            fail(run.session, cells[k], no_piece);
+            engine.refuse(cells[k], Cell::Status::failed, no_piece);
         conclude(cell, phases[k], pairs, meeting);
         run.add(std::move(cell));
     }
-}
-
-bool is_wanted(const AxisTask& task, const PairClass& of)
-{
-    const auto methods = narrow_methods();
-    return std::any_of(methods.begin(), methods.end(), [&](const NarrowMethod& method) {
-        return task.wants(of.name, method.name);
-    });
 }
 
 }  // namespace
@@ -238,7 +239,9 @@ void measure_narrow(const AxisRun& run)
 {
     std::vector<const PairClass*> wanted;
     for (const PairClass& of : pair_classes())
-        if (is_wanted(run.task, of))
+        if (std::ranges::any_of(narrow_methods(), [&](const NarrowMethod& method) {
+                return run.task.wants(of.name, method.name);
+            }))
             wanted.push_back(&of);
     const std::size_t pairs = run.task.pairs;
     for (std::size_t k = 0; k < wanted.size(); ++k) {

@@ -2,7 +2,6 @@
 //
 // The axis swept: pairs of boxes around the way between two frames, by several pipelines, against the sweep, pairs that
 // are known to collide on the way, and counts of who made the data.
-#include "harness/accuracy/axes.h"
 #include "harness/accuracy/axis.h"
 #include "harness/base/failure.h"
 #include "harness/measure/collide.h"
@@ -20,32 +19,29 @@ constexpr struct {
                   {"ipc_armadillo_rollers", "cloth-funnel:10000:20"},
                   {"unc_nbody", "n-body:20000:20"}};
 
-struct SceneOfAxis {
-    std::string name;
-    std::string in_place_of;  ///< of what is not there; else empty
-};
+/// A scene's name, and that of what it stands in for; else empty.
+using NamedScene = std::pair<std::string, std::string>;
 
 /// Those asked for, bent for a second frame if they have one, or the axis's own.
-std::vector<SceneOfAxis> scenes_of(const AxisRun& run)
+std::vector<NamedScene> scenes_of(const AxisRun& run)
 {
-    std::vector<SceneOfAxis> scenes;
+    std::vector<NamedScene> scenes;
     for (const std::string& scene : run.task.scenes) {
         bool stands = false;  // of a scene that is not there, whoever collides it says so
         reason_of_failure(
             [&] { stands = load_scene(scene, run.session.scenes()).frames.size() < 2; });
-        scenes.push_back({stands ? "bend:" + scene : scene, {}});
+        scenes.emplace_back(stands ? "bend:" + scene : scene, "");
     }
     if (!scenes.empty())
         return scenes;
-    for (const auto& [name, generated] : own_scenes) {
-        if (!located(*manifest_entry(name), run.session.scenes().data).empty()) {
-            scenes.push_back({name, {}});
-            continue;
+    for (const auto& [name, generated] : own_scenes)
+        if (located(*manifest_entry(name), run.session.scenes().data).empty()) {
+            run.progress.note("accuracy, swept: " + std::string(name) + " is not there, " +
+                              generated + " in its place");
+            scenes.emplace_back(generated, name);
+        } else {
+            scenes.emplace_back(name, "");
         }
-        run.progress.note("accuracy, swept: " + std::string(name) + " is not there, " + generated +
-                          " in its place");
-        scenes.push_back({generated, name});
-    }
     return scenes;
 }
 
@@ -79,7 +75,7 @@ std::string method_of(const BuilderChoice& builder, const ColliderChoice& collid
 
 void measure_swept(const AxisRun& run)
 {
-    for (const auto& [scene, in_place_of] : scenes_of(run)) {
+    for (const auto& [scene, missing_scene] : scenes_of(run)) {
         CollideTask task;
         task.experiment = "accuracy";
         task.scene = scene;
@@ -94,7 +90,7 @@ void measure_swept(const AxisRun& run)
         if (task.pipelines.empty())
             continue;
         run.progress.note("accuracy, swept: " + scene);
-        const std::string& missing = in_place_of;
+        const std::string& missing = missing_scene;
         collide_frames(run.session, task, run.order, [&](std::vector<Cell>&& cells, const Found&) {
             for (Cell& cell : cells) {
                 cell.operation = Operation::accuracy;

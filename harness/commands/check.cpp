@@ -7,7 +7,7 @@
 #include "harness/base/table.h"
 #include "harness/commands/command.h"
 #include "harness/commands/words.h"
-#include "harness/judge/contract.h"
+#include "harness/judge/check.h"
 #include "harness/judge/hard_inputs.h"
 #include "harness/measure/portable.h"
 #include "harness/measure/run.h"

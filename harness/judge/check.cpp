@@ -2,6 +2,7 @@
 #include "harness/judge/check.h"
 
 #include "builders/spell_out.h"
+#include "geometry/error.h"
 #include "geometry/hash.h"
 #include "harness/base/failure.h"
 
@@ -11,43 +12,97 @@ namespace {
 /// What a tree without an oracle is held against.
 constexpr std::string_view promises_name = "contract";
 
+std::string broken_footprint(const Builder& builder, std::size_t triangles)
+{
+    const Footprint predicted = builder.footprint(triangles);
+    const Footprint reserved = builder.reserved();
+    const auto text_of = [](const Footprint& footprint) {
+        return std::to_string(footprint.tree_bytes) + " + " +
+               std::to_string(footprint.scratch_bytes) + " bytes";
+    };
+    if (predicted == reserved)
+        return {};
+    return "predicted " + text_of(predicted) + ", reserved " + text_of(reserved);
+}
+
+/// What is wrong with a refit of the tree that `builder` has just left, all points moved elsewhere.
+std::string broken_refit(Session& session, Builder& builder, const Input& input, const Tree& built)
+{
+    const HostTree before = built.spelled_out();
+    std::vector<Point> moved;  // as far as can be without leaving the numbers that the scene holds
+    for (std::size_t k = input.points.size(); k-- > 0;)
+        moved.push_back({input.points[k].y, input.points[k].z, input.points[k].x});
+    const Input moved_input = upload(session.device(), session.queue(), moved, input.faces);
+    const Tree& tree = builder.refit(moved_input, session.queue());
+    session.queue().finish();
+    const HostTree after = tree.spelled_out();
+    const std::string wrong = broken_promise(after, moved, input.faces);
+    if (!wrong.empty())
+        return "after a refit, " + wrong;
+    const bool is_same = tree_hash(after) == tree_hash(refitted(before, moved, input.faces));
+    return is_same ? "" : "a refit changed the topology";
+}
+
+std::string broken_promise_of_build(Session& session, const BuilderChoice& choice,
+                                    const Input& input, Oracle& oracle)
+{
+    const Tree* tree = &built_tree(session, choice, input);
+    Builder& builder = session.builder(choice);
+    const Check check = check_tree(tree->spelled_out(), input, choice, oracle);
+    if (check.verdict != Check::Verdict::agrees)
+        return check.detail;
+    std::string wrong = broken_footprint(builder, input.triangle_count());
+    const auto build_again = [&](Start start, const char* which) {
+        if (!wrong.empty())
+            return;
+        session.build_once(builder, input, start, &tree);
+        if (const std::uint64_t hash = tree_hash(tree->spelled_out()); hash != check.tree_hash)
+            wrong = std::string(which) + " left the tree " + hex(hash) + ", the first " +
+                    hex(*check.tree_hash);
+    };
+    build_again(Start::from_triangles, "the second build");
+    build_again(Start::from_sorted_leaves, "the build from sorted leaves");
+    if (wrong.empty() && builder.can_refit()) {
+        wrong = broken_refit(session, builder, input, *tree);
+        build_again(Start::from_triangles, "the build after a refit");
+    }
+    return wrong;
+}
+
 }  // namespace
 
-void Oracle::begin(std::string_view reference, const std::string& order, const std::string& boxes)
+const Tree& built_tree(Session& session, const BuilderChoice& choice, const Input& input)
+{
+    Builder& builder = session.builder(choice);
+    builder.reserve(input.triangle_count());
+    const Tree* tree = nullptr;
+    session.build_once(builder, input, Start::from_triangles, &tree);
+    return *tree;
+}
+
+std::shared_future<std::uint64_t> Oracle::begin(std::string_view reference,
+                                                const std::string& order, const std::string& boxes)
 {
     std::shared_future<std::uint64_t>& hash = hashes_[{std::string(reference), order, boxes}];
+    // By a builder of its own, for the cell under test may be the reference itself, in a queue of its own.
+    const auto built =
+        [this, choice = BuilderChoice{.name = std::string(reference), .order = order}, boxes] {
+            const auto builder = make_builder(choice, session_.programs());
+            builder->reserve(input_.triangle_count());
+            Queue queue(session_.device());
+            const Tree& tree = builder->build(input_, queue, Start::from_triangles);
+            queue.finish();
+            return tree_hash(rounded_to(tree.spelled_out(), find_box_format(boxes)));
+        };
     if (!hash.valid())
-        hash = std::async(std::launch::async, [this, name = std::string(reference), order, boxes] {
-            return built(name, order, boxes);
-        });
+        hash = std::async(std::launch::async, built);
+    return hash;
 }
 
 void Oracle::wait() const
 {
     for (const auto& [of, hash] : hashes_)
         hash.wait();
-}
-
-std::uint64_t Oracle::tree_hash(std::string_view reference, const std::string& order,
-                                const std::string& boxes)
-{
-    begin(reference, order, boxes);
-    return hashes_[{std::string(reference), order, boxes}].get();
-}
-
-/// By a builder of its own, for the cell under test may be the reference itself, in a queue of its own.
-std::uint64_t Oracle::built(std::string_view reference, const std::string& order,
-                            const std::string& boxes) const
-{
-    BuilderChoice choice;
-    choice.name = reference;
-    choice.order = order;
-    const auto builder = make_builder(choice, session_.programs());
-    builder->reserve(input_.triangle_count());
-    Queue queue(session_.device());
-    const Tree& tree = builder->build(input_, queue, Start::from_triangles);
-    queue.finish();
-    return bvhbench::tree_hash(rounded_to(tree.spelled_out(), find_box_format(boxes)));
 }
 
 std::uint64_t check_bytes(std::uint64_t triangles)
@@ -67,7 +122,7 @@ Check check_tree(const HostTree& tree, const Input& input, const BuilderChoice& 
     Check check{agrees, std::string(reference.empty() ? promises_name : reference), {}, {}};
     if (!reference.empty())
         oracle.begin(reference, builder.order, builder.boxes);
-    check.tree_hash = bvhbench::tree_hash(tree);
+    check.tree_hash = tree_hash(tree);
     check.detail = broken_promise(tree, input.points, input.faces);
     if (!check.detail.empty()) {
         check.verdict = differs;
@@ -77,7 +132,7 @@ Check check_tree(const HostTree& tree, const Input& input, const BuilderChoice& 
         return check;
     std::uint64_t expected = 0;
     const std::string failure = reason_of_failure(
-        [&] { expected = oracle.tree_hash(reference, builder.order, builder.boxes); });
+        [&] { expected = oracle.begin(reference, builder.order, builder.boxes).get(); });
     if (!failure.empty()) {
         check.verdict = not_checked;
         check.detail = "the reference failed: " + failure;
@@ -93,8 +148,8 @@ Check check_refit(const HostTree& tree, const HostTree& built, const Input& inpu
     before.against += ", refitted";
     if (before.verdict == Check::Verdict::differs)
         return before;
-    const std::uint64_t expected = bvhbench::tree_hash(refitted(built, input.points, input.faces));
-    before.tree_hash = bvhbench::tree_hash(tree);
+    const std::uint64_t expected = tree_hash(refitted(built, input.points, input.faces));
+    before.tree_hash = tree_hash(tree);
     if (before.tree_hash == expected)
         return before;
     const std::string wrong = broken_promise(tree, input.points, input.faces);
@@ -107,7 +162,7 @@ Check check_refit(const HostTree& tree, const HostTree& built, const Input& inpu
 
 Check check_again(const Tree& tree, Check before)
 {
-    const std::uint64_t hash = bvhbench::tree_hash(tree.spelled_out());
+    const std::uint64_t hash = tree_hash(tree.spelled_out());
     if (before.verdict == Check::Verdict::differs || hash == before.tree_hash)
         return before;
     before.verdict = Check::Verdict::differs;
@@ -115,6 +170,23 @@ Check check_again(const Tree& tree, Check before)
         "it was the tree " + hex(*before.tree_hash) + " at first and " + hex(hash) + " at last";
     before.tree_hash = hash;
     return before;
+}
+
+std::string broken_contract(Session& session, const BuilderChoice& choice, const Input& input,
+                            Oracle& oracle, bool* refused)
+{
+    if (refused != nullptr)
+        *refused = false;
+    try {
+        return broken_promise_of_build(session, choice, input, oracle);
+    } catch (const Unavailable&) {
+        if (find_builder(choice.name).may_refuse.empty())
+            throw;
+        session.renew_queue();
+        if (refused != nullptr)
+            *refused = true;
+        return {};
+    }
 }
 
 }  // namespace bvhbench

@@ -21,26 +21,23 @@ public:
     Oracle(Session& session, const Input& input) : session_(session), input_(input) {}
 
     /// Begin the tree that the builder `reference` leaves of leaves in that order, its boxes rounded to such a format,
-    /// unless it was. Nothing may be timed before wait().
-    void begin(std::string_view reference, const std::string& order,
-               const std::string& boxes = "f32");
+    /// unless it was. Nothing may be timed before wait(). Its hash; getting it throws what the builder throws.
+    std::shared_future<std::uint64_t> begin(std::string_view reference, const std::string& order,
+                                            const std::string& boxes = "f32");
 
     /// Until all that was begun is there.
     void wait() const;
 
-    /// Of that tree. Throws what its builder throws.
-    std::uint64_t tree_hash(std::string_view reference, const std::string& order,
-                            const std::string& boxes = "f32");
-
 private:
-    std::uint64_t built(std::string_view reference, const std::string& order,
-                        const std::string& boxes) const;
-
     Session& session_;
     const Input& input_;
     std::map<std::array<std::string, 3>, std::shared_future<std::uint64_t>>
         hashes_;  ///< by builder, order, boxes
 };
+
+/// The tree that the session's builder leaves over an input as one object. It stands until that builder builds again. Throws
+/// what the builder throws.
+const Tree& built_tree(Session& session, const BuilderChoice& choice, const Input& input);
 
 /// Bytes of the host that check_tree takes at most, about, of trees over so many triangles.
 std::uint64_t check_bytes(std::uint64_t triangles);
@@ -57,5 +54,14 @@ Check check_refit(const HostTree& tree, const HostTree& built, const Input& inpu
 /// The verdict `before`, unless `tree`, the last of those sampled, is another one: then that differs.
 /// Hand-offs that race do so sometimes, so the trees that were timed are looked at as well.
 Check check_again(const Tree& tree, Check before);
+
+/// The first promise that a builder breaks over `input`, as a sentence; empty if it keeps all of them:
+///
+/// what it reserves is what it predicted; its tree is one (broken_promise) and, if its entry names an oracle,
+/// the oracle's; a second build leaves the same tree; so does a build from sorted leaves; a refit to moved points
+/// keeps the topology and makes every box right, and a build after it leaves the first tree again.
+/// A builder whose entry may_refuse passes when it throws Unavailable; `refused`, if given, says whether it did.
+std::string broken_contract(Session& session, const BuilderChoice& choice, const Input& input,
+                            Oracle& oracle, bool* refused = nullptr);
 
 }  // namespace bvhbench

@@ -3,15 +3,81 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <future>
 #include <thread>
 #include <vector>
 
-#include "harness/judge/clip.h"
-#include "harness/judge/compensated_sum.h"
-
 namespace bvhbench {
 namespace {
+
+using Corner = Polygon::Corner;
+
+/// Where the edge meets the plane: on it exactly, so that the next cut of the same plane changes nothing.
+Corner on_plane(const Corner& a, const Corner& b, std::size_t axis, double plane)
+{
+    const double t = (plane - a[axis]) / (b[axis] - a[axis]);
+    Corner corner;
+    for (std::size_t k = 0; k < 3; ++k)
+        corner[k] = a[k] + t * (b[k] - a[k]);
+    corner[axis] = plane;
+    return corner;
+}
+
+void add(Polygon& polygon, const Corner& corner)
+{
+    if (polygon.count < Polygon::most_corners)
+        polygon.corners[polygon.count++] = corner;
+}
+
+/// Into `kept` what lies on the side of `plane` where sign * coordinate >= sign * plane
+/// (Sutherland and Hodgman 1974).
+void cut(const Polygon& polygon, std::size_t axis, double plane, double sign, Polygon& kept)
+{
+    kept.count = 0;
+    const Corner* from = &polygon.corners[polygon.count - 1];
+    bool was_inside = sign * ((*from)[axis] - plane) >= 0;
+    for (int i = 0; i < polygon.count; ++i) {
+        const Corner* to = &polygon.corners[i];
+        const bool is_inside = sign * ((*to)[axis] - plane) >= 0;
+        if (is_inside != was_inside)
+            add(kept, on_plane(*from, *to, axis, plane));
+        if (is_inside)
+            add(kept, *to);
+        from = to;
+        was_inside = is_inside;
+    }
+}
+
+/// Set the box of a polygon that has corners.
+void enclose(Polygon& polygon)
+{
+    for (std::size_t k = 0; k < 3; ++k) {
+        double low = polygon.corners[0][k], high = low;
+        for (int i = 1; i < polygon.count; ++i) {
+            low = std::min(low, polygon.corners[i][k]);
+            high = std::max(high, polygon.corners[i][k]);
+        }
+        polygon.low[k] = low;
+        polygon.high[k] = high;
+    }
+}
+
+/// Whether the closed box and the one around the polygon share a point.
+bool overlap(const Aabb& box, const Polygon& polygon)
+{
+    return box.min_x <= polygon.high[0] && polygon.low[0] <= box.max_x &&
+           box.min_y <= polygon.high[1] && polygon.low[1] <= box.max_y &&
+           box.min_z <= polygon.high[2] && polygon.low[2] <= box.max_z;
+}
+
+/// Whether all of the polygon is in the closed box.
+bool contains(const Aabb& box, const Polygon& polygon)
+{
+    return box.min_x <= polygon.low[0] && polygon.high[0] <= box.max_x &&
+           box.min_y <= polygon.low[1] && polygon.high[1] <= box.max_y &&
+           box.min_z <= polygon.low[2] && polygon.high[2] <= box.max_z;
+}
 
 /// The tree as a descent reads it: depth first, so that all below a node follows it, up to `end`.
 ///
@@ -55,7 +121,7 @@ struct DepthFirst {
 };
 
 struct Sums {
-    CompensatedSum surface, inner, leaf;
+    CompensatedSum<> surface, inner, leaf;
 
     void add(const Sums& other)
     {
@@ -144,6 +210,57 @@ Sums sums_of(const DepthFirst& tree, std::size_t first, std::span<const Point> p
 }
 
 }  // namespace
+
+Polygon polygon_of(std::span<const Point> points, Face face)
+{
+    Polygon polygon;
+    for (const uint corner : {face.a, face.b, face.c})
+        add(polygon, {points[corner].x, points[corner].y, points[corner].z});
+    enclose(polygon);
+    return polygon;
+}
+
+void clip(const Polygon& polygon, const Aabb& box, Polygon& left)
+{
+    const double low[3] = {box.min_x, box.min_y, box.min_z};
+    const double high[3] = {box.max_x, box.max_y, box.max_z};
+    Polygon other;
+    const Polygon* now = &polygon;
+    const auto keep = [&](std::size_t axis, double plane, double sign) {
+        Polygon& next = now == &left ? other : left;
+        cut(*now, axis, plane, sign, next);
+        now = &next;
+    };
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (now->count > 0 && polygon.low[axis] < low[axis])
+            keep(axis, low[axis], 1);
+        if (now->count > 0 && polygon.high[axis] > high[axis])
+            keep(axis, high[axis], -1);
+    }
+    if (now != &left) {
+        left.count = now->count;
+        std::copy_n(now->corners, now->count, left.corners);
+    }
+    if (left.count > 0)
+        enclose(left);
+}
+
+double area(const Polygon& polygon)
+{
+    // Twice the area as a vector: what triangles of a fan from the first corner add up to.
+    double x = 0, y = 0, z = 0;
+    const Corner& o = polygon.corners[0];
+    for (int i = 1; i + 1 < polygon.count; ++i) {
+        const Corner& a = polygon.corners[i];
+        const Corner& b = polygon.corners[i + 1];
+        const double u[3] = {a[0] - o[0], a[1] - o[1], a[2] - o[2]};
+        const double v[3] = {b[0] - o[0], b[1] - o[1], b[2] - o[2]};
+        x += u[1] * v[2] - u[2] * v[1];
+        y += u[2] * v[0] - u[0] * v[2];
+        z += u[0] * v[1] - u[1] * v[0];
+    }
+    return 0.5 * std::sqrt(x * x + y * y + z * z);
+}
 
 std::optional<AreaSums> end_point_overlap(const HostTree& tree, std::span<const Point> points,
                                           std::span<const Face> faces, unsigned threads)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 
@@ -22,5 +23,26 @@ namespace bvhbench {
 /// many threads as asked for, or as the host has. Their number does not change a bit of the sums.
 std::optional<AreaSums> end_point_overlap(const HostTree& tree, std::span<const Point> points,
                                           std::span<const Face> faces, unsigned threads = 0);
+
+/// What planes along the axes left of a triangle, in double: a flat convex polygon, and the box around it.
+struct Polygon {
+    using Corner = std::array<double, 3>;
+    /// Three, and one more for each of six planes; the rest is for edges that rounding bends.
+    static constexpr int most_corners = 12;
+
+    int count = 0;
+    Corner corners[most_corners];
+    Corner low, high;  ///< of corners, if there are any
+};
+
+Polygon polygon_of(std::span<const Point> points, Face face);
+
+Polygon polygon_of(std::span<const Point> points, Face face);
+
+/// Into `left`, another polygon, what of `polygon` is in the closed box: a triangle in one of its faces is inside.
+void clip(const Polygon& polygon, const Aabb& box, Polygon& left);
+
+/// 0 for less than three corners.
+double area(const Polygon& polygon);
 
 }  // namespace bvhbench

@@ -54,85 +54,53 @@ Mesh random_soup(std::size_t n)
     return soup(n, [](Point p) { return p; });
 }
 
-Mesh all_identical(std::size_t n)
-{
-    Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 1}}, {}};
-    mesh.faces.assign(n, {0, 1, 2});
-    return mesh;
-}
-
-/// Boxes of different sizes around one centre, exactly: every code is the same.
-Mesh same_centre(std::size_t n)
-{
-    Mesh mesh;
-    for (std::size_t i = 0; i < n; ++i) {
-        const float half = static_cast<float>(i % 64 + 1) * 0.125f;
-        add(mesh, {-half, -half, -half}, {half, half, half}, {0, half, 0});
-    }
-    return mesh;
-}
-
-Mesh flat(std::size_t n)
-{
-    return soup(n, [](Point p) { return Point{p.x, 3.25f, p.z}; });
-}
-
-/// Triangles that are points.
-Mesh points_only(std::size_t n)
-{
-    Random random;
-    Mesh mesh;
-    for (std::size_t i = 0; i < n; ++i) {
-        const Point p = random.point();
-        add(mesh, p, p, p);
-    }
-    return mesh;
-}
-
-/// All but one triangle share a cell of the Morton grid.
-Mesh far_outlier(std::size_t n)
-{
-    Mesh mesh = random_soup(n);
-    for (std::size_t vertex = mesh.points.size() - 3; vertex < mesh.points.size(); ++vertex)
-        mesh.points[vertex] = scaled(mesh.points[vertex], 1, 1e7f);
-    return mesh;
-}
-
-/// Where floats are a sixteenth apart.
-Mesh near_a_million(std::size_t n)
-{
-    return soup(n, [](Point p) { return scaled(p, 8, 1e6f); });
-}
-
-Mesh denormal(std::size_t n)
-{
-    return soup(n, [](Point p) { return scaled(p, 1e-39f, 0); });
-}
-
-/// Extents and sums of coordinates reach the end of what a float holds.
-Mesh huge(std::size_t n)
-{
-    return soup(n, [](Point p) { return scaled(p, 3e38f, -1.5e38f); });
-}
-
-Mesh negative_zeros(std::size_t n)
-{
-    return soup(n, [](Point p) {
-        return Point{p.x < 0.5f ? -0.0f : 0.0f, p.y < 0.5f ? -0.0f : p.y, -0.0f};
-    });
-}
-
 constexpr HardInput inputs[] = {
     {"random", random_soup},
-    {"identical", all_identical},
-    {"same-centre", same_centre},
-    {"flat", flat},
-    {"points", points_only},
-    {"outlier", far_outlier},
-    {"near-1e6", near_a_million},
-    {"denormal", denormal},
-    {"huge", huge},
-    {"negative-zero", negative_zeros},
+    {"identical",
+     [](std::size_t n) {
+         return Mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 1}}, std::vector<Face>(n, {0, 1, 2})};
+     }},
+    {"same-centre",  // boxes of different sizes around one centre, exactly: every code is the same
+     [](std::size_t n) {
+         Mesh mesh;
+         for (std::size_t i = 0; i < n; ++i) {
+             const float half = static_cast<float>(i % 64 + 1) * 0.125f;
+             add(mesh, {-half, -half, -half}, {half, half, half}, {0, half, 0});
+         }
+         return mesh;
+     }},
+    {"flat", [](std::size_t n) { return soup(n, [](Point p) {
+                                     return Point{p.x, 3.25f, p.z};
+                                 }); }},
+    {"points",  // triangles that are points
+     [](std::size_t n) {
+         Random random;
+         Mesh mesh;
+         for (std::size_t i = 0; i < n; ++i) {
+             const Point p = random.point();
+             add(mesh, p, p, p);
+         }
+         return mesh;
+     }},
+    {"outlier",  // all but one triangle share a cell of the Morton grid
+     [](std::size_t n) {
+         Mesh mesh = random_soup(n);
+         for (std::size_t k = mesh.points.size() - 3; k < mesh.points.size(); ++k)
+             mesh.points[k] = scaled(mesh.points[k], 1, 1e7f);
+         return mesh;
+     }},
+    {"near-1e6",  // where floats are a sixteenth apart
+     [](std::size_t n) { return soup(n, [](Point p) { return scaled(p, 8, 1e6f); }); }},
+    {"denormal",
+     [](std::size_t n) { return soup(n, [](Point p) { return scaled(p, 1e-39f, 0); }); }},
+    {"huge",  // extents and sums of coordinates reach the end of what a float holds
+     [](std::size_t n) { return soup(n, [](Point p) { return scaled(p, 3e38f, -1.5e38f); }); }},
+    {"negative-zero",
+     [](std::size_t n) {
+         return soup(n, [](Point p) {
+             return Point{p.x < 0.5f ? -0.0f : 0.0f, p.y < 0.5f ? -0.0f : p.y, -0.0f};
+         });
+     }},
 };
 
 constexpr std::size_t sizes[] = {1, 2, 3, 4, 5, 7, 8, 9, 63, 64, 65, 255, 256, 257, 1000, 4097};

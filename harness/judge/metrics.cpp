@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "harness/judge/compensated_sum.h"
 #include "harness/judge/end_point_overlap.h"
 
 namespace bvhbench {
@@ -31,20 +30,12 @@ Aabb common(const Aabb& a, const Aabb& b)
 
 }  // namespace
 
-double surface_area(const Aabb& box)
-{
-    const double x = static_cast<double>(box.max_x) - box.min_x;
-    const double y = static_cast<double>(box.max_y) - box.min_y;
-    const double z = static_cast<double>(box.max_z) - box.min_z;
-    return 2 * (x * y + y * z + z * x);
-}
-
 std::optional<AreaSums> area_sums(const HostTree& tree)
 {
     const double whole = root_area(tree);
     if (!(whole > 0))
         return std::nullopt;
-    CompensatedSum inner, leaf;
+    CompensatedSum<> inner, leaf;
     for (const HostTree::Node& node : tree.nodes)
         (is_leaf(node) ? leaf : inner).add(surface_area(node.box));
     return AreaSums{inner.value() / whole, leaf.value() / whole};
@@ -55,8 +46,8 @@ std::optional<double> sibling_overlap(const HostTree& tree)
     const double whole = root_area(tree);
     if (!(whole > 0))
         return std::nullopt;
-    CompensatedSum sum;
-    for (const HostTree::Node& node : tree.nodes) {
+    CompensatedSum<> sum;
+    for (const HostTree::Node& node : tree.nodes)
         for (std::size_t side = 1; side < HostTree::most_children; ++side)
             for (std::size_t before = 0; before < side && node.child[side] != HostTree::none;
                  ++before) {
@@ -65,7 +56,6 @@ std::optional<double> sibling_overlap(const HostTree& tree)
                 if (overlap(left, right))
                     sum.add(surface_area(common(left, right)));
             }
-    }
     return sum.value() / whole;
 }
 
@@ -103,10 +93,8 @@ Quality quality_of(const HostTree& tree, const NodeCosts& costs)
         for (const char* counter : {"sah_cost", "sibling_overlap"})
             quality.left_out[counter] = "the root's box has no area";
     }
-    quality.leaves_by_depth = leaves_by_depth(tree);
-    const std::vector<std::int64_t>& depths = quality.leaves_by_depth;
-    double leaves = 0;
-    double sum = 0;  // whole numbers, exact up to 2^53
+    const std::vector<std::int64_t>& depths = quality.leaves_by_depth = leaves_by_depth(tree);
+    double leaves = 0, sum = 0;  // whole numbers, exact up to 2^53
     for (std::size_t depth = 0; depth < depths.size(); ++depth) {
         leaves += static_cast<double>(depths[depth]);
         sum += static_cast<double>(depths[depth]) * static_cast<double>(depth);

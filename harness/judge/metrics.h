@@ -6,6 +6,7 @@
 // (builders/spell_out.h). What has no value, as any share of a root without area, is left out, never NaN.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -20,7 +21,31 @@
 namespace bvhbench {
 
 /// A, the surface area of a box: 0 when it is flat in two directions, not when in one.
-double surface_area(const Aabb& box);
+template <class Real = double>
+Real surface_area(const Aabb& box)
+{
+    const Real x = static_cast<Real>(box.max_x) - static_cast<Real>(box.min_x);
+    const Real y = static_cast<Real>(box.max_y) - static_cast<Real>(box.min_y);
+    const Real z = static_cast<Real>(box.max_z) - static_cast<Real>(box.min_z);
+    return 2 * (x * y + y * z + z * x);
+}
+
+/// A sum of Reals that is as if added in twice the precision, whatever the order: what each addition rounds
+/// off is kept apart (Neumaier 1974). Needs no number to be smaller than the sum so far, as Kahan's does.
+template <class Real = double>
+class CompensatedSum {
+public:
+    void add(Real value)
+    {
+        const Real sum = sum_ + value;
+        lost_ += std::fabs(sum_) >= std::fabs(value) ? (sum_ - sum) + value : (value - sum) + sum_;
+        sum_ = sum;
+    }
+    Real value() const { return sum_ + lost_; }
+
+private:
+    Real sum_ = 0, lost_ = 0;
+};
 
 /// A sum over inner nodes, the root and nodes with one child too, and one over leaves, of the area that the
 /// metric counts. Any choice of costs follows from them.

@@ -15,7 +15,7 @@
 #include "geometry/host_memory.h"
 #include "harness/base/failure.h"
 #include "harness/base/interrupt.h"
-#include "harness/judge/differences.h"
+#include "harness/judge/pair_counts.h"
 #include "harness/measure/engine.h"
 #include "harness/session/session_samples.h"
 

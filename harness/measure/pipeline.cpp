@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "geometry/error.h"
-#include "harness/judge/query_bytes.h"
+#include "harness/judge/pair_counts.h"
 
 namespace bvhbench {
 

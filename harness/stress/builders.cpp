@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include <memory>
+#include <algorithm>
+#include <future>
 
 #include "builders/spell_out.h"
+#include "collide/oracles/sweep.h"
 #include "geometry/bits.h"
-#include "geometry/error.h"
-#include "geometry/hash.h"
 #include "harness/base/failure.h"
-#include "harness/judge/contract.h"
-#include "harness/stress/systems.h"
+#include "harness/measure/engine.h"
+#include "harness/stress/run.h"
 #include "oibvh/layout.h"
+#include "oibvh/layout_check.h"
+#include "scenes/generate/random.h"
 
 namespace bvhbench {
 namespace {
@@ -16,152 +18,196 @@ namespace {
 using enum Finding::Verdict;
 
 /// Launches that a build takes at most: passes of sorts over codes of 63 bits, and a few a level.
-int most_launches(uint triangles) { return 100 + 8 * static_cast<int>(ceil_log2(triangles)); }
-
-int launches_of(const std::vector<StageTime>& stages)
+Finding judge_launches(const std::vector<StageTime>& stages, uint triangles)
 {
     int launches = 0;
     for (const StageTime& stage : stages)
         launches += stage.launches;
-    return launches;
+    if (launches <= 100 + 8 * static_cast<int>(ceil_log2(triangles)))
+        return {holds, 1};
+    return {broken, 1, 1, 0, "it took " + std::to_string(launches) + " launches"};
 }
 
-Finding judge_launches(int launches, uint triangles)
-{
-    Finding finding{holds, 1};
-    if (launches > most_launches(triangles))
-        finding = {broken, 1, 1, 0, "it took " + std::to_string(launches) + " launches"};
-    return finding;
-}
-
-/// Whether its nodes lie as the paper's layout says: Eq. (7) counts them.
-bool has_the_papers_layout(const BuilderEntry& entry)
-{
-    return entry.oracle == "oibvh-reference" && entry.name != "perfect";
-}
-
+/// Nodes are counted by Eq. (7) where they lie as the paper's layout says.
 Finding judge_layout(const BuilderEntry& entry, const Tree& tree, const Builder& builder,
                      uint triangles)
 {
-    Finding finding{holds, tree.node_count()};
+    const std::size_t nodes = tree.node_count();
+    const bool has_the_papers = entry.oracle == "oibvh-reference" && entry.name != "perfect";
+    if (const std::size_t right = oi_node_count(oi_shape(triangles));
+        has_the_papers && nodes != right)
+        return {broken, nodes, 0, 0,
+                "it stores " + std::to_string(nodes) + " nodes, and Eq. (7) says " +
+                    std::to_string(right)};
     if (builder.footprint(triangles) != builder.reserved())
-        finding = {broken, finding.checked, 0, 0, "it reserves other memory than it predicts"};
-    if (has_the_papers_layout(entry) && tree.node_count() != oi_node_count(oi_shape(triangles)))
-        finding = {broken, finding.checked, 0, 0,
-                   "it stores " + std::to_string(tree.node_count()) + " nodes, and Eq. (7) says " +
-                       std::to_string(oi_node_count(oi_shape(triangles)))};
-    return finding;
+        return {broken, nodes, 0, 0, "it reserves other memory than it predicts"};
+    return {holds, nodes};
 }
 
-/// One build, and which invariant it breaks, if it does.
-Findings judge_one_build(Session& session, const BuilderChoice& choice, const Input& input,
-                         Oracle& oracle)
+bool is_any_broken(const Findings& findings)
 {
-    Builder& builder = session.builder(choice);
-    builder.reserve(input.triangle_count());
+    return std::any_of(findings.begin(), findings.end(),
+                       [](const auto& one) { return one.second.verdict == broken; });
+}
+
+/// One build, whose launches and layout are judged, and its tree, whose leaves and boxes are not yet.
+struct BuiltOnce {
+    Findings findings;
+    HostTree tree;
+};
+
+BuiltOnce built_once(Session& session, Builder& builder, const BuilderEntry& entry,
+                     const Input& input)
+{
+    const uint triangles = input.triangle_count();
+    builder.reserve(triangles);
     const Tree* tree = nullptr;
     const auto stages = session.build_once(builder, input, Start::from_triangles, &tree);
-    const HostTree spelled_out = tree->spelled_out();
-    Findings findings = judge_tree(spelled_out, input.points, input.faces);
-    findings[Invariant::ends] = judge_launches(launches_of(stages), input.triangle_count());
-    findings[Invariant::layout] =
-        judge_layout(find_builder(choice.name), *tree, builder, input.triangle_count());
-    const Check check = check_tree(spelled_out, input, choice, oracle);
-    const bool is_wrong_tree = check.verdict == Check::Verdict::differs &&
-                               findings[Invariant::leaves].verdict == holds &&
-                               findings[Invariant::boxes].verdict == holds;
-    if (is_wrong_tree)
-        findings[Invariant::layout] = {broken, tree->node_count(), 0, 0, check.detail};
-    return findings;
+    return {{{Invariant::ends, judge_launches(stages, triangles)},
+             {Invariant::layout, judge_layout(entry, *tree, builder, triangles)}},
+            tree->spelled_out()};
 }
 
-Finding judge_builds(Session& session, const BuilderChoice& choice, const Input& input, int repeats)
+/// Builds, and which invariants they break.
+Findings judge_builds(Session& session, const BuilderChoice& choice, SceneUnderStress& scene,
+                      int repeats)
 {
+    const Input& input = scene.input();
     Builder& builder = session.builder(choice);
-    builder.reserve(input.triangle_count());
-    std::vector<std::uint64_t> hashes;
-    for (int repeat = 0; repeat <= repeats; ++repeat) {
+    BuiltOnce built = built_once(session, builder, find_builder(choice.name), input);
+    Findings findings = judge_tree(built.tree, input.points, input.faces);
+    const Check check = check_tree(built.tree, input, choice, scene.oracle());
+    if (check.verdict == Check::Verdict::differs && !is_any_broken(findings))
+        built.findings[Invariant::layout] = {broken, built.findings[Invariant::layout].checked, 0,
+                                             0, check.detail};
+    findings.merge(built.findings);
+    std::vector<std::uint64_t> hashes = {*check.tree_hash};
+    for (int repeat = 0; repeat < repeats; ++repeat) {
         const Tree* tree = nullptr;
         session.build_once(builder, input, Start::from_triangles, &tree);
         hashes.push_back(tree_hash(tree->spelled_out()));
     }
-    return judge_repeats(hashes);
+    findings[Invariant::same] = judge_repeats(hashes);
+    return findings;
 }
 
 }  // namespace
+
+SceneUnderStress::SceneUnderStress(Session& session, std::function<StressScene()> make,
+                                   std::uint64_t seed)
+    : scene(std::move(make))
+    , pairs([this] { return touching_pairs(scene().mesh.points, scene().mesh.faces, true); })
+    , input([this, &session] {
+        return upload(session.device(), session.queue(), scene().mesh.points, scene().mesh.faces);
+    })
+    , oracle([this, &session] { return Oracle(session, input()); })
+    , question([this, seed] { return question_of(scene(), seed); })
+    , question_apart([this] { return without_adjacent(question()); })
+{}
+
+Findings settled(Session& session, bool may_refuse, const std::function<Findings()>& judge)
+{
+    Findings findings;
+    Subject subject;
+    int order = 0;
+    Engine(session, {}, order).settle(subject, [&] { findings = judge(); });
+    const Cell& cell = subject.cell;
+    if (cell.status == Cell::Status::measured)
+        findings.try_emplace(Invariant::ends, Finding{holds, 1});
+    else if (may_refuse || cell.status == Cell::Status::skipped)
+        findings = {{Invariant::ends, {refused, 1, 0, 0, cell.reason}}};
+    else
+        findings = {{Invariant::ends, {broken, 1, 1, 0, cell.reason}}};
+    return findings;
+}
+
+StressSystem stress_system(std::string name, StressCell::Kind kind, std::string library,
+                           std::function<std::optional<Findings>(SceneUnderStress&)> judge)
+{
+    StressSystem system{{}, std::move(judge)};
+    system.cell.system = std::move(name);
+    system.cell.kind = kind;
+    system.cell.library = std::move(library);
+    return system;
+}
 
 std::string system_name(const BuilderChoice& builder)
 {
     return builder.name + (builder.boxes == "f32" ? "" : " in " + builder.boxes);
 }
 
-bool builds_on_device(Session& session, const BuilderEntry& entry)
+std::vector<BuilderChoice> device_builders(Session& session)
 {
-    bool on_device = false;  // of one that cannot be made, judge_builder says why
-    reason_of_failure([&] {
-        on_device = entry.make != nullptr &&
-                    entry.make(session.programs(), {})->card().runs == BuilderCard::Runs::on_device;
-    });
-    return on_device;
+    std::vector<BuilderChoice> builders;
+    for (const BuilderEntry& entry : builder_catalog())
+        reason_of_failure([&] {  // of one that cannot be made, judge_builder says why
+            if (entry.make != nullptr &&
+                entry.make(session.programs(), {})->card().runs == BuilderCard::Runs::on_device)
+                builders.push_back({.name = std::string(entry.name)});
+        });
+    return builders;
 }
 
-Findings judge_builder(Session& session, const BuilderChoice& choice, const Input& input,
-                       Oracle& oracle, int repeats)
+Findings judge_builder(Session& session, const BuilderChoice& choice, SceneUnderStress& scene,
+                       int repeats)
 {
-    Findings findings;
-    const BuilderEntry& entry = find_builder(choice.name);
-    bool refused = false;
+    const Input& input = scene.input();
     std::string wrong;
-    bool cannot_be = false;
-    const std::string failure = reason_of_failure(cannot_be, [&] {
-        wrong = broken_contract(session, choice, input, oracle, &refused);
-        if (refused)
-            return;
-        findings = judge_one_build(session, choice, input, oracle);
-        findings[Invariant::same] = judge_builds(session, choice, input, repeats);
+    Findings findings = settled(session, false, [&]() -> Findings {
+        bool is_refused = false;
+        wrong = broken_contract(session, choice, input, scene.oracle(), &is_refused);
+        if (!is_refused)
+            return judge_builds(session, choice, scene, repeats);
+        const std::string why(find_builder(choice.name).may_refuse);
+        return {{Invariant::ends, {refused, 1, 0, 0, why}}};
     });
-    if (refused)
-        return {
-            {Invariant::ends, {Finding::Verdict::refused, 1, 0, 0, std::string(entry.may_refuse)}}};
-    if (!failure.empty()) {
-        session.renew_queue();
-        if (cannot_be)
-            return {{Invariant::ends, {Finding::Verdict::refused, 1, 0, 0, failure}}};
-        return {{Invariant::ends, {broken, 1, 1, 0, failure}}};
-    }
-    bool is_told = wrong.empty();
-    for (const auto& [invariant, finding] : findings)
-        is_told = is_told || finding.verdict == broken;
-    if (!is_told)  // of the second build, of sorted leaves, of a refit
+    if (!wrong.empty() && !is_any_broken(findings))  // the second build, sorted leaves, a refit
         findings[Invariant::same] = {broken, 1, 1, 0, wrong};
     return findings;
 }
 
-LateFindings build_large(Session& session, const BuilderChoice& choice, const Input& input)
+Findings judge_large_build(Session& session, const BuilderChoice& choice, SceneUnderStress& scene)
 {
-    const BuilderEntry& entry = find_builder(choice.name);
-    LateFindings late;
-    auto spelled_out = std::make_shared<HostTree>();
-    const std::string failure = reason_of_failure([&] {
+    const Input& input = scene.input();
+    return settled(session, false, [&] {
+        const BuilderEntry& entry = find_builder(choice.name);
         const auto builder = make_builder(choice, session.programs());
-        builder->reserve(input.triangle_count());
-        const Tree* tree = nullptr;
-        const auto stages = session.build_once(*builder, input, Start::from_triangles, &tree);
-        late.so_far[Invariant::ends] = judge_launches(launches_of(stages), input.triangle_count());
-        late.so_far[Invariant::layout] =
-            judge_layout(entry, *tree, *builder, input.triangle_count());
-        *spelled_out = tree->spelled_out();
+        auto [findings, tree] = built_once(session, *builder, entry, input);
+        const auto hash =
+            std::async(std::launch::async, [&tree] { return tree_hash(tree); }).share();
+        join(findings, judge_tree(tree, input.points, input.faces));
+        if (!entry.oracle.empty() &&
+            scene.hashes.try_emplace(entry.oracle, hash.get()).first->second != hash.get())
+            findings[Invariant::layout] = {
+                broken, 1, 0, 0,
+                "it is another tree than another builder's, which must leave the same"};
+        return findings;
     });
-    if (!failure.empty()) {
-        session.renew_queue();
-        late.so_far = {{Invariant::ends, {broken, 1, 1, 0, failure}}};
-        late.check = [] { return LateFindings::Tree{}; };
-        return late;
-    }
-    late.check = [spelled_out, points = input.points, faces = input.faces] {
-        return LateFindings::Tree{judge_tree(*spelled_out, points, faces), tree_hash(*spelled_out)};
+}
+
+Findings judge_layout_formulas(const StressSize& size)
+{
+    Finding finding;
+    const auto look_at = [&](uint leaves) {
+        ++finding.checked;
+        const std::string wrong = broken_layout(leaves);
+        if (wrong.empty())
+            return;
+        if (finding.wrong++ == 0)
+            finding.detail = wrong;
+        finding.verdict = broken;
     };
-    return late;
+    const uint count = size.quick ? 10000 : 1000000;
+    for (uint leaves = 1; leaves <= count; ++leaves)
+        look_at(leaves);
+    for (uint k = 13; k <= 31; ++k)
+        for (const uint leaves : {(1u << k) - 1, 1u << k, (1u << k) + 1})
+            if (leaves <= 1u << 31)
+                look_at(leaves);
+    Random random(size.seed);
+    for (uint k = 0; k < count; ++k)
+        look_at(1 + static_cast<uint>(random.bits() % (1u << 31)));
+    return {{Invariant::layout, finding}};
 }
 
 }  // namespace bvhbench

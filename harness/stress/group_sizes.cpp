@@ -3,112 +3,92 @@
 // No parameter may change an answer. Those that are sizes of groups are tried with every value that they and the device
 // allow, each in a session of its own over the pipeline that asks for it.
 #include <algorithm>
+#include <memory>
 #include <set>
 
-#include "baselines/parameters.h"
-#include "builders/parameters.h"
-#include "collide/parameters.h"
-#include "geometry/error.h"
-#include "harness/base/failure.h"
-#include "harness/stress/parts.h"
+#include "harness/session/tuning_file.h"
+#include "harness/stress/run.h"
 
 namespace bvhbench {
 namespace {
 
-/// What can ask for a group size, from what takes the least to compile on.
-struct Asker {
-    BuilderChoice builder;
-    ColliderChoice collider;  ///< of an empty name: the builder alone
+/// What can ask for a group size, from what takes the least to compile on; without a collider's name, the builder alone.
+std::vector<StressPipeline> askers()
+{
+    std::vector<StressPipeline> all = {{{.name = "oibvh-multi"}, {}},
+                                       {{.name = "oibvh-single"}, {}},
+                                       {{.name = "oibvh-multi", .sorted_leaves = true}, {}},
+                                       {{.name = "oibvh-multi", .order = "kd"}, {}},
+                                       {{.name = "apetrei"}, {}},
+                                       {{.name = "apetrei-fused"}, {}},
+                                       {{.name = "karras"}, {}},
+                                       {{.name = "lbvh-levels"}, {}},
+                                       {{.name = "oibvh-wide4"}, {}}};
+    for (const KernelForm form : {KernelForm::groups, KernelForm::chunks})
+        for (const char* name : {"leaf", "group", "block", "bvtt", "front", "grid"})
+            all.push_back({{.name = "oibvh-multi"}, {.name = name, .form = form}});
+    all.push_back({{.name = "oibvh-multi"}, {.name = "leaf", .narrow = "exact"}});
+    return all;
+}
+
+struct Tried {
+    Findings findings;
+    std::set<const Parameter*> asked;  ///< parameters whose value was asked for
 };
 
-std::vector<Asker> askers()
+/// Throws what the builder or pipeline throws.
+Tried tried(Session& session, SceneUnderStress& scene, const StressPipeline& asker,
+            const Tuning& tuning)
 {
-    std::vector<Asker> all = {{{.name = "oibvh-multi"}, {}},
-                              {{.name = "oibvh-single"}, {}},
-                              {{.name = "oibvh-multi", .sorted_leaves = true}, {}},
-                              {{.name = "oibvh-multi", .order = "kd"}, {}},
-                              {{.name = "apetrei"}, {}},
-                              {{.name = "apetrei-fused"}, {}},
-                              {{.name = "karras"}, {}},
-                              {{.name = "lbvh-levels"}, {}},
-                              {{.name = "oibvh-wide4"}, {}}};
-    for (const KernelForm form : {KernelForm::groups, KernelForm::chunks})
-        for (const char* name : {"leaf", "group", "block", "bvtt", "front", "grid"}) {
-            ColliderChoice collider;
-            collider.name = name;
-            collider.form = form;
-            all.push_back({{.name = "oibvh-multi"}, collider});
-        }
-    ColliderChoice exact;
-    exact.name = "leaf";
-    exact.narrow = "exact";
-    all.push_back({{.name = "oibvh-multi"}, exact});
-    return all;
-}
-
-std::vector<const Parameter*> group_sizes()
-{
-    std::vector<const Parameter*> all;
-    const auto add = [&](const auto& parameters) {
-        for (const Parameter* parameter : parameters)
-            if (parameter->values == ValueIs::group_size)
-                all.push_back(parameter);
-    };
-    add(builder_parameters);
-    add(baseline_parameters);
-    add(collider_parameters);
-    return all;
-}
-
-class Trial {
-public:
-    Trial(Session& session, const StressQuestion& question, const Asker& asker,
-          const Tuning& tuning)
-        : session_(tuned(session.device(), tuning), session.scenes())
-        , question_(question)
-        , asker_(asker)
-    {}
-
-    /// Throws what the builder or pipeline throws.
-    Findings run()
-    {
-        const Mesh& mesh = question_.scene.mesh;
-        if (!asker_.collider.name.empty())
-            return judge_finder(finder_of(session_, {asker_.builder, asker_.collider, false}),
-                                {question_.scene, question_.expected, {}}, 0);
-        const Input input = upload(session_.device(), session_.queue(), mesh.points, mesh.faces);
-        Builder& builder = session_.builder(asker_.builder);
-        builder.reserve(input.triangle_count());
-        const Tree* tree = nullptr;
-        session_.build_once(builder, input, Start::from_triangles, &tree);
-        Oracle oracle(session_, input);
-        Findings findings = judge_tree(tree->spelled_out(), mesh.points, mesh.faces);
-        const Check check = check_tree(tree->spelled_out(), input, asker_.builder, oracle);
-        findings[Invariant::layout] = {check.verdict == Check::Verdict::differs
-                                           ? Finding::Verdict::broken
-                                           : Finding::Verdict::holds,
-                                       1, 0, 0, check.detail};
-        return findings;
+    Device device = session.device();
+    device.tuning = tuning;
+    Session own(std::move(device), session.scenes());
+    Findings findings;
+    if (!asker.collider.name.empty()) {
+        const StressQuestion& question = scene.question();
+        findings = judge_finder(finder_of(own, asker), {question.scene, question.expected, {}});
+    } else {
+        const Mesh& mesh = scene.scene().mesh;
+        const Input input = upload(own.device(), own.queue(), mesh.points, mesh.faces);
+        const HostTree tree = built_tree(own, asker.builder, input).spelled_out();
+        Oracle oracle(own, input);
+        const Check check = check_tree(tree, input, asker.builder, oracle);
+        const bool is_wrong = check.verdict == Check::Verdict::differs;
+        findings = judge_tree(tree, mesh.points, mesh.faces);
+        findings[Invariant::layout] = {
+            is_wrong ? Finding::Verdict::broken : Finding::Verdict::holds, 1, 0, 0, check.detail};
     }
+    return {std::move(findings), own.device().tuning.asked()};
+}
 
-    bool asks_for(const Parameter& parameter) const
+/// Who asks for a parameter. Askers are tried with default values, in turn, until one asks for it.
+class Askers {
+public:
+    explicit Askers(Session& session) : session_(session) {}
+
+    /// Null if nobody asks on this kind of device. What was found meanwhile is added to `findings`.
+    const StressPipeline* of(const Parameter& parameter, SceneUnderStress& scene,
+                             Findings& findings)
     {
-        return session_.device().tuning.asked().contains(&parameter);
+        for (std::size_t k = 0; k < all_.size(); ++k) {
+            if (k == asked_.size()) {
+                Tried one = tried(session_, scene, all_[k], {});
+                join(findings, one.findings);
+                asked_.push_back(std::move(one.asked));
+            }
+            if (asked_[k].contains(&parameter))
+                return &all_[k];
+        }
+        return nullptr;
     }
 
 private:
-    static Device tuned(Device device, const Tuning& tuning)
-    {
-        device.tuning = tuning;
-        return device;
-    }
-
-    Session session_;
-    const StressQuestion& question_;
-    Asker asker_;
+    Session& session_;
+    const std::vector<StressPipeline> all_ = askers();
+    std::vector<std::set<const Parameter*>> asked_;  ///< by each that was tried
 };
 
-/// All powers of two from the least to the most; if few, the ends and one between.
+/// All powers of two from the least to the most; if few, the ends.
 std::vector<uint> values_of(const Parameter& parameter, bool few)
 {
     std::vector<uint> values;
@@ -120,100 +100,63 @@ std::vector<uint> values_of(const Parameter& parameter, bool few)
     return values;
 }
 
-Findings over_value(Session& session, const StressQuestion& question, const Asker& asker,
-                    const Parameter& parameter, uint value)
+/// What `judge` finds with each value, so that findings say at which.
+template <class JudgeAt>
+Findings judged_values(const Parameter& parameter, bool few, const JudgeAt& judge)
 {
     Findings findings;
-    const std::string failure = reason_of_failure([&] {
-        Tuning tuning("stress");
-        tuning.set(parameter, value);
-        findings = Trial(session, question, asker, tuning).run();
-        findings[Invariant::ends] = {Finding::Verdict::holds, 1};
-    });
-    if (!failure
-             .empty())  // the device has no such groups, or not the local memory for them: one sentence
-        return {{Invariant::ends, {Finding::Verdict::refused, 1, 0, 0, failure}}};
+    for (const uint value : values_of(parameter, few))
+        join(findings, with_words("at " + std::to_string(value), judge(value)));
     return findings;
 }
 
-/// The same sizes as a builder's own option, in which kernels in groups are had on every device.
-void stress_option(Session& session, const StressTask& task, const StressScene& scene,
-                   StressCell cell, const AddStressCell& add)
-{
-    const Input input =
-        upload(session.device(), session.queue(), scene.mesh.points, scene.mesh.faces);
-    Oracle oracle(session, input);
-    const Parameter any{.name = "--group-size",
-                        .meaning = "",
-                        .stage = "",
-                        .least = 1,
-                        .most = 1024,
-                        .values = ValueIs::group_size,
-                        .candidates = {}};
-    for (const BuilderEntry& entry : builder_catalog()) {
-        cell.system = std::string(entry.name) + ' ' + std::string(any.name);
-        if (!builds_on_device(session, entry) || !task.wants(cell))
-            continue;
-        StressCell done = cell;
-        for (const uint value : values_of(any, task.size.quick)) {
-            join(done.findings,
-                 with_words(
-                     "at " + std::to_string(value),
-                     judge_builder(session, {.name = std::string(entry.name), .group_size = value},
-                                   input, oracle, 0)));
-        }
-        add(std::move(done));
-    }
-}
+/// The option of builders, in which kernels in groups are had on every device.
+constexpr Parameter builder_option{.name = "--group-size",
+                                   .meaning = "",
+                                   .stage = "",
+                                   .least = 1,
+                                   .most = 1024,
+                                   .values = ValueIs::group_size,
+                                   .candidates = {}};
 
 }  // namespace
 
-void stress_group_sizes(Session& session, const StressTask& task, const AddStressCell& add)
+std::vector<StressSystem> group_size_systems(Session& session, bool few)
 {
-    const uint triangles = task.size.quick ? 500 : 5000;
-    std::optional<StressQuestion> question;
-    std::vector<std::pair<Asker, std::set<const Parameter*>>> asked;
-    for (const Parameter* parameter : group_sizes()) {
-        StressCell cell;
-        cell.family = "group-sizes";
-        cell.scene = std::to_string(triangles) + " triangles";
-        cell.system = parameter->name;
-        cell.triangles = triangles;
-        if (!task.wants(cell))
+    std::vector<StressSystem> systems;
+    const auto add = [&](std::string name, const auto& judge) {
+        systems.push_back(stress_system(std::move(name), StressCell::Kind::builder, "", judge));
+    };
+    const auto askers = std::make_shared<Askers>(session);
+    for (const Parameter* parameter : tuning_parameters()) {
+        if (parameter->values != ValueIs::group_size)
             continue;
-        if (!question)
-            question = question_of(crossed_spheres(triangles, task.size.seed), task.size.seed);
-        const auto found = std::find_if(asked.begin(), asked.end(), [&](const auto& one) {
-            return one.second.contains(parameter);
-        });
-        std::optional<Asker> asker;
-        if (found != asked.end())
-            asker = found->first;
-        for (std::size_t next = asked.size(); !asker && next < askers().size(); ++next) {
-            Trial trial(session, *question, askers()[next], {});
-            join(cell.findings, trial.run());
-            std::set<const Parameter*> wants;
-            for (const Parameter* each : group_sizes())
-                if (trial.asks_for(*each))
-                    wants.insert(each);
-            asked.emplace_back(askers()[next], wants);
-            if (wants.contains(parameter))
-                asker = askers()[next];
-        }
-        if (!asker)
-            continue;  // nobody asks for it on this kind of device
-        for (const uint value : values_of(*parameter, task.size.quick)) {
-            join(cell.findings,
-                 with_words("at " + std::to_string(value),
-                            over_value(session, *question, *asker, *parameter, value)));
-        }
-        add(std::move(cell));
+        add(std::string(parameter->name),
+            [&session, askers, parameter, few](SceneUnderStress& scene) -> std::optional<Findings> {
+                Findings findings;
+                const StressPipeline* asker = askers->of(*parameter, scene, findings);
+                if (asker == nullptr)
+                    return {};
+                // A device that has no such groups, or not the local memory for them, says so.
+                join(findings, judged_values(*parameter, few, [&](uint value) {
+                         return settled(session, true, [&] {
+                             Tuning tuning("stress");
+                             tuning.set(*parameter, value);
+                             return tried(session, scene, *asker, tuning).findings;
+                         });
+                     }));
+                return findings;
+            });
     }
-    StressCell cell;
-    cell.family = "group-sizes";
-    cell.scene = std::to_string(triangles) + " triangles";
-    cell.triangles = triangles;
-    stress_option(session, task, crossed_spheres(triangles, task.size.seed), std::move(cell), add);
+    for (const BuilderChoice& builder : device_builders(session))
+        add(builder.name + " --group-size", [&session, builder, few](SceneUnderStress& scene) {
+            return judged_values(builder_option, few, [&](uint value) {
+                BuilderChoice sized = builder;
+                sized.group_size = value;
+                return judge_builder(session, sized, scene, 0);
+            });
+        });
+    return systems;
 }
 
 }  // namespace bvhbench

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Findings about answers, whoever gave them: trees, pairs, and whoever finds pairs.
+// Findings about answers, whoever gave them: trees, pairs, and systems that find pairs. A variant is a scene in other words:
+// what is found over it must be what was found before, and no reference is needed to know.
 #pragma once
 
 #include <functional>
@@ -10,19 +11,40 @@
 #include "builders/tree.h"
 #include "collide/pairs.h"
 #include "harness/record/finding.h"
-#include "harness/stress/variants.h"
+#include "scenes/stress/stress_scene.h"
 
 namespace bvhbench {
+
+struct StressVariant {
+    Invariant of;  ///< agree or moved
+    std::string_view name;
+    StressScene scene;
+    std::vector<uint> original =
+        {};  ///< by this scene's triangle, the other one's; empty: the same
+};
+
+/// Every coordinate times a power of two, exactly; nothing if there is none that leaves all bits there. From 2^-30 to
+/// 2^30, which one depends on the seed.
+std::optional<StressVariant> scaled(const StressScene& scene, std::uint64_t seed);
+
+/// Every coordinate moved by some power of two, exactly, after the bits that have no room there are taken off in `snapped`;
+/// nothing where that leaves one place of all.
+struct Translation {
+    StressScene snapped;
+    StressVariant moved;
+};
+std::optional<Translation> translated(const StressScene& scene);
+
+/// Pairs by the numbers that triangles have in the scene that a variant is of.
+PairList in_original_numbers(const PairList& pairs, const StressVariant& variant);
 
 /// Leaves and boxes of a tree.
 Findings judge_tree(const HostTree& tree, std::span<const Point> points,
                     std::span<const Face> faces);
 
-/// Of a set of pairs: how many are missed, false, or found twice.
-Finding judge_pairs(const PairList& found, const PairList& expected);
-
-/// The same of pairs of boxes that were rounded outward: others may be among them.
-Finding judge_candidates(const PairList& found, const PairList& expected);
+/// Of a set of pairs: how many are missed, false, or found twice. False ones are allowed if `may_add`: of pairs of boxes that
+/// were rounded outward.
+Finding judge_pairs(const PairList& found, const PairList& expected, bool may_add = false);
 
 /// Of the same thing done so often: hashes that are not the first one.
 Finding judge_repeats(std::span<const std::uint64_t> hashes);
@@ -51,14 +73,14 @@ struct StressQuestion {
     std::vector<Variant> variants;
 };
 
-/// With what the sweep and the exact predicates say, the latter where the program has them. Pairs that share a vertex
-/// are among them.
+/// What the sweep and the exact predicates say, the latter where the program has them. Pairs that share a vertex are among
+/// them. The variants are triangles shuffled within each object, the objects in reverse order, scaled() and translated().
 StressQuestion question_of(StressScene scene, std::uint64_t seed);
 
 /// The same without pairs that share a vertex, for systems that do not tell them.
 StressQuestion without_adjacent(const StressQuestion& question);
 
-/// Put the question. Throws what the system throws; `repeats` more runs than the others need must find the same.
-Findings judge_finder(const PairFinder& finder, const StressQuestion& question, int repeats);
+/// Put the question. Throws what the system throws.
+Findings judge_finder(const PairFinder& finder, const StressQuestion& question);
 
 }  // namespace bvhbench

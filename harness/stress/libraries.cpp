@@ -1,23 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include "harness/stress/libraries.h"
 
+#include <sys/mman.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
+#include <array>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
-#include <iostream>
-#include <iterator>
-#include <span>
 
 #include "collide/oracles/exact_reference.h"
 #include "collide/oracles/sweep.h"
 #include "geometry/error.h"
 #include "harness/base/failure.h"
-#include "harness/base/interrupt.h"
+#include "scenes/mesh_file.h"
+#include "scenes/worker/message.h"
 #include "scenes/worker/process.h"
 
 namespace bvhbench {
@@ -29,97 +27,96 @@ constexpr std::string_view argument = "--plain-library";
 constexpr std::size_t memory_limit = std::size_t{12} << 30;  ///< of a worker
 constexpr std::string_view answer_mark = "PAIRS 1\n", refusal_mark = "ERROR 1\n";
 
-template <class T>
-void put(std::ostream& out, const std::vector<T>& values)
-{
-    const std::uint64_t count = values.size();
-    out.write(reinterpret_cast<const char*>(&count), sizeof count);
-    out.write(reinterpret_cast<const char*>(values.data()),
-              static_cast<std::streamsize>(count * sizeof(T)));
-}
-
-template <class T>
-std::vector<T> taken(std::istream& in)
-{
-    std::uint64_t count = 0;
-    in.read(reinterpret_cast<char*>(&count), sizeof count);
-    std::vector<T> values(in ? count : 0);
-    in.read(reinterpret_cast<char*>(values.data()),
-            static_cast<std::streamsize>(count * sizeof(T)));
-    return values;
-}
-
-/// A scene in a file for a worker, gone with the object.
+/// A scene in memory, which a worker reads as a file while the object is there.
 class SceneFile {
 public:
-    explicit SceneFile(const StressScene& scene)
+    explicit SceneFile(const StressScene& scene) : file_(memfd_create("scene", MFD_CLOEXEC))
     {
-        static std::atomic<int> made = 0;
-        path_ = std::filesystem::temp_directory_path() /
-                ("bvhbench-stress-" + std::to_string(getpid()) + '-' + std::to_string(++made));
-        std::ofstream out(path_, std::ios::binary);
-        put(out, scene.mesh.points);
-        put(out, scene.mesh.faces);
-        put(out, scene.objects);
-        if (!out.flush())
-            throw Unavailable(path_.string() + " cannot be written");
+        FileMesh file{scene.mesh, {}};
+        for (const FaceRange& range : scene.objects)
+            file.objects.push_back({{}, range.first, range.count});
+        if (file_ < 0 || !write_all(file_, mesh_message(file)))
+            throw Unavailable("there is no room for a scene that a library is to read");
     }
-    ~SceneFile()
-    {
-        std::error_code ignored;
-        std::filesystem::remove(path_, ignored);
-    }
+    ~SceneFile() { close(file_); }
     SceneFile(const SceneFile&) = delete;
     SceneFile& operator=(const SceneFile&) = delete;
 
-    std::string path() const { return path_.string(); }
+    std::string path() const
+    {
+        return "/proc/" + std::to_string(getpid()) + "/fd/" + std::to_string(file_);
+    }
 
 private:
-    std::filesystem::path path_;
-    const AtSignal removed_{[this] { std::filesystem::remove(path_); }};
+    int file_;
 };
 
-const PlainLibrary& library_called(std::string_view name)
+/// What the library of that name finds in the scene of a file.
+std::vector<Pair> found_in(std::string_view name, const std::string& path)
 {
+    const auto message = decoded(file_bytes(path));
+    if (!message || !std::holds_alternative<FileMesh>(*message))
+        throw Unavailable(path + " cannot be read");
+    const FileMesh& file = std::get<FileMesh>(*message);
+    std::vector<FaceRange> objects;
+    for (const SceneObject& object : file.objects)
+        objects.push_back({object.first_face, object.face_count});
     for (const PlainLibrary& library : plain_libraries())
         if (library.name == name)
-            return library;
+            return library.find(file.mesh.points, file.mesh.faces, objects);
     throw BadUsage("no library is called '" + std::string(name) + "'");
+}
+
+/// The same in another process. Throws Unavailable, with a sentence, when there is no answer.
+PairList found_by_worker(std::string_view library, const StressScene& scene, double time_limit_s)
+{
+    const SceneFile file(scene);
+    const ProcessEnd end =
+        run_process({"/proc/self/exe", std::string(argument), std::string(library), file.path()},
+                    time_limit_s, "BVHBENCH_LIBRARY_WORKER=1");
+    if (end.how != ProcessEnd::How::exited || end.code != 0)
+        throw Unavailable("it " + spelled(end, time_limit_s));
+    std::string_view answer = end.output;
+    if (answer.starts_with(refusal_mark))
+        throw Unavailable(end.output.substr(refusal_mark.size()));
+    if (!answer.starts_with(answer_mark) ||
+        (answer.size() - answer_mark.size()) % sizeof(Pair) != 0)
+        throw Unavailable("it ended without an answer");
+    answer.remove_prefix(answer_mark.size());
+    std::vector<Pair> pairs(answer.size() / sizeof(Pair));
+    if (!pairs.empty())
+        std::memcpy(pairs.data(), answer.data(), answer.size());
+    return PairList(std::move(pairs));
 }
 
 bool is_finite(const Mesh& mesh, const Face& face)
 {
-    for (const uint corner : {face.a, face.b, face.c}) {
+    return std::ranges::all_of(std::array{face.a, face.b, face.c}, [&](uint corner) {
         const Point& p = mesh.points[corner];
-        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-            return false;
-    }
-    return true;
+        return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+    });
 }
 
 /// Pairs of which both triangles are among these, in ascending order. Of one without a place anything may be said: what
 /// counts is what becomes of the others.
-PairList among_these(const PairList& pairs, const std::vector<uint>& triangles)
+PairList among_these(const PairList& found, const std::vector<uint>& triangles)
 {
-    const auto is_there = [&](uint triangle) {
-        return std::binary_search(triangles.begin(), triangles.end(), triangle);
-    };
-    std::vector<Pair> chosen;
-    for (const Pair pair : pairs.pairs())
-        if (is_there(pair.a) && is_there(pair.b))
-            chosen.push_back(pair);
-    return PairList(std::move(chosen));
+    std::vector<Pair> pairs(found.pairs().begin(), found.pairs().end());
+    std::erase_if(pairs, [&](const Pair pair) {
+        return !std::ranges::binary_search(triangles, pair.a) ||
+               !std::ranges::binary_search(triangles, pair.b);
+    });
+    return PairList(std::move(pairs));
 }
 
 /// The pairs of two objects that lie between them; of one object all.
 PairList expected_of(const PlainLibrary& library, const StressScene& scene)
 {
-    PairList pairs = touching_pairs(scene.mesh.points, scene.mesh.faces, !library.finds_contacts);
+    const auto& [points, faces] = scene.mesh;
+    PairList pairs = touching_pairs(points, faces, !library.finds_contacts);
     if (scene.objects.size() > 1)
         pairs = among_objects(pairs, scene.objects, Among::between_objects);
-    return library.finds_contacts
-               ? intersecting_pairs(scene.mesh.points, scene.mesh.faces, pairs, false)
-               : pairs;
+    return library.finds_contacts ? intersecting_pairs(points, faces, pairs, false) : pairs;
 }
 
 }  // namespace
@@ -131,43 +128,14 @@ int library_worker_main(int, char** argv)
     std::ofstream answer("/dev/fd/" + std::to_string(take_standard_output()), std::ios::binary);
     const std::string failure = reason_of_failure([&] {
         limit_worker(memory_limit);
-        const PlainLibrary& library = library_called(argv[2]);
-        std::ifstream in(argv[3], std::ios::binary);
-        const auto points = taken<Point>(in);
-        const auto faces = taken<Face>(in);
-        const auto objects = taken<FaceRange>(in);
-        if (!in)
-            throw Unavailable(std::string(argv[3]) + " cannot be read");
-        const std::vector<Pair> found = library.find(points, faces, objects);
+        const std::vector<Pair> found = found_in(argv[2], argv[3]);
         answer << answer_mark;
-        put(answer, found);
+        answer.write(reinterpret_cast<const char*>(found.data()),
+                     static_cast<std::streamsize>(found.size() * sizeof(Pair)));
     });
     if (!failure.empty())
         answer << refusal_mark << failure;
     return answer.flush() ? 0 : 1;
-}
-
-PairList found_by_library(const PlainLibrary& library, const StressScene& scene,
-                          double time_limit_s)
-{
-    const SceneFile file(scene);
-    const ProcessEnd end = run_process(
-        {"/proc/self/exe", std::string(argument), std::string(library.name), file.path()},
-        time_limit_s, "BVHBENCH_LIBRARY_WORKER=1");
-    if (end.how != ProcessEnd::How::exited || end.code != 0)
-        throw Unavailable("it " + spelled(end, time_limit_s));
-    if (end.output.starts_with(refusal_mark))
-        throw Unavailable(end.output.substr(refusal_mark.size()));
-    std::uint64_t count = 0;
-    const std::size_t start = answer_mark.size() + sizeof count;
-    if (end.output.starts_with(answer_mark) && end.output.size() >= start)
-        std::memcpy(&count, end.output.data() + answer_mark.size(), sizeof count);
-    if (end.output.size() != start + count * sizeof(Pair))
-        throw Unavailable("it ended without an answer");
-    std::vector<Pair> pairs(count);
-    std::ranges::copy(std::as_bytes(std::span(end.output)).subspan(start),
-                      std::as_writable_bytes(std::span(pairs)).begin());
-    return PairList(std::move(pairs));
 }
 
 StressVariant finite_part(const StressScene& scene)
@@ -194,7 +162,7 @@ Findings judge_library(const PlainLibrary& library, const StressScene& scene, do
     const std::string failure = reason_of_failure([&] {
         const StressVariant finite = finite_part(scene);
         const PairList found =
-            among_these(found_by_library(library, scene, time_limit_s), finite.original);
+            among_these(found_by_worker(library.name, scene, time_limit_s), finite.original);
         const PairList expected = in_original_numbers(expected_of(library, finite.scene), finite);
         findings[library.finds_contacts ? Invariant::contacts : Invariant::pairs] =
             judge_pairs(found, expected);

@@ -15,13 +15,8 @@ namespace bvhbench {
 bool is_library_worker(int argc, char** argv);
 int library_worker_main(int argc, char** argv);
 
-/// What the library finds over a scene, in another process. Throws Unavailable, with a sentence, when it crashes, says
-/// that it cannot, or has not answered after `time_limit_s`.
-PairList found_by_library(const PlainLibrary& library, const StressScene& scene,
-                          double time_limit_s);
-
-/// Held to what is to be found among the triangles that have places, whatever it says of the others. A failure is a
-/// finding.
+/// A library, in another process, held to what is to be found among the triangles that have places, whatever it says of the
+/// others. It is a finding if it crashes, says that it cannot, or has not answered after `time_limit_s`.
 Findings judge_library(const PlainLibrary& library, const StressScene& scene, double time_limit_s);
 
 /// The triangles of a scene whose vertices are finite, as a scene of its own, and which they are in the other one.

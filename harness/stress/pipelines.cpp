@@ -7,12 +7,10 @@
 #include "geometry/error.h"
 #include "harness/base/failure.h"
 #include "harness/measure/pipeline.h"
-#include "harness/stress/systems.h"
+#include "harness/stress/run.h"
 
 namespace bvhbench {
 namespace {
-
-using enum Finding::Verdict;
 
 // Binary, wide, with pointers.
 constexpr std::string_view some_builders[] = {"oibvh-multi", "oibvh-wide4", "oibvh-wide8",
@@ -40,11 +38,7 @@ const Tree& smallest_tree(Session& session, const BuilderChoice& choice)
 {
     static const Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
     const Input input = upload(session.device(), session.queue(), mesh.points, mesh.faces);
-    Builder& builder = session.builder(choice);
-    builder.reserve(1);
-    const Tree* tree = nullptr;
-    session.build_once(builder, input, Start::from_triangles, &tree);
-    return *tree;
+    return built_tree(session, choice, input);
 }
 
 /// One builder for each way to walk a tree on the device: those above, and the first with any other header.
@@ -58,10 +52,11 @@ std::vector<std::string> tree_builders(Session& session, bool few)
         const auto* tree = dynamic_cast<const DeviceTree*>(&smallest_tree(session, {.name = name}));
         return tree != nullptr && headers.insert(tree->access_header()).second;
     };
-    std::for_each(names.begin(), names.end(), is_new);
-    for (const BuilderEntry& entry : builder_catalog())
-        if (builds_on_device(session, entry) && is_new(std::string(entry.name)))
-            names.emplace_back(entry.name);
+    for (const std::string& name : names)
+        is_new(name);
+    for (const BuilderChoice& builder : device_builders(session))
+        if (is_new(builder.name))
+            names.push_back(builder.name);
     return names;
 }
 
@@ -71,8 +66,11 @@ Input uploaded(Session& session, const StressScene& scene)
                   scene.objects);
 }
 
-FoundPairs found_by(const Pipeline& pipeline, const StressPipeline& chosen)
+/// What the pipeline finds in one more frame over the same points.
+FoundPairs found_next(Pipeline& pipeline, const StressPipeline& chosen, const Input& input)
 {
+    pipeline.begin_frame({});
+    pipeline.settle(input);
     FoundPairs found;
     found.is_rounded = find_box_format(chosen.builder.boxes).has_cells();
     if (pipeline.has_pairs())
@@ -80,25 +78,6 @@ FoundPairs found_by(const Pipeline& pipeline, const StressPipeline& chosen)
     if (pipeline.has_contacts())
         found.contacts = pipeline.contacts();
     return found;
-}
-
-/// `judge`, with what stops it as a finding.
-template <class Judge>
-Findings guarded(Session& session, const StressPipeline& chosen, const Judge& judge)
-{
-    Findings findings;
-    bool cannot_be = false;
-    const std::string failure = reason_of_failure(cannot_be, [&] {
-        findings = judge();
-        findings[Invariant::ends] = {holds, 1};
-    });
-    if (!failure.empty()) {
-        session.renew_queue();
-        // A library's collider says what it does not take, in whatever way; ours as wrong usage.
-        const bool is_refused = chosen.is_library || cannot_be;
-        findings = {{Invariant::ends, {is_refused ? refused : broken, 1, 0, 0, failure}}};
-    }
-    return findings;
 }
 
 }  // namespace
@@ -119,14 +98,10 @@ std::string system_name(const BuilderChoice& builder, const ColliderChoice& coll
     return name;
 }
 
-bool wants_other_forms(const Session& session, const StressSize& size)
-{
-    return size.quick || session.device().is_cpu();
-}
-
 std::vector<StressPipeline> stress_pipelines(Session& session, bool few, bool other_forms)
 {
     const KernelForm other = session.device().is_cpu() ? KernelForm::groups : KernelForm::chunks;
+    const std::vector<std::string> builders = tree_builders(session, few);
     std::vector<StressPipeline> pipelines;
     for (const ColliderEntry& entry : collider_catalog()) {
         if (entry.make == nullptr)
@@ -136,26 +111,20 @@ std::vector<StressPipeline> stress_pipelines(Session& session, bool few, bool ot
         choice.narrow = "exact";
         choice.keep_adjacent = false;  // as libraries
         std::unique_ptr<Collider> collider;
-        const std::string failure =
-            reason_of_failure([&] { collider = make_collider(choice, session.programs()); });
-        if (!failure.empty()) {  // judged all the same, it says why
-            pipelines.push_back({{.name = ""}, choice, entry.is_library});
-            continue;
-        }
-        choice.keep_adjacent = !collider->finds_contacts();
-        if (!collider->needs_tree()) {
+        reason_of_failure([&] { collider = make_collider(choice, session.programs()); });
+        choice.keep_adjacent = collider != nullptr && !collider->finds_contacts();
+        // One that cannot be made is judged all the same: it says why.
+        if (collider == nullptr || !collider->needs_tree()) {
             pipelines.push_back({{.name = ""}, choice, entry.is_library});
             continue;
         }
         std::vector<StressPipeline> over;
-        for (const std::string& name : tree_builders(session, few)) {
-            const BuilderChoice builder{.name = name};
+        for (const std::string& name : builders)
             // Where the tree itself cannot be had, judge_builder says why.
             reason_of_failure([&] {
-                if (collider->refusal(smallest_tree(session, builder)).empty())
-                    over.push_back({builder, choice, false});
+                if (collider->refusal(smallest_tree(session, {.name = name})).empty())
+                    over.push_back({{.name = name}, choice});
             });
-        }
         pipelines.insert(pipelines.end(), over.begin(), over.end());
         over.resize(other_forms ? std::min(over.size(), few ? 1 : std::size(some_builders)) : 0);
         for (StressPipeline& one : over) {
@@ -164,7 +133,7 @@ std::vector<StressPipeline> stress_pipelines(Session& session, bool few, bool ot
         }
         for (const InFormat& one : some_formats)
             if (one.collider == entry.name)
-                pipelines.push_back({in_format(one.builder, one.boxes), choice, false});
+                pipelines.push_back({in_format(one.builder, one.boxes), choice});
     }
     return pipelines;
 }
@@ -176,32 +145,22 @@ PairFinder finder_of(Session& session, const StressPipeline& chosen)
         ColliderChoice collider = chosen.collider;
         collider.capacity = capacity;
         Pipeline pipeline(session, chosen.builder, collider, input);
-        pipeline.begin_frame({});
-        pipeline.settle(input);
-        FoundPairs first = found_by(pipeline, chosen);
-        if (!pipeline.collider().keeps_tree())
-            return first;
-        pipeline.begin_frame({});
-        pipeline.settle(input);
-        FoundPairs second = found_by(pipeline, chosen);
-        if (first != second)
+        const FoundPairs found = found_next(pipeline, chosen, input);
+        if (pipeline.collider().keeps_tree() && found_next(pipeline, chosen, input) != found)
             throw Unavailable("two frames in a row over the same points found different pairs");
-        return second;
+        return found;
     };
 }
 
 Findings judge_frames(Session& session, const StressPipeline& chosen, const StressScene& scene,
                       int repeats)
 {
-    return guarded(session, chosen, [&] {
+    return settled(session, chosen.is_library, [&] {
         const Input input = uploaded(session, scene);
         Pipeline pipeline(session, chosen.builder, chosen.collider, input);
         std::vector<std::uint64_t> hashes;
-        for (int frame = 0; frame <= repeats; ++frame) {
-            pipeline.begin_frame({});
-            pipeline.settle(input);
-            hashes.push_back(hash_of(found_by(pipeline, chosen)));
-        }
+        for (int frame = 0; frame <= repeats; ++frame)
+            hashes.push_back(hash_of(found_next(pipeline, chosen, input)));
         return Findings{{Invariant::same, judge_repeats(hashes)}};
     });
 }
@@ -209,8 +168,9 @@ Findings judge_frames(Session& session, const StressPipeline& chosen, const Stre
 Findings judge_pipeline(Session& session, const StressPipeline& chosen,
                         const StressQuestion& question)
 {
-    return guarded(session, chosen,
-                   [&] { return judge_finder(finder_of(session, chosen), question, 0); });
+    // A library's collider says what it does not take in whatever way, ours as wrong usage.
+    return settled(session, chosen.is_library,
+                   [&] { return judge_finder(finder_of(session, chosen), question); });
 }
 
 }  // namespace bvhbench

@@ -1,72 +1,44 @@
 // SPDX-License-Identifier: MIT
-#include "harness/stress/variants.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
+#include "collide/oracles/exact_reference.h"
+#include "collide/oracles/sweep.h"
+#include "collide/relation.h"
+#include "harness/stress/judge.h"
 #include "scenes/generate/random.h"
 
 namespace bvhbench {
 namespace {
 
-std::vector<uint> as_they_are(const StressScene& scene)
+/// The same with triangles in the order of `ids`.
+StressVariant reordered(const StressScene& scene, std::string_view name, std::vector<uint> ids,
+                        std::vector<FaceRange> objects)
+{
+    StressVariant variant{Invariant::agree, name, {{scene.mesh.points, {}}, std::move(objects)}};
+    for (const uint id : ids)
+        variant.scene.mesh.faces.push_back(scene.mesh.faces[id]);
+    variant.original = std::move(ids);
+    return variant;
+}
+
+/// Objects stay in their order, triangles of each are shuffled.
+StressVariant shuffled(const StressScene& scene, std::uint64_t seed)
 {
     std::vector<uint> ids(scene.mesh.faces.size());
     std::iota(ids.begin(), ids.end(), 0u);
-    return ids;
-}
-
-/// The same with triangles in the order of `ids`.
-StressScene reordered(const StressScene& scene, const std::vector<uint>& ids)
-{
-    StressScene result{{scene.mesh.points, {}}, scene.objects};
-    for (const uint id : ids)
-        result.mesh.faces.push_back(scene.mesh.faces[id]);
-    return result;
-}
-
-double largest_coordinate(const Mesh& mesh)
-{
-    double largest = 0;
-    for (const Point& p : mesh.points)
-        for (const float x : {p.x, p.y, p.z})
-            largest = std::max(largest, std::abs(static_cast<double>(x)));
-    return largest;
-}
-
-/// `scene` with every coordinate changed in double, if all results are floats.
-template <class Change>
-std::optional<StressScene> changed_exactly(const StressScene& scene, const Change& change)
-{
-    StressScene result = scene;
-    for (Point& p : result.mesh.points)
-        for (float Point::*c : {&Point::x, &Point::y, &Point::z}) {
-            const double wanted = change(static_cast<double>(p.*c));
-            p.*c = static_cast<float>(wanted);
-            if (static_cast<double>(p.*c) != wanted)
-                return {};
-        }
-    return result;
-}
-
-}  // namespace
-
-StressVariant shuffled(const StressScene& scene, std::uint64_t seed)
-{
-    std::vector<uint> ids = as_they_are(scene);
     Random random(seed);
     for (const FaceRange& range : scene.objects)
         for (uint k = range.count; k > 1; --k)
             std::swap(ids[range.first + k - 1],
                       ids[range.first + static_cast<uint>(random.bits() % k)]);
-    return {Invariant::agree, "shuffled", reordered(scene, ids), std::move(ids)};
+    return reordered(scene, "shuffled", std::move(ids), scene.objects);
 }
 
-std::optional<StressVariant> swapped(const StressScene& scene)
+/// The last object first.
+StressVariant swapped(const StressScene& scene)
 {
-    if (scene.objects.size() < 2)
-        return {};
     std::vector<uint> ids;
     std::vector<FaceRange> objects;
     for (std::size_t k = scene.objects.size(); k-- > 0;) {
@@ -75,10 +47,38 @@ std::optional<StressVariant> swapped(const StressScene& scene)
         for (uint i = 0; i < range.count; ++i)
             ids.push_back(range.first + i);
     }
-    StressVariant variant{Invariant::agree, "objects swapped", reordered(scene, ids), ids};
-    variant.scene.objects = std::move(objects);
-    return variant;
+    return reordered(scene, "objects swapped", std::move(ids), std::move(objects));
 }
+
+/// `scene` with every coordinate changed in double, if all results are floats.
+template <class Change>
+std::optional<StressScene> changed_exactly(const StressScene& scene, const Change& change)
+{
+    bool is_exact = true;
+    StressScene result = changed(scene, [&](double x) {
+        const double wanted = change(x);
+        is_exact = is_exact && static_cast<double>(static_cast<float>(wanted)) == wanted;
+        return wanted;
+    });
+    return is_exact ? std::optional(std::move(result)) : std::nullopt;
+}
+
+PairList pairs_of(const StressScene& scene)
+{
+    return touching_pairs(scene.mesh.points, scene.mesh.faces, true);
+}
+
+FoundPairs expected_over(const StressScene& scene, PairList pairs)
+{
+    FoundPairs expected;
+    expected.pairs = std::move(pairs);
+    if (has_exact_reference)
+        expected.contacts =
+            intersecting_pairs(scene.mesh.points, scene.mesh.faces, *expected.pairs, true);
+    return expected;
+}
+
+}  // namespace
 
 std::optional<StressVariant> scaled(const StressScene& scene, std::uint64_t seed)
 {
@@ -91,7 +91,10 @@ std::optional<StressVariant> scaled(const StressScene& scene, std::uint64_t seed
 
 std::optional<Translation> translated(const StressScene& scene)
 {
-    const double largest = largest_coordinate(scene.mesh);
+    double largest = 0;
+    for (const Point& p : scene.mesh.points)
+        for (const float x : {p.x, p.y, p.z})
+            largest = std::max(largest, std::abs(static_cast<double>(x)));
     if (largest == 0 || largest > 0x1p120)
         return {};
     int exponent = 0;
@@ -100,8 +103,8 @@ std::optional<Translation> translated(const StressScene& scene)
     const double grid = std::ldexp(1.0, exponent + 4 - 24);  // where floats are so far apart
     if (grid < 0x1p-149)
         return {};
-    const auto snap = [grid](double x) { return std::nearbyint(x / grid) * grid; };
-    auto snapped = changed_exactly(scene, snap);
+    auto snapped =
+        changed_exactly(scene, [grid](double x) { return std::nearbyint(x / grid) * grid; });
     if (!snapped)
         return {};
     auto moved = changed_exactly(*snapped, [by](double x) { return x + by; });
@@ -119,6 +122,42 @@ PairList in_original_numbers(const PairList& pairs, const StressVariant& variant
     for (const Pair pair : pairs.pairs())
         numbered.push_back({variant.original[pair.a], variant.original[pair.b]});
     return PairList(std::move(numbered));
+}
+
+StressQuestion question_of(StressScene scene, std::uint64_t seed)
+{
+    StressQuestion question{std::move(scene), {}, {}};
+    question.expected = expected_over(question.scene, pairs_of(question.scene));
+    const auto add = [&](StressVariant variant) {
+        question.variants.push_back({std::move(variant), question.expected});
+    };
+    add(shuffled(question.scene, seed));
+    if (question.scene.objects.size() > 1)
+        add(swapped(question.scene));
+    if (auto variant = scaled(question.scene, seed))
+        add(std::move(*variant));
+    // With as many bits as a translation takes, a scene with an outlier is all but one point: another one.
+    const std::size_t most =
+        100 * (question.expected.pairs->size() + question.scene.mesh.faces.size());
+    if (auto translation = translated(question.scene))
+        if (PairList pairs = pairs_of(translation->snapped); pairs.size() <= most)
+            question.variants.push_back({std::move(translation->moved),
+                                         expected_over(translation->snapped, std::move(pairs))});
+    return question;
+}
+
+StressQuestion without_adjacent(const StressQuestion& question)
+{
+    StressQuestion apart = question;
+    const auto leave_out = [&faces = question.scene.mesh.faces](FoundPairs& found) {
+        for (auto* list : {&found.pairs, &found.contacts})
+            if (*list)
+                *list = selected(**list, {faces, {}}, Relation::apart);
+    };
+    leave_out(apart.expected);
+    for (StressQuestion::Variant& variant : apart.variants)
+        leave_out(variant.expected);
+    return apart;
 }
 
 }  // namespace bvhbench

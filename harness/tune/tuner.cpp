@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <iterator>
 
 #include "geometry/error.h"
 #include "harness/base/failure.h"
@@ -19,11 +19,11 @@ std::vector<double> times_of(const std::vector<Sample>& samples, std::string_vie
 {
     std::vector<double> times;
     for (const Sample& sample : samples) {
-        double ns = 0;
+        double ns = stage.empty() ? whole_ns(sample.stages) : 0;
         for (const StageTime& time : sample.stages)
             if (time.stage == stage)
                 ns += static_cast<double>(time.elapsed_ns());
-        times.push_back(stage.empty() ? whole_ns(sample.stages) : ns);
+        times.push_back(ns);
     }
     return times;
 }
@@ -177,13 +177,12 @@ private:
             timed.push_back({"trial", [trial] { return trial->once(); }});
         const std::vector<Taken> taken =
             take_samples(timed, options_.samples, options_.warm_up, order_);
-        std::vector<std::vector<double>> times;
-        for (const Taken& one : taken) {
-            times.push_back(one.failure.empty() ? times_of(one.samples, stage)
-                                                : std::vector<double>{});
-            if (!one.failure.empty())
-                failure_ = one.failure;
-        }
+        std::vector<std::vector<double>> times(taken.size());
+        for (std::size_t k = 0; k < taken.size(); ++k)
+            if (taken[k].failure.empty())
+                times[k] = times_of(taken[k].samples, stage);
+            else
+                failure_ = taken[k].failure;
         return times;
     }
 
@@ -195,23 +194,9 @@ private:
     std::string failure_;  ///< of the last sampling
 };
 
-std::string verdict_of(const Tried& tried)
-{
-    switch (tried.verdict) {
-        case Tried::Verdict::current:
-            return "current";
-        case Tried::Verdict::better:
-            return "better, kept";
-        case Tried::Verdict::not_again:
-            return "not better again";
-        case Tried::Verdict::wrong:
-            return "wrong: " + tried.detail;
-        case Tried::Verdict::impossible:
-            return "impossible: " + tried.detail;
-        default:
-            return "not better";
-    }
-}
+/// By verdict, what is wrong or impossible behind it.
+constexpr const char* verdict_names[] = {"current",          "better, kept", "not better",
+                                         "not better again", "wrong: ",      "impossible: "};
 
 }  // namespace
 
@@ -228,17 +213,15 @@ void search(const MakeTrial& make, const Tuning& start,
 {
     result = {};
     result.best = start;
-    std::set<const Parameter*> asked;
+    std::vector<const Parameter*> parameters;
     {
         const std::unique_ptr<Trial> first = make(start);
         if (const std::string why = first->wrong(); !why.empty())
             throw Unavailable("the answer is wrong before anything is tuned: " + why);
-        asked = first->asked();
+        std::ranges::copy_if(first->asked(), std::back_inserter(parameters),
+                             [&](const Parameter* one) { return wanted(*one); });
     }
-    std::vector<const Parameter*> parameters(asked.begin(), asked.end());
-    std::erase_if(parameters, [&](const Parameter* one) { return !wanted(*one); });
-    std::sort(parameters.begin(), parameters.end(),
-              [](const Parameter* a, const Parameter* b) { return a->name < b->name; });
+    std::ranges::sort(parameters, {}, [](const Parameter* one) { return one->name; });
     for (const Parameter* parameter : parameters)
         result.best.unset(*parameter);
     const Tuning defaults = result.best;
@@ -266,7 +249,8 @@ std::string search_report(const SearchResult& result)
         table.row({std::string(tried.parameter->name), std::to_string(tried.value),
                    tried.parameter->stage.empty() ? "all" : std::string(tried.parameter->stage),
                    tried.median_ns > 0 ? duration_text(tried.median_ns) : "",
-                   tried.median_ns > 0 ? fixed(tried.ratio, 3) : "", verdict_of(tried)});
+                   tried.median_ns > 0 ? fixed(tried.ratio, 3) : "",
+                   verdict_names[static_cast<std::size_t>(tried.verdict)] + tried.detail});
     std::string text = table.text();
     if (result.best_ns > 0)
         text += "whole run: " + duration_text(result.start_ns) + " before, " +

@@ -6,7 +6,7 @@
 
 #include "builders/spell_out.h"
 #include "geometry/error.h"
-#include "harness/judge/contract.h"
+#include "harness/judge/check.h"
 #include "harness/judge/hard_inputs.h"
 #include "tests/collide/many_objects.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Every builder of the catalog keeps the same promises. A new one is tested the moment it is listed.
-#include "harness/judge/contract.h"
+#include "harness/judge/check.h"
 
 #include "builders/orders.h"
 #include "harness/judge/check.h"

@@ -9,29 +9,15 @@
 #include "collide/oracles/exact_reference.h"
 #include "collide/oracles/sweep.h"
 #include "geometry/error.h"
-#include "harness/accuracy/area_sums.h"
 #include "harness/accuracy/axis.h"
-#include "harness/accuracy/code_counts.h"
-#include "harness/accuracy/turned_scene.h"
-#include "harness/judge/differences.h"
+#include "harness/accuracy/inputs.h"
 #include "harness/judge/metrics.h"
+#include "harness/judge/pair_counts.h"
 #include "scenes/generate/pair_classes.h"
 #include "scenes/generate/random.h"
 
 namespace bvhbench {
 namespace {
-
-TEST(Accuracy, CountsWhatIsMissedAndWhatIsFalse)
-{
-    const auto list = [](std::vector<Pair> pairs) { return PairList(std::move(pairs)); };
-    const PairList right = list({{0, 1}, {2, 3}, {4, 5}});
-    EXPECT_EQ(differences(right, right), (Differences{0, 0}));
-    EXPECT_EQ(differences({}, right), (Differences{3, 0}));
-    EXPECT_EQ(differences(right, {}), (Differences{0, 3}));
-    EXPECT_EQ(differences(list({{0, 1}, {2, 4}, {4, 5}}), right), (Differences{1, 1}));
-    EXPECT_EQ(differences(list({{0, 1}, {6, 7}, {8, 9}}), right), (Differences{2, 2}));
-    EXPECT_EQ(differences(list({{0, 1}, {1, 0}, {2, 3}, {4, 5}}), right), (Differences{0, 1}));
-}
 
 /// A root of two leaves: areas 54, 6 and 24 or so, one coordinate a little off.
 HostTree small_tree()

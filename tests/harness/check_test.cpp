@@ -24,12 +24,13 @@ HostTree tree_over(const std::vector<Point>& at)
     return refitted(std::move(tree), at, faces);
 }
 
-/// The verdict on `tree` as a refit, to the moved points, of the tree over those that were.
-Check verdict_on(const HostTree& tree)
+/// The verdict on `tree` as a refit, to the moved points, of the tree over those that were, which had that verdict.
+Check verdict_on(const HostTree& tree, Check::Verdict before = agrees)
 {
     const HostTree built = tree_over(points);
     const Input input{moved, faces, {}, {}, {}, {}};
-    return check_refit(tree, built, input, {agrees, "radix-reference", {}, tree_hash(built)});
+    return check_refit(tree, built, input,
+                       {before, "radix-reference", "as before", tree_hash(built)});
 }
 
 TEST(CheckRefit, AgreesWithTheHostsRefitOfTheTreeThatStood)
@@ -40,29 +41,18 @@ TEST(CheckRefit, AgreesWithTheHostsRefitOfTheTreeThatStood)
     EXPECT_EQ(check.tree_hash, tree_hash(tree_over(moved)));
 }
 
-TEST(CheckRefit, FindsBoxesThatStayedWhereThePointsWere)
+TEST(CheckRefit, FindsBoxesThatStayedAnotherTreeAndWhatWasWrongBefore)
 {
-    const Check check = verdict_on(tree_over(points));
-    EXPECT_EQ(check.verdict, differs);
-    EXPECT_EQ(check.detail, "the box of leaf node 1 is not that of its triangle 0");
-}
-
-TEST(CheckRefit, FindsAnotherTreeEvenIfItIsAValidOne)
-{
-    HostTree swapped = tree_over(moved);
+    HostTree swapped = tree_over(moved);  // a valid one
     std::swap(swapped.nodes[1], swapped.nodes[2]);
-    const Check check = verdict_on(swapped);
-    EXPECT_EQ(check.verdict, differs);
-    EXPECT_TRUE(check.detail.starts_with("a valid tree, but the refit on the host has the hash "));
-}
-
-TEST(CheckRefit, DoesNotMakeUpForATreeThatWasWrongBefore)
-{
-    const Input input{moved, faces, {}, {}, {}, {}};
-    const Check check = check_refit(tree_over(moved), tree_over(points), input,
-                                    {differs, "radix-reference", "node 3 is lost", 7u});
-    EXPECT_EQ(check.verdict, differs);
-    EXPECT_EQ(check.detail, "node 3 is lost");
+    const Check stayed = verdict_on(tree_over(points)), another = verdict_on(swapped),
+                wrong_before = verdict_on(tree_over(moved), differs);
+    for (const Check& check : {stayed, another, wrong_before})
+        EXPECT_EQ(check.verdict, differs);
+    EXPECT_EQ(stayed.detail, "the box of leaf node 1 is not that of its triangle 0");
+    EXPECT_TRUE(
+        another.detail.starts_with("a valid tree, but the refit on the host has the hash "));
+    EXPECT_EQ(wrong_before.detail, "as before");
 }
 
 }  // namespace

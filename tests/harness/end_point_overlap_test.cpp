@@ -6,7 +6,6 @@
 #include <cmath>
 #include <random>
 
-#include "harness/judge/clip.h"
 #include "scenes/generate/generators.h"
 #include "tests/harness/host_lbvh.h"
 
@@ -33,10 +32,10 @@ TEST(Clip, KeepsWhatIsInTheClosedBox)
     EXPECT_EQ(area(clipped(triangle, {4, 0, -1, 5, 5, 1})), 0) << "they share a point";
 }
 
-TEST(Clip, OfTheCellsOfAGridAddsUpToTheTriangle)
+TEST(Clip, OfTheCellsOfAGridAddsUpToTheTriangleAndInBoxesWithinEachOtherIsThatToTheLast)
 {
     std::mt19937 random(7);
-    std::uniform_real_distribution<float> anywhere(-2, 2);
+    std::uniform_real_distribution<float> anywhere(-2, 2), inset(0, 0.2f);
     for (int repeat = 0; repeat < 200; ++repeat) {
         std::vector<Point> points(3);
         for (Point& point : points)
@@ -48,18 +47,7 @@ TEST(Clip, OfTheCellsOfAGridAddsUpToTheTriangle)
                 for (float z = -2; z < 2; ++z)
                     sum += area(clipped(triangle, {x, y, z, x + 1, y + 1, z + 1}));
         EXPECT_NEAR(sum, area(triangle), 1e-12);
-    }
-}
 
-TEST(Clip, ToBoxesWithinEachOtherIsTheClipToTheLast)
-{
-    std::mt19937 random(8);
-    std::uniform_real_distribution<float> anywhere(-2, 2), inset(0, 0.2f);
-    for (int repeat = 0; repeat < 200; ++repeat) {
-        std::vector<Point> points(3);
-        for (Point& point : points)
-            point = {anywhere(random), anywhere(random), anywhere(random)};
-        const Polygon triangle = polygon_of(points, {0, 1, 2});
         Polygon left = triangle;
         Aabb box = {-2, -2, -2, 2, 2, 2};
         while (left.count > 0) {
@@ -121,13 +109,9 @@ TEST(EndPointOverlap, IsTheSameToTheBitOnAnyNumberOfThreads)
 TEST(EndPointOverlap, TakesATreeAsDeepAsItHasLeaves)
 {
     const Mesh mesh = make_soup(2000);
-    std::vector<int> ids(mesh.faces.size());
-    std::iota(ids.begin(), ids.end(), 0);
-    const HostTree chain = tree_by(mesh, ids, [](std::size_t first, std::size_t last, std::size_t) {
-        return last - first == 1 ? first : first + 1;
-    });
     // Triangle i is not below the nodes behind the i-th, whose boxes are almost the scene's.
-    EXPECT_NEAR(end_point_overlap(chain, mesh.points, mesh.faces)->inner / 1000, 1, 0.05);
+    EXPECT_NEAR(end_point_overlap(host_chain(mesh), mesh.points, mesh.faces)->inner / 1000, 1,
+                0.05);
 }
 
 }  // namespace

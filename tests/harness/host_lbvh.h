@@ -85,6 +85,16 @@ HostTree tree_by(const Mesh& mesh, std::span<const int> ids, const Split& split)
     return tree;
 }
 
+/// A tree as deep as it has leaves: each node has one more leaf on its left.
+inline HostTree host_chain(const Mesh& mesh)
+{
+    std::vector<int> ids(mesh.faces.size());
+    std::iota(ids.begin(), ids.end(), 0);
+    return tree_by(mesh, ids, [](std::size_t first, std::size_t last, std::size_t) {
+        return last - first == 1 ? first : first + 1;
+    });
+}
+
 /// The linear BVH: ranges are cut at the highest bit in which codes differ; of equal codes, positions.
 inline HostTree host_lbvh(const Mesh& mesh)
 {

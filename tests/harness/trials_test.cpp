@@ -7,7 +7,6 @@
 
 #include "builders/parameters.h"
 #include "collide/parameters.h"
-#include "geometry/error.h"
 #include "harness/base/failure.h"
 
 namespace bvhbench {
@@ -75,13 +74,6 @@ INSTANTIATE_TEST_SUITE_P(Targets, Trials,
                              std::replace(name.begin(), name.end(), '-', '_');
                              return name;
                          });
-
-TEST(TuneTarget, IsTheSortABuilderOrACollider)
-{
-    for (const char* target : {"sort", "karras", "grid"})
-        EXPECT_NO_THROW(check_target(target));
-    EXPECT_THROW(check_target("sotr"), BadUsage);
-}
 
 TEST(TuneTarget, LeavesWhatIsNotItsOwnAlone)
 {

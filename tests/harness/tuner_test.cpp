@@ -10,30 +10,22 @@
 namespace bvhbench {
 namespace {
 
-constexpr Parameter keys_parameter{.name = "fake.keys",
-                                   .meaning = "keys",
-                                   .stage = "sort",
-                                   .on_cpu = 4,
-                                   .elsewhere = 4,
-                                   .least = 1,
-                                   .most = 64,
-                                   .candidates = {1, 2, 4, 8, 16}};
-constexpr Parameter items_parameter{.name = "fake.items",
-                                    .meaning = "items",
-                                    .stage = "hierarchy",
-                                    .on_cpu = 1,
-                                    .elsewhere = 1,
-                                    .least = 1,
-                                    .most = 8,
-                                    .candidates = {1, 2, 3}};
-constexpr Parameter aside_parameter{.name = "fake.aside",
-                                    .meaning = "nobody asks",
-                                    .stage = "sort",
-                                    .on_cpu = 1,
-                                    .elsewhere = 1,
-                                    .least = 1,
-                                    .most = 8,
-                                    .candidates = {1, 2, 3}};
+constexpr Parameter made_up(const char* name, const char* stage, uint usual, uint most,
+                            CandidateValues candidates)
+{
+    return {.name = name,
+            .meaning = "made up",
+            .stage = stage,
+            .on_cpu = usual,
+            .elsewhere = usual,
+            .least = 1,
+            .most = most,
+            .candidates = candidates};
+}
+constexpr Parameter keys_parameter = made_up("fake.keys", "sort", 4, 64, {1, 2, 4, 8, 16});
+constexpr Parameter items_parameter = made_up("fake.items", "hierarchy", 1, 8, {1, 2, 3});
+constexpr Parameter aside_parameter =
+    made_up("fake.aside", "sort", 1, 8, {1, 2, 3});  // nobody asks
 
 /// What a trial takes and leaves for a value of `keys` and of `items`.
 struct World {
@@ -41,9 +33,8 @@ struct World {
     std::function<std::int64_t(uint keys, uint items)> hierarchy_ns = [](uint, uint) {
         return 500;
     };
-    std::function<std::string(uint keys, uint items)> wrong = [](uint, uint) { return ""; };
-    std::function<void(uint keys, uint items)> make = [](uint, uint) {};
-    std::function<void()> run = [] {};
+    std::function<std::string(uint keys)> wrong = [](uint) { return ""; };
+    std::function<void(uint keys)> make = [](uint) {};
 };
 
 class FakeTrial final : public Trial {
@@ -54,17 +45,15 @@ public:
         , keys_(tuning_.value(keys_parameter, true))
         , items_(tuning_.value(items_parameter, true))
     {
-        world_.make(keys_, items_);
+        world_.make(keys_);
     }
-    std::string wrong() override { return world_.wrong(keys_, items_); }
+    std::string wrong() override { return world_.wrong(keys_); }
     std::vector<StageTime> once() override
     {
-        world_.run();
         const std::int64_t jitter = 3 * (runs_++ % 5);  // less than a part in a hundred
         const std::int64_t sort = world_.sort_ns(keys_, items_) + jitter;
-        return {{"sort", sort, sort, 0, 1, 0},
-                {"hierarchy", world_.hierarchy_ns(keys_, items_),
-                 world_.hierarchy_ns(keys_, items_), 0, 1, 0}};
+        const std::int64_t hierarchy = world_.hierarchy_ns(keys_, items_);
+        return {{"sort", sort, sort, 0, 1, 0}, {"hierarchy", hierarchy, hierarchy, 0, 1, 0}};
     }
     std::set<const Parameter*> asked() const override { return tuning_.asked(); }
 
@@ -75,13 +64,17 @@ private:
     int runs_ = 0;
 };
 
-SearchResult searched(const World& world, const Tuning& start = {}, int rounds = 2)
+using Note = std::function<void(const std::string& what, const SearchResult& so_far)>;
+
+SearchResult searched(
+    const World& world, const Tuning& start = {}, int rounds = 2,
+    const Note& note = [](const std::string&, const SearchResult&) {})
 {
     SearchResult result;
     search([&](const Tuning& tuning) { return std::make_unique<FakeTrial>(world, tuning); }, start,
            [](const Parameter&) { return true; },
            {.samples = 7, .warm_up = 1, .rounds = rounds, .is_cpu = true},
-           [](const std::string&) {}, result);
+           [&](const std::string& what) { note(what, result); }, result);
     return result;
 }
 
@@ -115,7 +108,7 @@ TEST(Search, NeverChoosesAWrongAnswerHoweverFast)
 {
     World world;
     world.sort_ns = [](uint keys, uint) { return keys == 16 ? 10 : keys == 8 ? 900 : 1000; };
-    world.wrong = [](uint keys, uint) { return keys == 16 ? "box 7 differs" : ""; };
+    world.wrong = [](uint keys) { return keys == 16 ? "box 7 differs" : ""; };
     const SearchResult result = searched(world);
     EXPECT_EQ(result.best.value(keys_parameter, true), 8u);
     EXPECT_EQ(tried(result, keys_parameter, 16).verdict, Tried::Verdict::wrong);
@@ -128,7 +121,7 @@ TEST(Search, NeverChoosesWhatIsWrongOnlyAfterItWasTimed)
     World world;
     int checks = 0;
     world.sort_ns = [](uint keys, uint) { return keys == 16 ? 10 : 1000; };
-    world.wrong = [&](uint keys, uint) { return keys == 16 && ++checks % 2 == 0 ? "a race" : ""; };
+    world.wrong = [&](uint keys) { return keys == 16 && ++checks % 2 == 0 ? "a race" : ""; };
     const SearchResult result = searched(world);
     EXPECT_EQ(result.best.value(keys_parameter, true), 4u);
     EXPECT_EQ(tried(result, keys_parameter, 16).verdict, Tried::Verdict::wrong);
@@ -138,7 +131,7 @@ TEST(Search, PassesOverWhatTheDeviceCannotDo)
 {
     World world;
     world.sort_ns = [](uint keys, uint) { return keys == 2 ? 900 : 1000; };
-    world.make = [](uint keys, uint) {
+    world.make = [](uint keys) {
         if (keys == 16)
             throw Unavailable("needs 70000 bytes of local memory\nand a log");
     };
@@ -197,7 +190,7 @@ TEST(Search, StartsFromDefaultsAndLeavesOtherParametersAsTheyAre)
 TEST(Search, EndsWhereTheAnswerIsWrongBeforeAnythingIsTuned)
 {
     World world;
-    world.wrong = [](uint, uint) { return "wrong everywhere"; };
+    world.wrong = [](uint) { return "wrong everywhere"; };
     EXPECT_THROW(searched(world), Unavailable);
 }
 
@@ -205,20 +198,14 @@ TEST(Search, HasWhatWasFoundWheneverItSaysWhatItDoes)
 {
     World world;
     world.hierarchy_ns = [](uint, uint items) { return items == 3 ? 300 : 500; };
-    SearchResult result;
     bool was_told = false, was_there = false;
-    search([&](const Tuning& tuning) { return std::make_unique<FakeTrial>(world, tuning); }, {},
-           [](const Parameter&) { return true; },
-           {.samples = 7, .warm_up = 1, .rounds = 2, .is_cpu = true},
-           [&](const std::string& what) {
-               if (what != "fake.keys = 16" || was_told)  // the second parameter's last candidate
-                   return;
-               was_told = true;
-               was_there = result.best.value(items_parameter, true) == 3 &&
-                           result.kept.size() == 1 &&
-                           result.searched == std::set<const Parameter*>{&items_parameter};
-           },
-           result);
+    searched(world, {}, 2, [&](const std::string& what, const SearchResult& so_far) {
+        if (what != "fake.keys = 16" || was_told)  // the second parameter's last candidate
+            return;
+        was_told = true;
+        was_there = so_far.best.value(items_parameter, true) == 3 && so_far.kept.size() == 1 &&
+                    so_far.searched == std::set<const Parameter*>{&items_parameter};
+    });
     EXPECT_TRUE(was_there);
 }
 

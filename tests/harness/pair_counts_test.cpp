@@ -1,10 +1,22 @@
 // SPDX-License-Identifier: MIT
-#include "harness/judge/query_bytes.h"
+#include "harness/judge/pair_counts.h"
 
 #include <gtest/gtest.h>
 
 namespace bvhbench {
 namespace {
+
+TEST(PairDifferences, CountWhatIsMissedAndWhatIsFalse)
+{
+    const auto list = [](std::vector<Pair> pairs) { return PairList(std::move(pairs)); };
+    const PairList right = list({{0, 1}, {2, 3}, {4, 5}});
+    EXPECT_EQ(differences(right, right), (Differences{0, 0}));
+    EXPECT_EQ(differences({}, right), (Differences{3, 0}));
+    EXPECT_EQ(differences(right, {}), (Differences{0, 3}));
+    EXPECT_EQ(differences(list({{0, 1}, {2, 4}, {4, 5}}), right), (Differences{1, 1}));
+    EXPECT_EQ(differences(list({{0, 1}, {6, 7}, {8, 9}}), right), (Differences{2, 2}));
+    EXPECT_EQ(differences(list({{0, 1}, {1, 0}, {2, 3}, {4, 5}}), right), (Differences{0, 1}));
+}
 
 TEST(CornerBytes, CountEachFaceAndPointOnce)
 {

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "harness/accuracy/inputs.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "builders/stages/codes.h"
+#include "collide/oracles/sweep.h"
+#include "geometry/error.h"
+
+namespace bvhbench {
+namespace {
+
+constexpr std::pair<double WidePoint::*, float Point::*> axes[] = {
+    {&WidePoint::x, &Point::x}, {&WidePoint::y, &Point::y}, {&WidePoint::z, &Point::z}};
+
+std::vector<double> sorted_along(double WidePoint::*axis, std::span<const WidePoint> points)
+{
+    std::vector<double> values;
+    values.reserve(points.size());
+    for (const WidePoint& p : points)
+        values.push_back(p.*axis);
+    std::sort(values.begin(), values.end());
+    return values;
+}
+
+Bounds bounds_of(std::span<const Point> points, std::span<const Face> faces)
+{
+    Bounds bounds = empty_bounds();
+    for (const Face& face : faces)
+        bounds = grown(bounds, face_box(points, face));
+    return bounds;
+}
+
+/// Add what is equal among `codes`.
+void count_equal(std::vector<ulong>& codes, CodeCounts& counts)
+{
+    std::sort(codes.begin(), codes.end());
+    for (auto run = codes.begin(); run != codes.end();) {
+        const auto next = std::upper_bound(run, codes.end(), *run);
+        const auto length = static_cast<std::size_t>(next - run);
+        counts.duplicates += length - 1;
+        counts.longest_run = std::max(counts.longest_run, length);
+        run = next;
+    }
+}
+
+}  // namespace
+
+CodeCounts code_counts(const OrderEntry& order, std::span<const Point> points,
+                       std::span<const Face> faces, std::span<const FaceRange> objects,
+                       GridOver grid)
+{
+    const unsigned dropped = order.code_bits - kept_code_bits(order.code_bits, objects.size());
+    const Bounds all = bounds_of(points, faces);
+    CodeCounts counts;
+    for (const FaceRange& object : objects) {
+        const auto own = faces.subspan(object.first, object.count);
+        const Bounds bounds = grid == GridOver::scene ? all : bounds_of(points, own);
+        std::vector<ulong> codes;
+        codes.reserve(own.size());
+        for (const Face& face : own)
+            codes.push_back(order.code(face_box(points, face), bounds) >> dropped);
+        count_equal(codes, counts);
+    }
+    return counts;
+}
+
+std::vector<WidePoint> turned_and_moved(std::span<const Point> points, double sizes)
+{
+    // One radian about z, then one about x: no coordinate is a float afterwards.
+    const double c = std::cos(1.0), s = std::sin(1.0);
+    std::vector<WidePoint> turned;
+    turned.reserve(points.size());
+    for (const Point p : points) {
+        const double x = c * double{p.x} - s * double{p.y}, y = s * double{p.x} + c * double{p.y};
+        turned.push_back({x, c * y - s * double{p.z}, s * y + c * double{p.z}});
+    }
+    if (turned.empty())
+        return turned;
+    double longest = 0;
+    for (const auto& [wide, narrow] : axes) {
+        const auto [low, high] = std::ranges::minmax(turned, {}, wide);
+        longest = std::max(longest, high.*wide - low.*wide);
+    }
+    const double by = sizes * longest;
+    for (WidePoint& p : turned)
+        p = {p.x + by, p.y + by, p.z + by};
+    return turned;
+}
+
+std::vector<Point> rounded(const std::vector<WidePoint>& points, Doubles how)
+{
+    std::vector<std::vector<Point>> frames(1);
+    for (const WidePoint p : points)
+        frames[0].push_back(
+            {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+    round_frames({&points, 1}, how, frames);
+    return std::move(frames[0]);
+}
+
+PairList overlapping_pairs_in_doubles(std::span<const WidePoint> points,
+                                      std::span<const Face> faces)
+{
+    if (points.size() >= 1u << 24)
+        throw Unavailable("the axis input takes scenes of fewer than 2^24 points");
+    // Whether boxes overlap depends on the order of coordinates alone. So each gives way to its place among all of its axis,
+    // a whole number that a float holds.
+    std::vector<Point> places(points.size());
+    for (const auto& [wide, narrow] : axes) {
+        const std::vector<double> sorted = sorted_along(wide, points);
+        for (std::size_t k = 0; k < points.size(); ++k)
+            places[k].*narrow = static_cast<float>(
+                std::lower_bound(sorted.begin(), sorted.end(), points[k].*wide) - sorted.begin());
+    }
+    return touching_pairs(places, faces, true);
+}
+
+}  // namespace bvhbench

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+//
+// The axes that build trees and query them for pairs: codes, input and boxes.
+#include <cmath>
+
+#include "builders/box_format.h"
+#include "builders/device_tree.h"
+#include "collide/oracles/exact_reference.h"
+#include "collide/oracles/sweep.h"
+#include "harness/accuracy/axis.h"
+#include "harness/accuracy/inputs.h"
+#include "harness/judge/metrics.h"
+#include "harness/judge/pair_counts.h"
+#include "harness/measure/pipeline.h"
+
+namespace bvhbench {
+namespace {
+
+using JudgePipeline = std::function<void(const Pipeline& pipeline, Cell& cell)>;
+
+/// By the cell's builder and collider over `input`, which stays. `judge` is called after the last sample.
+void settle_pipeline(Session& session, const Input& input, Subject& one, const JudgePipeline& judge)
+{
+    const auto pipeline =
+        std::make_shared<Pipeline>(session, one.cell.builder, one.cell.collider, input);
+    pipeline->begin_frame({});
+    pipeline->settle(input);
+    one.cell.counters = pipeline->counters();
+    one.once = [&input, pipeline] { return pipeline->once(input); };
+    one.judge_again = [&one, pipeline, judge] { judge(*pipeline, one.cell); };
+}
+
+/// Hold the pairs that were found last to the right ones: the cell's verdict, and its counters of what is missed and false.
+void judge_pairs(const Pipeline& pipeline, const PairList& right, const char* against, Cell& cell)
+{
+    const PairList found = pipeline.pairs();
+    const Differences wrong = differences(found, right);
+    cell.counters["missed_count"] = static_cast<double>(wrong.missed);
+    cell.counters["false_count"] = static_cast<double>(wrong.false_ones);
+    const bool is_right = wrong == Differences{};
+    cell.check = {.verdict = is_right ? Check::Verdict::agrees : Check::Verdict::differs,
+                  .against = against,
+                  .detail = is_right ? "" : wrong.text(),
+                  .pairs_hash = found.hash()};
+}
+
+/// Of boxes that were rounded pairs may be added, which are counted; none may be missed.
+void allow_more(const PairList& right, bool is_counted_anyway, Cell& cell)
+{
+    cell.counters["right_pairs_count"] = static_cast<double>(right.size());
+    if (cell.counters["missed_count"] > 0 ||
+        (cell.check.verdict == Check::Verdict::agrees && !is_counted_anyway))
+        return;
+    cell.check.verdict = Check::Verdict::counted;
+    cell.check.detail.clear();
+}
+
+/// The surface area cost of trees over an input, one an object: the sum of their nodes' costs, of the sum of their roots'
+/// areas.
+void add_forest_cost(Session& session, const Input& input, Cell& cell)
+{
+    Builder& builder = session.builder(cell.builder);
+    builder.reserve_objects(object_sizes(input));
+    const Tree* built = nullptr;
+    session.build_once(builder, input, Start::from_triangles, &built);
+    const auto& forest = dynamic_cast<const DeviceTree&>(*built);
+    double cost = 0, area = 0;
+    for (uint object = 0; object < forest.objects.size(); ++object) {
+        const HostTree tree = forest.spelled_out_object(object);
+        const double root = surface_area(tree.nodes.front().box);
+        if (const auto sums = area_sums(tree)) {
+            cost += root * sums->cost();
+            area += root;
+        }
+    }
+    if (area > 0)
+        cell.counters["sah_cost"] = cost / area;
+    else
+        cell.left_out["sah_cost"] = "no root has an area";
+}
+
+}  // namespace
+
+/// What more bits a code and other cells buy, in the tree and in a query of it: orders along curves, on grids over each
+/// object and, where there are several, over the scene; and, to say what else there is, medians, which need one object, and a
+/// radix tree.
+void measure_codes(const AxisRun& run, const SceneFacts& scene, const Input& input)
+{
+    Session& session = run.session;
+    const PairList right = touching_pairs(input.points, input.faces, true);
+    std::vector<AxisMethod> methods;
+    const auto add = [&](std::string name, const BuilderChoice& builder, const OrderEntry* codes) {
+        const auto settle = [&, codes](Subject& one) {
+            settle_pipeline(session, input, one, [&](const Pipeline& pipeline, Cell& cell) {
+                judge_pairs(pipeline, right, "brute", cell);
+            });
+            add_forest_cost(session, input, one.cell);
+            if (codes == nullptr)
+                return;
+            const CodeCounts counts = code_counts(*codes, input.points, input.faces, input.objects,
+                                                  one.cell.builder.grid);
+            one.cell.counters["duplicates_count"] = static_cast<double>(counts.duplicates);
+            one.cell.counters["longest_run_count"] = static_cast<double>(counts.longest_run);
+        };
+        methods.push_back({std::move(name), builder, {.name = "leaf"}, settle});
+    };
+    for (const OrderEntry& order : order_catalog()) {
+        if (order.medians != Medians::nowhere)
+            continue;
+        const std::string name(order.name);
+        add(name, {.name = "oibvh-multi", .order = name}, &order);
+        if (input.objects.size() > 1)
+            add(name + "-scene", {.name = "oibvh-multi", .order = name, .grid = GridOver::scene},
+                &order);
+    }
+    if (input.objects.size() == 1)
+        add("kd", {.name = "oibvh-multi", .order = "kd"}, nullptr);
+    add("radix", {.name = "apetrei-fused"}, nullptr);
+    measure_methods(run, "codes", scene, methods);
+}
+
+/// What rounding vertices from doubles to floats adds to the pairs of boxes, against the boxes of doubles. It takes none
+/// away: rounding to nearest keeps the order of coordinates, so boxes that overlapped still do.
+void measure_input(const AxisRun& run, const SceneFacts& scene, const Input& input)
+{
+    struct Rounded {
+        std::vector<Point> points;
+        Input input;
+    };
+    // How far off, in sizes of the scene. A float has 24 bits: at 1e7 sizes little is left.
+    for (const double sizes : {0.0, 1e2, 1e3, 1e4, 1e5, 1e6}) {
+        const std::vector<WidePoint> wide = turned_and_moved(input.points, sizes);
+        const PairList right = overlapping_pairs_in_doubles(wide, input.faces);
+        std::vector<AxisMethod> methods;
+        std::vector<std::shared_ptr<Rounded>> all;  // stay until all samples are taken
+        const auto add = [&](const char* name, Doubles how) {
+            const auto settle = [&, how](Subject& one) {
+                const auto& floats = all.emplace_back(std::make_shared<Rounded>());
+                floats->points = rounded(wide, how);
+                floats->input =
+                    upload(run.session.device(), run.session.queue(), floats->points, input.faces);
+                settle_pipeline(run.session, floats->input, one,
+                                [&](const Pipeline& pipeline, Cell& cell) {
+                                    judge_pairs(pipeline, right, "boxes of doubles", cell);
+                                    allow_more(right, true, cell);
+                                });
+            };
+            methods.push_back({name, {.name = "oibvh-multi"}, {.name = "leaf"}, settle});
+        };
+        add("f32", Doubles::as_is);
+        add("f32-recentred", Doubles::recentred);
+        SceneFacts facts = scene;
+        facts.name +=
+            " at " + (sizes > 0 ? "1e" + std::to_string(std::lround(std::log10(sizes))) : "0");
+        measure_methods(run, "input", facts, methods);
+    }
+}
+
+/// What fewer bytes a box cost in false pairs and save in time, of trees in one layout, built, queried and followed by the
+/// exact narrow phase alike. Rounded outward, boxes may add pairs and must take none away; contacts may not be others.
+void measure_boxes(const AxisRun& run, const SceneFacts& scene, const Input& input)
+{
+    const PairList right = touching_pairs(input.points, input.faces, false);
+    const PairList contacts = has_exact_reference
+                                  ? intersecting_pairs(input.points, input.faces, right, false)
+                                  : PairList();
+    const auto judge = [&](const Pipeline& pipeline, Cell& cell) {
+        judge_pairs(pipeline, right, has_exact_reference ? "brute, CGAL" : "brute", cell);
+        allow_more(right, false, cell);
+        const PairList found = pipeline.contacts();
+        Check& check = cell.check;
+        check.contacts_hash = found.hash();
+        if (!has_exact_reference || found == contacts)
+            return;
+        check.verdict = Check::Verdict::differs;
+        check.detail = "the oracle has " + std::to_string(contacts.size()) + " contacts, not " +
+                       std::to_string(found.size());
+    };
+    std::vector<AxisMethod> methods;
+    for (const BoxFormat& format : box_formats()) {
+        const std::string name(format.name);
+        const auto settle = [&](Subject& one) {
+            settle_pipeline(run.session, input, one, judge);
+            one.cell.counters["node_bytes"] = static_cast<double>(format.box_bytes());
+        };
+        // The collider that is fastest on the kind of device.
+        methods.push_back(
+            {name,
+             {.name = "oibvh-single", .order = "hilbert30", .sorted_leaves = true, .boxes = name},
+             {.name = run.session.device().is_cpu() ? "group" : "block",
+              .keep_adjacent = false,
+              .narrow = "exact"},
+             settle});
+    }
+    measure_methods(run, "boxes", scene, methods);
+}
+
+}  // namespace bvhbench

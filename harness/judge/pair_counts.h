@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "builders/input.h"
+#include "collide/pairs.h"
+
+namespace bvhbench {
+
+/// How a list of pairs differs from the right one. Found twice counts as false.
+struct Differences {
+    std::uint64_t missed = 0;
+    std::uint64_t false_ones = 0;
+
+    Differences& operator+=(const Differences& more)
+    {
+        missed += more.missed;
+        false_ones += more.false_ones;
+        return *this;
+    }
+    bool operator==(const Differences&) const = default;
+
+    /// "2 pairs missed, 1 false".
+    std::string text() const
+    {
+        return std::to_string(missed) + " pairs missed, " + std::to_string(false_ones) + " false";
+    }
+};
+
+Differences differences(const PairList& found, const PairList& right);
+
+/// Bytes of the faces and points of all triangles that are in `pairs`, each once: what deciding about them must read
+/// (docs/measuring.md, Bytes moved).
+std::int64_t corner_bytes(std::span<const Pair> pairs, const Input& input);
+
+/// Add to what the launches of `stage` have declared, if it is there and has any.
+void add_moved_bytes(std::vector<StageTime>& stages, std::string_view stage, std::int64_t bytes);
+
+}  // namespace bvhbench
