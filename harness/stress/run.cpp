@@ -6,7 +6,7 @@
 
 #include "geometry/error.h"
 #include "harness/base/failure.h"
-#include "harness/base/progress.h"
+#include "harness/base/terminal.h"
 #include "harness/judge/hard_inputs.h"
 #include "harness/stress/libraries.h"
 #include "scenes/finish.h"
