@@ -7,7 +7,6 @@
 
 #include "harness/measure/collide.h"
 #include "harness/measure/pipeline.h"
-#include "harness/measure/collide.h"
 #include "scenes/finish.h"
 #include "scenes/frames_between.h"
 #include "scenes/swept_parts.h"
