@@ -3,7 +3,6 @@
 
 #include <csignal>
 
-#include "harness/base/interrupt.h"
 #include "harness/commands/program.h"
 #include "harness/stress/libraries.h"
 #include "scenes/mesh_worker.h"
@@ -33,6 +32,5 @@ int main(int argc, char** argv)
     if (is_library_worker(argc, argv))
         return library_worker_main(argc, argv);
     std::signal(SIGXFSZ, SIG_IGN);  // a file over the limit of its size is an error of write()
-    end_on_signals();
     return run_program(argc, argv);
 }

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "harness/base/progress.h"
+#include "harness/base/terminal.h"
 #include "harness/measure/engine.h"
 #include "harness/measure/run.h"
 #include "harness/record/record.h"

@@ -11,7 +11,7 @@ namespace bvhbench {
 
 /// From here on SIGINT, SIGTERM and SIGHUP end the process, with exit code 128 + signal and one sentence: a thread, which
 /// sleeps until then, does what each AtSignal says and exits. A second signal ends the process without that. A SIGHUP
-/// that was ignored before, as under nohup, still is.
+/// that was ignored before, as under nohup, still is. A second call does nothing.
 void end_on_signals();
 
 /// What a signal does before it ends the process, as long as this object is there.
@@ -24,23 +24,8 @@ public:
     AtSignal(const AtSignal&) = delete;
     AtSignal& operator=(const AtSignal&) = delete;
 
-private:
-    friend class SignalEnd;
-    std::function<void()> work_;
-    std::string kept_;
+    const std::function<void()> work;
+    const std::string kept;
 };
-
-/// While one is there a signal is only remembered, for a command that has processes of its own to end: it asks
-/// is_interrupted() and returns. The process then ends where the object does.
-class DeferSignals {
-public:
-    DeferSignals();
-    ~DeferSignals();
-    DeferSignals(const DeferSignals&) = delete;
-    DeferSignals& operator=(const DeferSignals&) = delete;
-};
-
-/// Whether a signal has come that ends the process.
-bool is_interrupted();
 
 }  // namespace bvhbench

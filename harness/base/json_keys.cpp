@@ -2,8 +2,12 @@
 #include "harness/base/json_keys.h"
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
 
-#include "geometry/error.h"
+#include "geometry/host_memory.h"
 
 namespace bvhbench {
 
@@ -33,6 +37,11 @@ std::string text_at(const Json& json, const char* key)
     return value.get<std::string>();
 }
 
+std::string text_in(const Json& json, const char* key)
+{
+    return json.contains(key) ? text_at(json, key) : std::string();
+}
+
 bool truth_at(const Json& json, const char* key)
 {
     if (!json.at(key).is_boolean())
@@ -50,12 +59,46 @@ std::int64_t whole_number(const Json& value, const std::string& what, std::int64
     return value.get<std::int64_t>();
 }
 
+std::string json_reason(const std::exception& error)
+{
+    constexpr std::size_t longest = 200;
+    std::string text = error.what();
+    if (text.starts_with("[json.exception."))
+        text.erase(0, text.find("] ") + 2);
+    if (text.size() > longest)
+        text.replace(longest, text.npos, "...");
+    for (char& c : text)
+        if (c < ' ' || c > '~')
+            c = '?';
+    return text;
+}
+
 void read_list(const Json& json, const char* key, const std::function<void(const Json&)>& add)
 {
     if (!json.at(key).is_array() || json.at(key).empty())
         throw BadUsage("'" + std::string(key) + "' must be a list of at least one");
     for (const Json& item : json.at(key))
         add(item);
+}
+
+std::string file_text(const std::filesystem::path& path, const std::string& what)
+{
+    namespace fs = std::filesystem;
+    constexpr std::uintmax_t bytes_a_text_byte = 8;  // of a JSON document, about
+    std::error_code error;
+    if (fs::is_directory(path, error))
+        throw Unavailable(what + " '" + path.string() + "' cannot be read: it is a folder");
+    if (const std::uintmax_t size = fs::file_size(path, error); !error)  // a pipe has none
+        require_host_memory("reading '" + path.string() + '\'', bytes_a_text_byte * size);
+    errno = 0;
+    std::ifstream file(path, std::ios::binary);
+    std::string text;
+    if (file.is_open())
+        text.assign(std::istreambuf_iterator<char>(file), {});
+    if (!file.is_open() || file.bad())
+        throw Unavailable(what + " '" + path.string() + "' cannot be read" +
+                          (errno != 0 ? std::string(": ") + std::strerror(errno) : ""));
+    return text;
 }
 
 }  // namespace bvhbench

@@ -6,7 +6,6 @@
 
 #include <array>
 #include <charconv>
-#include <cmath>
 #include <string>
 
 namespace bvhbench {
@@ -33,15 +32,6 @@ void append_list(std::string& text, const Range& values)
         append_number(text, value);
     }
     text += ']';
-}
-
-/// With as many digits as tell it from all others.
-inline std::string number_text(double value)
-{
-    char text[40];
-    const bool is_plain = std::fabs(value) < 1e15 && (value == 0 || std::fabs(value) >= 1e-4);
-    const auto format = is_plain ? std::chars_format::fixed : std::chars_format::scientific;
-    return {text, std::to_chars(text, text + sizeof text, value, format).ptr};
 }
 
 }  // namespace bvhbench

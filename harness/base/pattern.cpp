@@ -7,19 +7,8 @@
 #include "scenes/formats/text.h"
 
 namespace bvhbench {
-namespace {
-
-re2::RE2::Options without_log()
-{
-    re2::RE2::Options options;
-    options.set_log_errors(false);  // on standard error
-    return options;
-}
-
-}  // namespace
-
 Pattern::Pattern(const std::string& text, const std::string& option)
-    : expression_(std::make_shared<re2::RE2>(text, without_log()))
+    : expression_(std::make_shared<re2::RE2>(text, re2::RE2::Quiet))
 {
     if (!expression_->ok())
         throw BadUsage(option + ": " + in_quotes(text) + " is no regular expression: " +

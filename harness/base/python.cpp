@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "harness/base/python.h"
 
+#include <re2/re2.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -9,7 +10,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <iostream>
-#include <string_view>
 
 #include "geometry/error.h"
 #include "harness/base/build_info.h"
@@ -61,12 +61,9 @@ ProcessEnd run_command(std::vector<std::string> words)
 /// The module that Python did not find, if that is what its last line says.
 std::string missing_module(const std::string& errors)
 {
-    constexpr std::string_view mark = "ModuleNotFoundError: No module named '";
-    const std::size_t at = errors.rfind(mark);
-    if (at == errors.npos)
-        return {};
-    const std::size_t name = at + mark.size();
-    return errors.substr(name, errors.find('\'', name) - name);
+    std::string name;
+    RE2::PartialMatch(errors, "(?s).*ModuleNotFoundError: No module named '([^']*)'", &name);
+    return name;
 }
 
 /// What became of a script that did not end with 0, as the end of a sentence. What it said is printed, unless it is that a

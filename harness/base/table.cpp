@@ -16,13 +16,6 @@ std::size_t width(const std::string& text)
         std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
 }
 
-std::string printed(const char* format, double value, int digits)
-{
-    std::array<char, 64> text{};
-    std::snprintf(text.data(), text.size(), format, digits, value);
-    return text.data();
-}
-
 /// Three digits that count, in the largest of the units that leaves at least 1.
 std::string with_unit(double value, const std::vector<const char*>& units)
 {
@@ -62,24 +55,15 @@ std::string Table::text() const
     return out;
 }
 
-std::string fixed(double value, int digits) { return printed("%.*f", value, digits); }
+std::string fixed(double value, int digits)
+{
+    std::array<char, 64> text{};
+    std::snprintf(text.data(), text.size(), "%.*f", digits, value);
+    return text.data();
+}
 
 std::string duration_text(double ns) { return with_unit(ns, {"ns", "us", "ms", "s"}); }
 
 std::string bytes_text(double bytes) { return with_unit(bytes, {"B", "kB", "MB", "GB", "TB"}); }
-
-std::string grouped(std::int64_t value)
-{
-    std::string text = std::to_string(value);
-    const std::size_t first = value < 0 ? 1 : 0;
-    for (std::size_t end = text.size(); end > first + 3;)
-        text.insert(end -= 3, 1, ',');
-    return text;
-}
-
-std::string counted(std::size_t count, const std::string& what)
-{
-    return grouped(static_cast<std::int64_t>(count)) + ' ' + what + (count == 1 ? "" : "s");
-}
 
 }  // namespace bvhbench

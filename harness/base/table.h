@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -37,11 +36,5 @@ std::string duration_text(double ns);
 
 /// Bytes with three digits and the unit that suits: "512 B", "6.91 MB".
 std::string bytes_text(double bytes);
-
-/// 1234567 as "1,234,567".
-std::string grouped(std::int64_t value);
-
-/// "1 cell", "1,200 cells".
-std::string counted(std::size_t count, const std::string& what);
 
 }  // namespace bvhbench

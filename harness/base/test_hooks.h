@@ -13,14 +13,12 @@
 
 namespace bvhbench {
 
-/// Variables of the environment that are set and change what is measured, with their values.
+/// Variables of the environment that are set and change what is measured, with their values. Throws BadUsage for a value
+/// that cannot be read.
 std::map<std::string, std::string> test_hooks();
 
-/// By what the times of the builder or collider called `name` are multiplied, as BVHBENCH_SLOW says: "oibvh-multi:1.10", or
-/// several of these with commas between. 1 without. Throws BadUsage if it says something else.
-double slowed_by(std::string_view name);
-
-/// Make stages take `factor` times as long as they took.
-void slow_down(std::span<StageTime> stages, double factor);
+/// Makes the stages of the builder or collider called `name` take as many times as long as BVHBENCH_SLOW says:
+/// "oibvh-multi:1.10", or several of these with commas between. Throws BadUsage if it says something else.
+void slow_down(std::span<StageTime> stages, std::string_view name);
 
 }  // namespace bvhbench

@@ -3,6 +3,7 @@
 
 #include "baselines/baselines.h"
 #include "geometry/error.h"
+#include "harness/base/json_keys.h"
 #include "oibvh/oibvh.h"
 
 namespace bvhbench {
@@ -15,9 +16,8 @@ constexpr std::string_view own_tree = {};  // no other builder makes it: its pro
 
 constexpr BuilderEntry of_embree(std::string_view name, std::string_view summary, MakeBuilder make)
 {
-    return {name, summary,       own_tree,
-            make, embree_absent, "Embree takes no coordinates beyond 1.8e18",
-            true};
+    constexpr std::string_view refusal = "Embree takes no coordinates beyond 1.8e18";
+    return {name, summary, own_tree, make, embree_absent, refusal, true};
 }
 
 constexpr BuilderEntry of_fcl(std::string_view name, std::string_view summary, MakeBuilder make)
@@ -80,13 +80,7 @@ std::span<const BuilderEntry> builder_catalog() { return catalog; }
 
 const BuilderEntry& find_builder(std::string_view name)
 {
-    std::string known;
-    for (const BuilderEntry& entry : catalog) {
-        if (entry.name == name)
-            return entry;
-        known += (known.empty() ? "" : ", ") + std::string(entry.name);
-    }
-    throw BadUsage("no builder is called '" + std::string(name) + "'; there are: " + known);
+    return find_called(builder_catalog(), name, "builder");
 }
 
 void check_boxes(const BuilderChoice& choice)
@@ -94,18 +88,17 @@ void check_boxes(const BuilderChoice& choice)
     const BoxFormat& format = find_box_format(choice.boxes);
     if (format.number == BOX_F32)
         return;
-    if (!find_builder(choice.name).takes_formats) {
-        std::string others;
-        for (const BuilderEntry& entry : catalog)
-            if (entry.takes_formats)
-                others += (others.empty() ? "" : ", ") + std::string(entry.name);
+    std::vector<std::string_view> others;
+    for (const BuilderEntry& entry : catalog)
+        if (entry.takes_formats)
+            others.push_back(entry.name);
+    if (!find_builder(choice.name).takes_formats)
         throw BadUsage(choice.name + " keeps its boxes in its own way, not as " + choice.boxes +
-                       "; these do as they are told: " + others);
-    }
+                       "; these do as they are told: " + joined(others));
     if (!choice.sorted_leaves)
         throw BadUsage("boxes of " + choice.boxes +
-                       " are made where leaves are lined up, so leaves must be sorted, not left "
-                       "in mesh order");
+                       " are made where leaves are lined up, so leaves must be sorted, not left in "
+                       "mesh order");
 }
 
 std::unique_ptr<Builder> make_builder(const BuilderChoice& choice, Programs& programs)

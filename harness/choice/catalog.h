@@ -38,16 +38,8 @@ enum class Operation { build, refit, collide, accuracy };
 /// The word for it in experiments and result files.
 constexpr std::string_view operation_name(Operation operation)
 {
-    switch (operation) {
-        case Operation::refit:
-            return "refit";
-        case Operation::collide:
-            return "collide";
-        case Operation::accuracy:
-            return "accuracy";
-        default:
-            return "build";
-    }
+    constexpr std::string_view names[] = {"build", "refit", "collide", "accuracy"};
+    return names[static_cast<std::size_t>(operation)];
 }
 
 /// Which builder, set up how: what the command line and experiment files choose. Owns its words.

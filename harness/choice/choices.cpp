@@ -2,6 +2,8 @@
 #include "harness/choice/choices.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <charconv>
 
 #include "builders/box_format.h"
@@ -26,14 +28,41 @@ bool read_number(const std::string& word, unsigned most, unsigned& value)
     return true;
 }
 
-/// One of two words; `value` tells whether it is the second.
-bool read_either(const std::string& word, std::string_view first, std::string_view second,
-                 bool& value)
+constexpr auto builder = &CellChoice::builder;
+constexpr auto collider = &CellChoice::collider;
+constexpr auto scene = &CellChoice::scene;
+
+template <auto part, auto member, unsigned most>
+bool set_number(CellChoice& choice, const std::string& word)
 {
-    if (word != first && word != second)
-        return false;
-    value = word == second;
-    return true;
+    return read_number(word, most, choice.*part.*member);
+}
+
+template <auto part, auto member>
+Json value_of(const CellChoice& choice)
+{
+    return Json(choice.*part.*member);
+}
+
+constexpr std::array<std::string_view, 2> grids = {"object", "scene"}, places = {"mesh", "sorted"},
+                                          adjacents = {"drop", "keep"}, truths = {"false", "true"};
+constexpr std::array<std::string_view, 3> amongs = {"all", "between", "within"};
+
+/// For what is false or true, or an enumeration, in the order of the words.
+template <auto part, auto member, const auto& words>
+bool set_word(CellChoice& choice, const std::string& word)
+{
+    auto& value = choice.*part.*member;
+    const auto found = std::find(words.begin(), words.end(), word);
+    if (found != words.end())
+        value = static_cast<std::remove_reference_t<decltype(value)>>(found - words.begin());
+    return found != words.end();
+}
+
+template <auto part, auto member, const auto& words>
+Json word_of(const CellChoice& choice)
+{
+    return Json(words[static_cast<std::size_t>(choice.*part.*member)]);
 }
 
 // Boxes before leaves: boxes of another format want sorted leaves, unless something is said of leaves.
@@ -44,30 +73,18 @@ constexpr Choice table[] = {
          choice.builder.order = word;
          return true;
      },
-     [](const CellChoice& choice) { return Json(choice.builder.order); }},
+     value_of<builder, &BuilderChoice::order>},
     {"grid", Of::builder, "object or scene",
      "object or scene: what codes are measured against, of several objects",
-     [](CellChoice& choice, const std::string& word) {
-         bool is_scene = false;
-         const bool is_known = read_either(word, "object", "scene", is_scene);
-         choice.builder.grid = is_scene ? GridOver::scene : GridOver::object;
-         return is_known;
-     },
-     [](const CellChoice& choice) {
-         return Json(choice.builder.grid == GridOver::scene ? "scene" : "object");
-     }},
+     set_word<builder, &BuilderChoice::grid, grids>, word_of<builder, &BuilderChoice::grid, grids>},
     {"group_size", Of::builder, "a power of two up to 65536, 0 for the builder's choice",
      "lanes in a work-group, a power of two; 0: the builder's choice",
-     [](CellChoice& choice, const std::string& word) {
-         return read_number(word, most_group, choice.builder.group_size);
-     },
-     [](const CellChoice& choice) { return Json(choice.builder.group_size); }, true},
+     set_number<builder, &BuilderChoice::group_size, most_group>,
+     value_of<builder, &BuilderChoice::group_size>, true},
     {"items", Of::builder, "a power of two up to 8, 0 for the builder's choice",
      "nodes a lane merges in registers, a power of two; 0: the builder's choice",
-     [](CellChoice& choice, const std::string& word) {
-         return read_number(word, most_items, choice.builder.items);
-     },
-     [](const CellChoice& choice) { return Json(choice.builder.items); }, true},
+     set_number<builder, &BuilderChoice::items, most_items>,
+     value_of<builder, &BuilderChoice::items>, true},
     {"boxes", Of::builder, "a name of `list formats`",
      "what nodes keep their boxes in: a name of `list formats`",
      [](CellChoice& choice, const std::string& word) {
@@ -76,34 +93,19 @@ constexpr Choice table[] = {
          choice.builder.sorted_leaves = choice.builder.sorted_leaves || word != "f32";
          return true;
      },
-     [](const CellChoice& choice) { return Json(choice.builder.boxes); }},
+     value_of<builder, &BuilderChoice::boxes>},
     {"leaves", Of::builder, "mesh or sorted",
      "mesh or sorted: where leaf boxes are kept; default: mesh, and sorted for boxes other than "
      "f32",
-     [](CellChoice& choice, const std::string& word) {
-         return read_either(word, "mesh", "sorted", choice.builder.sorted_leaves);
-     },
-     [](const CellChoice& choice) {
-         return Json(choice.builder.sorted_leaves ? "sorted" : "mesh");
-     }},
+     set_word<builder, &BuilderChoice::sorted_leaves, places>,
+     word_of<builder, &BuilderChoice::sorted_leaves, places>},
     {"pairs_of", Of::query, "all, between or within",
      "pairs of all triangles, between objects or within",
-     [](CellChoice& choice, const std::string& word) {
-         for (const Among among : {Among::all, Among::between_objects, Among::within_objects})
-             if (among_name(among) == word) {
-                 choice.collider.among = among;
-                 return true;
-             }
-         return false;
-     },
-     [](const CellChoice& choice) { return Json(among_name(choice.collider.among)); }},
+     set_word<collider, &ColliderChoice::among, amongs>,
+     word_of<collider, &ColliderChoice::among, amongs>},
     {"adjacent", Of::query, "keep or drop", "keep or drop pairs that share a vertex index",
-     [](CellChoice& choice, const std::string& word) {
-         return read_either(word, "drop", "keep", choice.collider.keep_adjacent);
-     },
-     [](const CellChoice& choice) {
-         return Json(choice.collider.keep_adjacent ? "keep" : "drop");
-     }},
+     set_word<collider, &ColliderChoice::keep_adjacent, adjacents>,
+     word_of<collider, &ColliderChoice::keep_adjacent, adjacents>},
     {"narrow", Of::query, "none, or a name of `list narrow`",
      "which pairs intersect: a name of `list narrow`, or none, to stop at their boxes",
      [](CellChoice& choice, const std::string& word) {
@@ -112,7 +114,7 @@ constexpr Choice table[] = {
          choice.collider.narrow = word;
          return true;
      },
-     [](const CellChoice& choice) { return Json(choice.collider.narrow); }},
+     value_of<collider, &ColliderChoice::narrow>},
     {"no_skip", Of::query, "none, all, or a name of `list skips`",
      "a rule of `list skips` that is not used, or all: work is done that need not be",
      [](CellChoice& choice, const std::string& word) {
@@ -123,22 +125,16 @@ constexpr Choice table[] = {
      [](const CellChoice& choice) { return Json(skip_rules_text(choice.collider.rules_off)); }},
     {"jump", Of::collider, "a number of levels up to 32, 0 for the collider's choice",
      "levels a step of a traversal descends; 0: the collider's choice",
-     [](CellChoice& choice, const std::string& word) {
-         return read_number(word, most_levels, choice.collider.jump);
-     },
-     [](const CellChoice& choice) { return Json(choice.collider.jump); }},
+     set_number<collider, &ColliderChoice::jump, most_levels>,
+     value_of<collider, &ColliderChoice::jump>},
     {"start_level", Of::collider, "a level up to 32, 0 for the collider's choice",
      "the level a traversal starts on; 0: the collider's choice",
-     [](CellChoice& choice, const std::string& word) {
-         return read_number(word, most_levels, choice.collider.start_level);
-     },
-     [](const CellChoice& choice) { return Json(choice.collider.start_level); }},
+     set_number<collider, &ColliderChoice::start_level, most_levels>,
+     value_of<collider, &ColliderChoice::start_level>},
     {"group_size", Of::collider, "a power of two up to 65536, 0 for the collider's choice",
      "lanes in a work-group, a power of two; 0: the collider's choice",
-     [](CellChoice& choice, const std::string& word) {
-         return read_number(word, most_group, choice.collider.group_size);
-     },
-     [](const CellChoice& choice) { return Json(choice.collider.group_size); }, true},
+     set_number<collider, &ColliderChoice::group_size, most_group>,
+     value_of<collider, &ColliderChoice::group_size>, true},
     {"frames", Of::scene, "a:b, from frame a to before b", "a:b, from frame a to before b",
      [](CellChoice& choice, const std::string& word) {
          choice.scene.frames = frame_range(word);
@@ -147,10 +143,8 @@ constexpr Choice table[] = {
      [](const CellChoice& choice) { return Json(frame_range_text(choice.scene.frames)); }},
     {"between", Of::scene, "a number of frames up to 1000",
      "frames put between each two of the scene's, in a straight line",
-     [](CellChoice& choice, const std::string& word) {
-         return read_number(word, most_between, choice.scene.between);
-     },
-     [](const CellChoice& choice) { return Json(choice.scene.between); }},
+     set_number<scene, &SceneChoice::between, most_between>,
+     value_of<scene, &SceneChoice::between>},
     {"objects", Of::scene, "auto, one, mesh or components",
      "what gets a tree of its own: auto, one, mesh or components",
      [](CellChoice& choice, const std::string& word) {
@@ -160,16 +154,12 @@ constexpr Choice table[] = {
      [](const CellChoice& choice) { return Json(objects_by_name(choice.scene.objects)); }},
     {"swept", Of::scene, "true or false",
      "boxes around the way from each frame to the next: vertices against faces, and edges against "
-     "edges; "
-     "--pairs-of between or within has one of the two",
-     [](CellChoice& choice, const std::string& word) {
-         return read_either(word, "false", "true", choice.scene.swept);
-     },
-     [](const CellChoice& choice) { return Json(choice.scene.swept); }},
+     "edges; --pairs-of between or within has one of the two",
+     set_word<scene, &SceneChoice::swept, truths>, value_of<scene, &SceneChoice::swept>},
 };
 
 /// A value of JSON as the command line says it.
-std::string word_of(const Json& value)
+std::string as_word(const Json& value)
 {
     return value.is_string() ? value.get<std::string>() : value.dump();
 }
@@ -210,7 +200,7 @@ void read_choices(const Json& json, Choice::Of of, CellChoice& choice)
 {
     for (const Choice& option : table)
         if (option.of == of && json.contains(option.key))
-            choose(option, choice, word_of(json[std::string(option.key)]));
+            choose(option, choice, as_word(json[std::string(option.key)]));
 }
 
 std::vector<std::string_view> choice_keys(Choice::Of of,

@@ -5,6 +5,7 @@
 #include "collide/collider.h"
 #include "collide/narrow/narrow_methods.h"
 #include "geometry/error.h"
+#include "harness/base/json_keys.h"
 
 namespace bvhbench {
 namespace {
@@ -14,6 +15,17 @@ namespace {
 // indices, half a vertex of 24, twice with its copy for the frame before, and a number.
 constexpr std::size_t embree_bytes = 128;
 constexpr std::size_t fcl_bytes = 180;
+
+constexpr ColliderEntry without_tree(std::string_view name, std::string_view summary,
+                                     MakeCollider make)
+{
+    return {.name = name, .summary = summary, .make = make, .needs_tree = false};
+}
+
+constexpr ColliderEntry of_fcl(std::string_view name, std::string_view summary, MakeCollider make)
+{
+    return {name, summary, make, fcl_absent, fcl_bytes, true, false, true};
+}
 
 // To add a collider, add its line here. Nothing registers itself.
 constexpr ColliderEntry catalog[] = {
@@ -26,26 +38,15 @@ constexpr ColliderEntry catalog[] = {
      make_block},
     {"front", "where the frame before stopped, moved to where this one does, over refitted boxes",
      make_front},
-    {"grid",
-     "no tree: boxes hashed by the cells they cover, on levels by their size",
-     make_grid,
-     {},
-     0,
-     false,
-     false},
-    {"brute",
-     "sweep and prune on one core of the host, without the tree: the oracle",
-     make_brute,
-     {},
-     0,
-     false,
-     false},
+    without_tree("grid", "no tree: boxes hashed by the cells they cover, on levels by their size",
+                 make_grid),
+    without_tree("brute", "sweep and prune on one core of the host, without the tree: the oracle",
+                 make_brute),
     {"embree", "Embree's rtcCollide over trees of its own, on all host threads",
      make_embree_collider, embree_absent, embree_bytes, true, false},
-    {"fcl", "triangles that intersect, by FCL, its trees built each time, on a host core",
-     make_fcl_collider, fcl_absent, fcl_bytes, true, false, true},
-    {"fcl-refit", "the same, its trees refit to moved points", make_fcl_refit_collider, fcl_absent,
-     fcl_bytes, true, false, true},
+    of_fcl("fcl", "triangles that intersect, by FCL, its trees built each time, on a host core",
+           make_fcl_collider),
+    of_fcl("fcl-refit", "the same, its trees refit to moved points", make_fcl_refit_collider),
 };
 
 }  // namespace
@@ -54,13 +55,7 @@ std::span<const ColliderEntry> collider_catalog() { return catalog; }
 
 const ColliderEntry& find_collider(std::string_view name)
 {
-    std::string known;
-    for (const ColliderEntry& entry : catalog) {
-        if (entry.name == name)
-            return entry;
-        known += (known.empty() ? "" : ", ") + std::string(entry.name);
-    }
-    throw BadUsage("no collider is called '" + std::string(name) + "'; there are: " + known);
+    return find_called(collider_catalog(), name, "collider");
 }
 
 std::unique_ptr<Collider> make_collider(const ColliderChoice& choice, Programs& programs)
@@ -76,18 +71,6 @@ std::unique_ptr<Collider> make_collider(std::string_view name, Programs& program
     if (entry.make == nullptr)
         throw Unavailable(std::string(entry.absent));
     return entry.make(programs, options);
-}
-
-std::string_view among_name(Among among)
-{
-    switch (among) {
-        case Among::between_objects:
-            return "between";
-        case Among::within_objects:
-            return "within";
-        default:
-            return "all";
-    }
 }
 
 }  // namespace bvhbench

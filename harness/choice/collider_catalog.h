@@ -19,9 +19,9 @@ struct ColliderEntry {
     std::string_view absent = {};  ///< then: why, as in "built without Embree"
     std::size_t host_bytes = 0;    ///< a triangle's, about, of what a library takes on the host
     bool is_library = false;       ///< the work is done by somebody else's code
-    bool needs_tree = true;  ///< as its collider says itself: whether it queries a builder's tree
-    bool finds_contacts =
-        false;  ///< as its collider says itself: contacts at once, and no pairs of boxes
+    // As its collider says itself:
+    bool needs_tree = true;       ///< whether it queries a builder's tree
+    bool finds_contacts = false;  ///< contacts at once, and no pairs of boxes
 };
 
 /// Every collider, in the order tables list them.
@@ -35,8 +35,7 @@ struct ColliderChoice {
     std::string name;
     Among among = Among::all;
     bool keep_adjacent = true;
-    std::string narrow =
-        "none";  ///< the narrow phase behind it: none, exact or another name of narrow_methods.h
+    std::string narrow = "none";  ///< the narrow phase behind it: none or of narrow_methods.h
     unsigned jump = 0;
     unsigned start_level = 0;
     unsigned group_size = 0;
@@ -66,8 +65,5 @@ std::unique_ptr<Collider> make_collider(std::string_view name, Programs& program
 
 /// The collider chosen. Throws as the one above.
 std::unique_ptr<Collider> make_collider(const ColliderChoice& choice, Programs& programs);
-
-/// "all", "between" or "within".
-std::string_view among_name(Among among);
 
 }  // namespace bvhbench

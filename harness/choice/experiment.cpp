@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "harness/choice/experiment.h"
-#include "harness/base/file_text.h"
 
 #include <algorithm>
 #include <cctype>
 
 #include "geometry/error.h"
 #include "harness/base/json_keys.h"
-#include "harness/base/json_reason.h"
-#include "harness/choice/experiment_pipelines.h"
-#include "harness/choice/scene_range.h"
+#include "harness/choice/experiment_lists.h"
 
 namespace bvhbench {
 namespace {
@@ -21,50 +18,13 @@ constexpr std::string_view names[] = {
     "table3",       "pairs",     "rebuild", "libraries", "agreement", "native",
     "native-pairs", "yardstick", "wide",    "roofline",  "swept"};
 
-constexpr std::int64_t most_sizes = 1 << 24;
-
-SizeRange range_of(const Json& json, const std::string& key)
-{
-    SizeRange range;
-    if (json.is_array()) {
-        for (const Json& size : json)
-            range.listed.push_back(whole_number(size, key, 1, std::int64_t{1} << 31));
-        return range;
-    }
-    refuse_unknown_keys(
-        json, {"from", "to", "powers_of_two_from", "powers_of_two_to", "around_powers_of_two_to"},
-        "the sizes '" + key + "'");
-    const auto read = [&](const char* name, std::int64_t& value, std::int64_t most) {
-        if (json.contains(name))
-            value = whole_number(json[name], name, 1, most);
-    };
-    read("from", range.from, most_sizes);
-    read("to", range.to, most_sizes);
-    read("powers_of_two_from", range.powers_of_two_from, std::int64_t{1} << 31);
-    read("powers_of_two_to", range.powers_of_two_to, std::int64_t{1} << 31);
-    read("around_powers_of_two_to", range.around_powers_of_two_to, std::int64_t{1} << 30);
-    return range;
-}
-
-std::vector<std::string> scenes_of(const Json& json)
-{
-    if (json.is_string())
-        return {json.get<std::string>()};
-    if (!json.is_object() || json.size() != 2 || !json.contains("scene"))
-        throw BadUsage("a scene is text, or an object of 'scene' and the sizes that it names");
-    for (const auto& [key, sizes] : json.items())
-        if (key != "scene")
-            return scenes_in(text_at(json, "scene"), key, range_of(sizes, key));
-    return {};
-}
-
 /// The keys that `quick` may replace.
 void read_size(const Json& json, Experiment& experiment)
 {
     if (json.contains("scenes")) {
         experiment.scenes.clear();
         read_list(json, "scenes", [&](const Json& item) {
-            for (std::string& scene : scenes_of(item))
+            for (std::string& scene : scene_names(item))
                 experiment.scenes.push_back(std::move(scene));
         });
     }
@@ -73,38 +33,31 @@ void read_size(const Json& json, Experiment& experiment)
         read_list(json, "builders",
                   [&](const Json& item) { experiment.builders.push_back(builder_choice(item)); });
     }
-    if (json.contains("samples"))
-        experiment.samples = static_cast<int>(whole_number(json["samples"], "samples", 1, 1000000));
-    if (json.contains("warm_up"))
-        experiment.warm_up = static_cast<int>(whole_number(json["warm_up"], "warm_up", 0, 1000000));
+    read_whole(json, "samples", 1, most_samples, experiment.samples);
+    read_whole(json, "warm_up", 0, most_samples, experiment.warm_up);
 }
 
-double real_number(const Json& json, const char* key, double least, double most)
+void read_real(const Json& json, const char* key, double most, double& value)
 {
-    const Json& value = json[key];
-    if (!value.is_number() || !(value.get<double>() >= least && value.get<double>() <= most))
-        throw BadUsage("'" + std::string(key) + "' must be a number from " + Json(least).dump() +
-                       " to " + Json(most).dump() + ", not " + value.dump());
-    return value.get<double>();
+    if (!json.contains(key))
+        return;
+    if (!json[key].is_number() || !(json[key] >= 0.0 && json[key] <= most))
+        throw BadUsage("'" + std::string(key) + "' must be a number from 0.0 to " +
+                       Json(most).dump() + ", not " + json[key].dump());
+    value = json[key].get<double>();
 }
 
 SamplingRules sampling_of(const Json& json)
 {
     SamplingRules rules;
-    if (json.contains("until"))
-        rules.until = real_number(json, "until", 0, 1);
+    read_real(json, "until", 1, rules.until);
     for (const char* key : {"min_samples", "max_samples", "time_budget_s"})
         if (json.contains(key) && rules.until == 0)
             throw BadUsage("'" + std::string(key) +
                            "' bounds what 'until' begins, which is not there");
-    if (json.contains("min_samples"))
-        rules.min_samples =
-            static_cast<int>(whole_number(json["min_samples"], "min_samples", 2, 1000000));
-    if (json.contains("max_samples"))
-        rules.max_samples =
-            static_cast<int>(whole_number(json["max_samples"], "max_samples", 2, 1000000));
-    if (json.contains("time_budget_s"))
-        rules.time_budget_s = real_number(json, "time_budget_s", 0, 1e6);
+    read_whole(json, "min_samples", 2, most_samples, rules.min_samples);
+    read_whole(json, "max_samples", 2, most_samples, rules.max_samples);
+    read_real(json, "time_budget_s", 1e6, rules.time_budget_s);
     if (json.contains("caches")) {
         const std::string caches = text_at(json, "caches");
         if (caches != "hot" && caches != "cold")
@@ -155,8 +108,8 @@ Experiment experiment_of(const Json& json, bool quick)
     Experiment experiment;
     experiment.name = text_at(json, "experiment");
     check_experiment_name(experiment.name, "experiment");
-    experiment.question = json.contains("question") ? text_at(json, "question") : "";
-    experiment.paper = json.contains("paper") ? text_at(json, "paper") : "";
+    experiment.question = text_in(json, "question");
+    experiment.paper = text_in(json, "paper");
     if (json.contains("doubles"))
         experiment.doubles = doubles_called(text_at(json, "doubles"));
     experiment.sampling = sampling_of(json);
@@ -173,20 +126,15 @@ Experiment experiment_of(const Json& json, bool quick)
         experiment.operations = operations_of(json["operations"]);
     if (json.contains("quality"))
         experiment.quality = truth_at(json, "quality");
-    if (json.contains("quick")) {
-        if (collides)
-            refuse_unknown_keys(json["quick"],
-                                {"scenes", "builders", "pipelines", "samples", "warm_up"},
-                                "'quick'");
-        else
-            refuse_unknown_keys(json["quick"], {"scenes", "builders", "samples", "warm_up"},
-                                "'quick'");
-        Experiment quicker = experiment;
-        read_size(json["quick"], quicker);
-        if (quick)
-            return quicker;
-    }
-    return experiment;
+    if (!json.contains("quick"))
+        return experiment;
+    std::vector<std::string_view> keys = {"scenes", "builders", "samples", "warm_up"};
+    if (collides)
+        keys.insert(keys.begin() + 2, "pipelines");
+    refuse_unknown_keys(json["quick"], keys, "'quick'");
+    Experiment quicker = experiment;
+    read_size(json["quick"], quicker);
+    return quick ? quicker : experiment;
 }
 
 }  // namespace

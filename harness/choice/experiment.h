@@ -10,7 +10,7 @@
 
 #include "builders/builder.h"
 #include "harness/choice/catalog.h"
-#include "harness/choice/collide_task.h"
+#include "harness/choice/scene_choice.h"
 
 namespace bvhbench {
 

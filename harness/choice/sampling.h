@@ -7,6 +7,8 @@
 
 namespace bvhbench {
 
+constexpr int most_samples = 1000000;
+
 /// When a cell has samples enough, and under what circumstances they are taken.
 struct SamplingRules {
     /// If not 0: samples are taken until the range between their quartiles is at most this share of the median.
@@ -16,8 +18,7 @@ struct SamplingRules {
     double time_budget_s = 60;  ///< for all cells that are sampled together, warm-up left out
     bool cold = false;          ///< whether caches are emptied before each sample
     int calibrate_every = 16;   ///< samples between two runs of the calibration kernel; 0: never
-    double drift_limit =
-        0.25;  ///< samples beside one that is further off than this share are marked
+    double drift_limit = 0.25;  ///< samples beside one that is off by more of it are marked
 
     bool operator==(const SamplingRules&) const = default;
 };
@@ -55,5 +56,14 @@ struct SamplingWords {
 
 /// Throws BadUsage for rules that make no sense, naming the option.
 void check_rules(const SamplingRules& rules);
+
+/// C_inner and C_tri of Aila, Karras and Laine 2013, Eq. (1): what visiting a node and testing a triangle cost,
+/// relative to each other. The paper prints none; with theirs, which these are, its Table 4 comes out.
+struct NodeCosts {
+    double inner = 1.2;
+    double triangle = 1.0;
+
+    bool operator==(const NodeCosts&) const = default;
+};
 
 }  // namespace bvhbench

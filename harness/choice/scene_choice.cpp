@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "builders/orders.h"
 #include "geometry/error.h"
 
 namespace bvhbench {
@@ -29,6 +30,25 @@ FrameRange frame_range(const std::string& text)
 std::string frame_range_text(const FrameRange& range)
 {
     return std::to_string(range.first) + ':' + (range.end == 0 ? "" : std::to_string(range.end));
+}
+
+void check_swept(const CollideTask& task)
+{
+    if (task.objects != ObjectsBy::automatic)
+        throw BadUsage(
+            "swept, objects are the scene's vertices, faces and edges, and nobody chooses them");
+    for (const PipelineChoice& pipeline : task.pipelines) {
+        if (pipeline.collider.narrow != "none")
+            throw BadUsage(
+                "swept boxes tell who may meet between two frames, and no narrow phase here tells "
+                "who does: '" +
+                pipeline.collider.narrow + "' looks at one moment");
+        if (pipeline.collider.among != Among::within_objects && pipeline.builder.name != "none" &&
+            find_order(pipeline.builder.order).medians != Medians::nowhere)
+            throw BadUsage("order " + pipeline.builder.order +
+                           " lines up one object, and swept vertices and faces are two: pairs "
+                           "within objects are those of edges alone");
+    }
 }
 
 }  // namespace bvhbench

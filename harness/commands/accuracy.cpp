@@ -36,26 +36,26 @@ public:
 
     int run(const Invocation& invocation) override
     {
-        const std::vector<const Axis*> axes = this->axes();
+        if (!axis_.empty())
+            find_axis(axis_);
         task_.filter = cell_filter(filter_);
         const std::filesystem::path folder = out_;
         const std::filesystem::path file =
             folder / (axis_.empty() ? "accuracy.json" : "accuracy-" + axis_ + ".json");
         const CommonOptions& common = invocation.common;
         Session session(common);
-        std::vector<std::string> inputs;
-        for (const std::string& scene : task_.scenes)
-            for (std::string& read : scene_files(scene, session.scenes()))
-                inputs.push_back(std::move(read));
         make_folder(folder);
-        const OutputRules rules = result_rules(common.force, std::move(inputs));
+        const OutputRules rules =
+            result_rules(common.force, files_of(task_.scenes, session.scenes()));
         check_pictures(folder, "--out", rules);
         ResultFile results(Output(file, "--out", rules), measured_facts(session, invocation.words));
-        Progress progress(axes.size());
+        Progress progress(axis_.empty() ? accuracy_axes().size() : 1);
         int order = 0;
-        for (const Axis* axis : axes) {
-            progress.step("accuracy, " + std::string(axis->name));
-            axis->measure(
+        for (const Axis& axis : accuracy_axes()) {
+            if (!axis_.empty() && axis.name != axis_)
+                continue;
+            progress.step("accuracy, " + std::string(axis.name));
+            axis.measure(
                 {session, task_, order, progress, [&](Cell&& cell) { results.add(cell); }});
         }
         if (results.size() == 0)
@@ -70,16 +70,6 @@ public:
     }
 
 private:
-    std::vector<const Axis*> axes() const
-    {
-        if (!axis_.empty())
-            return {&find_axis(axis_)};
-        std::vector<const Axis*> axes;
-        for (const Axis& axis : accuracy_axes())
-            axes.push_back(&axis);
-        return axes;
-    }
-
     std::string axis_;  ///< empty: all
     AxisTask task_;
     std::string filter_;

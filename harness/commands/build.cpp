@@ -1,14 +1,37 @@
 // SPDX-License-Identifier: MIT
+#include <array>
+
+#include "harness/base/number_text.h"
 #include "harness/base/python.h"
 #include "harness/choice/choices.h"
 #include "harness/commands/command.h"
 #include "harness/commands/words.h"
 #include "harness/measure/run.h"
-#include "harness/record/dump.h"
+#include "harness/session/watchdog.h"
 #include "scenes/face_order.h"
 
 namespace bvhbench {
 namespace {
+
+/// A spelled-out tree as JSON, root first, -1 for none, numbers with the digits that give their bits back:
+/// {"nodes":[{"box":{"min":[x,y,z],"max":[x,y,z]},"child":[a,b],"primitive":k}]}
+std::string dump_text(const HostTree& tree)
+{
+    std::string text = "{\"nodes\":[";
+    for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
+        const auto& [box, child, primitive] = tree.nodes[i];
+        text += i == 0 ? "\n{\"box\":{\"min\":" : ",\n{\"box\":{\"min\":";
+        append_list(text, std::array{box.min_x, box.min_y, box.min_z});
+        text += ",\"max\":";
+        append_list(text, std::array{box.max_x, box.max_y, box.max_z});
+        text += "},\"child\":";
+        append_list(text, child);
+        text += ",\"primitive\":";
+        append_number(text, primitive);
+        text += '}';
+    }
+    return text + "\n]}\n";
+}
 
 class Build final : public Command {
 public:
@@ -34,8 +57,8 @@ public:
         check_powers(choice_);
         const CommonOptions& common = invocation.common;
         Session session(common);
-        const auto rules = result_rules(common.force, scene_files(scene_, session.scenes()),
-                                        session.watchdog().run_id());
+        const auto rules =
+            result_rules(common.force, scene_files(scene_, session.scenes()), watchdog::run_id());
         const Output dumped(dump_, "--dump", rules);
         Run run(session, Output(json_, "--json", rules), invocation.words, costs_);
         run.experiment(experiment());
@@ -92,10 +115,8 @@ extern const CommandEntry build_command = {
     measuring,
     "Build one tree, check it and time its stages",
     "The tree is held to the builder's oracle, bit for bit, before samples count. Times are of "
-    "stages on the device's clock, "
-    "from first start to last end. The table has the median, percentiles, and the share of the "
-    "device's copy rate that a "
-    "stage reaches.",
+    "stages on the device's clock, from first start to last end. The table has the median, "
+    "percentiles, and the share of the device's copy rate that a stage reaches.",
     {{"bvhbench build --builder oibvh-multi --scene torus:100000",
       "a generated scene of 100,000 triangles"},
      {"bvhbench build --builder karras --scene bunny.ply --json karras.json",

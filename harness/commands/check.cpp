@@ -3,13 +3,12 @@
 
 #include "geometry/error.h"
 #include "harness/base/failure.h"
-#include "harness/base/progress.h"
 #include "harness/base/table.h"
+#include "harness/base/terminal.h"
 #include "harness/commands/command.h"
 #include "harness/commands/words.h"
 #include "harness/judge/check.h"
 #include "harness/judge/hard_inputs.h"
-#include "harness/measure/portable.h"
 #include "harness/measure/run.h"
 #include "scenes/face_order.h"
 
@@ -33,11 +32,9 @@ std::vector<BuilderChoice> chosen_builders(const std::string& name)
     return builders;
 }
 
-/// What came of one builder over one kind of input.
+/// What came of a builder over some inputs.
 struct Tally {
-    std::size_t checked = 0;
-    std::size_t broken = 0;
-    std::size_t refused = 0;
+    std::size_t checked = 0, broken = 0, refused = 0;
     std::string first;    ///< the first promise broken
     std::string refusal;  ///< why the first was refused
 
@@ -62,12 +59,15 @@ public:
         const Input input = upload(session_.device(), session_.queue(), points, faces);
         Oracle oracle(session_, input);
         for (std::size_t i = 0; i < builders_.size(); ++i) {
-            std::string wrong, refusal;
-            const std::string failure = reason_of_failure(
-                [&] { wrong = wrong_or_refused(builders_[i], input, oracle, refusal); });
-            if (!failure.empty() || !refusal.empty())
-                session_.renew_queue();
-            count(tallies[i], failure.empty() ? wrong : failure, refusal, faces.size());
+            Tally& tally = tallies[i];
+            const auto [wrong, refusal] = wrong_or_refused(builders_[i], input, oracle);
+            ++tally.checked;
+            tally.broken += wrong.empty() ? 0 : 1;
+            tally.refused += refusal.empty() ? 0 : 1;
+            if (tally.first.empty() && !wrong.empty())
+                tally.first = std::to_string(faces.size()) + " triangles: " + wrong;
+            if (tally.refusal.empty())
+                tally.refusal = refusal;
         }
     }
 
@@ -77,11 +77,11 @@ public:
             const Tally& tally = tallies[i];
             table_.row({builders_[i].name, input, std::to_string(tally.checked), tally.verdict(),
                         tally.broken == 0 ? tally.refusal : tally.first});
-            broken_ += tally.broken;
-            checked_ += tally.checked;
-            refused_ += tally.refused;
-            if (refusal_.empty())
-                refusal_ = tally.refusal;
+            all_.broken += tally.broken;
+            all_.checked += tally.checked;
+            all_.refused += tally.refused;
+            if (all_.refusal.empty())
+                all_.refusal = tally.refusal;
         }
     }
 
@@ -90,54 +90,40 @@ public:
     int verdict() const
     {
         std::cout << table_.text();
-        if (refused_ == checked_)
-            throw NothingMeasured("nothing was checked: " + refusal_);
-        std::cout << checked_ << " checks, "
-                  << (broken_ == 0 ? "every promise is kept\n"
-                                   : std::to_string(broken_) + " with a broken promise\n");
-        return broken_ == 0 ? 0 : 1;
+        if (all_.refused == all_.checked)
+            throw NothingMeasured("nothing was checked: " + all_.refusal);
+        std::cout << all_.checked << " checks, "
+                  << (all_.broken == 0 ? "every promise is kept\n"
+                                       : std::to_string(all_.broken) + " with a broken promise\n");
+        return all_.broken == 0 ? 0 : 1;
     }
 
 private:
     /// The promise that is broken, or why the builder cannot be had over this input.
-    std::string wrong_or_refused(const BuilderChoice& builder, const Input& input, Oracle& oracle,
-                                 std::string& refusal)
+    std::pair<std::string, std::string> wrong_or_refused(const BuilderChoice& builder,
+                                                         const Input& input, Oracle& oracle)
     {
-        try {
-            bool refused = false;
-            const std::string wrong = broken_contract(session_, builder, input, oracle, &refused);
-            if (refused)
-                refusal = find_builder(builder.name).may_refuse;
-            return wrong;
-        } catch (const BadUsage& error) {
-            refusal = error.what();
-        } catch (const Unavailable& error) {
-            refusal = error.what();
-        }
-        return {};
-    }
-
-    static void count(Tally& tally, const std::string& wrong, const std::string& refusal,
-                      std::size_t triangles)
-    {
-        ++tally.checked;
-        tally.refused += refusal.empty() ? 0 : 1;
-        if (tally.refusal.empty())
-            tally.refusal = refusal;
-        if (wrong.empty())
-            return;
-        ++tally.broken;
-        if (tally.first.empty())
-            tally.first = std::to_string(triangles) + " triangles: " + wrong;
+        std::string wrong, refusal;
+        const std::string failure = reason_of_failure([&] {
+            try {
+                bool refused = false;
+                wrong = broken_contract(session_, builder, input, oracle, &refused);
+                refusal = refused ? find_builder(builder.name).may_refuse : "";
+            } catch (const BadUsage& error) {
+                refusal = error.what();
+            } catch (const Unavailable& error) {
+                refusal = error.what();
+            }
+        });
+        if (!failure.empty() || !refusal.empty())
+            session_.renew_queue();
+        return {failure.empty() ? wrong : failure, refusal};
     }
 
     Session& session_;
     std::vector<BuilderChoice> builders_;
     Table table_{{{"builder", left}, {"input", left}, {"checks"}, {"promises", left}, {"", left}}};
-    std::size_t checked_ = 0;
-    std::size_t broken_ = 0;
-    std::size_t refused_ = 0;
-    std::string refusal_;
+    Tally all_;
 };
 
 void check_hard_inputs(Checker& checker)

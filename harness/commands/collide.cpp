@@ -4,13 +4,14 @@
 #include <optional>
 
 #include "geometry/error.h"
-#include "harness/base/progress.h"
 #include "harness/base/python.h"
+#include "harness/base/terminal.h"
 #include "harness/choice/choices.h"
 #include "harness/commands/command.h"
 #include "harness/commands/words.h"
 #include "harness/measure/run.h"
 #include "harness/record/pairs_file.h"
+#include "harness/session/watchdog.h"
 
 namespace bvhbench {
 namespace {
@@ -47,22 +48,14 @@ public:
         CollideTask task = this->task();  // wrong words are found before anything is opened
         const CommonOptions& common = invocation.common;
         Session session(common);
-        std::vector<std::string> inputs;
-        for (const std::string& scene : scenes_)
-            for (std::string& file : scene_files(scene, session.scenes()))
-                inputs.push_back(std::move(file));
         const OutputRules rules =
-            result_rules(common.force, std::move(inputs), session.watchdog().run_id());
+            result_rules(common.force, files_of(scenes_, session.scenes()), watchdog::run_id());
         const Output pairs(pairs_, "--pairs", rules), contacts(contacts_, "--contacts", rules);
         Output json(json_, "--json", rules);
         ResultFile results(std::move(json), measured_facts(session, invocation.words),
-                           session.watchdog().run_id());
+                           watchdog::run_id());
         PairsFile pairs_file(pairs, task.swept), contacts_file(contacts, task.swept);
-        session.watchdog().keep_by(results.run_id(), [&] {
-            results.keep();
-            pairs_file.discard();  // the program begins anew
-            contacts_file.discard();
-        });
+        watchdog::go_on_with(results.run_id());
         collide(session, task, results, pairs_file, contacts_file);
         results.finish(session.programs().compile_ns());
         if (!common.quiet)
@@ -99,14 +92,12 @@ private:
         if (adjacent_->count() > 0 && choice_.collider.keep_adjacent)
             throw BadUsage(
                 "--swept leaves out pairs that share a vertex, which touch all the way: there are "
-                "none for "
-                "--adjacent keep");
+                "none for --adjacent keep");
         check_swept(task);
         if (!pairs_.empty() && choice_.collider.among == Among::all)
             throw BadUsage(
                 "--pairs writes one list, and --swept finds two: choose by --pairs-of between, of "
-                "vertices and "
-                "faces, or within, of edges");
+                "vertices and faces, or within, of edges");
     }
 
     CollideTask task() const
@@ -175,9 +166,8 @@ extern const CommandEntry collide_command = {
     "Find the pairs of triangles that overlap or intersect, frame by frame, check them and time "
     "the stages",
     "A frame is timed whole: vertices to tree to pairs, and with --narrow exact to triangles that "
-    "intersect. Each frame's "
-    "pairs are compared with an oracle's. Buffers that overflow are grown and the frame is done "
-    "again; the table says so.",
+    "intersect. Each frame's pairs are compared with an oracle's. Buffers that overflow are grown "
+    "and the frame is done again; the table says so.",
     {{"bvhbench collide --collider leaf --scene bunny.obj --pairs pairs.csv", "a mesh with itself"},
      {"bvhbench collide --collider group --scene cloth-ball:20000 --frames 0: --adjacent drop "
       "--narrow exact",

@@ -44,14 +44,14 @@ struct HelpExample {
 /// A line of `bvhbench --help`.
 struct CommandEntry {
     std::string_view name;
-    std::string_view
-        group;  ///< with which others it is listed; empty: it is for other programs and not listed
+    std::string_view group =
+        {};                    ///< with which others it is listed; empty: for programs, not listed
     std::string_view summary;  ///< one line
-    std::string_view more;     ///< sentences of its help
-    std::vector<HelpExample> examples;
-    std::string_view see;  ///< the document that has more
-    std::unique_ptr<Command> (
-        *make)();  ///< nullptr: it reads result files and is written in Python, plots/commands/
+    std::string_view more = {};  ///< sentences of its help
+    std::vector<HelpExample> examples = {};
+    std::string_view see = {};  ///< the document that has more
+    /// nullptr: it reads result files and is written in Python, plots/commands/.
+    std::unique_ptr<Command> (*make)() = nullptr;
 };
 
 constexpr std::string_view measuring = "Measure";
@@ -61,6 +61,9 @@ constexpr std::string_view knowing = "Know what there is";
 
 /// Every command, in the order in which help lists them.
 std::span<const CommandEntry> commands();
+
+/// Has `--help` of the program and of each of its commands show what commands() say of them, wrapped.
+void add_help(CLI::App& app);
 
 template <class Of>
 std::unique_ptr<Command> make_command()

@@ -12,7 +12,7 @@ namespace {
 /// A command whose words, help and work are in plots/commands/NAME.py.
 CommandEntry in_python(std::string_view name, std::string_view group, std::string_view summary)
 {
-    return {name, group, summary, {}, {}, {}, nullptr};
+    return {.name = name, .group = group, .summary = summary};
 }
 
 }  // namespace
@@ -27,8 +27,7 @@ std::span<const CommandEntry> commands()
         run_command,
         in_python("sweep", measuring,
                   "Measure a product of scenes, sizes, builders, orders, colliders and options, a "
-                  "process a cell; go on "
-                  "where it was interrupted"),
+                  "process a cell; go on where it was interrupted"),
         in_python("reproduce", measuring, "Measure, print and draw what the paper shows"),
         accuracy_command,
         tune_command,

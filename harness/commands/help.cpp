@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "harness/commands/help.h"
-
 #include <CLI/CLI.hpp>
-#include <algorithm>
+#include <sstream>
 #include <string>
 
 #include "harness/commands/command.h"
@@ -46,20 +44,18 @@ constexpr Named files[] = {
 /// Words of `text` in lines that end before the page does, all but the first behind `margin` blanks.
 std::string wrapped(std::string_view text, std::size_t margin, std::size_t used)
 {
+    std::istringstream words{std::string(text)};
     std::string out;
-    while (!text.empty()) {
-        const std::size_t length = std::min(text.find(' '), text.size());
+    for (std::string word; words >> word; used += word.size()) {
         const bool is_first = out.empty();
-        if (!is_first && used + 1 + length > page_width) {
+        if (!is_first && used + 1 + word.size() > page_width) {
             out += '\n' + std::string(margin, ' ');
             used = margin;
         } else if (!is_first) {
             out += ' ';
             ++used;
         }
-        out += text.substr(0, length);
-        used += length;
-        text.remove_prefix(std::min(length + 1, text.size()));
+        out += word;
     }
     return out;
 }
@@ -148,8 +144,7 @@ std::string footer_of_program()
         {"bvhbench build --builder oibvh-multi --scene torus:100000", "one tree, stage by stage"},
     };
     return "Common options may stand before or behind the command. `bvhbench COMMAND --help` has "
-           "its "
-           "own.\n\n" +
+           "its own.\n\n" +
            examples_text(examples) + '\n' + std::string(exit_codes) +
            section("Environment", environment) + section("Files", files) +
            "\nSee also: docs/getting-started.md, docs/faq.md, docs/README.md";

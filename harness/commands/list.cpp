@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <functional>
 #include <iostream>
 
 #include "builders/box_format.h"
@@ -19,88 +20,50 @@
 namespace bvhbench {
 namespace {
 
-using enum Table::Align;
-
-/// A line an entry, the name first and no title, so that scripts can read it.
-Table lines(std::size_t columns) { return Table(std::vector<Table::Column>(columns, {"", left})); }
-
-std::string builders(const CommonOptions&)
+/// Without a title, so that scripts can read it.
+Table blank_table(std::size_t columns)
 {
-    Table table = lines(2);
-    for (const BuilderEntry& entry : builder_catalog())
-        table.row({std::string(entry.name),
-                   std::string(entry.make != nullptr ? entry.summary : entry.absent)});
+    return Table(std::vector<Table::Column>(columns, {"", Table::Align::left}));
+}
+
+/// A line an entry, the name first.
+template <class Entries, class... Column>
+std::string lines(const Entries& entries, const Column&... columns)
+{
+    Table table = blank_table(sizeof...(columns));
+    for (const auto& entry : entries)
+        table.row({std::string(columns(entry))...});
     return table.text();
 }
 
-std::string colliders(const CommonOptions&)
-{
-    Table table = lines(2);
-    for (const ColliderEntry& entry : collider_catalog())
-        table.row({std::string(entry.name),
-                   std::string(entry.make != nullptr ? entry.summary : entry.absent)});
-    return table.text();
-}
-
-std::string narrow(const CommonOptions&)
-{
-    Table table = lines(2);
-    for (const NarrowMethod& method : narrow_methods())
-        table.row({std::string(method.name), std::string(method.summary)});
-    return table.text();
-}
-
-std::string accuracy(const CommonOptions&)
-{
-    Table table = lines(2);
-    for (const Axis& axis : accuracy_axes())
-        table.row({std::string(axis.name), std::string(axis.question)});
-    return table.text();
-}
-
-std::string skips(const CommonOptions&)
-{
-    Table table = lines(2);
-    for (const SkipRuleEntry& entry : skip_rules())
-        table.row({std::string(entry.name), std::string(entry.summary)});
-    return table.text();
-}
+constexpr auto name = [](const auto& entry) { return entry.name; };
+constexpr auto summary = [](const auto& entry) { return entry.summary; };
+constexpr auto summary_or_why_not = [](const auto& entry) {
+    return entry.make != nullptr ? entry.summary : entry.absent;
+};
 
 std::string orders(const CommonOptions&)
 {
-    Table table = lines(3);
-    for (const OrderEntry& entry : order_catalog())
-        table.row({std::string(entry.name),
-                   entry.code_bits > 0 ? std::to_string(entry.code_bits) + " bits" : "no codes",
-                   std::string(entry.summary)});
-    return table.text();
+    const auto bits = [](const OrderEntry& entry) {
+        return entry.code_bits > 0 ? std::to_string(entry.code_bits) + " bits" : "no codes";
+    };
+    return lines(order_catalog(), name, bits, summary);
 }
 
 std::string formats(const CommonOptions&)
 {
-    Table table = lines(3);
-    for (const BoxFormat& format : box_formats())
-        table.row({std::string(format.name), std::to_string(format.box_bytes()) + " bytes a box",
-                   std::string(format.summary)});
-    return table.text();
-}
-
-std::string scenes(const CommonOptions& common)
-{
-    Table table = lines(2);
-    for (const SceneListing& listing : list_scenes(scene_library(common)))
-        table.row({listing.name, listing.summary});
-    return table.text();
+    const auto bytes = [](const BoxFormat& format) {
+        return std::to_string(format.box_bytes()) + " bytes a box";
+    };
+    return lines(box_formats(), name, bytes, summary);
 }
 
 std::string experiments(const CommonOptions&)
 {
-    Table table = lines(3);
-    for (const std::string_view name : experiment_names()) {
-        const Experiment experiment = find_experiment(std::string(name), false);
-        table.row({experiment.name, experiment.paper, experiment.question});
-    }
-    return table.text();
+    std::vector<Experiment> all;
+    for (const std::string_view one : experiment_names())
+        all.push_back(find_experiment(std::string(one), false));
+    return lines(all, name, std::mem_fn(&Experiment::paper), std::mem_fn(&Experiment::question));
 }
 
 /// What parameters are on the device, and where that comes from.
@@ -108,14 +71,13 @@ std::string tuning(const CommonOptions& common)
 {
     const PoclCache cache;
     const Device device = open_device_of(common);
-    Table table = lines(6);
+    Table table = blank_table(6);
     for (const Parameter* parameter : tuning_parameters()) {
-        std::string candidates;
+        std::string candidates = "of";
         for (const uint value : parameter->candidates)
-            candidates += (candidates.empty() ? "" : " ") + std::to_string(value);
+            candidates += ' ' + std::to_string(value);
         table.row({std::string(parameter->name), std::to_string(device.tuned(*parameter)),
-                   device.tuning.has(*parameter) ? device.tuning.origin() : "default",
-                   "of " + candidates,
+                   device.tuning.has(*parameter) ? device.tuning.origin() : "default", candidates,
                    parameter->stage.empty() ? "all stages" : std::string(parameter->stage),
                    std::string(parameter->meaning)});
     }
@@ -129,8 +91,8 @@ std::string devices(const CommonOptions&)
     const std::size_t count = device_names().size();
     if (count == 0)
         throw Unavailable("there is no OpenCL device");
-    Table table = lines(11);
     const auto bytes = [](std::int64_t value) { return bytes_text(static_cast<double>(value)); };
+    Table table = blank_table(11);
     for (std::size_t i = 0; i < count; ++i) {
         const DeviceFacts facts = device_facts(open_device(std::to_string(i)));
         table.row({facts.platform + '/' + facts.name, "index " + std::to_string(i), facts.kind,
@@ -148,30 +110,44 @@ std::string devices(const CommonOptions&)
 
 /// What there are lists of.
 constexpr std::pair<std::string_view, std::string (*)(const CommonOptions&)> lists[] = {
-    {"builders", builders}, {"colliders", colliders},    {"narrow", narrow},
-    {"orders", orders},     {"formats", formats},        {"skips", skips},
-    {"tuning", tuning},     {"scenes", scenes},          {"devices", devices},
-    {"accuracy", accuracy}, {"experiments", experiments}};
+    {"builders",
+     [](const CommonOptions&) { return lines(builder_catalog(), name, summary_or_why_not); }},
+    {"colliders",
+     [](const CommonOptions&) { return lines(collider_catalog(), name, summary_or_why_not); }},
+    {"narrow", [](const CommonOptions&) { return lines(narrow_methods(), name, summary); }},
+    {"orders", orders},
+    {"formats", formats},
+    {"skips", [](const CommonOptions&) { return lines(skip_rules(), name, summary); }},
+    {"tuning", tuning},
+    {"scenes",
+     [](const CommonOptions& common) {
+         return lines(list_scenes(scene_library(common)), name, summary);
+     }},
+    {"devices", devices},
+    {"accuracy",
+     [](const CommonOptions&) {
+         return lines(accuracy_axes(), name, std::mem_fn(&Axis::question));
+     }},
+    {"experiments", experiments}};
 
 class List final : public Command {
 public:
     void add_options(CLI::App& app) override
     {
-        std::vector<std::string> names;
-        for (const auto& [name, text] : lists)
-            names.emplace_back(name);
+        std::vector<std::string_view> names;
+        for (const auto& [key, text] : lists)
+            names.emplace_back(key);
         app.add_option("WHAT", what_,
                        "builders, colliders, narrow, orders, formats, skips, tuning, scenes, "
-                       "devices, accuracy or "
-                       "experiments")
+                       "devices, accuracy or experiments")
             ->required()
             ->check(one_of(names));
     }
 
     int run(const Invocation& invocation) override
     {
-        for (const auto& [name, text] : lists)
-            if (name == what_)
+        for (const auto& [key, text] : lists)
+            if (key == what_)
                 std::cout << text(invocation.common);
         return 0;
     }

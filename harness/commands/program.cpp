@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <functional>
 #include <iostream>
 #include <sstream>
 
@@ -10,11 +11,11 @@
 #include "geometry/host_memory.h"
 #include "harness/base/build_info.h"
 #include "harness/base/failure.h"
-#include "harness/base/printable.h"
 #include "harness/base/python.h"
+#include "harness/base/terminal.h"
 #include "harness/commands/command.h"
-#include "harness/commands/help.h"
 #include "harness/commands/words.h"
+#include "harness/session/watchdog.h"
 
 namespace bvhbench {
 namespace {
@@ -26,6 +27,32 @@ void check_outputs_are_named(const CLI::App& command)
         if (const CLI::Option* option = command.get_option_no_throw(output);
             option != nullptr && option->count() > 0 && option->results().back().empty())
             throw BadUsage(std::string(output) + " names no file or folder");
+}
+
+/// The exit code, if all that was printed went out. Throws Unavailable.
+int printed(int code)
+{
+    if (!std::cout.flush())
+        throw Unavailable("standard output cannot be written: what was printed is lost");
+    return code;
+}
+
+/// That of `work`, or of what it throws, which is said.
+int exit_code_of(const std::function<int()>& work)
+{
+    const auto failed = [](const std::exception& error, int code) {
+        std::cerr << "bvhbench: " << sentence_of(error) << '\n';
+        return code;
+    };
+    try {
+        return work();
+    } catch (const BadUsage& error) {
+        return failed(error, 2);
+    } catch (const NothingMeasured& error) {
+        return failed(error, 4);
+    } catch (const std::exception& error) {  // Unavailable, BuildFailure, cl::Error, bad_alloc
+        return failed(error, 3);
+    }
 }
 
 /// The command line as it was parsed: what there is to do.
@@ -64,16 +91,22 @@ public:
     {
         if (!to_print_.empty()) {
             std::cout << to_print_;
-            return 0;
+            return printed(0);
         }
-        limit_host_memory(invocation_.common.memory_limit);
-        for (std::size_t i = 0; i < made_.size(); ++i)
-            if (commands()[i].name == app_.get_subcommands().front()->get_name())
-                return made_[i]->run(invocation_);
-        return 0;
+        return supervised(invocation_.common.time_limit_s,
+                          [this] { return exit_code_of([this] { return run_command(); }); });
     }
 
 private:
+    int run_command()
+    {
+        limit_host_memory(invocation_.common.memory_limit);
+        for (std::size_t i = 0; i < made_.size(); ++i)
+            if (commands()[i].name == app_.get_subcommands().front()->get_name())
+                return printed(made_[i]->run(invocation_));
+        return 0;
+    }
+
     /// "build, collide or run"
     static std::string names()
     {
@@ -116,35 +149,19 @@ int python_command(int argc, const char* const* argv)
     return 0;
 }
 
-int failed(const std::exception& error, int code)
-{
-    std::cerr << "bvhbench: " << sentence_of(error) << '\n';
-    return code;
-}
-
 }  // namespace
 
 int run_program(int argc, const char* const* argv)
 {
     const PrintableOutput output(std::cout), errors(std::cerr);
-    try {
+    return exit_code_of([&] {
         if (const int place = python_command(argc, argv); place > 0) {
             std::vector<std::string> words(argv + 1, argv + argc);
             std::rotate(words.begin(), words.begin() + place - 1, words.begin() + place);
             become_python(words);
         }
-        Parsed parsed(argc, argv);
-        const int code = parsed.run();
-        if (!std::cout.flush())
-            throw Unavailable("standard output cannot be written: what was printed is lost");
-        return code;
-    } catch (const BadUsage& error) {
-        return failed(error, 2);
-    } catch (const NothingMeasured& error) {
-        return failed(error, 4);
-    } catch (const std::exception& error) {  // Unavailable, BuildFailure, cl::Error, bad_alloc
-        return failed(error, 3);
-    }
+        return Parsed(argc, argv).run();
+    });
 }
 
 void check_words(int argc, const char* const* argv) { Parsed(argc, argv); }

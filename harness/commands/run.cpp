@@ -7,24 +7,10 @@
 #include "harness/base/python.h"
 #include "harness/commands/command.h"
 #include "harness/commands/words.h"
+#include "harness/session/watchdog.h"
 
 namespace bvhbench {
 namespace {
-
-/// What the scenes of an experiment may be read from.
-std::vector<std::string> files_of(const Experiment& experiment, const SceneLibrary& library)
-{
-    std::vector<std::string> files;
-    const auto add = [&](const std::string& scene) {
-        for (std::string& file : scene_files(scene, library))
-            files.push_back(std::move(file));
-    };
-    for (const std::string& scene : experiment.scenes)
-        add(scene);
-    for (const CollideTask& task : experiment.collisions)
-        add(task.scene);
-    return files;
-}
 
 class RunExperiment final : public Command {
 public:
@@ -58,13 +44,16 @@ public:
                                               : experiment.name + ".json";
         const CommonOptions& common = invocation.common;
         Session session(common);
-        std::vector<std::string> inputs = files_of(experiment, session.scenes());
+        std::vector<std::string> scenes = experiment.scenes;
+        for (const CollideTask& task : experiment.collisions)
+            scenes.push_back(task.scene);
+        std::vector<std::string> inputs = files_of(scenes, session.scenes());
         if (is_file)
             inputs.push_back(name_);
-        Run run(session,
-                Output(out, "--out",
-                       result_rules(common.force, std::move(inputs), session.watchdog().run_id())),
-                invocation.words, costs_);
+        Run run(
+            session,
+            Output(out, "--out", result_rules(common.force, std::move(inputs), watchdog::run_id())),
+            invocation.words, costs_);
         session.take_turns(turns_, run.results().run_id());
         run.experiment(experiment, filter);
         run.finish();
@@ -106,8 +95,8 @@ extern const CommandEntry run_command = {
     measuring,
     "Run an experiment and write its result file",
     "An experiment is a list of scenes, builders, colliders and samples, as JSON; some are in the "
-    "program. Builders of a "
-    "scene are sampled in turn. What is finished is in the result file at once.",
+    "program. Builders of a scene are sampled in turn. What is finished is in the result file at "
+    "once.",
     {{"bvhbench run peers --out peers.json", "an experiment of `list experiments`"},
      {"bvhbench run mine.json --filter bunny/oibvh --samples 50",
       "one of your own, and part of it"},

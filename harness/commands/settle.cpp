@@ -1,63 +1,46 @@
 // SPDX-License-Identifier: MIT
 //
-// What the commands that are written in Python ask the program for: the facts of the device, and what cells experiments have.
+// What the commands that are written in Python ask the program for: the facts of the device, what cells experiments have, and
+// what is drawn of a scene in three dimensions.
 #include <iostream>
 #include <iterator>
 
 #include "geometry/error.h"
+#include "harness/base/failure.h"
 #include "harness/base/json_keys.h"
 #include "harness/choice/choices.h"
 #include "harness/choice/experiment.h"
 #include "harness/commands/command.h"
+#include "harness/commands/words.h"
+#include "harness/measure/collide.h"
 #include "harness/measure/run.h"
+#include "harness/measure/view.h"
 #include "harness/session/session.h"
 
 namespace bvhbench {
 namespace {
 
-/// A cell of an experiment before anything is known of its scene.
-Cell planned(const std::string& experiment, const std::string& scene, const BuilderChoice& builder)
-{
-    Cell cell;
-    cell.experiment = experiment;
-    cell.scene.name = scene;
-    cell.builder = builder;
-    cell.status = Cell::Status::skipped;
-    return cell;
-}
-
+/// The cells of an experiment before anything is known of their scenes.
 std::vector<Cell> planned_cells(const Experiment& experiment)
 {
     std::vector<Cell> cells;
     for (const std::string& scene : experiment.scenes)
-        for (const BuilderChoice& builder : experiment.builders)
-            cells.push_back(planned(experiment.name, scene, builder));
+        for (const BuilderChoice& builder : experiment.builders) {
+            Cell& cell = cells.emplace_back();
+            cell.experiment = experiment.name;
+            cell.scene.name = scene;
+            cell.builder = builder;
+        }
     for (const CollideTask& task : experiment.collisions)
         for (const PipelineChoice& pipeline : task.pipelines) {
-            cells.push_back(planned(experiment.name, task.scene, pipeline.builder));
-            Cell& cell = cells.back();
-            cell.operation = Operation::collide;
-            cell.collider = pipeline.collider;
+            Cell& cell = cells.emplace_back(planned_cell(task, pipeline));
             if (!find_collider(cell.collider.name).needs_tree)
                 cell.builder = {.name = "none"};
-            if (task.swept)
-                cell.collider.keep_adjacent = false;
-            cell.scene.between = task.between;
-            if (task.objects != ObjectsBy::automatic)
-                cell.scene.objects_by = objects_by_name(task.objects);
+            cell.collider.keep_adjacent = cell.collider.keep_adjacent && !task.swept;
         }
+    for (Cell& cell : cells)
+        cell.status = Cell::Status::skipped;
     return cells;
-}
-
-/// What is wrong with a scene's name; empty if nothing is.
-std::string why_not(const std::string& scene)
-{
-    try {
-        triangles_said(scene);
-        return {};
-    } catch (const BadUsage& error) {
-        return error.what();
-    }
 }
 
 /// An experiment's cells, their scene's triangles as far as its name tells, and its files; or what is wrong with it.
@@ -73,7 +56,7 @@ Json settled(const Json& described, const SceneLibrary& library)
         }
         const std::string& scene = planned.front().scene.name;
         if (is_sized_generator(scene))
-            return {{"sized", true}, {"error", why_not(scene)}};
+            return {{"sized", true}, {"error", reason_of_failure([&] { triangles_said(scene); })}};
         const std::size_t triangles = triangles_said(scene);
         for (const std::string& file : scene_files(scene, library))
             files.push_back(file);
@@ -112,24 +95,50 @@ public:
     }
 };
 
+class ViewCommand final : public Command {
+public:
+    void add_options(CLI::App& app) override
+    {
+        app.add_option("--scene", scene_)->required();
+        app.add_option("--frame", frame_);
+        app.add_option("--builder", choice_.builder.name);
+        app.add_option("--collider", choice_.collider.name);
+        add_choices(app, choice_,
+                    [](const Choice& option) { return option.of == Choice::Of::builder; });
+    }
+
+    int run(const Invocation& invocation) override
+    {
+        check_choice(choice_);
+        check_powers(choice_);
+        Session session(invocation.common);
+        const ViewTask task{scene_, frame_, {choice_.builder, choice_.collider}};
+        std::cout << view_text(session, task, invocation.words);
+        return 0;
+    }
+
+private:
+    std::string scene_;
+    unsigned frame_ = 0;
+    CellChoice choice_{.builder = {.name = "oibvh-multi"},
+                       .collider = {.name = "leaf", .keep_adjacent = false, .narrow = "exact"}};
+};
+
 }  // namespace
 
 extern const CommandEntry facts_command = {
-    "facts",
-    {},
-    "What is known of the device and of a run on it, as JSON",
-    {},
-    {},
-    {},
-    make_command<Facts>};
+    .name = "facts",
+    .summary = "What is known of the device and of a run on it, as JSON",
+    .make = make_command<Facts>};
 
 extern const CommandEntry settle_command = {
-    "settle",
-    {},
-    "The cells of experiments on standard input, or what is wrong with them, as JSON",
-    {},
-    {},
-    {},
-    make_command<Settle>};
+    .name = "settle",
+    .summary = "The cells of experiments on standard input, or what is wrong with them, as JSON",
+    .make = make_command<Settle>};
+
+extern const CommandEntry view_command = {
+    .name = "view",
+    .summary = "A frame with a builder's boxes and a collider's pairs, as JSON",
+    .make = make_command<ViewCommand>};
 
 }  // namespace bvhbench

@@ -7,7 +7,7 @@
 #include "harness/base/build_info.h"
 #include "harness/base/failure.h"
 #include "harness/base/interrupt.h"
-#include "harness/base/progress.h"
+#include "harness/base/terminal.h"
 #include "harness/base/test_hooks.h"
 #include "harness/choice/choices.h"
 #include "harness/commands/command.h"
@@ -82,8 +82,7 @@ public:
         choice_.builder.name = "oibvh-multi";
         app.add_option("TARGET", target_,
                        "sort, a name of `list builders` or of `list colliders`; default: sort, "
-                       "oibvh-multi, leaf, group and "
-                       "bvtt in turn");
+                       "oibvh-multi, leaf, group and bvtt in turn");
         app.add_option("--scene", scene_, "a scene, data set or mesh file")->required();
         app.add_option("--builder", choice_.builder.name, "whose trees a collider is tuned over")
             ->capture_default_str();

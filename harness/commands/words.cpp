@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "harness/commands/words.h"
 
-#include <cctype>
+#include <re2/re2.h>
+
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
 
 #include "geometry/error.h"
+#include "harness/base/json_keys.h"
 
 namespace bvhbench {
 namespace {
@@ -16,23 +19,24 @@ constexpr int most_seconds = 1000000;
 /// "2G" and the like: a whole number of bytes, or of as many as the letter says, with or without a B.
 std::size_t bytes_of(const std::string& text)
 {
-    constexpr std::string_view letters = "KMGT";
-    const char* const end = text.data() + text.size();
     std::uint64_t number = 0;
-    const auto read = std::from_chars(text.data(), end, number);
-    std::string unit(read.ptr, end);
-    for (char& letter : unit)
-        letter = static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
-    if (!unit.empty() && unit.back() == 'B')
-        unit.pop_back();
-    const std::size_t place = unit.empty() ? 0 : letters.find(unit) + 1;
-    const bool is_unit = unit.size() <= 1 && place <= letters.size() && (unit.empty() || place > 0);
-    const unsigned shift = static_cast<unsigned>(10 * place);
-    if (read.ec != std::errc() || !is_unit || number == 0 || number > (UINT64_MAX >> shift))
+    std::string unit;
+    const bool is_read = RE2::FullMatch(text, "(?i)(\\d+)([KMGT]?)B?", &number, &unit);
+    const std::size_t place =
+        unit.empty() ? 0 : std::string_view(" kmgt").find(static_cast<char>(unit.front() | 0x20));
+    if (!is_read || number == 0 || number > (UINT64_MAX >> (10 * place)))
         throw CLI::ValidationError(
             "--memory-limit",
             "must be a number of bytes from 1 on, as 512M or 2G, not '" + text + "'");
-    return number << shift;
+    return number << (10 * place);
+}
+
+/// Whether all of the word is a number from 0 to `most` times `unit`, which is then divided by it.
+bool read_number(std::string_view word, double unit, double most, double& value)
+{
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    value /= unit;
+    return error == std::errc() && end == word.data() + word.size() && value >= 0 && value <= most;
 }
 
 }  // namespace
@@ -41,25 +45,19 @@ CLI::Validator a_number(int most)
 {
     const auto check = [most](const std::string& word) {
         double value = -1;
-        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-        const bool is_read = error == std::errc() && end == word.data() + word.size();
-        return is_read && value >= 0 && value <= most
+        return read_number(word, 1, most, value)
                    ? std::string()
                    : "must be a number from 0 to " + std::to_string(most) + ", not '" + word + "'";
     };
     return {check, "", "a number"};
 }
 
-CLI::Validator one_of(std::vector<std::string> known)
+CLI::Validator one_of(std::vector<std::string_view> known)
 {
     const auto check = [known = std::move(known)](const std::string& word) {
-        std::string there;
-        for (const std::string& each : known) {
-            if (each == word)
-                return std::string();
-            there += (there.empty() ? "" : ", ") + each;
-        }
-        return "there is no '" + word + "'; there are: " + there;
+        return std::find(known.begin(), known.end(), word) != known.end()
+                   ? std::string()
+                   : "there is no '" + word + "'; there are: " + joined(known);
     };
     return {check, "", "one of"};
 }
@@ -67,17 +65,14 @@ CLI::Validator one_of(std::vector<std::string> known)
 CLI::Validator a_share(double most)
 {
     const auto read = [most](std::string& word) {
-        const bool is_percent = word.ends_with('%');
-        const std::size_t digits = word.size() - (is_percent ? 1 : 0);
+        std::string_view digits = word;
+        const bool is_percent = digits.ends_with('%');
+        digits.remove_suffix(is_percent ? 1 : 0);
         double value = -1;
-        const auto [end, error] = std::from_chars(word.data(), word.data() + digits, value);
-        if (is_percent)
-            value /= 100;
-        if (error != std::errc() || end != word.data() + digits || !(value >= 0 && value <= most))
+        if (!read_number(digits, is_percent ? 100 : 1, most, value))
             return "must be a share from 0 to " + std::to_string(static_cast<int>(100 * most)) +
                    "%, as 5% or 0.05, not '" + word + "'";
-        char text[40];
-        word.assign(text, std::to_chars(text, text + sizeof text, value).ptr);
+        word = Json(value).dump();
         return std::string();
     };
     return {read, "", "a share"};
@@ -92,10 +87,9 @@ void add_common(CLI::App& app, CommonOptions& common)
            "--doubles", common.doubles,
            "recentred or as-is: how coordinates of a file that floats cannot hold are rounded")
         ->capture_default_str();
-    app.add_option(
-        "--tuning", common.tuning,
-        "a folder to read tuned values from, '' for none; default: BVHBENCH_TUNING, else "
-        "those in the program");
+    app.add_option("--tuning", common.tuning,
+                   "a folder to read tuned values from, '' for none; default: BVHBENCH_TUNING, "
+                   "else those in the program");
     app.add_option_function<std::string>(
         "--memory-limit",
         [&common](const std::string& text) { common.memory_limit = bytes_of(text); },

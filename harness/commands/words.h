@@ -8,18 +8,15 @@
 #include <vector>
 
 #include "harness/base/common_options.h"
-#include "harness/choice/node_costs.h"
 #include "harness/choice/sampling.h"
 
 namespace bvhbench {
-
-constexpr int most_samples = 1000000;
 
 /// Accepts a number from 0 to `most`: CLI::Range lets NaN pass.
 CLI::Validator a_number(int most);
 
 /// Accepts only `known` words; the answer to another one lists them.
-CLI::Validator one_of(std::vector<std::string> known);
+CLI::Validator one_of(std::vector<std::string_view> known);
 
 /// Turns "5%" or "0.05" into 0.05: a share from 0 to `most`.
 CLI::Validator a_share(double most);

@@ -16,7 +16,7 @@
 
 #include "builders/tree.h"
 #include "geometry/mesh.h"
-#include "harness/choice/node_costs.h"
+#include "harness/choice/sampling.h"
 
 namespace bvhbench {
 

@@ -5,47 +5,25 @@
 
 #include "geometry/error.h"
 #include "harness/base/failure.h"
-#include "harness/measure/frame_cells.h"
-#include "harness/measure/swept.h"
+#include "harness/measure/frames.h"
 #include "scenes/generate/derived.h"
 
 namespace bvhbench {
 namespace {
 
-/// What a cell's scene is called, and how it was asked for.
-SceneFacts asked_scene(const CollideTask& task)
+/// How the scene was asked for.
+void put_choice(const CollideTask& task, SceneFacts& facts)
 {
-    SceneFacts scene;
-    scene.name = task.scene;
     if (task.objects != ObjectsBy::automatic)
-        scene.objects_by = objects_by_name(task.objects);
-    scene.between = task.between;
-    return scene;
-}
-
-/// A cell of each pipeline that says why there is none.
-std::vector<Cell> skipped_cells(const CollideTask& task, const std::string& why)
-{
-    std::vector<Cell> cells;
-    for (const PipelineChoice& pipeline : task.pipelines) {
-        Cell& cell = cells.emplace_back();
-        cell.experiment = task.experiment;
-        cell.scene = asked_scene(task);
-        cell.builder = pipeline.builder;
-        cell.collider = pipeline.collider;
-        cell.operation = Operation::collide;
-        cell.status = Cell::Status::skipped;
-        cell.reason = why;
-    }
-    return cells;
+        facts.objects_by = objects_by_name(task.objects);
+    facts.between = task.between;
 }
 
 }  // namespace
 
 Scene scene_of(const CollideTask& task, const SceneLibrary& library)
 {
-    Scene scene =
-        task.may_stand_in ? load_or_stand_in(task.scene, library) : load_scene(task.scene, library);
+    Scene scene = scene_called(task.scene, task.may_stand_in, library);
     if (task.objects != ObjectsBy::automatic)
         scene = with_objects(std::move(scene), task.objects);
     return task.between > 0 ? with_frames_between(scene, task.between) : scene;
@@ -61,30 +39,30 @@ FrameRange frames_of(const CollideTask& task, std::size_t there, const char* wha
     return range;
 }
 
+Cell planned_cell(const CollideTask& task, const PipelineChoice& pipeline)
+{
+    Cell cell;
+    cell.experiment = task.experiment;
+    cell.scene.name = task.scene;
+    put_choice(task, cell.scene);
+    cell.builder = pipeline.builder;
+    cell.collider = pipeline.collider;
+    cell.operation = Operation::collide;
+    return cell;
+}
+
 SceneFacts facts_of(const CollideTask& task, const Scene& scene, std::size_t frame)
 {
-    SceneFacts facts = asked_scene(task);
-    if (!scene.stand_in_for.empty())
-        facts.name = scene.name;
-    facts.triangles = scene.triangle_count();
-    facts.vertices = static_cast<std::int64_t>(scene.frames.front().size());
-    facts.objects = static_cast<std::int64_t>(scene.objects.size());
-    facts.frame = static_cast<std::int64_t>(frame);
-    facts.source = scene.source;
-    facts.stand_in_for = scene.stand_in_for;
-    facts.outlier = scene.outlier;
-    facts.rounding = scene.rounding;
-    facts.bend_of = scene.bend_of;
-    facts.content_hash = scene.content_hash;
+    SceneFacts facts = facts_of(scene, scene.stand_in_for.empty() ? task.scene : scene.name, frame);
+    put_choice(task, facts);
     return facts;
 }
 
 namespace {
 
 /// Throws what loading the scene does, and BadUsage for frames that it has not.
-void collide_scene(Session& session, const CollideTask& task, int& order,
-                   const std::function<void(std::vector<Cell>&&, const Found&)>& add,
-                   const std::function<bool(std::size_t cells)>& passes)
+void collide_scene(Session& session, const CollideTask& task, int& order, const AddFrame& add,
+                   const PassCells& passes)
 {
     const Scene scene = scene_of(task, session.scenes());
     const FrameRange frames = frames_of(task, scene.frames.size(), "frames");
@@ -98,12 +76,7 @@ void collide_scene(Session& session, const CollideTask& task, int& order,
                        "' is one object, and there are no pairs between objects");
     if (passes && passes((frames.end - frames.first) * task.pipelines.size()))
         return;
-    std::vector<FaceRange> objects;
-    for (const SceneObject& object : scene.objects)
-        objects.push_back({object.first_face, object.face_count});
-
-    Input input =
-        upload(session.device(), session.queue(), scene.frames[frames.first], scene.faces, objects);
+    Input input = upload_frame(session, scene, frames.first);
     std::vector<Running> all;
     for (const PipelineChoice& pipeline : task.pipelines)
         all.push_back({pipeline});
@@ -116,18 +89,15 @@ void collide_scene(Session& session, const CollideTask& task, int& order,
         if (frame > frames.first)
             now.motions = object_motions(scene, frame - 1, frame);
         now.file_faces = scene.file_faces;
-        Found found;
-        std::vector<Cell> cells = run_frame(session, task, all, now, order, found);
-        found.scene = &scene;
-        add(std::move(cells), found);
+        Found found{.scene = &scene};
+        add(run_frame(session, task, all, now, order, found), found);
     }
 }
 
 }  // namespace
 
-void collide_frames(Session& session, const CollideTask& task, int& order,
-                    const std::function<void(std::vector<Cell>&&, const Found&)>& add,
-                    const std::function<bool(std::size_t cells)>& passes)
+void collide_frames(Session& session, const CollideTask& task, int& order, const AddFrame& add,
+                    const PassCells& passes)
 {
     const auto collide = [&] {
         (task.swept ? collide_swept : collide_scene)(session, task, order, add, passes);
@@ -137,8 +107,15 @@ void collide_frames(Session& session, const CollideTask& task, int& order,
         return;
     }
     const std::string why = reason_of_failure(collide);
-    if (!why.empty() && !(passes && passes(task.pipelines.size())))
-        add(skipped_cells(task, why), {});
+    if (why.empty() || (passes && passes(task.pipelines.size())))
+        return;
+    std::vector<Cell> skipped;
+    for (const PipelineChoice& pipeline : task.pipelines) {
+        skipped.push_back(planned_cell(task, pipeline));
+        skipped.back().status = Cell::Status::skipped;
+        skipped.back().reason = why;
+    }
+    add(std::move(skipped), {});
 }
 
 }  // namespace bvhbench

@@ -1,12 +1,45 @@
 // SPDX-License-Identifier: MIT
 #include "harness/measure/engine.h"
 
-#include <optional>
+#include <chrono>
 
 #include "harness/base/failure.h"
-#include "harness/session/session_samples.h"
+#include "harness/session/sampler.h"
+#include "harness/session/watchdog.h"
 
 namespace bvhbench {
+namespace {
+
+/// Of fewer samples no statistic is made that drift could spoil, and compiling the calibration takes longer than they do.
+constexpr int fewest_calibrated = 9;
+
+/// Samples on the session's device: with its calibration between them, where there are enough of them for it to tell
+/// anything, and with its caches emptied before each if the plan says so. Throws as take_samples does.
+std::vector<Taken> session_samples(Session& session, std::span<const Timed> cells,
+                                   const SamplingPlan& plan, int& order)
+{
+    const std::string failure = reason_of_failure([&] { session.empty_caches(plan.rules.cold); });
+    if (!failure.empty())
+        return std::vector<Taken>(cells.size(), Taken{{}, failure, Stopped::failure});
+    struct Hot {  // what is run outside samples is not to be slowed down
+        Session& session;
+        ~Hot() { session.empty_caches(false); }
+    } const hot{session};
+    std::function<std::int64_t()> calibrate;
+    if (plan.rules.until > 0 || plan.samples >= fewest_calibrated)
+        calibrate = [&] { return session.calibrate(); };
+    return take_samples(cells, plan, order, calibrate, session.turns());
+}
+
+}  // namespace
+
+std::int64_t host_ns(const std::function<void()>& work)
+{
+    using clock = std::chrono::steady_clock;
+    const auto start = clock::now();
+    work();
+    return std::chrono::nanoseconds(clock::now() - start).count();
+}
 
 void Engine::refuse(Subject& subject, Cell::Status status, std::string reason)
 {
@@ -18,9 +51,9 @@ void Engine::refuse(Subject& subject, Cell::Status status, std::string reason)
 
 void Engine::settle(Subject& subject, const std::function<void()>& work)
 {
-    if (std::string why = session_.watchdog().given_up(subject.number); !why.empty())
+    if (std::string why = watchdog::given_up(subject.number); !why.empty())
         return refuse(subject, Cell::Status::failed, std::move(why));
-    const Watchdog::Hand hand(session_.watchdog(), subject.number);
+    const watchdog::Hand hand(subject.number);
     const std::int64_t compiled_ns = session_.programs().compile_ns();
     bool cannot_be = false;
     std::string failure = reason_of_failure(cannot_be, work);
@@ -40,10 +73,8 @@ void Engine::sample(std::span<Subject> subjects)
         ready.push_back(&one);
         const Cell& cell = one.cell;
         timed.push_back(
-            {cell.collider.name.empty() ? cell.builder.name : cell.collider.name, [this, &one] {
-                 std::optional<Watchdog::Hand> hand;
-                 if (!one.number.empty())
-                     hand.emplace(session_.watchdog(), one.number);
+            {cell.collider.name.empty() ? cell.builder.name : cell.collider.name, [&one] {
+                 const watchdog::Hand hand(one.number);
                  return one.once();
              }});
     }

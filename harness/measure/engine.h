@@ -18,12 +18,10 @@ namespace bvhbench {
 /// A cell on its way to being measured. The functions refer to what the caller keeps until the cells are done.
 struct Subject {
     Cell cell;
-    std::string number =
-        {};  ///< which of the run's cells it is, for the watchdog; empty: nobody watches
-    std::function<std::vector<StageTime>()> once =
-        {};  ///< one sample; none: there is nothing to time
-    std::function<void()> judge_again =
-        {};  ///< a verdict on what the last sample left; may be empty
+    std::string number = {};  ///< which of the run's cells it is, for the watchdog; empty: of none
+    /// One sample; none: there is nothing to time.
+    std::function<std::vector<StageTime>()> once = {};
+    std::function<void()> judge_again = {};  ///< of what the last sample left; may be empty
 
     bool is_ready() const
     {
@@ -31,6 +29,9 @@ struct Subject {
                cell.check.verdict != Check::Verdict::differs;
     }
 };
+
+/// What `work` takes, on the host's clock, in nanoseconds.
+std::int64_t host_ns(const std::function<void()>& work);
 
 class Engine {
 public:

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "harness/measure/frame_cells.h"
+#include "harness/measure/collide.h"
 
 #include <algorithm>
 #include <chrono>
 #include <future>
+#include <map>
 #include <memory>
-#include <optional>
 
 #include "builders/box_format.h"
 #include "collide/narrow/narrow_methods.h"
@@ -14,10 +14,9 @@
 #include "geometry/hash.h"
 #include "geometry/host_memory.h"
 #include "harness/base/failure.h"
-#include "harness/base/interrupt.h"
 #include "harness/judge/pair_counts.h"
 #include "harness/measure/engine.h"
-#include "harness/session/session_samples.h"
+#include "harness/session/watchdog.h"
 
 namespace bvhbench {
 namespace {
@@ -36,8 +35,8 @@ public:
     /// Until all that was begun is there.
     void wait() const
     {
-        for (const auto& one : entries_)
-            wait_for(one->pairs);
+        for (const auto& [choice, one] : entries_)
+            wait_for(one.pairs);
     }
 
     const PairList& pairs(const ColliderChoice& choice)
@@ -47,20 +46,19 @@ public:
 
     const PairList& contacts(const ColliderChoice& choice)
     {
-        Entry& found = entry(choice);
-        if (!found.contacts.valid())
-            found.contacts = std::async(std::launch::async, [this, &found, of = &pairs(choice)] {
-                return intersecting_pairs(input_.points, input_.faces, *of, found.keep_adjacent);
+        Later& found = entry(choice).contacts;
+        if (!found.valid())
+            found = std::async(std::launch::async, [this, keep_adjacent = choice.keep_adjacent,
+                                                    of = &pairs(choice)] {
+                return intersecting_pairs(input_.points, input_.faces, *of, keep_adjacent);
             });
-        return wait_for(found.contacts).get();
+        return wait_for(found).get();
     }
 
 private:
     using Later = std::shared_future<PairList>;
     struct Entry {
-        Among among;
-        bool keep_adjacent;
-        Later pairs, contacts = {};
+        Later pairs, contacts;
     };
 
     const Later& wait_for(const Later& later) const
@@ -75,22 +73,21 @@ private:
 
     Entry& entry(const ColliderChoice& choice)
     {
-        for (const auto& one : entries_)
-            if (one->among == choice.among && one->keep_adjacent == choice.keep_adjacent)
-                return *one;
-        const auto found = [this, among = choice.among, keep_adjacent = choice.keep_adjacent] {
-            require_host_memory("checking the pairs", input_.faces.size() * sizeof(Aabb));
-            return touching_pairs(leaf_boxes(input_), input_.faces, keep_adjacent, input_.objects,
-                                  among);
-        };
-        entries_.push_back(std::make_unique<Entry>(
-            Entry{choice.among, choice.keep_adjacent, std::async(std::launch::async, found)}));
-        return *entries_.back();
+        const std::pair asked(choice.among, choice.keep_adjacent);
+        const auto [at, is_new] = entries_.try_emplace(asked);
+        if (is_new)
+            at->second.pairs = std::async(std::launch::async, [this, asked] {
+                require_host_memory("checking the pairs", input_.faces.size() * sizeof(Aabb));
+                return touching_pairs(leaf_boxes(input_), input_.faces, asked.second,
+                                      input_.objects, asked.first);
+            });
+        return at->second;
     }
 
     const Input& input_;
     std::function<void(const std::string&)> note_;
-    std::vector<std::unique_ptr<Entry>> entries_;
+    std::map<std::pair<Among, bool>, Entry>
+        entries_;  ///< by which pairs, and whether with adjacent
 };
 
 /// Pairs by the numbers that a file's triangles have in it, where objects have put them into another order.
@@ -109,15 +106,12 @@ PairList numbered_as_in_file(PairList pairs, std::span<const uint> file_faces)
 void hold(const PairList& found, const PairList& expected, const std::string& what,
           std::span<const uint> file_faces, Check& check)
 {
-    std::string detail;
     if (found.surplus() > 0)
-        detail = std::to_string(found.surplus()) + ' ' + what + " were found twice";
+        find_wrong(check, std::to_string(found.surplus()) + ' ' + what + " were found twice");
     else if (found != expected)
-        detail = "the oracle has " + std::to_string(expected.size()) + ' ' + what +
-                 " of the hash " + hex(numbered_as_in_file(expected, file_faces).hash());
-    if (detail.empty())
-        return;
-    find_wrong(check, detail);
+        find_wrong(check, "the oracle has " + std::to_string(expected.size()) + ' ' + what +
+                              " of the hash " +
+                              hex(numbered_as_in_file(expected, file_faces).hash()));
 }
 
 /// How many are wrong, to the cell's counters.
@@ -164,7 +158,7 @@ void judge(const Pipeline& pipeline, Cell& cell, FrameOracle& oracle, const Fram
     const ColliderChoice& choice = cell.collider;
     Check& check = cell.check;
     check = {.verdict = Check::Verdict::agrees, .against = {}, .detail = {}};
-    found = {};
+    found = {.scene = found.scene};
     if (pipeline.has_pairs()) {
         PairList pairs = pipeline.pairs();
         check.against = "brute";
@@ -210,17 +204,26 @@ void require_memory(const ColliderChoice& choice, std::size_t triangles, FrameOr
                         bytes * triangles + 4 * sizeof(Pair) * count);
 }
 
+/// Brings the pipeline to where the frame can be timed, from its first frame on.
+void settle(Session& session, Running& one, const FrameOfPipelines& frame, Cell& cell)
+{
+    const watchdog::Watch watch;
+    if (one.pipeline == nullptr)
+        one.pipeline =
+            std::make_unique<Pipeline>(session, cell.builder, cell.collider, frame.input);
+    if (!one.pipeline->collider().needs_tree())
+        cell.builder = {.name = "none"};
+    one.pipeline->begin_frame(frame.motions);
+    cell.first.run_ns = host_ns([&] { one.pipeline->settle(frame.input); });
+}
+
 /// Of the frame, by the pipeline, and of nothing found yet.
 Cell empty_cell(const CollideTask& task, const PipelineChoice& pipeline,
                 const FrameOfPipelines& frame)
 {
-    Cell cell;
-    cell.experiment = task.experiment;
+    Cell cell = planned_cell(task, pipeline);
     cell.scene = frame.scene;
     cell.swept = frame.swept;
-    cell.builder = pipeline.builder;
-    cell.collider = pipeline.collider;
-    cell.operation = Operation::collide;
     cell.warm_up = task.warm_up;
     return cell;
 }
@@ -254,20 +257,13 @@ std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span
         Cell& cell = subject.cell;
         engine.settle(subject, [&] {
             require_memory(cell.collider, input.triangle_count(), oracle);
-            session.watchdog().watch([&] {
-                if (one.pipeline == nullptr)
-                    one.pipeline =
-                        std::make_unique<Pipeline>(session, cell.builder, cell.collider, input);
-                if (!one.pipeline->collider().needs_tree())
-                    cell.builder = {.name = "none"};
-                one.pipeline->begin_frame(frame.motions);
-                cell.first.run_ns = host_ns([&] { one.pipeline->settle(input); });
-            });
+            settle(session, one, frame, cell);
             cell.counters = one.pipeline->counters();
             judge(*one.pipeline, cell, oracle, frame, found);
         });
         subject.once = [&] {
-            return session.watchdog().watch([&] { return one.pipeline->once(input); });
+            const watchdog::Watch watch;
+            return one.pipeline->once(input);
         };
         // Another pipeline may have used the same builder's tree since the last sample, so once more.
         subject.judge_again = [&] {

@@ -5,53 +5,55 @@
 #include "scenes/face_order.h"
 
 namespace bvhbench {
-namespace {
 
-Scene scene_of(const Experiment& experiment, const std::string& name, const SceneLibrary& library)
+Scene scene_called(const std::string& name, bool may_stand_in, const SceneLibrary& library)
 {
-    return experiment.may_stand_in ? load_or_stand_in(name, library) : load_scene(name, library);
+    return may_stand_in ? load_or_stand_in(name, library) : load_scene(name, library);
 }
 
-}  // namespace
+SceneFacts facts_of(const Scene& scene, std::string name, std::size_t frame)
+{
+    return {.name = std::move(name),
+            .triangles = scene.triangle_count(),
+            .vertices = static_cast<std::int64_t>(scene.frames.front().size()),
+            .objects = static_cast<std::int64_t>(scene.objects.size()),
+            .frame = static_cast<std::int64_t>(frame),
+            .source = scene.source,
+            .stand_in_for = scene.stand_in_for,
+            .outlier = scene.outlier,
+            .rounding = scene.rounding,
+            .bend_of = scene.bend_of,
+            .content_hash = scene.content_hash};
+}
+
+Input upload_frame(Session& session, const Scene& scene, std::size_t frame)
+{
+    std::vector<FaceRange> objects;
+    for (const SceneObject& object : scene.objects)
+        objects.push_back({object.first_face, object.face_count});
+    return upload(session.device(), session.queue(), scene.frames[frame], scene.faces, objects);
+}
 
 void Frames::load(const Experiment& experiment, const std::string& name,
                   const SceneLibrary& library)
 {
     name_ = name;
-    scene_ = scene_of(experiment, name, library);
+    scene_ = scene_called(name, experiment.may_stand_in, library);
     frame_ = experiment.has(Operation::refit) ? 1 : 0;
     if (frame_ >= scene_.frames.size())
         throw Unavailable("a refit needs a second frame, and scene '" + scene_.name +
                           "' has one; bend:" + scene_.name + " has two");
 }
 
-SceneFacts Frames::facts() const
-{
-    return {.name = name_,
-            .triangles = scene_.triangle_count(),
-            .vertices = static_cast<std::int64_t>(scene_.frames.front().size()),
-            .objects = static_cast<std::int64_t>(scene_.objects.size()),
-            .frame = static_cast<std::int64_t>(frame_),
-            .source = scene_.source,
-            .stand_in_for = scene_.stand_in_for,
-            .outlier = scene_.outlier,
-            .rounding = scene_.rounding,
-            .bend_of = scene_.bend_of,
-            .content_hash = scene_.content_hash};
-}
-
 void Frames::upload(Session& session, bool by_objects)
 {
-    std::vector<FaceRange> objects;
-    if (by_objects)
-        for (const SceneObject& object : scene_.objects)
-            objects.push_back({object.first_face, object.face_count});
-    else if (!scene_.file_faces.empty())
-        file_faces_ = faces_in_file(scene_);
-    const std::vector<Face>& faces = file_faces_.empty() ? scene_.faces : file_faces_;
+    if (!by_objects && !scene_.file_faces.empty())
+        faces_ = faces_in_file(scene_);
+    const std::vector<Face>& faces = faces_.empty() ? scene_.faces : faces_;
     const auto on_device = [&](std::size_t frame) {
-        return bvhbench::upload(session.device(), session.queue(), scene_.frames[frame], faces,
-                                objects);
+        return by_objects ? upload_frame(session, scene_, frame)
+                          : bvhbench::upload(session.device(), session.queue(),
+                                             scene_.frames[frame], faces);
     };
     now_ = on_device(frame_);
     if (frame_ > 0)

@@ -74,8 +74,8 @@ private:
     Session& session_;
     BuilderChoice choice_;  ///< a builder may keep looking at its words
     unsigned rules_off_;
-    std::unique_ptr<Builder>
-        builder_;  ///< its own, whose tree stands from frame to frame; null if none is wanted
+    /// Its own, whose tree stands from frame to frame; null if none is wanted.
+    std::unique_ptr<Builder> builder_;
     const Tree* tree_ = nullptr;
     std::vector<TreeUpdate> updates_;  ///< what becomes of each object's tree
     std::unique_ptr<Collider> collider_;

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "harness/measure/portable.h"
-
 #include <iostream>
 
 #include "collide/narrow/narrow_methods.h"

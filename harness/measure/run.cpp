@@ -13,7 +13,7 @@
 #include "harness/measure/engine.h"
 #include "harness/measure/frames.h"
 #include "harness/record/provenance.h"
-#include "harness/session/session_samples.h"
+#include "harness/session/watchdog.h"
 
 namespace bvhbench {
 namespace {
@@ -39,13 +39,6 @@ std::vector<BuilderChoice> chosen(const Experiment& experiment, const std::strin
     return builders;
 }
 
-void put(Quality&& quality, Cell& cell)
-{
-    cell.counters.merge(quality.counters);
-    cell.left_out = std::move(quality.left_out);
-    cell.leaves_by_depth = std::move(quality.leaves_by_depth);
-}
-
 /// How good a tree is. One that is wrong has no quality.
 void count_quality(Cell& cell, const HostTree& tree, const Input& input, const NodeCosts& costs,
                    bool with_epo)
@@ -60,7 +53,9 @@ void count_quality(Cell& cell, const HostTree& tree, const Input& input, const N
         add_end_point_overlap(quality, tree, input.points, input.faces, costs);
     else
         quality.left_out["epo"] = "not asked for: --epo";
-    put(std::move(quality), cell);
+    cell.counters.merge(quality.counters);
+    cell.left_out = std::move(quality.left_out);
+    cell.leaves_by_depth = std::move(quality.leaves_by_depth);
 }
 
 }  // namespace
@@ -95,10 +90,10 @@ Run::Run(Session& session, Output output, std::vector<std::string> command, cons
     : session_(session)
     , costs_(costs)
     , results_(std::move(output), measured_facts(session, std::move(command), costs),
-               session.watchdog().run_id())
+               watchdog::run_id())
     , order_(results_.next_order())
 {
-    session.watchdog().keep_by(results_.run_id(), [this] { results_.keep(); });
+    watchdog::go_on_with(results_.run_id());
 }
 
 void Run::finish()
@@ -108,11 +103,18 @@ void Run::finish()
     results_.finish(session_.programs().compile_ns());
 }
 
+std::vector<std::string> files_of(const std::vector<std::string>& scenes,
+                                  const SceneLibrary& library)
+{
+    std::vector<std::string> files;
+    for (const std::string& scene : scenes)
+        std::ranges::move(scene_files(scene, library), std::back_inserter(files));
+    return files;
+}
+
 CellFilter cell_filter(const std::string& text)
 {
-    if (text.empty())
-        return std::nullopt;
-    return Pattern(text, "--filter");
+    return text.empty() ? CellFilter() : Pattern(text, "--filter");
 }
 
 bool has_cells(const Experiment& experiment, const CellFilter& filter)
@@ -141,19 +143,17 @@ void Run::experiment(const Experiment& experiment, const CellFilter& filter)
 
 void Run::collisions(CollideTask task, const CellFilter& filter, Progress& progress)
 {
-    progress.step(task.experiment + ": " + task.scene);
+    const std::string title = task.experiment + ": " + task.scene;
+    progress.step(title);
     task.number = std::to_string(scenes_++);
     task.pipelines = chosen(task, filter);
-    task.note = [&](const std::string& what) {
-        progress.note(task.experiment + ": " + task.scene + ", " + what);
-    };
+    task.note = [&](const std::string& what) { progress.note(title + ", " + what); };
     if (task.pipelines.empty())
         return;
     collide_frames(
         session_, task, order_,
         [&](std::vector<Cell>&& cells, const Found&) {
-            progress.note(task.experiment + ": " + task.scene + ", frame " +
-                          std::to_string(cells.front().scene.frame));
+            task.note("frame " + std::to_string(cells.front().scene.frame));
             for (const Cell& cell : cells)
                 results_.add(cell);
         },
@@ -192,10 +192,9 @@ void Run::scene(const Experiment& experiment, const std::string& name,
         subject = {.cell = empty, .number = number + std::to_string(k)};
         subject.cell.builder = builders[k / experiment.operations.size()];
         subject.cell.operation = experiment.operations[k % experiment.operations.size()];
-        const std::string_view absent = find_builder(subject.cell.builder.name).absent;
-        if (!no_scene.empty() || !absent.empty()) {
-            engine.refuse(subject, Cell::Status::skipped,
-                          no_scene.empty() ? std::string(absent) : no_scene);
+        const std::string absent(find_builder(subject.cell.builder.name).absent);
+        if (const std::string& why = no_scene.empty() ? absent : no_scene; !why.empty()) {
+            engine.refuse(subject, Cell::Status::skipped, why);
             continue;
         }
         engine.settle(subject,

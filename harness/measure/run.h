@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "harness/base/pattern.h"
-#include "harness/base/progress.h"
+#include "harness/base/terminal.h"
 #include "harness/choice/experiment.h"
 #include "harness/record/result_file.h"
 #include "harness/session/session.h"
@@ -16,6 +16,10 @@ class Oracle;
 
 /// Which cells to run: those whose "scene/builder" it matches; all without one.
 using CellFilter = std::optional<Pattern>;
+
+/// Files and folders that loading these scenes may read.
+std::vector<std::string> files_of(const std::vector<std::string>& scenes,
+                                  const SceneLibrary& library);
 
 /// What --filter says; none if it is empty. Throws BadUsage if it is no regular expression.
 CellFilter cell_filter(const std::string& text);
@@ -63,5 +67,10 @@ private:
     int order_ = 0;
     int scenes_ = 0;  ///< begun so far
 };
+
+/// Prints the device with its limits, and a line for each builder, collider and narrow phase over the scenes of `smoke`: held to
+/// the oracles once and not timed. What a user of a device that nobody has tried runs and sends. Returns the exit code; throws
+/// NothingMeasured.
+int check_portable(Session& session, std::vector<std::string> command);
 
 }  // namespace bvhbench

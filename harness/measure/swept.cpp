@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "harness/measure/swept.h"
-#include "builders/box_format.h"
-
 #include <algorithm>
 #include <utility>
 
+#include "builders/box_format.h"
 #include "builders/orders.h"
 #include "geometry/error.h"
-#include "harness/measure/frame_cells.h"
+#include "harness/measure/collide.h"
 #include "scenes/ground_truth.h"
 
 namespace bvhbench {
@@ -84,9 +82,8 @@ void go_on(Question (&questions)[2], const Scene& scene, std::size_t frame, cons
 
 }  // namespace
 
-void collide_swept(Session& session, const CollideTask& task, int& order,
-                   const std::function<void(std::vector<Cell>&&, const Found&)>& add,
-                   const std::function<bool(std::size_t cells)>& passes)
+void collide_swept(Session& session, const CollideTask& task, int& order, const AddFrame& add,
+                   const PassCells& passes)
 {
     check_swept(task);
     const Scene scene = scene_of(task, session.scenes());
@@ -134,10 +131,8 @@ void collide_swept(Session& session, const CollideTask& task, int& order,
             now.judge_more = [&](const Found& found, Cell& cell) {
                 judge_step(question, found.pairs, cell);
             };
-            Found found;
-            std::vector<Cell> cells = run_frame(session, task, question.running, now, order, found);
-            found.scene = &scene;
-            add(std::move(cells), found);
+            Found found{.scene = &scene};
+            add(run_frame(session, task, question.running, now, order, found), found);
         }
     }
 }

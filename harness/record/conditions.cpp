@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "harness/record/conditions.h"
-
 #include <algorithm>
 #include <fstream>
 
 #include "harness/base/table.h"
+#include "harness/record/provenance.h"
 
 namespace bvhbench {
 namespace {

@@ -36,10 +36,9 @@ constexpr std::string_view name_of(Invariant invariant)
 struct Finding {
     enum class Verdict { holds, broken, refused } verdict = Verdict::holds;
     std::uint64_t checked = 0;  ///< how many things were looked at: pairs, nodes, runs
-    std::uint64_t wrong =
-        0;  ///< how many of them were wrong; 0 beside `broken` if it cannot be said
-    std::uint64_t missed = 0;  ///< of those: what is there and was not found
-    std::string detail = {};   ///< what is wrong, or why it was refused
+    std::uint64_t wrong = 0;    ///< of those; 0 beside `broken` if it cannot be said
+    std::uint64_t missed = 0;   ///< of those: what is there and was not found
+    std::string detail = {};    ///< what is wrong, or why it was refused
 
     bool operator==(const Finding&) const = default;
 };

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "harness/record/output.h"
-#include "harness/base/file_text.h"
 
 #include <fcntl.h>
-#include <sys/random.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -15,16 +14,16 @@
 #include <iostream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <random>
+#include <thread>
 #include <utility>
 
 #include "geometry/error.h"
 #include "geometry/hash.h"
-#include "geometry/host_memory.h"
+#include "harness/base/json_keys.h"
 
 namespace bvhbench {
 namespace {
-
-/// What a byte of JSON takes while it is read, about: itself, and its share of the document.
 
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
@@ -97,13 +96,54 @@ std::string contents_of(const std::string& text)
 
 std::string random_name()
 {
-    std::uint64_t number = 0;
-    if (getrandom(&number, sizeof number, 0) != sizeof number)
-        number =
-            static_cast<std::uint64_t>(getpid()) ^
-            static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch().count());
-    return hex(number);
+    std::random_device random;
+    return hex(std::uint64_t{random()} << 32 | random());
 }
+
+/// Whether `path` still names the open file: a process that ends may have removed it since it was opened.
+bool names(const std::filesystem::path& path, int file)
+{
+    struct stat opened = {}, named = {};
+    return fstat(file, &opened) == 0 && stat(path.c_str(), &named) == 0 &&
+           opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
+}
+
+/// A locked file that says that a process is at work; removed in the end. The system releases the lock however the process ends.
+/// Where a file system has no locks, nobody is kept out.
+class FileLock {
+public:
+    /// Waits a moment for a process that holds the lock, then throws Unavailable, as where the file cannot be made; the
+    /// sentence speaks of `subject`.
+    FileLock(fs::path path, const std::string& subject) : path_(std::move(path))
+    {
+        const auto until = std::chrono::steady_clock::now() + patience;
+        for (;;) {
+            file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+            if (file_ < 0)
+                fail(subject);
+            const bool is_locked = flock(file_, LOCK_EX | LOCK_NB) == 0;
+            const bool has_locks = is_locked || errno == EWOULDBLOCK || errno == EINTR;
+            if (!has_locks || (is_locked && names(path_, file_)))
+                return;
+            close(file_);
+            if (!is_locked && std::chrono::steady_clock::now() >= until)
+                throw Unavailable(subject + " is being written by another process");
+            if (!is_locked)
+                std::this_thread::sleep_for(50ms);
+        }
+    }
+    ~FileLock()
+    {
+        unlink(path_.c_str());
+        close(file_);
+    }
+    FileLock(const FileLock&) = delete;
+    FileLock& operator=(const FileLock&) = delete;
+
+private:
+    fs::path path_;
+    int file_ = -1;
+};
 
 }  // namespace
 
@@ -129,8 +169,7 @@ Output::Output(const fs::path& path, const std::string& option, const OutputRule
         access(folder_of(target_).c_str(), W_OK | X_OK) != 0)
         fail(path);
     const fs::path lock = folder_of(target_) / ("." + target_.filename().string() + ".lock");
-    lock_ = std::make_unique<FileLock>(lock, FileLock::Kind::exclusive, path.string(), patience);
-    lock_->remove_at_end();
+    lock_ = std::make_shared<const FileLock>(lock, path.string());
     // Whoever had the lock may have written the file.
     was_there_ = stat(target_.c_str(), &about) == 0 && about.st_size > 0;
     if (was_there_)

@@ -10,15 +10,12 @@
 #include <string_view>
 #include <vector>
 
-#include "harness/record/file_lock.h"
-
 namespace bvhbench {
 
 /// What an output may replace.
 struct OutputRules {
-    bool force = false;  ///< --force: any earlier file that is no input
-    std::vector<std::string> inputs =
-        {};  ///< what the command reads: files and folders; they need not be there
+    bool force = false;                    ///< --force: any earlier file that is no input
+    std::vector<std::string> inputs = {};  ///< files and folders that it reads, there or not
     /// Whether the text of an earlier file may be replaced without --force: because the command made it and makes it
     /// again, or because it keeps what is in it. Empty: no.
     std::function<bool(const std::string& text)> may_replace = {};
@@ -81,7 +78,7 @@ private:
     std::filesystem::path target_;  ///< without links
     bool is_file_ = false;
     bool was_there_ = false;
-    std::unique_ptr<FileLock> lock_;
+    std::shared_ptr<const void> lock_;
 };
 
 /// Throws BadUsage if a file in `folder`, which a command draws pictures into, is called like a picture and is none, or is an

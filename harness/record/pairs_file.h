@@ -28,15 +28,12 @@ public:
 
     void finish();
 
-    /// Leaves what was there before, and no temporary file.
-    void discard() { writer_.reset(); }
-
 private:
     std::string lines(std::span<const Pair> pairs, std::size_t frame) const;
 
     bool is_csv_, is_swept_;
-    std::vector<std::int64_t>
-        objects_;  ///< of each triangle, by the file's numbers; empty: not asked for yet
+    /// Of each triangle, by the file's numbers; empty: not asked for yet.
+    std::vector<std::int64_t> objects_;
     std::optional<Output::Writer> writer_;
 };
 

@@ -2,6 +2,7 @@
 #include "harness/record/provenance.h"
 
 #include <dlfcn.h>
+#include <re2/re2.h>
 #include <sys/utsname.h>
 
 #include <algorithm>
@@ -18,17 +19,14 @@
 namespace bvhbench {
 namespace {
 
-/// The value after the colon of the first line of `path` that starts with `key`; empty if there is none.
-std::string value_in(const char* path, const std::string& key)
+/// What the first line of /proc/cpuinfo that says so calls the processor; empty if none does.
+std::string processor()
 {
-    std::ifstream file(path);
-    for (std::string line; std::getline(file, line);)
-        if (line.starts_with(key))
-            if (const std::size_t colon = line.find(':'); colon != std::string::npos)
-                if (const std::size_t start = line.find_first_not_of(" \t", colon + 1);
-                    start != std::string::npos)
-                    return line.substr(start);
-    return {};
+    std::ifstream file("/proc/cpuinfo");
+    const std::string text(std::istreambuf_iterator<char>(file), {});
+    std::string name;
+    RE2::PartialMatch(text, "(?m)^model name[ \\t]*:[ \\t]*(.+)$", &name);
+    return name;
 }
 
 /// "ocl-icd 2.3.1" where the loader tells its name; only ocl-icd does, through a function of its own.
@@ -72,29 +70,26 @@ std::string kind_of(const cl::Device& device)
                                               : "other";
 }
 
-std::string run_id(const std::string& host)
-{
-    std::array<char, 32> time{};
-    const std::time_t now = std::time(nullptr);
-    std::tm parts{};
-    gmtime_r(&now, &parts);
-    std::strftime(time.data(), time.size(), "%Y%m%dT%H%M%SZ", &parts);
-    std::array<char, 8> digits{};
-    std::snprintf(digits.data(), digits.size(), "%04x", std::random_device{}() & 0xffffu);
-    return std::string(time.data()) + '-' + host + '-' + digits.data();
-}
-
-}  // namespace
-
-std::string utc_now()
+std::string now_as(const char* format)
 {
     std::array<char, 32> text{};
     const std::time_t now = std::time(nullptr);
     std::tm parts{};
     gmtime_r(&now, &parts);
-    std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts);
+    std::strftime(text.data(), text.size(), format, &parts);
     return text.data();
 }
+
+std::string run_id(const std::string& host)
+{
+    std::array<char, 8> digits{};
+    std::snprintf(digits.data(), digits.size(), "%04x", std::random_device{}() & 0xffffu);
+    return now_as("%Y%m%dT%H%M%SZ") + '-' + host + '-' + digits.data();
+}
+
+}  // namespace
+
+std::string utc_now() { return now_as("%Y-%m-%dT%H:%M:%SZ"); }
 
 DeviceFacts device_facts(const Device& device)
 {
@@ -126,7 +121,7 @@ RunFacts run_facts(const Device& device, std::vector<std::string> command)
     RunFacts run;
     run.host_name = system.nodename;
     run.host_os = std::string(system.sysname) + ' ' + system.release;
-    run.host_cpu = value_in("/proc/cpuinfo", "model name");
+    run.host_cpu = processor();
     run.host_threads = static_cast<int>(std::thread::hardware_concurrency());
     run.id = run_id(run.host_name);
     run.started_at = utc_now();

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "geometry/hash.h"
 #include "harness/choice/choices.h"
@@ -11,40 +10,54 @@
 namespace bvhbench {
 namespace {
 
-using Json = nlohmann::ordered_json;  // keys in the order written, so files read well
-
 void put_if(Json& json, const char* key, const std::string& value)
 {
     if (!value.empty())
         json[key] = value;
 }
 
-Json json_of(const StageTime& time)
+}  // namespace
+
+static void to_json(Json& json, const StageTime& time)
 {
     if (time.wall_ns > 0)  // else a device's, even if it had nothing to launch: one leaf is a tree
-        return {{"stage", time.stage}, {"wall_ns", time.wall_ns}};
-    return {{"stage", time.stage},
-            {"launches", time.launches},
-            {"busy_ns", time.busy_ns},
-            {"span_ns", time.span_ns},
-            {"moved_bytes", time.moved_bytes},
-            {"start_ns", time.start_ns},
-            {"queued_ns", time.queued_ns},
-            {"submitted_ns", time.submitted_ns}};
+        json = {{"stage", time.stage}, {"wall_ns", time.wall_ns}};
+    else
+        json = {{"stage", time.stage},
+                {"launches", time.launches},
+                {"busy_ns", time.busy_ns},
+                {"span_ns", time.span_ns},
+                {"moved_bytes", time.moved_bytes},
+                {"start_ns", time.start_ns},
+                {"queued_ns", time.queued_ns},
+                {"submitted_ns", time.submitted_ns}};
 }
 
-Json json_of(const Sample& sample)
+static void to_json(Json& json, const Sample& sample)
 {
-    Json stages = Json::array();
-    for (const StageTime& time : sample.stages)
-        stages.push_back(json_of(time));
-    Json json = {{"order", sample.order}, {"stages", std::move(stages)}};
+    json = {{"order", sample.order}, {"stages", sample.stages}};
     if (sample.calibration_ns > 0)
         json["calibration_ns"] = sample.calibration_ns;
     if (sample.drifted)
         json["drifted"] = true;
-    return json;
 }
+
+/// A key a member, called as it is.
+#define TO_JSON(Type, ...)                                                       \
+    static void to_json(Json& nlohmann_json_j, const Type& nlohmann_json_t)      \
+    {                                                                            \
+        NLOHMANN_JSON_EXPAND(NLOHMANN_JSON_PASTE(NLOHMANN_JSON_TO, __VA_ARGS__)) \
+    }
+TO_JSON(DeviceFacts, name, platform, driver, opencl, opencl_c, kind, compute_units,
+        global_memory_bytes, max_allocation_bytes, local_memory_bytes, max_group_size,
+        timer_resolution_ns, correctly_rounded_division, device_scope_acq_rel_atomics)
+TO_JSON(SweptFacts, pairs, to_frame, primitives)
+TO_JSON(NodeCosts, inner, triangle)
+TO_JSON(Outlier, of, triangle, diameters)
+TO_JSON(FirstRun, compile_ns, run_ns)
+#undef TO_JSON
+
+namespace {
 
 Json json_of(const SceneFacts& scene)
 {
@@ -60,9 +73,7 @@ Json json_of(const SceneFacts& scene)
         put_if(json, "source", scene.source);
         put_if(json, "stand_in_for", scene.stand_in_for);
         if (!scene.outlier.of.empty())
-            json["outlier"] = {{"of", scene.outlier.of},
-                               {"triangle", scene.outlier.triangle},
-                               {"diameters", scene.outlier.diameters}};
+            json["outlier"] = scene.outlier;
         if (const Rounding& rounding = scene.rounding; rounding.how)
             json["doubles"] = {
                 {"how", doubles_name(*rounding.how)},
@@ -87,11 +98,6 @@ Json json_of(const ColliderChoice& collider)
     Json options = choices_json({.collider = collider}, Choice::Of::query);
     options.update(choices_json({.collider = collider}, Choice::Of::collider));
     return {{"name", collider.name}, {"options", std::move(options)}};
-}
-
-Json json_of(const SweptFacts& swept)
-{
-    return {{"pairs", swept.pairs}, {"to_frame", swept.to_frame}, {"primitives", swept.primitives}};
 }
 
 Json json_of(const AccuracyFacts& accuracy)
@@ -140,24 +146,6 @@ Json json_of(const HostConditions& conditions)
     return json;
 }
 
-Json json_of(const DeviceFacts& device)
-{
-    return {{"name", device.name},
-            {"platform", device.platform},
-            {"driver", device.driver},
-            {"opencl", device.opencl},
-            {"opencl_c", device.opencl_c},
-            {"kind", device.kind},
-            {"compute_units", device.compute_units},
-            {"global_memory_bytes", device.global_memory_bytes},
-            {"max_allocation_bytes", device.max_allocation_bytes},
-            {"local_memory_bytes", device.local_memory_bytes},
-            {"max_group_size", device.max_group_size},
-            {"timer_resolution_ns", device.timer_resolution_ns},
-            {"correctly_rounded_division", device.correctly_rounded_division},
-            {"device_scope_acq_rel_atomics", device.device_scope_acq_rel_atomics}};
-}
-
 /// File names and logs may hold any bytes; a result file holds UTF-8 only.
 std::string dumped(const Json& json)
 {
@@ -168,8 +156,7 @@ std::string dumped(const Json& json)
 
 std::string run_text(const RunFacts& run)
 {
-    Json json = {{"id", run.id}, {"started_at", run.started_at}};
-    json["command"] = run.command;
+    Json json = {{"id", run.id}, {"started_at", run.started_at}, {"command", run.command}};
     json["program"] = {{"version", run.version},   {"commit", run.commit},
                        {"dirty", run.dirty},       {"build_type", run.build_type},
                        {"compiler", run.compiler}, {"arch", run.arch},
@@ -178,7 +165,7 @@ std::string run_text(const RunFacts& run)
                     {"cpu", run.host_cpu},
                     {"threads", run.host_threads},
                     {"os", run.host_os}};
-    json["device"] = json_of(run.device);
+    json["device"] = run.device;
     json["libraries"] = run.libraries;
     if (std::isfinite(run.copy_rate_bytes_per_s) && run.copy_rate_bytes_per_s > 0) {
         json["copy_rate_bytes_per_s"] = run.copy_rate_bytes_per_s;
@@ -188,7 +175,7 @@ std::string run_text(const RunFacts& run)
         json["launch_cost_ns"] = run.launch_cost_ns;
     json["tuning"] = {{"from", run.tuning_from}, {"values", run.tuning}};
     json["compile_ns"] = run.compile_ns;
-    json["node_costs"] = {{"inner", run.costs.inner}, {"triangle", run.costs.triangle}};
+    json["node_costs"] = run.costs;
     if (run.conditions != HostConditions{})
         json["conditions"] = json_of(run.conditions);
     if (!run.test_hooks.empty())
@@ -205,7 +192,7 @@ std::string cell_text(const Cell& cell)
     if (!cell.collider.name.empty())
         json["collider"] = json_of(cell.collider);
     if (!cell.swept.pairs.empty())
-        json["swept"] = json_of(cell.swept);
+        json["swept"] = cell.swept;
     if (!cell.accuracy.axis.empty())
         json["accuracy"] = json_of(cell.accuracy);
     json["operation"] = operation_name(cell.operation);
@@ -216,18 +203,15 @@ std::string cell_text(const Cell& cell)
     }
     json["warm_up"] = cell.warm_up;
     if (cell.first.run_ns > 0)
-        json["first"] = {{"compile_ns", cell.first.compile_ns}, {"run_ns", cell.first.run_ns}};
+        json["first"] = cell.first;
     if (cell.sampling.stopped != Stopped::not_sampled)
         json["sampling"] = json_of(cell.sampling);
-    json["samples"] = Json::array();
-    for (const Sample& sample : cell.samples)
-        json["samples"].push_back(json_of(sample));
-    json["counters"] = Json::object();
+    json["samples"] = cell.samples;
+    Json& counters = json["counters"] = Json::object();
     for (const auto& [key, value] : cell.counters) {
-        if (std::isfinite(value) && value == std::floor(value) && std::fabs(value) < 0x1p53)
-            json["counters"][key] = static_cast<std::int64_t>(value);
-        else if (std::isfinite(value))
-            json["counters"][key] = value;
+        const bool is_whole = value == std::floor(value) && std::fabs(value) < 0x1p53;
+        if (std::isfinite(value))
+            counters[key] = is_whole ? Json(static_cast<std::int64_t>(value)) : Json(value);
     }
     if (!cell.left_out.empty())
         json["left_out"] = cell.left_out;

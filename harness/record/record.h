@@ -14,9 +14,7 @@
 #include "geometry/host_memory.h"
 #include "harness/choice/catalog.h"
 #include "harness/choice/collider_catalog.h"
-#include "harness/choice/node_costs.h"
 #include "harness/choice/sampling.h"
-#include "harness/record/conditions.h"
 #include "harness/record/finding.h"
 #include "scenes/scene.h"
 
@@ -44,10 +42,9 @@ struct Check {
 /// Which triangles were built over.
 struct SceneFacts {
     std::string name;
-    std::string objects_by =
-        {};                      ///< what was asked to be an object; empty: as the scene was loaded
-    std::int64_t between = 0;    ///< frames put between each two of the scene's
-    std::int64_t triangles = 0;  ///< the rest is known only if this is not 0
+    std::string objects_by = {};  ///< what is an object; empty: as the scene was loaded
+    std::int64_t between = 0;     ///< frames put between each two of the scene's
+    std::int64_t triangles = 0;   ///< the rest is known only if this is not 0
     std::int64_t vertices = 0;
     std::int64_t objects = 0;
     std::int64_t frame = 0;
@@ -107,6 +104,17 @@ struct Cell {
     std::map<std::string, std::string> left_out;  ///< a counter without a value, and why
     std::vector<std::int64_t> leaves_by_depth;    ///< from the root's level on
     Check check;
+};
+
+/// Settings of the host that distort times. An empty value is unknown.
+struct HostConditions {
+    std::string governor;       ///< of the first core whose is not "performance", else that
+    std::optional<bool> turbo;  ///< whether cores may clock higher for a while
+    std::optional<bool> on_battery;
+    std::optional<double> load;         ///< processes that wanted to run, mean of the last minute
+    std::vector<std::string> warnings;  ///< sentences on those that matter
+
+    bool operator==(const HostConditions&) const = default;
 };
 
 struct DeviceFacts {

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "harness/record/result_file.h"
-#include "harness/base/file_text.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "geometry/error.h"
 #include "geometry/host_memory.h"
@@ -11,8 +9,6 @@
 
 namespace bvhbench {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// The document of an earlier process of the run; nothing if the text is something else.
 std::optional<Json> document_of(const std::string& run_id, const std::string& text)
@@ -23,13 +19,6 @@ std::optional<Json> document_of(const std::string& run_id, const std::string& te
                         json["run"].is_object() && json["run"].value("id", "") == run_id &&
                         json.contains("cells");
     return is_own ? std::optional(std::move(json)) : std::nullopt;
-}
-
-Cell::Status status_called(const std::string& name)
-{
-    return name == "measured"  ? Cell::Status::measured
-           : name == "skipped" ? Cell::Status::skipped
-                               : Cell::Status::failed;
 }
 
 int order_after(const Json& cell)
@@ -67,7 +56,7 @@ OutputRules result_rules(bool force, std::vector<std::string> inputs, std::strin
 }
 
 ResultFile::ResultFile(Output output, const RunFacts& run, const std::string& goes_on)
-    : output_(std::move(output)), run_id_(run.id), run_(run_text(run))
+    : output_(std::move(output)), run_id_(run.id), run_(Json::parse(run_text(run)))
 {
     if (!goes_on.empty() && output_.was_there())
         take_over(goes_on);
@@ -82,10 +71,10 @@ void ResultFile::take_over(const std::string& run_id)
     if (!json)
         return;
     run_id_ = run_id;
-    run_ = (*json)["run"].dump();
+    run_ = (*json)["run"];
     for (const Json& cell : (*json)["cells"]) {
         cells_.push_back({.text = cell.dump(),
-                          .status = status_called(cell.value("status", "")),
+                          .is_measured = cell.value("status", "") == "measured",
                           .differs = cell.value("/check/verdict"_json_pointer, "") == "differs",
                           .reason = cell.value("reason", "")});
         next_order_ = std::max(next_order_, order_after(cell));
@@ -117,8 +106,6 @@ void ResultFile::keep()
         write();
 }
 
-int ResultFile::next_order() const { return next_order_; }
-
 ResultFile::~ResultFile()
 {
     at_signal_.reset();
@@ -133,7 +120,7 @@ void ResultFile::add(const Cell& cell)
     const std::lock_guard lock(mutex_);
     has_measured_ = has_measured_ || cell.status == Cell::Status::measured;
     cells_.push_back({.text = cell_text(cell),
-                      .status = cell.status,
+                      .is_measured = cell.status == Cell::Status::measured,
                       .differs = cell.check.verdict == Check::Verdict::differs,
                       .reason = cell.reason});
     write_if_due();
@@ -155,20 +142,13 @@ void ResultFile::write_if_due()
         write();
 }
 
-void ResultFile::took_turns(const std::vector<std::string>& others)
-{
-    Json run = Json::parse(run_);
-    run["turns_with"] = others;
-    run_ = run.dump();
-}
+void ResultFile::took_turns(const std::vector<std::string>& others) { run_["turns_with"] = others; }
 
 void ResultFile::finish(std::int64_t compile_ns)
 {
     const std::lock_guard lock(mutex_);
-    Json run = Json::parse(run_);
-    run["compile_ns"] = compile_ns;
-    run["finished_at"] = utc_now();
-    run_ = run.dump();
+    run_["compile_ns"] = compile_ns;
+    run_["finished_at"] = utc_now();
     write();
 }
 
@@ -177,21 +157,18 @@ std::string ResultFile::text() const
     std::vector<std::string> texts;
     for (const Kept& cell : cells_)
         texts.push_back(cell.text);
-    return document_text(run_, texts, stress_);
+    return document_text(run_.dump(), texts, stress_);
 }
 
 int ResultFile::exit_code() const
 {
-    const auto is_measured = [](const Kept& cell) { return cell.status == Cell::Status::measured; };
-    if (!cells_.empty() && std::none_of(cells_.begin(), cells_.end(), is_measured))
+    if (!cells_.empty() && std::ranges::none_of(cells_, &Kept::is_measured))
         throw NothingMeasured("nothing was measured: " + cells_.front().reason +
                               (cells_.size() > 1
                                    ? " (the first of " + std::to_string(cells_.size()) + " cells)"
                                    : ""));
-    return std::any_of(cells_.begin(), cells_.end(),
-                       [&](const Kept& cell) { return is_measured(cell) && cell.differs; })
-               ? 1
-               : 0;
+    const auto is_wrong = [](const Kept& cell) { return cell.is_measured && cell.differs; };
+    return std::ranges::any_of(cells_, is_wrong) ? 1 : 0;
 }
 
 std::string ResultFile::written() const
@@ -208,9 +185,7 @@ bool ResultFile::is_worth_writing() const
 
 void ResultFile::write()
 {
-    Json run = Json::parse(run_);
-    note_memory(run);
-    run_ = run.dump();
+    note_memory(run_);
     if (!output_.is_nowhere() && is_worth_writing())
         output_.replace(text());
     written_at_ = std::chrono::steady_clock::now();

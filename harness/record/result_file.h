@@ -3,12 +3,12 @@
 
 #include <chrono>
 #include <mutex>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "harness/base/interrupt.h"
+#include "harness/base/json_keys.h"
 #include "harness/record/output.h"
 #include "harness/record/record.h"
 
@@ -42,7 +42,7 @@ public:
     void keep();
 
     /// The first place in the order of samples that none of its cells has.
-    int next_order() const;
+    int next_order() const { return next_order_; }
 
     /// The runs that took turns with this one.
     void took_turns(const std::vector<std::string>& others);
@@ -69,8 +69,7 @@ private:
     /// A cell as text, so that it is turned into text once, and how it came out.
     struct Kept {
         std::string text;
-        Cell::Status status;
-        bool differs;
+        bool is_measured, differs;
         std::string reason;
     };
 
@@ -81,7 +80,7 @@ private:
 
     Output output_;
     std::string run_id_;
-    std::string run_;  ///< JSON
+    Json run_;
     std::vector<Kept> cells_;
     std::vector<std::string> stress_;
     bool has_measured_ = false;  ///< whether a cell holds what may replace an earlier file

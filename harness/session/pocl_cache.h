@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -13,8 +12,8 @@ namespace bvhbench {
 /// Where PoCL keeps compiled kernels while this object exists: a folder that can be written.
 ///
 /// PoCL ends the process over a folder that it cannot write. So before the first OpenCL call a folder is found that will do,
-/// else an empty one below the folder of temporary files, which is removed in the end. Our own folder is kept below a size. A
-/// folder that POCL_CACHE_DIR names is somebody else's: it is only asked whether it will do.
+/// else an empty one below the folder of temporary files, which is removed in the end. Our own folder is emptied when it has
+/// grown too large. A folder that POCL_CACHE_DIR names is somebody else's: it is only asked whether it will do.
 class PoclCache {
 public:
     /// Says in one sentence on stderr when kernels cannot be kept. Throws Unavailable where there is no room at all.
@@ -24,15 +23,12 @@ public:
     PoclCache& operator=(const PoclCache&) = delete;
 
 private:
-    void tidy(const std::filesystem::path& folder);
+    void share(const std::filesystem::path& folder);
     void take_temporary(const std::string& why);
 
     std::filesystem::path temporary_;
-    int lock_ = -1;  ///< held shared by all who use our folder, alone while programs are removed
+    int lock_ = -1;  ///< held shared by all who use our folder, alone while it is emptied
     std::optional<AtSignal> removed_;  ///< the temporary folder
 };
-
-/// Why a folder will not do to keep `bytes` in; empty if it will. Makes it if it is not there.
-std::string folder_problem(const std::filesystem::path& folder, std::uintmax_t bytes);
 
 }  // namespace bvhbench

@@ -4,12 +4,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 #include <random>
 
 #include "harness/base/failure.h"
 #include "harness/base/test_hooks.h"
-#include "harness/session/statistics.h"
-#include "harness/session/stopping.h"
 
 namespace bvhbench {
 namespace {
@@ -80,6 +79,74 @@ private:
     int next_ = 0;
 };
 
+/// Decides when a cell has samples enough, from their times as they come.
+class StoppingRule {
+public:
+    explicit StoppingRule(const SamplingPlan& plan) : plan_(plan) {}
+
+    /// A sample has taken so long; `counts` if nothing is known against it.
+    void add(double time_ns, bool counts)
+    {
+        ++taken_;
+        if (!counts)
+            return;
+        times_.push_back(time_ns);
+        if (plan_.rules.until > 0 && times_.size() % stride == 0)
+            noises_.push_back(relative_quartile_range());
+    }
+
+    /// Why there need be no more, so long after the first; not_sampled while there must.
+    Stopped verdict(double elapsed_s) const
+    {
+        if (plan_.rules.until == 0)  // a fixed number is what it says, marked ones and all
+            return taken_ >= static_cast<std::size_t>(plan_.samples) ? Stopped::number
+                                                                     : Stopped::not_sampled;
+        // Under a drift that does not end none may count: there is an end to it all the same.
+        const auto least = static_cast<std::size_t>(plan_.rules.min_samples);
+        if (times_.size() >= least) {
+            if (relative_quartile_range() <= plan_.rules.until)
+                return Stopped::steady;
+            if (noise_is_stable())
+                return Stopped::noisy;
+        }
+        if (taken_ >= static_cast<std::size_t>(plan_.rules.max_samples))
+            return Stopped::most;
+        if (taken_ > 0 && elapsed_s >= plan_.rules.time_budget_s)
+            return Stopped::budget;
+        return Stopped::not_sampled;
+    }
+
+private:
+    static constexpr std::size_t stride = 8;          ///< samples between two looks at the noise
+    static constexpr std::size_t looks = 8;           ///< that must agree
+    static constexpr double stable_deviation = 0.05;  ///< of them, as a share of their mean
+
+    /// The range between the quartiles over the median; 0 of none.
+    double relative_quartile_range() const
+    {
+        const double median = quantile(times_, 0.5);
+        return median > 0 ? (quantile(times_, 0.75) - quantile(times_, 0.25)) / median : 0;
+    }
+
+    /// Whether noise has stayed what it is for so long that it will not go down.
+    bool noise_is_stable() const
+    {
+        if (noises_.size() < looks)
+            return false;
+        const auto first = noises_.end() - static_cast<std::ptrdiff_t>(looks);
+        const double mean = std::accumulate(first, noises_.end(), 0.0) / looks;
+        double squares = 0;
+        for (auto noise = first; noise != noises_.end(); ++noise)
+            squares += (*noise - mean) * (*noise - mean);
+        return std::sqrt(squares / looks) <= stable_deviation * mean;
+    }
+
+    const SamplingPlan& plan_;
+    std::vector<double> times_;   ///< that count
+    std::size_t taken_ = 0;       ///< with those that do not
+    std::vector<double> noises_;  ///< after every `stride` samples
+};
+
 /// One call of take_samples: rounds, until every cell has enough.
 class Rounds {
 public:
@@ -148,7 +215,7 @@ private:
         }
         if (!counts)
             return;
-        slow_down(stages, slowed_by(cells_[i].name));
+        slow_down(stages, cells_[i].name);
         rules_[i].add(whole_ns(stages), drift_.is_steady());
         taken.samples.push_back({order, std::move(stages)});
         const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
@@ -168,6 +235,31 @@ private:
 };
 
 }  // namespace
+
+double quantile(std::vector<double> values, double fraction)
+{
+    if (values.empty())
+        return 0;
+    std::sort(values.begin(), values.end());
+    const double position = fraction * static_cast<double>(values.size() - 1);
+    const auto below = static_cast<std::size_t>(position);
+    const std::size_t above = std::min(below + 1, values.size() - 1);
+    return values[below] +
+           (position - static_cast<double>(below)) * (values[above] - values[below]);
+}
+
+double whole_ns(const std::vector<StageTime>& stages)
+{
+    double sum = 0;
+    std::int64_t end = 0;
+    bool on_device = true;
+    for (const StageTime& time : stages) {
+        sum += static_cast<double>(time.elapsed_ns());
+        end = std::max(end, time.start_ns + time.span_ns);
+        on_device = on_device && time.wall_ns == 0;
+    }
+    return on_device ? std::max(sum, static_cast<double>(end)) : sum;
+}
 
 std::vector<Taken> take_samples(std::span<const Timed> cells, const SamplingPlan& plan, int& order,
                                 const std::function<std::int64_t()>& calibrate, Turns* turns)

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "device/queue.h"
 #include "harness/choice/sampling.h"
 #include "harness/record/record.h"
 #include "harness/session/turns.h"
@@ -46,5 +47,12 @@ inline std::vector<Taken> take_samples(std::span<const Timed> cells, int samples
 {
     return take_samples(cells, {.samples = samples, .warm_up = warm_up}, order);
 }
+
+/// The value a `fraction` of the sorted values lies below, between neighbours in proportion. 0 for none.
+double quantile(std::vector<double> values, double fraction);
+
+/// Nanoseconds of all stages of a sample, by which samples are compared: on the device from the first start to the last end;
+/// stages on the host are added.
+double whole_ns(const std::vector<StageTime>& stages);
 
 }  // namespace bvhbench

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "harness/session/session.h"
 
+#include <re2/re2.h>
+
 #include <algorithm>
-#include <charconv>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
@@ -10,6 +11,7 @@
 #include "geometry/error.h"
 #include "geometry/host_memory.h"
 #include "harness/session/tuning_file.h"
+#include "harness/session/watchdog.h"
 
 namespace bvhbench {
 
@@ -39,9 +41,8 @@ Device open_device_of(const CommonOptions& common)
     return device;
 }
 
-Session::Session(Device device, SceneLibrary library, double time_limit_s)
-    : watchdog_(time_limit_s)
-    , device_(std::move(device))
+Session::Session(Device device, SceneLibrary library)
+    : device_(std::move(device))
     , programs_(device_)
     , queue_(std::make_unique<Queue>(device_))
     , library_(std::move(library))
@@ -51,7 +52,7 @@ Session::Session(const CommonOptions& common) : Session(std::make_unique<PoclCac
 
 /// The cache first: drivers look for it when they are asked for their devices.
 Session::Session(std::unique_ptr<PoclCache> cache, const CommonOptions& common)
-    : Session(open_device_of(common), scene_library(common), common.time_limit_s)
+    : Session(open_device_of(common), scene_library(common))
 {
     cache_ = std::move(cache);
     if (common.verbose)
@@ -94,25 +95,22 @@ void Session::take_turns(const std::string& path, const std::string& id)
 {
     if (path.empty())
         return;
-    const std::size_t colon = path.rfind(':');
+    std::string file;
     int count = 0;
-    const char* end = path.data() + path.size();
-    if (colon == path.npos || colon == 0 ||
-        std::from_chars(path.data() + colon + 1, end, count).ptr != end || count < 2 || count > 64)
+    if (!RE2::FullMatch(path, "(.+):(\\d+)", &file, &count) || count < 2 || count > 64)
         throw BadUsage(
             "--turns names a file and how many runs take turns by it, as out/turns:2, not '" +
             path + "'");
-    turns_.emplace(path.substr(0, colon), count, id);
+    turns_.emplace(file, count, id);
 }
 
 std::int64_t Session::calibrate()
 {
+    const watchdog::Watch watch;
     try {
-        return watchdog_.watch([&] {
-            if (!calibration_)
-                calibration_.emplace(programs_, queue());
-            return calibration_->take(queue());
-        });
+        if (!calibration_)
+            calibration_.emplace(programs_, queue());
+        return calibration_->take(queue());
     } catch (...) {
         renew_queue();  // else the next sample finds what is left of this
         throw;
@@ -131,24 +129,22 @@ void Session::give_head_start()
 std::vector<StageTime> Session::build_once(Builder& builder, const Input& input, Start start,
                                            const Tree** tree)
 {
-    return watchdog_.watch([&] {
-        give_head_start();
-        const Tree& built = builder.build(input, queue(), start);
-        if (tree != nullptr)
-            *tree = &built;
-        return queue().finish();
-    });
+    const watchdog::Watch watch;
+    give_head_start();
+    const Tree& built = builder.build(input, queue(), start);
+    if (tree != nullptr)
+        *tree = &built;
+    return queue().finish();
 }
 
 std::vector<StageTime> Session::refit_once(Builder& builder, const Input& input, const Tree** tree)
 {
-    return watchdog_.watch([&] {
-        give_head_start();
-        const Tree& refitted = builder.refit(input, queue());
-        if (tree != nullptr)
-            *tree = &refitted;
-        return queue().finish();
-    });
+    const watchdog::Watch watch;
+    give_head_start();
+    const Tree& refitted = builder.refit(input, queue());
+    if (tree != nullptr)
+        *tree = &refitted;
+    return queue().finish();
 }
 
 }  // namespace bvhbench

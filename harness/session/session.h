@@ -13,7 +13,6 @@
 #include "harness/choice/catalog.h"
 #include "harness/session/pocl_cache.h"
 #include "harness/session/turns.h"
-#include "harness/session/watchdog.h"
 #include "scenes/catalog.h"
 
 namespace bvhbench {
@@ -25,13 +24,12 @@ public:
     explicit Session(const CommonOptions& common);
 
     /// The same of a device that is open, its programs compiled anew: for one that is tuned otherwise.
-    Session(Device device, SceneLibrary library, double time_limit_s = 0);
+    Session(Device device, SceneLibrary library);
 
     const Device& device() const { return device_; }
     Programs& programs() { return programs_; }
     Queue& queue() { return *queue_; }
     const SceneLibrary& scenes() const { return library_; }
-    Watchdog& watchdog() { return watchdog_; }
 
     /// What becomes from here on of coordinates that floats cannot hold; none: what the command line said.
     void read_doubles(std::optional<Doubles> how)
@@ -79,7 +77,6 @@ private:
         std::unique_ptr<Builder> builder;
     };
 
-    Watchdog watchdog_;
     std::unique_ptr<PoclCache> cache_;  ///< outlives all that runs kernels
     Device device_;
     Programs programs_;

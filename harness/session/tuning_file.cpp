@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "harness/session/tuning_file.h"
-#include "harness/base/file_text.h"
 
 #include <algorithm>
 #include <cctype>
@@ -12,7 +11,7 @@
 #include "collide/parameters.h"
 #include "geometry/error.h"
 #include "harness/base/json_keys.h"
-#include "harness/base/json_reason.h"
+#include "harness/choice/sampling.h"
 #include "harness/record/output.h"
 
 namespace bvhbench {
@@ -35,20 +34,16 @@ TunedValue value_of(const Json& json, const Parameter& parameter)
     value.value = json["value"].get<uint>();
     if (const std::string why = parameter.refusal(value.value); !why.empty())
         throw BadUsage(std::string(parameter.name) + ' ' + why);
-    const auto text = [&](const char* key) {
-        return json.contains(key) ? text_at(json, key) : std::string();
-    };
-    value.target = text("target");
-    value.scene = text("scene");
-    value.found_at = text("found_at");
-    value.commit = text("commit");
+    value.target = text_in(json, "target");
+    value.scene = text_in(json, "scene");
+    value.found_at = text_in(json, "found_at");
+    value.commit = text_in(json, "commit");
     if (json.contains("ratio")) {
         if (!json["ratio"].is_number())
             throw BadUsage("'ratio' must be a number, not " + json["ratio"].dump());
         value.ratio = json["ratio"].get<double>();
     }
-    if (json.contains("samples"))
-        value.samples = static_cast<int>(whole_number(json["samples"], "samples", 0, 1000000));
+    read_whole(json, "samples", 0, most_samples, value.samples);
     return value;
 }
 
@@ -58,8 +53,8 @@ TuningFile file_of(const Json& json, const std::string& origin)
         throw BadUsage("'format' is not \"" + std::string(format) + '"');
     refuse_unknown_keys(json, {"format", "device", "driver", "values"}, "a tuning file");
     TuningFile file;
-    file.device = json.contains("device") ? text_at(json, "device") : "";
-    file.driver = json.contains("driver") ? text_at(json, "driver") : "";
+    file.device = text_in(json, "device");
+    file.driver = text_in(json, "driver");
     if (!json.contains("values") || !json["values"].is_object())
         throw BadUsage("'values' must be an object of parameters");
     for (const auto& [name, value] : json["values"].items())

@@ -1,196 +1,193 @@
 // SPDX-License-Identifier: MIT
 #include "harness/session/watchdog.h"
 
-#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <csignal>
-#include <cstdio>
-#include <cstdlib>
-#include <fstream>
-#include <iterator>
+#include <cstring>
+#include <map>
+#include <new>
 #include <sstream>
-#include <vector>
 
+#include "geometry/error.h"
 #include "harness/base/interrupt.h"
 
 namespace bvhbench {
 namespace {
 
-using namespace std::chrono_literals;
-
-// A line with the run's id, then lines of a cell, a tab, and why it was given up.
-constexpr const char* variable = "BVHBENCH_GOES_ON";
 constexpr long over = -1;
 
-// Not SIGFPE: PoCL has a handler for that.
-constexpr std::array crashes = {SIGSEGV, SIGBUS, SIGILL, SIGABRT};
-std::array<void (*)(int), crashes.size()> before = {};
-std::atomic<const Watchdog*> watching = nullptr;  // a signal handler has no other way to it
+/// Memory of both processes. The parent reads `until_ms` while the child runs and the rest once it has ended.
+struct Told {
+    std::atomic<long> until_ms = 0;  ///< of the steady clock; 0: nothing is watched; -1: it is over
+    std::array<char, 64> cell = {};
+    std::array<char, 256> run = {};
+    std::array<char, 4096> kernels = {};
+};
+static_assert(std::atomic<long>::is_always_lock_free);
+
+Told* told = nullptr;  // null: there is no parent
+double limit_ms = 0;
+
+// What earlier children have lost. A child has what its parent had when it began.
+std::string goes_on;
+std::map<std::string, std::string> lost;
+
+template <std::size_t size>
+void tell(std::array<char, size> Told::*place, const std::string& text)
+{
+    if (told != nullptr)
+        std::strncpy((told->*place).data(), text.c_str(), size - 1);
+}
 
 long now_ms()
 {
-    return std::chrono::duration_cast<std::chrono::milliseconds>(
-               std::chrono::steady_clock::now().time_since_epoch())
-        .count();
+    using namespace std::chrono;
+    return duration_cast<milliseconds>(steady_clock::now().time_since_epoch()).count();
 }
 
-/// This process's command line, word by word.
-std::vector<std::string> own_words()
+struct Ending {
+    int status = 0;     ///< as waitpid says it
+    int signal = 0;     ///< that was passed on to the child
+    bool late = false;  ///< whether it was ended because of the time
+
+    bool is_loss() const
+    {
+        const int by = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+        const bool crashed = by == SIGSEGV || by == SIGBUS || by == SIGILL || by == SIGABRT;
+        return signal == 0 && (late || crashed);
+    }
+
+    std::string reason() const
+    {
+        std::ostringstream text;
+        if (late)
+            text << "took longer than " << limit_ms / 1000
+                 << " s and was ended; --time-limit gives a build or query more";
+        else
+            text << "crashed (signal " << WTERMSIG(status)
+                 << "); damaged kernels in the OpenCL driver's cache can be why"
+                 << (told->kernels[0] != '\0' ? ": remove " : "") << told->kernels.data();
+        return text.str();
+    }
+};
+
+/// `awaited` are blocked: the end of a child, and signals to be passed on.
+Ending end_of(pid_t child, const sigset_t& awaited)
 {
-    std::ifstream file("/proc/self/cmdline", std::ios::binary);
-    std::vector<std::string> words;
-    for (std::string word; std::getline(file, word, '\0');)
-        words.push_back(word);
-    return words;
+    constexpr timespec moment = {0, 100'000'000};
+    Ending end;
+    while (waitpid(child, &end.status, WNOHANG) != child) {
+        long until = told->until_ms;
+        if (end.signal == 0 && until > 0 && now_ms() > until &&
+            told->until_ms.compare_exchange_strong(until, over)) {
+            end.late = true;
+            kill(child, SIGKILL);
+        }
+        const int signal = sigtimedwait(&awaited, nullptr, &moment);
+        if (signal > 0 && signal != SIGCHLD) {
+            end.signal = signal;
+            kill(child, signal);
+        }
+    }
+    return end;
 }
 
-/// Descriptors would outlive the program, and with them what a driver holds.
-void close_on_exec()
+void begin_child(pid_t parent)
 {
-    for (int file = 3, most = static_cast<int>(sysconf(_SC_OPEN_MAX)); file < most; ++file)
-        fcntl(file, F_SETFD, FD_CLOEXEC);
-}
-
-std::string spelled(double seconds)
-{
-    char text[32];
-    std::snprintf(text, sizeof text, "%g", seconds);
-    return text;
-}
-
-[[noreturn]] void say_and_end(const std::string& sentence)
-{
-    std::fprintf(stderr, "bvhbench: %s\n", sentence.c_str());
-    _exit(3);
-}
-
-[[noreturn]] void begin_anew()
-{
-    std::vector<std::string> words = own_words();
-    std::vector<char*> argv;
-    for (std::string& word : words)
-        argv.push_back(word.data());
-    argv.push_back(nullptr);
-    close_on_exec();
-    execv("/proc/self/exe", argv.data());
-    say_and_end("cannot begin anew after a build or query that did not end");
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent)  // it was over before the line above
+        _exit(128 + SIGKILL);
+    const rlimit no_core{0, 0};
+    setrlimit(RLIMIT_CORE, &no_core);
+    end_on_signals();
 }
 
 }  // namespace
 
-Watchdog::Watchdog(double limit_s) : limit_s_(limit_s)
+int supervised(double limit_s, const std::function<int()>& work)
 {
-    if (const char* text = std::getenv(variable)) {
-        std::istringstream lines(text);
-        std::getline(lines, run_id_);
-        for (std::string cell, why; std::getline(lines, cell, '\t') && std::getline(lines, why);)
-            given_up_[cell] = why;
+    if (limit_s <= 0) {
+        end_on_signals();
+        return work();
     }
-    if (limit_s_ <= 0)
-        return;
-    thread_ = std::thread([this] { look(); });
-    watching = this;
-    for (std::size_t i = 0; i < crashes.size(); ++i)
-        before[i] = std::signal(crashes[i], crashed);
-}
-
-Watchdog::~Watchdog()
-{
-    if (limit_s_ > 0) {
-        for (std::size_t i = 0; i < crashes.size(); ++i)
-            std::signal(crashes[i], before[i]);
-        watching = nullptr;
+    limit_ms = 1000 * limit_s;
+    void* const memory =
+        mmap(nullptr, sizeof(Told), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (memory == MAP_FAILED)
+        throw Unavailable("out of host memory: there is no room for another process");
+    sigset_t awaited, before;
+    sigemptyset(&awaited);
+    for (const int signal : {SIGCHLD, SIGINT, SIGTERM, SIGHUP})
+        sigaddset(&awaited, signal);
+    std::signal(SIGCHLD, SIG_DFL);
+    sigprocmask(SIG_BLOCK, &awaited, &before);
+    for (;;) {
+        told = new (memory) Told;
+        const pid_t self = getpid(), child = fork();
+        if (child < 0)
+            throw Unavailable("out of host memory: there is no room for another process");
+        if (child == 0) {
+            begin_child(self);
+            sigprocmask(SIG_SETMASK, &before, nullptr);
+            return work();
+        }
+        const Ending end = end_of(child, awaited);
+        if (WIFEXITED(end.status))
+            return WEXITSTATUS(end.status);
+        if (!end.is_loss()) {
+            sigprocmask(SIG_SETMASK, &before, nullptr);
+            std::signal(WTERMSIG(end.status), SIG_DFL);
+            raise(WTERMSIG(end.status));  // ended as the child was
+            return 128 + WTERMSIG(end.status);
+        }
+        if (told->cell[0] == '\0' || told->run[0] == '\0')
+            throw Unavailable("what was to be done " + end.reason());
+        goes_on = told->run.data();
+        lost[told->cell.data()] = end.reason();
     }
-    {
-        const std::lock_guard lock(mutex_);
-        stops_ = true;
-    }
-    stop_.notify_all();
-    if (thread_.joinable())
-        thread_.join();
 }
 
-std::string Watchdog::given_up(const std::string& cell) const
+namespace watchdog {
+
+const std::string& run_id() { return goes_on; }
+
+std::string given_up(const std::string& cell)
 {
-    const auto found = given_up_.find(cell);
-    return found == given_up_.end() ? std::string() : found->second;
+    const auto found = lost.find(cell);
+    return found == lost.end() ? std::string() : found->second;
 }
 
-void Watchdog::keep_by(std::string run_id, std::function<void()> keep)
-{
-    keeps_ = std::move(run_id);
-    keep_ = std::move(keep);
-}
+void go_on_with(const std::string& run_id) { tell(&Told::run, run_id); }
 
-Watchdog::Watch::Watch(Watchdog& dog) : dog_(dog)
+void kernels_are_in(const std::string& folder) { tell(&Told::kernels, folder); }
+
+Hand::Hand(const std::string& cell) { tell(&Told::cell, cell); }
+
+Hand::~Hand() { tell(&Told::cell, {}); }
+
+Watch::Watch()
 {
-    if (dog.limit_s_ <= 0 || dog.until_ != 0)
+    if (told == nullptr || told->until_ms != 0)
         return;
-    until_ = now_ms() + static_cast<long>(dog.limit_s_ * 1000);
-    dog.until_ = until_;
+    until_ = now_ms() + static_cast<long>(limit_ms);
+    told->until_ms = until_;
 }
 
-Watchdog::Watch::~Watch()
+Watch::~Watch()
 {
-    if (until_ == 0)
-        return;
     long expected = until_;
-    if (!dog_.until_.compare_exchange_strong(expected, 0))
-        for (;;)  // it was over a moment ago: the program is about to begin anew
+    if (until_ != 0 && !told->until_ms.compare_exchange_strong(expected, 0))
+        for (;;)  // it was over a moment ago: the parent ends this process
             pause();
 }
 
-/// Looks up a few times a second, so that who is watched wakes nobody.
-void Watchdog::look()
-{
-    std::unique_lock lock(mutex_);
-    while (!stop_.wait_for(lock, 100ms, [this] { return stops_; })) {
-        long until = until_;
-        if (until > 0 && now_ms() > until && until_.compare_exchange_strong(until, over))
-            end("took longer than " + spelled(limit_s_) +
-                " s and was ended; --time-limit gives a build or query more");
-    }
-}
-
-/// Little may be done in a handler of signals, and this does more: whoever crashed may hold the heap. Then the alarm ends
-/// the process, and what is in the file stays.
-void Watchdog::crashed(int signal)
-{
-    for (const int each : crashes)
-        std::signal(each, SIG_DFL);
-    alarm(5);
-    sigset_t all;
-    sigfillset(&all);
-    sigprocmask(SIG_UNBLOCK, &all, nullptr);
-    const char* cache = std::getenv("POCL_CACHE_DIR");
-    watching.load()->end("crashed (signal " + std::to_string(signal) +
-                         "); damaged kernels in the OpenCL driver's cache can be why" +
-                         (cache != nullptr ? std::string(": remove ") + cache : ""));
-}
-
-void Watchdog::end(const std::string& why) const
-{
-    if (is_interrupted())
-        for (;;)  // until that has ended the process
-            pause();
-    const std::string* const cell = cell_;
-    if (cell == nullptr || !keep_)
-        say_and_end("what was to be done " + why);
-    try {
-        keep_();
-    } catch (const std::exception& error) {
-        say_and_end(error.what());
-    }
-    std::string text = keeps_ + '\n';
-    for (const auto& [earlier, reason] : given_up_)
-        text += earlier + '\t' + reason + '\n';
-    text += *cell + '\t' + why + '\n';
-    setenv(variable, text.c_str(), 1);
-    alarm(0);
-    begin_anew();
-}
-
+}  // namespace watchdog
 }  // namespace bvhbench

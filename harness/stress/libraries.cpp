@@ -14,8 +14,7 @@
 #include "collide/oracles/sweep.h"
 #include "geometry/error.h"
 #include "harness/base/failure.h"
-#include "scenes/mesh_file.h"
-#include "scenes/worker/message.h"
+#include "scenes/mesh_worker.h"
 #include "scenes/worker/process.h"
 
 namespace bvhbench {

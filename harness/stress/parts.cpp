@@ -5,7 +5,7 @@
 #include "harness/judge/hard_inputs.h"
 #include "harness/stress/libraries.h"
 #include "harness/stress/run.h"
-#include "scenes/finish.h"
+#include "scenes/scene.h"
 
 namespace bvhbench {
 namespace {

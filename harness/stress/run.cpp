@@ -5,7 +5,7 @@
 #include <set>
 
 #include "harness/base/failure.h"
-#include "harness/base/progress.h"
+#include "harness/base/terminal.h"
 
 namespace bvhbench {
 namespace {

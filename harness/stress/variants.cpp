@@ -5,7 +5,7 @@
 
 #include "collide/oracles/exact_reference.h"
 #include "collide/oracles/sweep.h"
-#include "collide/relation.h"
+#include "collide/pairs.h"
 #include "harness/stress/judge.h"
 #include "scenes/generate/random.h"
 

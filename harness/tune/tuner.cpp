@@ -9,7 +9,6 @@
 #include "harness/base/failure.h"
 #include "harness/base/table.h"
 #include "harness/session/sampler.h"
-#include "harness/session/statistics.h"
 
 namespace bvhbench {
 namespace {

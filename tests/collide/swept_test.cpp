@@ -7,7 +7,6 @@
 
 #include "harness/measure/collide.h"
 #include "harness/measure/pipeline.h"
-#include "harness/measure/swept.h"
 #include "scenes/generate/derived.h"
 #include "scenes/ground_truth.h"
 #include "tests/collide/collider_testing.h"

@@ -1,11 +1,25 @@
 // SPDX-License-Identifier: MIT
 //
-// Made-up results with numbers that are easy to recognise.
+// Made-up results with numbers that are easy to recognise, and what refusals say.
 #pragma once
 
+#include <functional>
+
+#include "geometry/error.h"
 #include "harness/record/record.h"
 
 namespace bvhbench {
+
+/// What `work` is refused with; empty if it is not.
+inline std::string refusal_of(const std::function<void()>& work)
+{
+    try {
+        work();
+        return {};
+    } catch (const BadUsage& error) {
+        return error.what();
+    }
+}
 
 inline RunFacts fake_run()
 {

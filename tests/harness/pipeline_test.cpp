@@ -9,23 +9,19 @@
 
 #include "collide/oracles/sweep.h"
 #include "collide/skips.h"
+#include "harness/measure/frames.h"
 #include "tests/collide/collider_testing.h"
 
 namespace bvhbench {
 namespace {
 
 /// A pipeline of some scene's frames, its pairs held to the sweep's.
-class Frames {
+class PipelineFrames {
 public:
-    Frames(const Scene& scene, const char* builder, unsigned rules_off) : scene_(scene)
+    PipelineFrames(const Scene& scene, const char* builder, unsigned rules_off) : scene_(scene)
     {
-        for (const SceneObject& object : scene.objects)
-            objects_.push_back({object.first_face, object.face_count});
-        input_ =
-            upload(session().device(), session().queue(), scene.frames[0], scene.faces, objects_);
-        ColliderChoice collider;
-        collider.name = "group";
-        collider.rules_off = rules_off;
+        input_ = upload_frame(session(), scene, 0);
+        const ColliderChoice collider{.name = "group", .rules_off = rules_off};
         pipeline_ = std::make_unique<Pipeline>(
             session(), BuilderChoice{.name = builder, .order = "hilbert30"}, collider, input_);
     }
@@ -47,7 +43,6 @@ public:
 
 private:
     const Scene& scene_;
-    std::vector<FaceRange> objects_;
     Input input_;
     std::unique_ptr<Pipeline> pipeline_;
 };
@@ -65,7 +60,7 @@ void expect_counts(const Scene& scene, const char* builder, unsigned rules_off,
                    const Counts& expected)
 {
     SCOPED_TRACE(std::string(builder) + " without " + skip_rules_text(rules_off));
-    Frames frames(scene, builder, rules_off);
+    PipelineFrames frames(scene, builder, rules_off);
     EXPECT_EQ(counts_of(frames.go_to(0, {})), (Counts{2, 0, 0, 1}));
     EXPECT_EQ(counts_of(frames.go_to(1, object_motions(scene, 0, 1))), expected);
 }
@@ -99,7 +94,7 @@ TEST(Pipeline, RebuildsOfARealMixedSceneOnlyWhatDeforms)
     const Scene scene = load_scene("unc_cloth_ball", scene_library({}));
     if (scene.objects.size() != 2)
         GTEST_SKIP() << "has " << scene.objects.size() << " objects";
-    Frames frames(scene, "oibvh-multi", 0);
+    PipelineFrames frames(scene, "oibvh-multi", 0);
     frames.go_to(0, {});
     const Counts counts = counts_of(frames.go_to(1, object_motions(scene, 0, 1)));
     EXPECT_EQ(counts[0], 1);

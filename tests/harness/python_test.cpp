@@ -15,59 +15,66 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST(Python, NamesReachTheScriptAsTheyAreWhateverAShellWouldMakeOfThem)
+/// A folder with scripts, in a place of which a shell would make something else.
+class Python : public testing::Test {
+protected:
+    void SetUp() override
+    {
+        fs::create_directories(folder_ / "plots");
+        setenv("BVHBENCH_HOME", folder_.c_str(), 1);
+    }
+    void TearDown() override
+    {
+        unsetenv("BVHBENCH_HOME");
+        fs::remove_all(folder_);
+    }
+    void write(const char* script, const char* text) const
+    {
+        std::ofstream(folder_ / "plots" / script) << text;
+    }
+
+    const fs::path folder_ =
+        fs::temp_directory_path() /
+        ("it's \"a\" name; $(exit 1) `exit 1` & * " + std::to_string(getpid()));
+};
+
+TEST_F(Python, NamesReachTheScriptAsTheyAreWhateverAShellWouldMakeOfThem)
 {
-    const fs::path folder = fs::temp_directory_path() /
-                            ("it's \"a\" name; $(exit 1) `exit 1` & * " + std::to_string(getpid()));
-    fs::create_directories(folder / "plots");
-    std::ofstream(folder / "plots" / "one.py")
-        << "import sys\nopen(sys.argv[3] + '/drawn', 'w').write('\\n'.join(sys.argv[1:]))\n";
-    setenv("BVHBENCH_HOME", folder.c_str(), 1);
-    EXPECT_EQ(draw("one.py", folder / "r 1.json", folder, false), "drawn into " + folder.string());
-    unsetenv("BVHBENCH_HOME");
-    std::ifstream file(folder / "drawn");
+    write("one.py",
+          "import sys\nopen(sys.argv[3] + '/drawn', 'w').write('\\n'.join(sys.argv[1:]))\n");
+    EXPECT_EQ(draw("one.py", folder_ / "r 1.json", folder_, false),
+              "drawn into " + folder_.string());
+    std::ifstream file(folder_ / "drawn");
     EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}),
-              (folder / "r 1.json").string() + "\n--out\n" + folder.string());
-    fs::remove_all(folder);
+              (folder_ / "r 1.json").string() + "\n--out\n" + folder_.string());
 }
 
-TEST(Python, TablesArePrintedOfADocumentThatIsInNoFile)
+TEST_F(Python, TablesArePrintedOfADocumentThatIsInNoFile)
 {
-    const fs::path folder = fs::temp_directory_path() / ("tables of " + std::to_string(getpid()));
-    fs::create_directories(folder / "plots");
-    std::ofstream(folder / "plots" / "__main__.py")
-        << "import sys\nassert sys.argv[1] == 'show' and open(sys.argv[2]).read() == 'a document', "
-           "sys.argv\n";
-    setenv("BVHBENCH_HOME", folder.c_str(), 1);
+    write("__main__.py", R"(import sys
+assert sys.argv[1] == 'show' and open(sys.argv[2]).read() == 'a document', sys.argv
+)");
     EXPECT_NO_THROW(print_tables("a document"));
     testing::internal::CaptureStderr();
     EXPECT_THROW(print_tables("another"), Unavailable);
     EXPECT_NE(testing::internal::GetCapturedStderr().find("AssertionError"), std::string::npos);
-    fs::remove(folder / "plots" / "__main__.py");
+    fs::remove(folder_ / "plots" / "__main__.py");
     EXPECT_THROW(print_tables("a document"), Unavailable);
-    unsetenv("BVHBENCH_HOME");
-    fs::remove_all(folder);
 }
 
-TEST(Python, APythonThatLacksAModuleIsASentenceAndOtherErrorsAreTold)
+TEST_F(Python, APythonThatLacksAModuleIsASentenceAndOtherErrorsAreTold)
 {
-    const fs::path folder = fs::temp_directory_path() / ("no module " + std::to_string(getpid()));
-    fs::create_directories(folder / "plots");
-    for (const char* script : {"all.py", "one.py"})
-        std::ofstream(folder / "plots" / script) << "def f():\n    import no_such_module\nf()\n";
-    std::ofstream(folder / "plots" / "broken.py") << "raise ValueError('three legs')\n";
-    setenv("BVHBENCH_HOME", folder.c_str(), 1);
-    const std::string lacks = "python3 has no module no_such_module";
+    write("one.py", "def f():\n    import no_such_module\nf()\n");
+    write("broken.py", "raise ValueError('three legs')\n");
     testing::internal::CaptureStderr();
-    EXPECT_NE(draw("one.py", "r.json", folder, false).find(lacks + "; where Python and"),
+    EXPECT_NE(draw("one.py", "r.json", folder_, false)
+                  .find("python3 has no module no_such_module; where Python and"),
               std::string::npos);
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
     testing::internal::CaptureStderr();
-    EXPECT_NE(draw("broken.py", "r.json", folder, false).find("broken.py ended with 1"),
+    EXPECT_NE(draw("broken.py", "r.json", folder_, false).find("broken.py ended with 1"),
               std::string::npos);
     EXPECT_NE(testing::internal::GetCapturedStderr().find("three legs"), std::string::npos);
-    unsetenv("BVHBENCH_HOME");
-    fs::remove_all(folder);
 }
 
 }  // namespace

@@ -2,13 +2,10 @@
 #include "harness/record/result_file.h"
 
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <fstream>
 #include <iterator>
-#include <thread>
 
 #include "geometry/error.h"
 #include "harness/base/json_keys.h"
@@ -34,40 +31,29 @@ protected:
         return {std::istreambuf_iterator<char>(file), {}};
     }
 
-    static void write_atomically(const fs::path& path, const std::string& text)
-    {
-        Output(path, "--out", {.force = true}).replace(text);
-    }
-
-    static Output output_at(const fs::path& path) { return {path, "--out", {}}; }
-
     fs::path folder_;
 };
 
-TEST_F(ResultFileTest, IsCompleteAfterFinish)
+TEST_F(ResultFileTest, IsCompleteAfterFinishAndWhenTheRunEndsEarly)
 {
-    const fs::path path = folder_ / "r.json";
-    ResultFile file(output_at(path), fake_run());
-    for (int i = 0; i < 20; ++i)
-        file.add(fake_cell());
-    file.finish(77);
-    const Json document = Json::parse(text_of(path));
-    EXPECT_EQ(document["cells"].size(), 20u);
-    EXPECT_EQ(document["run"]["compile_ns"], 77);
-    EXPECT_TRUE(document["run"].contains("finished_at"));
-    EXPECT_EQ(file.text(), text_of(path));
-    EXPECT_EQ(file.exit_code(), 0);
-}
-
-TEST_F(ResultFileTest, IsCompleteWhenTheRunEndsEarly)
-{
-    const fs::path path = folder_ / "r.json";
-    {
-        ResultFile file(output_at(path), fake_run());
-        for (int i = 0; i < 20; ++i)
-            file.add(fake_cell());
+    for (const bool finishes : {true, false}) {
+        const fs::path path = folder_ / (finishes ? "finished.json" : "early.json");
+        std::string text;
+        {
+            ResultFile file({path, "--out", {}}, fake_run());
+            for (int i = 0; i < 20; ++i)
+                file.add(fake_cell());
+            if (finishes)
+                file.finish(77);
+            EXPECT_EQ(file.exit_code(), 0);
+            text = file.text();
+        }
+        const Json document = Json::parse(text_of(path));
+        EXPECT_EQ(document["cells"].size(), 20u);
+        EXPECT_EQ(document["run"]["compile_ns"], finishes ? 77 : 5000);
+        EXPECT_EQ(document["run"].contains("finished_at"), finishes);
+        EXPECT_TRUE(!finishes || text == text_of(path));
     }
-    EXPECT_EQ(Json::parse(text_of(path))["cells"].size(), 20u);
 }
 
 TEST_F(ResultFileTest, GoesOnWithTheCellsThatAnEarlierProcessOfTheRunHasLeft)
@@ -75,7 +61,7 @@ TEST_F(ResultFileTest, GoesOnWithTheCellsThatAnEarlierProcessOfTheRunHasLeft)
     const fs::path path = folder_ / "r.json";
     RunFacts run = fake_run();
     {
-        ResultFile file(output_at(path), run);
+        ResultFile file({path, "--out", {}}, run);
         Cell wrong = fake_cell();
         wrong.check.verdict = Check::Verdict::differs;
         file.add(wrong);
@@ -106,36 +92,12 @@ TEST_F(ResultFileTest, OfCellsThatWereNotMeasuredSaysWhy)
 TEST_F(ResultFileTest, LeavesAnOlderFileAloneUntilThereIsACell)
 {
     const fs::path path = folder_ / "r.json";
-    write_atomically(path, "older");
+    Output(path, "--out", {}).replace("older");
     {
         const ResultFile file({path, "--out", {.force = true}}, fake_run());
     }
     EXPECT_EQ(text_of(path), "older");
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);
-}
-
-TEST_F(ResultFileTest, SaysAtOnceThatItCannotBeWritten)
-{
-    EXPECT_THROW(output_at("/proc/nowhere/r.json"), Unavailable);
-}
-
-TEST_F(ResultFileTest, IsWholeWheneverItsWriterIsKilled)
-{
-    const fs::path path = folder_ / "r.json";
-    const std::string some(200000, 'a');
-    const std::string other(300000, 'b');
-    write_atomically(path, some);
-    for (int attempt = 0; attempt < 10; ++attempt) {
-        const pid_t child = fork();
-        if (child == 0)
-            for (bool odd = false;; odd = !odd)
-                write_atomically(path, odd ? some : other);
-        std::this_thread::sleep_for(std::chrono::milliseconds(5 + 7 * attempt));
-        kill(child, SIGKILL);
-        waitpid(child, nullptr, 0);
-        const std::string text = text_of(path);
-        ASSERT_TRUE(text == some || text == other) << text.size() << " bytes";
-    }
 }
 
 }  // namespace

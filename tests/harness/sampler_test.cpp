@@ -25,29 +25,59 @@ struct FakeBuild {
     }
 };
 
-std::vector<std::int64_t> times_of(const Taken& taken)
+/// Takes as long as the list says, and the last for ever after.
+struct Listed {
+    std::vector<std::int64_t> times = {1000};
+    std::size_t next = 0;
+
+    std::vector<StageTime> operator()()
+    {
+        const std::int64_t ns = times[std::min(next++, times.size() - 1)];
+        return {{"hierarchy", ns, ns, 0, 1, 0}};
+    }
+};
+
+using Calibrate = std::function<std::int64_t()>;
+
+/// Of one cell that takes as long as the list says.
+Taken taken(Listed listed, const SamplingPlan& plan, const Calibrate& calibrate = {})
+{
+    int order = 0;
+    return take_samples(std::vector<Timed>{{"listed", std::ref(listed)}}, plan, order, calibrate)
+        .at(0);
+}
+
+/// The same, until a target.
+Taken taken_until(std::vector<std::int64_t> times, SamplingRules rules)
+{
+    return taken({std::move(times)}, {.samples = 5, .warm_up = 0, .rules = rules});
+}
+
+/// What `spread` around a thousand looks like, again and again: quartiles half of it apart.
+std::vector<std::int64_t> spread_by(std::int64_t spread, int count)
 {
     std::vector<std::int64_t> times;
-    for (const Sample& sample : taken.samples)
-        times.push_back(sample.stages.at(0).span_ns);
+    for (int i = 0; i < count; ++i)
+        times.push_back(1000 + spread * (i % 5 - 2) / 4);
     return times;
 }
 
 TEST(Sampler, KeepsEverySampleAfterTheWarmUpInOrder)
 {
     FakeBuild build;
-    const std::vector<Timed> cells = {{"fake", std::ref(build)}};
     int order = 0;
-    const std::vector<Taken> taken = take_samples(cells, 5, 2, order);
-    EXPECT_EQ(times_of(taken[0]), (std::vector<std::int64_t>{3, 4, 5, 6, 7}));
+    const auto all = take_samples(std::vector<Timed>{{"fake", std::ref(build)}}, 5, 2, order);
+    std::vector<std::int64_t> times;
+    for (const Sample& sample : all[0].samples)
+        times.push_back(sample.stages.at(0).span_ns);
+    EXPECT_EQ(times, (std::vector<std::int64_t>{3, 4, 5, 6, 7}));
     EXPECT_EQ(build.builds, 7);
     EXPECT_EQ(order, 7);
 }
 
 TEST(Sampler, InterleavesCellsAndNumbersTheSamplesOfTheWholeRun)
 {
-    FakeBuild first;
-    FakeBuild second;
+    FakeBuild first, second;
     const std::vector<Timed> cells = {{"first", std::ref(first)}, {"second", std::ref(second)}};
     int order = 100;
     const std::vector<Taken> taken = take_samples(cells, 50, 0, order);
@@ -63,14 +93,18 @@ TEST(Sampler, InterleavesCellsAndNumbersTheSamplesOfTheWholeRun)
     EXPECT_LT(taken[1].samples.front().order, 150);
 }
 
-TEST(Sampler, GoesOnWithTheOthersWhenOneFails)
+TEST(Sampler, GoesOnWithTheOthersWhenOneFailsAndPrintsNothing)
 {
-    FakeBuild good;
-    FakeBuild bad;
+    FakeBuild good, bad;
     bad.fails_at = 2;
     const std::vector<Timed> cells = {{"bad", std::ref(bad)}, {"good", std::ref(good)}};
     int order = 0;
+    testing::internal::CaptureStdout();
+    testing::internal::CaptureStderr();
     const std::vector<Taken> taken = take_samples(cells, 10, 0, order);
+    EXPECT_TRUE(take_samples({}, 5, 0, order).empty());
+    EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
     EXPECT_EQ(taken[0].failure, "out of device memory");
     EXPECT_EQ(bad.builds, 2);
     EXPECT_EQ(taken[1].failure, "");
@@ -92,35 +126,6 @@ TEST(Sampler, TakesEveryCellOnceInEachRound)
             places.insert(taken[0].samples[round].order % 3);
         }
     EXPECT_EQ(places.size(), 3u);
-}
-
-/// Takes as long as the list says, and the last for ever after.
-struct Listed {
-    std::vector<std::int64_t> times;
-    std::size_t next = 0;
-
-    std::vector<StageTime> operator()()
-    {
-        const std::int64_t ns = times[std::min(next++, times.size() - 1)];
-        return {{"hierarchy", ns, ns, 0, 1, 0}};
-    }
-};
-
-/// What `spread` around a thousand looks like, again and again: quartiles half of it apart.
-std::vector<std::int64_t> spread_by(std::int64_t spread, int count)
-{
-    std::vector<std::int64_t> times;
-    for (int i = 0; i < count; ++i)
-        times.push_back(1000 + spread * (i % 5 - 2) / 4);
-    return times;
-}
-
-Taken taken_until(std::vector<std::int64_t> times, SamplingRules rules)
-{
-    Listed listed{std::move(times)};
-    const std::vector<Timed> cells = {{"listed", std::ref(listed)}};
-    int order = 0;
-    return take_samples(cells, {.samples = 5, .warm_up = 0, .rules = rules}, order).at(0);
 }
 
 TEST(Sampler, StopsAtTheTargetAndNotBeforeTheLeastNumber)
@@ -161,8 +166,7 @@ TEST(Sampler, StopsAtTheMostAllowedAndWhenTheTimeIsOver)
 
 TEST(Sampler, GoesOnWithThoseThatAreNotSteadyYet)
 {
-    Listed steady{{1000}};
-    Listed wild{spread_by(400, 2000)};
+    Listed steady, wild{spread_by(400, 2000)};
     const std::vector<Timed> cells = {{"steady", std::ref(steady)}, {"wild", std::ref(wild)}};
     int order = 0;
     const std::vector<Taken> taken =
@@ -174,16 +178,12 @@ TEST(Sampler, GoesOnWithThoseThatAreNotSteadyYet)
 
 TEST(Sampler, MarksSamplesBesideDriftAndKeepsThem)
 {
-    Listed build{{1000}};
-    const std::vector<Timed> cells = {{"fake", std::ref(build)}};
     int looks = 0;
-    const auto calibrate = [&]() -> std::int64_t { return ++looks == 5 ? 200 : 100; };
-    int order = 0;
-    const std::vector<Taken> taken = take_samples(
-        cells, {.samples = 100, .warm_up = 1, .rules = {.calibrate_every = 10}}, order, calibrate);
+    const Taken marked = taken({}, {.samples = 100, .warm_up = 1, .rules = {.calibrate_every = 10}},
+                               [&]() -> std::int64_t { return ++looks == 5 ? 200 : 100; });
     // Looks are before samples 1, 11, 21, 31, 41, ...: the fifth is the one before 41.
-    ASSERT_EQ(taken[0].samples.size(), 100u);
-    for (const Sample& sample : taken[0].samples) {
+    ASSERT_EQ(marked.samples.size(), 100u);
+    for (const Sample& sample : marked.samples) {
         EXPECT_EQ(sample.drifted, sample.order >= 31 && sample.order < 51) << sample.order;
         EXPECT_EQ(sample.calibration_ns, sample.drifted ? 150 : 100);
     }
@@ -192,73 +192,40 @@ TEST(Sampler, MarksSamplesBesideDriftAndKeepsThem)
 
 TEST(Sampler, DoesNotCountSamplesBesideDriftTowardsATarget)
 {
-    Listed build{{1000}};
-    const std::vector<Timed> cells = {{"fake", std::ref(build)}};
     int looks = 0;
-    const auto calibrate = [&]() -> std::int64_t { return ++looks == 2 ? 300 : 100; };
-    int order = 0;
-    const SamplingRules rules{.until = 0.02, .min_samples = 12, .calibrate_every = 4};
-    const std::vector<Taken> taken =
-        take_samples(cells, {.warm_up = 0, .rules = rules}, order, calibrate);
-    EXPECT_EQ(taken[0].samples.size(), 16u);
+    SamplingRules rules{.until = 0.02, .min_samples = 12, .calibrate_every = 4};
+    const Taken later = taken({}, {.warm_up = 0, .rules = rules},
+                              [&]() -> std::int64_t { return ++looks == 2 ? 300 : 100; });
+    EXPECT_EQ(later.samples.size(), 16u);
     // Drift that never ends is no reason never to end.
-    const auto worse = [&]() -> std::int64_t {
+    rules = {.until = 0.02, .max_samples = 40, .calibrate_every = 4};
+    const Taken marked = taken({}, {.warm_up = 0, .rules = rules}, [&]() -> std::int64_t {
         ++looks;
         return std::int64_t{100} * looks * looks;
-    };
-    const std::vector<Taken> marked = take_samples(
-        cells, {.warm_up = 0, .rules = {.until = 0.02, .max_samples = 40, .calibrate_every = 4}},
-        order, worse);
-    EXPECT_EQ(marked[0].stopped, Stopped::most);
-    EXPECT_EQ(marked[0].samples.size(), 40u);
+    });
+    EXPECT_EQ(marked.stopped, Stopped::most);
+    EXPECT_EQ(marked.samples.size(), 40u);
 }
 
-TEST(Sampler, GoesOnWithoutACalibrationThatFails)
+TEST(Sampler, GoesOnWithoutACalibrationThatFailsAndMarksNothing)
 {
-    Listed build{{1000}};
-    const std::vector<Timed> cells = {{"fake", std::ref(build)}};
-    int order = 0;
-    const std::vector<Taken> taken =
-        take_samples(cells, {.samples = 30, .warm_up = 0}, order,
-                     []() -> std::int64_t { throw Unavailable("no room"); });
-    EXPECT_EQ(taken[0].samples.size(), 30u);
-    EXPECT_EQ(taken[0].samples[0].calibration_ns, 0);
-    EXPECT_EQ(taken[0].failure, "");
-}
-
-TEST(Sampler, MarksNothingByACalibrationThatFailsLater)
-{
-    Listed build{{1000}};
-    const std::vector<Timed> cells = {{"fake", std::ref(build)}};
-    int looks = 0;
-    const auto calibrate = [&]() -> std::int64_t {
-        if (++looks == 3)
-            throw Unavailable("no room");
-        return 100 * looks;  // drift, if anybody asks
-    };
-    int order = 0;
-    const std::vector<Taken> taken = take_samples(
-        cells, {.samples = 40, .warm_up = 0, .rules = {.calibrate_every = 10}}, order, calibrate);
-    EXPECT_EQ(looks, 3);
-    ASSERT_EQ(taken[0].samples.size(), 40u);
-    for (const Sample& sample : taken[0].samples) {
-        EXPECT_EQ(sample.calibration_ns, 0) << sample.order;
-        EXPECT_FALSE(sample.drifted) << sample.order;
+    for (const int fails_at : {1, 3}) {
+        int looks = 0;
+        const Taken unmarked =
+            taken({}, {.samples = 40, .warm_up = 0, .rules = {.calibrate_every = 10}},
+                  [&]() -> std::int64_t {
+                      if (++looks == fails_at)
+                          throw Unavailable("no room");
+                      return 100 * looks;  // drift, if anybody asks
+                  });
+        EXPECT_EQ(looks, fails_at);
+        EXPECT_EQ(unmarked.failure, "");
+        ASSERT_EQ(unmarked.samples.size(), 40u);
+        for (const Sample& sample : unmarked.samples) {
+            EXPECT_EQ(sample.calibration_ns, 0) << sample.order;
+            EXPECT_FALSE(sample.drifted) << sample.order;
+        }
     }
-}
-
-TEST(Sampler, PrintsNothing)
-{
-    FakeBuild build;
-    build.fails_at = 3;
-    const std::vector<Timed> cells = {{"fake", std::ref(build)}};
-    int order = 0;
-    testing::internal::CaptureStdout();
-    testing::internal::CaptureStderr();
-    take_samples(cells, 5, 0, order);
-    take_samples({}, 5, 0, order);
-    EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
-    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
 }  // namespace

@@ -1,11 +1,45 @@
 // SPDX-License-Identifier: MIT
-#include "harness/choice/experiment_pipelines.h"
+#include "harness/choice/experiment_lists.h"
+
+#include <set>
 
 #include "geometry/error.h"
 #include "harness/choice/choices.h"
 
 namespace bvhbench {
 namespace {
+
+constexpr std::int64_t most_triangles = std::int64_t{1} << 31, most_sizes = 1 << 24;
+
+/// The numbers of a list, or of all that an object says: from 1 on, each once.
+std::set<std::int64_t> sizes_of(const Json& json, const std::string& key)
+{
+    std::set<std::int64_t> sizes;
+    if (json.is_array()) {
+        for (const Json& size : json)
+            sizes.insert(whole_number(size, key, 1, most_triangles));
+        return sizes;
+    }
+    refuse_unknown_keys(
+        json, {"from", "to", "powers_of_two_from", "powers_of_two_to", "around_powers_of_two_to"},
+        "the sizes '" + key + "'");
+    std::int64_t from = 1, to = 0, first_power = 1, last_power = 0, around = 0;
+    read_whole(json, "from", 1, most_sizes, from);
+    read_whole(json, "to", 1, most_sizes, to);
+    read_whole(json, "powers_of_two_from", 1, most_triangles, first_power);
+    read_whole(json, "powers_of_two_to", 1, most_triangles, last_power);
+    read_whole(json, "around_powers_of_two_to", 1, most_triangles / 2, around);
+    for (std::int64_t size = from; size <= to; ++size)
+        sizes.insert(size);
+    for (std::int64_t power = 1; power <= std::max(last_power, around); power *= 2) {
+        if (power >= first_power && power <= last_power)
+            sizes.insert(power);
+        if (power <= around)
+            sizes.insert({power - 1, power, power + 1});
+    }
+    sizes.erase(0);
+    return sizes;
+}
 
 /// The value at `key`, or each of the list there.
 void read_each(const Json& json, const char* key, const std::function<void(const Json&)>& add)
@@ -82,6 +116,24 @@ CollideTask task_of(const Json& json, const std::vector<PipelineChoice>& pipelin
 
 }  // namespace
 
+std::vector<std::string> scene_names(const Json& json)
+{
+    if (json.is_string())
+        return {json.get<std::string>()};
+    if (!json.is_object() || json.size() != 2 || !json.contains("scene"))
+        throw BadUsage("a scene is text, or an object of 'scene' and the sizes that it names");
+    const std::string key =
+        json.begin().key() == "scene" ? std::next(json.begin()).key() : json.begin().key();
+    const std::string pattern = text_at(json, "scene"), hole = '{' + key + '}';
+    const std::size_t at = pattern.find(hole);
+    if (at == pattern.npos)
+        throw BadUsage("the scene '" + pattern + "' has no " + hole + " for its sizes");
+    std::vector<std::string> names;
+    for (const std::int64_t size : sizes_of(json[key], key))
+        names.push_back(std::string(pattern).replace(at, hole.size(), std::to_string(size)));
+    return names;
+}
+
 BuilderChoice builder_choice(const Json& json)
 {
     CellChoice choice;
@@ -113,12 +165,8 @@ std::vector<CollideTask> collisions_of(const Json& json, const std::string& expe
     read_list(of("scenes"), "scenes", [&](const Json& item) {
         CollideTask task = task_of(item, pipelines);
         task.experiment = experiment;
-        if (of("samples").contains("samples"))
-            task.samples =
-                static_cast<int>(whole_number(of("samples")["samples"], "samples", 1, 1000000));
-        if (of("warm_up").contains("warm_up"))
-            task.warm_up =
-                static_cast<int>(whole_number(of("warm_up")["warm_up"], "warm_up", 0, 1000000));
+        read_whole(of("samples"), "samples", 1, most_samples, task.samples);
+        read_whole(of("warm_up"), "warm_up", 0, most_samples, task.warm_up);
         tasks.push_back(std::move(task));
     });
     return tasks;
