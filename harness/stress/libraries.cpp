@@ -14,6 +14,7 @@
 #include "collide/oracles/sweep.h"
 #include "geometry/error.h"
 #include "harness/base/failure.h"
+#include "scenes/mesh_file.h"
 #include "scenes/mesh_worker.h"
 #include "scenes/worker/process.h"
 

@@ -80,7 +80,7 @@ TEST_P(RoundedTrees, OfSeveralObjectsAreUpdatedWithTheirCells)
     ManyObjects many({70, 129, 3});
     const BuildOptions options{.sorted_leaves = true, .boxes = GetParam().name};
     const MakeBuilder make = find_builder("oibvh-multi").make;
-    StandingForest updated(many, make, options);
+    Standing updated = many.standing(make, options);
 
     // The first object goes so far off that it is outside of all cells there were.
     const FaceRange& moved = many.objects[0];
@@ -96,7 +96,7 @@ TEST_P(RoundedTrees, OfSeveralObjectsAreUpdatedWithTheirCells)
               GetParam().has_cells() ? std::vector(3, rebuild) : wanted);
     updated.builder->update(updated.input, session().queue());
     session().queue().finish();
-    const StandingForest anew(many, make, options);
+    const Standing anew = many.standing(make, options);
     for (uint object = 0; object < many.objects.size(); ++object)
         EXPECT_EQ(tree_hash(updated.device_tree().spelled_out_object(object)),
                   tree_hash(anew.device_tree().spelled_out_object(object)))

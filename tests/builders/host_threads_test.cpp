@@ -16,8 +16,8 @@ protected:
     {
         const auto& [sizes, sorted_leaves] = GetParam();
         const ManyObjects many(sizes);
-        const StandingForest forest(many, find_builder(name).make,
-                                    {.sorted_leaves = sorted_leaves});
+        const Standing forest =
+            many.standing(find_builder(name).make, {.sorted_leaves = sorted_leaves});
         std::vector<std::uint64_t> hashes;
         for (uint k = 0; k < forest.device_tree().objects.size(); ++k)
             hashes.push_back(tree_hash(forest.device_tree().spelled_out_object(k)));
@@ -42,7 +42,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(HostThreadsStage, IsTimedByTheHostsClockAndLaunchesNothing)
 {
     const ManyObjects many({5000});
-    const StandingForest one(many, find_builder("oibvh-host").make);
+    const Standing one = many.standing(find_builder("oibvh-host").make);
     const StageTime hierarchy =
         session().build_once(*one.builder, one.input, Start::from_triangles).back();
     EXPECT_EQ(hierarchy.stage, "hierarchy");
