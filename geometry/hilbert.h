@@ -70,13 +70,6 @@ SHARED_FN Cell hilbert_cell(Cell cell, uint bits)
     return hilbert_ungrayed(cell);
 }
 
-/// The code of a cell of 10 bits an axis that has taken all turns.
-SHARED_FN_INLINED uint hilbert_turned_30(Cell cell) { return morton_30(hilbert_ungrayed(cell)); }
-
-/// The same of 16 and of 21 bits an axis.
-SHARED_FN_INLINED ulong hilbert_turned_48(Cell cell) { return morton_48(hilbert_ungrayed(cell)); }
-SHARED_FN_INLINED ulong hilbert_turned_63(Cell cell) { return morton_63(hilbert_ungrayed(cell)); }
-
 /// The code of a cell of 10 bits an axis.
 SHARED_FN uint hilbert_30(Cell cell) { return morton_30(hilbert_cell(cell, 10u)); }
 

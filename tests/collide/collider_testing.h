@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "builders/device_tree.h"
 #include "builders/parameters.h"
 #include "collide/oracles/sweep.h"
 #include "geometry/error.h"
@@ -224,6 +225,8 @@ struct Standing {
     }
 
     void build() { session().build_once(*builder, input, Start::from_triangles, &tree); }
+
+    const DeviceTree& device_tree() const { return dynamic_cast<const DeviceTree&>(*tree); }
 
     PairList expected(bool keep_adjacent, Among among = Among::all) const
     {
