@@ -14,8 +14,8 @@
 // A group, or a work-item that is one, has neighbouring items in all of them: GROUP_SIZE is 1 on few cores.
 #include "builders/stages/chunk.clh"
 #include "collide/found.clh"
-#include "geometry/scene_bounds.h"
 #include "geometry/box_words.clh"
+#include "geometry/scene_bounds.h"
 
 /// Add what a group's work-items have counted.
 static inline void add_tests(local ulong* tests, const ulong own, volatile global uint* count)

@@ -14,8 +14,8 @@
 // the device knows.
 #include "builders/stages/chunk.clh"
 #include "collide/grid/hash_grid.h"
-#include "geometry/scene_bounds.h"
 #include "geometry/box_words.clh"
+#include "geometry/scene_bounds.h"
 
 /// partials[i] is what work-item i's share of the boxes adds to the mean half side. The order of adding is fixed.
 kernel void add_sides(global const float2* restrict boxes, global float* restrict partials,

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "builders/tree.h"
-#include "geometry/scene_bounds.h"
 #include "geometry/mesh.h"
 #include "geometry/morton.h"
+#include "geometry/scene_bounds.h"
 
 namespace bvhbench {
 
