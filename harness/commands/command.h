@@ -43,10 +43,9 @@ struct HelpExample {
 /// A command as shown by `bvhbench --help`.
 struct CommandEntry {
     std::string_view name;
-    std::string_view group =
-        {};                    ///< heading in the list; empty: internal, not listed
-    std::string_view summary;  ///< one line
-    std::string_view more = {};  ///< more sentences for its own help
+    std::string_view group = {};  ///< heading in the list; empty: internal, not listed
+    std::string_view summary;     ///< one line
+    std::string_view more = {};   ///< more sentences for its own help
     std::vector<HelpExample> examples = {};
     std::string_view see = {};  ///< document with more information
     /// nullptr for a command in Python, plots/commands/.

@@ -166,8 +166,8 @@ private:
                (device_slug(device.name()) + ".json");
     }
 
-    /// Tunes all targets. Prints the reason of a target that fails; throws NothingMeasured if all fail. A single target's error is
-    /// thrown as it is.
+    /// Tunes all targets and prints the reason for each one that fails. Throws NothingMeasured if all fail. With a single
+    /// target, its own error is thrown.
     void tune_all(Session& session, const Output& output, TuningFile& file) const
     {
         const std::vector<std::string> all = targets();

@@ -13,16 +13,16 @@ namespace bvhbench {
 
 /// Invariants over every scene of finite coordinates. docs/stress.md explains each.
 enum class Invariant {
-    ends,    ///< it ends, with an answer
-    leaves,  ///< each triangle is in exactly one leaf
-    boxes,   ///< leaf boxes are the triangles', inner boxes the children's union, bit for bit
-    layout,  ///< reserved bytes, number of nodes and tree equal the predicted ones
+    ends,      ///< it ends, with an answer
+    leaves,    ///< each triangle is in exactly one leaf
+    boxes,     ///< leaf boxes are the triangles', inner boxes the children's union, bit for bit
+    layout,    ///< reserved bytes, number of nodes and tree equal the predicted ones
     pairs,     ///< exactly the pairs of overlapping boxes are found
     contacts,  ///< exactly the pairs of intersecting triangles are found
     agree,     ///< equal results after triangles are shuffled and objects are swapped
-    moved,  ///< equal results after scaling by a power of two and after an exact translation
-    room,  ///< equal results if buffers and queues begin with room for one entry
-    same,  ///< equal results, bit for bit, in every repetition
+    moved,     ///< equal results after scaling by a power of two and after an exact translation
+    room,      ///< equal results if buffers and queues begin with room for one entry
+    same,      ///< equal results, bit for bit, in every repetition
 };
 
 inline constexpr std::array invariant_names = {"ends",     "leaves", "boxes", "layout", "pairs",

@@ -72,8 +72,8 @@ struct AccuracyFacts {
 /// How a cell was sampled.
 struct SamplingFacts {
     Stopped stopped = Stopped::not_sampled;  ///< why sampling stopped
-    double until = 0;                        ///< target of the relative interquartile range; 0: none
-    bool cold = false;                       ///< target for interquartile range / median; 0: none
+    double until = 0;                        ///< target for interquartile range / median; 0: none
+    bool cold = false;                       ///< whether caches were emptied before each sample
 };
 
 /// Times before the first sample, on the host's clock.
@@ -99,7 +99,7 @@ struct Cell {
     FirstRun first = {};
     SamplingFacts sampling = {};
     std::vector<Sample> samples;
-    std::map<std::string, double> counters;  ///< keys end in the unit: nodes_count, tree_bytes
+    std::map<std::string, double> counters;       ///< keys end in the unit: nodes_count, tree_bytes
     std::map<std::string, std::string> left_out;  ///< counters without a value, with the reason
     std::vector<std::int64_t> leaves_by_depth;    ///< number of leaves per level, from the root on
     Check check;
