@@ -7,7 +7,7 @@ namespace bvhbench {
 struct BuildInfo {
     const char* version;
     const char* commit;  ///< "unknown" when built outside a repository
-    bool dirty;          ///< whether tracked files differed from the commit
+    bool dirty;          ///< whether files differed from the commit, untracked ones included
     const char* compiler;
     const char* build_type;
     const char* arch;         ///< value of -march

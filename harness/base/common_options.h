@@ -9,8 +9,8 @@ namespace bvhbench {
 
 /// Options that every command has.
 struct CommonOptions {
-    std::string device;   ///< words of its name, or an index; empty: the first CPU, else device 0
-    std::string kernels;  ///< source tree to read kernels from; empty: the embedded kernels
+    std::string device;   ///< words of its name or an index; empty: first CPU, else first device
+    std::string kernels;  ///< source tree of kernels; empty: BVHBENCH_KERNELS, else embedded
     std::string data;     ///< folder of data sets; empty: BVHBENCH_DATA
     std::string doubles = "recentred";  ///< a doubles_name: how doubles become floats
     /// Folder of tuned values; empty: no tuned values; not set: BVHBENCH_TUNING, else the embedded values.

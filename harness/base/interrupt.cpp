@@ -54,7 +54,8 @@ void remember(int signal)
     }
 }
 
-/// Keeps the mutex locked, so that any other thread that needs it blocks until the process has ended.
+/// Runs the work of all AtSignals, prints the sentence and exits. The mutex stays locked, so that any other thread that needs
+/// it blocks until the process has ended.
 [[noreturn]] void end()
 {
     actions().mutex.lock();

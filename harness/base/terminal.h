@@ -11,7 +11,7 @@
 namespace bvhbench {
 
 /// Returns `text` with control characters written as \x1b, because names of files and scenes may contain some and a terminal
-/// would execute them. Line ends and tabs are kept.
+/// would interpret them. Line ends and tabs are kept.
 std::string printable(std::string_view text);
 
 /// Escapes everything written to `stream` with printable() for the lifetime of this object.

@@ -18,7 +18,7 @@ struct SamplingRules {
     double time_budget_s = 60;  ///< for all cells sampled together, without warm-up
     bool cold = false;          ///< whether caches are emptied before each sample
     int calibrate_every = 16;   ///< samples between two calibration runs; 0: no calibration
-    double drift_limit = 0.25;  ///< samples are marked beside a calibration further off its median
+    double drift_limit = 0.25;  ///< allowed relative deviation of a calibration from the median
 
     bool operator==(const SamplingRules&) const = default;
 };
@@ -35,7 +35,7 @@ enum class Stopped {
     not_sampled,
     number,  ///< the requested number was taken
     steady,  ///< the interquartile range reached the target
-    noisy,   ///< that range is stable above the target: more samples would not reduce it
+    noisy,   ///< the noise is stable above the target: more samples will not help
     most,    ///< `max_samples` were taken
     budget,  ///< the time budget is used up
     failure

@@ -99,7 +99,7 @@ public:
     }
 
 private:
-    /// Returns the broken invariant, and why the builder refuses this input; each is empty if there is none.
+    /// Returns the broken invariant or the failure, and the reason of a refusal; each is empty if there is none.
     std::pair<std::string, std::string> wrong_or_refused(const BuilderChoice& builder,
                                                          const Input& input, Oracle& oracle)
     {

@@ -28,7 +28,7 @@ public:
         app.add_option("--scene", scenes_, "scenes, data sets, mesh files or folders")->required();
         add_choices(app, choice_, [](const Choice& option) {
             return option.of != Choice::Of::builder ||
-                   option.key != "group_size";  // the option sets the collider's
+                   option.key != "group_size";  // --group-size sets the collider's
         });
         adjacent_ = app.get_option("--adjacent");
         app.add_flag("--skips", skips_,

@@ -43,7 +43,8 @@ std::vector<Cell> planned_cells(const Experiment& experiment)
     return cells;
 }
 
-/// Returns an experiment's cells, files, and number of triangles if the scene's name tells it; or the error in the experiment.
+/// Returns an experiment's cells, input files, and number of triangles (0 if only loading the scene tells it). Returns `error`
+/// for an invalid experiment, with `sized` if its scene is a generator without a size.
 Json settled(const Json& described, const SceneLibrary& library)
 {
     try {

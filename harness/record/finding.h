@@ -16,7 +16,7 @@ enum class Invariant {
     ends,      ///< it ends, with an answer
     leaves,    ///< each triangle is in exactly one leaf
     boxes,     ///< leaf boxes are the triangles', inner boxes the children's union, bit for bit
-    layout,    ///< reserved bytes, number of nodes and tree equal the predicted ones
+    layout,    ///< bytes and number of nodes are as predicted; the tree is the reference's
     pairs,     ///< exactly the pairs of overlapping boxes are found
     contacts,  ///< exactly the pairs of intersecting triangles are found
     agree,     ///< equal results after triangles are shuffled and objects are swapped

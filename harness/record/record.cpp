@@ -20,7 +20,7 @@ void put_if(Json& json, const char* key, const std::string& value)
 
 static void to_json(Json& json, const StageTime& time)
 {
-    if (time.wall_ns > 0)  // else a device stage, perhaps without launches: one leaf is a tree
+    if (time.wall_ns > 0)  // else a device stage; a tree of one leaf has no launches
         json = {{"stage", time.stage}, {"wall_ns", time.wall_ns}};
     else
         json = {{"stage", time.stage},

@@ -28,7 +28,7 @@ struct Sample {
     bool drifted = false;             ///< whether one of the two is far from the median
 };
 
-/// Verdict on the correctness of a measured cell. `counted` is for methods that may be wrong: their errors are counters.
+/// Verdict on the correctness of a measured cell. `counted`: the method may be wrong, and the cell's counters have its errors.
 struct Check {
     enum class Verdict { agrees, differs, not_checked, counted } verdict = Verdict::not_checked;
     std::string against;
@@ -153,7 +153,7 @@ struct RunFacts {
 /// Format version of written files.
 inline const std::string result_format = "1.9";
 
-/// Return a run or a cell as one line of JSON. Numbers that are not finite are left out.
+/// Returns a run or a cell as one line of JSON. Numbers that are not finite are left out.
 std::string run_text(const RunFacts& run);
 std::string cell_text(const Cell& cell);
 std::string cell_text(const StressCell& cell);

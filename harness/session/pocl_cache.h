@@ -11,7 +11,7 @@ namespace bvhbench {
 
 /// A writable folder in which PoCL keeps compiled kernels for the lifetime of this object.
 ///
-/// PoCL aborts if it cannot write its folder. Therefore a usable folder is chosen before the first OpenCL call. If there is none,
+/// PoCL ends the process if it cannot write its folder. So a usable folder is chosen before the first OpenCL call. If there is none,
 /// a temporary folder is made, and removed at the end. Our own folder is emptied when it is too large. A folder named by
 /// POCL_CACHE_DIR is checked but never emptied.
 class PoclCache {

@@ -30,7 +30,7 @@ std::string given_up(const std::string& cell);
 /// Names the run that the next child continues after a crash, from the result file with its finished cells.
 void go_on_with(const std::string& run_id);
 
-/// Names the folder of the driver's compiled kernels. After a crash, the message suggests to remove it.
+/// Names the folder of the driver's compiled kernels. After a crash, the message suggests removing it.
 void kernels_are_in(const std::string& folder);
 
 /// Marks the work during its lifetime as done for `cell`.
