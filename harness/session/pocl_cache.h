@@ -11,9 +11,9 @@ namespace bvhbench {
 
 /// A writable folder in which PoCL keeps compiled kernels for the lifetime of this object.
 ///
-/// PoCL ends the process if it cannot write its folder. So a usable folder is chosen before the first OpenCL call. If there is none,
-/// a temporary folder is made, and removed at the end. Our own folder is emptied when it is too large. A folder named by
-/// POCL_CACHE_DIR is checked but never emptied.
+/// PoCL ends the process if it cannot write its folder. Therefore the constructor chooses a usable folder, before the first
+/// OpenCL call. If there is none, it makes a temporary folder, which the destructor removes. Our own folder is emptied when it is
+/// too large. A folder named by POCL_CACHE_DIR is checked but never emptied.
 class PoclCache {
 public:
     /// Prints one sentence on stderr if kernels cannot be kept. Throws Unavailable if there is no usable folder at all.
