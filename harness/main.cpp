@@ -10,8 +10,8 @@
 
 namespace {
 
-/// Standard input, output and error that this process was started without would be taken by the next files it opens: what
-/// is printed would go into those. So their places are taken by what cannot be used.
+/// Opens /dev/null on standard streams that are closed. Otherwise the next opened files would get their descriptors, and printed
+/// text would go into those files. The modes are chosen so that reading standard input and writing to the others fail.
 void hold_standard_streams()
 {
     for (int file = 0; file < 3; ++file)
@@ -26,11 +26,11 @@ int main(int argc, char** argv)
     using namespace bvhbench;
     hold_standard_streams();
     end_with_parent();
-    // Files from outside are read and libraries put under stress by a process of their own: this program again.
+    // These workers are this same program in a child process: one reads mesh files, one runs libraries under stress.
     if (is_mesh_worker(argc, argv))
         return mesh_worker_main(argc, argv);
     if (is_library_worker(argc, argv))
         return library_worker_main(argc, argv);
-    std::signal(SIGXFSZ, SIG_IGN);  // a file over the limit of its size is an error of write()
+    std::signal(SIGXFSZ, SIG_IGN);  // writing past the file size limit then makes write() fail
     return run_program(argc, argv);
 }

@@ -3,15 +3,15 @@
 
 namespace bvhbench {
 
-/// What this program was made from. Filled in at build time by cmake/BuildInfo.cmake.
+/// Version, commit and compiler that this program was built with. cmake/BuildInfo.cmake fills it in at build time.
 struct BuildInfo {
     const char* version;
     const char* commit;  ///< "unknown" when built outside a repository
-    bool dirty;          ///< whether files differed from the commit
+    bool dirty;          ///< whether files differed from the commit, untracked ones included
     const char* compiler;
     const char* build_type;
     const char* arch;         ///< value of -march
-    const char* source_root;  ///< the folder it was built from, which may be gone
+    const char* source_root;  ///< source folder at build time; it may no longer exist
 };
 
 extern const BuildInfo build_info;

@@ -7,18 +7,18 @@
 
 namespace bvhbench {
 
-/// Options that all commands have.
+/// Options that every command has.
 struct CommonOptions {
-    std::string device;   ///< words or an index; empty: the first CPU, else the first device
-    std::string kernels;  ///< a source tree to read kernels from; empty: those in the program
-    std::string data;     ///< the folder of data sets; empty: BVHBENCH_DATA
-    std::string doubles = "recentred";  ///< a doubles_name, for coordinates that floats cannot hold
-    /// The folder of tuned values; empty: none; not given: BVHBENCH_TUNING.
+    std::string device;   ///< words of its name or an index; empty: first CPU, else first device
+    std::string kernels;  ///< source tree of kernels; empty: BVHBENCH_KERNELS, else embedded
+    std::string data;     ///< folder of data sets; empty: BVHBENCH_DATA
+    std::string doubles = "recentred";  ///< a doubles_name: how doubles become floats
+    /// Folder of tuned values; empty: no tuned values; not set: BVHBENCH_TUNING, else the embedded values.
     std::optional<std::string> tuning;
-    std::size_t memory_limit = 0;  ///< bytes of this process, and of the device; 0: what there is
-    double time_limit_s = 600;     ///< of a single build or query; 0: none
-    bool force = false;            ///< whether earlier files are replaced
-    bool quiet = false;            ///< whether tables of results are left out
+    std::size_t memory_limit = 0;  ///< bytes, of the process and of the device; 0: what there is
+    double time_limit_s = 600;     ///< for a single build or query; 0: no limit
+    bool force = false;            ///< whether existing files may be replaced
+    bool quiet = false;            ///< whether tables of results are not printed
     bool verbose = false;
 };
 

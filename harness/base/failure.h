@@ -7,16 +7,16 @@
 
 namespace bvhbench {
 
-/// What went wrong, as one sentence; for an OpenCL error with the call and the error's name.
+/// Returns the error as one sentence. The sentence for an OpenCL error names the call and the error code.
 std::string sentence_of(const std::exception& error);
 
-/// Run `work`. If it fails, the sentence why; empty when it went well.
+/// Runs `work`. Returns an empty string on success, else the reason of the failure as one sentence.
 ///
-/// For one cell of many, whose failure is a result.
+/// Used for single cells of a run, whose failure is recorded as a result.
 std::string reason_of_failure(const std::function<void()>& work);
 
-/// The same. `cannot_be` is set to whether it was a BadUsage: an option that this builder does not have over this scene is
-/// wrong usage of the cell, not of the program.
+/// The same. Also sets `cannot_be`: true if `work` threw BadUsage. In a cell, BadUsage means that the builder does not
+/// support an option for this scene; it does not mean that the command line was wrong.
 std::string reason_of_failure(bool& cannot_be, const std::function<void()>& work);
 
 }  // namespace bvhbench

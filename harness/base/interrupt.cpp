@@ -23,10 +23,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// One signal may come twice: to the process group, and from the parent (harness/session/watchdog.h).
+/// Signals this close together count as one: the process group and the parent (session/watchdog.h) may each deliver it.
 constexpr auto as_one = std::chrono::milliseconds(200);
 
-// Global, because a signal handler has no other way to leave word.
+// Global, because a signal handler can pass information in no other way.
 sem_t woken;
 std::atomic<int> received = 0;
 std::atomic<Clock::rep> received_at = 0;
@@ -36,7 +36,7 @@ struct Actions {
     std::vector<const AtSignal*> all;
 };
 
-/// Never destroyed: the thread outlives main.
+/// Never destroyed, because the signal thread outlives main.
 Actions& actions()
 {
     static Actions& only = *new Actions;
@@ -54,7 +54,8 @@ void remember(int signal)
     }
 }
 
-/// Whoever waits for the mutex waits until the process is gone.
+/// Runs the work of all AtSignals, prints the sentence and exits. The mutex stays locked, so that any other thread that needs
+/// it blocks until the process has ended.
 [[noreturn]] void end()
 {
     actions().mutex.lock();
@@ -69,7 +70,7 @@ void remember(int signal)
     for (const std::string& clause : clauses)
         sentence += "; " + clause;
     if (isatty(STDERR_FILENO) == 1)
-        std::fputs("\r\033[K", stderr);  // what shows progress is on that line
+        std::fputs("\r\033[K", stderr);  // clears the progress line
     std::cerr << sentence + '\n' << std::flush;
     _exit(128 + received);
 }
@@ -89,7 +90,7 @@ void end_on_signals()
             end();
         }).detach();
     } catch (const std::system_error&) {
-        return;  // no room for a thread: signals end the process as they end any other
+        return;  // no memory for a thread: signals keep their default action
     }
     struct sigaction action = {};
     action.sa_handler = remember;

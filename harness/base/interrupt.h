@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What becomes of the program when SIGINT, SIGTERM or SIGHUP asks it to end. It may be reading a pipe, compiling or looking
-// for all pairs at that time, none of which can be asked to stop. So a thread ends the process.
+// Ends the program on SIGINT, SIGTERM and SIGHUP. The program may be reading a pipe, compiling or computing all pairs, and none
+// of these can be interrupted. Therefore a separate thread ends the process.
 #pragma once
 
 #include <functional>
@@ -9,16 +9,16 @@
 
 namespace bvhbench {
 
-/// From here on SIGINT, SIGTERM and SIGHUP end the process, with exit code 128 + signal and one sentence: a thread, which
-/// sleeps until then, does what each AtSignal says and exits. A second signal ends the process without that. A SIGHUP
-/// that was ignored before, as under nohup, still is. A second call does nothing.
+/// Installs handlers for SIGINT, SIGTERM and SIGHUP. On the first signal a sleeping thread wakes, runs the work of all AtSignals,
+/// prints one sentence and exits with code 128 + signal. A second signal ends the process at once. A SIGHUP that was ignored
+/// before, as under nohup, stays ignored. Further calls of this function do nothing.
 void end_on_signals();
 
-/// What a signal does before it ends the process, as long as this object is there.
+/// Registers work to run when a signal ends the process, for the lifetime of this object.
 class AtSignal {
 public:
-    /// `work` is done by another thread, while the one that made this goes on. `kept` ends the sentence: "finished cells
-    /// are kept". What `work` throws is said in its place.
+    /// `work` runs on the signal thread, concurrently with the thread that made this object. `kept` is appended to the printed
+    /// sentence, as in "finished cells are kept". If `work` throws, its error is printed in place of `kept`.
     explicit AtSignal(std::function<void()> work, std::string kept = {});
     ~AtSignal();
     AtSignal(const AtSignal&) = delete;

@@ -84,11 +84,11 @@ void read_list(const Json& json, const char* key, const std::function<void(const
 std::string file_text(const std::filesystem::path& path, const std::string& what)
 {
     namespace fs = std::filesystem;
-    constexpr std::uintmax_t bytes_a_text_byte = 8;  // of a JSON document, about
+    constexpr std::uintmax_t bytes_a_text_byte = 8;  // memory for a parsed document, about
     std::error_code error;
     if (fs::is_directory(path, error))
         throw Unavailable(what + " '" + path.string() + "' cannot be read: it is a folder");
-    if (const std::uintmax_t size = fs::file_size(path, error); !error)  // a pipe has none
+    if (const std::uintmax_t size = fs::file_size(path, error); !error)  // pipes have no size
         require_host_memory("reading '" + path.string() + '\'', bytes_a_text_byte * size);
     errno = 0;
     std::ifstream file(path, std::ios::binary);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Reading what people write by hand in JSON. All throw BadUsage, in a sentence that names the key; file_text throws Unavailable.
+// Reads hand-written JSON. All functions throw BadUsage with a sentence that names the key; file_text throws Unavailable.
 #pragma once
 
 #include <cstdint>
@@ -18,10 +18,10 @@ namespace bvhbench {
 
 using Json = nlohmann::ordered_json;
 
-/// "a, b, c"
+/// Returns the words separated by commas: "a, b, c".
 std::string joined(std::span<const std::string_view> words);
 
-/// The entry of a catalog that has the name; `what` it is a catalog of, as "builder".
+/// Returns the entry of `catalog` called `name`. Throws BadUsage with the known names. `what` names the kind, as "builder".
 template <class Entry>
 const Entry& find_called(std::span<const Entry> catalog, std::string_view name,
                          const std::string& what)
@@ -39,12 +39,12 @@ const Entry& find_called(std::span<const Entry> catalog, std::string_view name,
 void refuse_unknown_keys(const Json& json, const std::vector<std::string_view>& known,
                          const std::string& where);
 std::string text_at(const Json& json, const char* key);
-std::string text_in(const Json& json, const char* key);  ///< empty if it is not there
+std::string text_in(const Json& json, const char* key);  ///< empty if the key is missing
 bool truth_at(const Json& json, const char* key);
 std::int64_t whole_number(const Json& value, const std::string& what, std::int64_t least,
                           std::int64_t most);
 
-/// The number at `key`, if it is there.
+/// Reads the number at `key` into `value` if the key is present.
 template <class Number>
 void read_whole(const Json& json, const char* key, std::int64_t least, std::int64_t most,
                 Number& value)
@@ -53,14 +53,14 @@ void read_whole(const Json& json, const char* key, std::int64_t least, std::int6
         value = static_cast<Number>(whole_number(json[key], key, least, most));
 }
 
-/// What the JSON library found wrong, for a sentence: without its number for the fault, on one line, printable, and not long.
+/// Returns the JSON library's message without its error number: one printable line, cut after 200 characters.
 std::string json_reason(const std::exception& error);
 
-/// Each of the list at `key`, which must not be empty.
+/// Calls `add` with each item of the list at `key`. Throws BadUsage unless that is a list of at least one item.
 void read_list(const Json& json, const char* key, const std::function<void(const Json&)>& add);
 
-/// All of a file. Throws Unavailable, "WHAT 'path' cannot be read: REASON", if it cannot be read or the host has not the
-/// memory for it and what is made of it.
+/// Returns the contents of a file. Throws Unavailable, "WHAT 'path' cannot be read: REASON", if the file cannot be read or if
+/// host memory does not suffice for the text and the document parsed from it.
 std::string file_text(const std::filesystem::path& path, const std::string& what);
 
 }  // namespace bvhbench

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Numbers as text that gives all their bits back. For JSON that is written by hand too: a value of every node of a large
-// tree would take more memory than the tree.
+// Writes numbers as text that round-trips exactly. Large trees are written as JSON with these functions, without a JSON document
+// in memory: one JSON value for each node would take more memory than the tree.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace bvhbench {
 
-/// The shortest digits that give the number's bits back.
+/// Appends the shortest decimal text that reads back as the same bits.
 template <class T>
 void append_number(std::string& text, T value)
 {
@@ -19,7 +19,7 @@ void append_number(std::string& text, T value)
     text.append(digits.data(), end);
 }
 
-/// [a,b,...]
+/// Appends "[a,b,...]".
 template <class Range>
 void append_list(std::string& text, const Range& values)
 {

@@ -11,18 +11,18 @@ class RE2;
 
 namespace bvhbench {
 
-/// A regular expression that a user gave, in the syntax of RE2. It is read and matched in time that is linear in the length
-/// of the texts, whatever it is.
+/// A regular expression from the user, in RE2 syntax. Parsing and matching take time linear in the length of the texts, for every
+/// expression.
 class Pattern {
 public:
-    /// `option` is what the user named it by. Throws BadUsage if it is no regular expression.
+    /// `option` is the command-line option, for messages. Throws BadUsage if `text` is not a regular expression.
     Pattern(const std::string& text, const std::string& option);
 
-    /// Whether some part of `text` matches.
+    /// True if any part of `text` matches.
     bool is_in(const std::string& text) const;
 
 private:
-    std::shared_ptr<const re2::RE2> expression_;  // shared by copies: it does not change
+    std::shared_ptr<const re2::RE2> expression_;  // copies share it: it is immutable
 };
 
 }  // namespace bvhbench

@@ -36,14 +36,14 @@ std::filesystem::path script_called(const std::string& name)
     return path;
 }
 
-/// The system's own Python has the system's NumPy and matplotlib; one found earlier in PATH may not.
+/// Prefers /usr/bin/python3, which sees the system's NumPy and matplotlib; another Python earlier in PATH may not.
 std::string python()
 {
     return access("/usr/bin/python3", X_OK) == 0 ? "/usr/bin/python3" : "python3";
 }
 
-/// How a command ended that was run to its end, with its standard error in `output`; nothing was said to have gone wrong if it
-/// could not be started.
+/// Runs a command to its end. Returns how it ended, with its standard error in `output`, which is empty if the command could not
+/// be started.
 ProcessEnd run_command(std::vector<std::string> words)
 {
     std::cout.flush();
@@ -58,7 +58,7 @@ ProcessEnd run_command(std::vector<std::string> words)
     return child.wait();
 }
 
-/// The module that Python did not find, if that is what its last line says.
+/// Returns the module named by a ModuleNotFoundError in `errors`; empty if there is none.
 std::string missing_module(const std::string& errors)
 {
     std::string name;
@@ -66,8 +66,8 @@ std::string missing_module(const std::string& errors)
     return name;
 }
 
-/// What became of a script that did not end with 0, as the end of a sentence. What it said is printed, unless it is that a
-/// module is missing.
+/// Returns the end of a sentence that says why a script failed. Prints the script's errors, except where a missing module
+/// explains the failure.
 std::string how_it_ended(const std::filesystem::path& script, const ProcessEnd& end)
 {
     if (const std::string module = missing_module(end.output); !module.empty())

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The scripts in plots/, which read result files: run by the system's Python.
+// Runs the Python scripts in plots/, which read result files, with the system's Python.
 #pragma once
 
 #include <filesystem>
@@ -9,13 +9,13 @@
 
 namespace bvhbench {
 
-/// Replaces this process by the command `words` of plots/. Returns only by throwing Unavailable.
+/// Replaces this process by the plots/ command `words`. Throws Unavailable on failure and otherwise does not return.
 [[noreturn]] void become_python(const std::vector<std::string>& words);
 
-/// Prints the tables of a result document. Throws Unavailable if Python cannot.
+/// Prints the tables of a result document. Throws Unavailable if Python cannot be run or fails.
 void print_tables(const std::string& document);
 
-/// Draws what `script` of plots/ draws of a result file, into a folder. Returns what became of it, a line.
+/// Runs `script` of plots/ to draw the result file into `folder`. Returns one line that says what was drawn, or why not.
 std::string draw(const std::string& script, const std::filesystem::path& file,
                  const std::filesystem::path& folder, bool force);
 

@@ -9,14 +9,14 @@
 namespace bvhbench {
 namespace {
 
-/// Characters, not bytes: a UTF-8 character's further bytes start with the bits 10.
+/// Counts characters, not bytes: continuation bytes of UTF-8 start with the bits 10.
 std::size_t width(const std::string& text)
 {
     return static_cast<std::size_t>(
         std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
 }
 
-/// Three digits that count, in the largest of the units that leaves at least 1.
+/// Formats three significant digits in the largest unit that gives at least 1.
 std::string with_unit(double value, const std::vector<const char*>& units)
 {
     std::size_t unit = 0;

@@ -6,7 +6,7 @@
 
 namespace bvhbench {
 
-/// A console table: columns as wide as their widest entry, words to the left, numbers to the right.
+/// A console table. Columns are as wide as their widest entry and aligned left (words) or right (numbers).
 class Table {
 public:
     enum class Align { left, right };
@@ -17,10 +17,10 @@ public:
 
     explicit Table(std::vector<Column> columns) : columns_(std::move(columns)) {}
 
-    /// One entry a column; missing ones at the end are blank.
+    /// Adds a row with one entry per column; missing entries at the end are blank.
     void row(std::vector<std::string> entries) { rows_.push_back(std::move(entries)); }
 
-    /// Title line if any column has a title, then the rows, each ended by a newline, no blanks at their ends.
+    /// Returns the title line, if any column has a title, then the rows. Each line ends in a newline and has no trailing blanks.
     std::string text() const;
 
 private:
@@ -28,13 +28,13 @@ private:
     std::vector<std::vector<std::string>> rows_;
 };
 
-/// `value` with `digits` after the point.
+/// Returns `value` with `digits` digits after the point.
 std::string fixed(double value, int digits);
 
-/// Nanoseconds with three digits and the unit that suits: "950 ns", "71.2 us", "1.30 ms".
+/// Returns nanoseconds with three significant digits and a suitable unit: "950 ns", "71.2 us", "1.30 ms".
 std::string duration_text(double ns);
 
-/// Bytes with three digits and the unit that suits: "512 B", "6.91 MB".
+/// Returns bytes with three significant digits and a suitable unit: "512 B", "6.91 MB".
 std::string bytes_text(double bytes);
 
 }  // namespace bvhbench

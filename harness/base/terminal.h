@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What a terminal is shown: nothing that it would obey, and where a long run is.
+// Terminal output: escapes control characters and shows the progress of long runs.
 #pragma once
 
 #include <ostream>
@@ -10,11 +10,11 @@
 
 namespace bvhbench {
 
-/// `text` with control characters spelled as \x1b: names of files and scenes may hold some, and a terminal obeys them. Ends
-/// of lines and tabs stay.
+/// Returns `text` with control characters written as \x1b, because names of files and scenes may contain some and a terminal
+/// would interpret them. Line ends and tabs are kept.
 std::string printable(std::string_view text);
 
-/// Whatever is written to `stream` while this object exists is printable.
+/// Escapes everything written to `stream` with printable() for the lifetime of this object.
 class PrintableOutput : public std::streambuf {
 public:
     explicit PrintableOutput(std::ostream& stream) : stream_(stream), to_(stream.rdbuf(this)) {}
@@ -31,7 +31,7 @@ private:
     std::streambuf* to_;
 };
 
-/// One line on stderr that says where a long run is; silent unless stderr is a terminal.
+/// A progress line on stderr. Prints nothing unless stderr is a terminal.
 class Progress {
 public:
     explicit Progress(std::size_t total);
@@ -39,10 +39,10 @@ public:
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    /// The next of `total` things has begun.
+    /// Shows that the next of the `total` items has begun.
     void step(const std::string& what);
 
-    /// The same thing goes on with something else.
+    /// Changes the text shown for the current item.
     void note(const std::string& what) const;
 
 private:

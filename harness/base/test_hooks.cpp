@@ -34,7 +34,7 @@ double factor_of(std::string_view name)
 
 std::map<std::string, std::string> test_hooks()
 {
-    factor_of({});  // refuses what it cannot read
+    factor_of({});  // throws BadUsage for text that cannot be parsed
     const char* slow = std::getenv(variable);
     if (slow == nullptr || *slow == '\0')
         return {};

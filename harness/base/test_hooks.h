@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What tests switch on to see whether a wrong number is found. A run that has any of them says so in its result file
-// (`test_hooks`), which no figure is made of and no file is compared with unless asked to.
+// Environment variables with which tests lengthen reported times, to check that comparisons detect it. A run with any of them
+// records them in its result file (`test_hooks`). Such a file is not plotted, and is compared only on request.
 #pragma once
 
 #include <map>
@@ -13,12 +13,11 @@
 
 namespace bvhbench {
 
-/// Variables of the environment that are set and change what is measured, with their values. Throws BadUsage for a value
-/// that cannot be read.
+/// Returns the test variables that are set, with their values. Throws BadUsage for a value that cannot be parsed.
 std::map<std::string, std::string> test_hooks();
 
-/// Makes the stages of the builder or collider called `name` take as many times as long as BVHBENCH_SLOW says:
-/// "oibvh-multi:1.10", or several of these with commas between. Throws BadUsage if it says something else.
+/// Multiplies the stage times of the builder or collider called `name` by its factor in BVHBENCH_SLOW, a comma-separated list
+/// such as "oibvh-multi:1.10". Throws BadUsage if the variable cannot be parsed.
 void slow_down(std::span<StageTime> stages, std::string_view name);
 
 }  // namespace bvhbench

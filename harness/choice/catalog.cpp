@@ -9,10 +9,10 @@
 namespace bvhbench {
 namespace {
 
-// Whose tree an entry must leave. Padding and pointers aside, all implicit trees are one, all radix trees another.
+// Oracles. Apart from padding and pointers, all implicit trees are equal, and so are all radix trees.
 constexpr std::string_view oi_tree = "oibvh-reference";
 constexpr std::string_view radix_tree = "radix-reference";
-constexpr std::string_view own_tree = {};  // no other builder makes it: its promises decide alone
+constexpr std::string_view own_tree = {};  // no other builder makes it: only invariants are checked
 
 constexpr BuilderEntry of_embree(std::string_view name, std::string_view summary, MakeBuilder make)
 {
@@ -31,7 +31,7 @@ constexpr BuilderEntry in_any_format(std::string_view name, std::string_view sum
     return {name, summary, tree, make, {}, {}, false, true};
 }
 
-// To add a builder, add its line here. Nothing registers itself.
+// To add a builder, add its line here. There is no other registration.
 constexpr BuilderEntry catalog[] = {
     in_any_format("perfect", "perfect implicit tree, padded to a power of two leaves", oi_tree,
                   make_perfect),

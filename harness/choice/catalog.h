@@ -10,39 +10,39 @@
 
 namespace bvhbench {
 
-/// A line of `list builders`.
+/// An entry of the builder catalog, printed by `list builders`.
 struct BuilderEntry {
-    std::string_view name;     ///< the key on the command line, in result files and legends
+    std::string_view name;     ///< name on the command line, in result files and in legends
     std::string_view summary;  ///< one line
-    /// The builder whose tree it must leave, bit for bit; empty if it is held to the promises only.
+    /// Builder whose tree this builder's must equal bit for bit. Empty: only the builder's invariants are checked.
     std::string_view oracle;
-    MakeBuilder make;              ///< nullptr when this binary was built without it
-    std::string_view absent = {};  ///< then: why, as in "built without Embree"
-    /// Set if the builder may throw Unavailable for some meshes, for the reason given here. It then does so
-    /// instead of leaving a wrong tree, and never for an ordinary mesh.
+    MakeBuilder make;              ///< nullptr if this binary was built without the builder
+    std::string_view absent = {};  ///< reason if `make` is nullptr: "built without Embree"
+    /// Reason for which the builder may throw Unavailable for some meshes; empty if it never does. It then throws instead of
+    /// leaving a wrong tree, and never for an ordinary mesh.
     std::string_view may_refuse = {};
-    bool is_library = false;     ///< the work is done by somebody else's code
-    bool takes_formats = false;  ///< whether its tree may keep boxes in any of box_formats()
+    bool is_library = false;     ///< the work is done by a third-party library
+    bool takes_formats = false;  ///< whether its tree can hold boxes in any of box_formats()
 };
 
-/// Every builder, in the order tables list them.
+/// Returns every builder, in the order of printed tables.
 std::span<const BuilderEntry> builder_catalog();
 
-/// By name. Throws BadUsage with the known names when there is none.
+/// Returns the builder called `name`. Throws BadUsage with the known names if there is none.
 const BuilderEntry& find_builder(std::string_view name);
 
-/// What is timed: a whole build, new boxes for a tree that stands, a build and a query of its tree, or what an axis of
-/// accuracy counts the errors of.
+/// What a cell measures: a build, a refit of an existing tree, a whole frame (tree update and query), or errors along an axis of
+/// accuracy.
 enum class Operation { build, refit, collide, accuracy };
 
-/// The word for it in experiments and result files.
+/// Returns the operation's name in experiments and result files.
 constexpr std::string_view operation_name(Operation operation)
 {
     constexpr std::string_view names[] = {"build", "refit", "collide", "accuracy"};
     return names[static_cast<std::size_t>(operation)];
 }
 
-/// Which builder, set up how: what the command line and experiment files choose. Owns its words.
+/// A builder and its options, as chosen on the command line or in an experiment. Owns its strings.
 struct BuilderChoice {
     std::string name;
     std::string order = "morton30";
@@ -64,10 +64,10 @@ struct BuilderChoice {
     }
 };
 
-/// Throws BadUsage if nothing is called so, or if the builder or its leaves do not allow those boxes.
+/// Throws BadUsage if there is no such builder or box format, or if the builder or its leaf placement does not allow the format.
 void check_boxes(const BuilderChoice& choice);
 
-/// Throws BadUsage when no builder is called so or it has not such boxes, Unavailable when this binary was built without it.
+/// Throws BadUsage if there is no such builder or it does not support the boxes; Unavailable if this binary lacks it.
 std::unique_ptr<Builder> make_builder(const BuilderChoice& choice, Programs& programs);
 
 }  // namespace bvhbench

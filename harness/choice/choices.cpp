@@ -48,7 +48,7 @@ constexpr std::array<std::string_view, 2> grids = {"object", "scene"}, places = 
                                           adjacents = {"drop", "keep"}, truths = {"false", "true"};
 constexpr std::array<std::string_view, 3> amongs = {"all", "between", "within"};
 
-/// For what is false or true, or an enumeration, in the order of the words.
+/// Sets a boolean or an enumeration whose values are in the order of `words`.
 template <auto part, auto member, const auto& words>
 bool set_word(CellChoice& choice, const std::string& word)
 {
@@ -65,7 +65,7 @@ Json word_of(const CellChoice& choice)
     return Json(words[static_cast<std::size_t>(choice.*part.*member)]);
 }
 
-// Boxes before leaves: boxes of another format want sorted leaves, unless something is said of leaves.
+// "boxes" is applied before "leaves": a format other than f32 selects sorted leaves, which an explicit "leaves" overrides.
 constexpr Choice table[] = {
     {"order", Of::builder, "a name of `list orders`", "a name of `list orders`",
      [](CellChoice& choice, const std::string& word) {
@@ -158,7 +158,7 @@ constexpr Choice table[] = {
      set_word<scene, &SceneChoice::swept, truths>, value_of<scene, &SceneChoice::swept>},
 };
 
-/// A value of JSON as the command line says it.
+/// Returns a JSON value as it would be written on the command line.
 std::string as_word(const Json& value)
 {
     return value.is_string() ? value.get<std::string>() : value.dump();
@@ -170,7 +170,7 @@ std::string as_word(const Json& value)
                    ", not '" + word + "'");
 }
 
-/// "start_level" as an option of the command line.
+/// Returns the command-line option for a key: "--start-level" for "start_level".
 std::string option_of(const Choice& choice)
 {
     std::string option = "--" + std::string(choice.key);
@@ -248,7 +248,7 @@ void add_choices(CLI::App& command, CellChoice& choice,
                 ->type_name(usual.is_number() ? "UINT" : "TEXT")
                 ->default_str(usual.is_string() && option.key != "leaves" ? usual.get<std::string>()
                                                                           : "");
-        if (option.key != "no_skip")  // which may be said again, for another rule
+        if (option.key != "no_skip")  // --no-skip may be repeated, once for each rule
             added->expected(1);
     }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What can be chosen of a cell besides its scene, builder and collider: one table for options of the command line, keys of
-// experiments, keys of result files and `sweep --set`. docs/adding.md tells how an option is added.
+// Options of a cell besides the names of its scene, builder and collider. One table serves the command line, experiment files,
+// result files and `sweep --set`. docs/adding.md explains how to add an option.
 #pragma once
 
 #include <functional>
@@ -19,7 +19,7 @@ class App;
 
 namespace bvhbench {
 
-/// All that is chosen of a cell.
+/// Everything that is chosen for a cell.
 struct CellChoice {
     BuilderChoice builder = {};
     ColliderChoice collider = {};
@@ -28,47 +28,47 @@ struct CellChoice {
 
 /// One option of a cell.
 struct Choice {
-    /// Whose it is: an experiment says it in the object of that name. A query's is a key of the pipeline, and result files
-    /// have it with the collider's.
+    /// The part of a cell that the option belongs to, which is the JSON object that has its key. Options of a query are keys of
+    /// the pipeline in experiments, and are stored with the collider's in result files.
     enum class Of { builder, collider, query, scene };
 
     std::string_view key;  ///< "start_level"; "--start-level" on the command line
     Of of;
-    std::string_view values;  ///< what it may be, as a sentence about a wrong value says it
+    std::string_view values;  ///< allowed values, for error messages
     std::string_view help;
-    /// Sets it from a word. Returns false for a word that it may not be; throws BadUsage, with the names that there are, for
-    /// an unknown name.
+    /// Sets the option from a word. Returns false if the word is not allowed. Throws BadUsage with the known names for an
+    /// unknown name.
     bool (*set)(CellChoice& choice, const std::string& word);
-    /// The value as result files have it: a number, a truth or a word.
+    /// Returns the value as result files store it: a number, a boolean or a string.
     Json (*get)(const CellChoice& choice);
-    /// Whether it must be a power of two. What is none is a value that no builder takes: of an experiment, a cell that says so.
+    /// Whether the value must be 0 or a power of two. In an experiment, a wrong value skips the cell and is no error of the file.
     bool is_power_of_two = false;
 };
 
-/// Every option, in the order in which they are applied. To add one, add its line.
+/// Returns every option, in the order in which they are applied. To add an option, add a line to the table.
 std::span<const Choice> choices();
 
-/// Sets the option. Throws BadUsage for a value that it may not have: the same sentence wherever the value stood.
+/// Sets the option from a word. Throws BadUsage if the value is not allowed; the message is the same for all sources.
 void choose(const Choice& option, CellChoice& choice, const std::string& word);
 
-/// Sets what the keys of `json` say of the options of `of`; other keys are left alone. Throws BadUsage.
+/// Sets the options of `of` whose keys are in `json`; ignores other keys. Throws BadUsage.
 void read_choices(const Json& json, Choice::Of of, CellChoice& choice);
 
-/// The keys of those options, behind `others`.
+/// Returns `others` followed by the keys of the options of `of`.
 std::vector<std::string_view> choice_keys(Choice::Of of,
                                           std::initializer_list<std::string_view> others);
 
-/// All options of `of` and their values.
+/// Returns an object of all options of `of` with their values.
 Json choices_json(const CellChoice& choice, Choice::Of of);
 
-/// Adds the options that `wanted` accepts to a command; they set `choice`, whose values are the defaults.
+/// Adds the options for which `wanted` returns true to a command. Parsing sets `choice`, whose values are the defaults.
 void add_choices(CLI::App& command, CellChoice& choice,
                  const std::function<bool(const Choice&)>& wanted);
 
-/// Throws BadUsage for a number that must be a power of two and is none.
+/// Throws BadUsage if a number that must be a power of two is not.
 void check_powers(const CellChoice& choice);
 
-/// Throws BadUsage unless all that is chosen is there and goes together: names, boxes and leaves, narrow phase, swept boxes.
+/// Throws BadUsage for an unknown builder or collider, boxes that the builder or leaves do not allow, or a wrong narrow phase.
 void check_choice(const CellChoice& choice);
 
 }  // namespace bvhbench

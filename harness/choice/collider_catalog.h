@@ -11,36 +11,36 @@
 
 namespace bvhbench {
 
-/// A line of `list colliders`.
+/// An entry of the collider catalog, printed by `list colliders`.
 struct ColliderEntry {
-    std::string_view name;         ///< the key on the command line and in result files
+    std::string_view name;         ///< name on the command line and in result files
     std::string_view summary;      ///< one line
-    MakeCollider make;             ///< nullptr when this binary was built without it
-    std::string_view absent = {};  ///< then: why, as in "built without Embree"
-    std::size_t host_bytes = 0;    ///< a triangle's, about, of what a library takes on the host
-    bool is_library = false;       ///< the work is done by somebody else's code
-    // As its collider says itself:
+    MakeCollider make;             ///< nullptr if this binary was built without the collider
+    std::string_view absent = {};  ///< reason if `make` is nullptr: "built without Embree"
+    std::size_t host_bytes = 0;    ///< host memory of a library, in bytes per triangle, roughly
+    bool is_library = false;       ///< the work is done by a third-party library
+    // These equal what the collider itself returns.
     bool needs_tree = true;       ///< whether it queries a builder's tree
-    bool finds_contacts = false;  ///< contacts at once, and no pairs of boxes
+    bool finds_contacts = false;  ///< finds intersecting triangles directly, without box pairs
 };
 
-/// Every collider, in the order tables list them.
+/// Returns every collider, in the order of printed tables.
 std::span<const ColliderEntry> collider_catalog();
 
-/// By name. Throws BadUsage with the known names when there is none.
+/// Returns the collider called `name`. Throws BadUsage with the known names if there is none.
 const ColliderEntry& find_collider(std::string_view name);
 
-/// Which collider, set up how: what the command line and experiment files choose. Owns its words.
+/// A collider and its options, as chosen on the command line or in an experiment. Owns its strings.
 struct ColliderChoice {
     std::string name;
     Among among = Among::all;
     bool keep_adjacent = true;
-    std::string narrow = "none";  ///< the narrow phase behind it: none or of narrow_methods.h
+    std::string narrow = "none";  ///< narrow phase: "none" or a name of narrow_methods.h
     unsigned jump = 0;
     unsigned start_level = 0;
     unsigned group_size = 0;
-    unsigned rules_off = 0;  ///< of collide/skips.h
-    // What only tests and `stress` choose: no result file tells them.
+    unsigned rules_off = 0;  ///< disabled rules, bits of collide/skips.h
+    // Only tests and `stress` set these; result files do not store them.
     KernelForm form = KernelForm::of_device;
     std::size_t capacity = 0;
 
@@ -58,12 +58,12 @@ struct ColliderChoice {
     }
 };
 
-/// Throws BadUsage when no collider is called so, Unavailable when this binary was built without it, and BadUsage for
-/// options that it cannot keep.
+/// Throws BadUsage if there is no such collider or it does not support the options, and Unavailable if this binary was built
+/// without it.
 std::unique_ptr<Collider> make_collider(std::string_view name, Programs& programs,
                                         const ColliderOptions& options);
 
-/// The collider chosen. Throws as the one above.
+/// Makes the chosen collider. Throws as above, and BadUsage for an unsuitable narrow phase.
 std::unique_ptr<Collider> make_collider(const ColliderChoice& choice, Programs& programs);
 
 }  // namespace bvhbench

@@ -14,51 +14,51 @@
 
 namespace bvhbench {
 
-/// What to measure: every builder on every scene. Read from JSON, so that a new experiment needs no code:
+/// An experiment: measures every builder on every scene. Experiments are JSON files, so that a new one needs no code:
 ///
 ///     {"experiment": "table1", "question": "...", "paper": "Table 1",
 ///      "scenes": ["bunny", {"scene": "soup:{t}", "t": {"from": 1, "to": 600}}],
 ///      "builders": ["perfect", {"name": "oibvh-multi", "group_size": 256}],
 ///      "stages": ["hierarchy"], "samples": 30, "warm_up": 3, "quality": true, "quick": {"samples": 5}}
 ///
-/// A builder that this program was built without is a skipped cell.
-/// `"operations": ["build", "refit"]` makes two cells of each builder, both about the scene's second frame: one
-/// builds over it, one has built over the first and refits. The default is to build, over the first.
-/// An experiment of whole frames has `pipelines` instead of builders, and scenes of more words (CollideTask):
+/// If this binary lacks a builder, the builder's cells are skipped.
+/// `"operations": ["build", "refit"]` makes two cells for each builder, both for the scene's second frame: one builds the tree
+/// for that frame, the other builds it for the first frame and refits it to the second. The default is to build for the first.
+/// An experiment of whole frames has `pipelines` instead of builders, and its scenes may have options (CollideTask):
 ///
 ///     {"experiment": "table2", "scenes": [{"scene": "unc_nbody", "frames": "0:", "pairs_of": "between"}],
 ///      "pipelines": [{"builder": "oibvh-multi", "collider": {"name": "bvtt", "jump": 2}, "adjacent": "drop",
 ///                     "narrow": "exact"}, ...]}
 ///
-/// One that has both lists makes cells of either kind over the same scenes, which then are texts.
+/// An experiment with both lists makes both kinds of cells for the same scenes, which must then be strings.
 ///
-/// `"doubles": "as-is"` rounds coordinates that floats cannot hold as they are, whatever the command line says; so does
-/// `"recentred"` (scenes/doubles.h).
+/// `"doubles": "as-is"` or `"recentred"` sets how coordinates that floats cannot hold are rounded (scenes/doubles.h), and
+/// overrides the command line.
 ///
-/// `"until": 0.02` samples each cell until the range between its quartiles is 2 % of the median, instead of a fixed number;
-/// `min_samples`, `max_samples` and `time_budget_s` bound that. `"caches": "cold"` empties them before each sample.
+/// `"until": 0.02` samples each cell until its interquartile range is 2 % of the median, instead of a fixed number of times,
+/// within `min_samples`, `max_samples` and `time_budget_s`. `"caches": "cold"` empties the caches before each sample.
 ///
-/// `quick` replaces `scenes`, `builders`, `samples` or `warm_up` for --quick. In a scene with sizes, the key
-/// in braces takes a list of numbers or an object of: `from` and `to` (every number), `powers_of_two_from`
-/// and `powers_of_two_to`, `around_powers_of_two_to` (one below, at and above each power of two up to it).
+/// With --quick, the object `quick` replaces `scenes`, `builders`, `pipelines`, `samples` or `warm_up`. In a scene with sizes,
+/// the key in braces has a list of numbers or an object of `from` and `to` (every number between), `powers_of_two_from` and
+/// `powers_of_two_to`, and `around_powers_of_two_to` (p - 1, p and p + 1 for each power of two p up to it).
 struct Experiment {
     std::string name;
     std::string question;
-    std::string paper;  ///< the table or figure it answers; may be empty
+    std::string paper;  ///< table or figure of the paper that it reproduces; may be empty
     std::vector<std::string> scenes;
     std::vector<BuilderChoice> builders;
-    std::vector<Operation> operations = {Operation::build};  ///< each once, builds first
-    /// `stages` of only "hierarchy" means: build once from triangles, then sample with the leaves given.
+    std::vector<Operation> operations = {Operation::build};  ///< without repetitions, builds first
+    /// If `stages` is ["hierarchy"]: a tree is built from triangles once, and samples start from its sorted leaves.
     Start start = Start::from_triangles;
-    /// Whether a data set that is not there is replaced by its stand-in; without, its cells are skipped.
+    /// Whether a missing data set is replaced by its stand-in. If false, its cells are skipped.
     bool may_stand_in = true;
-    /// Whether a scene that cannot be had is thrown, since it is all that was asked for; else it is cells that say so.
+    /// Whether failing to load a scene throws, for commands with one scene. If false, the scene's cells record the failure.
     bool needs_scene = false;
-    /// What becomes of coordinates that floats cannot hold: key `doubles`, a doubles_name; none: as the command line says.
+    /// How coordinates that floats cannot hold are rounded (key `doubles`). Not set: as on the command line.
     std::optional<Doubles> doubles;
-    /// Whether end-point overlap is wanted too, the one measure of a tree that takes long.
+    /// Whether end-point overlap is computed as well. It is the only slow tree metric.
     bool quality = false;
-    /// Of an experiment with pipelines: a task a scene. The other lists may be empty then.
+    /// One task per scene, for an experiment with pipelines. Scenes and builders may then be empty.
     std::vector<CollideTask> collisions;
     int samples = 30;
     int warm_up = 3;
@@ -70,20 +70,20 @@ struct Experiment {
     }
 };
 
-/// Throws BadUsage, naming `origin` and the key, for a key it does not know or a value that makes no sense.
+/// Parses an experiment. Throws BadUsage, naming `origin` and the key, for unknown keys and invalid values.
 Experiment parse_experiment(std::string_view text, const std::string& origin, bool quick);
 
-/// The experiment `name_or_path` asks for: one of ours, else a file that ends in .json.
-/// Throws BadUsage with the known names, or Unavailable when the file is not there.
+/// Returns the embedded experiment of that name, or reads the file if `name_or_path` ends in .json. Throws BadUsage with the
+/// known names, or Unavailable if the file cannot be read.
 Experiment find_experiment(const std::string& name_or_path, bool quick);
 
-/// The name of one becomes a file's name. Throws BadUsage, naming the key it is at, if it cannot.
+/// Throws BadUsage, naming `key`, unless `name` can be part of a file name: letters, digits, - and _ only.
 void check_experiment_name(const std::string& name, const std::string& key);
 
-/// The experiments inside this binary, in the order `list` shows them.
+/// Returns the names of the embedded experiments, in the order of `list experiments`.
 std::span<const std::string_view> experiment_names();
 
-/// The text of an experiment file compiled into the program. Generated by cmake/EmbedText.cmake.
+/// Returns the text of an embedded experiment file. Generated by cmake/EmbedText.cmake.
 std::optional<std::string_view> embedded_experiment(std::string_view path);
 
 }  // namespace bvhbench

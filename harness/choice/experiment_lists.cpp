@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::int64_t most_triangles = std::int64_t{1} << 31, most_sizes = 1 << 24;
 
-/// The numbers of a list, or of all that an object says: from 1 on, each once.
+/// Returns the numbers of a list, or those that an object describes: at least 1, sorted, without repetitions.
 std::set<std::int64_t> sizes_of(const Json& json, const std::string& key)
 {
     std::set<std::int64_t> sizes;
@@ -41,7 +41,7 @@ std::set<std::int64_t> sizes_of(const Json& json, const std::string& key)
     return sizes;
 }
 
-/// The value at `key`, or each of the list there.
+/// Calls `add` with the value at `key`, or with each item if it is a list.
 void read_each(const Json& json, const char* key, const std::function<void(const Json&)>& add)
 {
     if (json[key].is_array())
@@ -50,7 +50,7 @@ void read_each(const Json& json, const char* key, const std::function<void(const
         add(json[key]);
 }
 
-/// The object's name, or the name that stands in its place.
+/// Returns the string itself, or the object's `name`.
 std::string name_of(const Json& json)
 {
     return json.is_string() ? json.get<std::string>() : text_at(json, "name");
@@ -69,7 +69,7 @@ PipelineChoice pipeline_of(const Json& json, const BuilderChoice& builder, const
     return {choice.builder, choice.collider};
 }
 
-/// Each of the builders with each of the colliders.
+/// Returns each combination of the builders and colliders.
 std::vector<PipelineChoice> pipelines_of(const Json& json)
 {
     refuse_unknown_keys(json, choice_keys(Choice::Of::query, {"builder", "collider"}),
@@ -89,7 +89,7 @@ std::vector<PipelineChoice> pipelines_of(const Json& json)
     return choices;
 }
 
-/// A scene may say which pairs all its pipelines look for.
+/// Reads a scene. Its `pairs_of` overrides that of all its pipelines.
 CollideTask task_of(const Json& json, const std::vector<PipelineChoice>& pipelines)
 {
     CollideTask task;

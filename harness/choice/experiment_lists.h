@@ -6,19 +6,19 @@
 
 namespace bvhbench {
 
-/// A scene's name, or each size of an object of `scene` and the sizes that it names. Throws BadUsage, as all here.
+/// Returns the scene's name, or one name per size for an object of `scene` and sizes. All functions here throw BadUsage.
 std::vector<std::string> scene_names(const Json& json);
 
-/// A builder's name, or an object of it and its options.
+/// Reads a builder's name, or an object of its name and options.
 BuilderChoice builder_choice(const Json& json);
 
-/// What an experiment with `pipelines` measures, a task a scene. A scene is text or an object of `scene`, the options of scenes
-/// (harness/choice/choices.h), and pairs_of for all pipelines. A pipeline is an object of
+/// Returns the tasks of an experiment with `pipelines`, one per scene. A scene is a string, or an object of `scene`, the options
+/// of scenes (harness/choice/choices.h), and `pairs_of`, which applies to all pipelines. A pipeline is an object of
 ///
-///     collider    a name, or an object of name and the options of colliders
-///     builder     as in other experiments; without, the collider wants no tree
+///     collider    a name, or an object of `name` and the options of colliders
+///     builder     as in other experiments; may be missing if the collider needs no tree
 ///
-/// and the options of queries. Lists of colliders and builders mean each with each.
+/// and the options of queries. Lists of builders and colliders make one pipeline for each combination.
 std::vector<CollideTask> collisions_of(const Json& json, const std::string& experiment, bool quick);
 
 }  // namespace bvhbench

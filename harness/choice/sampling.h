@@ -9,56 +9,56 @@ namespace bvhbench {
 
 constexpr int most_samples = 1000000;
 
-/// When a cell has samples enough, and under what circumstances they are taken.
+/// When sampling of a cell stops, and under which conditions samples are taken.
 struct SamplingRules {
-    /// If not 0: samples are taken until the range between their quartiles is at most this share of the median.
+    /// If not 0, sampling stops when the interquartile range is at most this fraction of the median.
     double until = 0;
     int min_samples = 15;
     int max_samples = 1000;
-    double time_budget_s = 60;  ///< for all cells that are sampled together, warm-up left out
+    double time_budget_s = 60;  ///< for all cells sampled together, without warm-up
     bool cold = false;          ///< whether caches are emptied before each sample
-    int calibrate_every = 16;   ///< samples between two runs of the calibration kernel; 0: never
-    double drift_limit = 0.25;  ///< samples beside one that is off by more of it are marked
+    int calibrate_every = 16;   ///< samples between two calibration runs; 0: no calibration
+    double drift_limit = 0.25;  ///< allowed relative deviation of a calibration from the median
 
     bool operator==(const SamplingRules&) const = default;
 };
 
-/// How often each of some cells is sampled.
+/// How many samples each of a group of cells gets.
 struct SamplingPlan {
-    int samples = 20;  ///< of each cell, where no target is set
-    int warm_up = 3;   ///< taken first and thrown away
+    int samples = 20;  ///< per cell, if `rules.until` is 0
+    int warm_up = 3;   ///< samples taken first and discarded
     SamplingRules rules = {};
 };
 
-/// Why a cell has no more samples.
+/// Why sampling of a cell stopped.
 enum class Stopped {
     not_sampled,
-    number,  ///< as many as were asked for
-    steady,  ///< the target is reached
-    noisy,   ///< noise is stable above the target: more samples would not bring it down
-    most,    ///< `max_samples`
-    budget,  ///< the time is over
+    number,  ///< the requested number was taken
+    steady,  ///< the interquartile range reached the target
+    noisy,   ///< the noise is stable above the target: more samples will not help
+    most,    ///< `max_samples` were taken
+    budget,  ///< the time budget is used up
     failure
 };
 
-/// The word for it in result files: "number".
+/// Returns the reason's name in result files: "number".
 std::string_view stopped_name(Stopped stopped);
 
-/// What was said on the command line; the rest stays as it was.
+/// Sampling options given on the command line. Options that are not set leave the rules unchanged.
 struct SamplingWords {
     std::optional<double> until, time_budget_s, drift_limit;
     std::optional<int> min_samples, max_samples, calibrate_every;
     bool cold = false;
 
-    /// Throws BadUsage if the rules would not make sense then.
+    /// Overwrites `rules` with the options that are set. Throws BadUsage if the options or the result contradict each other.
     void apply(SamplingRules& rules) const;
 };
 
-/// Throws BadUsage for rules that make no sense, naming the option.
+/// Throws BadUsage, naming the option, if the bounds contradict each other.
 void check_rules(const SamplingRules& rules);
 
-/// C_inner and C_tri of Aila, Karras and Laine 2013, Eq. (1): what visiting a node and testing a triangle cost,
-/// relative to each other. The paper prints none; with theirs, which these are, its Table 4 comes out.
+/// Relative costs of visiting an inner node and of testing a triangle: C_inner and C_tri of Aila, Karras and Laine 2013, Eq. (1).
+/// [Chitalu2020] prints no values; the defaults, from Aila et al., reproduce its Table 4.
 struct NodeCosts {
     double inner = 1.2;
     double triangle = 1.0;

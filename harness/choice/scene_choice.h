@@ -13,48 +13,48 @@
 
 namespace bvhbench {
 
-/// A builder and the collider over its trees.
+/// A builder, and the collider that queries its trees.
 struct PipelineChoice {
     BuilderChoice builder;
     ColliderChoice collider;
     bool operator==(const PipelineChoice&) const = default;
 };
 
-/// Frames of a scene, from `first` to before `end`, counted after those between were put in.
+/// Frames [first, end) of a scene, counted after the frames between were inserted.
 struct FrameRange {
     std::size_t first = 0;
-    std::size_t end = 1;  ///< 0: all there are
+    std::size_t end = 1;  ///< 0: up to the last frame
     bool operator==(const FrameRange&) const = default;
 };
 
-/// "a:b", a to before b; "a:", to the last; "a", that one. Throws BadUsage.
+/// Parses "a:b" (frames [a, b)), "a:" (from a to the last) or "a" (only a). Throws BadUsage.
 FrameRange frame_range(const std::string& text);
 std::string frame_range_text(const FrameRange& range);
 
-/// What is asked of a scene besides its name.
+/// Options of a scene besides its name.
 struct SceneChoice {
     ObjectsBy objects = ObjectsBy::automatic;
-    unsigned between = 0;    ///< frames put between each two of the scene's
-    bool swept = false;      ///< boxes are around the way from each frame to the next
-    FrameRange frames = {};  ///< swept: those that ways begin in
+    unsigned between = 0;    ///< frames inserted between consecutive frames of the scene
+    bool swept = false;      ///< boxes enclose the motion from each frame to the next
+    FrameRange frames = {};  ///< if swept: the frames in which motions begin
 };
 
-/// What is collided, and how often it is measured.
+/// A scene, the pipelines that collide it, and how often each is sampled.
 struct CollideTask : SceneChoice {
     std::string experiment = "collide";
-    std::string number = "0";  ///< which of the run's scenes it is
+    std::string number = "0";  ///< index of the scene in the run
     std::string scene;
     bool may_stand_in = false;
-    bool needs_scene = false;  ///< as an Experiment's
+    bool needs_scene = false;  ///< as in Experiment
     std::vector<PipelineChoice> pipelines;
     int samples = 20;
     int warm_up = 3;
     SamplingRules sampling = {};
-    /// Told what is being done where that takes long, for a line of progress; may be empty.
+    /// Called with a line of progress before work that takes long; may be empty.
     std::function<void(const std::string& what)> note = {};
 };
 
-/// What has no meaning with swept boxes, before anything is loaded. Throws BadUsage.
+/// Throws BadUsage for options that are invalid with swept boxes. Needs no scene.
 void check_swept(const CollideTask& task);
 
 }  // namespace bvhbench

@@ -70,7 +70,7 @@ public:
     }
 
 private:
-    std::string axis_;  ///< empty: all
+    std::string axis_;  ///< empty: all axes
     AxisTask task_;
     std::string filter_;
     std::string out_ = "out";

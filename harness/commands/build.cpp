@@ -13,7 +13,7 @@
 namespace bvhbench {
 namespace {
 
-/// A spelled-out tree as JSON, root first, -1 for none, numbers with the digits that give their bits back:
+/// Returns a tree as JSON: root first, -1 for no child or primitive, and numbers that read back as the same bits:
 /// {"nodes":[{"box":{"min":[x,y,z],"max":[x,y,z]},"child":[a,b],"primitive":k}]}
 std::string dump_text(const HostTree& tree)
 {
@@ -52,7 +52,7 @@ public:
 
     int run(const Invocation& invocation) override
     {
-        find_builder(choice_.builder.name);  // wrong words are found before anything is opened
+        find_builder(choice_.builder.name);  // reports wrong options before opening the device
         check_choice(choice_);
         check_powers(choice_);
         const CommonOptions& common = invocation.common;
@@ -81,12 +81,12 @@ private:
         experiment.samples = samples_;
         sampling_.apply(experiment.sampling);
         experiment.quality = quality_;
-        experiment.may_stand_in = false;  // who names a mesh means that mesh
+        experiment.may_stand_in = false;  // the user named this mesh, so no other is used
         experiment.needs_scene = true;
         return experiment;
     }
 
-    /// Builds once more and writes the tree: measuring has its own copy of the scene, which is gone by now.
+    /// Builds once more and writes the tree. The scene is loaded again, because measuring has freed its own copy.
     void dump(Session& session, const Output& output) const
     {
         const Scene scene = in_file_order(load_scene(scene_, session.scenes()));

@@ -32,11 +32,11 @@ std::vector<BuilderChoice> chosen_builders(const std::string& name)
     return builders;
 }
 
-/// What came of a builder over some inputs.
+/// Results of one builder over several inputs.
 struct Tally {
     std::size_t checked = 0, broken = 0, refused = 0;
-    std::string first;    ///< the first promise broken
-    std::string refusal;  ///< why the first was refused
+    std::string first;    ///< first broken invariant
+    std::string refusal;  ///< reason of the first refusal
 
     std::string verdict() const
     {
@@ -52,7 +52,7 @@ public:
         : session_(session), builders_(std::move(builders))
     {}
 
-    /// Hold every builder to its promises over one mesh; the tallies are in the builders' order.
+    /// Checks every builder's invariants over one mesh and adds the results to `tallies`, in the order of the builders.
     void over(std::span<const Point> points, std::span<const Face> faces,
               std::vector<Tally>& tallies)
     {
@@ -99,7 +99,7 @@ public:
     }
 
 private:
-    /// The promise that is broken, or why the builder cannot be had over this input.
+    /// Returns the broken invariant or the failure, and the reason of a refusal; each is empty if there is none.
     std::pair<std::string, std::string> wrong_or_refused(const BuilderChoice& builder,
                                                          const Input& input, Oracle& oracle)
     {
@@ -175,7 +175,7 @@ public:
     }
 
 private:
-    std::string builder_;  ///< empty: all
+    std::string builder_;  ///< empty: all builders
     std::string scene_;    ///< empty: the hard inputs
     bool portable_ = false;
 };

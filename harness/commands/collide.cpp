@@ -28,7 +28,7 @@ public:
         app.add_option("--scene", scenes_, "scenes, data sets, mesh files or folders")->required();
         add_choices(app, choice_, [](const Choice& option) {
             return option.of != Choice::Of::builder ||
-                   option.key != "group_size";  // the collider's
+                   option.key != "group_size";  // --group-size sets the collider's
         });
         adjacent_ = app.get_option("--adjacent");
         app.add_flag("--skips", skips_,
@@ -45,7 +45,7 @@ public:
 
     int run(const Invocation& invocation) override
     {
-        CollideTask task = this->task();  // wrong words are found before anything is opened
+        CollideTask task = this->task();  // reports wrong options before opening the device
         const CommonOptions& common = invocation.common;
         Session session(common);
         const OutputRules rules =
@@ -67,7 +67,7 @@ public:
     }
 
 private:
-    /// Throws BadUsage unless --pairs and --contacts have something to write.
+    /// Throws BadUsage if --pairs or --contacts cannot be written or the collider finds no such list.
     void check_lists(const FrameRange& frames) const
     {
         for (const std::string& path : {pairs_, contacts_})
@@ -86,7 +86,7 @@ private:
             throw BadUsage("--contacts needs a narrow phase: --narrow exact");
     }
 
-    /// Throws BadUsage for what has no meaning with swept boxes.
+    /// Throws BadUsage for options that are invalid with swept boxes.
     void check_swept_words(const CollideTask& task) const
     {
         if (adjacent_->count() > 0 && choice_.collider.keep_adjacent)

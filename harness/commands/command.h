@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What a command is: its words on the command line, its help, and what it does. A command is a file here and a line in
-// commands.cpp.
+// A command: its options, its help, and its work. Each command is a file in this folder and a line in commands.cpp.
 #pragma once
 
 #include <memory>
@@ -18,39 +17,38 @@ class App;
 
 namespace bvhbench {
 
-/// What the user typed, besides the command's own options.
+/// The parsed command line, without the command's own options.
 struct Invocation {
     CommonOptions common;
-    std::vector<std::string> words;  ///< argv, for the result file
+    std::vector<std::string> words;  ///< argv, stored in the result file
 };
 
 class Command {
 public:
     virtual ~Command() = default;
 
-    /// Adds the command's options; parsing sets its members.
+    /// Adds the command's options to `app`. Parsing sets members of this object.
     virtual void add_options(CLI::App& app) = 0;
 
-    /// Returns the exit code: 0 done, 1 a check differs. Errors are thrown.
+    /// Runs the command. Returns the exit code: 0 for success, 1 if a check differs. Throws on errors.
     virtual int run(const Invocation& invocation) = 0;
 };
 
-/// A command line that does something, and what.
+/// An example of a command line, with what it does.
 struct HelpExample {
-    std::string_view line;  ///< as a shell takes it; words without quotes or blanks in them
+    std::string_view line;  ///< for a shell; words contain no quotes or blanks
     std::string_view what;
 };
 
-/// A line of `bvhbench --help`.
+/// A command as shown by `bvhbench --help`.
 struct CommandEntry {
     std::string_view name;
-    std::string_view group =
-        {};                    ///< with which others it is listed; empty: for programs, not listed
-    std::string_view summary;  ///< one line
-    std::string_view more = {};  ///< sentences of its help
+    std::string_view group = {};  ///< heading in the list; empty: internal, not listed
+    std::string_view summary;     ///< one line
+    std::string_view more = {};   ///< more sentences for its own help
     std::vector<HelpExample> examples = {};
-    std::string_view see = {};  ///< the document that has more
-    /// nullptr: it reads result files and is written in Python, plots/commands/.
+    std::string_view see = {};  ///< document with more information
+    /// nullptr for a command in Python, plots/commands/.
     std::unique_ptr<Command> (*make)() = nullptr;
 };
 
@@ -59,10 +57,10 @@ constexpr std::string_view looking = "Look at results";
 constexpr std::string_view holding = "Hold to promises";
 constexpr std::string_view knowing = "Know what there is";
 
-/// Every command, in the order in which help lists them.
+/// Returns every command, in the order of the help.
 std::span<const CommandEntry> commands();
 
-/// Has `--help` of the program and of each of its commands show what commands() say of them, wrapped.
+/// Sets the `--help` texts of the program and of each command from commands(), with wrapped lines.
 void add_help(CLI::App& app);
 
 template <class Of>

@@ -9,7 +9,7 @@ extern const CommandEntry build_command, collide_command, run_command, accuracy_
 
 namespace {
 
-/// A command whose words, help and work are in plots/commands/NAME.py.
+/// Returns the entry of a command that is implemented in plots/commands/NAME.py.
 CommandEntry in_python(std::string_view name, std::string_view group, std::string_view summary)
 {
     return {.name = name, .group = group, .summary = summary};

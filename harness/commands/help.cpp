@@ -41,7 +41,7 @@ constexpr Named files[] = {
     {"results/tuning/", "tuned values of known devices, also in the program"},
 };
 
-/// Words of `text` in lines that end before the page does, all but the first behind `margin` blanks.
+/// Wraps `text` at page_width. The first line begins at column `used`; the others are indented by `margin` blanks.
 std::string wrapped(std::string_view text, std::size_t margin, std::size_t used)
 {
     std::istringstream words{std::string(text)};
@@ -60,7 +60,7 @@ std::string wrapped(std::string_view text, std::size_t margin, std::size_t used)
     return out;
 }
 
-/// A name and, from the column on, what it is.
+/// Returns a name followed by its description, which begins at `column`.
 std::string entry(const std::string& name, std::string_view what)
 {
     std::string out = std::string(indent, ' ') + name;
@@ -82,7 +82,7 @@ std::string section(std::string_view title, const List& list)
     return out;
 }
 
-/// Options and commands below one another, their descriptions wrapped.
+/// Formats options and commands one per line, with wrapped descriptions.
 class PageFormatter : public CLI::Formatter {
 public:
     std::string make_option(const CLI::Option* option, bool is_positional) const override
@@ -91,7 +91,7 @@ public:
                      make_option_desc(option));
     }
 
-    /// What kind of value it takes, without the ranges that an answer to a wrong one tells.
+    /// Returns the kind of value without the allowed range, which error messages contain.
     std::string make_option_opts(const CLI::Option* option) const override
     {
         if (option->get_type_size() == 0)

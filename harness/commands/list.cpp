@@ -20,13 +20,13 @@
 namespace bvhbench {
 namespace {
 
-/// Without a title, so that scripts can read it.
+/// Makes a table without a title line, so that scripts can read it.
 Table blank_table(std::size_t columns)
 {
     return Table(std::vector<Table::Column>(columns, {"", Table::Align::left}));
 }
 
-/// A line an entry, the name first.
+/// Returns one line for each entry, with its name first.
 template <class Entries, class... Column>
 std::string lines(const Entries& entries, const Column&... columns)
 {
@@ -66,7 +66,7 @@ std::string experiments(const CommonOptions&)
     return lines(all, name, std::mem_fn(&Experiment::paper), std::mem_fn(&Experiment::question));
 }
 
-/// What parameters are on the device, and where that comes from.
+/// Returns the values of all tuning parameters on the device and their origins.
 std::string tuning(const CommonOptions& common)
 {
     const PoclCache cache;
@@ -84,7 +84,7 @@ std::string tuning(const CommonOptions& common)
     return table.text();
 }
 
-/// What the program branches on or reports, of every device.
+/// Returns the properties of all devices that the program depends on or reports.
 std::string devices(const CommonOptions&)
 {
     const PoclCache cache;
@@ -108,7 +108,7 @@ std::string devices(const CommonOptions&)
     return table.text();
 }
 
-/// What there are lists of.
+/// Names of the lists, and functions that return their texts.
 constexpr std::pair<std::string_view, std::string (*)(const CommonOptions&)> lists[] = {
     {"builders",
      [](const CommonOptions&) { return lines(builder_catalog(), name, summary_or_why_not); }},

@@ -20,7 +20,7 @@
 namespace bvhbench {
 namespace {
 
-/// An empty name of an output would write nothing without a word.
+/// Throws BadUsage if an output option has an empty value, which would otherwise silently write nothing.
 void check_outputs_are_named(const CLI::App& command)
 {
     for (const char* output : {"--out", "--json", "--dump", "--pairs", "--contacts"})
@@ -29,7 +29,7 @@ void check_outputs_are_named(const CLI::App& command)
             throw BadUsage(std::string(output) + " names no file or folder");
 }
 
-/// The exit code, if all that was printed went out. Throws Unavailable.
+/// Returns `code` if everything printed was written. Throws Unavailable if not.
 int printed(int code)
 {
     if (!std::cout.flush())
@@ -37,7 +37,7 @@ int printed(int code)
     return code;
 }
 
-/// That of `work`, or of what it throws, which is said.
+/// Runs `work` and returns its exit code. Prints an exception and returns the exit code for it.
 int exit_code_of(const std::function<int()>& work)
 {
     const auto failed = [](const std::exception& error, int code) {
@@ -55,7 +55,7 @@ int exit_code_of(const std::function<int()>& work)
     }
 }
 
-/// The command line as it was parsed: what there is to do.
+/// The parsed command line.
 class Parsed {
 public:
     Parsed(int argc, const char* const* argv) : invocation_{{}, {argv, argv + argc}}
@@ -63,7 +63,7 @@ public:
         add_common(app_, invocation_.common);
         app_.set_version_flag("--version", std::string("bvhbench ") + build_info.version);
         app_.require_subcommand(0, 1);
-        app_.fallthrough();  // common options may stand behind the command's own
+        app_.fallthrough();  // allows common options after the command's own
         for (const CommandEntry& entry : commands()) {
             CLI::App* words =
                 app_.add_subcommand(std::string(entry.name), std::string(entry.summary));
@@ -107,7 +107,7 @@ private:
         return 0;
     }
 
-    /// "build, collide or run"
+    /// Returns the listed commands: "build, collide or run".
     static std::string names()
     {
         std::vector<std::string> listed;
@@ -127,8 +127,8 @@ private:
     std::string to_print_;
 };
 
-/// The place in `argv` of a command that is written in Python: the first word that is neither an option nor its value. 0 if
-/// the first such word is something else.
+/// Returns the position in `argv` of a Python command: the first word that is neither an option nor an option's value. Returns 0
+/// if that word is not a Python command.
 int python_command(int argc, const char* const* argv)
 {
     CommonOptions ignored;

@@ -3,12 +3,12 @@
 
 namespace bvhbench {
 
-/// Parses `argv`, runs the command and returns the exit code. An error is one sentence on standard error. 0 done, 1 a check
-/// differs, 2 wrong usage, 3 no device, file, library or memory, 4 nothing was measured. May be called again and again;
-/// a command that is written in Python takes the place of the process.
+/// Parses `argv`, runs the command and returns the exit code: 0 success, 1 a check differs, 2 wrong usage, 3 no device, file,
+/// library or memory, 4 nothing was measured. Prints errors as one sentence on standard error. May be called repeatedly; a
+/// command in Python replaces the process.
 int run_program(int argc, const char* const* argv);
 
-/// Parses `argv` and runs nothing. Throws BadUsage, in one sentence, for anything that is not understood.
+/// Parses `argv` without running anything. Throws BadUsage with one sentence if it is invalid.
 void check_words(int argc, const char* const* argv);
 
 }  // namespace bvhbench

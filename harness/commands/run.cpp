@@ -81,7 +81,7 @@ private:
     }
 
     std::string name_, out_, filter_, turns_;
-    int samples_ = 0;  ///< 0: as the experiment says
+    int samples_ = 0;  ///< 0: the experiment's number
     SamplingWords sampling_;
     bool quick_ = false;
     bool quality_ = false;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What the commands that are written in Python ask the program for: the facts of the device, what cells experiments have, and
-// what is drawn of a scene in three dimensions.
+// Internal commands for those written in Python. They return device facts, the cells of experiments, and the data for drawing
+// a scene in three dimensions.
 #include <iostream>
 #include <iterator>
 
@@ -20,7 +20,7 @@
 namespace bvhbench {
 namespace {
 
-/// The cells of an experiment before anything is known of their scenes.
+/// Returns the cells of an experiment without loading its scenes.
 std::vector<Cell> planned_cells(const Experiment& experiment)
 {
     std::vector<Cell> cells;
@@ -43,7 +43,8 @@ std::vector<Cell> planned_cells(const Experiment& experiment)
     return cells;
 }
 
-/// An experiment's cells, their scene's triangles as far as its name tells, and its files; or what is wrong with it.
+/// Returns an experiment's cells, input files, and number of triangles (0 if only loading the scene tells it). Returns `error`
+/// for an invalid experiment, with `sized` if its scene is a generator without a size.
 Json settled(const Json& described, const SceneLibrary& library)
 {
     try {

@@ -20,7 +20,7 @@
 namespace bvhbench {
 namespace {
 
-/// What the search settled takes the place of what the file had of it.
+/// Replaces the file's values of all searched parameters by the values that the search found.
 void put(const SearchResult& result, const TuneTask& task, int samples, TuningFile& file)
 {
     for (const Parameter* parameter : result.searched)
@@ -36,8 +36,8 @@ void put(const SearchResult& result, const TuneTask& task, int samples, TuningFi
             .commit = build_info.commit + std::string(build_info.dirty ? "+" : "")};
 }
 
-/// Search, say what was found, and write it; as much as was found so far when a signal ends the program. Throws what loading
-/// the scene and the search do, and BadUsage where there is no parameter.
+/// Searches one target, prints the result and writes the file. A signal writes what was found so far. Throws BadUsage if the
+/// target has no parameters, and what loading the scene and searching throw.
 void tune_target(Session& session, const TuneTask& task, const SearchOptions& options,
                  const Output& output, TuningFile& file,
                  const std::function<void(const std::string&)>& note)
@@ -52,7 +52,7 @@ void tune_target(Session& session, const TuneTask& task, const SearchOptions& op
         output.replace(tuning_text(file));
     };
     SearchResult result, so_far;
-    std::mutex mutex;  // of what is so far
+    std::mutex mutex;  // guards so_far
     {
         const AtSignal kept(
             [&] {
@@ -109,9 +109,9 @@ public:
         const Output output(path, "--out",
                             {.inputs = scene_files(scene_, session.scenes()),
                              .may_replace = [](const std::string&) { return true; }});
-        // Values that are there are kept; what is no tuning file is refused.
+        // Existing values are kept. An existing file that is no tuning file is an error.
         TuningFile file = output.was_there() ? read_tuning(path) : std::move(named.file);
-        tuning_of(file, device, path.string());  // refuses another device's now
+        tuning_of(file, device, path.string());  // throws now if the file is for another device
         file.device = device.name();
         file.driver = device_facts(device).driver;
         tune_all(session, output, file);
@@ -127,7 +127,7 @@ private:
         return {"sort", "oibvh-multi", "leaf", "group", "bvtt"};
     }
 
-    /// Wrong words are found before anything is opened.
+    /// Throws BadUsage for wrong options, before the device is opened.
     void check_words() const
     {
         if (!test_hooks().empty())
@@ -156,8 +156,7 @@ private:
         return options;
     }
 
-    /// Where the device's file is: as --out says, else in the folder that values are read from, else where the sources
-    /// keep them.
+    /// Returns the path of the device's file: --out, else in the folder that tuned values are read from, else in results/tuning.
     std::filesystem::path path_of(const CommonOptions& common, const Device& device) const
     {
         if (!out_.empty())
@@ -167,7 +166,8 @@ private:
                (device_slug(device.name()) + ".json");
     }
 
-    /// One target that fails is said; throws if all do.
+    /// Tunes all targets and prints the reason for each one that fails. Throws NothingMeasured if all fail. With a single
+    /// target, its own error is thrown.
     void tune_all(Session& session, const Output& output, TuningFile& file) const
     {
         const std::vector<std::string> all = targets();
@@ -198,11 +198,11 @@ private:
             throw NothingMeasured("nothing was tuned: " + first_reason);
     }
 
-    std::string target_;  ///< sort, a builder or a collider; empty: the usual ones
+    std::string target_;  ///< sort, a builder or a collider; empty: all of targets()
     std::string scene_;
-    CellChoice choice_;  ///< of a builder, or of a collider and its trees
+    CellChoice choice_;  ///< options of the builder, or of the collider and its trees
     std::string out_;
-    int samples_ = 0;  ///< 0: as many as suit
+    int samples_ = 0;  ///< 0: the default number
     bool quick_ = false;
 };
 

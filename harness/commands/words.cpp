@@ -16,7 +16,7 @@ namespace {
 constexpr int most_cost = 1000000;
 constexpr int most_seconds = 1000000;
 
-/// "2G" and the like: a whole number of bytes, or of as many as the letter says, with or without a B.
+/// Parses a number of bytes with an optional unit K, M, G or T (powers of 1024) and an optional B, as in "2G".
 std::size_t bytes_of(const std::string& text)
 {
     std::uint64_t number = 0;
@@ -31,7 +31,7 @@ std::size_t bytes_of(const std::string& text)
     return number << (10 * place);
 }
 
-/// Whether all of the word is a number from 0 to `most` times `unit`, which is then divided by it.
+/// Reads all of `word` as a number and divides it by `unit`. True if the quotient is from 0 to `most`.
 bool read_number(std::string_view word, double unit, double most, double& value)
 {
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);

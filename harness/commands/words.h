@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Options that several commands have, and what their values may be.
+// Options that several commands share, and validators of their values.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -12,21 +12,21 @@
 
 namespace bvhbench {
 
-/// Accepts a number from 0 to `most`: CLI::Range lets NaN pass.
+/// Accepts a number from 0 to `most`. CLI::Range would accept NaN.
 CLI::Validator a_number(int most);
 
-/// Accepts only `known` words; the answer to another one lists them.
+/// Accepts only the words in `known`; the error message lists them.
 CLI::Validator one_of(std::vector<std::string_view> known);
 
-/// Turns "5%" or "0.05" into 0.05: a share from 0 to `most`.
+/// Accepts a fraction from 0 to `most`, as "5%" or "0.05", and replaces it by its decimal: 0.05.
 CLI::Validator a_share(double most);
 
 void add_common(CLI::App& app, CommonOptions& common);
 
-/// How samples are taken, behind --samples, which --until is instead of.
+/// Adds the sampling options. The command must already have --samples, which --until excludes.
 void add_sampling(CLI::App& app, SamplingWords& sampling);
 
-/// What end-point overlap and the costs of nodes are asked for by.
+/// Adds the options for end-point overlap and node costs.
 void add_quality(CLI::App& app, bool& quality, NodeCosts& costs);
 
 }  // namespace bvhbench

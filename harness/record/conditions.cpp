@@ -10,10 +10,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Other processes take so large a share of the cores that times are theirs too.
+/// Load per hardware thread above which other processes distort times.
 constexpr double much_load = 0.25;
 
-/// The first word of a file; empty if it is not there.
+/// Returns the first word of a file; empty if there is no such file.
 std::string word_in(const fs::path& path)
 {
     std::string word;
@@ -21,7 +21,7 @@ std::string word_in(const fs::path& path)
     return word;
 }
 
-/// Folders in `folder` whose names begin with `start`, by name.
+/// Returns the entries of `folder` whose names begin with `start`, sorted by name.
 std::vector<fs::path> entries(const fs::path& folder, const std::string& start)
 {
     std::vector<fs::path> found;
@@ -54,7 +54,7 @@ std::optional<bool> turbo_of(const fs::path& cpus)
     return std::nullopt;
 }
 
-/// A laptop's: a battery that is being drawn from. Desktops have none.
+/// Returns whether a laptop's battery is discharging; nothing for hosts without a battery.
 std::optional<bool> on_battery(const fs::path& supplies)
 {
     std::optional<bool> drawn;

@@ -6,7 +6,7 @@
 namespace bvhbench {
 namespace {
 
-/// How much a verdict says: a broken promise stands above all.
+/// Severity of a verdict: broken, then refused, then holds.
 int weight(Finding::Verdict verdict)
 {
     return verdict == Finding::Verdict::broken ? 2 : verdict == Finding::Verdict::refused ? 1 : 0;

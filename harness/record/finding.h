@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What `stress` says of a system over a scene: a finding an invariant.
+// Results of `stress`: a system over a scene, with one finding for each invariant.
 #pragma once
 
 #include <array>
@@ -11,18 +11,18 @@
 
 namespace bvhbench {
 
-/// What must hold over every scene of finite coordinates. docs/stress.md says each in a paragraph.
+/// Invariants over every scene of finite coordinates. docs/stress.md explains each.
 enum class Invariant {
-    ends,    ///< it ends, with an answer
-    leaves,  ///< each triangle is in exactly one leaf
-    boxes,   ///< boxes of leaves are their triangles', those above their children's, bit for bit
-    layout,  ///< nodes and bytes are as many as the layout says, in no other order than the reference's
-    pairs,     ///< the pairs of boxes that overlap, all and no others
-    contacts,  ///< the pairs of triangles that intersect, all and no others
-    agree,     ///< the same after triangles are shuffled, and after objects are swapped
-    moved,  ///< the same after a scale by a power of two, and after a translation that no float is rounded by
-    room,  ///< the same when buffers and queues begin with room for one entry
-    same,  ///< the same, bit for bit, each time
+    ends,      ///< it ends, with an answer
+    leaves,    ///< each triangle is in exactly one leaf
+    boxes,     ///< leaf boxes are the triangles', inner boxes the children's union, bit for bit
+    layout,    ///< bytes and number of nodes are as predicted; the tree is the reference's
+    pairs,     ///< exactly the pairs of overlapping boxes are found
+    contacts,  ///< exactly the pairs of intersecting triangles are found
+    agree,     ///< equal results after triangles are shuffled and objects are swapped
+    moved,     ///< equal results after scaling by a power of two and after an exact translation
+    room,      ///< equal results if buffers and queues begin with room for one entry
+    same,      ///< equal results, bit for bit, in every repetition
 };
 
 inline constexpr std::array invariant_names = {"ends",     "leaves", "boxes", "layout", "pairs",
@@ -35,22 +35,22 @@ constexpr std::string_view name_of(Invariant invariant)
 
 struct Finding {
     enum class Verdict { holds, broken, refused } verdict = Verdict::holds;
-    std::uint64_t checked = 0;  ///< how many things were looked at: pairs, nodes, runs
-    std::uint64_t wrong = 0;    ///< of those; 0 beside `broken` if it cannot be said
-    std::uint64_t missed = 0;   ///< of those: what is there and was not found
-    std::string detail = {};    ///< what is wrong, or why it was refused
+    std::uint64_t checked = 0;  ///< number of things checked: pairs, nodes, runs
+    std::uint64_t wrong = 0;    ///< how many of them are wrong; 0 for `broken` if unknown
+    std::uint64_t missed = 0;   ///< how many of the wrong ones exist but were not found
+    std::string detail = {};    ///< what is wrong, or why the system refused
 
     bool operator==(const Finding&) const = default;
 };
 
-/// By invariant; one that is not there does not apply.
+/// Findings by invariant; an invariant that does not apply has no entry.
 using Findings = std::map<Invariant, Finding>;
 
-/// Join what another run of the same system found: numbers are added up, the worse verdict stays with its words.
+/// Adds the findings of another run of the same system: sums the numbers, and keeps the worse verdict with its detail.
 void join(Finding& all, const Finding& more);
 void join(Findings& all, const Findings& more);
 
-/// The same findings, with `words` and a colon before what is wrong with them.
+/// Returns the findings with `words` and a colon before each detail.
 Findings with_words(std::string_view words, Findings findings);
 
 /// A system over a scene.
@@ -61,7 +61,7 @@ struct StressCell {
     std::int64_t triangles = 0;
     std::string system;
     Kind kind = Kind::builder;
-    std::string library;  ///< whose code it is; empty: ours
+    std::string library;  ///< library that the system belongs to; empty: this project
     Findings findings;
 
     bool operator==(const StressCell&) const = default;
@@ -70,10 +70,10 @@ struct StressCell {
 inline constexpr std::array stress_kind_names = {"builder", "collider", "host", "library"};
 inline constexpr std::array stress_verdict_names = {"holds", "broken", "refused"};
 
-/// Whether nothing was found out but that it is refused. Of the host, a refusal is an answer.
+/// True if the system refused under every invariant. Always false for kind `host`, for which a refusal is an answer.
 bool is_refused(const StressCell& cell);
 
-/// Whether one of ours is wrong.
+/// True if a system of this project, not of a library, breaks an invariant.
 bool is_our_fault(const StressCell& cell);
 
 }  // namespace bvhbench

@@ -28,8 +28,8 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
-constexpr int most_links = 40;  ///< as Linux has it
-constexpr auto patience = 1s;   ///< the system takes a moment to end a process that was killed
+constexpr int most_links = 40;  ///< the limit of Linux
+constexpr auto patience = 1s;   ///< a killed process may hold its lock for a moment
 
 [[noreturn]] void fail(const fs::path& path, const std::string& why)
 {
@@ -43,7 +43,7 @@ fs::path folder_of(const fs::path& path)
     return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-/// The file that `path` names after all links, which need not be there.
+/// Resolves all links. The resulting file need not exist.
 fs::path without_links(fs::path path)
 {
     std::error_code error;
@@ -55,8 +55,8 @@ fs::path without_links(fs::path path)
     return path;
 }
 
-/// Standard output or standard error, if one of them is the file that `about` describes; else -1. Written through another
-/// descriptor, the two would overwrite each other.
+/// Returns standard output or standard error if it is the file described by `about`, else -1. Two descriptors of one file would
+/// overwrite each other's text.
 int standard_stream(const struct stat& about)
 {
     for (const int file : {STDOUT_FILENO, STDERR_FILENO}) {
@@ -68,7 +68,7 @@ int standard_stream(const struct stat& about)
     return -1;
 }
 
-/// Whether `file`, which is there, is `input` or lies in that folder.
+/// True if the existing `file` is `input` or lies in that folder.
 bool is_input(const fs::path& file, const fs::path& input)
 {
     std::error_code error;
@@ -82,7 +82,7 @@ bool is_input(const fs::path& file, const fs::path& input)
            folder.end();
 }
 
-/// "is a result of 3 cells" or what else it is.
+/// Returns "is a result of 3 cells", or "is there already" for other files.
 std::string contents_of(const std::string& text)
 {
     const auto json = nlohmann::json::parse(text, nullptr, false);
@@ -100,7 +100,7 @@ std::string random_name()
     return hex(std::uint64_t{random()} << 32 | random());
 }
 
-/// Whether `path` still names the open file: a process that ends may have removed it since it was opened.
+/// True if `path` still names the open file: another process may have removed the file since it was opened.
 bool names(const std::filesystem::path& path, int file)
 {
     struct stat opened = {}, named = {};
@@ -108,12 +108,12 @@ bool names(const std::filesystem::path& path, int file)
            opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
 }
 
-/// A locked file that says that a process is at work; removed in the end. The system releases the lock however the process ends.
-/// Where a file system has no locks, nobody is kept out.
+/// A locked file that marks an output as being written. The destructor removes it. The system releases the lock however the
+/// process ends. On file systems without locks there is no protection.
 class FileLock {
 public:
-    /// Waits a moment for a process that holds the lock, then throws Unavailable, as where the file cannot be made; the
-    /// sentence speaks of `subject`.
+    /// Waits up to `patience` for a process that holds the lock. Throws Unavailable, naming `subject`, if it keeps the lock or if
+    /// the file cannot be created.
     FileLock(fs::path path, const std::string& subject) : path_(std::move(path))
     {
         const auto until = std::chrono::steady_clock::now() + patience;
@@ -170,7 +170,7 @@ Output::Output(const fs::path& path, const std::string& option, const OutputRule
         fail(path);
     const fs::path lock = folder_of(target_) / ("." + target_.filename().string() + ".lock");
     lock_ = std::make_shared<const FileLock>(lock, path.string());
-    // Whoever had the lock may have written the file.
+    // Checked after locking: the previous holder of the lock may have written the file.
     was_there_ = stat(target_.c_str(), &about) == 0 && about.st_size > 0;
     if (was_there_)
         check_earlier(rules, option);
@@ -215,7 +215,7 @@ Output::Writer::Writer(const Output& output) : output_(output)
     if (file_ < 0)
         fail(output.path_);
     if (output.is_file_ && is_there) {
-        // Only root may give a file away; for others it is theirs already, or becomes theirs.
+        // Only root may change the owner. For other users this fails, and they own the new file.
         [[maybe_unused]] const int given = fchown(file_, about.st_uid, about.st_gid);
         fchmod(file_, about.st_mode & 07777);
     }
@@ -249,7 +249,7 @@ void Output::Writer::finish()
                 open(folder_of(output_.target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
             folder >= 0) {
             fsync(
-                folder);  // a file system that cannot sync a folder has renamed the file all the same
+                folder);  // not all file systems can sync a folder; the file is renamed in any case
             close(folder);
         }
         temporary_.clear();
@@ -265,7 +265,7 @@ void check_pictures(const fs::path& folder, const std::string& option, OutputRul
         return text.starts_with("\x89PNG\r\n") || text.find("<svg") != text.npos;
     };
     std::error_code error;
-    // Of a folder no pictures are read.
+    // Folders are no input here: no pictures are read from them.
     std::erase_if(rules.inputs, [&](const auto& input) { return fs::is_directory(input, error); });
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
         if (const fs::path end = entry.path().extension(); end == ".png" || end == ".svg")

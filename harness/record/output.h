@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Every file that a command writes. It is checked before anything is measured, and replaced as a whole.
+// Files that commands write. An output is checked before anything is measured, and is replaced as a whole.
 #pragma once
 
 #include <filesystem>
@@ -12,46 +12,46 @@
 
 namespace bvhbench {
 
-/// What an output may replace.
+/// Rules for replacing existing files.
 struct OutputRules {
-    bool force = false;                    ///< --force: any earlier file that is no input
-    std::vector<std::string> inputs = {};  ///< files and folders that it reads, there or not
-    /// Whether the text of an earlier file may be replaced without --force: because the command made it and makes it
-    /// again, or because it keeps what is in it. Empty: no.
+    bool force = false;                    ///< --force: replace any file that is not an input
+    std::vector<std::string> inputs = {};  ///< files and folders that are read; they need not exist
+    /// Whether an existing file with this text may be replaced without --force, for example because the same run wrote it or
+    /// because its contents are kept. Empty: no file may.
     std::function<bool(const std::string& text)> may_replace = {};
 };
 
-/// A file that a command will write, or nowhere.
+/// A file that a command will write, or no file.
 ///
-/// Links are followed. Devices, pipes, and the file that is this process's standard output are written to as they are; any
-/// other file is replaced by one that was written beside it, with its mode and owner.
+/// Links are followed. Devices, pipes, and the file behind this process's standard output or standard error are written
+/// directly. Any other file is written under a temporary name in its folder, with the old file's mode and owner, and renamed.
 class Output {
 public:
-    /// Nowhere: nothing is written.
+    /// Makes an output that writes nothing.
     Output() = default;
 
-    /// Reserves `path` for this process until the object is destroyed; nowhere if it is empty. `option` is what the user
-    /// named it by.
+    /// Reserves `path` for this process for the lifetime of the object. An empty path makes an output that writes nothing.
+    /// `option` is the command-line option, for messages.
     ///
-    /// Throws BadUsage if it is a folder, a .xz file, an input, or an earlier file that the rules do not let go, and Unavailable if it
-    /// cannot be written or another process has reserved it. No folder is made.
+    /// Throws BadUsage if it is a folder, a .xz file, an input, or an existing file that `rules` protect. Throws Unavailable if
+    /// it cannot be written or another process has reserved it. Creates no folder.
     Output(const std::filesystem::path& path, const std::string& option, const OutputRules& rules);
 
     bool is_nowhere() const { return path_.empty(); }
 
-    /// Whether it can be replaced again and again: it is neither a device nor a pipe.
+    /// True if it can be replaced repeatedly; false for devices and pipes.
     bool is_file() const { return is_file_; }
 
-    /// Whether an earlier file was there that is not empty.
+    /// True if a non-empty file existed before.
     bool was_there() const { return was_there_; }
 
-    /// As the user named it.
+    /// Path as given by the user.
     const std::filesystem::path& path() const { return path_; }
 
-    /// Replaces the file by `text`. Throws Unavailable with the system's reason; then the earlier file stays.
+    /// Replaces the file by `text`. Throws Unavailable with the system's reason and leaves the old file unchanged.
     void replace(std::string_view text) const;
 
-    /// Writes the file piece by piece: nothing is replaced before finish(), and without it nothing at all.
+    /// Writes the file in pieces. finish() replaces the old file; without it the old file stays unchanged.
     class Writer {
     public:
         explicit Writer(const Output& output);
@@ -59,15 +59,15 @@ public:
         Writer(const Writer&) = delete;
         Writer& operator=(const Writer&) = delete;
 
-        /// Throws Unavailable with the system's reason, as finish() does.
+        /// Appends text. Throws Unavailable with the system's reason, as finish() does.
         void append(std::string_view text);
 
-        /// Syncs the new file, renames it, and syncs the folder.
+        /// Syncs the new file, renames it, and syncs its folder.
         void finish();
 
     private:
         const Output& output_;
-        std::filesystem::path temporary_;  ///< empty: written to as it is
+        std::filesystem::path temporary_;  ///< empty: the output is written directly
         int file_ = -1;
     };
 
@@ -75,18 +75,18 @@ private:
     void check_earlier(const OutputRules& rules, const std::string& option);
 
     std::filesystem::path path_;
-    std::filesystem::path target_;  ///< without links
+    std::filesystem::path target_;  ///< path with all links resolved
     bool is_file_ = false;
     bool was_there_ = false;
     std::shared_ptr<const void> lock_;
 };
 
-/// Throws BadUsage if a file in `folder`, which a command draws pictures into, is called like a picture and is none, or is an
-/// input. --force lets go what is no input.
+/// Throws BadUsage if a .png or .svg file in `folder`, where a command will draw, is an input or is not a picture. With --force,
+/// only inputs are refused.
 void check_pictures(const std::filesystem::path& folder, const std::string& option,
                     OutputRules rules);
 
-/// Creates the folder that a command was asked to write into. Throws Unavailable with the system's reason.
+/// Creates the folder and its parents. Throws Unavailable with the system's reason.
 void make_folder(const std::filesystem::path& folder);
 
 }  // namespace bvhbench

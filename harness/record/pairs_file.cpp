@@ -50,7 +50,7 @@ void PairsFile::add(const PairList& pairs, std::size_t frame, const Scene& scene
     }
     if (objects_.empty() && !is_swept_)
         objects_ = objects_in_file(scene);
-    constexpr std::size_t at_once = 1 << 16;  // 2 MB of text or so
+    constexpr std::size_t at_once = 1 << 16;  // about 2 MB of text
     for (std::size_t k = 0; k < pairs.size(); k += at_once)
         writer_->append(
             lines(pairs.pairs().subspan(k, std::min(at_once, pairs.size() - k)), frame));

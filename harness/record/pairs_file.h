@@ -11,19 +11,19 @@
 
 namespace bvhbench {
 
-/// Throws BadUsage unless `path` ends in .csv, or in .bin where `frames` is one frame.
+/// Throws BadUsage unless `path` ends in .csv, or ends in .bin and `frames` is a single frame.
 void check_pairs_path(const std::filesystem::path& path, const FrameRange& frames);
 
-/// A file of the pairs of frames, in canonical order, by the numbers that triangles and objects have in the scene's file.
+/// Writes the pairs of frames to a file, in canonical order, with the triangle and object numbers of the scene's file.
 ///
-/// .csv has the line frame,object_a,object_b,a,b and then a line a pair; of swept boxes, which belong to no object, it is
-/// frame,a,b. .bin holds one frame: little-endian 32-bit ids, two a pair and nothing else, whose FNV-1a is the list's hash.
+/// A .csv file has the header frame,object_a,object_b,a,b and one line per pair. For swept boxes, which belong to no object, the
+/// header is frame,a,b. A .bin file holds one frame: two little-endian 32-bit ids per pair; its FNV-1a is the list's hash.
 class PairsFile {
 public:
-    /// Writes nothing if `output` is nowhere. Throws as Output does; so do the others.
+    /// Writes nothing if `output` has no file. All functions throw what Output::Writer throws.
     PairsFile(const Output& output, bool is_swept);
 
-    /// `scene` is the same for all frames.
+    /// Appends a frame's pairs. `scene` must be the same for all frames.
     void add(const PairList& pairs, std::size_t frame, const Scene& scene);
 
     void finish();
@@ -32,7 +32,7 @@ private:
     std::string lines(std::span<const Pair> pairs, std::size_t frame) const;
 
     bool is_csv_, is_swept_;
-    /// Of each triangle, by the file's numbers; empty: not asked for yet.
+    /// Object of each triangle, by file numbers; empty until needed.
     std::vector<std::int64_t> objects_;
     std::optional<Output::Writer> writer_;
 };

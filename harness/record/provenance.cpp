@@ -19,7 +19,7 @@
 namespace bvhbench {
 namespace {
 
-/// What the first line of /proc/cpuinfo that says so calls the processor; empty if none does.
+/// Returns the processor's name from /proc/cpuinfo; empty if there is none.
 std::string processor()
 {
     std::ifstream file("/proc/cpuinfo");
@@ -29,7 +29,7 @@ std::string processor()
     return name;
 }
 
-/// "ocl-icd 2.3.1" where the loader tells its name; only ocl-icd does, through a function of its own.
+/// Returns "ocl-icd 2.3.1". Only that loader reports its version, through an extension function.
 std::string loader_version()
 {
     using Info = int (*)(int what, std::size_t size, void* value, std::size_t* size_needed);
@@ -44,15 +44,15 @@ std::string loader_version()
     return std::string(name.data()) + ' ' + version.data();
 }
 
-/// Without the blanks that some drivers put at the end.
+/// Removes the trailing blanks that some drivers add.
 std::string trimmed(std::string text)
 {
     text.erase(text.find_last_not_of(' ') + 1);
     return text;
 }
 
-/// Whether OpenCL C 3.0 programs may hand data from one group to another with acquire and release. A driver older than
-/// OpenCL 3.0 does not know the question.
+/// True if OpenCL C 3.0 programs may use acquire and release between work-groups. Drivers older than OpenCL 3.0 fail the query,
+/// which gives false.
 bool has_device_scope_acq_rel(const cl::Device& device)
 {
     cl_device_atomic_capabilities can = 0;
@@ -126,7 +126,7 @@ RunFacts run_facts(const Device& device, std::vector<std::string> command)
     run.id = run_id(run.host_name);
     run.started_at = utc_now();
     run.command = std::move(command);
-    if (!run.command.empty())  // where the program lay says nothing to who reads the file elsewhere
+    if (!run.command.empty())  // the program's folder means nothing on other machines
         run.command.front() = std::filesystem::path(run.command.front()).filename().string();
     run.version = build_info.version;
     run.commit = build_info.commit;
@@ -145,7 +145,7 @@ RunFacts run_facts(const Device& device, std::vector<std::string> command)
                      {"nlohmann_json", BVHBENCH_JSON_VERSION},
                      {"CLI11", BVHBENCH_CLI11_VERSION},
                      {"OpenCL loader", loader_version()}};
-    // Only those that are compiled in: of the others there are no results.
+    // Only libraries that are compiled in, because results exist only for those.
 #if BVHBENCH_HAS_EMBREE
     run.libraries["Embree"] = BVHBENCH_EMBREE_VERSION;
 #endif

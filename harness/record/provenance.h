@@ -10,18 +10,18 @@
 
 namespace bvhbench {
 
-/// What there is to know about a device, read once.
+/// Queries the facts of a device.
 DeviceFacts device_facts(const Device& device);
 
-/// Everything about a run that is known when it starts.
+/// Returns the facts of a run that are known at its start. `command` is argv.
 RunFacts run_facts(const Device& device, std::vector<std::string> command);
 
-/// Read from /sys and /proc below `root`. `threads` is how many the host runs at once; a build of another type than Release
-/// is one more thing to warn of.
+/// Reads /sys and /proc below `root`. `threads` is the number of hardware threads. A build type other than Release adds a
+/// warning.
 HostConditions host_conditions(int threads, const std::string& build_type,
                                const std::filesystem::path& root = "/");
 
-/// "2025-11-30T08:15:42Z".
+/// Returns the current time: "2025-11-30T08:15:42Z".
 std::string utc_now();
 
 }  // namespace bvhbench

@@ -20,7 +20,7 @@ void put_if(Json& json, const char* key, const std::string& value)
 
 static void to_json(Json& json, const StageTime& time)
 {
-    if (time.wall_ns > 0)  // else a device's, even if it had nothing to launch: one leaf is a tree
+    if (time.wall_ns > 0)  // else a device stage; a tree of one leaf has no launches
         json = {{"stage", time.stage}, {"wall_ns", time.wall_ns}};
     else
         json = {{"stage", time.stage},
@@ -42,7 +42,7 @@ static void to_json(Json& json, const Sample& sample)
         json["drifted"] = true;
 }
 
-/// A key a member, called as it is.
+/// Defines to_json with one key for each member, named as the member.
 #define TO_JSON(Type, ...)                                                       \
     static void to_json(Json& nlohmann_json_j, const Type& nlohmann_json_t)      \
     {                                                                            \
@@ -146,7 +146,7 @@ Json json_of(const HostConditions& conditions)
     return json;
 }
 
-/// File names and logs may hold any bytes; a result file holds UTF-8 only.
+/// Replaces invalid UTF-8, which file names and logs may contain and result files must not.
 std::string dumped(const Json& json)
 {
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What a result file says, format 1. The schema is results/schema/result-1.schema.json; a test holds the
-// two together. record.cpp is the only writer; the readers are in plots/.
+// Contents of a result file, format 1. The schema is results/schema/result-1.schema.json, which a test compares with this.
+// record.cpp writes cells and the facts of a run; result_file.cpp adds what is known at its end. Readers are in plots/.
 #pragma once
 
 #include <cstdint>
@@ -20,16 +20,15 @@
 
 namespace bvhbench {
 
-/// One timed build, refit, or build and query.
+/// One timed build, refit, or whole frame.
 struct Sample {
-    int order = 0;  ///< position in the whole run, so that drift can be seen
+    int order = 0;  ///< position among all samples of the run, to make drift visible
     std::vector<StageTime> stages;
-    std::int64_t calibration_ns = 0;  ///< what the calibration took around it; 0: not known
-    bool drifted = false;             ///< whether that was far from its median
+    std::int64_t calibration_ns = 0;  ///< mean of the calibrations before and after; 0: unknown
+    bool drifted = false;             ///< whether one of the two is far from the median
 };
 
-/// Whether what was measured was also right. A cell that was not checked says so; one that promises no right answer
-/// counts how many are wrong.
+/// Verdict on the correctness of a measured cell. `counted`: the method may be wrong, and the cell's counters have its errors.
 struct Check {
     enum class Verdict { agrees, differs, not_checked, counted } verdict = Verdict::not_checked;
     std::string against;
@@ -39,80 +38,80 @@ struct Check {
     std::optional<std::uint64_t> contacts_hash = {};
 };
 
-/// Which triangles were built over.
+/// The triangles of a cell.
 struct SceneFacts {
     std::string name;
-    std::string objects_by = {};  ///< what is an object; empty: as the scene was loaded
-    std::int64_t between = 0;     ///< frames put between each two of the scene's
-    std::int64_t triangles = 0;   ///< the rest is known only if this is not 0
+    std::string objects_by = {};  ///< what makes an object; empty: as the scene was loaded
+    std::int64_t between = 0;     ///< frames inserted between consecutive frames of the scene
+    std::int64_t triangles = 0;   ///< 0: the members below are unknown
     std::int64_t vertices = 0;
     std::int64_t objects = 0;
     std::int64_t frame = 0;
     std::string source;
     std::string stand_in_for;
-    Outlier outlier;  ///< of an empty name: no triangle was moved
+    Outlier outlier;  ///< empty name: no triangle was moved
     Rounding rounding;
     std::string bend_of;
     std::uint64_t content_hash = 0;
 };
 
-/// Which pairs a step between two frames was asked for, over boxes swept from one to the other.
+/// Query for pairs of boxes that are swept from one frame to another.
 struct SweptFacts {
-    std::string pairs;            ///< vertex-face or edge-edge; empty: boxes are of one frame
-    std::int64_t to_frame = 0;    ///< the scene's `frame` is where the step begins
-    std::int64_t primitives = 0;  ///< vertices and faces, or edges
+    std::string pairs;            ///< vertex-face or edge-edge; empty: boxes are not swept
+    std::int64_t to_frame = 0;    ///< frame of the end; SceneFacts::frame is that of the start
+    std::int64_t primitives = 0;  ///< number of vertices and faces, or of edges
 };
 
-/// Which axis of accuracy a cell is on, and by what its answers came about.
+/// Axis of accuracy of a cell, and the method that gave its answers.
 struct AccuracyFacts {
-    std::string axis;  ///< empty: none
+    std::string axis;  ///< empty: the cell is on no axis
     std::string method;
-    std::int64_t seed = 0;  ///< of what was generated; 0: nothing was
+    std::int64_t seed = 0;  ///< of generated input; 0: nothing was generated
 };
 
-/// How a cell's samples were taken.
+/// How a cell was sampled.
 struct SamplingFacts {
-    Stopped stopped = Stopped::not_sampled;  ///< why there are no more
-    double until = 0;                        ///< the relative quartile range asked for; 0: none
-    bool cold = false;                       ///< whether caches were emptied before each
+    Stopped stopped = Stopped::not_sampled;  ///< why sampling stopped
+    double until = 0;                        ///< target for interquartile range / median; 0: none
+    bool cold = false;                       ///< whether caches were emptied before each sample
 };
 
-/// What is over before the first sample: on the host's clock.
+/// Times before the first sample, on the host's clock.
 struct FirstRun {
-    std::int64_t compile_ns = 0;  ///< kernels compiled for the cell; 0 if they were there
-    std::int64_t run_ns = 0;      ///< the first build, or frames until there was room; 0: not known
+    std::int64_t compile_ns = 0;  ///< compilation of the cell's kernels; 0: already compiled
+    std::int64_t run_ns = 0;      ///< first build, or frames until buffers sufficed; 0: unknown
 };
 
-/// Everything known about one builder on one scene.
+/// Everything known about one builder, or builder and collider, over one scene.
 struct Cell {
     enum class Status { measured, skipped, failed };
 
     std::string experiment;
     SceneFacts scene;
     BuilderChoice builder;
-    ColliderChoice collider;  ///< of an empty name: none
+    ColliderChoice collider;  ///< empty name: none
     SweptFacts swept;
     AccuracyFacts accuracy;
     Operation operation = Operation::build;
     Status status = Status::measured;
     std::string reason;  ///< why it was skipped or failed
-    int warm_up = 0;     ///< samples taken first and thrown away
+    int warm_up = 0;     ///< samples taken first and discarded
     FirstRun first = {};
     SamplingFacts sampling = {};
     std::vector<Sample> samples;
-    std::map<std::string, double> counters;  ///< the unit ends the key: nodes_count, tree_bytes
-    std::map<std::string, std::string> left_out;  ///< a counter without a value, and why
-    std::vector<std::int64_t> leaves_by_depth;    ///< from the root's level on
+    std::map<std::string, double> counters;       ///< keys end in the unit: nodes_count, tree_bytes
+    std::map<std::string, std::string> left_out;  ///< counters without a value, with the reason
+    std::vector<std::int64_t> leaves_by_depth;    ///< number of leaves per level, from the root on
     Check check;
 };
 
-/// Settings of the host that distort times. An empty value is unknown.
+/// Settings of the host that distort times. Empty values are unknown.
 struct HostConditions {
-    std::string governor;       ///< of the first core whose is not "performance", else that
-    std::optional<bool> turbo;  ///< whether cores may clock higher for a while
+    std::string governor;       ///< of the first core without "performance", else that
+    std::optional<bool> turbo;  ///< whether cores may exceed their base clock
     std::optional<bool> on_battery;
-    std::optional<double> load;         ///< processes that wanted to run, mean of the last minute
-    std::vector<std::string> warnings;  ///< sentences on those that matter
+    std::optional<double> load;         ///< runnable processes, mean over the last minute
+    std::vector<std::string> warnings;  ///< one sentence for each setting that distorts times
 
     bool operator==(const HostConditions&) const = default;
 };
@@ -130,7 +129,7 @@ struct DeviceFacts {
     bool device_scope_acq_rel_atomics = false;
 };
 
-/// The circumstances of a run.
+/// Machine, program and settings of a run.
 struct RunFacts {
     std::string id, started_at;
     std::vector<std::string> command;
@@ -139,27 +138,27 @@ struct RunFacts {
     std::string host_name, host_cpu, host_os;
     int host_threads = 0;
     DeviceFacts device;
-    std::map<std::string, std::string> libraries;  ///< name to version
+    std::map<std::string, std::string> libraries;  ///< versions by library name
     double copy_rate_bytes_per_s = 0;              ///< 0: not measured
     std::int64_t copy_rate_buffer_bytes = 0;
     double launch_cost_ns = 0;           ///< 0: not measured
-    std::string tuning_from = "none";    ///< the file of the values below
-    std::map<std::string, uint> tuning;  ///< parameter to value, where it is not the default
+    std::string tuning_from = "none";    ///< file of the tuned values
+    std::map<std::string, uint> tuning;  ///< parameters that differ from their defaults
     std::int64_t compile_ns = 0;
-    NodeCosts costs;  ///< in the counters sah_cost and epo
+    NodeCosts costs;  ///< costs in the counters sah_cost and epo
     HostConditions conditions = {};
-    std::map<std::string, std::string> test_hooks = {};  ///< of any: this is no result
+    std::map<std::string, std::string> test_hooks = {};  ///< not empty: not a valid result
 };
 
-/// The format that is written.
+/// Format version of written files.
 inline const std::string result_format = "1.9";
 
-/// JSON of a run and of a cell, each on one line. A number that is not finite is left out.
+/// Returns a run or a cell as one line of JSON. Numbers that are not finite are left out.
 std::string run_text(const RunFacts& run);
 std::string cell_text(const Cell& cell);
 std::string cell_text(const StressCell& cell);
 
-/// The text of a file from its parts' texts: a cell a line, so that files can be compared.
+/// Returns the text of a result file from the texts of its parts, with one cell per line, so that files can be compared by diff.
 std::string document_text(const std::string& run, const std::vector<std::string>& cells,
                           const std::vector<std::string>& stress = {});
 

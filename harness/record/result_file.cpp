@@ -10,7 +10,7 @@
 namespace bvhbench {
 namespace {
 
-/// The document of an earlier process of the run; nothing if the text is something else.
+/// Parses the text if it is a result file of the run `run_id`; else returns nothing.
 std::optional<Json> document_of(const std::string& run_id, const std::string& text)
 {
     Json json = Json::parse(text, nullptr, false);
@@ -30,7 +30,7 @@ int order_after(const Json& cell)
     return next;
 }
 
-/// What the process took up to now; what an earlier process of the run took stays where it is more.
+/// Records the process's memory. Keeps larger values that an earlier process of the same run recorded.
 void note_memory(Json& run)
 {
     const HostMemoryFacts now = host_memory_facts();
@@ -79,7 +79,7 @@ void ResultFile::take_over(const std::string& run_id)
                           .reason = cell.value("reason", "")});
         next_order_ = std::max(next_order_, order_after(cell));
     }
-    has_measured_ = true;  // the earlier file is this run's own
+    has_measured_ = true;  // the earlier file belongs to this run
     goes_on_ = true;
 }
 
@@ -111,7 +111,7 @@ ResultFile::~ResultFile()
     at_signal_.reset();
     try {
         keep();
-    } catch (const std::exception&) {  // a destructor must not throw
+    } catch (const std::exception&) {  // destructors must not throw
     }
 }
 
@@ -177,7 +177,7 @@ std::string ResultFile::written() const
            output_.path().string() + '\n';
 }
 
-/// Cells that say why nothing was measured are worth a file, but not one that was there.
+/// Cells that only record failures are written, unless they would replace an existing file.
 bool ResultFile::is_worth_writing() const
 {
     return has_measured_ || (!cells_.empty() && !output_.was_there());

@@ -14,19 +14,19 @@
 
 namespace bvhbench {
 
-/// The rules for a file of results: an earlier one that the run called `own_run` has left may be replaced.
+/// Returns the rules for a result file. A file of the run `own_run` may be replaced without --force.
 OutputRules result_rules(bool force, std::vector<std::string> inputs, std::string own_run = {});
 
-/// A result file that grows: rewritten whole and atomically as cells finish.
+/// A result file that grows: it is rewritten atomically as cells finish.
 ///
-/// Rewrites are at least half a second apart, so that a thousand short cells do not spend their time on the
-/// disk: what is killed without warning loses at most that. A device or pipe is written to once, by finish(). An earlier file
-/// stays until a cell has been measured.
+/// Rewrites are at least half a second apart, so that a run of many short cells does not spend its time on the disk. A process
+/// that is killed without warning loses at most the cells of that time. Devices and pipes are written once, by finish(). An
+/// existing file stays until a cell has been measured.
 class ResultFile {
 public:
-    /// If the run called `goes_on` has left the file, that run goes on: its facts and cells stay.
+    /// If the existing file belongs to the run `goes_on`, continues that run and keeps its facts and cells.
     ResultFile(Output output, const RunFacts& run, const std::string& goes_on = {});
-    /// Writes what is not written yet; a failure to do so stays silent here, so call finish().
+    /// Writes unwritten cells and ignores errors. Call finish() to see them.
     ~ResultFile();
     ResultFile(const ResultFile&) = delete;
     ResultFile& operator=(const ResultFile&) = delete;
@@ -34,39 +34,39 @@ public:
     void add(const Cell& cell);
     void add(const StressCell& cell);
 
-    /// Whether the next `count` cells are there from before, in a run that goes on. If some are missing the others go as
-    /// well, to be made anew.
+    /// True if the next `count` cells exist already, in a run that is continued; they are then skipped. If any of them is
+    /// missing, drops those that exist, because all of them will be measured again.
     bool pass(std::size_t count);
 
-    /// Write what is not written yet. May be called by any thread; a signal does, too.
+    /// Writes unwritten cells. Any thread may call it; the signal thread does.
     void keep();
 
-    /// The first place in the order of samples that none of its cells has.
+    /// Returns the smallest sample order above those of all existing cells.
     int next_order() const { return next_order_; }
 
-    /// The runs that took turns with this one.
+    /// Records the runs that this run took turns with.
     void took_turns(const std::vector<std::string>& others);
 
-    /// Set the end of the run, and write, if there is a cell to keep.
+    /// Records the end of the run and writes the file if it has a cell worth keeping.
     void finish(std::int64_t compile_ns);
 
-    /// How many cells it has.
+    /// Returns the number of cells.
     std::size_t size() const { return cells_.size() + stress_.size(); }
 
     const std::string& run_id() const { return run_id_; }
 
-    /// The whole document, whether or not it goes to a file.
+    /// Returns the whole document, whether or not it is written to a file.
     std::string text() const;
 
-    /// How a command ends that has measured these cells: 1 if one is wrong, else 0. Throws NothingMeasured, saying why, if
-    /// there are cells and none has been measured.
+    /// Returns the exit code of a command with these cells: 1 if one is wrong, else 0. Throws NothingMeasured with the first
+    /// reason if there are cells and none was measured.
     int exit_code() const;
 
-    /// "written: r.json", or that it stays as it was, a line.
+    /// Returns one line: "written: r.json", or that the file was left unchanged.
     std::string written() const;
 
 private:
-    /// A cell as text, so that it is turned into text once, and how it came out.
+    /// A cell's JSON text, which is made only once, and its outcome.
     struct Kept {
         std::string text;
         bool is_measured, differs;
@@ -83,13 +83,13 @@ private:
     Json run_;
     std::vector<Kept> cells_;
     std::vector<std::string> stress_;
-    bool has_measured_ = false;  ///< whether a cell holds what may replace an earlier file
-    std::size_t passed_ = 0;     ///< cells that are done, of those from before
-    bool goes_on_ = false;       ///< whether cells behind them are from before too
+    bool has_measured_ = false;  ///< whether there are cells that may replace an existing file
+    std::size_t passed_ = 0;     ///< number of existing cells skipped by pass()
+    bool goes_on_ = false;       ///< whether existing cells remain beyond passed_
     int next_order_ = 0;
     std::chrono::steady_clock::time_point written_at_;
     bool is_written_ = true;
-    std::timed_mutex mutex_;  ///< of cells, their texts and what is written
+    std::timed_mutex mutex_;  ///< guards cells_, stress_ and the writing
     std::optional<AtSignal> at_signal_;
 };
 

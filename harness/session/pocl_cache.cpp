@@ -17,10 +17,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// More than what all programs of one run take.
+/// Free space needed: more than all programs of one run take.
 constexpr std::uintmax_t needed_bytes = std::uintmax_t{16} << 20;
 
-/// Some hundred programs.
+/// Limit of our own folder's size: some hundred programs.
 constexpr std::uintmax_t most_bytes = std::uintmax_t{64} << 20;
 
 constexpr const char* lock_name = "bvhbench.lock";
@@ -40,7 +40,7 @@ fs::path own_folder()
     return {};
 }
 
-/// Removes all that PoCL has put into the folder if its files take too much of the disk.
+/// Removes everything that PoCL has stored in the folder if the files take more than most_bytes.
 void empty_if_large(const fs::path& folder)
 try {
     constexpr std::uintmax_t block = 4096;
@@ -52,10 +52,10 @@ try {
     for (const fs::directory_entry& entry : fs::directory_iterator(folder))
         if (entry.path().filename() != lock_name)
             fs::remove_all(entry);
-} catch (const fs::filesystem_error&) {  // what cannot be removed stays
+} catch (const fs::filesystem_error&) {  // files that cannot be removed stay
 }
 
-/// Why a folder will not do to keep kernels in; empty if it will. Makes it if it is not there.
+/// Creates the folder if necessary. Returns why it cannot hold compiled kernels; empty if it can.
 std::string folder_problem(const fs::path& folder)
 {
     std::error_code error;
@@ -92,7 +92,7 @@ PoclCache::PoclCache()
     }
     if (folder == own)
         share(folder);
-    tell_pocl(folder);  // empty counts as unset, PoCL aborts on it
+    tell_pocl(folder);  // replaces an empty POCL_CACHE_DIR, on which PoCL aborts
 }
 
 PoclCache::~PoclCache()
@@ -106,7 +106,7 @@ PoclCache::~PoclCache()
     }
 }
 
-/// Nothing is removed while others use the folder.
+/// Empties a large folder, but not while other processes use it.
 void PoclCache::share(const fs::path& folder)
 {
     std::error_code ignored;
@@ -116,7 +116,7 @@ void PoclCache::share(const fs::path& folder)
         return;
     if (flock(lock_, LOCK_EX | LOCK_NB) == 0)
         empty_if_large(folder);
-    flock(lock_, LOCK_SH);  // waits for a process that is removing just now
+    flock(lock_, LOCK_SH);  // waits while another process empties the folder
 }
 
 void PoclCache::take_temporary(const std::string& why)

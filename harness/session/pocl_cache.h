@@ -9,14 +9,14 @@
 
 namespace bvhbench {
 
-/// Where PoCL keeps compiled kernels while this object exists: a folder that can be written.
+/// A writable folder in which PoCL keeps compiled kernels for the lifetime of this object.
 ///
-/// PoCL ends the process over a folder that it cannot write. So before the first OpenCL call a folder is found that will do,
-/// else an empty one below the folder of temporary files, which is removed in the end. Our own folder is emptied when it has
-/// grown too large. A folder that POCL_CACHE_DIR names is somebody else's: it is only asked whether it will do.
+/// PoCL ends the process if it cannot write its folder. Therefore the constructor chooses a usable folder, before the first
+/// OpenCL call. If there is none, it makes a temporary folder, which the destructor removes. Our own folder is emptied when it is
+/// too large. A folder named by POCL_CACHE_DIR is checked but never emptied.
 class PoclCache {
 public:
-    /// Says in one sentence on stderr when kernels cannot be kept. Throws Unavailable where there is no room at all.
+    /// Prints one sentence on stderr if kernels cannot be kept. Throws Unavailable if there is no usable folder at all.
     PoclCache();
     ~PoclCache();
     PoclCache(const PoclCache&) = delete;
@@ -27,8 +27,8 @@ private:
     void take_temporary(const std::string& why);
 
     std::filesystem::path temporary_;
-    int lock_ = -1;  ///< held shared by all who use our folder, alone while it is emptied
-    std::optional<AtSignal> removed_;  ///< the temporary folder
+    int lock_ = -1;  ///< shared lock while our folder is used, exclusive while it is emptied
+    std::optional<AtSignal> removed_;  ///< removes the temporary folder on a signal
 };
 
 }  // namespace bvhbench

@@ -13,14 +13,14 @@
 namespace bvhbench {
 namespace {
 
-/// What the calibration took, in the order of samples.
+/// Results of the calibration, in the order of samples.
 class Drift {
 public:
     Drift(const SamplingPlan& plan, const std::function<std::int64_t()>& calibrate)
         : plan_(plan), calibrate_(plan.rules.calibrate_every > 0 ? calibrate : nullptr)
     {}
 
-    /// Before the sample that will be called `order`; only if it is time again, unless it `must`.
+    /// Calibrates before the sample number `order` if calibrate_every samples have passed, or always if `must`.
     void look(int order, bool must = false)
     {
         if (!calibrate_ || (!must && order < next_))
@@ -29,16 +29,16 @@ public:
         std::int64_t ns = 0;
         if (reason_of_failure([&] { ns = calibrate_(); }).empty()) {
             looks_.push_back({order, static_cast<double>(ns)});
-        } else {  // samples are worth having without
+        } else {  // samples are taken without calibration
             calibrate_ = nullptr;
             looks_.clear();
         }
     }
 
-    /// Whether it took just now what it takes.
+    /// True if the last calibration is within the drift limit of the median.
     bool is_steady() const { return looks_.empty() || !is_off(looks_.back().ns, median()); }
 
-    /// Tell samples what it took around them.
+    /// Sets calibration_ns and drifted of the samples from the calibrations before and after each.
     void mark(std::vector<Sample>& samples) const
     {
         if (looks_.size() < 2)
@@ -79,12 +79,12 @@ private:
     int next_ = 0;
 };
 
-/// Decides when a cell has samples enough, from their times as they come.
+/// Decides from a cell's times when it has enough samples.
 class StoppingRule {
 public:
     explicit StoppingRule(const SamplingPlan& plan) : plan_(plan) {}
 
-    /// A sample has taken so long; `counts` if nothing is known against it.
+    /// Adds a sample's time. `counts` is false if the sample was taken during drift.
     void add(double time_ns, bool counts)
     {
         ++taken_;
@@ -95,13 +95,13 @@ public:
             noises_.push_back(relative_quartile_range());
     }
 
-    /// Why there need be no more, so long after the first; not_sampled while there must.
+    /// Returns why sampling stops, `elapsed_s` after the warm-up; not_sampled while it continues.
     Stopped verdict(double elapsed_s) const
     {
-        if (plan_.rules.until == 0)  // a fixed number is what it says, marked ones and all
+        if (plan_.rules.until == 0)  // a fixed number includes samples during drift
             return taken_ >= static_cast<std::size_t>(plan_.samples) ? Stopped::number
                                                                      : Stopped::not_sampled;
-        // Under a drift that does not end none may count: there is an end to it all the same.
+        // During permanent drift no sample may count in times_. The checks of taken_ below end sampling all the same.
         const auto least = static_cast<std::size_t>(plan_.rules.min_samples);
         if (times_.size() >= least) {
             if (relative_quartile_range() <= plan_.rules.until)
@@ -117,18 +117,18 @@ public:
     }
 
 private:
-    static constexpr std::size_t stride = 8;          ///< samples between two looks at the noise
-    static constexpr std::size_t looks = 8;           ///< that must agree
-    static constexpr double stable_deviation = 0.05;  ///< of them, as a share of their mean
+    static constexpr std::size_t stride = 8;          ///< samples between two values of the noise
+    static constexpr std::size_t looks = 8;           ///< number of last values that must agree
+    static constexpr double stable_deviation = 0.05;  ///< largest deviation, relative to the mean
 
-    /// The range between the quartiles over the median; 0 of none.
+    /// Returns the interquartile range over the median; 0 without samples.
     double relative_quartile_range() const
     {
         const double median = quantile(times_, 0.5);
         return median > 0 ? (quantile(times_, 0.75) - quantile(times_, 0.25)) / median : 0;
     }
 
-    /// Whether noise has stayed what it is for so long that it will not go down.
+    /// True if the last `looks` values of the noise agree, so that more samples would not reduce it.
     bool noise_is_stable() const
     {
         if (noises_.size() < looks)
@@ -142,12 +142,12 @@ private:
     }
 
     const SamplingPlan& plan_;
-    std::vector<double> times_;   ///< that count
-    std::size_t taken_ = 0;       ///< with those that do not
-    std::vector<double> noises_;  ///< after every `stride` samples
+    std::vector<double> times_;   ///< without samples during drift
+    std::size_t taken_ = 0;       ///< all samples
+    std::vector<double> noises_;  ///< interquartile range / median, after every `stride` samples
 };
 
-/// One call of take_samples: rounds, until every cell has enough.
+/// One call of take_samples: takes rounds until every cell has enough samples.
 class Rounds {
 public:
     Rounds(std::span<const Timed> cells, const SamplingPlan& plan, int& order,

@@ -13,46 +13,46 @@
 
 namespace bvhbench {
 
-/// One thing to sample.
+/// One cell to sample.
 struct Timed {
     std::string name;
-    std::function<std::vector<StageTime>()> once;  ///< run it, wait, and say what its stages took
+    std::function<std::vector<StageTime>()> once;  ///< runs it, waits, returns its stages' times
 };
 
-/// What came of it.
+/// The samples of one cell.
 struct Taken {
-    std::vector<Sample> samples;  ///< in the order taken, warm-up left out
-    std::string failure;          ///< why it stopped early; empty if it did not
+    std::vector<Sample> samples;  ///< in the order taken, without warm-up
+    std::string failure;          ///< why sampling failed; empty if it did not
     Stopped stopped = Stopped::not_sampled;
 };
 
-/// Sample each of `cells` as `plan` says, all of them interleaved: in rounds, each of which takes every cell once, in an
-/// order drawn anew, so that drift of the machine hits them alike. One that fails is not run again; the others go on.
+/// Samples the cells interleaved, according to `plan`. Each round takes every cell once, in a new random order, so that drift of
+/// the machine affects all cells alike. A cell that fails is not run again; the others continue.
 ///
-/// `calibrate` runs a fixed piece of work and says how long it took, in nanoseconds: before the first sample, after every
-/// `calibrate_every` of them, and after the last. Samples are told what it took around them, and are marked `drifted` where
-/// that is further from its median than `drift_limit`. Marked samples are kept; under a target they do not count. If it
-/// throws, or there is none, nothing is marked.
+/// `calibrate` runs a fixed piece of work and returns its nanoseconds. It is called before the first sample, after every
+/// `calibrate_every` samples, and after the last. Each sample stores the mean of the calibrations around it, and is marked
+/// `drifted` if one of them is off their median by more than `drift_limit`. Marked samples are kept, but do not count towards the
+/// target `until`. If `calibrate` throws or is empty, nothing is marked.
 ///
-/// With `turns` each round is a turn among other runs.
+/// With `turns`, each round is one turn among other runs.
 ///
-/// `order` counts the run's samples, warm-up included, and goes on from call to call.
+/// `order` is the number of samples of the run so far, warm-up included; it is increased.
 std::vector<Taken> take_samples(std::span<const Timed> cells, const SamplingPlan& plan, int& order,
                                 const std::function<std::int64_t()>& calibrate = {},
                                 Turns* turns = nullptr);
 
-/// The same by number alone.
+/// The same with a fixed number of samples and without calibration.
 inline std::vector<Taken> take_samples(std::span<const Timed> cells, int samples, int warm_up,
                                        int& order)
 {
     return take_samples(cells, {.samples = samples, .warm_up = warm_up}, order);
 }
 
-/// The value a `fraction` of the sorted values lies below, between neighbours in proportion. 0 for none.
+/// Returns the quantile `fraction` of the values, interpolated linearly between neighbours; 0 without values.
 double quantile(std::vector<double> values, double fraction);
 
-/// Nanoseconds of all stages of a sample, by which samples are compared: on the device from the first start to the last end;
-/// stages on the host are added.
+/// Returns the whole time of a sample in nanoseconds, by which samples are compared: on the device from the first start to the
+/// last end; with host stages, the sum of all stages.
 double whole_ns(const std::vector<StageTime>& stages);
 
 }  // namespace bvhbench

@@ -32,7 +32,7 @@ Device open_device_of(const CommonOptions& common)
     Device device =
         open_device(common.device,
                     common.kernels.empty() ? Sources::preferred() : Sources::tree(common.kernels));
-    // Again, with the stacks of the driver's threads: they are mapped, and little of them is ever in memory.
+    // Sets the limit again, so that it allows for the stacks of the driver's threads, of which only little becomes resident.
     limit_host_memory(common.memory_limit);
     if (common.memory_limit > 0)
         device.memory_limit = common.memory_limit;
@@ -50,7 +50,7 @@ Session::Session(Device device, SceneLibrary library)
 
 Session::Session(const CommonOptions& common) : Session(std::make_unique<PoclCache>(), common) {}
 
-/// The cache first: drivers look for it when they are asked for their devices.
+/// Makes the PoclCache first: drivers look up their cache folder when their devices are queried.
 Session::Session(std::unique_ptr<PoclCache> cache, const CommonOptions& common)
     : Session(open_device_of(common), scene_library(common))
 {
@@ -61,7 +61,7 @@ Session::Session(std::unique_ptr<PoclCache> cache, const CommonOptions& common)
                   << "\ntuning: " << device_.tuning.origin() << '\n';
 }
 
-/// In its place: trees that stand were built through it and are read through it.
+/// Keeps the address of the queue, because existing trees refer to it.
 void Session::renew_queue()
 {
     Queue fresh(device_);
@@ -73,7 +73,7 @@ Builder& Session::builder(const BuilderChoice& choice, Operation operation)
     for (const Made& made : builders_)
         if (made.choice == choice && made.operation == operation)
             return *made.builder;
-    // The choice is stored first: the builder may keep looking at its words.
+    // The choice is stored first, because the builder may refer to its strings.
     builders_.push_back({choice, operation, nullptr});
     try {
         builders_.back().builder = make_builder(builders_.back().choice, programs_);
@@ -112,7 +112,7 @@ std::int64_t Session::calibrate()
             calibration_.emplace(programs_, queue());
         return calibration_->take(queue());
     } catch (...) {
-        renew_queue();  // else the next sample finds what is left of this
+        renew_queue();  // else the next sample would find the remaining launches of this one
         throw;
     }
 }

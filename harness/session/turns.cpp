@@ -20,7 +20,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto longest_wait = 120s;
-constexpr auto longest_yield = 20ms;  // the others may have samples enough, and be gone
+constexpr auto longest_yield = 20ms;  // afterwards the other runs are taken to be finished
 
 std::vector<std::string> lines_of(const std::string& path)
 {
@@ -57,7 +57,7 @@ void Turns::part()
 {
     try {
         all_come();
-    } catch (const Unavailable&) {  // a full disk: the next meeting says so
+    } catch (const Unavailable&) {  // e.g. a full disk; the next meet() throws
     }
 }
 
@@ -92,7 +92,7 @@ Turns::Turn::Turn(Turns* turns) : turns_(turns)
         }
     };
     lock();
-    // A lock is given to whoever runs first, which is who has just given it back. Whoever waits is woken, and needs a moment.
+    // flock prefers the process that has just released the lock, because the waiting ones must first wake up. So yield to them.
     const auto start = std::chrono::steady_clock::now();
     while (lines_of(last_file) == std::vector{turns_->id_} &&
            std::chrono::steady_clock::now() - start < longest_yield) {

@@ -6,26 +6,26 @@
 
 namespace bvhbench {
 
-/// Several runs, of several builds of this program, that sample at the same time by turns, a round each: whatever the
-/// machine does hits them alike, which runs one after the other cannot have. They meet by a file that all of them name.
+/// Several runs, of several builds of this program, that sample at the same time and take turns, one round each. Drift of the
+/// machine then affects all alike, unlike runs one after another. The runs meet through a file that each of them names.
 ///
-///     file    a line a run, meeting and parting, the run's id; and a lock, held by whose turn it is
+///     file    one line for each meet() and part() of a run, with its id; and a lock, held by the run whose turn it is
 class Turns {
 public:
-    /// Turns among `count` runs, of which this one is called `id`. Throws BadUsage if others have used the file up before.
+    /// Joins `count` runs as the run `id`. Throws BadUsage if the file was used before, and Unavailable if it cannot be written.
     Turns(std::string path, int count, std::string id);
     ~Turns();
     Turns(const Turns&) = delete;
     Turns& operator=(const Turns&) = delete;
 
-    /// Wait until all have come: before the samples of each scene. Throws Unavailable after two minutes.
+    /// Waits until all runs call it, before the samples of a scene. Throws Unavailable after two minutes.
     void meet();
 
-    /// Wait until all have taken their samples, so that what comes after disturbs none of them: after the samples of each
-    /// scene. No longer than two minutes: what was measured is worth more.
+    /// Waits until all runs have taken the samples of a scene, so that the work after them disturbs no samples. Returns after two
+    /// minutes at the latest, in order not to lose the samples.
     void part();
 
-    /// While it lives, the others wait. Whoever ends, however, gives it back.
+    /// One turn: the other runs wait while it exists. The system ends the turn of a process that ends. Does nothing for nullptr.
     class Turn {
     public:
         explicit Turn(Turns* turns);
@@ -37,11 +37,11 @@ public:
         Turns* turns_;
     };
 
-    /// Runs met, without this one.
+    /// Returns the ids of the other runs met.
     const std::set<std::string>& others() const { return others_; }
 
 private:
-    /// Whether all came within two minutes.
+    /// Adds a line to the file and waits. True if all runs did so within two minutes.
     bool all_come();
 
     std::string path_;

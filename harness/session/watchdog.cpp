@@ -24,19 +24,19 @@ namespace {
 
 constexpr long over = -1;
 
-/// Memory of both processes. The parent reads `until_ms` while the child runs and the rest once it has ended.
+/// Memory shared by parent and child. The parent reads `until_ms` while the child runs, and the rest after it has ended.
 struct Told {
-    std::atomic<long> until_ms = 0;  ///< of the steady clock; 0: nothing is watched; -1: it is over
+    std::atomic<long> until_ms = 0;  ///< deadline, steady clock; 0: not watched; -1: expired
     std::array<char, 64> cell = {};
     std::array<char, 256> run = {};
     std::array<char, 4096> kernels = {};
 };
 static_assert(std::atomic<long>::is_always_lock_free);
 
-Told* told = nullptr;  // null: there is no parent
+Told* told = nullptr;  // nullptr: there is no parent
 double limit_ms = 0;
 
-// What earlier children have lost. A child has what its parent had when it began.
+// Run to continue and cells lost by earlier children. A child inherits copies from the parent.
 std::string goes_on;
 std::map<std::string, std::string> lost;
 
@@ -54,9 +54,9 @@ long now_ms()
 }
 
 struct Ending {
-    int status = 0;     ///< as waitpid says it
-    int signal = 0;     ///< that was passed on to the child
-    bool late = false;  ///< whether it was ended because of the time
+    int status = 0;     ///< of waitpid
+    int signal = 0;     ///< signal passed on to the child; 0: none
+    bool late = false;  ///< whether the child was killed at its deadline
 
     bool is_loss() const
     {
@@ -79,7 +79,8 @@ struct Ending {
     }
 };
 
-/// `awaited` are blocked: the end of a child, and signals to be passed on.
+/// Waits for the child, kills it after its deadline and passes signals on to it. `awaited` must be blocked: it has SIGCHLD and
+/// the signals to pass on.
 Ending end_of(pid_t child, const sigset_t& awaited)
 {
     constexpr timespec moment = {0, 100'000'000};
@@ -103,7 +104,7 @@ Ending end_of(pid_t child, const sigset_t& awaited)
 void begin_child(pid_t parent)
 {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != parent)  // it was over before the line above
+    if (getppid() != parent)  // the parent ended before prctl
         _exit(128 + SIGKILL);
     const rlimit no_core{0, 0};
     setrlimit(RLIMIT_CORE, &no_core);
@@ -145,7 +146,7 @@ int supervised(double limit_s, const std::function<int()>& work)
         if (!end.is_loss()) {
             sigprocmask(SIG_SETMASK, &before, nullptr);
             std::signal(WTERMSIG(end.status), SIG_DFL);
-            raise(WTERMSIG(end.status));  // ended as the child was
+            raise(WTERMSIG(end.status));  // ends this process by the same signal
             return 128 + WTERMSIG(end.status);
         }
         if (told->cell[0] == '\0' || told->run[0] == '\0')
@@ -185,7 +186,7 @@ Watch::~Watch()
 {
     long expected = until_;
     if (until_ != 0 && !told->until_ms.compare_exchange_strong(expected, 0))
-        for (;;)  // it was over a moment ago: the parent ends this process
+        for (;;)  // the deadline has just expired: waits until the parent kills this process
             pause();
 }
 

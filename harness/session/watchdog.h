@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// A kernel that never ends cannot be stopped, by no call of OpenCL 1.2. So whatever measures runs in a child process. Its parent
-// waits, ends it when a build or query takes too long, and starts another one after that or after a crash, which gives up
-// the cell that was lost and measures the rest (docs/decisions/0012).
+// OpenCL 1.2 has no call that stops a kernel that never ends. Therefore measuring runs in a child process. The parent waits and
+// kills the child when a build or query takes too long. After that or a crash, it starts another child, which records the lost
+// cell as failed and measures the rest (docs/decisions/0012).
 #pragma once
 
 #include <functional>
@@ -10,30 +10,30 @@
 
 namespace bvhbench {
 
-/// Runs `work` in a child process and returns its exit code. To be called before the process has a second thread. A signal that
-/// ends this process is passed on to the child.
+/// Runs `work` in a child process and returns its exit code. Must be called while the process has a single thread. Passes SIGINT,
+/// SIGTERM and SIGHUP on to the child. If another signal than those of a crash ends the child, it ends this process too.
 ///
-/// When a build or query is not over in `limit_s`, or anything crashes: if it was for a cell of a run that go_on_with() named,
-/// another child goes on with the run. Else throws Unavailable, as where there is no room for a process. With a limit of 0
-/// `work` runs in this process, nothing is watched, and a crash is a crash.
+/// If a build or query exceeds `limit_s` or the child crashes during a cell of a run named by go_on_with(), another child
+/// continues the run; outside of such a cell, Unavailable is thrown, as it is if no process can be made. With a limit of 0,
+/// `work` runs in this process without a watchdog.
 int supervised(double limit_s, const std::function<int()>& work);
 
-/// What a child tells its parent, and what the parent tells the next child. Without a parent nobody is told anything.
+/// Messages from a child to its parent, and from the parent to the next child. Without a parent they have no effect.
 namespace watchdog {
 
-/// The run that this process goes on with; empty if it begins one.
+/// Returns the id of the run that this process continues; empty if it begins a run.
 const std::string& run_id();
 
-/// Why `cell` was given up by a process before this one; empty if it was not.
+/// Returns why an earlier process gave up `cell`; empty if none did.
 std::string given_up(const std::string& cell);
 
-/// The run that a process after this one goes on with, by the file that has its finished cells.
+/// Names the run that the next child continues after a crash, from the result file with its finished cells.
 void go_on_with(const std::string& run_id);
 
-/// Where the driver keeps compiled kernels, which after a crash may be why.
+/// Names the folder of the driver's compiled kernels. After a crash, the message suggests removing it.
 void kernels_are_in(const std::string& folder);
 
-/// As long as this is there, what is done is done for `cell`.
+/// Marks the work during its lifetime as done for `cell`.
 class Hand {
 public:
     explicit Hand(const std::string& cell);
@@ -42,7 +42,7 @@ public:
     Hand& operator=(const Hand&) = delete;
 };
 
-/// As long as this is there, the time of a build or query runs. Within another one it does nothing.
+/// Limits the time of a build or query, from its construction to its destruction. A nested Watch has no effect.
 class Watch {
 public:
     Watch();
@@ -51,7 +51,7 @@ public:
     Watch& operator=(const Watch&) = delete;
 
 private:
-    long until_ = 0;  ///< 0: this one does nothing
+    long until_ = 0;  ///< deadline; 0: this object has no effect
 };
 
 }  // namespace watchdog
