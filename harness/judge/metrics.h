@@ -30,7 +30,7 @@ Real surface_area(const Aabb& box)
     return 2 * (x * y + y * z + z * x);
 }
 
-/// A sum with the error of twice the precision of Real, in any order: the rounding errors of the additions are summed apart
+/// A sum as accurate as in twice the precision of Real, in any order: the rounding errors of the additions are summed separately
 /// (Neumaier 1974). Unlike Kahan's method it allows terms larger than the sum so far.
 template <class Real = double>
 class CompensatedSum {

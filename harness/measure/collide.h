@@ -63,7 +63,7 @@ struct Running {
     PipelineChoice choice;
     std::unique_ptr<Pipeline> pipeline = nullptr;
     std::string failure = {};  ///< why it cannot be run; empty if it can
-    bool cannot_be = false;    ///< the scene rules this pipeline out
+    bool cannot_be = false;    ///< true if it can never run over this scene
 };
 
 /// A frame that several pipelines run over.
@@ -74,7 +74,7 @@ struct FrameOfPipelines {
     SweptFacts swept = {};
     std::vector<Motion> motions = {};       ///< since the previous frame; empty: unknown
     std::span<const uint> file_faces = {};  ///< as Scene::file_faces
-    /// Judges what a pipeline found by more than the oracles; may be empty.
+    /// Judges what a pipeline found, in addition to the oracles; may be empty.
     std::function<void(const Found& found, Cell& cell)> judge_more = {};
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The protocol that measures every cell: settle it (compile, run once, judge the result), sample it interleaved with the others,
-// judge it again. A step that fails marks the cell as failed, with the reason.
+// judge it again. A step that fails marks the cell as failed or skipped, with the reason.
 #pragma once
 
 #include <functional>
@@ -35,7 +35,7 @@ std::int64_t host_ns(const std::function<void()>& work);
 
 class Engine {
 public:
-    /// `order` is the number of the next sample and is incremented by each.
+    /// `order` is the number of the next sample; each sample increments it.
     Engine(Session& session, SamplingPlan plan, int& order)
         : session_(session), plan_(plan), order_(order)
     {}

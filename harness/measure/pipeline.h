@@ -65,7 +65,7 @@ private:
     TreeUpdate update_after(Motion motion) const;
     bool keeps_all(std::span<const Motion> motions) const;
     std::vector<TreeUpdate> planned_updates(std::span<const Motion> motions);
-    std::size_t updated(TreeUpdate how) const;  ///< objects
+    std::size_t updated(TreeUpdate how) const;  ///< number of objects
     void enqueue(const Input& input);
     void enqueue_query(const Input& input);
     bool complete();

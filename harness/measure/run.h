@@ -36,7 +36,7 @@ RunFacts measured_facts(Session& session, std::vector<std::string> command,
 /// A builder or scene that fails leaves a cell with the reason, and the run continues.
 class Run {
 public:
-    /// Measures the device's copy rate and launch cost. Writes no file if `output` is empty.
+    /// Measures the device's copy rate and launch cost. Writes no file if `output` is a default Output.
     Run(Session& session, Output output, std::vector<std::string> command, const NodeCosts& costs);
 
     /// Measures all cells of the experiment that match. A cell that cannot be measured has the reason.

@@ -24,6 +24,7 @@ struct ViewTask {
 ///
 /// "run" and "cell" are as in a result file, without samples; the rest are flat lists. A level has the nodes of one depth: six
 /// numbers a box (min x, y, z, max x, y, z), inner nodes first, then leaves. "levels" is empty if the tree is invalid.
+///
 /// Throws BadUsage for a scene that is too large and for a collider without a tree, Unavailable if the pipeline fails.
 std::string view_text(Session& session, const ViewTask& task, std::vector<std::string> command);
 

@@ -19,7 +19,7 @@ struct StressVariant {
     Invariant of;  ///< agree or moved
     std::string_view name;
     StressScene scene;
-    std::vector<uint> original = {};  ///< original triangle of each triangle; empty: the same
+    std::vector<uint> original = {};  ///< number in the original scene; empty: the same
 };
 
 /// Returns the scene with every coordinate multiplied by a power of two, exactly, or nothing if no power keeps all bits. The
@@ -47,7 +47,7 @@ Finding judge_pairs(const PairList& found, const PairList& expected, bool may_ad
 /// Judges repeated runs of one task: counts the hashes that differ from the first.
 Finding judge_repeats(std::span<const std::uint64_t> hashes);
 
-/// Pairs and contacts that a system found; a list that it does not compute is empty.
+/// Pairs and contacts that a system found; a list that it does not compute has no value.
 struct FoundPairs {
     std::optional<PairList> pairs, contacts;
     bool is_rounded = false;  ///< boxes were rounded outward

@@ -46,7 +46,7 @@ void add_builders(Systems& systems, const std::vector<BuilderChoice>& builders, 
             [choice, judge](SceneUnderStress& scene) { return judge(choice, scene); }));
 }
 
-/// Each of them, by judge(pipeline, scene).
+/// Adds a system for each pipeline, judged by judge(pipeline, scene).
 template <class Judge>
 void add_pipelines(Systems& systems, const std::vector<StressPipeline>& pipelines,
                    const Judge& judge)
@@ -118,8 +118,8 @@ struct SystemsBySize {
 
 SystemsBySize systems_by_size(Session& session, bool quick, int repeats)
 {
-    // On a CPU, grouped kernels run as on a GPU. The chunked kernels, meant for few cores, take minutes a scene on a GPU and are
-    // never used there, so a GPU runs them over small scenes only.
+    // On a CPU the other form is the grouped kernels, which are meant for GPUs. On a GPU it is the chunked kernels, meant for
+    // few cores: they are never used there and take minutes a scene, so they run over small scenes only.
     const bool other_forms = quick || session.device().is_cpu();
     std::vector<StressPipeline> few = stress_pipelines(session, true, other_forms);
     const std::vector<BuilderChoice> builders = device_builders(session);
@@ -145,7 +145,7 @@ SystemsBySize systems_by_size(Session& session, bool quick, int repeats)
         return judge_frames(session, pipeline, scene.scene(), repeats);
     });
 
-    // In a large scene brute would test the thousands of triangles of each grid cell against each other, so it is left out.
+    // Left out: brute, since it is the sweep that computes the expected pairs; other kernel forms; other box formats.
     std::erase_if(few, [](const StressPipeline& one) {
         return one.collider.name == "brute" || one.collider.form != KernelForm::of_device ||
                one.builder.boxes != "f32";

@@ -16,7 +16,7 @@ namespace {
 constexpr std::string_view some_builders[] = {"oibvh-multi", "oibvh-wide4", "oibvh-wide8",
                                               "karras"};
 
-/// A traversal to test for each box format. One a pair suffices: a format changes how kernels read boxes and nothing else.
+/// A collider, builder and box format to test together. A few suffice: a format changes how kernels read boxes, nothing else.
 struct InFormat {
     std::string_view collider, builder, boxes;
 };

@@ -45,7 +45,7 @@ struct Tried {
     enum class Verdict {
         current,     ///< the value that the others were compared to
         better,      ///< faster by more than noise in two comparisons: kept
-        not_better,  ///< not faster, or not by more than noise
+        not_better,  ///< not faster by more than noise, or not the fastest
         not_again,   ///< faster in the first comparison only
         wrong,       ///< gave a wrong answer
         impossible,  ///< failed, or the device cannot run it
@@ -80,9 +80,8 @@ bool is_faster(const std::vector<double>& times, const std::vector<double>& than
 
 /// Coordinate descent over the parameters that the trial reads and `wanted` accepts. They start from their defaults; all others
 /// keep their value in `start`. For each parameter, all candidates are sampled interleaved with the current value. The fastest
-/// correct one is compared with the current value once more, and kept if it is faster both times. At the end the kept values are
-/// compared with the defaults by whole runs, and dropped if they are not faster. `result` is consistent whenever `note` is
-/// called.
+/// correct one is compared with the current value again, and kept if it is faster both times. At the end the kept values are
+/// compared with the defaults by whole runs, and dropped if they are not faster. `result` is consistent at each call of `note`.
 ///
 /// Throws Unavailable if the answer is wrong before anything is tuned.
 void search(const MakeTrial& make, const Tuning& start,

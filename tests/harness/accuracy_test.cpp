@@ -126,7 +126,7 @@ TEST(Accuracy, RoundingAddsPairsFarOffAndTakesNoneAway)
 /// Returns the cells of an axis, by "input/method".
 std::map<std::string, Cell> measured(std::string_view axis, const AxisTask& task)
 {
-    static Session& session = *new Session(CommonOptions{});  // must outlive the driver
+    static Session& session = *new Session(CommonOptions{});  // never destroyed: no driver at exit
     std::map<std::string, Cell> cells;
     Progress progress(1);
     int order = 0;

@@ -172,7 +172,7 @@ TEST(StressFinder, NoticesAContactThatIsFalse)
 template <class Error>
 Finding settled_end(bool may_refuse)
 {
-    static Session& session = *new Session(CommonOptions{});  // must outlive the driver
+    static Session& session = *new Session(CommonOptions{});  // never destroyed: no driver at exit
     return settled(session, may_refuse, []() -> Findings { throw Error("too large"); })
         .at(Invariant::ends);
 }
