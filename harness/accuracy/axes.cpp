@@ -13,7 +13,7 @@ constexpr const char* scenes_of_codes[] = {"torus:100000", "hairball:100000", "g
                                            "outlier:sphere:100000:0:1000", "n-body:100000"};
 constexpr const char* small_torus[] = {"torus:20000"};
 
-// To add an axis, add its file and its line here.
+// To add an axis, add a file and a line here.
 constexpr Axis catalog[] = {
     {"narrow",
      "which narrow phase is wrong how often, on which pairs of triangles, and what it takes",
@@ -96,7 +96,7 @@ void measure_methods(const AxisRun& run, std::string_view axis, const SceneFacts
 {
     Engine engine = run.engine();
     std::vector<Subject> subjects;
-    subjects.reserve(methods.size());  // what settles one may keep a reference to it
+    subjects.reserve(methods.size());  // no reallocation: methods may keep references
     for (const AxisMethod& method : methods) {
         if (!run.task.wants(input.name, method.name))
             continue;

@@ -32,7 +32,7 @@ Bounds bounds_of(std::span<const Point> points, std::span<const Face> faces)
     return bounds;
 }
 
-/// Add what is equal among `codes`.
+/// Adds the equal codes among `codes` to `counts`.
 void count_equal(std::vector<ulong>& codes, CodeCounts& counts)
 {
     std::sort(codes.begin(), codes.end());
@@ -68,7 +68,7 @@ CodeCounts code_counts(const OrderEntry& order, std::span<const Point> points,
 
 std::vector<WidePoint> turned_and_moved(std::span<const Point> points, double sizes)
 {
-    // One radian about z, then one about x: no coordinate is a float afterwards.
+    // Rotation by one radian about z, then about x: no coordinate remains a float.
     const double c = std::cos(1.0), s = std::sin(1.0);
     std::vector<WidePoint> turned;
     turned.reserve(points.size());
@@ -104,8 +104,8 @@ PairList overlapping_pairs_in_doubles(std::span<const WidePoint> points,
 {
     if (points.size() >= 1u << 24)
         throw Unavailable("the axis input takes scenes of fewer than 2^24 points");
-    // Whether boxes overlap depends on the order of coordinates alone. So each gives way to its place among all of its axis,
-    // a whole number that a float holds.
+    // Overlap depends only on the order of coordinates on each axis. Each coordinate is therefore replaced by its rank on its
+    // axis, an integer that a float holds exactly.
     std::vector<Point> places(points.size());
     for (const auto& [wide, narrow] : axes) {
         const std::vector<double> sorted = sorted_along(wide, points);

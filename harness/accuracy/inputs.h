@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What axes know of their inputs on the host.
+// Host-side properties and references of the axes' inputs.
 #pragma once
 
 #include <span>
@@ -13,26 +13,26 @@
 
 namespace bvhbench {
 
-/// What codes do not tell apart.
+/// Counts of triangles with equal codes.
 struct CodeCounts {
-    std::size_t duplicates = 0;   ///< triangles whose code one before them has
-    std::size_t longest_run = 0;  ///< triangles with one code, most
+    std::size_t duplicates = 0;   ///< triangles whose code an earlier triangle has
+    std::size_t longest_run = 0;  ///< most triangles with one code
 };
 
-/// Of an order that has codes, over objects that together are all faces, each on a grid of its own or all on one. Codes
-/// are told apart within an object, by the bits that the number of objects leaves of them.
+/// Counts equal codes of an order that has codes. `objects` cover all faces; each has its own grid, or all share one. Codes are
+/// compared within an object, by the bits that remain beside the object's number.
 CodeCounts code_counts(const OrderEntry& order, std::span<const Point> points,
                        std::span<const Face> faces, std::span<const FaceRange> objects,
                        GridOver grid = GridOver::object);
 
-/// A scene of doubles, as simulations have them: `points`, turned by an angle and then moved along all axes by `sizes`
-/// times the longest side of their box, computed in doubles and taken as given.
+/// Returns a scene in doubles, like those of simulations: `points` rotated, then moved along all axes by `sizes` times the
+/// longest side of their bounding box, computed in double.
 std::vector<WidePoint> turned_and_moved(std::span<const Point> points, double sizes);
 
-/// Rounded to floats, as a file of them is.
+/// Returns the points rounded to floats, as a file of floats stores them.
 std::vector<Point> rounded(const std::vector<WidePoint>& points, Doubles how);
 
-/// The pairs of triangles whose boxes of doubles overlap: the reference. Throws Unavailable for 2^24 points and more.
+/// Returns the reference: the pairs of triangles whose boxes in double overlap. Throws Unavailable for 2^24 points or more.
 PairList overlapping_pairs_in_doubles(std::span<const WidePoint> points,
                                       std::span<const Face> faces);
 

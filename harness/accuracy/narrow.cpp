@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The axis narrow: narrow phases over classes of pairs of triangles, against CGAL's exact predicates.
+// The axis narrow: narrow phases over classes of triangle pairs, against CGAL's exact predicates.
 #include <algorithm>
 #include <future>
 #include <thread>
@@ -19,19 +19,19 @@
 namespace bvhbench {
 namespace {
 
-/// Bytes of the host a pair: six corners, two faces, and pairs several times over.
+/// Bytes of host memory per pair: six corners, two faces, and several copies of the pair.
 constexpr std::size_t host_bytes_a_pair = 240;
 
-/// A narrow phase, and what it has done of the class at hand.
+/// A narrow phase and its results over the current class.
 struct Phase {
-    std::unique_ptr<NarrowPhase> narrow;  ///< null if there cannot be one
-    std::vector<Sample> samples;          ///< each the sum of those of the pieces
+    std::unique_ptr<NarrowPhase> narrow;  ///< null if it could not be made
+    std::vector<Sample> samples;          ///< each sample is the sum over the pieces
     Differences wrong;
     NarrowCounts counts;
-    std::uint64_t hash = 0;  ///< of the contacts of the piece at hand
+    std::uint64_t hash = 0;  ///< of the contacts of the current piece
 };
 
-/// Of a mesh made of pairs, triangles 0 and 1, 2 and 3 and so on.
+/// Returns the pairs of a mesh made of pairs: triangles 0 and 1, 2 and 3, and so on.
 std::vector<Pair> pairs_of_neighbours(const Mesh& mesh)
 {
     std::vector<Pair> pairs;
@@ -41,7 +41,7 @@ std::vector<Pair> pairs_of_neighbours(const Mesh& mesh)
     return pairs;
 }
 
-/// Those of the pairs that intersect by CGAL's exact predicates, on all cores of the host.
+/// Returns the pairs that intersect by CGAL's exact predicates, computed on all host cores.
 PairList pairs_that_meet(const Mesh& mesh, std::span<const Pair> pairs)
 {
     const std::size_t workers = std::max(1u, std::thread::hardware_concurrency());
@@ -61,7 +61,7 @@ PairList pairs_that_meet(const Mesh& mesh, std::span<const Pair> pairs)
     return PairList(std::move(meeting));
 }
 
-/// Some pairs of a class: on the host and on the device, with the right answer.
+/// A part of a class's pairs, on the host and on the device, with the correct answer.
 struct Piece {
     Mesh mesh;
     std::vector<Pair> pairs;
@@ -106,7 +106,7 @@ void judge(Phase& phase, const Piece& piece, Session& session)
     phase.counts.exactly += counts.exactly;
 }
 
-/// Samples of a piece are added to those of the pieces before it, one by one.
+/// Adds the samples of a piece to those of the pieces before it, sample by sample.
 void add_samples(std::vector<Sample>& to, std::vector<Sample>&& more, std::int64_t moved_bytes)
 {
     for (Sample& sample : more)
@@ -125,7 +125,7 @@ void add_samples(std::vector<Sample>& to, std::vector<Sample>&& more, std::int64
     }
 }
 
-/// Each is held to the right answer before it is timed, and to that answer after: a race may strike only sometimes.
+/// Checks each phase's answer before timing, and for equality with it after, because a race may strike in some runs only.
 void measure_piece(Session& session, Engine& engine, std::span<Subject> cells,
                    std::span<Phase> phases, const Piece& piece)
 {
@@ -176,7 +176,7 @@ void conclude(Cell& cell, Phase& phase, std::size_t pairs, std::size_t meeting)
         cell.check.detail = phase.wrong.text();
 }
 
-/// What lacks doubles, or the reference, is skipped; what cannot be compiled has failed.
+/// Returns the narrow phase. Throws BadUsage (skipped) without CGAL or doubles; other errors of the compiler mean failure.
 std::unique_ptr<NarrowPhase> compiled(Session& session, const NarrowMethod& method)
 {
     if (!has_exact_reference)

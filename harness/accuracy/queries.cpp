@@ -18,7 +18,7 @@ namespace {
 
 using JudgePipeline = std::function<void(const Pipeline& pipeline, Cell& cell)>;
 
-/// By the cell's builder and collider over `input`, which stays. `judge` is called after the last sample.
+/// Settles a pipeline of the cell's builder and collider over `input`, which must outlive it. `judge` runs after sampling.
 void settle_pipeline(Session& session, const Input& input, Subject& one, const JudgePipeline& judge)
 {
     const auto pipeline =
@@ -30,7 +30,7 @@ void settle_pipeline(Session& session, const Input& input, Subject& one, const J
     one.judge_again = [&one, pipeline, judge] { judge(*pipeline, one.cell); };
 }
 
-/// Hold the pairs that were found last to the right ones: the cell's verdict, and its counters of what is missed and false.
+/// Compares the last pairs with the correct ones and writes the verdict and the counters of missed and false pairs.
 void judge_pairs(const Pipeline& pipeline, const PairList& right, const char* against, Cell& cell)
 {
     const PairList found = pipeline.pairs();
@@ -44,7 +44,7 @@ void judge_pairs(const Pipeline& pipeline, const PairList& right, const char* ag
                   .pairs_hash = found.hash()};
 }
 
-/// Of boxes that were rounded pairs may be added, which are counted; none may be missed.
+/// Changes the verdict to `counted` if rounded boxes added false pairs; missed pairs remain an error.
 void allow_more(const PairList& right, bool is_counted_anyway, Cell& cell)
 {
     cell.counters["right_pairs_count"] = static_cast<double>(right.size());
@@ -55,8 +55,8 @@ void allow_more(const PairList& right, bool is_counted_anyway, Cell& cell)
     cell.check.detail.clear();
 }
 
-/// The surface area cost of trees over an input, one an object: the sum of their nodes' costs, of the sum of their roots'
-/// areas.
+/// Writes the surface area cost of the trees over an input, one for each object: the sum of their nodes' costs divided by the
+/// sum of their roots' areas.
 void add_forest_cost(Session& session, const Input& input, Cell& cell)
 {
     Builder& builder = session.builder(cell.builder);
@@ -81,9 +81,8 @@ void add_forest_cost(Session& session, const Input& input, Cell& cell)
 
 }  // namespace
 
-/// What more bits a code and other cells buy, in the tree and in a query of it: orders along curves, on grids over each
-/// object and, where there are several, over the scene; and, to say what else there is, medians, which need one object, and a
-/// radix tree.
+/// Measures what longer codes and other grids gain in the tree and in a query: curve orders on grids over each object and, if
+/// there are several objects, over the scene. Compared with medians (one object only) and a radix tree.
 void measure_codes(const AxisRun& run, const SceneFacts& scene, const Input& input)
 {
     Session& session = run.session;
@@ -119,20 +118,20 @@ void measure_codes(const AxisRun& run, const SceneFacts& scene, const Input& inp
     measure_methods(run, "codes", scene, methods);
 }
 
-/// What rounding vertices from doubles to floats adds to the pairs of boxes, against the boxes of doubles. It takes none
-/// away: rounding to nearest keeps the order of coordinates, so boxes that overlapped still do.
+/// Counts the pairs that rounding vertices from double to float adds, against boxes in double. Rounding removes no pair:
+/// rounding to nearest preserves the order of coordinates, so boxes that overlapped still do.
 void measure_input(const AxisRun& run, const SceneFacts& scene, const Input& input)
 {
     struct Rounded {
         std::vector<Point> points;
         Input input;
     };
-    // How far off, in sizes of the scene. A float has 24 bits: at 1e7 sizes little is left.
+    // Distance from the origin in sizes of the scene. A float has 24 bits, so at 1e7 sizes hardly any detail remains.
     for (const double sizes : {0.0, 1e2, 1e3, 1e4, 1e5, 1e6}) {
         const std::vector<WidePoint> wide = turned_and_moved(input.points, sizes);
         const PairList right = overlapping_pairs_in_doubles(wide, input.faces);
         std::vector<AxisMethod> methods;
-        std::vector<std::shared_ptr<Rounded>> all;  // stay until all samples are taken
+        std::vector<std::shared_ptr<Rounded>> all;  // must live until all samples are taken
         const auto add = [&](const char* name, Doubles how) {
             const auto settle = [&, how](Subject& one) {
                 const auto& floats = all.emplace_back(std::make_shared<Rounded>());
@@ -156,8 +155,8 @@ void measure_input(const AxisRun& run, const SceneFacts& scene, const Input& inp
     }
 }
 
-/// What fewer bytes a box cost in false pairs and save in time, of trees in one layout, built, queried and followed by the
-/// exact narrow phase alike. Rounded outward, boxes may add pairs and must take none away; contacts may not be others.
+/// Measures the false pairs that smaller boxes cost and the time they save. The trees' layout, query and exact narrow phase are
+/// the same. Boxes are rounded outward: they may add pairs but must not remove any or change contacts.
 void measure_boxes(const AxisRun& run, const SceneFacts& scene, const Input& input)
 {
     const PairList right = touching_pairs(input.points, input.faces, false);
@@ -183,7 +182,7 @@ void measure_boxes(const AxisRun& run, const SceneFacts& scene, const Input& inp
             settle_pipeline(run.session, input, one, judge);
             one.cell.counters["node_bytes"] = static_cast<double>(format.box_bytes());
         };
-        // The collider that is fastest on the kind of device.
+        // The fastest collider on this kind of device.
         methods.push_back(
             {name,
              {.name = "oibvh-single", .order = "hilbert30", .sorted_leaves = true, .boxes = name},

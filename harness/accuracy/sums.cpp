@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The axis sums: the surface area cost of a tree by several ways of adding areas up, against long double.
+// The axis sums: the surface area cost of a tree, added up in several ways, against long double.
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -27,7 +27,7 @@ private:
     Real sum_ = 0;
 };
 
-/// Sums of 2^k values wait at place k for another of as many.
+/// Keeps a sum of 2^k values at place k until a second one is complete.
 template <class Real>
 class PairwiseSum {
 public:
@@ -77,8 +77,7 @@ double cost_as_double(const HostTree& tree)
     return static_cast<double>(cost_by<Real, Sum>(tree));
 }
 
-// Areas in floats or doubles, and their sums; or in parts, whose sums are added up; or with what is rounded off kept. To add
-// a way to sum, add its line here.
+// Plain, pairwise and compensated sums, in float and in double. To add a method, add its line here.
 constexpr SumMethod catalog[] = {
     {"f32", cost_as_double<float, PlainSum<float>>},
     {"f32-pairwise", cost_as_double<float, PairwiseSum<float>>},
@@ -88,7 +87,7 @@ constexpr SumMethod catalog[] = {
     {"f64-compensated", [](const HostTree& tree) { return area_sums(tree)->cost(); }, true},
 };
 
-/// What our own sum may be off by: a few roundings of doubles, however many nodes.
+/// Bound on the relative error of the method in use: a few roundings of doubles for any number of nodes.
 constexpr double most_of_ours = 1e-14;
 
 void settle(const SumMethod& method, const HostTree& tree, long double right, Queue& queue,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The axis swept: pairs of boxes around the way between two frames, by several pipelines, against the sweep, pairs that
-// are known to collide on the way, and counts of who made the data.
+// The axis swept: pairs of boxes swept between two frames, by several pipelines, against the sweep, pairs known to collide
+// during the step, and counts published with the data.
 #include "harness/accuracy/axis.h"
 #include "harness/base/failure.h"
 #include "harness/measure/collide.h"
@@ -11,7 +11,7 @@
 namespace bvhbench {
 namespace {
 
-/// Sequences with a ground truth, and what is generated where they are not there.
+/// Sequences with a ground truth, and the generated scene used if a sequence is missing.
 constexpr struct {
     const char* name;
     const char* generated;
@@ -19,15 +19,15 @@ constexpr struct {
                   {"ipc_armadillo_rollers", "cloth-funnel:10000:20"},
                   {"unc_nbody", "n-body:20000:20"}};
 
-/// A scene's name, and that of what it stands in for; else empty.
+/// A scene's name, and the name of the scene it replaces; empty if none.
 using NamedScene = std::pair<std::string, std::string>;
 
-/// Those asked for, bent for a second frame if they have one, or the axis's own.
+/// Returns the scenes asked for, with a bent second frame if they have one frame, or the axis's own.
 std::vector<NamedScene> scenes_of(const AxisRun& run)
 {
     std::vector<NamedScene> scenes;
     for (const std::string& scene : run.task.scenes) {
-        bool stands = false;  // of a scene that is not there, whoever collides it says so
+        bool stands = false;  // a missing scene is reported by collide_frames
         reason_of_failure(
             [&] { stands = load_scene(scene, run.session.scenes()).frames.size() < 2; });
         scenes.emplace_back(stands ? "bend:" + scene : scene, "");
@@ -60,7 +60,7 @@ std::vector<PipelineChoice> pipelines()
     return all;
 }
 
-/// "group over oibvh-single, hilbert30, sorted leaves"
+/// Returns a name such as "group over oibvh-single, hilbert30, sorted leaves".
 std::string method_of(const BuilderChoice& builder, const ColliderChoice& collider)
 {
     std::string text = collider.name;

@@ -9,7 +9,7 @@
 namespace bvhbench {
 namespace {
 
-/// What a tree without an oracle is held against.
+/// Name of the check for trees that have no oracle.
 constexpr std::string_view promises_name = "contract";
 
 std::string broken_footprint(const Builder& builder, std::size_t triangles)
@@ -25,11 +25,11 @@ std::string broken_footprint(const Builder& builder, std::size_t triangles)
     return "predicted " + text_of(predicted) + ", reserved " + text_of(reserved);
 }
 
-/// What is wrong with a refit of the tree that `builder` has just left, all points moved elsewhere.
+/// Returns what is wrong with a refit, to moved points, of the tree that `builder` has just left; empty if it is right.
 std::string broken_refit(Session& session, Builder& builder, const Input& input, const Tree& built)
 {
     const HostTree before = built.spelled_out();
-    std::vector<Point> moved;  // as far as can be without leaving the numbers that the scene holds
+    std::vector<Point> moved;  // in reverse order, with permuted axes
     for (std::size_t k = input.points.size(); k-- > 0;)
         moved.push_back({input.points[k].y, input.points[k].z, input.points[k].x});
     const Input moved_input = upload(session.device(), session.queue(), moved, input.faces);
@@ -84,7 +84,7 @@ std::shared_future<std::uint64_t> Oracle::begin(std::string_view reference,
                                                 const std::string& order, const std::string& boxes)
 {
     std::shared_future<std::uint64_t>& hash = hashes_[{std::string(reference), order, boxes}];
-    // By a builder of its own, for the cell under test may be the reference itself, in a queue of its own.
+    // A new builder with a new queue, since the cell under test may use the reference builder itself.
     const auto built =
         [this, choice = BuilderChoice{.name = std::string(reference), .order = order}, boxes] {
             const auto builder = make_builder(choice, session_.programs());
@@ -107,8 +107,8 @@ void Oracle::wait() const
 
 std::uint64_t check_bytes(std::uint64_t triangles)
 {
-    // The tree and the reference's, spelled out, two nodes a triangle; what either is spelled out of, boxes of all nodes
-    // and of leaves, and ids; and the reference's codes.
+    // Both trees spelled out, two nodes a triangle; the sources of both: boxes of all nodes and of leaves, and ids; the
+    // reference's codes.
     constexpr std::uint64_t spelled_out = 2 * sizeof(HostTree::Node);
     constexpr std::uint64_t kept = 3 * sizeof(Aabb) + sizeof(uint);
     return triangles * (2 * (spelled_out + kept) + 2 * sizeof(ulong));

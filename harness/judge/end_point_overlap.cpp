@@ -13,7 +13,7 @@ namespace {
 
 using Corner = Polygon::Corner;
 
-/// Where the edge meets the plane: on it exactly, so that the next cut of the same plane changes nothing.
+/// Returns where the edge meets the plane. The coordinate equals `plane` exactly, so a second cut by it changes nothing.
 Corner on_plane(const Corner& a, const Corner& b, std::size_t axis, double plane)
 {
     const double t = (plane - a[axis]) / (b[axis] - a[axis]);
@@ -30,8 +30,7 @@ void add(Polygon& polygon, const Corner& corner)
         polygon.corners[polygon.count++] = corner;
 }
 
-/// Into `kept` what lies on the side of `plane` where sign * coordinate >= sign * plane
-/// (Sutherland and Hodgman 1974).
+/// Writes to `kept` the part of `polygon` where sign * coordinate >= sign * plane (Sutherland and Hodgman 1974).
 void cut(const Polygon& polygon, std::size_t axis, double plane, double sign, Polygon& kept)
 {
     kept.count = 0;
@@ -49,7 +48,7 @@ void cut(const Polygon& polygon, std::size_t axis, double plane, double sign, Po
     }
 }
 
-/// Set the box of a polygon that has corners.
+/// Sets the bounds of a polygon that has corners.
 void enclose(Polygon& polygon)
 {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -63,7 +62,7 @@ void enclose(Polygon& polygon)
     }
 }
 
-/// Whether the closed box and the one around the polygon share a point.
+/// True if the closed box and the polygon's bounding box share a point.
 bool overlap(const Aabb& box, const Polygon& polygon)
 {
     return box.min_x <= polygon.high[0] && polygon.low[0] <= box.max_x &&
@@ -71,7 +70,7 @@ bool overlap(const Aabb& box, const Polygon& polygon)
            box.min_z <= polygon.high[2] && polygon.low[2] <= box.max_z;
 }
 
-/// Whether all of the polygon is in the closed box.
+/// True if the whole polygon is in the closed box.
 bool contains(const Aabb& box, const Polygon& polygon)
 {
     return box.min_x <= polygon.low[0] && polygon.high[0] <= box.max_x &&
@@ -79,9 +78,9 @@ bool contains(const Aabb& box, const Polygon& polygon)
            box.min_z <= polygon.low[2] && polygon.high[2] <= box.max_z;
 }
 
-/// The tree as a descent reads it: depth first, so that all below a node follows it, up to `end`.
+/// The tree in depth-first order: the nodes below a node follow it, up to its `end`.
 ///
-///     0 1 2 3 4 5 6      nodes: 0 is the root, 1 and 4 its children; of 1 below are 2 and 3, its end is 4
+///     0 1 2 3 4 5 6      nodes: 0 is the root with children 1 and 4; 2 and 3 are below 1, whose end is 4
 struct DepthFirst {
     struct Node {
         Aabb box;
@@ -103,7 +102,7 @@ struct DepthFirst {
             const int index = stack.back();
             stack.pop_back();
             const auto place = static_cast<std::uint32_t>(nodes.size());
-            if (index < 0) {  // the way back out of a node
+            if (index < 0) {  // all nodes below the node are done
                 nodes[static_cast<std::size_t>(~index)].end = place;
                 continue;
             }
@@ -131,15 +130,15 @@ struct Sums {
     }
 };
 
-/// What is left of a triangle in some node's box, for all that is below that node.
+/// The part of a triangle in a node's box. It is used for all nodes below that node.
 struct Part {
     Polygon polygon;
     double area;
     std::uint32_t end;
 };
 
-/// Takes triangles down the tree one after the other. A child's box is within its parent's, so each box cuts
-/// what the one above left, and most cut nothing off.
+/// Takes triangles down the tree, one at a time. A child's box is within its parent's, so each box clips what the parent's box
+/// left over; most boxes clip nothing.
 class Descent {
 public:
     explicit Descent(const DepthFirst& tree) : tree_(tree) {}
@@ -173,7 +172,7 @@ public:
     }
 
 private:
-    /// Whether some of the surface is in the node. That is then the last part.
+    /// Clips the last part to the node. True if an area remains; it becomes the last part.
     bool cut(const DepthFirst::Node& node)
     {
         if (contains(node.box, parts_[last_].polygon))
@@ -188,12 +187,11 @@ private:
     }
 
     const DepthFirst& tree_;
-    std::vector<Part>
-        parts_;  ///< [0] is the whole triangle, [last_] what is left in the node at hand
+    std::vector<Part> parts_;  ///< [0] is the whole triangle, [last_] its part in the current node
     std::size_t last_ = 0;
 };
 
-/// Sums of as many triangles that are neighbours in the tree: they meet the same nodes.
+/// Number of consecutive leaves that one task sums: neighbours in the tree meet the same nodes.
 constexpr std::size_t chunk = 512;
 
 Sums sums_of(const DepthFirst& tree, std::size_t first, std::span<const Point> points,
@@ -247,7 +245,7 @@ void clip(const Polygon& polygon, const Aabb& box, Polygon& left)
 
 double area(const Polygon& polygon)
 {
-    // Twice the area as a vector: what triangles of a fan from the first corner add up to.
+    // Twice the area as a vector: the sum over the triangles of a fan from the first corner.
     double x = 0, y = 0, z = 0;
     const Corner& o = polygon.corners[0];
     for (int i = 1; i + 1 < polygon.count; ++i) {
@@ -268,7 +266,7 @@ std::optional<AreaSums> end_point_overlap(const HostTree& tree, std::span<const 
     if (tree.nodes.empty())
         return std::nullopt;
     const DepthFirst flat(tree);
-    // Whoever is free takes the next chunk; chunks are added up in their order.
+    // Threads take chunks as they become free; the chunks are added in their order, so the sum does not depend on threads.
     std::vector<Sums> chunks((flat.leaves.size() + chunk - 1) / chunk);
     std::atomic<std::size_t> next = 0;
     const auto work = [&] {

@@ -6,10 +6,10 @@
 namespace bvhbench {
 namespace {
 
-/// Same numbers everywhere: the engine is fixed by the standard, the distributions are not.
+/// Random numbers, the same on every machine: the standard fixes the engine's output, not that of distributions.
 class Random {
 public:
-    /// From 0 to below 1, a multiple of 2^-24.
+    /// Returns a multiple of 2^-24 in [0, 1).
     float next() { return static_cast<float>(engine_() >> 8) * 0x1p-24f; }
     Point point() { return {next(), next(), next()}; }
 
@@ -29,7 +29,7 @@ Point moved(Point p, Point by, float size)
     return {p.x + size * by.x, p.y + size * by.y, p.z + size * by.z};
 }
 
-/// Small triangles anywhere in the unit cube, then `change` on every vertex.
+/// Returns small triangles at random places in the unit cube, with `change` applied to every vertex.
 template <class Change>
 Mesh soup(std::size_t triangles, const Change& change)
 {
@@ -60,7 +60,7 @@ constexpr HardInput inputs[] = {
      [](std::size_t n) {
          return Mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 1}}, std::vector<Face>(n, {0, 1, 2})};
      }},
-    {"same-centre",  // boxes of different sizes around one centre, exactly: every code is the same
+    {"same-centre",  // boxes of different sizes with exactly one centre: all codes are equal
      [](std::size_t n) {
          Mesh mesh;
          for (std::size_t i = 0; i < n; ++i) {
@@ -72,7 +72,7 @@ constexpr HardInput inputs[] = {
     {"flat", [](std::size_t n) { return soup(n, [](Point p) {
                                      return Point{p.x, 3.25f, p.z};
                                  }); }},
-    {"points",  // triangles that are points
+    {"points",  // triangles whose corners coincide
      [](std::size_t n) {
          Random random;
          Mesh mesh;
@@ -82,18 +82,18 @@ constexpr HardInput inputs[] = {
          }
          return mesh;
      }},
-    {"outlier",  // all but one triangle share a cell of the Morton grid
+    {"outlier",  // all triangles but one share a cell of the Morton grid
      [](std::size_t n) {
          Mesh mesh = random_soup(n);
          for (std::size_t k = mesh.points.size() - 3; k < mesh.points.size(); ++k)
              mesh.points[k] = scaled(mesh.points[k], 1, 1e7f);
          return mesh;
      }},
-    {"near-1e6",  // where floats are a sixteenth apart
+    {"near-1e6",  // adjacent floats differ by 1/16
      [](std::size_t n) { return soup(n, [](Point p) { return scaled(p, 8, 1e6f); }); }},
     {"denormal",
      [](std::size_t n) { return soup(n, [](Point p) { return scaled(p, 1e-39f, 0); }); }},
-    {"huge",  // extents and sums of coordinates reach the end of what a float holds
+    {"huge",  // extents and sums of coordinates come close to the largest float
      [](std::size_t n) { return soup(n, [](Point p) { return scaled(p, 3e38f, -1.5e38f); }); }},
     {"negative-zero",
      [](std::size_t n) {

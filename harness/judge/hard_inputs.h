@@ -9,16 +9,16 @@
 
 namespace bvhbench {
 
-/// A way to make triangles on which builders have failed.
+/// A generator of triangles on which builders have failed.
 struct HardInput {
     std::string_view name;
-    Mesh (*make)(std::size_t triangles);  ///< the same for the same number, on every machine
+    Mesh (*make)(std::size_t triangles);  ///< same result for the same number on every machine
 };
 
-/// All of them, in the order `check` lists them.
+/// Returns all of them, in the order in which `check` lists them.
 std::span<const HardInput> hard_inputs();
 
-/// Sizes that tell: one below, at and above powers of two, where implicit layouts go wrong.
+/// Returns numbers of triangles one below, at and one above powers of two, where implicit layouts fail first.
 std::span<const std::size_t> telling_sizes();
 
 }  // namespace bvhbench

@@ -21,7 +21,7 @@ double root_area(const HostTree& tree)
     return tree.nodes.empty() ? 0 : surface_area(tree.nodes.front().box);
 }
 
-/// What both boxes cover; without extent where they are apart.
+/// Returns the intersection of two boxes; its extents are negative if they are apart.
 Aabb common(const Aabb& a, const Aabb& b)
 {
     return {std::max(a.min_x, b.min_x), std::max(a.min_y, b.min_y), std::max(a.min_z, b.min_z),
@@ -62,7 +62,7 @@ std::optional<double> sibling_overlap(const HostTree& tree)
 std::vector<std::int64_t> leaves_by_depth(const HostTree& tree)
 {
     std::vector<std::int64_t> counts;
-    std::vector<std::pair<int, std::size_t>> stack;  // a node and its depth
+    std::vector<std::pair<int, std::size_t>> stack;  // node and depth
     if (!tree.nodes.empty())
         stack.emplace_back(0, 0);
     while (!stack.empty()) {
@@ -94,7 +94,7 @@ Quality quality_of(const HostTree& tree, const NodeCosts& costs)
             quality.left_out[counter] = "the root's box has no area";
     }
     const std::vector<std::int64_t>& depths = quality.leaves_by_depth = leaves_by_depth(tree);
-    double leaves = 0, sum = 0;  // whole numbers, exact up to 2^53
+    double leaves = 0, sum = 0;  // integers, exact up to 2^53
     for (std::size_t depth = 0; depth < depths.size(); ++depth) {
         leaves += static_cast<double>(depths[depth]);
         sum += static_cast<double>(depths[depth]) * static_cast<double>(depth);

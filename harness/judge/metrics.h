@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// How good a tree is, whoever built it: numbers of a spelled-out tree, in double, with compensated sums.
+// Quality metrics of trees, computed from the spelled-out tree in double, with compensated sums.
 //
-// Nothing here recurses: a tree may be as deep as it has leaves. All expect a tree that keeps its promises
-// (builders/spell_out.h). What has no value, as any share of a root without area, is left out, never NaN.
+// No function recurses, because a tree may be as deep as it has leaves. All expect a valid tree (builders/spell_out.h). A metric
+// without a value, such as a ratio to a root without area, is left out and never NaN.
 #pragma once
 
 #include <cmath>
@@ -20,7 +20,7 @@
 
 namespace bvhbench {
 
-/// A, the surface area of a box: 0 when it is flat in two directions, not when in one.
+/// Returns A, the surface area of a box: 0 if it is flat along two axes, positive if along one.
 template <class Real = double>
 Real surface_area(const Aabb& box)
 {
@@ -30,8 +30,8 @@ Real surface_area(const Aabb& box)
     return 2 * (x * y + y * z + z * x);
 }
 
-/// A sum of Reals that is as if added in twice the precision, whatever the order: what each addition rounds
-/// off is kept apart (Neumaier 1974). Needs no number to be smaller than the sum so far, as Kahan's does.
+/// A sum as accurate as in twice the precision of Real, in any order: the rounding errors of the additions are summed separately
+/// (Neumaier 1974). Unlike Kahan's method it allows terms larger than the sum so far.
 template <class Real = double>
 class CompensatedSum {
 public:
@@ -47,8 +47,8 @@ private:
     Real sum_ = 0, lost_ = 0;
 };
 
-/// A sum over inner nodes, the root and nodes with one child too, and one over leaves, of the area that the
-/// metric counts. Any choice of costs follows from them.
+/// Sums of a metric's area over the inner nodes (with the root and nodes with one child) and over the leaves. The metric for any
+/// node costs follows from them.
 struct AreaSums {
     double inner = 0;
     double leaf = 0;
@@ -59,26 +59,26 @@ struct AreaSums {
     }
 };
 
-/// Of A / A_root; SAH := 1/A_root (C_inner sum_inner A + C_tri sum_leaf T A), Aila, Karras, Laine 2013, Eq. (1),
-/// with T = 1, is their cost. Nothing if the root has no area.
+/// Returns the sums of A / A_root. Their cost() is SAH := 1/A_root (C_inner sum_inner A + C_tri sum_leaf T A) with T = 1 (Aila,
+/// Karras, Laine 2013, Eq. (1)). Returns nothing if the root has no area.
 std::optional<AreaSums> area_sums(const HostTree& tree);
 
-/// Sum over any two children of one node of the area of what both their boxes cover, of A_root.
-/// Nothing if the root has no area.
+/// Returns the surface area of the intersection of sibling boxes, summed over all pairs of siblings, divided by A_root. Returns
+/// nothing if the root has no area.
 std::optional<double> sibling_overlap(const HostTree& tree);
 
-/// Leaves by their distance from the root: entry d counts those on level d. The last entry is not 0.
+/// Returns the number of leaves at each depth: entry d counts those on level d. The last entry is not 0.
 std::vector<std::int64_t> leaves_by_depth(const HostTree& tree);
 
-/// What a cell of a result file says about its tree.
+/// Quality of a tree as stored in a cell of a result file.
 struct Quality {
     std::map<std::string, double> counters;
-    /// Counters without a value, and why. A weighted sum takes its parts along, unnamed.
+    /// Reason for each counter that is missing. A missing weighted sum implies that its parts are missing as well.
     std::map<std::string, std::string> left_out;
     std::vector<std::int64_t> leaves_by_depth;
 };
 
-/// All but end-point overlap, which takes longer than a build.
+/// Returns all metrics but the end-point overlap, which takes longer than a build.
 Quality quality_of(const HostTree& tree, const NodeCosts& costs = {});
 
 void add_end_point_overlap(Quality& quality, const HostTree& tree, std::span<const Point> points,

@@ -10,7 +10,7 @@
 
 namespace bvhbench {
 
-/// How a list of pairs differs from the right one. Found twice counts as false.
+/// Number of errors in a list of pairs. A pair found twice counts as false.
 struct Differences {
     std::uint64_t missed = 0;
     std::uint64_t false_ones = 0;
@@ -23,7 +23,7 @@ struct Differences {
     }
     bool operator==(const Differences&) const = default;
 
-    /// "2 pairs missed, 1 false".
+    /// Returns a text such as "2 pairs missed, 1 false".
     std::string text() const
     {
         return std::to_string(missed) + " pairs missed, " + std::to_string(false_ones) + " false";
@@ -32,11 +32,11 @@ struct Differences {
 
 Differences differences(const PairList& found, const PairList& right);
 
-/// Bytes of the faces and points of all triangles that are in `pairs`, each once: what deciding about them must read
-/// (docs/measuring.md, Bytes moved).
+/// Returns the bytes of the faces and points of all triangles in `pairs`, each counted once: the least that a narrow phase must
+/// read (docs/measuring.md, Bytes moved).
 std::int64_t corner_bytes(std::span<const Pair> pairs, const Input& input);
 
-/// Add to what the launches of `stage` have declared, if it is there and has any.
+/// Adds `bytes` to the bytes moved of `stage`, if it has launches.
 void add_moved_bytes(std::vector<StageTime>& stages, std::string_view stage, std::int64_t bytes);
 
 }  // namespace bvhbench

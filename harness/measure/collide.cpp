@@ -11,7 +11,7 @@
 namespace bvhbench {
 namespace {
 
-/// How the scene was asked for.
+/// Records the options that the scene was chosen with.
 void put_choice(const CollideTask& task, SceneFacts& facts)
 {
     if (task.objects != ObjectsBy::automatic)
@@ -60,7 +60,7 @@ SceneFacts facts_of(const CollideTask& task, const Scene& scene, std::size_t fra
 
 namespace {
 
-/// Throws what loading the scene does, and BadUsage for frames that it has not.
+/// Throws what loading the scene throws, and BadUsage for frames that it does not have.
 void collide_scene(Session& session, const CollideTask& task, int& order, const AddFrame& add,
                    const PassCells& passes)
 {

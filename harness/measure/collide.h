@@ -15,74 +15,74 @@
 
 namespace bvhbench {
 
-/// What a pipeline found in a frame, in canonical order, by the numbers triangles have in the file.
+/// Pairs and contacts that a pipeline found in a frame, in canonical order. Triangles are numbered as in the scene's file.
 struct Found {
-    const Scene* scene = nullptr;  ///< it is there while these are handed on
+    const Scene* scene = nullptr;  ///< valid only during the call
     PairList pairs = {}, contacts = {};
 };
 
-/// The task's scene, with its objects and the frames between. Throws what loading it does.
+/// Returns the task's scene, with its objects split as chosen and the frames in between added. Throws what loading it throws.
 Scene scene_of(const CollideTask& task, const SceneLibrary& library);
 
-/// The task's range of the `there` frames of a scene; `what` names them in the error. Throws BadUsage.
+/// Returns the task's range of a scene's `there` frames. Throws BadUsage, naming them `what`, if the range does not fit.
 FrameRange frames_of(const CollideTask& task, std::size_t there, const char* what);
 
 SceneFacts facts_of(const CollideTask& task, const Scene& scene, std::size_t frame);
 
-/// A cell of the task of which nothing is known yet.
+/// Returns a cell that names the task, builder and collider and has no measurements yet.
 Cell planned_cell(const CollideTask& task, const PipelineChoice& pipeline);
 
-/// Takes the cells of a frame, and what the last pipeline found in it.
+/// Takes the cells of a frame, and what the last pipeline found in that frame.
 using AddFrame = std::function<void(std::vector<Cell>&& cells, const Found& found)>;
 
-/// Whether so many cells exist already, which then are not measured again. May be empty: they do not.
+/// Returns true if the run already has the next `cells` cells, which are then not measured again. May be empty.
 using PassCells = std::function<bool(std::size_t cells)>;
 
-/// Every pipeline over every frame, a cell each: checked against the oracles, then sampled, all of a frame
-/// interleaved; each sample is a whole frame from vertices to pairs or contacts. `order` counts samples and goes on.
+/// Runs every pipeline over every frame, one cell each. The pipelines of a frame are checked against the oracles, then sampled
+/// interleaved; a sample is a whole frame, from vertices to pairs or contacts. Each sample increments `order`.
 ///
-/// A pipeline that fails is a cell that says so, and so is each pipeline where there is no such scene or frame, or all of them
-/// look for pairs between the objects of a scene that is one object. Frames done by then have been handed on.
+/// A pipeline that fails leaves a cell with the reason. If the scene or frame does not exist, or if all pipelines look for pairs
+/// between objects and the scene has one object, every pipeline leaves such a cell. Frames finished before reach `add`.
 void collide_frames(Session& session, const CollideTask& task, int& order, const AddFrame& add,
                     const PassCells& passes = {});
 
-/// The same of a task whose `swept` is set, over boxes swept between two frames, the broad phase of continuous collision
-/// detection. A step from a frame to the next is two queries, a cell a pipeline each: vertices against faces, whose objects these
-/// are, and edges against each other, which are one object. A pipeline has both unless its pairs are those between
-/// objects, or within. Pairs that share a vertex are left out.
+/// Runs a task whose `swept` is set: boxes enclose triangles over a step, from one frame to the next, as in the broad phase of
+/// continuous collision detection. A step has two queries, each with one cell per pipeline: vertices against faces, which are
+/// two objects, and edges against edges, which are one object. A pipeline limited to pairs between or within objects runs only
+/// one of them. Pairs that share a vertex are left out.
 ///
-/// A cell is held to the sweep, and where the scene's folder says more of a step (scenes/ground_truth.h) to that: counters
-/// ground_truth_pairs and ground_truth_missed, and reference_pairs_count, how many pairs its meta.json counts.
+/// Cells are checked against the sweep, and against the ground truth of the step if there is one (scenes/ground_truth.h):
+/// counters ground_truth_pairs, ground_truth_missed and reference_pairs_count, the number of pairs in meta.json.
 ///
-/// Throws BadUsage for what has no meaning with swept boxes, and Unavailable for a scene of one frame.
+/// Throws BadUsage for options that make no sense with swept boxes, and Unavailable for a scene of one frame.
 void collide_swept(Session& session, const CollideTask& task, int& order, const AddFrame& add,
                    const PassCells& passes);
 
-/// A pipeline through the frames of a scene: made when it is first run.
+/// A pipeline that runs over the frames of a scene. It is created when it first runs.
 struct Running {
     PipelineChoice choice;
     std::unique_ptr<Pipeline> pipeline = nullptr;
-    std::string failure = {};  ///< why there is none, or none any more
-    bool cannot_be = false;  ///< whether that is because there is no such pipeline over this scene
+    std::string failure = {};  ///< why it cannot be run; empty if it can
+    bool cannot_be = false;    ///< true if it can never run over this scene
 };
 
-/// A frame that pipelines are run over.
+/// A frame that several pipelines run over.
 struct FrameOfPipelines {
     const Input& input;
-    std::string number;  ///< which of the run's frames it is
+    std::string number;  ///< path of the frame within the run, such as "2/0"
     SceneFacts scene;
     SweptFacts swept = {};
-    std::vector<Motion> motions = {};       ///< since the frame before, if that is known
-    std::span<const uint> file_faces = {};  ///< numbers of triangles (Scene::file_faces)
-    /// What else to hold to what a pipeline found, besides the oracles.
+    std::vector<Motion> motions = {};       ///< since the previous frame; empty: unknown
+    std::span<const uint> file_faces = {};  ///< as Scene::file_faces
+    /// Judges what a pipeline found, in addition to the oracles; may be empty.
     std::function<void(const Found& found, Cell& cell)> judge_more = {};
 };
 
-/// The answer was wrong, and why; more than one reason may be.
+/// Sets the verdict to `differs` and appends `detail` to the reasons.
 void find_wrong(Check& check, const std::string& detail);
 
-/// All pipelines over a frame, a cell each: settled, held to the oracles, sampled interleaved, and held to them again. What
-/// the last one found goes to `found`. One that fails says so, now and in all frames after.
+/// Runs all pipelines over a frame, one cell each: settles and checks each, samples all interleaved, checks again. Writes the
+/// last pipeline's result to `found`. A pipeline that fails has the same reason in the cells of all later frames.
 std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span<Running> all,
                             const FrameOfPipelines& frame, int& order, Found& found);
 

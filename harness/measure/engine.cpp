@@ -10,18 +10,18 @@
 namespace bvhbench {
 namespace {
 
-/// Of fewer samples no statistic is made that drift could spoil, and compiling the calibration takes longer than they do.
+/// Fewer samples than this run without calibration: compiling it takes longer than they do, and drift matters little.
 constexpr int fewest_calibrated = 9;
 
-/// Samples on the session's device: with its calibration between them, where there are enough of them for it to tell
-/// anything, and with its caches emptied before each if the plan says so. Throws as take_samples does.
+/// Samples on the session's device. Runs the calibration between samples if there are enough of them, and empties the caches
+/// before each if the plan says so. Throws as take_samples does.
 std::vector<Taken> session_samples(Session& session, std::span<const Timed> cells,
                                    const SamplingPlan& plan, int& order)
 {
     const std::string failure = reason_of_failure([&] { session.empty_caches(plan.rules.cold); });
     if (!failure.empty())
         return std::vector<Taken>(cells.size(), Taken{{}, failure, Stopped::failure});
-    struct Hot {  // what is run outside samples is not to be slowed down
+    struct Hot {  // work outside the samples runs with warm caches
         Session& session;
         ~Hot() { session.empty_caches(false); }
     } const hot{session};

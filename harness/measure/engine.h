@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The protocol by which every cell is measured: it is brought to where it can be timed, what it answers then is judged, it is
-// sampled interleaved with the others, and judged again. A step that fails makes a cell that says so.
+// The protocol that measures every cell: settle it (compile, run once, judge the result), sample it interleaved with the others,
+// judge it again. A step that fails marks the cell as failed or skipped, with the reason.
 #pragma once
 
 #include <functional>
@@ -15,13 +15,13 @@
 
 namespace bvhbench {
 
-/// A cell on its way to being measured. The functions refer to what the caller keeps until the cells are done.
+/// A cell and the functions that measure it. They may refer to objects of the caller, which must outlive the measurement.
 struct Subject {
     Cell cell;
-    std::string number = {};  ///< which of the run's cells it is, for the watchdog; empty: of none
-    /// One sample; none: there is nothing to time.
+    std::string number = {};  ///< path of the cell within the run, for the watchdog; may be empty
+    /// Runs one sample and returns its stages; empty if there is nothing to time.
     std::function<std::vector<StageTime>()> once = {};
-    std::function<void()> judge_again = {};  ///< of what the last sample left; may be empty
+    std::function<void()> judge_again = {};  ///< judges the result of the last sample; may be empty
 
     bool is_ready() const
     {
@@ -30,24 +30,24 @@ struct Subject {
     }
 };
 
-/// What `work` takes, on the host's clock, in nanoseconds.
+/// Runs `work` and returns its duration in nanoseconds of the host's clock.
 std::int64_t host_ns(const std::function<void()>& work);
 
 class Engine {
 public:
-    /// `order` counts samples and goes on.
+    /// `order` is the number of the next sample; each sample increments it.
     Engine(Session& session, SamplingPlan plan, int& order)
         : session_(session), plan_(plan), order_(order)
     {}
 
-    /// Runs `work`, which compiles, runs first and judges, and fills in the cell and `once`. Where it fails, or an earlier
-    /// process has given the cell up, the cell says so.
+    /// Runs `work`, which compiles, runs and judges the cell for the first time, and fills in `cell` and `once`. Marks the cell
+    /// as failed or skipped if `work` throws or if an earlier process of this run gave the cell up.
     void settle(Subject& subject, const std::function<void()>& work);
 
-    /// Samples all that are ready, in turn.
+    /// Samples all subjects that are ready, interleaved, and judges each again.
     void sample(std::span<Subject> subjects);
 
-    /// The cell has no numbers, and why. What it left in the queue is forgotten.
+    /// Marks the cell with `status` and `reason`, drops its samples, and discards its queued launches.
     void refuse(Subject& subject, Cell::Status status, std::string reason);
 
 private:

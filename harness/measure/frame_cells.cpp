@@ -21,18 +21,18 @@
 namespace bvhbench {
 namespace {
 
-/// What a frame's pairs and contacts are, found out when first asked for, on another core.
+/// Computes the pairs and contacts of a frame on another core, each when first asked for.
 class FrameOracle {
 public:
-    /// `note` is told, for a line of progress, that it takes long.
+    /// `note` receives a line of progress each second of waiting.
     FrameOracle(const Input& input, std::function<void(const std::string&)> note)
         : input_(input), note_(std::move(note))
     {}
 
-    /// Begin with the pairs. Nothing may be timed before wait().
+    /// Starts computing the pairs. Nothing may be timed before wait().
     void begin(const ColliderChoice& choice) { entry(choice); }
 
-    /// Until all that was begun is there.
+    /// Blocks until all pairs that were begun are computed.
     void wait() const
     {
         for (const auto& [choice, one] : entries_)
@@ -87,10 +87,10 @@ private:
     const Input& input_;
     std::function<void(const std::string&)> note_;
     std::map<std::pair<Among, bool>, Entry>
-        entries_;  ///< by which pairs, and whether with adjacent
+        entries_;  ///< by the kind of pairs, and whether adjacent ones are kept
 };
 
-/// Pairs by the numbers that a file's triangles have in it, where objects have put them into another order.
+/// Returns the pairs with triangles numbered as in the scene's file. `file_faces` is empty if the order is the same.
 PairList numbered_as_in_file(PairList pairs, std::span<const uint> file_faces)
 {
     if (file_faces.empty())
@@ -102,7 +102,7 @@ PairList numbered_as_in_file(PairList pairs, std::span<const uint> file_faces)
     return PairList(std::move(numbered));
 }
 
-/// Hold a list to the oracle's. What differs is added to the check.
+/// Compares a list to the oracle's and adds differences to the check.
 void hold(const PairList& found, const PairList& expected, const std::string& what,
           std::span<const uint> file_faces, Check& check)
 {
@@ -114,7 +114,7 @@ void hold(const PairList& found, const PairList& expected, const std::string& wh
                               hex(numbered_as_in_file(expected, file_faces).hash()));
 }
 
-/// How many are wrong, to the cell's counters.
+/// Counts missed and false pairs, and writes both to the cell's counters.
 Differences counted_errors(const PairList& found, const PairList& expected, Cell& cell)
 {
     const Differences wrong = differences(found, expected);
@@ -123,7 +123,7 @@ Differences counted_errors(const PairList& found, const PairList& expected, Cell
     return wrong;
 }
 
-/// Of contacts by a narrow phase that promises none to be right.
+/// Counts the errors of a narrow phase that is not exact.
 void count_errors(const PairList& found, const PairList& expected, Cell& cell)
 {
     const Differences wrong = counted_errors(found, expected, cell);
@@ -133,8 +133,8 @@ void count_errors(const PairList& found, const PairList& expected, Cell& cell)
                          std::to_string(wrong.false_ones) + " false";
 }
 
-/// Hold pairs of boxes that were rounded outward to the oracle's: there may be more of them, and none may be missing. Where
-/// a narrow phase goes on, they are candidates and no answer; else the answer is counted.
+/// Checks pairs of boxes that were rounded outward: none of the oracle's may be missing, more are allowed. The verdict becomes
+/// `counted` if the pairs are the answer, and stays if they are candidates for a narrow phase.
 void hold_candidates(const PairList& found, const PairList& expected, bool is_answer, Cell& cell)
 {
     const Differences wrong = differences(found, expected);
@@ -151,7 +151,7 @@ void hold_candidates(const PairList& found, const PairList& expected, bool is_an
     }
 }
 
-/// The verdict on what a pipeline found.
+/// Judges what a pipeline found and writes the verdict to the cell.
 void judge(const Pipeline& pipeline, Cell& cell, FrameOracle& oracle, const FrameOfPipelines& frame,
            Found& found)
 {
@@ -191,8 +191,8 @@ void judge(const Pipeline& pipeline, Cell& cell, FrameOracle& oracle, const Fram
         frame.judge_more(found, cell);
 }
 
-/// Asks the host for the memory of a library's trees, and of its pairs, which the oracle has counted. They are held twice, in
-/// lists that grow by doubling.
+/// Throws if the host lacks memory for a library's trees and for its pairs, which the oracle has counted. The pairs are stored
+/// twice, in lists that grow by doubling.
 void require_memory(const ColliderChoice& choice, std::size_t triangles, FrameOracle& oracle)
 {
     const std::size_t bytes = find_collider(choice.name).host_bytes;
@@ -204,7 +204,7 @@ void require_memory(const ColliderChoice& choice, std::size_t triangles, FrameOr
                         bytes * triangles + 4 * sizeof(Pair) * count);
 }
 
-/// Brings the pipeline to where the frame can be timed, from its first frame on.
+/// Creates the pipeline if it does not exist and runs the frame once, so that the frame can be timed.
 void settle(Session& session, Running& one, const FrameOfPipelines& frame, Cell& cell)
 {
     const watchdog::Watch watch;
@@ -217,7 +217,7 @@ void settle(Session& session, Running& one, const FrameOfPipelines& frame, Cell&
     cell.first.run_ns = host_ns([&] { one.pipeline->settle(frame.input); });
 }
 
-/// Of the frame, by the pipeline, and of nothing found yet.
+/// Returns a cell of the frame and pipeline without results.
 Cell empty_cell(const CollideTask& task, const PipelineChoice& pipeline,
                 const FrameOfPipelines& frame)
 {
@@ -241,7 +241,7 @@ std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span
 {
     const Input& input = frame.input;
     FrameOracle oracle(input, task.note);
-    oracle.begin(all.front().choice.collider);  // while the first one is compiled and settles
+    oracle.begin(all.front().choice.collider);  // runs while the first pipeline settles
     Engine engine(session, {task.samples, task.warm_up, task.sampling}, order);
     std::vector<Subject> subjects(all.size());
     for (std::size_t k = 0; k < all.size(); ++k) {
@@ -265,13 +265,13 @@ std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span
             const watchdog::Watch watch;
             return one.pipeline->once(input);
         };
-        // Another pipeline may have used the same builder's tree since the last sample, so once more.
+        // Another pipeline may have used the same builder's tree since the last sample, so the frame runs once more.
         subject.judge_again = [&] {
             one.pipeline->once(input);
             judge(*one.pipeline, cell, oracle, frame, found);
         };
     }
-    oracle.wait();  // if none has asked, too
+    oracle.wait();  // needed even if no pipeline has asked the oracle
     engine.sample(subjects);
     std::vector<Cell> cells;
     for (std::size_t k = 0; k < all.size(); ++k) {

@@ -7,36 +7,36 @@
 
 namespace bvhbench {
 
-/// The scene called so; if it is a data set that is not there, its stand-in, where there may be one. Throws as load_scene does.
+/// Returns the scene `name`, or with `may_stand_in` the stand-in of a missing data set. Throws as load_scene.
 Scene scene_called(const std::string& name, bool may_stand_in, const SceneLibrary& library);
 
-/// What is known of a scene that was asked for as `name`.
+/// Returns the facts of frame `frame` of a scene that was asked for as `name`.
 SceneFacts facts_of(const Scene& scene, std::string name, std::size_t frame);
 
-/// A frame on the device, an object for each of the scene's. Waits.
+/// Uploads a frame, with the scene's objects. Blocks until done.
 Input upload_frame(Session& session, const Scene& scene, std::size_t frame);
 
-/// A scene, and the frames of it that an experiment's cells need on the device.
+/// A scene, and those of its frames that an experiment needs on the device.
 ///
-/// Where nothing is refitted that is the first frame. Where something is, the points have moved: every cell is
-/// about the second frame, be its tree built over it or built over the first and refitted.
+/// Without refits that is the first frame. With refits every cell is about the second frame, whose points have moved: its tree
+/// is built over that frame, or built over the first and refitted.
 class Frames {
 public:
-    /// Read the scene. Throws what load_scene does, and Unavailable when it has no second frame to refit to.
+    /// Reads the scene. Throws what load_scene throws, and Unavailable if a refit is asked for and there is no second frame.
     void load(const Experiment& experiment, const std::string& name, const SceneLibrary& library);
 
     SceneFacts facts() const { return facts_of(scene_, name_, frame_); }
 
-    /// Copy to the device, as one object or, `by_objects`, as those that the scene names. Waits. The frames stay where
-    /// they are from now on.
+    /// Uploads the frames as one object or, with `by_objects`, as the scene's objects. Blocks until done. The references that
+    /// now() and before() return stay valid from now on.
     void upload(Session& session, bool by_objects = false);
 
-    const Input& now() const { return now_; }        ///< what trees must be over in the end
-    const Input& before() const { return before_; }  ///< of refits: what trees were over before
+    const Input& now() const { return now_; }        ///< frame that cells are about
+    const Input& before() const { return before_; }  ///< frame that trees are refitted from
 
 private:
     Scene scene_;
-    std::vector<Face> faces_;  ///< as one object, of a scene whose file has them in another order
+    std::vector<Face> faces_;  ///< in the file's order, if needed and not the scene's own
     std::string name_;
     std::size_t frame_ = 0;
     Input now_, before_;

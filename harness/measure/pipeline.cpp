@@ -32,7 +32,7 @@ Pipeline::Pipeline(Session& session, const BuilderChoice& builder, const Collide
                                                           .form = collider.form});
         narrow_->reserve(input.triangle_count());
     }
-    // Swept, objects are vertices and the faces that they are corners of: all of them are near.
+    // With swept boxes the objects are vertices and the faces that they are corners of, so all triangles would be near.
     if (skips(skip_near) && collider.among == Among::between_objects && input.objects.size() > 1 &&
         !input.is_swept() && builder_ != nullptr && !collider_->keeps_tree() &&
         NearTriangles::may_pay(session.device(), input.triangle_count())) {
@@ -99,8 +99,8 @@ std::size_t Pipeline::updated(TreeUpdate how) const
                       : 0;
 }
 
-/// Memory is for as many triangles as enter, and to know how many they are takes the device's work of a frame. So it is
-/// found out here, where nothing is timed, whether this frame is worth it; a simulation would go by the frame before.
+/// Decides whether the rule `near` applies to this frame. Memory is reserved for the triangles that enter, and counting them
+/// takes work of the device. That happens here, outside the timing; a simulation would use the count of the previous frame.
 void Pipeline::choose_entering(const Input& input)
 {
     if (!near_ || std::count(updates_.begin(), updates_.end(), TreeUpdate::rebuild) == 0)
@@ -172,7 +172,7 @@ void Pipeline::settle(const Input& input)
         narrow_ && queries() ? corner_bytes(collider_->pairs(session_.queue()), input) : 0;
 }
 
-/// How much is written, and how much of it read again, is known only now.
+/// Adds the bytes of pairs and contacts to the stages. Their number is known only after the frame.
 void Pipeline::declare_found(std::vector<StageTime>& stages) const
 {
     if (!queries())

@@ -16,42 +16,42 @@
 
 namespace bvhbench {
 
-/// From a frame's vertices to its pairs, and on to its contacts: a builder, if the collider wants a tree, the collider,
-/// and a narrow phase, if one is chosen and the collider does not do its work.
+/// Turns a frame's vertices into pairs or contacts: a builder if the collider needs a tree, the collider, and a narrow phase if
+/// one is chosen and the collider does not find contacts itself.
 class Pipeline {
 public:
-    /// Compile and take memory for frames like `input`. Throws what builders and colliders throw.
+    /// Compiles and reserves memory for frames like `input`. Throws what builders and colliders throw.
     Pipeline(Session& session, const BuilderChoice& builder, const ColliderChoice& collider,
              const Input& input);
 
-    /// Frames from here on are of other points than those settled last, to which objects have moved so; of the first
-    /// frame, and where nothing is known of how they moved, no motions. Trees are brought along as the collider asks
-    /// if it goes on from frame to frame, else as the rules `unchanged` and `rigid` allow (skips.h). What the
-    /// rule `near` has left stands for a frame of which all is unchanged, and is no tree of all to be brought along.
+    /// Begins a frame whose points differ from those of the last settled frame. `motions` has the motion of each object since
+    /// then; it is empty for the first frame and where motions are unknown. Plans the tree updates: what the collider asks for
+    /// if it keeps its tree from frame to frame, else what the rules `unchanged` and `rigid` allow (skips.h). A tree that the
+    /// rule `near` built holds some triangles only: it is kept if all objects are unchanged, and else rebuilt, never refitted.
     void begin_frame(std::span<const Motion> motions);
 
-    /// One whole frame, again and again until nothing lacked room, with memory for what enters it. Waits.
+    /// Runs the whole frame until no buffer overflows, and reserves memory for the triangles that enter it. Blocks until done.
     void settle(const Input& input);
 
-    /// One whole frame, in its stages. Waits. Throws Unavailable if it lacked room, which one that was settled over the
-    /// same points does not.
+    /// Runs the whole frame once and returns its stages. Blocks until done. Throws Unavailable if a buffer overflows, which
+    /// cannot happen after settle() over the same points.
     std::vector<StageTime> once(const Input& input);
 
-    /// Of the last frame. All wait.
+    /// Results of the last frame. All of these functions block until it is done.
     bool has_pairs() const { return !collider_->finds_contacts(); }
     bool has_contacts() const { return collider_->finds_contacts() || narrow_.has_value(); }
-    PairList pairs() const;     ///< if it has them
-    PairList contacts() const;  ///< if it has them
+    PairList pairs() const;     ///< requires has_pairs()
+    PairList contacts() const;  ///< requires has_contacts()
     std::map<std::string, double> counters() const;
 
     const Collider& collider() const { return *collider_; }
-    /// That the last frame queried; null if none is wanted.
+    /// Tree that the last frame queried; null if the collider needs none.
     const Tree* tree() const { return tree_; }
 
 private:
-    /// What enters a frame under the rule `near`: some of the triangles, of those objects that have any.
+    /// Triangles that enter a frame under the rule `near`, of the objects that have any.
     struct Entering {
-        std::vector<uint> counts;  ///< of each object of the whole frame
+        std::vector<uint> counts;  ///< triangles of each object of the whole frame that enter
         std::vector<Face> faces;
         Input input;
 
@@ -65,24 +65,24 @@ private:
     TreeUpdate update_after(Motion motion) const;
     bool keeps_all(std::span<const Motion> motions) const;
     std::vector<TreeUpdate> planned_updates(std::span<const Motion> motions);
-    std::size_t updated(TreeUpdate how) const;  ///< objects
+    std::size_t updated(TreeUpdate how) const;  ///< number of objects
     void enqueue(const Input& input);
     void enqueue_query(const Input& input);
     bool complete();
     void declare_found(std::vector<StageTime>& stages) const;
 
     Session& session_;
-    BuilderChoice choice_;  ///< a builder may keep looking at its words
+    BuilderChoice choice_;  ///< outlives builder_, which may refer to its strings
     unsigned rules_off_;
-    /// Its own, whose tree stands from frame to frame; null if none is wanted.
+    /// This pipeline's own builder, so that its tree persists between frames; null if the collider needs none.
     std::unique_ptr<Builder> builder_;
     const Tree* tree_ = nullptr;
-    std::vector<TreeUpdate> updates_;  ///< what becomes of each object's tree
+    std::vector<TreeUpdate> updates_;  ///< planned update of each object's tree
     std::unique_ptr<Collider> collider_;
     std::optional<NarrowPhase> narrow_;
-    std::optional<NearTriangles> near_;  ///< if the rule may apply
-    std::optional<Entering> entering_;   ///< if it does; else everything enters
-    std::int64_t corner_bytes_ = 0;  ///< of the triangles in the pairs that the frame settled with
+    std::optional<NearTriangles> near_;  ///< if the rule `near` may apply
+    std::optional<Entering> entering_;   ///< if the rule applies; else all triangles enter
+    std::int64_t corner_bytes_ = 0;  ///< bytes that the narrow phase reads for the settled pairs
 };
 
 }  // namespace bvhbench

@@ -10,7 +10,7 @@
 namespace bvhbench {
 namespace {
 
-/// That of smoke, once each, with every narrow phase.
+/// Returns the experiment smoke with one sample of each cell and with every narrow phase.
 Experiment portable_experiment()
 {
     Experiment experiment = find_experiment("smoke", false);

@@ -18,7 +18,7 @@
 namespace bvhbench {
 namespace {
 
-/// Of the task, those that the filter leaves.
+/// Returns the task's pipelines that match the filter.
 std::vector<PipelineChoice> chosen(const CollideTask& task, const CellFilter& filter)
 {
     std::vector<PipelineChoice> pipelines = task.pipelines;
@@ -39,7 +39,7 @@ std::vector<BuilderChoice> chosen(const Experiment& experiment, const std::strin
     return builders;
 }
 
-/// How good a tree is. One that is wrong has no quality.
+/// Writes the quality of a tree to the cell. A wrong tree has none.
 void count_quality(Cell& cell, const HostTree& tree, const Input& input, const NodeCosts& costs,
                    bool with_epo)
 {
@@ -75,13 +75,13 @@ RunFacts measured_facts(Session& session, std::vector<std::string> command, cons
     return facts;
 }
 
-/// A builder and the tree that it left last.
+/// A builder and its last tree.
 struct Run::Built {
     Builder* builder = nullptr;
     const Tree* tree = nullptr;
 };
 
-/// For the frame that cells are about, and for the one that refits start from.
+/// Oracles for the frame that cells are about and for the frame that refits start from.
 struct Run::Oracles {
     Oracle now, before;
 };
@@ -209,7 +209,7 @@ void Run::scene(const Experiment& experiment, const std::string& name,
             subject.cell.check = check_again(*built[k].tree, std::move(subject.cell.check));
         };
     }
-    oracles.now.wait();  // of builders that failed meanwhile, too
+    oracles.now.wait();  // builders that failed may have begun references that are still running
     oracles.before.wait();
     progress.note(experiment.name + ": " + name + ", sampling");
     engine.sample(subjects);
@@ -224,7 +224,7 @@ void Run::settle(const Experiment& experiment, const Frames& frames, Cell& cell,
     const std::size_t triangles = frames.now().triangle_count();
     require_host_memory("checking the tree", check_bytes(triangles));
     Oracle& oracle = refits ? oracles.before : oracles.now;
-    // While the builder is compiled and builds for the first time.
+    // The reference builds while the builder compiles and builds for the first time.
     if (const auto reference = find_builder(cell.builder.name).oracle; !reference.empty())
         oracle.begin(reference, cell.builder.order, cell.builder.boxes);
     Builder& builder = session_.builder(cell.builder, cell.operation);
@@ -259,7 +259,7 @@ void Run::judge_build(const Experiment& experiment, const Frames& frames, Cell& 
     }
 }
 
-/// The tree that stands must be right, stay what it is while nothing moves, and then follow the points.
+/// Checks the built tree, a refit to the same points, which must not change it, and a refit to the moved points.
 void Run::judge_refit(const Experiment& experiment, const Frames& frames, Cell& cell, Built& built,
                       Oracle& oracle)
 {

@@ -14,35 +14,35 @@ namespace bvhbench {
 class Frames;
 class Oracle;
 
-/// Which cells to run: those whose "scene/builder" it matches; all without one.
+/// Selects the cells whose "scene/builder" or "scene/builder/collider" matches; without a value, all cells.
 using CellFilter = std::optional<Pattern>;
 
-/// Files and folders that loading these scenes may read.
+/// Returns the files and folders that loading these scenes may read.
 std::vector<std::string> files_of(const std::vector<std::string>& scenes,
                                   const SceneLibrary& library);
 
-/// What --filter says; none if it is empty. Throws BadUsage if it is no regular expression.
+/// Returns the filter for the option --filter; none if `text` is empty. Throws BadUsage if it is not a regular expression.
 CellFilter cell_filter(const std::string& text);
 
-/// Whether the experiment has a cell that matches.
+/// True if the experiment has a cell that matches.
 bool has_cells(const Experiment& experiment, const CellFilter& filter);
 
-/// What is known of a run when it starts, with the device's copy rate, the yardstick of the run, measured.
+/// Returns the facts of a run at its start, with the device's copy rate and launch cost, which it measures.
 RunFacts measured_facts(Session& session, std::vector<std::string> command,
                         const NodeCosts& costs = {});
 
-/// Runs experiments: scene by scene, all builders of a scene prepared, checked, then sampled interleaved.
+/// Runs experiments scene by scene: all builders of a scene are prepared and checked, then sampled interleaved.
 ///
-/// A builder or scene that fails is a cell that says so, and the run goes on.
+/// A builder or scene that fails leaves a cell with the reason, and the run continues.
 class Run {
 public:
-    /// Measures the device's copy rate, the yardstick of the run. To nowhere no file is written.
+    /// Measures the device's copy rate and launch cost. Writes no file if `output` is a default Output.
     Run(Session& session, Output output, std::vector<std::string> command, const NodeCosts& costs);
 
-    /// What cannot be measured is a cell that says so.
+    /// Measures all cells of the experiment that match. A cell that cannot be measured has the reason.
     void experiment(const Experiment& experiment, const CellFilter& filter = {});
 
-    /// End the run and write its file.
+    /// Ends the run and writes its file.
     void finish();
 
     const ResultFile& results() const { return results_; }
@@ -65,11 +65,11 @@ private:
     NodeCosts costs_;
     ResultFile results_;
     int order_ = 0;
-    int scenes_ = 0;  ///< begun so far
+    int scenes_ = 0;  ///< number of scenes begun so far
 };
 
-/// Prints the device with its limits, and a line for each builder, collider and narrow phase over the scenes of `smoke`: held to
-/// the oracles once and not timed. What a user of a device that nobody has tried runs and sends. Returns the exit code; throws
+/// Prints the device with its limits, then one line for each builder, collider and narrow phase over the scenes of `smoke`, each
+/// checked against the oracles once and not timed. Meant for reports about untested devices. Returns the exit code. Throws
 /// NothingMeasured.
 int check_portable(Session& session, std::vector<std::string> command);
 

@@ -11,7 +11,7 @@
 namespace bvhbench {
 namespace {
 
-/// The two questions of a step: who, of which pairs of objects, and what is known of the answer.
+/// One of the two queries of a step: its primitives, the kind of pairs, and the known answers.
 struct Question {
     const char* name;
     Among among;
@@ -21,7 +21,7 @@ struct Question {
     Input input = {};
     std::vector<Running> running = {};
 
-    /// The task's pipelines that ask it.
+    /// Adds the task's pipelines that take part in this query.
     void ask(const CollideTask& task)
     {
         for (PipelineChoice pipeline : task.pipelines) {
@@ -34,7 +34,7 @@ struct Question {
     }
 };
 
-/// How many of `listed` are not among those found.
+/// Returns how many of the pairs `listed` are not in `found`.
 std::uint64_t missed_of(const GroundTruth::Pairs& listed, const PairList& found)
 {
     const auto is_missed = [&](const std::array<uint, 2>& one) {
@@ -44,7 +44,7 @@ std::uint64_t missed_of(const GroundTruth::Pairs& listed, const PairList& found)
     return static_cast<std::uint64_t>(std::count_if(listed.begin(), listed.end(), is_missed));
 }
 
-/// Hold what was found to what the folder says of this step.
+/// Checks what was found against the ground truth of this step.
 void judge_step(const Question& question, const PairList& found, Cell& cell)
 {
     if (!question.listed.empty()) {
@@ -66,7 +66,7 @@ void judge_step(const Question& question, const PairList& found, Cell& cell)
     }
 }
 
-/// Both questions go on from the step they were at. Points that are on the device already are not copied again.
+/// Moves both queries on to the next step. The end points of the last step become the start points without another upload.
 void go_on(Question (&questions)[2], const Scene& scene, std::size_t frame, const Queue& queue)
 {
     Input& first = questions[0].input;

@@ -12,7 +12,7 @@
 namespace bvhbench {
 namespace {
 
-/// With more triangles a page takes long to open, and boxes hide each other.
+/// A page with more triangles opens slowly, and its boxes hide each other.
 constexpr std::size_t most_triangles = 100'000;
 
 std::vector<uint> flat(const PairList& list)
@@ -37,12 +37,12 @@ CollideTask task_of(const ViewTask& task)
     return collide;
 }
 
-/// Boxes of a tree that keeps its promises, level by level. Padding, which no child leads to, is on no level.
+/// Appends the boxes of a valid tree, level by level. Padding nodes, which are no node's child, are on no level.
 void append_levels(std::string& text, const HostTree& tree)
 {
     std::vector<int> now = {0}, next;
     for (const char* start = "\n{\"leaves\":"; !now.empty(); start = ",\n{\"leaves\":") {
-        // Leaves last: a page then tells them by their number alone.
+        // Leaves come last, so that their number alone separates them from inner nodes.
         const auto leaves = std::stable_partition(now.begin(), now.end(), [&](int node) {
             return tree.nodes[node].primitive == HostTree::none;
         });
@@ -63,7 +63,7 @@ void append_levels(std::string& text, const HostTree& tree)
     }
 }
 
-/// Without levels if there is no tree.
+/// Returns the JSON text; "levels" is empty if `tree` is null.
 std::string text_of(const std::string& run, const Cell& cell, const Scene& scene, std::size_t frame,
                     const HostTree* tree, const Found& found)
 {

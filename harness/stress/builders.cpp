@@ -17,7 +17,7 @@ namespace {
 
 using enum Finding::Verdict;
 
-/// Launches that a build takes at most: passes of sorts over codes of 63 bits, and a few a level.
+/// Judges the launches of a build. The limit allows for sort passes over 63-bit codes and a few launches per level.
 Finding judge_launches(const std::vector<StageTime>& stages, uint triangles)
 {
     int launches = 0;
@@ -28,7 +28,7 @@ Finding judge_launches(const std::vector<StageTime>& stages, uint triangles)
     return {broken, 1, 1, 0, "it took " + std::to_string(launches) + " launches"};
 }
 
-/// Nodes are counted by Eq. (7) where they lie as the paper's layout says.
+/// Judges the number of nodes, which Eq. (7) gives for builders with the paper's layout, and the predicted memory.
 Finding judge_layout(const BuilderEntry& entry, const Tree& tree, const Builder& builder,
                      uint triangles)
 {
@@ -50,7 +50,7 @@ bool is_any_broken(const Findings& findings)
                        [](const auto& one) { return one.second.verdict == broken; });
 }
 
-/// One build, whose launches and layout are judged, and its tree, whose leaves and boxes are not yet.
+/// Result of one build: findings about launches and layout, and the tree, whose leaves and boxes are not judged yet.
 struct BuiltOnce {
     Findings findings;
     HostTree tree;
@@ -68,7 +68,7 @@ BuiltOnce built_once(Session& session, Builder& builder, const BuilderEntry& ent
             tree->spelled_out()};
 }
 
-/// Builds, and which invariants they break.
+/// Builds `repeats` + 1 times and returns the findings.
 Findings judge_builds(Session& session, const BuilderChoice& choice, SceneUnderStress& scene,
                       int repeats)
 {
@@ -140,7 +140,7 @@ std::vector<BuilderChoice> device_builders(Session& session)
 {
     std::vector<BuilderChoice> builders;
     for (const BuilderEntry& entry : builder_catalog())
-        reason_of_failure([&] {  // of one that cannot be made, judge_builder says why
+        reason_of_failure([&] {  // judge_builder reports why a builder cannot be made
             if (entry.make != nullptr &&
                 entry.make(session.programs(), {})->card().runs == BuilderCard::Runs::on_device)
                 builders.push_back({.name = std::string(entry.name)});
@@ -161,7 +161,7 @@ Findings judge_builder(Session& session, const BuilderChoice& choice, SceneUnder
         const std::string why(find_builder(choice.name).may_refuse);
         return {{Invariant::ends, {refused, 1, 0, 0, why}}};
     });
-    if (!wrong.empty() && !is_any_broken(findings))  // the second build, sorted leaves, a refit
+    if (!wrong.empty() && !is_any_broken(findings))  // second build, sorted leaves or refit
         findings[Invariant::same] = {broken, 1, 1, 0, wrong};
     return findings;
 }

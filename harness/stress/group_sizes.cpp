@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// No parameter may change an answer. Those that are sizes of groups are tried with every value that they and the device
-// allow, each in a session of its own over the pipeline that asks for it.
+// No parameter may change an answer. Every group-size parameter is tried with all values that the parameter and the device
+// allow, each in a new session over the first pipeline that reads the parameter.
 #include <algorithm>
 #include <memory>
 #include <set>
@@ -12,7 +12,7 @@
 namespace bvhbench {
 namespace {
 
-/// What can ask for a group size, from what takes the least to compile on; without a collider's name, the builder alone.
+/// Returns pipelines that read group-size parameters, fastest to compile first; without a collider's name, the builder alone.
 std::vector<StressPipeline> askers()
 {
     std::vector<StressPipeline> all = {{{.name = "oibvh-multi"}, {}},
@@ -33,10 +33,10 @@ std::vector<StressPipeline> askers()
 
 struct Tried {
     Findings findings;
-    std::set<const Parameter*> asked;  ///< parameters whose value was asked for
+    std::set<const Parameter*> asked;  ///< parameters whose value was read
 };
 
-/// Throws what the builder or pipeline throws.
+/// Judges one pipeline with the values of `tuning` in a new session. Throws what the builder or pipeline throws.
 Tried tried(Session& session, SceneUnderStress& scene, const StressPipeline& asker,
             const Tuning& tuning)
 {
@@ -61,12 +61,12 @@ Tried tried(Session& session, SceneUnderStress& scene, const StressPipeline& ask
     return {std::move(findings), own.device().tuning.asked()};
 }
 
-/// Who asks for a parameter. Askers are tried with default values, in turn, until one asks for it.
+/// Finds the pipeline that reads a parameter: tries the pipelines with default values, in order, until one reads it.
 class Askers {
 public:
     explicit Askers(Session& session) : session_(session) {}
 
-    /// Null if nobody asks on this kind of device. What was found meanwhile is added to `findings`.
+    /// Returns null if none reads it on this kind of device. Adds the findings of the pipelines it tries to `findings`.
     const StressPipeline* of(const Parameter& parameter, SceneUnderStress& scene,
                              Findings& findings)
     {
@@ -85,10 +85,10 @@ public:
 private:
     Session& session_;
     const std::vector<StressPipeline> all_ = askers();
-    std::vector<std::set<const Parameter*>> asked_;  ///< by each that was tried
+    std::vector<std::set<const Parameter*>> asked_;  ///< of each pipeline tried so far
 };
 
-/// All powers of two from the least to the most; if few, the ends.
+/// Returns all accepted powers of two from the least to the most; with `few`, only the first and last.
 std::vector<uint> values_of(const Parameter& parameter, bool few)
 {
     std::vector<uint> values;
@@ -100,7 +100,7 @@ std::vector<uint> values_of(const Parameter& parameter, bool few)
     return values;
 }
 
-/// What `judge` finds with each value, so that findings say at which.
+/// Returns the findings of `judge` for each value, with the value in their text.
 template <class JudgeAt>
 Findings judged_values(const Parameter& parameter, bool few, const JudgeAt& judge)
 {
@@ -110,7 +110,7 @@ Findings judged_values(const Parameter& parameter, bool few, const JudgeAt& judg
     return findings;
 }
 
-/// The option of builders, in which kernels in groups are had on every device.
+/// The builders' option --group-size, which applies to grouped kernels on every device.
 constexpr Parameter builder_option{.name = "--group-size",
                                    .meaning = "",
                                    .stage = "",
@@ -137,7 +137,7 @@ std::vector<StressSystem> group_size_systems(Session& session, bool few)
                 const StressPipeline* asker = askers->of(*parameter, scene, findings);
                 if (asker == nullptr)
                     return {};
-                // A device that has no such groups, or not the local memory for them, says so.
+                // `settled` turns an unsupported group size, or too little local memory, into a refusal.
                 join(findings, judged_values(*parameter, few, [&](uint value) {
                          return settled(session, true, [&] {
                              Tuning tuning("stress");

@@ -18,7 +18,7 @@ FoundPairs in_original_numbers(FoundPairs found, const StressVariant& variant)
     return found;
 }
 
-/// What is asked of the system at all, and known.
+/// Compares those lists that the system computes and whose answer is known.
 Findings compared(const FoundPairs& found, const FoundPairs& expected)
 {
     Findings findings;

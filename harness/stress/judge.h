@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Findings about answers, whoever gave them: trees, pairs, and systems that find pairs. A variant is a scene in other words:
-// what is found over it must be what was found before, and no reference is needed to know.
+// Findings about trees, pairs and systems that find pairs. A variant is an equivalent scene: a system must find the same in the
+// variant as in the scene, which needs no reference.
 #pragma once
 
 #include <functional>
@@ -19,68 +19,66 @@ struct StressVariant {
     Invariant of;  ///< agree or moved
     std::string_view name;
     StressScene scene;
-    std::vector<uint> original =
-        {};  ///< by this scene's triangle, the other one's; empty: the same
+    std::vector<uint> original = {};  ///< number in the original scene; empty: the same
 };
 
-/// Every coordinate times a power of two, exactly; nothing if there is none that leaves all bits there. From 2^-30 to
-/// 2^30, which one depends on the seed.
+/// Returns the scene with every coordinate multiplied by a power of two, exactly, or nothing if no power keeps all bits. The
+/// power is between 2^-30 and 2^30 and depends on the seed.
 std::optional<StressVariant> scaled(const StressScene& scene, std::uint64_t seed);
 
-/// Every coordinate moved by some power of two, exactly, after the bits that have no room there are taken off in `snapped`;
-/// nothing where that leaves one place of all.
+/// A scene with every coordinate moved by one power of two, exactly. `snapped` is the original without the bits that have no
+/// room after the move. translated() returns nothing if the move is impossible.
 struct Translation {
     StressScene snapped;
     StressVariant moved;
 };
 std::optional<Translation> translated(const StressScene& scene);
 
-/// Pairs by the numbers that triangles have in the scene that a variant is of.
+/// Returns the pairs with the triangle numbers of the variant's original scene.
 PairList in_original_numbers(const PairList& pairs, const StressVariant& variant);
 
-/// Leaves and boxes of a tree.
+/// Judges the leaves and boxes of a tree.
 Findings judge_tree(const HostTree& tree, std::span<const Point> points,
                     std::span<const Face> faces);
 
-/// Of a set of pairs: how many are missed, false, or found twice. False ones are allowed if `may_add`: of pairs of boxes that
-/// were rounded outward.
+/// Counts missed, false and repeated pairs. With `may_add` false pairs are allowed, as for boxes that were rounded outward.
 Finding judge_pairs(const PairList& found, const PairList& expected, bool may_add = false);
 
-/// Of the same thing done so often: hashes that are not the first one.
+/// Judges repeated runs of one task: counts the hashes that differ from the first.
 Finding judge_repeats(std::span<const std::uint64_t> hashes);
 
-/// What a system that looks for pairs has found; what it does not look for is not there.
+/// Pairs and contacts that a system found; a list that it does not compute has no value.
 struct FoundPairs {
     std::optional<PairList> pairs, contacts;
-    bool is_rounded = false;  ///< pairs are of boxes that were rounded outward
+    bool is_rounded = false;  ///< boxes were rounded outward
     bool operator==(const FoundPairs&) const = default;
 };
 
-/// Of the sets of both.
+/// Returns a hash of both lists.
 std::uint64_t hash_of(const FoundPairs& found);
 
-/// Such a system: over a scene, with buffers that begin with so many entries, 0 for as many as is usual.
+/// Runs such a system over a scene. Its buffers have room for `capacity` entries at first; 0 means the usual number.
 using PairFinder = std::function<FoundPairs(const StressScene& scene, std::size_t capacity)>;
 
-/// A scene, its variants, and what is to be found over each.
+/// A scene, its variants, and the correct answer for each.
 struct StressQuestion {
     struct Variant {
         StressVariant variant;
-        FoundPairs expected;  ///< by the numbers of the variant's original
+        FoundPairs expected;  ///< in the triangle numbers of the variant's original
     };
     StressScene scene;
     FoundPairs expected;
     std::vector<Variant> variants;
 };
 
-/// What the sweep and the exact predicates say, the latter where the program has them. Pairs that share a vertex are among
-/// them. The variants are triangles shuffled within each object, the objects in reverse order, scaled() and translated().
+/// Returns the question with the answers of the sweep and, if built in, the exact predicates. Pairs that share a vertex are
+/// included. Variants: triangles shuffled within each object, objects in reverse order, scaled() and translated().
 StressQuestion question_of(StressScene scene, std::uint64_t seed);
 
-/// The same without pairs that share a vertex, for systems that do not tell them.
+/// Returns the question without pairs that share a vertex, for systems that cannot report them.
 StressQuestion without_adjacent(const StressQuestion& question);
 
-/// Put the question. Throws what the system throws.
+/// Runs the system over the scene, its variants and with room for one entry. Throws what the system throws.
 Findings judge_finder(const PairFinder& finder, const StressQuestion& question);
 
 }  // namespace bvhbench

@@ -24,10 +24,10 @@ namespace {
 using enum Finding::Verdict;
 
 constexpr std::string_view argument = "--plain-library";
-constexpr std::size_t memory_limit = std::size_t{12} << 30;  ///< of a worker
+constexpr std::size_t memory_limit = std::size_t{12} << 30;  ///< bytes, of a worker
 constexpr std::string_view answer_mark = "PAIRS 1\n", refusal_mark = "ERROR 1\n";
 
-/// A scene in memory, which a worker reads as a file while the object is there.
+/// A scene in memory that a worker process reads as a file while this object exists.
 class SceneFile {
 public:
     explicit SceneFile(const StressScene& scene) : file_(memfd_create("scene", MFD_CLOEXEC))
@@ -51,7 +51,7 @@ private:
     int file_;
 };
 
-/// What the library of that name finds in the scene of a file.
+/// Returns the pairs that the library `name` finds in the scene of a file.
 std::vector<Pair> found_in(std::string_view name, const std::string& path)
 {
     const auto message = decoded(file_bytes(path));
@@ -67,7 +67,7 @@ std::vector<Pair> found_in(std::string_view name, const std::string& path)
     throw BadUsage("no library is called '" + std::string(name) + "'");
 }
 
-/// The same in another process. Throws Unavailable, with a sentence, when there is no answer.
+/// Returns what found_in returns, computed in another process. Throws Unavailable, with a sentence, if there is no answer.
 PairList found_by_worker(std::string_view library, const StressScene& scene, double time_limit_s)
 {
     const SceneFile file(scene);
@@ -97,8 +97,8 @@ bool is_finite(const Mesh& mesh, const Face& face)
     });
 }
 
-/// Pairs of which both triangles are among these, in ascending order. Of one without a place anything may be said: what
-/// counts is what becomes of the others.
+/// Returns the pairs whose triangles are both in `triangles`, in ascending order. Triangles with vertices that are not finite
+/// have no correct answer, so only the others count.
 PairList among_these(const PairList& found, const std::vector<uint>& triangles)
 {
     std::vector<Pair> pairs(found.pairs().begin(), found.pairs().end());
@@ -109,7 +109,7 @@ PairList among_these(const PairList& found, const std::vector<uint>& triangles)
     return PairList(std::move(pairs));
 }
 
-/// The pairs of two objects that lie between them; of one object all.
+/// Returns the correct pairs: between the objects if there are several, else all.
 PairList expected_of(const PlainLibrary& library, const StressScene& scene)
 {
     const auto& [points, faces] = scene.mesh;

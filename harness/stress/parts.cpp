@@ -14,7 +14,7 @@ using enum Finding::Verdict;
 using Kind = StressCell::Kind;
 using Systems = std::vector<StressSystem>;
 
-/// What builders are checked over, as a family of scenes.
+/// Returns the inputs of the command `check` as a family of scenes.
 std::vector<StressCase> hard_cases(const StressSize& size)
 {
     std::vector<StressCase> cases;
@@ -35,7 +35,7 @@ std::string library_of(bool is_library, std::string_view name)
     return !is_library ? "" : name.starts_with("embree") ? "Embree" : "FCL";
 }
 
-/// Each of them, by judge(builder, scene).
+/// Adds a system for each builder, judged by judge(builder, scene).
 template <class Judge>
 void add_builders(Systems& systems, const std::vector<BuilderChoice>& builders, const Judge& judge)
 {
@@ -46,7 +46,7 @@ void add_builders(Systems& systems, const std::vector<BuilderChoice>& builders, 
             [choice, judge](SceneUnderStress& scene) { return judge(choice, scene); }));
 }
 
-/// Each of them, by judge(pipeline, scene).
+/// Adds a system for each pipeline, judged by judge(pipeline, scene).
 template <class Judge>
 void add_pipelines(Systems& systems, const std::vector<StressPipeline>& pipelines,
                    const Judge& judge)
@@ -81,7 +81,7 @@ std::vector<BuilderChoice> builders_in_formats(bool quick)
     return builders;
 }
 
-/// Ours never see a scene with a vertex that is not finite: loading it ends in one sentence that names the vertex.
+/// This program never runs on a vertex that is not finite: loading must fail with a sentence that names the vertex.
 Findings judge_loading(const std::string& name, const StressScene& scene)
 {
     Scene loaded;
@@ -95,31 +95,31 @@ Findings judge_loading(const std::string& name, const StressScene& scene)
                                        : Finding{broken, 1, 1, 0, "it was loaded: " + reason}}};
 }
 
-/// Past 2^24 leaves, without the intersections of pairs: of triangles without area there is nothing more to find out.
+/// Judges a query past 2^24 leaves without the narrow phase, since the triangles have no area.
 Findings judge_large_query(Session& session, StressPipeline pipeline, SceneUnderStress& scene)
 {
     pipeline.collider.narrow = "none";
     const PairList& expected = scene.pairs();
-    scene.input.forget();  // a pipeline takes memory for its own
+    scene.input.forget();  // frees memory: the pipeline uploads its own input
     Findings findings = settled(session, false, [&]() -> Findings {
         const FoundPairs found = finder_of(session, pipeline)(scene.scene(), 0);
         return {{Invariant::pairs, judge_pairs(*found.pairs, expected)}};
     });
-    // At this size a device may lack the memory; saying so in one sentence is what is held of ours then.
+    // A device may lack memory at this size; refusing with one sentence is then accepted.
     if (Finding& ends = findings[Invariant::ends]; ends.detail.starts_with("out of device memory"))
         ends = {refused, 1, 0, 0, ends.detail};
     return findings;
 }
 
-/// Who is judged over ordinary scenes, who many times over one, and who past 2^24 leaves.
+/// Systems judged over ordinary scenes, repeatedly over one scene, and past 2^24 leaves.
 struct SystemsBySize {
     Systems ordinary, repeated, large;
 };
 
 SystemsBySize systems_by_size(Session& session, bool quick, int repeats)
 {
-    // On a CPU groups show what they do on a GPU. The kernels for few cores take minutes a scene on a GPU, where nobody runs
-    // them: there they are with small scenes.
+    // On a CPU the other form is the grouped kernels, which are meant for GPUs. On a GPU it is the chunked kernels, meant for
+    // few cores: they are never used there and take minutes a scene, so they run over small scenes only.
     const bool other_forms = quick || session.device().is_cpu();
     std::vector<StressPipeline> few = stress_pipelines(session, true, other_forms);
     const std::vector<BuilderChoice> builders = device_builders(session);
@@ -145,7 +145,7 @@ SystemsBySize systems_by_size(Session& session, bool quick, int repeats)
         return judge_frames(session, pipeline, scene.scene(), repeats);
     });
 
-    // In cells of a whole scene, thousands of large scenes' triangles are one: brute would take them all against each other.
+    // Left out: brute, since it is the sweep that computes the expected pairs; other kernel forms; other box formats.
     std::erase_if(few, [](const StressPipeline& one) {
         return one.collider.name == "brute" || one.collider.form != KernelForm::of_device ||
                one.builder.boxes != "f32";

@@ -12,11 +12,11 @@
 namespace bvhbench {
 namespace {
 
-// Binary, wide, with pointers.
+// A binary tree, two wide ones, and one with child pointers.
 constexpr std::string_view some_builders[] = {"oibvh-multi", "oibvh-wide4", "oibvh-wide8",
                                               "karras"};
 
-/// Who walks boxes in which format: one for each, since formats change what kernels are compiled for and not what they do.
+/// A collider, builder and box format to test together. A few suffice: a format changes how kernels read boxes, nothing else.
 struct InFormat {
     std::string_view collider, builder, boxes;
 };
@@ -33,7 +33,7 @@ constexpr InFormat some_formats[] = {
     {"bvtt", "karras", "f64"},
 };
 
-/// A builder's tree over one triangle.
+/// Returns a builder's tree over one triangle.
 const Tree& smallest_tree(Session& session, const BuilderChoice& choice)
 {
     static const Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
@@ -41,7 +41,7 @@ const Tree& smallest_tree(Session& session, const BuilderChoice& choice)
     return built_tree(session, choice, input);
 }
 
-/// One builder for each way to walk a tree on the device: those above, and the first with any other header.
+/// Returns one builder for each traversal header: those above, and the first with any other header.
 std::vector<std::string> tree_builders(Session& session, bool few)
 {
     std::vector<std::string> names(std::begin(some_builders), std::end(some_builders));
@@ -66,7 +66,7 @@ Input uploaded(Session& session, const StressScene& scene)
                   scene.objects);
 }
 
-/// What the pipeline finds in one more frame over the same points.
+/// Returns what the pipeline finds in one more frame over the same points.
 FoundPairs found_next(Pipeline& pipeline, const StressPipeline& chosen, const Input& input)
 {
     pipeline.begin_frame({});
@@ -109,18 +109,18 @@ std::vector<StressPipeline> stress_pipelines(Session& session, bool few, bool ot
         ColliderChoice choice;
         choice.name = entry.name;
         choice.narrow = "exact";
-        choice.keep_adjacent = false;  // as libraries
+        choice.keep_adjacent = false;  // as libraries do
         std::unique_ptr<Collider> collider;
         reason_of_failure([&] { collider = make_collider(choice, session.programs()); });
         choice.keep_adjacent = collider != nullptr && !collider->finds_contacts();
-        // One that cannot be made is judged all the same: it says why.
+        // A collider that cannot be made is judged as well, to report the reason.
         if (collider == nullptr || !collider->needs_tree()) {
             pipelines.push_back({{.name = ""}, choice, entry.is_library});
             continue;
         }
         std::vector<StressPipeline> over;
         for (const std::string& name : builders)
-            // Where the tree itself cannot be had, judge_builder says why.
+            // If the tree cannot be built, judge_builder reports the reason.
             reason_of_failure([&] {
                 if (collider->refusal(smallest_tree(session, {.name = name})).empty())
                     over.push_back({{.name = name}, choice});
@@ -168,7 +168,7 @@ Findings judge_frames(Session& session, const StressPipeline& chosen, const Stre
 Findings judge_pipeline(Session& session, const StressPipeline& chosen,
                         const StressQuestion& question)
 {
-    // A library's collider says what it does not take in whatever way, ours as wrong usage.
+    // A library's collider may refuse a scene with any error; this project's may do so with BadUsage only.
     return settled(session, chosen.is_library,
                    [&] { return judge_finder(finder_of(session, chosen), question); });
 }

@@ -13,8 +13,8 @@ namespace {
 using Kind = StressCell::Kind;
 using AddCell = std::function<void(StressCell&&)>;
 
-/// Runs `work`. What stops it stops all systems of a kind, such as a scene that the device has no room for: a finding too, in
-/// a cell that takes the place of theirs.
+/// Runs `work` and returns true if it succeeds. A failure, such as too little device memory for the scene, stops all systems of
+/// the kind; it is added as one cell in place of theirs.
 bool guarded(Session& session, StressCell cell, const AddCell& add,
              const std::function<void()>& work)
 {
@@ -43,7 +43,7 @@ void judge_part(Session& session, const StressTask& task, const StressPart& part
     for (std::vector<StressSystem>* systems : {&here, &beside})
         for (StressSystem& one : *systems)
             one.cell.triangles = static_cast<std::int64_t>(scene.scene().mesh.faces.size());
-    const auto libraries = std::async(std::launch::async, [&] {  // which need no device
+    const auto libraries = std::async(std::launch::async, [&] {  // libraries need no device
         for (auto& [cell, judge] : beside)
             cell.findings = judge(scene).value();
     });

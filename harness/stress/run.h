@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Stress: systems over scenes that are hard on them. Who is put under stress are builders, colliders over their trees, and
-// libraries as their manuals show them.
+// Stress tests: systems over scenes that are hard for them. Systems are builders, colliders over their trees, and libraries
+// called as their manuals show.
 #pragma once
 
 #include <functional>
@@ -17,7 +17,7 @@
 
 namespace bvhbench {
 
-/// What is asked for: cells whose "family/scene/system" the filter matches.
+/// Options of a stress run: its size, and a filter for cells by "family/scene/system".
 struct StressTask {
     StressSize size;
     std::optional<Pattern> filter;
@@ -28,12 +28,12 @@ struct StressTask {
     }
 };
 
-/// Every system over every scene that it is for, family by family. Cells go to `add` as they are done. What fails is a
-/// finding, and the run goes on.
+/// Runs every system over every scene that it is meant for, family by family, and passes each cell to `add` when it is done. A
+/// failure is a finding, and the run continues.
 void stress_all(Session& session, const StressTask& task,
                 const std::function<void(StressCell&&)>& add);
 
-/// Made when it is first asked for.
+/// A value that is computed on first use.
 template <class T>
 class Lazy {
 public:
@@ -52,90 +52,89 @@ private:
     std::optional<T> value_;
 };
 
-/// A scene, and what the systems over it share.
+/// A scene and the data that the systems judged over it share.
 struct SceneUnderStress {
     SceneUnderStress(Session& session, std::function<StressScene()> make, std::uint64_t seed);
 
     Lazy<StressScene> scene;
-    Lazy<PairList> pairs;  ///< of boxes that overlap
+    Lazy<PairList> pairs;  ///< pairs of overlapping boxes
     Lazy<Input> input;     ///< all triangles as one object
-    Lazy<Oracle> oracle;   ///< of that input
+    Lazy<Oracle> oracle;   ///< oracle of that input
     Lazy<StressQuestion> question, question_apart;
-    std::map<std::string_view, std::uint64_t> hashes =
-        {};  ///< of large trees, by the reference's name
+    std::map<std::string_view, std::uint64_t> hashes = {};  ///< of large trees, by reference name
 };
 
-/// A system, and how it is judged over a scene: nothing where it says nothing about this device.
+/// A system and the function that judges it over a scene. It returns nothing if the system does not apply to this device.
 struct StressSystem {
-    StressCell cell;  ///< that is to be, with the system and whose it is
+    StressCell cell;  ///< the cell to be filled in, with system, kind and library set
     std::function<std::optional<Findings>(SceneUnderStress&)> judge;
 };
 StressSystem stress_system(std::string name, StressCell::Kind kind, std::string library,
                            std::function<std::optional<Findings>(SceneUnderStress&)> judge);
 
-/// What `judge` finds, settled as every cell that is measured (harness/measure/engine.h), so that a failure is a finding:
-/// it is refused where the system may refuse, or cannot have such options, and broken else.
+/// Runs `judge` through the engine like every measured cell (harness/measure/engine.h) and turns a failure into a finding:
+/// `refused` if the system may refuse or does not support its options, else `broken`.
 Findings settled(Session& session, bool may_refuse, const std::function<Findings()>& judge);
 
-/// The name of a builder's system, "oibvh-multi in u16", and of a pipeline's.
+/// Returns the name of a builder's system, such as "oibvh-multi in u16", or of a pipeline's.
 std::string system_name(const BuilderChoice& builder);
 std::string system_name(const BuilderChoice& builder, const ColliderChoice& collider);
 
-/// The builder of that name, its boxes in that format, for which leaves are sorted where they have to be.
+/// Returns the builder `name` with boxes in the format `boxes`, from sorted leaves if the format needs them.
 BuilderChoice in_format(std::string_view name, std::string_view boxes);
 
-/// Whose trees are put under stress in other formats where there is time for one builder only.
+/// Builder that is tested in other box formats if there is time for only one.
 inline constexpr std::string_view builder_in_formats = "oibvh-multi";
 
-/// The builders that are there and whose kernels run on the device.
+/// Returns the available builders whose kernels run on the device.
 std::vector<BuilderChoice> device_builders(Session& session);
 
-/// A builder over all triangles as one object: every promise of harness/judge/check.h, and what is about its layout.
-/// `repeats` more builds must leave the same tree.
+/// Judges a builder over all triangles as one object: every check of harness/judge/check.h and the layout. `repeats` more builds
+/// must leave the same tree.
 Findings judge_builder(Session& session, const BuilderChoice& builder, SceneUnderStress& scene,
                        int repeats);
 
-/// One build past 2^24 leaves: its launches, layout, leaves and boxes. Builders with one reference must leave one tree.
+/// Judges one build past 2^24 leaves: launches, layout, leaves, boxes. Builders with one reference must leave equal trees.
 Findings judge_large_build(Session& session, const BuilderChoice& builder, SceneUnderStress& scene);
 
-/// A builder and a collider over its trees, or a collider without.
+/// A builder and a collider over its trees, or a collider without a tree.
 struct StressPipeline {
     BuilderChoice builder;
     ColliderChoice collider;
     bool is_library = false;
 };
 
-/// Those that can be: every collider over a tree of each way to walk one that it takes (whose trees they are, builders'
-/// own findings tell), and, if `other_forms`, over some in the form of kernels that is not the device's; and some over boxes
-/// of every other format. If `few`, over fewer.
+/// Returns the possible pipelines: every collider over one tree of each traversal header that it accepts (trees themselves are
+/// judged with the builders); with `other_forms`, some with kernels in the form that is not the device's own; some with every
+/// other box format. With `few`, over fewer trees.
 std::vector<StressPipeline> stress_pipelines(Session& session, bool few, bool other_forms);
 
-/// Runs a frame of such a pipeline; if it goes on from frame to frame, a second one, which must find the same. Throws
-/// what pipelines throw.
+/// Returns a finder that runs one frame of the pipeline and, if the collider keeps its tree, a second frame, which must find the
+/// same. The finder throws what pipelines throw.
 PairFinder finder_of(Session& session, const StressPipeline& pipeline);
 
-/// One and the same pipeline, so many frames more than the first: whether it finds the same each time.
+/// Judges whether a pipeline finds the same in `repeats` more frames as in the first.
 Findings judge_frames(Session& session, const StressPipeline& pipeline, const StressScene& scene,
                       int repeats);
 
-/// Findings over a question.
+/// Judges a pipeline with a question.
 Findings judge_pipeline(Session& session, const StressPipeline& pipeline,
                         const StressQuestion& question);
 
-/// Every group size that a parameter or a builder's own option may have on this device, a system each.
+/// Returns one system for each group-size parameter and each builder's --group-size option; each tries all values.
 std::vector<StressSystem> group_size_systems(Session& session, bool few);
 
-/// A row of the table: a scene, and the systems that are judged over it.
+/// A row of the table: a scene and the systems that are judged over it.
 struct StressPart {
     std::string family;
     StressCase scene;
     std::vector<StressSystem> systems;
 };
 
-/// Each family's scenes; layouts, group sizes and repetitions are families after those of scenes.
+/// Returns the scenes of each family, then the families layout, group-sizes and repeats.
 std::vector<StressPart> stress_parts(Session& session, const StressSize& size);
 
-/// The formulas of the layout up to 2^31 leaves, in arithmetic alone.
+/// Checks the layout's formulas up to 2^31 leaves by arithmetic alone.
 Findings judge_layout_formulas(const StressSize& size);
 
 }  // namespace bvhbench

@@ -12,7 +12,7 @@
 namespace bvhbench {
 namespace {
 
-/// The same with triangles in the order of `ids`.
+/// Returns the scene with its triangles in the order of `ids`.
 StressVariant reordered(const StressScene& scene, std::string_view name, std::vector<uint> ids,
                         std::vector<FaceRange> objects)
 {
@@ -23,7 +23,7 @@ StressVariant reordered(const StressScene& scene, std::string_view name, std::ve
     return variant;
 }
 
-/// Objects stay in their order, triangles of each are shuffled.
+/// Returns the scene with the triangles of each object shuffled and the objects in their order.
 StressVariant shuffled(const StressScene& scene, std::uint64_t seed)
 {
     std::vector<uint> ids(scene.mesh.faces.size());
@@ -36,7 +36,7 @@ StressVariant shuffled(const StressScene& scene, std::uint64_t seed)
     return reordered(scene, "shuffled", std::move(ids), scene.objects);
 }
 
-/// The last object first.
+/// Returns the scene with its objects in reverse order.
 StressVariant swapped(const StressScene& scene)
 {
     std::vector<uint> ids;
@@ -50,7 +50,7 @@ StressVariant swapped(const StressScene& scene)
     return reordered(scene, "objects swapped", std::move(ids), std::move(objects));
 }
 
-/// `scene` with every coordinate changed in double, if all results are floats.
+/// Returns the scene with every coordinate changed in double, or nothing if a result is not a float.
 template <class Change>
 std::optional<StressScene> changed_exactly(const StressScene& scene, const Change& change)
 {
@@ -99,8 +99,8 @@ std::optional<Translation> translated(const StressScene& scene)
         return {};
     int exponent = 0;
     std::frexp(largest, &exponent);
-    const double by = std::ldexp(1.0, exponent + 3);         // sums are below twice that,
-    const double grid = std::ldexp(1.0, exponent + 4 - 24);  // where floats are so far apart
+    const double by = std::ldexp(1.0, exponent + 3);         // sums are below 2 * by,
+    const double grid = std::ldexp(1.0, exponent + 4 - 24);  // where adjacent floats differ by this
     if (grid < 0x1p-149)
         return {};
     auto snapped =
@@ -136,7 +136,7 @@ StressQuestion question_of(StressScene scene, std::uint64_t seed)
         add(swapped(question.scene));
     if (auto variant = scaled(question.scene, seed))
         add(std::move(*variant));
-    // With as many bits as a translation takes, a scene with an outlier is all but one point: another one.
+    // Snapping an outlier scene to the translation's grid may leave almost one point, which is a different scene.
     const std::size_t most =
         100 * (question.expected.pairs->size() + question.scene.mesh.faces.size());
     if (auto translation = translated(question.scene))

@@ -29,7 +29,7 @@ Device tuned(Device device, const Tuning& tuning)
     return device;
 }
 
-/// A session of its own: what is compiled for other values must not be found by name.
+/// A trial with its own session, so that kernels compiled for other values are not reused by name.
 class OwnSession : public Trial {
 public:
     OwnSession(Session& session, const Tuning& tuning)
@@ -43,7 +43,7 @@ protected:
 
 class BuildTrial final : public OwnSession {
 public:
-    /// Of one stage, if it is named, times are told of no other.
+    /// If `stage` is named, only that stage's times are returned.
     BuildTrial(Session& session, const Tuning& tuning, const BuilderChoice& choice,
                const Input& input, Oracle& oracle, std::string_view stage)
         : OwnSession(session, tuning)
@@ -93,7 +93,7 @@ public:
         , contacts_(contacts)
         , pipeline_(session_, task.builder, task.collider, input)
     {
-        // One that goes on from frame to frame is timed where it goes on, not where it begins.
+        // A collider that keeps its tree between frames is timed in its second frame.
         for (int frame = 0; frame < (pipeline_.collider().keeps_tree() ? 2 : 1); ++frame) {
             pipeline_.begin_frame({});
             pipeline_.settle(input_);

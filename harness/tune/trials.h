@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What can be tuned: the sort, a builder, a collider over a builder's trees.
+// Targets of tuning: the sort, a builder, or a collider over a builder's trees.
 #pragma once
 
 #include <optional>
@@ -14,30 +14,30 @@
 
 namespace bvhbench {
 
-/// What is tuned, and over what.
+/// What is tuned, and the scene it is tuned over.
 struct TuneTask {
-    std::string target;  ///< "sort", that of the builder, or a builder's name or a collider's
+    std::string target;  ///< "sort" (the builder's sort stage), or a builder's or collider's name
     std::string scene;
-    BuilderChoice
-        builder;  ///< of a collider's trees, or with the options of the builder that is tuned
-    ColliderChoice collider;  ///< with the collider's options
+    /// Builder of a collider's trees, or options of the tuned builder.
+    BuilderChoice builder;
+    ColliderChoice collider;  ///< options of the tuned collider
 };
 
-/// Throws BadUsage, with the names of all targets, if there is none called so.
+/// Throws BadUsage, with the names of all targets, if `target` is not one.
 void check_target(const std::string& target);
 
-/// A target over its scene, read and uploaded once; answers are worked out once, by the references.
+/// A target over its scene, which is read and uploaded once. The correct answers are computed once, by the references.
 class TuneTarget {
 public:
-    /// Throws what loading a scene throws, and BadUsage for a target that nothing tunes.
+    /// Throws what loading a scene throws, and BadUsage for an unknown target.
     TuneTarget(Session& session, TuneTask task);
     TuneTarget(const TuneTarget&) = delete;
     TuneTarget& operator=(const TuneTarget&) = delete;
 
-    /// One trial with such values, on the session's device. It must not outlive this.
+    /// Returns a trial with these values on the session's device. It must not outlive this object.
     std::unique_ptr<Trial> trial(const Tuning& tuning);
 
-    /// Whether a parameter is this target's own: a collider leaves builders' alone.
+    /// True if the parameter belongs to this target: tuning a collider does not change the builder's parameters.
     bool wants(const Parameter& parameter) const;
 
 private:
@@ -46,8 +46,8 @@ private:
     Scene scene_;
     Input input_;
     Oracle oracle_{session_, input_};
-    PairList pairs_;                    ///< what a query must find
-    std::optional<PairList> contacts_;  ///< if it looks for any, and there is a reference
+    PairList pairs_;                    ///< correct pairs of a collider
+    std::optional<PairList> contacts_;  ///< its correct contacts, if it has any and a reference
 };
 
 }  // namespace bvhbench

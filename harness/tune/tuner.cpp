@@ -13,7 +13,7 @@
 namespace bvhbench {
 namespace {
 
-/// The times of one stage in all samples, or of all stages together, in nanoseconds.
+/// Returns the times of one stage in all samples, in nanoseconds; of all stages together if `stage` is empty.
 std::vector<double> times_of(const std::vector<Sample>& samples, std::string_view stage)
 {
     std::vector<double> times;
@@ -29,7 +29,7 @@ std::vector<double> times_of(const std::vector<Sample>& samples, std::string_vie
 
 double median(const std::vector<double>& values) { return quantile(values, 0.5); }
 
-/// The standard error of a median, from the median distance to it, as of a normal distribution.
+/// Returns the standard error of a median, from the median absolute deviation, as for a normal distribution.
 double standard_error(const std::vector<double>& values)
 {
     const double middle = median(values);
@@ -39,7 +39,7 @@ double standard_error(const std::vector<double>& values)
     return 1.2533 * 1.4826 * median(distances) / std::sqrt(static_cast<double>(values.size()));
 }
 
-/// A value with its trial, if it can be run and is right.
+/// A value with its trial; the trial is null if it failed or was wrong.
 struct Contender {
     Tried tried;
     std::unique_ptr<Trial> trial;
@@ -53,7 +53,7 @@ public:
         : make_(make), options_(options), note_(note), result_(result)
     {}
 
-    /// Settle one parameter. Whether another value was kept.
+    /// Searches the best value of one parameter. True if another value than the current one was kept.
     bool settle(const Parameter& parameter)
     {
         std::vector<Contender> all;
@@ -73,7 +73,7 @@ public:
         return found;
     }
 
-    /// Medians of whole runs of what was found and of what it began with. What is not faster is given up.
+    /// Compares whole runs with the start values and with the kept ones, which are dropped if they are not faster.
     void compare_whole(const Tuning& start)
     {
         if (result_.kept.empty())
@@ -111,12 +111,12 @@ private:
     static void reject(Contender& one, Tried::Verdict verdict, const std::string& why)
     {
         one.tried.verdict = verdict;
-        one.tried.detail = why.substr(0, why.find('\n'));  // a compiler's log goes on
+        one.tried.detail = why.substr(0, why.find('\n'));  // without the lines of a compiler's log
         one.tried.median_ns = one.tried.ratio = 0;
         one.trial.reset();
     }
 
-    /// Sample those there are, and keep the fastest if it is faster than the first, twice.
+    /// Samples all contenders that can run, and keeps the fastest if it is faster than the first one twice.
     bool measured(std::vector<Contender>& all)
     {
         const Parameter& parameter = *all.front().tried.parameter;
@@ -145,7 +145,7 @@ private:
         return best != nullptr && is_confirmed(*best, all.front());
     }
 
-    /// The best of several is partly luck: it has to be faster once more, and what it left while timed must be right.
+    /// The best of several is partly luck: it must be faster a second time, and its answer after the samples must be right.
     bool is_confirmed(Contender& best, Contender& current)
     {
         const Parameter& parameter = *best.tried.parameter;
@@ -167,7 +167,7 @@ private:
         return true;
     }
 
-    /// Times of each, sampled interleaved; none of one that failed.
+    /// Returns the times of each trial, sampled interleaved; empty for a trial that failed.
     std::vector<std::vector<double>> sampled(const std::vector<Trial*>& trials,
                                              std::string_view stage)
     {
@@ -190,10 +190,10 @@ private:
     const std::function<void(const std::string&)>& note_;
     SearchResult& result_;
     int order_ = 0;
-    std::string failure_;  ///< of the last sampling
+    std::string failure_;  ///< of the last failed trial
 };
 
-/// By verdict, what is wrong or impossible behind it.
+/// By verdict; for `wrong` and `impossible`, the detail follows.
 constexpr const char* verdict_names[] = {"current",          "better, kept", "not better",
                                          "not better again", "wrong: ",      "impossible: "};
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The search for what suits a device: one parameter after the other, each answer checked before its time counts.
+// Searches for the tuning values that suit a device: one parameter at a time, each answer checked before it is timed.
 #pragma once
 
 #include <functional>
@@ -15,81 +15,80 @@
 
 namespace bvhbench {
 
-/// What is tuned, made with one set of values, ready to be run again and again.
+/// The tuned target with one set of values, ready to run repeatedly.
 class Trial {
 public:
     virtual ~Trial() = default;
 
-    /// Run it and hold what it leaves to the right answer. Why it is wrong; empty if it is right.
+    /// Runs it and compares the result with the correct answer. Returns the error; empty if there is none.
     virtual std::string wrong() = 0;
 
-    /// Run it, wait, and say what its stages took.
+    /// Runs it, blocks until done, and returns the times of its stages.
     virtual std::vector<StageTime> once() = 0;
 
-    /// The parameters whose value anybody has asked for until now.
+    /// Returns the parameters whose value has been read so far.
     virtual std::set<const Parameter*> asked() const = 0;
 };
 
-/// Makes one. Throws what builders and colliders throw, for values that the device cannot do too.
+/// Makes a trial. Throws what builders and colliders throw, also for values that the device cannot run.
 using MakeTrial = std::function<std::unique_ptr<Trial>(const Tuning&)>;
 
 struct SearchOptions {
-    int samples = 15;  ///< timed runs a value and turn
+    int samples = 15;  ///< timed runs per value and comparison
     int warm_up = 2;
-    int rounds = 2;       ///< through all parameters, the second only if the first found something
-    bool is_cpu = false;  ///< whose defaults values start from
+    int rounds = 2;       ///< passes over the parameters; ends after one without a gain
+    bool is_cpu = false;  ///< kind of device whose defaults the search starts from
 };
 
-/// A value that was tried, and what came of it.
+/// A value that was tried, and the result.
 struct Tried {
     enum class Verdict {
-        current,     ///< the value that the others were held against
-        better,      ///< by more than noise, and once more in a second comparison: kept
-        not_better,  ///< or not by more than noise
-        not_again,   ///< better, but not in the second comparison
+        current,     ///< the value that the others were compared to
+        better,      ///< faster by more than noise in two comparisons: kept
+        not_better,  ///< not faster by more than noise, or not the fastest
+        not_again,   ///< faster in the first comparison only
         wrong,       ///< gave a wrong answer
-        impossible,  ///< the device cannot do it, or it failed
+        impossible,  ///< failed, or the device cannot run it
     };
     const Parameter* parameter = nullptr;
     uint value = 0;
     Verdict verdict = Verdict::not_better;
-    std::string detail;    ///< of what is wrong or impossible: why
+    std::string detail;    ///< reason, if wrong or impossible
     double median_ns = 0;  ///< of the parameter's stage; 0: not timed
-    double ratio = 0;      ///< of that to the current value's
+    double ratio = 0;      ///< median relative to the current value's
 };
 
 /// A value that was kept.
 struct Kept {
     const Parameter* parameter = nullptr;
     uint value = 0;
-    double ratio = 1;  ///< of its median to that of the value before it
+    double ratio = 1;  ///< median relative to that of the previous value
 };
 
-/// What a search has found, so far if it was stopped.
+/// Result of a search; a partial one if the search was stopped.
 struct SearchResult {
-    Tuning best;               ///< of all parameters: as they were, defaults, and what was kept
-    std::vector<Kept> kept;    ///< each parameter once
-    std::vector<Tried> tries;  ///< in the order made
-    std::set<const Parameter*> searched;  ///< parameters that are settled, be they kept or left
-    double start_ns = 0, best_ns = 0;  ///< medians of a whole run, compared in the end; 0: not done
+    Tuning best;                          ///< all parameters: as given, defaults, and kept values
+    std::vector<Kept> kept;               ///< each parameter once
+    std::vector<Tried> tries;             ///< in the order made
+    std::set<const Parameter*> searched;  ///< parameters that are settled
+    double start_ns = 0, best_ns = 0;     ///< medians of whole runs, in the end; 0: not compared
 };
 
-/// Whether times of samples are lower than others by more than both scatter: three standard errors of the difference of
-/// their medians, and at least one part in a hundred.
+/// True if the median of `times` is lower than that of `than` by more than three standard errors of the difference and by at
+/// least one percent.
 bool is_faster(const std::vector<double>& times, const std::vector<double>& than);
 
-/// Coordinate descent over the parameters that the trial asks for and `wanted` says yes to. They start from their
-/// defaults, others stay as `start` has them. Of each, all candidates are sampled beside the current value, interleaved;
-/// the fastest right one is compared with the current value once more, and kept if it is faster both times. In the end
-/// all that was kept is held against the defaults by whole runs, and given up if it is not faster. `result` is true
-/// whenever `note` is called.
+/// Coordinate descent over the parameters that the trial reads and `wanted` accepts. They start from their defaults; all others
+/// keep their value in `start`. For each parameter, all candidates are sampled interleaved with the current value. The fastest
+/// correct one is compared with the current value again, and kept if it is faster both times. At the end the kept values are
+/// compared with the defaults by whole runs, and dropped if they are not faster. `result` is consistent at each call of `note`.
 ///
-/// Throws Unavailable if what it starts from is already wrong.
+/// Throws Unavailable if the answer is wrong before anything is tuned.
 void search(const MakeTrial& make, const Tuning& start,
             const std::function<bool(const Parameter&)>& wanted, const SearchOptions& options,
             const std::function<void(const std::string&)>& note, SearchResult& result);
 
-/// What was tried, a line each, and what is left of it in the end.
+/// Returns a table with one line for each tried value, and the comparison of whole runs.
 std::string search_report(const SearchResult& result);
 
 }  // namespace bvhbench

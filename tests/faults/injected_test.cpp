@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// The program's commands, run again and again in one process, with another OpenCL call failing each time. The shim is
-// linked in before the loader, so every call of the program goes through it.
+// Runs the program's commands repeatedly in one process, each time with another OpenCL call failing. The shim is linked before
+// the loader, so that it receives every OpenCL call of the program.
 //
-// By default, of every sixteenth way in which calls are reached the first call fails, and of every fifth of those also all that
-// follow it. BVHBENCH_FAULTS=calls: every call, alone and with all that follow.
+// By default the first call of every sixteenth call path fails, and for every fifth of these also all calls that follow. With
+// BVHBENCH_FAULTS=calls, every call fails, alone and with all that follow.
 #include <gtest/gtest.h>
 
 #include <unistd.h>
@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Standard output or error, caught for as long as this is there.
+/// Captures standard output or error during its lifetime.
 class Caught {
 public:
     explicit Caught(std::ostream& stream) : stream_(stream), before_(stream.rdbuf(text_.rdbuf())) {}
@@ -47,15 +47,14 @@ struct Outcome {
     std::string out, error;
 };
 
-/// In the place of a limit, more memory than this process has when a run begins. With the smaller one the copy rate, which
-/// takes longer than all else, is not measured: its buffers alone take 128 MiB. Kernels of a collision need the larger one.
+/// Placeholders for a memory limit: this much more than the process has when a run begins. The smaller one leaves no room for
+/// the copy rate, the slowest measurement, whose buffers take 128 MiB. The kernels of a collision need the larger one.
 constexpr const char* room_to_build = "124 MiB";
 constexpr const char* room_to_collide = "256 MiB";
 
 std::size_t bytes_in_memory()
 {
-    static const Device loaded =
-        open_device("");  // the driver and its compiler are there from now on
+    static const Device loaded = open_device("");  // keeps the driver and its compiler loaded
     std::size_t all = 0, pages = 0;
     std::ifstream("/proc/self/statm") >> all >> pages;
     return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
@@ -74,7 +73,7 @@ protected:
     Outcome run(std::vector<std::string> words, shim::Plan plan) const
     {
         fs::remove(file_);
-        words.insert(words.begin(), {"bvhbench", "--time-limit", "0",  // a crash is to end the test
+        words.insert(words.begin(), {"bvhbench", "--time-limit", "0",  // a crash must end the test
                                      "--quiet"});
         for (std::string& word : words)
             if (word == room_to_build || word == room_to_collide)
@@ -95,13 +94,13 @@ protected:
         return Json::parse(std::string(std::istreambuf_iterator<char>(file), {}));
     }
 
-    /// Fails every chosen call of the run in turn, alone and with all that follow it.
+    /// Makes every chosen call of the run fail in turn, alone and with all calls that follow.
     void fail_calls_of(const std::vector<std::string>& words, std::size_t cells);
 
 private:
     void expect_clean(const Outcome& outcome, const shim::Plan& plan, std::size_t cells) const;
 
-    std::set<std::uint64_t> tried_;  ///< ways of calls, in this test
+    std::set<std::uint64_t> tried_;  ///< call paths tried in this test
 
 protected:
     fs::path folder_, file_;
@@ -158,7 +157,7 @@ void Injected::fail_calls_of(const std::vector<std::string>& words, std::size_t 
             expect_clean(outcome, plan, cells);
             ++ends[outcome.code];
             if (HasFailure() && !shim::every_call_fails())
-                return;  // one is enough to look at
+                return;  // one failure is enough
         }
     for (const auto& [code, times] : ends)
         std::cout << "exit code " << code << ": " << times << " times\n";
@@ -167,7 +166,7 @@ void Injected::fail_calls_of(const std::vector<std::string>& words, std::size_t 
     EXPECT_EQ(again.code, 0) << again.error;
 }
 
-/// Bounded, so that a call that asks for more memory than there is fails too.
+/// Limits memory, so that a call that asks for more than there is fails as well.
 std::vector<std::string> limit(const char* room) { return {"--memory-limit", room}; }
 
 std::vector<std::string> operator+(std::vector<std::string> words,
@@ -182,9 +181,9 @@ TEST_F(Injected, ABuildEndsCleanlyWhicheverCallFails)
     const std::vector<std::string> build = {"build",   "--builder", "oibvh-multi",
                                             "--scene", "soup:70",   "--samples",
                                             "1",       "--json",    file_.string()};
-    ASSERT_EQ(run(build, {}).code, 0);  // compiles the kernels, for which there is no room below
+    ASSERT_EQ(run(build, {}).code, 0);  // compiles the kernels; later runs lack the room for it
     fail_calls_of(build + limit(room_to_build), 1);
-    fail_calls_of(build, 1);  // what those tried already is not tried again
+    fail_calls_of(build, 1);  // skips the call paths tried above
 }
 
 TEST_F(Injected, ACollisionEndsCleanlyWhicheverCallFails)
@@ -212,7 +211,7 @@ TEST_F(Injected, FinishedCellsAreKeptAndTheOthersAreDone)
         const Outcome outcome = run(words, one);
         SCOPED_TRACE("call " + std::to_string(one.nth) + ", " + shim::failed_call() + ": " +
                      outcome.error);
-        if (outcome.code != 0) {  // before there were cells
+        if (outcome.code != 0) {  // failed before the first cell
             EXPECT_EQ(outcome.code, 3);
             EXPECT_EQ(kept, 0u);
             continue;
@@ -224,7 +223,7 @@ TEST_F(Injected, FinishedCellsAreKeptAndTheOthersAreDone)
             std::count_if(result["cells"].begin(), result["cells"].end(), [](const Json& cell) {
                 return cell["status"] == "measured" && cell["check"]["verdict"] == "agrees";
             });
-        EXPECT_GE(measured, 3);  // at most a scene, when it cannot be uploaded
+        EXPECT_GE(measured, 3);  // at most one scene is missing, if its upload fails
         ++kept;
     }
     EXPECT_GT(kept, 10u);

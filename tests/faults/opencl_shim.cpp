@@ -21,12 +21,12 @@ namespace {
 
 struct Object {
     const char* made_by;
-    const char* release;  ///< the name of the function that releases it
+    const char* release;  ///< name of the function that releases it
     long count = 1;
-    long refused = 0;  ///< releases that were made to fail
+    long refused = 0;  ///< number of releases that were made to fail
 };
 
-/// Calls come from one thread here, but nothing says that they must.
+/// State of the shim. The mutex is needed because calls may come from several threads.
 struct State {
     std::mutex mutex;
     Plan plan;
@@ -34,12 +34,12 @@ struct State {
     std::string failed;
     bool remembers = false;
     int depth_of_begin = 0;
-    std::vector<std::uint64_t> ways;  ///< by which calls each call was reached
+    std::vector<std::uint64_t> ways;  ///< hash of the call path of each call
     std::map<void*, Object> objects;
     std::vector<std::string> misused;
 };
 
-/// Of a preloaded shim: BVHBENCH_FAIL_CALL=17 lets the 17th call fail, 17+ all from there on.
+/// Reads the plan of a preloaded shim: BVHBENCH_FAIL_CALL=17 makes the 17th call fail, 17+ all from the 17th on.
 Plan plan_of_environment()
 {
     const char* text = std::getenv("BVHBENCH_FAIL_CALL");
@@ -50,7 +50,7 @@ Plan plan_of_environment()
     return {nth, *end == '+'};
 }
 
-/// Never destroyed: drivers may still call when statics are gone.
+/// Returns the state. It is never destroyed, because drivers may call after the destruction of statics.
 State& state()
 {
     static State& one = *[] {
@@ -63,7 +63,7 @@ State& state()
 
 constexpr int deepest = 64;
 
-/// Of the calls since `begin`: who called that is the same for all.
+/// Returns a hash of the call path below begin(); the callers of begin() are the same for all calls.
 std::uint64_t stack_hash()
 {
     void* frames[deepest];
@@ -74,7 +74,7 @@ std::uint64_t stack_hash()
     return hash;
 }
 
-/// Whether this call is to fail. Counts it.
+/// Counts this call and returns true if it is to fail.
 bool fails(const char* name, const char* error)
 {
     State& now = state();
@@ -89,7 +89,7 @@ bool fails(const char* name, const char* error)
     return is_hit;
 }
 
-/// Whether an object is on the account. It gets so many owners more; a release that is refused is noted and has no effect.
+/// Adds `more` to the owners of an object. A refused release is only noted. False if the object does not exist.
 bool counted(void* object, int more, bool is_refused, const char* call)
 {
     State& now = state();
@@ -106,11 +106,11 @@ bool counted(void* object, int more, bool is_refused, const char* call)
     return true;
 }
 
-/// The loader's own function of this name.
+/// Returns the loader's function of this name.
 template <class Function>
 Function* loaders(const char* name)
 {
-    // Opened by name: of a test all of whose calls come here first, the linker leaves the loader out.
+    // Opened by name, since the linker drops the loader from a test whose calls are all defined here.
     static void* const loader = dlopen("libOpenCL.so.1", RTLD_NOW);
     void* found = loader != nullptr ? dlsym(loader, name) : nullptr;
     if (found == nullptr) {
@@ -133,8 +133,8 @@ constexpr const char* release_of(cl_kernel) { return "clReleaseKernel"; }
 constexpr const char* release_of(cl_mem) { return "clReleaseMemObject"; }
 constexpr const char* release_of(cl_program) { return "clReleaseProgram"; }
 
-/// Stands before a function that answers a status, or makes an object or mapping and writes the status through its last argument.
-/// An object is put on the account, and so is the event of a function that makes one.
+/// Replaces a function that returns a status, or that creates an object or mapping and writes the status to its last argument.
+/// Tracks the created object and the event, if there is one.
 template <class Call, class Function>
 struct Any;
 
@@ -166,7 +166,7 @@ struct Any<Call, Result(Arguments...)> {
     }
 };
 
-/// Stands before a function that retains or releases an object. The driver is spared one that is not there.
+/// Replaces a function that retains or releases an object. The driver is not called for an object that does not exist.
 template <class Call, class Function>
 struct Count;
 
@@ -187,7 +187,7 @@ struct Count<Call, cl_int(Handle)> {
 void begin(Plan plan)
 {
     State& now = state();
-    // What is left is given back, so that ten thousand runs do not fill the memory with what was made to fail.
+    // Leftover objects are released, so that ten thousand runs with failed releases do not fill the memory.
     for (const auto& [object, entry] : now.objects)
         for (long i = 0; i < entry.count; ++i)
             loaders<cl_int(void*)>(entry.release)(object);
@@ -238,8 +238,8 @@ std::vector<std::string> leaked()
     return names;
 }
 
-/// Define an OpenCL function. Its signature is the header's, so it is an indirect function: the dynamic linker asks once
-/// which instance of a template stands for it.
+/// Defines an OpenCL function as an indirect function: its signature comes from the header, and the dynamic linker asks once
+/// which template instance implements it.
 #define STAND_BEFORE(function, kind, failure)                      \
     struct function##_call {                                       \
         static constexpr const char* name = #function;             \
@@ -263,7 +263,7 @@ STAND_BEFORE_COUNTS(Event)
 STAND_BEFORE_COUNTS(Kernel)
 STAND_BEFORE_COUNTS(MemObject)
 STAND_BEFORE_COUNTS(Program)
-// Devices that nobody has divided are not counted.
+// Root devices are not reference-counted, so they are not tracked.
 STAND_BEFORE(clRetainDevice, Any, CL_OUT_OF_RESOURCES)
 STAND_BEFORE(clReleaseDevice, Any, CL_OUT_OF_RESOURCES)
 STAND_BEFORE(clGetPlatformIDs, Any, CL_OUT_OF_HOST_MEMORY)

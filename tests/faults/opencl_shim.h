@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Stands between a program and the OpenCL loader: counts calls, keeps account of objects, and lets a call fail on demand.
-// Linked into a test it takes the loader's place; as a library it is preloaded into the program, and BVHBENCH_FAIL_CALL
-// says which call fails (see opencl_shim.cpp). Knows nothing of what it stands before.
+// Replaces the OpenCL loader's functions: counts calls, tracks objects, and makes a chosen call fail. It is linked into a test
+// in front of the loader, or preloaded into the program as a library, where BVHBENCH_FAIL_CALL selects the failing call (see
+// opencl_shim.cpp). It does not depend on the program.
 #pragma once
 
 #include <cstddef>
@@ -13,33 +13,33 @@
 
 namespace bvhbench::shim {
 
-/// Which calls fail: the n-th, counted from 1, or all from there on, as of a device that is gone.
+/// Selects the calls that fail: the n-th, counted from 1, or all from the n-th on, as with a lost device.
 struct Plan {
-    long nth = 0;  ///< 0: none
+    long nth = 0;  ///< 0: no call fails
     bool from_there_on = false;
 };
 
-/// Begin to count anew, with no object on the account.
+/// Resets all counts and forgets all objects.
 void begin(Plan plan);
 
-/// How many calls there were since.
+/// Returns the number of calls since begin().
 long calls();
 
-/// The name of the first one that was made to fail, and the error it gave; empty if none was.
+/// Returns the name and error code of the first call that was made to fail; empty if none was.
 std::string failed_call();
 
-/// Whether calls are remembered from the next `begin` on.
+/// Switches the recording of calls on or off, from the next begin() on.
 void remember_calls(bool wanted);
 
-/// Numbers of the remembered calls behind the first ones that are to fail: of every `share`-th way that is not among `tried`
-/// the first call, or with BVHBENCH_FAULTS=calls every call of such a way. Adds the ways to `tried`.
+/// Returns the numbers of recorded calls after the first `behind` ones that are to fail: the first call of every `share`-th call
+/// path not in `tried`, or with BVHBENCH_FAULTS=calls every call of each such path. Adds the paths to `tried`.
 std::vector<long> chosen_calls(std::set<std::uint64_t>& tried, long behind, std::size_t share);
 bool every_call_fails();
 
-/// Objects that were made and are not released as often as they were made and retained, by the call that made them.
+/// Returns, by the call that made them, the objects that were released less often than made and retained.
 std::vector<std::string> leaked();
 
-/// Calls that used an object which was no longer there, or was never: "clReleaseEvent of what is not there".
+/// Returns the calls that used an object that did not exist, such as "clReleaseEvent of what is not there".
 const std::vector<std::string>& misused();
 
 }  // namespace bvhbench::shim

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A libFuzzer target for each of our readers, chosen by a define: whatever bytes it is given, it reads them or throws what
-// main tells in a sentence. Anything else thrown, and whatever the sanitizers see, is a find.
+// A libFuzzer target for each reader of this project, selected by a define. For any bytes, the reader must succeed or throw an
+// error that main() prints as one sentence. Any other exception and any sanitizer report is a finding.
 #include <fstream>
 #include <functional>
 
@@ -23,7 +23,7 @@ namespace {
 
 [[maybe_unused]] void tuning(const std::string& bytes) { tuning_text(parse_tuning(bytes, "fuzz")); }
 
-/// A word a line.
+/// Reads each line as one word of the command line.
 [[maybe_unused]] void options(const std::string& bytes)
 {
     std::vector<std::string> words = {"bvhbench"};
@@ -53,7 +53,7 @@ namespace {
     step_facts(scene, file);
 }
 
-/// Of vertices and faces up to an empty line, then of edges.
+/// Reads the vertex-face pairs up to an empty line, then the edge-edge pairs.
 [[maybe_unused]] void ground_truth(const std::string& bytes)
 {
     static const std::filesystem::path folder =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Errors are counted right, references are what they say, and each axis finds the errors that are known to be there.
+// Tests that errors are counted correctly, that references are exact, and that each axis finds errors known to be there.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -19,7 +19,7 @@
 namespace bvhbench {
 namespace {
 
-/// A root of two leaves: areas 54, 6 and 24 or so, one coordinate a little off.
+/// Returns a root with two leaves: surface areas 54, 6 and 24.
 HostTree small_tree()
 {
     HostTree tree;
@@ -67,7 +67,7 @@ TEST(Accuracy, SumsOfManyLeavesShowWhatEachWayLoses)
 
 TEST(Accuracy, CodesAreCountedAsEqualAsTheyAre)
 {
-    // Three boxes at one place, two at another, one far off that makes 30 bits too few.
+    // Three equal boxes, two equal ones close by, and one so far off that 30 bits cannot separate the first five.
     std::vector<Point> points;
     std::vector<Face> faces;
     for (const float x : {0.0f, 0.0f, 1e-4f, 0.0f, 1e-4f, 1.0f}) {
@@ -84,7 +84,7 @@ TEST(Accuracy, CodesAreCountedAsEqualAsTheyAre)
         EXPECT_EQ(many.duplicates, 3u);
         EXPECT_EQ(many.longest_run, 3u);
     }
-    // Of three objects, those that are near each other in one of them are told apart by its own grid only.
+    // With three objects, the boxes of one object that are close together get different codes only on its own grid.
     const auto split = [&](GridOver grid) {
         return code_counts(find_order("morton30"), points, faces, three, grid);
     };
@@ -123,10 +123,10 @@ TEST(Accuracy, RoundingAddsPairsFarOffAndTakesNoneAway)
     EXPECT_GT(added_last, 100u);
 }
 
-/// The cells of an axis, by "input/method".
+/// Returns the cells of an axis, by "input/method".
 std::map<std::string, Cell> measured(std::string_view axis, const AxisTask& task)
 {
-    static Session& session = *new Session(CommonOptions{});  // goes after the driver has gone
+    static Session& session = *new Session(CommonOptions{});  // never destroyed: no driver at exit
     std::map<std::string, Cell> cells;
     Progress progress(1);
     int order = 0;
@@ -161,7 +161,7 @@ TEST(Accuracy, OfNarrowPhasesFindsTheErrorsThatAreThere)
         for (const Sample& sample : cell.samples) {
             ASSERT_EQ(sample.stages.size(), 1u);
             EXPECT_GT(sample.stages[0].span_ns, 0);
-            // All pieces are in it.
+            // Each sample includes all pieces.
             EXPECT_EQ(sample.stages[0].moved_bytes % 8, 0);
             EXPECT_GT(sample.stages[0].moved_bytes, 104 * static_cast<std::int64_t>(pairs) - 1);
         }

@@ -24,7 +24,7 @@ HostTree tree_over(const std::vector<Point>& at)
     return refitted(std::move(tree), at, faces);
 }
 
-/// The verdict on `tree` as a refit, to the moved points, of the tree over those that were, which had that verdict.
+/// Returns the verdict on `tree` as a refit to the moved points; the tree over the original points had the verdict `before`.
 Check verdict_on(const HostTree& tree, Check::Verdict before = agrees)
 {
     const HostTree built = tree_over(points);
@@ -43,7 +43,7 @@ TEST(CheckRefit, AgreesWithTheHostsRefitOfTheTreeThatStood)
 
 TEST(CheckRefit, FindsBoxesThatStayedAnotherTreeAndWhatWasWrongBefore)
 {
-    HostTree swapped = tree_over(moved);  // a valid one
+    HostTree swapped = tree_over(moved);  // a valid tree
     std::swap(swapped.nodes[1], swapped.nodes[2]);
     const Check stayed = verdict_on(tree_over(points)), another = verdict_on(swapped),
                 wrong_before = verdict_on(tree_over(moved), differs);

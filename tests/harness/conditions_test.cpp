@@ -9,7 +9,7 @@
 namespace bvhbench {
 namespace {
 
-/// With a folder that looks like a host's root.
+/// Provides a folder that looks like a host's root.
 class Conditions : public testing::Test {
 protected:
     void TearDown() override { std::filesystem::remove_all(root_); }

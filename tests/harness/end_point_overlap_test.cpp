@@ -60,7 +60,7 @@ TEST(Clip, OfTheCellsOfAGridAddsUpToTheTriangleAndInBoxesWithinEachOtherIsThatTo
     }
 }
 
-/// By definition: every node against every triangle, without a descent and without pruning.
+/// Computes the sums by definition: every node against every triangle, without descent or pruning.
 AreaSums every_node_against_every_triangle(const HostTree& tree, const Mesh& mesh)
 {
     std::vector<std::vector<bool>> below(tree.nodes.size(), std::vector<bool>(mesh.faces.size()));
@@ -109,7 +109,7 @@ TEST(EndPointOverlap, IsTheSameToTheBitOnAnyNumberOfThreads)
 TEST(EndPointOverlap, TakesATreeAsDeepAsItHasLeaves)
 {
     const Mesh mesh = make_soup(2000);
-    // Triangle i is not below the nodes behind the i-th, whose boxes are almost the scene's.
+    // Triangle i is outside the subtrees of all nodes deeper than the i-th, whose boxes are almost the scene's.
     EXPECT_NEAR(end_point_overlap(host_chain(mesh), mesh.points, mesh.faces)->inner / 1000, 1,
                 0.05);
 }

@@ -17,13 +17,13 @@ Experiment read(std::string_view text, bool quick = false)
     return parse_experiment(text, "x.json", quick);
 }
 
-/// The sentence that the text is refused with; empty if it is not.
+/// Returns the sentence that the text is refused with; empty if it is accepted.
 std::string refusal(std::string_view text)
 {
     return refusal_of([&] { read(text); });
 }
 
-/// Each text is refused with a sentence that says the other one.
+/// Expects that each text (first) is refused with a sentence that contains the second string.
 void expect_refusals(const std::vector<std::pair<std::string, std::string>>& wrong)
 {
     for (const auto& [text, says] : wrong)
@@ -260,7 +260,7 @@ TEST(Experiment, NamesTheKeyThatItDoesNotKnowAndThoseItDoes)
 TEST(Experiment, RefusesWhatMakesNoSense)
 {
     std::vector<std::string> texts = {"", "{", "[]", "null", "\"table1\"", "{}"};
-    // In the place of one of three keys, or behind them.
+    // Puts the given text in place of one of three keys, or after them.
     const auto with = [](std::string name, std::string scenes, std::string builders,
                          std::string more = "") {
         return R"({"experiment": )" + name + R"(, "scenes": )" + scenes + R"(, "builders": )" +

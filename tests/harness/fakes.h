@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Made-up results with numbers that are easy to recognise, and what refusals say.
+// Invented results with numbers that are easy to recognise, and a helper for error messages.
 #pragma once
 
 #include <functional>
@@ -10,7 +10,7 @@
 
 namespace bvhbench {
 
-/// What `work` is refused with; empty if it is not.
+/// Returns the message of the BadUsage that `work` throws; empty if it throws none.
 inline std::string refusal_of(const std::function<void()>& work)
 {
     try {
@@ -51,7 +51,7 @@ inline StageTime fake_stage(std::string stage, std::int64_t span_ns, std::int64_
     return {std::move(stage), span_ns - 10, span_ns, 0, 2, moved_bytes};
 }
 
-/// A cell of a builder on a scene of 144046 triangles, hierarchy times 90, 100 and 110 microseconds.
+/// Returns a cell of a builder on a scene of 144,046 triangles, with hierarchy times of 90, 100 and 110 microseconds.
 inline Cell fake_cell(std::string builder = "oibvh-multi", std::int64_t hierarchy_ns = 100000)
 {
     Cell cell;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Host trees to hold the metrics to: over the same leaf order, with boxes of triangles.
+// Trees built on the host, as references for the metrics: one leaf order, with the triangles' boxes.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 
 namespace bvhbench {
 
-/// 30-bit Morton codes on the grid that the scene's box is cut into, 1024 parts a side whatever its length.
+/// Returns 30-bit Morton codes on a grid over the scene's box, 1024 cells along each side whatever its length.
 inline std::vector<std::uint32_t> per_axis_codes(const Mesh& mesh)
 {
     Bounds bounds = empty_bounds();
@@ -35,7 +35,7 @@ inline std::vector<std::uint32_t> per_axis_codes(const Mesh& mesh)
     return codes;
 }
 
-/// Triangles in the order of their codes, equal ones in their own.
+/// Returns the triangles sorted by code; equal codes keep their order.
 inline std::vector<int> sorted_ids(std::span<const std::uint32_t> codes)
 {
     std::vector<int> ids(codes.size());
@@ -46,8 +46,8 @@ inline std::vector<int> sorted_ids(std::span<const std::uint32_t> codes)
     return ids;
 }
 
-/// A tree over `ids` whose ranges [first, last) are cut where `split(first, last, depth)` says, top down: at
-/// `first` for a leaf, at `last` for a node with an only child.
+/// Returns a tree over `ids`, built top down. A range [first, last) is split at split(first, last, depth); `first` makes it a
+/// leaf, and `last` a node with one child.
 template <class Split>
 HostTree tree_by(const Mesh& mesh, std::span<const int> ids, const Split& split)
 {
@@ -85,7 +85,7 @@ HostTree tree_by(const Mesh& mesh, std::span<const int> ids, const Split& split)
     return tree;
 }
 
-/// A tree as deep as it has leaves: each node has one more leaf on its left.
+/// Returns a tree as deep as it has leaves: each inner node has a leaf as its left child.
 inline HostTree host_chain(const Mesh& mesh)
 {
     std::vector<int> ids(mesh.faces.size());
@@ -95,7 +95,7 @@ inline HostTree host_chain(const Mesh& mesh)
     });
 }
 
-/// The linear BVH: ranges are cut at the highest bit in which codes differ; of equal codes, positions.
+/// Returns the linear BVH: ranges are split at the highest bit in which codes differ, or positions if the codes are equal.
 inline HostTree host_lbvh(const Mesh& mesh)
 {
     const std::vector<std::uint32_t> codes = per_axis_codes(mesh);
@@ -107,7 +107,7 @@ inline HostTree host_lbvh(const Mesh& mesh)
         if (last - first == 1)
             return first;
         const int bit = 63 - std::countl_zero(key(first) ^ key(last - 1));
-        std::size_t low = first, high = last;  // the first with the bit set lies in (low, high)
+        std::size_t low = first, high = last;  // the first index with the bit set is in (low, high]
         while (high - low > 1) {
             const std::size_t middle = (low + high) / 2;
             (key(middle) >> bit & 1 ? high : low) = middle;
@@ -116,7 +116,7 @@ inline HostTree host_lbvh(const Mesh& mesh)
     });
 }
 
-/// The tree of the paper: all leaves on one level, each node's left child full before it has a right one.
+/// Returns the Oi-BVH: all leaves are on one level, and each node's left subtree is full before it has a right one.
 inline HostTree host_oi_tree(const Mesh& mesh)
 {
     const std::vector<int> ids = sorted_ids(per_axis_codes(mesh));

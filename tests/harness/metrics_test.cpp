@@ -15,7 +15,7 @@
 namespace bvhbench {
 namespace {
 
-/// Two squares of two triangles each, side 1, in the planes z = 0 and z = 1, and what is between them.
+/// Returns two squares with side 1, of two triangles each, in the planes z = 0 and z = 1.
 Mesh two_squares()
 {
     Mesh mesh;
@@ -44,7 +44,7 @@ std::map<std::string, double> counters_of(const HostTree& tree, const Mesh& mesh
 
 TEST(Metrics, OfATreeByHand)
 {
-    // Leaves are flat unit squares, area 2; so are both inner nodes; the root is a unit cube, area 6.
+    // Leaves are flat unit squares of surface area 2, and so are both inner nodes; the root is a unit cube of area 6.
     const Mesh mesh = two_squares();
     const HostTree tree = halved(mesh, {0, 1, 2, 3});
     const AreaSums sums = area_sums(tree).value();
@@ -52,10 +52,10 @@ TEST(Metrics, OfATreeByHand)
     EXPECT_DOUBLE_EQ(sums.leaf, 4 * 2.0 / 6);
     EXPECT_DOUBLE_EQ(sums.cost(), 1.2 * 10 / 6 + 8.0 / 6);
     EXPECT_DOUBLE_EQ(sums.cost({3, 2}), 3 * 10.0 / 6 + 2 * 8.0 / 6);
-    // Siblings below cover each other, area 2 twice; the two squares are apart.
+    // Sibling leaves coincide (area 2, twice); the two inner nodes are apart.
     EXPECT_DOUBLE_EQ(sibling_overlap(tree).value(), 4.0 / 6);
     EXPECT_EQ(leaves_by_depth(tree), (std::vector<std::int64_t>{0, 0, 4}));
-    // Each triangle lies in its brother's leaf, whole, and in nothing else that is not its own.
+    // Each triangle lies entirely in its sibling's leaf and in no other node that is not its ancestor.
     const AreaSums overlap = end_point_overlap(tree, mesh.points, mesh.faces).value();
     EXPECT_DOUBLE_EQ(overlap.inner, 0);
     EXPECT_DOUBLE_EQ(overlap.leaf, 1);
@@ -63,7 +63,7 @@ TEST(Metrics, OfATreeByHand)
 
 TEST(Metrics, OfAWorseTreeByHand)
 {
-    // Now both inner nodes are the whole cube: each holds the other's triangles too.
+    // Both inner nodes are the whole cube: each contains the other's triangles as well.
     const Mesh mesh = two_squares();
     const HostTree tree = halved(mesh, {0, 2, 1, 3});
     const AreaSums sums = area_sums(tree).value();
@@ -147,7 +147,7 @@ TEST(CompensatedSum, LosesNothingToALargeNumberThatGoesAgain)
     EXPECT_EQ(sum.value(), 2);
 }
 
-/// The costs of a linear BVH and of the paper's over a scene of the data sets; zeros if it is not there.
+/// Returns the SAH of a linear BVH and of the Oi-BVH over a scene of the data sets; zeros if the scene is missing.
 std::pair<double, double> costs_over(const std::string& name)
 {
     const char* folder = std::getenv("BVHBENCH_DATA");
@@ -167,8 +167,8 @@ std::pair<double, double> costs_over(const std::string& name)
     return {lbvh, oi};
 }
 
-// What a separate program found for these meshes; the Happy Buddha's are those of the paper's Table 4, 86
-// and 229.16, whose mesh has 242 triangles less.
+// Results of a separate program for these meshes. For the Happy Buddha, the paper's Table 4 has 86 and 229.16, for a mesh with
+// 242 fewer triangles.
 TEST(Metrics, OfScannedModelsAreThoseOfASeparateProgram)
 {
     for (const auto& [scene, known_lbvh, known_oi] : {std::tuple("bunny_69451", 44.76, 109.3),
@@ -180,7 +180,7 @@ TEST(Metrics, OfScannedModelsAreThoseOfASeparateProgram)
         }
 }
 
-// Fig. 13: the ratio of the Oi-BVH's cost to the radix tree's, by the distance of the moved triangle in diameters.
+// Fig. 13: ratio of the Oi-BVH's SAH to the radix tree's, by the moved triangle's distance in diameters.
 TEST(Metrics, OfAModelWithOneTriangleMovedAwayAreThoseOfASeparateProgram)
 {
     for (const auto& [diameters, ratio] : {std::pair{"0", 2.41}, {"2", 2.57}, {"10", 7.90}})

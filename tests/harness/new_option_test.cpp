@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The option that docs/adding.md adds, compiled with the files and changes of the page.
+// Tests the option that docs/adding.md adds, compiled with the files and changes of that page.
 #include <gtest/gtest.h>
 
 #include <CLI/CLI.hpp>

@@ -24,7 +24,7 @@ std::string refusal(std::vector<const char*> words)
     return refusal_of([&] { check_words(static_cast<int>(words.size()), words.data()); });
 }
 
-/// What is said of options with such values, where an experiment has them and where the command line has them.
+/// Returns the error messages for a value of an option, from an experiment and from the command line.
 std::vector<std::string> refusals(const std::string& key, const std::string& value)
 {
     std::vector<std::string> said;

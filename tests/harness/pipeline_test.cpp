@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What a frame's pipeline leaves out, and that it finds the same pairs all the same.
+// Tests which work a frame's pipeline leaves out, and that it still finds the same pairs.
 #include "harness/measure/pipeline.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 namespace bvhbench {
 namespace {
 
-/// A pipeline of some scene's frames, its pairs held to the sweep's.
+/// Runs a pipeline over the frames of a scene and compares its pairs with the sweep's.
 class PipelineFrames {
 public:
     PipelineFrames(const Scene& scene, const char* builder, unsigned rules_off) : scene_(scene)
@@ -36,7 +36,7 @@ public:
         for (int sample = 0; sample < 2; ++sample) {
             pipeline_->once(input_);
             EXPECT_EQ(pipeline_->pairs(), touching_pairs(input_.points, input_.faces, true));
-            EXPECT_EQ(pipeline_->counters(), counters);  // a sample does what the last one did
+            EXPECT_EQ(pipeline_->counters(), counters);  // each sample does the same work
         }
         return counters;
     }
@@ -49,7 +49,7 @@ private:
 
 using Counts = std::array<double, 4>;
 
-/// Objects rebuilt, refitted and kept, and sorts.
+/// Returns the number of objects rebuilt, refitted and kept, and of sorts.
 Counts counts_of(const std::map<std::string, double>& counters)
 {
     return {counters.at("rebuilt_objects_count"), counters.at("refitted_objects_count"),

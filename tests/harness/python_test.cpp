@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder with scripts, in a place of which a shell would make something else.
+/// Provides a folder with scripts whose path has characters that a shell would interpret.
 class Python : public testing::Test {
 protected:
     void SetUp() override

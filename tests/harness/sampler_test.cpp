@@ -11,7 +11,7 @@
 namespace bvhbench {
 namespace {
 
-/// A builder that only counts: its n-th build takes n nanoseconds.
+/// A builder that only counts: its n-th build reports n nanoseconds.
 struct FakeBuild {
     int builds = 0;
     int fails_at = -1;
@@ -25,7 +25,7 @@ struct FakeBuild {
     }
 };
 
-/// Takes as long as the list says, and the last for ever after.
+/// Reports the listed times in order, then the last one for all later samples.
 struct Listed {
     std::vector<std::int64_t> times = {1000};
     std::size_t next = 0;
@@ -39,7 +39,7 @@ struct Listed {
 
 using Calibrate = std::function<std::int64_t()>;
 
-/// Of one cell that takes as long as the list says.
+/// Samples one cell with the listed times.
 Taken taken(Listed listed, const SamplingPlan& plan, const Calibrate& calibrate = {})
 {
     int order = 0;
@@ -47,13 +47,13 @@ Taken taken(Listed listed, const SamplingPlan& plan, const Calibrate& calibrate 
         .at(0);
 }
 
-/// The same, until a target.
+/// Samples one cell with the listed times under `rules`.
 Taken taken_until(std::vector<std::int64_t> times, SamplingRules rules)
 {
     return taken({std::move(times)}, {.samples = 5, .warm_up = 0, .rules = rules});
 }
 
-/// What `spread` around a thousand looks like, again and again: quartiles half of it apart.
+/// Returns `count` times spread evenly around 1000, with quartiles spread / 2 apart.
 std::vector<std::int64_t> spread_by(std::int64_t spread, int count)
 {
     std::vector<std::int64_t> times;
@@ -88,7 +88,7 @@ TEST(Sampler, InterleavesCellsAndNumbersTheSamplesOfTheWholeRun)
             orders.insert(sample.order);
     EXPECT_EQ(orders.size(), 100u);
     EXPECT_EQ(*orders.begin(), 100);
-    // One after the other would be 99 times the same cell as before; at random it is about half.
+    // In sequence, the first cell would end at 149; in random order each cell has samples in both halves.
     EXPECT_GT(taken[0].samples.back().order, 149);
     EXPECT_LT(taken[1].samples.front().order, 150);
 }
@@ -119,7 +119,7 @@ TEST(Sampler, TakesEveryCellOnceInEachRound)
         cells.push_back({"fake", std::ref(build)});
     int order = 0;
     const std::vector<Taken> taken = take_samples(cells, 40, 0, order);
-    std::set<int> places;  // of the first cell in its rounds
+    std::set<int> places;  // of the first cell in each round
     for (int round = 0; round < 40; ++round)
         for (const Taken& cell : taken) {
             EXPECT_EQ(cell.samples[round].order / 3, round);
@@ -133,7 +133,7 @@ TEST(Sampler, StopsAtTheTargetAndNotBeforeTheLeastNumber)
     const Taken steady = taken_until({1000}, {.until = 0.02, .min_samples = 12});
     EXPECT_EQ(steady.stopped, Stopped::steady);
     EXPECT_EQ(steady.samples.size(), 12u);
-    // Twenty wild ones, then steady: quartiles come together when three quarters are of one kind.
+    // Twenty scattered samples, then steady ones: the quartiles meet when three quarters of all are steady.
     std::vector<std::int64_t> calming(20);
     for (std::size_t i = 0; i < calming.size(); ++i)
         calming[i] = i % 2 == 0 ? 500 : 2000;
@@ -181,7 +181,7 @@ TEST(Sampler, MarksSamplesBesideDriftAndKeepsThem)
     int looks = 0;
     const Taken marked = taken({}, {.samples = 100, .warm_up = 1, .rules = {.calibrate_every = 10}},
                                [&]() -> std::int64_t { return ++looks == 5 ? 200 : 100; });
-    // Looks are before samples 1, 11, 21, 31, 41, ...: the fifth is the one before 41.
+    // Calibrations precede the samples 1, 11, 21, 31, 41, ...; the fifth precedes 41.
     ASSERT_EQ(marked.samples.size(), 100u);
     for (const Sample& sample : marked.samples) {
         EXPECT_EQ(sample.drifted, sample.order >= 31 && sample.order < 51) << sample.order;
@@ -197,7 +197,7 @@ TEST(Sampler, DoesNotCountSamplesBesideDriftTowardsATarget)
     const Taken later = taken({}, {.warm_up = 0, .rules = rules},
                               [&]() -> std::int64_t { return ++looks == 2 ? 300 : 100; });
     EXPECT_EQ(later.samples.size(), 16u);
-    // Drift that never ends is no reason never to end.
+    // Sampling must end even if the drift does not.
     rules = {.until = 0.02, .max_samples = 40, .calibrate_every = 4};
     const Taken marked = taken({}, {.warm_up = 0, .rules = rules}, [&]() -> std::int64_t {
         ++looks;
@@ -216,7 +216,7 @@ TEST(Sampler, GoesOnWithoutACalibrationThatFailsAndMarksNothing)
                   [&]() -> std::int64_t {
                       if (++looks == fails_at)
                           throw Unavailable("no room");
-                      return 100 * looks;  // drift, if anybody asks
+                      return 100 * looks;  // would show drift if it did not fail
                   });
         EXPECT_EQ(looks, fails_at);
         EXPECT_EQ(unmarked.failure, "");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What `stress` must notice: a tree, a pair, a repetition that is not what it should be, put there by hand. And that
-// scenes and variants are what they say.
+// Tests that `stress` detects wrong trees, pairs and repetitions that are planted here, and that scenes and variants are what
+// they claim to be.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ const StressSize small{.quick = true, .seed = 7};
 
 StressScene spheres() { return crossed_spheres(120, 7); }
 
-/// What a system that is right finds over any scene.
+/// Returns the correct answer over a scene.
 FoundPairs right_answer(const StressScene& scene)
 {
     FoundPairs found;
@@ -35,7 +35,7 @@ FoundPairs right_answer(const StressScene& scene)
     return found;
 }
 
-/// Without its last pair.
+/// Returns the pairs without the last one.
 PairList shortened(const PairList& pairs)
 {
     return PairList({pairs.pairs().begin(), pairs.pairs().end() - 1});
@@ -43,7 +43,7 @@ PairList shortened(const PairList& pairs)
 
 HostTree tree_over(const Mesh& mesh)
 {
-    HostTree tree;  // a chain: leaf k hangs on inner node k
+    HostTree tree;  // a chain: leaf k is a child of inner node k
     const std::size_t leaves = mesh.faces.size();
     tree.nodes.resize(2 * leaves - 1);
     for (std::size_t k = 0; k + 1 < leaves; ++k)
@@ -67,7 +67,7 @@ TEST(StressTree, NoticesAMissingLeafABoxThatIsTooSmallAndOneThatIsTooLarge)
 
     HostTree wrong = right;
     wrong.nodes[1].primitive = wrong.nodes[3].primitive;
-    wrong = refitted(std::move(wrong), mesh.points, mesh.faces);  // so that boxes are right
+    wrong = refitted(std::move(wrong), mesh.points, mesh.faces);  // makes the boxes correct
     EXPECT_EQ(judged(wrong, mesh).at(Invariant::leaves).verdict, broken);
     EXPECT_EQ(judged(wrong, mesh).at(Invariant::boxes).verdict, holds);
     for (const float direction : {-1e30f, 1e30f}) {
@@ -87,7 +87,7 @@ TEST(StressPairs, CountWhatIsMissedFalseAndTwice)
     EXPECT_EQ(judge_pairs(expected, expected), (Finding{holds, 4, 0, 0, ""}));
     EXPECT_EQ(judge_pairs(other, expected),
               (Finding{broken, 4, 4, 2, "2 missed, 1 false, 1 twice, of 4"}));
-    // Of rounded boxes others may be among them.
+    // Boxes that were rounded outward may add pairs.
     EXPECT_EQ(judge_pairs(other, expected, true),
               (Finding{broken, 4, 3, 2, "2 missed, 1 twice, of 4"}));
     EXPECT_EQ(judge_pairs(PairList({{0, 1}, {0, 9}, {1, 2}, {2, 3}, {3, 4}}), expected, true),
@@ -102,7 +102,7 @@ TEST(StressRepeats, NoticeOneHashThatIsAnother)
     EXPECT_EQ(judge_repeats(other).wrong, 1u);
 }
 
-/// Findings about a system whose answers are right but for what `change` does to them, by the number of the run.
+/// Returns the findings about a system whose correct answers are altered by `change`, which gets the number of the run.
 template <class Change>
 Findings judged_with(const Change& change)
 {
@@ -142,7 +142,7 @@ TEST(StressFinder, NoticesAPairThatIsDroppedInAnyOfItsRuns)
 {
     const Invariant by_run[] = {Invariant::pairs, Invariant::agree, Invariant::agree,
                                 Invariant::moved, Invariant::moved, Invariant::room};
-    for (std::size_t wrong = 0; wrong <= std::size(by_run); ++wrong) {  // the last: in none
+    for (std::size_t wrong = 0; wrong <= std::size(by_run); ++wrong) {  // the last alters no run
         const Findings findings = judged_with([&](FoundPairs& found, std::size_t run) {
             if (run == wrong)
                 found.pairs = shortened(*found.pairs);
@@ -168,11 +168,11 @@ TEST(StressFinder, NoticesAContactThatIsFalse)
     EXPECT_EQ(findings.at(Invariant::pairs).verdict, holds);
 }
 
-/// A system that fails so: as it is settled.
+/// Returns the finding `ends` of a system that throws Error.
 template <class Error>
 Finding settled_end(bool may_refuse)
 {
-    static Session& session = *new Session(CommonOptions{});  // goes after the driver has gone
+    static Session& session = *new Session(CommonOptions{});  // never destroyed: no driver at exit
     return settled(session, may_refuse, []() -> Findings { throw Error("too large"); })
         .at(Invariant::ends);
 }
@@ -198,7 +198,7 @@ TEST(StressVariants, AreTheSameScenesInOtherWords)
                 covered += range.count;
             }
             EXPECT_EQ(covered, scene.mesh.faces.size());
-            // The oracle is put to its own test: it has no tree, but it sorts.
+            // Also a test of the sweep: it has no tree, but it sorts.
             for (const StressQuestion question = question_of(scene, 5);
                  const auto& [variant, expected] : question.variants)
                 EXPECT_EQ(in_original_numbers(*right_answer(variant.scene).pairs, variant),
@@ -211,7 +211,7 @@ TEST(StressVariants, AreTheSameScenesInOtherWords)
 TEST(StressVariants, LeaveOutAScaleOrTranslationThatWouldRound)
 {
     StressScene scene = spheres();
-    scene.mesh.points.front() = {3e38f, 0x1.000002p-126f, 0};  // neither up nor down
+    scene.mesh.points.front() = {3e38f, 0x1.000002p-126f, 0};  // can be scaled neither up nor down
     EXPECT_FALSE(scaled(scene, 1));
     EXPECT_FALSE(translated(scene));
     EXPECT_TRUE(scaled(spheres(), 1));
@@ -256,7 +256,7 @@ TEST(StressRun, TellsOfASceneThatTheDeviceHasNoRoomForAndGoesOn)
     task.filter = Pattern("^scale/1e(10|17)/(oibvh-multi|device)$", "--filter");
     std::vector<StressCell> cells;
     stress_all(full, task, [&](StressCell&& cell) { cells.push_back(std::move(cell)); });
-    ASSERT_EQ(cells.size(), 2u);  // nothing of the other scenes was asked for
+    ASSERT_EQ(cells.size(), 2u);  // the filter excludes all other scenes
     for (const StressCell& cell : cells) {
         EXPECT_EQ(cell.family, "scale");
         EXPECT_EQ(cell.system, "device");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What can be tuned is right with every value that its parameters may have, one at a time, and says so if it is not.
+// Tests that every tuning target is correct with each value of each parameter, one at a time, and that errors are reported.
 #include "harness/tune/trials.h"
 
 #include <gtest/gtest.h>

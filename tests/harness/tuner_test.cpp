@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The search over made-up trials, whose times and answers are known.
+// Tests the search with invented trials, whose times and answers are known.
 #include "harness/tune/tuner.h"
 
 #include <gtest/gtest.h>
@@ -25,9 +25,10 @@ constexpr Parameter made_up(const char* name, const char* stage, uint usual, uin
 constexpr Parameter keys_parameter = made_up("fake.keys", "sort", 4, 64, {1, 2, 4, 8, 16});
 constexpr Parameter items_parameter = made_up("fake.items", "hierarchy", 1, 8, {1, 2, 3});
 constexpr Parameter aside_parameter =
-    made_up("fake.aside", "sort", 1, 8, {1, 2, 3});  // nobody asks
+    // No trial reads this parameter.
+    made_up("fake.aside", "sort", 1, 8, {1, 2, 3});
 
-/// What a trial takes and leaves for a value of `keys` and of `items`.
+/// Times, answers and failures of a trial by its values of `keys` and `items`.
 struct World {
     std::function<std::int64_t(uint keys, uint items)> sort_ns = [](uint, uint) { return 1000; };
     std::function<std::int64_t(uint keys, uint items)> hierarchy_ns = [](uint, uint) {
@@ -50,7 +51,7 @@ public:
     std::string wrong() override { return world_.wrong(keys_); }
     std::vector<StageTime> once() override
     {
-        const std::int64_t jitter = 3 * (runs_++ % 5);  // less than a part in a hundred
+        const std::int64_t jitter = 3 * (runs_++ % 5);  // less than one percent
         const std::int64_t sort = world_.sort_ns(keys_, items_) + jitter;
         const std::int64_t hierarchy = world_.hierarchy_ns(keys_, items_);
         return {{"sort", sort, sort, 0, 1, 0}, {"hierarchy", hierarchy, hierarchy, 0, 1, 0}};
@@ -154,7 +155,7 @@ TEST(Search, LeavesEverythingWhereNothingIsBetterByMoreThanNoise)
 
 TEST(Search, GivesUpWhatMakesTheWholeNoFaster)
 {
-    World world;  // what the sort gains the hierarchy loses
+    World world;  // the hierarchy loses what the sort gains
     world.sort_ns = [](uint keys, uint) { return keys == 8 ? 600 : 1000; };
     world.hierarchy_ns = [](uint keys, uint) { return keys == 8 ? 900 : 400; };
     const SearchResult result = searched(world);
@@ -166,7 +167,7 @@ TEST(Search, GivesUpWhatMakesTheWholeNoFaster)
 
 TEST(Search, GoesThroughAllAgainWhereOneDependsOnAnother)
 {
-    World world;  // more keys pay only with more items, which come first by name
+    World world;  // more keys pay only with more items, which are tuned first (by name)
     world.sort_ns = [](uint keys, uint items) {
         return keys == 8 ? (items == 2 ? 500 : 700) : 1000;
     };
@@ -200,7 +201,7 @@ TEST(Search, HasWhatWasFoundWheneverItSaysWhatItDoes)
     world.hierarchy_ns = [](uint, uint items) { return items == 3 ? 300 : 500; };
     bool was_told = false, was_there = false;
     searched(world, {}, 2, [&](const std::string& what, const SearchResult& so_far) {
-        if (what != "fake.keys = 16" || was_told)  // the second parameter's last candidate
+        if (what != "fake.keys = 16" || was_told)  // last candidate of the second parameter
             return;
         was_told = true;
         was_there = so_far.best.value(items_parameter, true) == 3 && so_far.kept.size() == 1 &&

@@ -17,7 +17,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// With the name of a file that is not there.
+/// Provides the name of a file that does not exist.
 class TurnsTest : public testing::Test {
 protected:
     void SetUp() override { remove(); }
@@ -35,7 +35,7 @@ TEST_F(TurnsTest, AreTakenOneAtATimeAndByAll)
 {
     std::atomic<int> inside = 0;
     std::atomic<int> most = 0;
-    std::string sequence;  // written only by whose turn it is
+    std::string sequence;  // written only by the thread whose turn it is
     const auto run = [&](char name) {
         Turns turns(path_, 2, std::string(1, name));
         turns.meet();
@@ -55,7 +55,7 @@ TEST_F(TurnsTest, AreTakenOneAtATimeAndByAll)
     int changes = 0;
     for (std::size_t i = 1; i < sequence.size(); ++i)
         changes += sequence[i] != sequence[i - 1] ? 1 : 0;
-    // 99, if neither is ever twice in a row; a loaded machine may be late.
+    // Strict alternation gives 99 changes; a loaded machine may miss some.
     EXPECT_GT(changes, 60) << sequence;
 }
 
@@ -68,7 +68,7 @@ TEST_F(TurnsTest, BeginWhenAllHaveComeAndPartWhenAllHaveEnough)
         has_met = true;
         turns.part();
         has_parted = true;
-        turns.meet();  // of the next scene
+        turns.meet();  // for the next scene
     });
     std::this_thread::sleep_for(50ms);
     EXPECT_FALSE(has_met);
