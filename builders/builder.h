@@ -74,9 +74,8 @@ public:
     /// Allocates all memory for `primitives` triangles, 1 to 2^31. Never timed. Throws Unavailable.
     virtual void reserve(std::size_t primitives) = 0;
 
-    /// Allocates all memory for objects of these numbers of triangles, each at least 1; one build then makes one tree per
-    /// object. Throws Unavailable also if the builder supports one tree only, and BadUsage for options that exclude several
-    /// objects.
+    /// Allocates all memory for objects of `sizes` triangles, each at least 1; one build then makes one tree per object. Throws
+    /// Unavailable also if the builder supports one tree only, and BadUsage for options that exclude several objects.
     virtual void reserve_objects(std::span<const uint> sizes)
     {
         if (sizes.size() != 1)

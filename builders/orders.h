@@ -30,7 +30,7 @@ struct OrderEntry {
          is_stretched = false;  ///< The curve, and whether cells are stretched (geometry/grid.h).
     Medians medians = Medians::nowhere;
 
-    /// Returns the code of a leaf box, given the scene's bounds; the host equivalent of builders/stages/code_of.clh.
+    /// Returns the code of a leaf box, given the bounds of all boxes and of their centres: code_of.clh on the host.
     ulong code(Aabb box, Bounds bounds) const;
 };
 

@@ -27,7 +27,7 @@ struct HostTree {
 
     struct Node {
         Aabb box = {};
-        Children child;        ///< The first is always present; support nodes have only that one.
+        Children child;        ///< None in leaves, one in support nodes, else two or more.
         int primitive = none;  ///< Triangle id in leaves, `none` in inner nodes.
     };
 

@@ -2,8 +2,8 @@
 //
 // Appendix C: the ostensibly-implicit layout with k children per node, for host and device.
 //
-// As in layout.h, which it equals for k = 2, real nodes fill each level from the left, virtual nodes are never stored, and a
-// node is virtual if all its children are.
+// For k = 2 it is the layout of layout.h. Real nodes fill each level from the left, virtual nodes are never stored, and a node
+// is virtual if all its children are.
 //
 //     k = 3, t = 5                  0                         level 0
 //                       1           2         (3)             level 1     1 virtual

@@ -25,9 +25,9 @@ Cut groups_of(uint group_size, uint items)
     return {KernelForm::groups, group_size, items, floor_log2(2 * group_size * items)};
 }
 
-/// Returns the smallest group size with the fewest launches. Measured on an H200 (µs, hierarchy from ids): 871,306 triangles
-/// take 28 with groups of 256 (3 launches), 23 with 512 and 25 with 1024 (2 launches); 2,880,000 take 58 with 256 and 60 with
-/// 512 (3 launches), 58 with 1024 (2 launches).
+/// Returns the cut with the smallest groups among those with the fewest launches. On an H200 (µs, hierarchy from ids): 871,306
+/// triangles take 28 with groups of 256 (3 launches), 23 with 512 and 25 with 1024 (2 launches); 2,880,000 take 58 with 256 and
+/// 60 with 512 (3 launches), 58 with 1024 (2 launches).
 Cut smallest_group_with_fewest_launches(uint leaf_level, uint items, uint most)
 {
     Cut best = groups_of(std::min(256u, most), items);
@@ -38,8 +38,9 @@ Cut smallest_group_with_fewest_launches(uint leaf_level, uint items, uint most)
     return best;
 }
 
-/// Returns many subtrees per core, so that no core waits long for another, each small enough for a core's cache. On two cores
-/// (ms, subtrees of 10, 12, 14 and 16 levels): 144,046 triangles 0.26, 0.16, 0.32, 0.41; 1,087,716 3.5, 3.3, 3.3, 3.8.
+/// Returns the cut for `chunks`: many subtrees per core, so that no core waits long for another, but small enough for its
+/// cache. On two cores (ms, subtrees of 10, 12, 14, 16 levels): 144,046 triangles 0.26, 0.16, 0.32, 0.41; 1,087,716 3.5, 3.3,
+/// 3.3, 3.8.
 Cut subtrees_of_items(const Device& device, uint leaf_level)
 {
     const uint cores = device.cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
@@ -48,7 +49,7 @@ Cut subtrees_of_items(const Device& device, uint leaf_level)
             std::clamp(leaf_level > split ? leaf_level - split : 0u, 10u, 14u)};
 }
 
-/// Returns groups for a build in one launch, where the number of groups costs little. On an H200 (µs, hierarchy from ids):
+/// Returns the cut for a build in one launch, where the number of groups costs little. On an H200 (µs, hierarchy from ids):
 /// 144,046 triangles take 11.1 with groups of 256 and 12.3 with groups of 512 and two nodes per work-item; 2,880,000 take 59.8
 /// and 56.3. If groups wait, small groups are best, because they free their units soonest.
 Cut groups_of_one_launch(Meeting meeting, uint leaf_level, uint items, uint most)

@@ -41,7 +41,7 @@ protected:
     /// Uploads the constant inputs of builds. Blocks until done.
     virtual void prepare(const cl::CommandQueue& queue) = 0;
 
-    /// Enqueue the hierarchy over the leaves, and the boxes of a refit with unchanged topology.
+    /// Enqueues the hierarchy over the leaves; `enqueue_refit`: only its boxes, with unchanged topology.
     virtual void enqueue_hierarchy(Queue& queue) = 0;
     virtual void enqueue_refit(Queue& queue) = 0;
 

@@ -14,8 +14,8 @@
 #define BLOCK 64u
 #define FLOATS_PER_BOX 6ul
 
-/// Computes the codes of `lanes` boxes (at most BLOCK) from `box_floats` on, within `bounds`: drops the lowest `dropped` bits
-/// of each and adds `above`.
+/// Computes the codes of `lanes` boxes (at most BLOCK) from `box_floats` on, in the grid over `bounds`. Drops the lowest
+/// `dropped` bits of each code and sets the bits `above`.
 static inline __attribute__((always_inline)) void code_block(global const float* box_floats,
                                                              const Bounds bounds,
                                                              global Code* codes, const uint lanes,

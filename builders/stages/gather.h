@@ -37,8 +37,8 @@ public:
     void enqueue(const Buffer<Aabb>& boxes, const Buffer<uint>& ids, const Buffer<uint>& owners,
                  Queue& queue);
 
-    /// Enqueues the copy for the objects of `runs` only (made in the same kernel form; several objects). Not allowed in formats
-    /// with cells, whose cells depend on all objects.
+    /// Enqueues the copy for the objects of `runs` only, of several objects; `runs` must have this stage's kernel form. Not
+    /// allowed in formats with cells, which depend on all objects.
     void enqueue(const Buffer<Aabb>& boxes, const Buffer<uint>& ids, const ObjectRuns& runs,
                  Queue& queue);
 

@@ -21,7 +21,7 @@ inline KernelForm chosen_form(const Device& device, KernelForm form)
     return device.is_cpu() ? KernelForm::chunks : KernelForm::groups;
 }
 
-/// Returns the same, but `chunks` for of_device if the device lacks the local memory or work-group size the kernel needs.
+/// As above, but returns `chunks` for of_device if the device lacks this much local memory or groups of this size.
 inline KernelForm chosen_form(const Device& device, KernelForm form, std::size_t local_bytes,
                               std::size_t group_size)
 {

@@ -154,7 +154,7 @@ void WideBuilder::prepare(const cl::CommandQueue& queue)
             defines, optimise);
     };
     from_leaves_ = kernel(true, Optimise::freely);
-    // Only the few upper nodes: where optimising is risky, it gains nothing.
+    // These kernels build only the few upper nodes, so optimisation that may be unsafe would gain nothing.
     from_nodes_ = kernel(false, Optimise::on_gpus);
     tree_.device_objects.upload(queue, tree_.objects);
     whole_.upload(queue);

@@ -63,7 +63,7 @@ private:
     Buffer<uint> placed_;    ///< Per block: leaves that have their places.
 };
 
-/// Computes the same on the host, as the oracle: each block has the same set of leaves as after the kernels.
+/// Host version of CellMedians, the oracle of the kernels: each block has the same set of leaves.
 void host_cell_medians(std::span<const Aabb> boxes, std::span<uint> ids, uint block_height);
 
 }  // namespace bvhbench

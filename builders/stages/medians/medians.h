@@ -60,7 +60,7 @@ private:
     cl::Kernel kernel_;
 };
 
-/// Computes the same on the host: the oracle of the kernels, equal bit for bit.
+/// Host version of BlockMedians: the oracle of the kernels, equal bit for bit.
 void host_block_medians(std::span<const Aabb> boxes, std::span<uint> ids, uint block_height);
 
 }  // namespace bvhbench

@@ -116,7 +116,7 @@ static inline void halve_fours(local const float* const at, local const ushort* 
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void order_blocks(
     global const float2* restrict boxes, global uint* restrict ids, const uint count)
 {
-    local float at[3u * BLOCK];                                  // Centres, by axis and slot
+    local float at[3u * BLOCK];                                  // centres by axis and slot
     local uint slot_ids[BLOCK];                                  // by slot
     local ushort slots[3u * BLOCK] __attribute__((aligned(8)));  // the lists: by axis and place
     local uint places[BLOCK];                                    // by slot, in all three lists

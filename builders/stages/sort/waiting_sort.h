@@ -47,7 +47,7 @@ private:
     Programs& programs_;
     uint code_bits_, code_words_, passes_, group_size_, most_keys_, units_;
     uint most_tiles_at_once_;  ///< 0: never in one launch.
-    bool is_at_once_ = false;  ///< As planned.
+    bool is_at_once_ = false;  ///< True if the planned size is sorted in one launch.
     uint tile_ = 0;
     cl::Kernel count_, sort_;
     uint epoch_ = 1;  ///< Epoch of the next pass.
