@@ -13,7 +13,7 @@
 namespace bvhbench {
 namespace {
 
-// To add a format, add its line here, its number and type in geometry/box_side.h and its rounding in box_format.h.
+// To add a format, add its line here, its number and type in geometry/box_side.h and its rounding in geometry/box_cells.h.
 constexpr BoxFormat catalog[] = {
     {"f32", "floats, as boxes are made", BOX_F32, 4},
     {"f64", "doubles: the same boxes in twice the bytes", BOX_F64, 8},
@@ -24,11 +24,12 @@ constexpr BoxFormat catalog[] = {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// The largest float that a lower side in this cell may have been made of, or the smallest one of an upper side.
+/// Returns the outer bound of a cell: for a lower side, the largest float not above the cell; for an upper side, the smallest
+/// float not below it.
 float end_of_cell(const AxisCells& cells, double cell, bool is_upper)
 {
-    // The product is exact, so it decides; what the quotient loses to rounding is a step or two. The sum is exact up to
-    // 2^53; beyond it the scene is so far off that the difference is.
+    // The product is exact and decides; the rounded quotient is off by a step or two at most. The sum is exact up to 2^53.
+    // Beyond that the scene is so far from the origin that the difference is exact.
     const float outward = is_upper ? infinity : -infinity;
     const double sum = cell + cells.first;
     const bool is_far = std::abs(cells.first) >= 0x1p52;
@@ -61,7 +62,7 @@ void put(std::vector<std::byte>& stored, Side side)
     stored.insert(stored.end(), bytes.begin(), bytes.end());
 }
 
-/// A side as it is stored, of a format with cells its number.
+/// Appends a side as it is stored; in formats with cells `side` is the cell's number.
 void put_side(std::vector<std::byte>& stored, const BoxFormat& format, double side)
 {
     switch (format.number) {

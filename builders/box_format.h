@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The formats that trees may keep their boxes in: geometry/box_cells.h for the host.
+// Storage formats of trees' boxes, and their rounding on the host. The rounding itself is in geometry/box_cells.h.
 #pragma once
 
 #include <cstddef>
@@ -13,45 +13,45 @@
 
 namespace bvhbench {
 
-/// A line of `list formats`.
+/// One box format, as `list formats` prints it.
 struct BoxFormat {
-    std::string_view name;     ///< "u16": the key on the command line and in result files
-    std::string_view summary;  ///< one line
-    uint number;               ///< BOX_FORMAT of kernels
+    std::string_view name;  ///< Unique key on the command line and in result files, such as "u16".
+    std::string_view summary;  ///< One-line description.
+    uint number;               ///< Value of BOX_FORMAT in kernels.
     std::size_t side_bytes;
 
     std::size_t box_bytes() const { return 6 * side_bytes; }
-    bool has_cells() const { return last_cell(number) > 0; }  ///< if not, boxes are exact
+    bool has_cells() const { return last_cell(number) > 0; }  ///< If false, boxes are exact.
 };
 
-/// Every format, floats first. To add one: docs/adding.md.
+/// All formats, floats first. docs/adding.md says how to add one.
 std::span<const BoxFormat> box_formats();
 
-/// The format of trees that say nothing else.
+/// Default format.
 inline const BoxFormat& float_boxes() { return box_formats().front(); }
 
-/// By name. Throws BadUsage with the known names when there is none.
+/// Returns the format called `name`. Throws BadUsage with the known names if there is none.
 const BoxFormat& find_box_format(std::string_view name);
 
-/// What a format makes of the boxes of a scene.
+/// Conversion of a scene's boxes to a format and back.
 struct BoxRounding {
     const BoxFormat* format = &float_boxes();
-    SceneCells cells = {};  ///< of formats that have them
+    SceneCells cells = {};  ///< Used by formats with cells only.
 
-    /// Of the scene whose boxes fill `scene` together, as the device finds it.
+    /// Returns the conversion for the scene with bounds `scene`, with the same cells as the device computes.
     static BoxRounding of_scene(const BoxFormat& format, const Aabb& scene);
 
-    /// A box's six sides as kernels keep them.
+    /// Returns the six sides of `box` as kernels store them.
     std::vector<std::byte> stored(const Aabb& box) const;
 
-    /// The smallest box of floats around a stored one: infinite where it ends beyond them.
+    /// Returns the smallest float box that contains the stored box; a side beyond the largest float is infinite.
     Aabb read(std::span<const std::byte> stored) const;
 
-    /// What is read back of what is stored: it contains `box`, and is no other for exact formats.
+    /// Returns `box` after storing and reading it: a box that contains `box`, and equals it in exact formats.
     Aabb operator()(const Aabb& box) const { return read(stored(box)); }
 };
 
-/// So many boxes that contain nothing, as kernels keep them.
+/// Returns `count` empty boxes as kernels store them.
 std::vector<std::byte> stored_empty_boxes(const BoxFormat& format, std::size_t count);
 
 }  // namespace bvhbench

@@ -13,50 +13,48 @@
 
 namespace bvhbench {
 
-/// The trees of a frame's objects in device memory, often of one, which kernels walk through their layout's access
-/// header. The header defines
+/// Trees of a frame's objects (one or several) in device memory, which kernels traverse through the access header of the
+/// layout. The header defines
 ///
-///     FOREST_PARAMETERS, FOREST    parameters as `bind` sets them; the same as arguments
-///     PICK_TREE(object)            declares the variables of TREE: one object's tree, behind its ForestObject
+///     FOREST_PARAMETERS, FOREST    kernel parameters set by `bind`; the same as arguments
+///     PICK_TREE(object)            declares the variables of TREE for one object, from its ForestObject
 ///     TREE_PARAMETERS, TREE        that tree as parameters, `leaves` among them, and as arguments
-///     tree_root(TREE)              a node: a word
-///     tree_leaf(TREE, k)           the leaf at place k in the object's leaf order
+///     tree_root(TREE)              root node; a node is one word
+///     tree_leaf(TREE, k)           leaf k in the object's leaf order
 ///     tree_is_leaf(TREE, node)
 ///     tree_triangle(TREE, leaf)    the triangle of a leaf
-///     tree_left(TREE, node), tree_right(TREE, node)         of inner nodes; TREE_NONE for a virtual right
+///     tree_left(TREE, node), tree_right(TREE, node)         of inner nodes; TREE_NONE for a virtual right child
 ///     tree_box(TREE, node)
-///     TREE_CHILD_BITS              log2 of the children that a node has at most; from 2 on the tree is wide, which is
-///                                  told below
-///     tree_row, tree_row_end, tree_row_box                  of a binary implicit tree's level: places of its nodes by
-///                                  their labels, for walks that stay on some levels
-///     TREE_IMPLICIT                1: all leaves are on one level and arithmetic finds every relative:
+///     TREE_CHILD_BITS              log2 of the arity; at 2 or more the tree is wide (see below)
+///     tree_row, tree_row_end, tree_row_box                  binary implicit trees: where a level's boxes are by node
+///                                  label, for traversals that stay on some levels
+///     TREE_IMPLICIT                1: all leaves are on one level and relatives are computed:
 ///                                  tree_next, the node after a node's subtree in depth-first order, or
 ///                                  TREE_NONE; tree_descendant, Eq. (12), or TREE_NONE if virtual;
-///                                  tree_ancestor, Eq. (13); tree_level and tree_leaf_level; all in levels
-///                                  of its own, TREE_CHILD_BITS of a binary tree's
+///                                  tree_ancestor, Eq. (13); tree_level and tree_leaf_level. Levels are
+///                                  those of the tree itself: one is TREE_CHILD_BITS levels of a binary tree
 ///                                  0: inner nodes have numbers, tree_inner(TREE, k) for k + 1 < leaves, and
 ///                                  every node has one, tree_number(TREE, node), leaves after inner nodes; the
-///                                  objects' trees are parts of one, PICK_WHOLE_TREE, and nodes mean the same in all
+///                                  objects' trees are parts of one, PICK_WHOLE_TREE, and a node is the same in all
 ///
-/// and is compiled with SORTED_LEAVES: 1 if leaf boxes are in leaf order, 0 if in mesh order behind ids; and with
-/// BOX_FORMAT (geometry/box_side.h), unless boxes are floats.
+/// and is compiled with SORTED_LEAVES (1: leaf boxes in leaf order; 0: in mesh order, reached through ids) and with BOX_FORMAT
+/// (geometry/box_side.h) unless boxes are floats.
 ///
-/// A wide tree is implicit. Its children are tree_left and those next to it instead of tree_right, and their boxes are
-/// tested together:
+/// A wide tree is implicit. Its children are tree_left and the labels after it; there is no tree_right. Their boxes are tested
+/// together:
 ///
-///     tree_slot(TREE, node)                     where an inner node is stored
-///     tree_child_box(TREE, slot, k)             of child k of the node there
-///     tree_children_meeting(TREE, slot, box)    a bit a child: whether its box overlaps; of none, anything
-///     tree_children_from(TREE, node, first)     a bit a child: whether it has leaves from place `first` on
+///     tree_slot(TREE, node)                     slot of an inner node
+///     tree_child_box(TREE, slot, k)             box of child k of the node in `slot`
+///     tree_children_meeting(TREE, slot, box)    bit k is set if child k's box overlaps `box`; undefined for virtual children
+///     tree_children_from(TREE, node, first)     bit k is set if child k has leaves at place `first` or later
 class DeviceTree : public Tree {
 public:
-    const Queue* queue =
-        nullptr;  ///< where the last build was enqueued; set before anything is read
+    const Queue* queue = nullptr;  ///< Queue of the last build; set before the tree is read.
 
-    std::vector<ForestObject> objects;  ///< of each object's tree
+    std::vector<ForestObject> objects;  ///< One per object.
     Buffer<ForestObject> device_objects;
 
-    /// One object's tree as `spelled_out` tells of the only one.
+    /// Returns a host copy of one object's tree; see `spelled_out`.
     virtual HostTree spelled_out_object(uint object) const = 0;
     HostTree spelled_out() const final
     {
@@ -64,25 +62,25 @@ public:
         return spelled_out_object(0);
     }
 
-    virtual uint leaf_count() const = 0;  ///< of all objects
+    virtual uint leaf_count() const = 0;  ///< Leaves of all objects.
     virtual const BoxFormat& box_format() const { return float_boxes(); }
     virtual bool has_sorted_leaves() const = 0;
 
     virtual std::string_view access_header() const = 0;
-    virtual bool is_implicit() const = 0;          ///< as the header says
-    virtual uint child_bits() const { return 1; }  ///< TREE_CHILD_BITS
+    virtual bool is_implicit() const = 0;          ///< TREE_IMPLICIT of the access header.
+    virtual uint child_bits() const { return 1; }  ///< TREE_CHILD_BITS of the access header.
 
-    /// Nodes on the longest way from a root to a leaf, at most, and exactly in the largest implicit tree.
+    /// Upper bound of the nodes on a path from a root to a leaf; exact for the largest implicit tree.
     virtual uint most_levels() const = 0;
 
-    /// Bits of the largest label, a leaf's, of an implicit tree.
+    /// Returns the bits of the largest label (of the last leaf) of an implicit tree.
     uint label_bits() const { return child_bits() * (most_levels() - 1) + 1; }
 
-    /// Set the header's parameters from `first` on; returns the index after them.
+    /// Sets the kernel arguments of FOREST_PARAMETERS from index `first` on. Returns the next index.
     virtual cl_uint bind(cl::Kernel& kernel, cl_uint first) const = 0;
 };
 
-/// Set neighbouring arguments from `first` on; returns the index after them.
+/// Sets consecutive kernel arguments from index `first` on. Returns the next index.
 template <class... Arguments>
 cl_uint set_arguments_from(cl::Kernel& kernel, cl_uint first, const Arguments&... arguments)
 {

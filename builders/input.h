@@ -11,54 +11,54 @@
 
 namespace bvhbench {
 
-/// The triangles to build over, in both memories. Moving them is the harness's work and is never timed. What runs on the
-/// device alone wants no host copies: who calls the library may have none.
+/// Triangles to build over, on the host and on the device. The harness moves them; that is never timed. Builders that run on
+/// the device alone do not read the host copies, which library callers may leave empty.
 struct Input {
     std::span<const Point> points;
     std::span<const Face> faces;
     Buffer<Point> device_points;
     Buffer<Face> device_faces;
     std::vector<FaceRange>
-        objects;  ///< what gets a tree of its own: at least one, together all faces in order
-    Buffer<uint> device_owners;  ///< the object of each face; one word if there is one object
+        objects;  ///< Ranges of faces, one tree each; at least one, and together all faces in order.
+    Buffer<uint> device_owners;  ///< Object of each face; a single word if there is one object.
 
-    /// The same vertices in the next frame, where boxes are to be swept: around each triangle's way from one frame to
-    /// the other. Else empty, and boxes are of one frame.
+    /// The same vertices in the next frame, if boxes are swept: a swept box contains the path of its triangle between the
+    /// frames. Empty if boxes are of one frame.
     std::span<const Point> end_points = {};
     Buffer<Point> device_end_points = {};
 
-    std::vector<MemoryShare> memory = {};  ///< what the buffers take
+    std::vector<MemoryShare> memory = {};  ///< Memory accounting of the buffers.
 
     uint triangle_count() const { return static_cast<uint>(device_faces.size()); }
     bool is_swept() const { return !end_points.empty(); }
 
-    /// Bytes of points that boxes are made from.
+    /// Returns the bytes of points that boxes are computed from.
     std::size_t point_bytes() const { return device_points.bytes() + device_end_points.bytes(); }
 };
 
-/// Copy a mesh to the device. The spans must outlive the input. No objects: all faces are one. Waits.
+/// Copies a mesh to the device. The spans must outlive the input. Empty `objects`: all faces are one object. Blocks.
 Input upload(const Device& device, const Queue& queue, std::span<const Point> points,
              std::span<const Face> faces, std::span<const FaceRange> objects = {});
 
-/// Copy where the points of `input` are in the next frame: its boxes are swept from here on. Waits.
+/// Copies the points of the next frame, so that boxes are swept from now on. Blocks.
 void upload_end(Input& input, const Device& device, const Queue& queue,
                 std::span<const Point> end_points);
 
-/// Other faces over the points of `input`, which are shared and not copied again. Waits.
+/// Returns an input of other faces over the points of `input`, which are shared, not copied. Blocks.
 Input upload_over(const Input& input, const Device& device, const Queue& queue,
                   std::span<const Face> faces, std::span<const FaceRange> objects = {});
 
-/// The box of a face over the input's points: of its frame, or swept.
+/// Returns the box of `face`: of one frame, or swept if the input is.
 inline Aabb leaf_box(const Input& input, Face face)
 {
     const Aabb box = face_box(input.points, face);
     return input.is_swept() ? swept_box(box, face_box(input.end_points, face)) : box;
 }
 
-/// The boxes of all its faces.
+/// Returns the boxes of all faces.
 std::vector<Aabb> leaf_boxes(const Input& input);
 
-/// Triangles of each object.
+/// Returns the number of triangles of each object.
 std::vector<uint> object_sizes(const Input& input);
 
 }  // namespace bvhbench

@@ -8,36 +8,36 @@
 
 namespace bvhbench {
 
-/// What is put into the order of exact median splits (builders/stages/medians/medians.h).
+/// Which leaves are put into the order of exact median splits (builders/stages/medians/medians.h).
 enum class Medians {
     nowhere,
-    in_blocks,   ///< every aligned block of 2^median_block_height leaves, after the sort
-    everywhere,  ///< all leaves: nothing to sort, no codes
+    in_blocks,   ///< Every aligned block of 2^median_block_height leaves, after the sort.
+    everywhere,  ///< All leaves; there are no codes and no sort.
 };
 
-/// What the grid of codes is laid over, where there are several objects.
+/// Bounds that the grid of the codes divides, if there are several objects.
 enum class GridOver {
-    object,  ///< each object, a grid of its own
-    scene,   ///< all objects together
+    object,  ///< Each object has its own grid.
+    scene,   ///< One grid over all objects.
 };
 
-/// A way to line up leaves: a code a box, sorted ascending, ties in the triangles' own order; then medians.
+/// An order of the leaves: ascending by a code per box, ties by triangle id; then medians, if any.
 struct OrderEntry {
-    std::string_view name;     ///< "morton30": the key on the command line and in result files
-    std::string_view summary;  ///< one line for `list orders`
-    unsigned code_bits;        ///< only these bits are sorted; over 32, codes take 64; 0: no codes
+    std::string_view name;     ///< Key on the command line and in result files, such as "morton30".
+    std::string_view summary;  ///< One line for `list orders`.
+    unsigned code_bits;  ///< Bits that are sorted by; above 32, a code has 64 bits. 0: no codes.
     bool is_hilbert = false,
-         is_stretched = false;  ///< of codes: the curve, and the grid (geometry/grid.h)
+         is_stretched = false;  ///< The curve, and whether cells are stretched (geometry/grid.h).
     Medians medians = Medians::nowhere;
 
-    /// The code on the host: of a leaf's box, given the bounds of all boxes and of their centres. As builders/stages/code_of.clh.
+    /// Returns the code of a leaf box, given the bounds of all boxes and of their centres: code_of.clh on the host.
     ulong code(Aabb box, Bounds bounds) const;
 };
 
-/// Every order, in the order tables list them. To add one: docs/adding.md.
+/// All orders, as listed in tables. docs/adding.md says how to add one.
 std::span<const OrderEntry> order_catalog();
 
-/// By name. Throws BadUsage with the known names when there is none.
+/// Returns the order called `name`. Throws BadUsage with the known names if there is none.
 const OrderEntry& find_order(std::string_view name);
 
 }  // namespace bvhbench

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What builders let a device choose (device/tuning.h), in the order `bvhbench list tuning` shows it. To add a
-// parameter, declare it here, put it into the list at the end, and ask the device for it where its value was.
+// Tuning parameters of builders (device/tuning.h), in the order of `bvhbench list tuning`. To add one, declare it here, append
+// it to the list at the end, and read it with Device::tuned where its value is used.
 #pragma once
 
 #include <span>
@@ -10,13 +10,13 @@
 
 namespace bvhbench {
 
-/// The values that a parameter may have.
+/// Values that a parameter may have.
 struct ParameterRange {
     uint least, most;
     ValueIs values = ValueIs::any_number;
 };
 
-/// A parameter whose default is `usual` on every kind of device.
+/// Returns a parameter with the default `usual` on every kind of device.
 constexpr Parameter usually(uint usual, std::string_view name, std::string_view stage,
                             std::string_view meaning, ParameterRange range,
                             const CandidateValues& candidates)
@@ -24,7 +24,7 @@ constexpr Parameter usually(uint usual, std::string_view name, std::string_view 
     return {name, meaning, stage, usual, usual, range.least, range.most, range.values, candidates};
 }
 
-/// Of everything in the form for few cores, colliders' kernels too.
+/// Used by all kernels in the form `chunks`, colliders' included.
 inline constexpr Parameter chunks_per_core =
     usually(4, "chunks.per_core", "",
             "work-items a core, each with a long run: more, and none waits long for one that was "
@@ -127,7 +127,6 @@ inline constexpr Parameter implicit_subtrees_per_core =
             "subtrees a core that the first launch cuts a tree into, in the form for few cores",
             {1, 1024, ValueIs::power_of_two}, {2, 4, 8, 16, 32, 64});
 
-/// All of them.
 inline constexpr const Parameter* builder_parameters[] = {
     &chunks_per_core,
     &bounds_group_size,

@@ -21,7 +21,7 @@ bool is_node(const HostTree& tree, int index)
     return index >= 0 && static_cast<std::size_t>(index) < tree.nodes.size();
 }
 
-/// Visit every node once from the root, children in order. False when a child is no node or is met again.
+/// Visits every node once from the root, children in order. Returns false if a child is not a node or was visited before.
 template <class Visit>
 bool depth_first(const HostTree& tree, const Visit& visit)
 {
@@ -44,7 +44,7 @@ bool depth_first(const HostTree& tree, const Visit& visit)
     return true;
 }
 
-/// What is wrong with one leaf. Marks its triangle in `seen`.
+/// Returns what is wrong with a leaf, if anything. Marks its triangle in `seen`.
 Breach broken_leaf(const HostTree& tree, const HostTree::Node& node, std::size_t index,
                    std::span<const Point> points, std::span<const Face> faces,
                    std::vector<bool>& seen)
@@ -86,12 +86,12 @@ Breach broken_inner(const HostTree& tree, const HostTree::Node& node, std::size_
 
 std::uint64_t tree_hash(const HostTree& tree)
 {
-    // Positions in memory differ between layouts, so a node hashes how many children it has, not where.
+    // Positions in memory differ between layouts, so the hash includes which children a node has, not where they are.
     Hash hash;
     depth_first(tree, [&](const HostTree::Node& node, std::size_t) {
         hash.value(node.box);
         hash.value(node.primitive);
-        int which = 0;  // a bit a child
+        int which = 0;  // one bit per child
         for (std::size_t side = 0; side < HostTree::most_children; ++side)
             which |= node.child[side] != HostTree::none ? 1 << side : 0;
         hash.value(which);

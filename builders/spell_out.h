@@ -10,33 +10,33 @@
 
 namespace bvhbench {
 
-/// Hash of a spelled-out tree: every box, child and primitive in depth-first order, bit for bit. Two trees
-/// with the same hash are the same tree, wherever they keep their nodes.
+/// Returns a hash of every box, child and primitive in depth-first order, bit for bit. Trees with equal hashes are the same
+/// tree, whatever their memory layout.
 std::uint64_t tree_hash(const HostTree& tree);
 
-/// A tree of exact boxes, the only one of its scene, as a builder leaves it that keeps them in `format`. Rounding keeps the
-/// order of sides, so that inner boxes may be rounded like leaves': they are the same unions.
+/// Returns `tree`, which has exact boxes and is the only tree of its scene, as a builder with boxes in `format` makes it.
+/// Rounding is monotonic, so rounding an inner box gives the union of its rounded children.
 HostTree rounded_to(HostTree tree, const BoxFormat& format);
 
-/// The same tree with boxes over moved points, from the leaves up, slowly: the oracle of every refit. Boxes are rounded
-/// as they were, into the cells of the scene as it is now.
+/// Returns `tree` with boxes recomputed over moved points from the leaves up: the oracle of every refit. Boxes are rounded to
+/// the tree's format, in the cells of the moved scene.
 HostTree refitted(HostTree tree, std::span<const Point> points, std::span<const Face> faces);
 
-/// A promise that a tree breaks, and how, as a sentence.
+/// An invariant that a tree violates, described in a sentence.
 struct Breach {
-    enum class Of { nothing, leaves, boxes } of = Of::nothing;  ///< of its leaves: or of its nodes
+    enum class Of { nothing, leaves, boxes } of = Of::nothing;  ///< `leaves` includes topology.
     std::string sentence;
 };
 
-/// The first promise of every builder that `tree` breaks over these triangles; of nothing if it keeps them.
+/// Returns the first invariant of all builders that `tree` violates over these triangles; `Of::nothing` if there is none.
 ///
-/// Each triangle is in exactly one leaf, each leaf's box is its triangle's box, as the tree rounds it, each inner node's box is the
-/// union of its children's, bit for bit, or contains them where the tree does not say that it is tight; every node is
-/// reached once from the root.
+/// The invariants: each triangle is in exactly one leaf; each leaf's box is its triangle's box, rounded as the tree rounds, and
+/// contains it; each inner node's box is the union of its children's boxes, bit for bit; every node is reached exactly once
+/// from the root.
 Breach first_breach(const HostTree& tree, std::span<const Point> points,
                     std::span<const Face> faces);
 
-/// Its sentence, empty if there is none.
+/// Returns the sentence of first_breach; empty if no invariant is violated.
 std::string broken_promise(const HostTree& tree, std::span<const Point> points,
                            std::span<const Face> faces);
 

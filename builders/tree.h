@@ -11,12 +11,12 @@
 
 namespace bvhbench {
 
-/// Any tree, spelled out: the one form that tests, checks and metrics read.
+/// A tree on the host, independent of the builder's layout: the only form that tests, checks and metrics read.
 struct HostTree {
     static constexpr int none = -1;
     static constexpr std::size_t most_children = 8;
 
-    /// The first so many of `most_children`; the rest are none.
+    /// Indices of children, in the first entries; unused entries are `none`.
     struct Children : std::array<int, most_children> {
         Children() { fill(none); }
         Children(std::initializer_list<int> first) : Children()
@@ -27,25 +27,25 @@ struct HostTree {
 
     struct Node {
         Aabb box = {};
-        Children child;        ///< all but the first may be absent: support nodes have one
-        int primitive = none;  ///< set on leaves only
+        Children child;        ///< None in leaves, one in support nodes, else two or more.
+        int primitive = none;  ///< Triangle id in leaves, `none` in inner nodes.
     };
 
-    std::vector<Node> nodes;  ///< the root is nodes[0]; children come after their parent
+    std::vector<Node> nodes;  ///< The root is nodes[0]; children come after their parent.
 
-    /// What a leaf's box is to its triangle's: that box, if not said otherwise.
+    /// Rounding of leaf boxes; none by default.
     BoxRounding rounding;
 };
 
-/// What a builder leaves behind, in whatever layout and memory suits it.
+/// Result of a builder, in the builder's own layout and memory.
 class Tree {
 public:
     virtual ~Tree() = default;
 
-    /// Stored nodes: inner, leaf, support and padding.
+    /// Returns the number of stored nodes: inner, leaf, support and padding.
     virtual std::size_t node_count() const = 0;
 
-    /// A canonical copy, padding left out. Slow on purpose-built layouts, and never part of a measurement.
+    /// Returns a host copy without padding. Slow, and never timed.
     virtual HostTree spelled_out() const = 0;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Algorithm 1 over the ostensibly-implicit layout, a work-group a subtree. LEVELS = log2(2 GROUP_SIZE ITEMS).
+// Algorithm 1 over the ostensibly-implicit layout, a work-group per subtree. LEVELS = log2(2 GROUP_SIZE ITEMS).
 // check: -DGROUP_SIZE=256u -DITEMS=1u -DLEVELS=9u -DFROM_LEAVES=1
 // check: -DGROUP_SIZE=64u -DITEMS=4u -DLEVELS=9u -DSEVERAL_OBJECTS=1
 // check: -DGROUP_SIZE=64u -DITEMS=4u -DLEVELS=9u -DBOX_FORMAT=1u

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Algorithm 1 over the ostensibly-implicit layout, a work-item a subtree.
+// Algorithm 1 over the ostensibly-implicit layout, a work-item per subtree.
 // check: -DFROM_LEAVES=1 -DSEVERAL_OBJECTS=1
 // check: -DBOX_FORMAT=1u
 // check: -DBOX_FORMAT=4u

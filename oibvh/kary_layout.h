@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Appendix C: the ostensibly-implicit layout with k children a node, once, for host and device.
+// Appendix C: the ostensibly-implicit layout with k children per node, for host and device.
 //
-// The same idea as layout.h, which it equals for k = 2: real nodes fill each level from the left, virtual
-// nodes are never stored, and a node is virtual when all its children are.
+// For k = 2 it is the layout of layout.h. Real nodes fill each level from the left, virtual nodes are never stored, and a node
+// is virtual if all its children are.
 //
 //     k = 3, t = 5                  0                         level 0
 //                       1           2         (3)             level 1     1 virtual
@@ -11,10 +11,10 @@
 //
 // Stored order:   0 | 1 2 | 4 5 6 7 8         8 slots
 //
-// The paper's Eq. (17) and (18) do not describe this tree; what does is derived at each function, and
+// The paper's Eq. (17) and (18) do not describe this tree. The correct formulas are derived at each function, and
 // tests/oibvh/errata_test.cpp shows where the printed ones fail.
 //
-// Valid while the perfect tree's nodes can be counted in 32 bits: kary_most_leaves(k).
+// Valid while the nodes of the perfect tree can be counted in 32 bits: up to kary_most_leaves(k) leaves.
 #ifndef BVHBENCH_OIBVH_KARY_LAYOUT_H
 #define BVHBENCH_OIBVH_KARY_LAYOUT_H
 
@@ -22,15 +22,15 @@
 
 SHARED_BEGIN
 
-/// A tree's shape. All of it follows from the number of leaves and of children.
+/// Shape of a tree, determined by the numbers of leaves and of children per node.
 typedef struct {
     uint leaves;          ///< t, at least 1 and at most kary_most_leaves(arity)
-    uint arity;           ///< children a node, at least 2: the paper's kappa
+    uint arity;           ///< Children per node, at least 2: the paper's kappa.
     uint virtual_leaves;  ///< L_v = k^ceil(log_k t) - t, Eq. (1) to the base k
     uint leaf_level;      ///< ceil(log_k t); the root is level 0
 } KaryShape;
 
-/// k^n. The result must fit.
+/// Returns k^n, which must fit in 32 bits.
 SHARED_FN uint kary_power(uint arity, uint n)
 {
     uint power = 1u;
@@ -39,8 +39,8 @@ SHARED_FN uint kary_power(uint arity, uint n)
     return power;
 }
 
-/// Implicit index of the leftmost node on a level, and the nodes of all levels above it:
-/// 1 + k + ... + k^(level - 1) = (k^level - 1) / (k - 1), summed so that nothing larger is ever formed.
+/// Returns the implicit index of the leftmost node on a level, which is also the number of nodes above that level: 1 + k + ...
+/// + k^(level - 1) = (k^level - 1) / (k - 1), summed so that no larger number is formed.
 SHARED_FN uint kary_first(uint arity, uint level)
 {
     uint first = 0u;
@@ -49,11 +49,11 @@ SHARED_FN uint kary_first(uint arity, uint level)
     return first;
 }
 
-/// The most leaves whose implicit indices fit in 32 bits, a power of k: 2^31 for k = 2, 3^19 for 3, 4^15 for
-/// 4, 8^10 for 8.
+/// Returns the most leaves whose implicit indices fit in 32 bits, a power of k: 2^31 for k = 2, 3^19 for 3, 4^15 for 4, 8^10
+/// for 8.
 SHARED_FN uint kary_most_leaves(uint arity)
 {
-    // One level more turns n nodes into k n + 1.
+    // A tree of n nodes with one more level has k n + 1.
     const uint largest = 0xffffffffu;
     uint nodes = 1u;
     uint leaves = 1u;
@@ -79,13 +79,13 @@ SHARED_FN KaryShape kary_shape(uint leaves, uint arity)
     return shape;
 }
 
-/// Nodes of the perfect tree over the same leaves: Eq. (2) to the base k.
+/// Returns the number of nodes of the perfect tree over the same leaves: Eq. (2) to the base k.
 SHARED_FN uint kary_perfect_node_count(KaryShape shape)
 {
     return kary_first(shape.arity, shape.leaf_level + 1u);
 }
 
-/// Level of implicit index i.
+/// Returns the level of implicit index i.
 SHARED_FN uint kary_level(KaryShape shape, uint i)
 {
     uint level = 0u;
@@ -96,23 +96,22 @@ SHARED_FN uint kary_level(KaryShape shape, uint i)
     return level;
 }
 
-/// L_vl: virtual nodes on a level, floor(L_v / k^(leaf_level - level)).
+/// Returns L_vl, the virtual nodes on a level: floor(L_v / k^(leaf_level - level)).
 ///
-/// Eq. (18) prints the exponent l - 1, which counts L_v nodes on level 1. Each level up, k virtual siblings
-/// make one virtual parent and a rest makes none, so the exponent is the distance from the leaves, as in
-/// Eq. (8).
+/// Eq. (18) prints the exponent l - 1, which counts L_v nodes on level 1. One level up, each k virtual siblings have one
+/// virtual parent and a remainder has none, so the exponent is the distance from the leaves, as in Eq. (8).
 SHARED_FN uint kary_virtual_on(KaryShape shape, uint level)
 {
     return shape.virtual_leaves / kary_power(shape.arity, shape.leaf_level - level);
 }
 
-/// Real nodes on a level.
+/// Returns the real nodes on a level.
 SHARED_FN uint kary_real_on(KaryShape shape, uint level)
 {
     return kary_power(shape.arity, level) - kary_virtual_on(shape, level);
 }
 
-/// The sum of a number's digits to the base k: its set bits when k = 2.
+/// Returns the sum of the digits of `number` to the base k: the number of set bits if k = 2.
 SHARED_FN uint kary_digit_sum(uint arity, uint number)
 {
     uint sum = 0u;
@@ -121,26 +120,25 @@ SHARED_FN uint kary_digit_sum(uint arity, uint number)
     return sum;
 }
 
-/// Virtual nodes on a level and all levels above it, given that level's virtual count v: Eq. (10), (17).
+/// Returns the virtual nodes on a level and all levels above it, given that level's virtual count v: Eq. (10), (17).
 ///
-/// Written to the base k, v = sum of d_y k^y: d_y perfect trees with k^y leaves for every digit, of
-/// (k^(y+1) - 1) / (k - 1) nodes each. Their sum is (k v - digit_sum(v)) / (k - 1), the same as
-/// floor(v / 1) + floor(v / k) + floor(v / k^2) + ... Eq. (17) prints the exponent y, one too small, and for
-/// k > 2 a set of powers must be read as a list: a digit may be larger than 1.
-/// Written so that k v, which may not fit, is never formed.
+/// To the base k, v = sum of d_y k^y. Each digit d_y contributes d_y perfect trees with k^y leaves and (k^(y+1) - 1) / (k - 1)
+/// nodes each. Their sum is (k v - digit_sum(v)) / (k - 1) = floor(v / 1) + floor(v / k) + floor(v / k^2) + ... Eq. (17) prints
+/// the exponent y, one too small, and for k > 2 its set of powers must be read as a list, because a digit may be larger than 1.
+/// The code avoids k v, which may not fit in 32 bits.
 SHARED_FN uint kary_virtual_up_to(uint arity, uint virtual_on_level)
 {
     return virtual_on_level +
            (virtual_on_level - kary_digit_sum(arity, virtual_on_level)) / (arity - 1u);
 }
 
-/// N_v: virtual nodes of the whole tree, Eq. (17) corrected.
+/// Returns N_v, the virtual nodes of the whole tree: Eq. (17), corrected.
 SHARED_FN uint kary_virtual_node_count(KaryShape shape)
 {
     return kary_virtual_up_to(shape.arity, shape.virtual_leaves);
 }
 
-/// N_r: how many nodes are stored, Eq. (3).
+/// Returns N_r, the number of stored nodes: Eq. (3).
 SHARED_FN uint kary_node_count(KaryShape shape)
 {
     return kary_perfect_node_count(shape) - kary_virtual_node_count(shape);
@@ -152,15 +150,15 @@ SHARED_FN bool kary_is_real(KaryShape shape, uint i)
     return i - kary_first(shape.arity, level) < kary_real_on(shape, level);
 }
 
-/// Slot of the leftmost node on a level. The nodes of a level are contiguous.
+/// Returns the slot of the leftmost node on a level. The nodes of a level are contiguous.
 SHARED_FN uint kary_first_slot(KaryShape shape, uint level)
 {
-    // The level above has floor(L_vl / k) virtual nodes, and the root none: no level is a special case.
+    // The level above has floor(L_vl / k) virtual nodes, and at the root this is 0, so no level is a special case.
     const uint virtual_above = kary_virtual_on(shape, level) / shape.arity;
     return kary_first(shape.arity, level) - kary_virtual_up_to(shape.arity, virtual_above);
 }
 
-/// i_m: where node i is stored, Eq. (9).
+/// Returns i_m, the slot of node i: Eq. (9).
 SHARED_FN uint kary_slot(KaryShape shape, uint i)
 {
     const uint level = kary_level(shape, i);
@@ -171,13 +169,13 @@ SHARED_FN uint kary_slot(KaryShape shape, uint i)
 SHARED_FN uint kary_child(uint arity, uint i, uint j) { return arity * i + j; }
 SHARED_FN uint kary_parent(uint arity, uint i) { return (i - 1u) / arity; }
 
-/// The m-th descendant of i, n levels down, 0 <= m < k^n: Eq. (12) to the base k.
+/// Returns the m-th descendant of i, n levels down, 0 <= m < k^n: Eq. (12) to the base k.
 SHARED_FN uint kary_descendant(uint arity, uint i, uint n, uint m)
 {
     return kary_power(arity, n) * i + kary_first(arity, n) + m;
 }
 
-/// The ancestor of j, n levels up: Eq. (13) to the base k. Dividing drops m, so it need not be known.
+/// Returns the ancestor of j, n levels up: Eq. (13) to the base k. The division drops m, which is not needed.
 SHARED_FN uint kary_ancestor(uint arity, uint j, uint n)
 {
     return (j - kary_first(arity, n)) / kary_power(arity, n);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The ostensibly-implicit layout: every formula of Section 3 and Appendix A, once, for host and device.
+// The ostensibly-implicit layout: all formulas of Section 3 and Appendix A, for host and device.
 //
 // Nodes carry implicit indices: breadth-first labels in the perfect binary tree, root 0. Real nodes fill
 // each level from the left; the rest of the level is virtual and is never stored.
@@ -21,7 +21,7 @@
 
 SHARED_BEGIN
 
-/// A tree's shape. All of it follows from the number of leaves.
+/// Shape of a tree, determined by the number of leaves.
 typedef struct {
     uint leaves;          ///< t, at least 1 and at most 2^31
     uint virtual_leaves;  ///< L_v, Eq. (1)
@@ -37,43 +37,43 @@ SHARED_FN OiShape oi_shape(uint leaves)
     return shape;
 }
 
-/// N_c: nodes of the perfect binary tree over the same leaves, Eq. (2).
+/// Returns N_c, the nodes of the perfect binary tree over the same leaves: Eq. (2).
 SHARED_FN uint oi_perfect_node_count(OiShape shape) { return (2u << shape.leaf_level) - 1u; }
 
-/// Level of implicit index i: floor(log2(i + 1)), Sec. 3.2.
+/// Returns the level of implicit index i: floor(log2(i + 1)), Sec. 3.2.
 SHARED_FN uint oi_level(uint i) { return floor_log2(i + 1u); }
 
-/// Implicit index of the leftmost node on a level.
+/// Returns the implicit index of the leftmost node on a level.
 SHARED_FN uint oi_first(uint level) { return (1u << level) - 1u; }
 
-/// L_vl: virtual nodes on a level, Eq. (8).
+/// Returns L_vl, the virtual nodes on a level: Eq. (8).
 SHARED_FN uint oi_virtual_on(OiShape shape, uint level)
 {
     return shape.virtual_leaves >> (shape.leaf_level - level);
 }
 
-/// Real nodes on a level.
+/// Returns the real nodes on a level.
 SHARED_FN uint oi_real_on(OiShape shape, uint level)
 {
     return (1u << level) - oi_virtual_on(shape, level);
 }
 
-/// Virtual nodes on a level and all levels above it, given that level's virtual count: Eq. (6), (10).
+/// Returns the virtual nodes on a level and all levels above it, given that level's virtual count: Eq. (6), (10).
 ///
-/// Eq. (5) sums perfect trees of virtual nodes, one for each power of two in L_v (Eq. (4)): 2^y leaves make
-/// 2 * 2^y - 1 nodes. The powers of two in a number are its set bits, so the sum is this line.
+/// Eq. (5) sums perfect trees of virtual nodes, one for each power of two in L_v (Eq. (4)): 2^y leaves make 2 * 2^y - 1 nodes.
+/// The powers of two in a number are its set bits, so the sum is 2 L_v minus the number of set bits.
 SHARED_FN uint oi_virtual_up_to(uint virtual_on_level)
 {
     return 2u * virtual_on_level - popcount(virtual_on_level);
 }
 
-/// N_v: virtual nodes of the whole tree, Eq. (6).
+/// Returns N_v, the virtual nodes of the whole tree: Eq. (6).
 SHARED_FN uint oi_virtual_node_count(OiShape shape)
 {
     return oi_virtual_up_to(shape.virtual_leaves);
 }
 
-/// N_r: how many nodes are stored, Eq. (7), which is Eq. (3) with (2) and (6) put in.
+/// Returns N_r, the number of stored nodes: Eq. (7), which is Eq. (3) with (2) and (6) inserted.
 SHARED_FN uint oi_node_count(OiShape shape)
 {
     return 2u * shape.leaves - 1u + popcount(shape.virtual_leaves);
@@ -85,23 +85,23 @@ SHARED_FN bool oi_is_real(OiShape shape, uint i)
     return i - oi_first(level) < oi_real_on(shape, level);
 }
 
-/// Slot of the leftmost node on a level: Eq. (9) for that node. The nodes of a level are contiguous.
+/// Returns the slot of the leftmost node on a level: Eq. (9). The nodes of a level are contiguous.
 ///
-/// Eq. (10) asks for L_vl one level up. Shifting this level's count once more gives that number, and gives 0
-/// at the root, so no level needs a special case and no shift reaches 32.
+/// Eq. (10) needs L_vl of the level above. Shifting this level's count once more gives that number, and 0 at the root, so no
+/// level is a special case and no shift reaches 32.
 SHARED_FN uint oi_first_slot(OiShape shape, uint level)
 {
     return oi_first(level) - oi_virtual_up_to(oi_virtual_on(shape, level) >> 1u);
 }
 
-/// i_m: where node i is stored, Eq. (9).
+/// Returns i_m, the slot of node i: Eq. (9).
 SHARED_FN uint oi_slot(OiShape shape, uint i)
 {
     return i - oi_virtual_up_to(oi_virtual_on(shape, oi_level(i)) >> 1u);
 }
 
-/// Whether every node of a level is real. The paper's condition (end of Sec. 3.2) holds for no level at all;
-/// this is the one its definitions give.
+/// True if every node of a level is real. The paper's condition (end of Sec. 3.2) holds for no level; this one follows from its
+/// definitions.
 SHARED_FN bool oi_is_full(OiShape shape, uint level) { return oi_virtual_on(shape, level) == 0u; }
 
 /// child(i, 1), child(i, 2) and parent(i), App. A.
@@ -109,10 +109,10 @@ SHARED_FN uint oi_left(uint i) { return 2u * i + 1u; }
 SHARED_FN uint oi_right(uint i) { return 2u * i + 2u; }
 SHARED_FN uint oi_parent(uint i) { return (i - 1u) >> 1u; }
 
-/// The k-th descendant of i, n levels down, 0 <= k < 2^n: Eq. (12).
+/// Returns the k-th descendant of i, n levels down, 0 <= k < 2^n: Eq. (12).
 SHARED_FN uint oi_descendant(uint i, uint n, uint k) { return (i << n) + (1u << n) - 1u + k; }
 
-/// The ancestor of j, n levels up: Eq. (13). Shifting drops k, so it need not be known.
+/// Returns the ancestor of j, n levels up: Eq. (13). The shift drops k, which is not needed.
 SHARED_FN uint oi_ancestor(uint j, uint n) { return ((j + 1u) >> n) - 1u; }
 
 SHARED_END

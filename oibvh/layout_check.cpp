@@ -7,7 +7,7 @@
 namespace bvhbench {
 namespace {
 
-/// Half of the virtual nodes of a level, rounded down, have a virtual parent: it knows nothing of set bits.
+/// One level, computed from the level below (a parent is real if one of its children is), without the bit counts of layout.h.
 struct Level {
     std::uint64_t real = 0, all = 0, first = 0, first_slot = 0;
 };
@@ -30,7 +30,7 @@ std::vector<Level> levels_over(std::uint64_t leaves)
     return levels;
 }
 
-/// Remembers the first of the claims that is wrong.
+/// Keeps the first wrong claim.
 class Claims {
 public:
     explicit Claims(std::uint64_t leaves) : where_("t = " + std::to_string(leaves) + ": ") {}

@@ -7,12 +7,12 @@
 
 namespace bvhbench {
 
-/// The first formula of layout.h that contradicts arithmetic in 64 bits, a level at a time, over so many leaves, up to
-/// 2^31; empty if none does. Looks at each level's counts, its first, middle and last nodes and those just beyond, and
-/// at the sums over all levels. `shape` is what `oi_shape` says, or what a test puts in its place.
+/// Describes the first formula of layout.h that contradicts a level-by-level computation in 64 bits, for `leaves` up to 2^31;
+/// empty if there is none. Checks each level's counts, some of its real nodes, its first and last virtual nodes, and the sums
+/// over all levels. `shape` is that of `oi_shape`, or a test's substitute.
 std::string broken_layout(std::uint64_t leaves, OiShape shape);
 
-/// Of the shape that `oi_shape` says.
+/// Checks the shape that `oi_shape` returns.
 std::string broken_layout(uint leaves);
 
 }  // namespace bvhbench

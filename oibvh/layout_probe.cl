@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Asks the device what it makes of the shared headers. For tests; no builder runs it.
+// Evaluates the shared layout headers on the device. For tests; no builder uses it.
 #include "oibvh/layout_probe.h"
 
-/// One work-item a question. `binary` and `kary` hold its answers afterwards.
+/// Writes the answers to `binary` and `kary`, one question per work-item; `binary` only for questions of arity 2.
 kernel void probe_layout(global const LayoutQuestion* questions, const uint count,
                          global LayoutAnswers* binary, global LayoutAnswers* kary)
 {

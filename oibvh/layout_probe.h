@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Every question one can ask about a node of either layout, answered at once: what the probe kernel asks
-// the device and a test asks the host.
+// All queries about a node of either layout, answered in one struct: the probe kernel computes it on the device, a test on the
+// host.
 #ifndef BVHBENCH_OIBVH_LAYOUT_PROBE_H
 #define BVHBENCH_OIBVH_LAYOUT_PROBE_H
 
@@ -10,25 +10,25 @@
 
 SHARED_BEGIN
 
-/// Which node of which tree. `node` may be real or virtual.
+/// A node of a tree. `node` may be real or virtual.
 typedef struct {
     uint leaves;
     uint arity;
     uint node;
 } LayoutQuestion;
 
-/// 18 words, so that host and device answers can be compared bit for bit.
+/// 18 words, so that answers of host and device can be compared bit for bit.
 typedef struct {
     uint leaf_level, virtual_leaves, node_count, virtual_node_count, perfect_node_count;
     uint level, is_real, first, real_on, virtual_on, first_slot;
-    uint slot;  ///< 0 when the node is virtual
+    uint slot;  ///< 0 if the node is virtual.
     uint is_full;
-    uint left, right, parent;  ///< 0 on leaves; 0 of the root
+    uint left, right, parent;  ///< Children: 0 at leaves. Parent: 0 at the root.
     uint half_way_up,
-        leftmost_leaf;  ///< Eq. (13) for half of the levels; Eq. (12) down to the last
+        leftmost_leaf;  ///< Eq. (13) for half of the levels; Eq. (12) down to the leaf level.
 } LayoutAnswers;
 
-/// About layout.h. `question.arity` is not read.
+/// Answers for layout.h; ignores `question.arity`.
 SHARED_FN LayoutAnswers oi_answers(LayoutQuestion question)
 {
     const OiShape shape = oi_shape(question.leaves);
@@ -56,7 +56,7 @@ SHARED_FN LayoutAnswers oi_answers(LayoutQuestion question)
     return answers;
 }
 
-/// The same questions about kary_layout.h; `left` and `right` are the first and the last child.
+/// Answers for kary_layout.h; `left` and `right` are the first and the last child.
 SHARED_FN LayoutAnswers kary_answers(LayoutQuestion question)
 {
     const uint arity = question.arity;

@@ -8,12 +8,12 @@
 namespace bvhbench {
 namespace {
 
-/// The whole tree by slot, as Section 3 stores it.
+/// The whole tree by slot, as in Section 3.
 class OiHostTree final : public Tree {
 public:
     OiShape shape = {};
-    std::vector<Aabb> boxes;       ///< by slot
-    std::vector<uint> primitives;  ///< by position on the leaf level
+    std::vector<Aabb> boxes;       ///< By slot.
+    std::vector<uint> primitives;  ///< By position on the leaf level.
 
     std::size_t node_count() const override { return boxes.size(); }
 
@@ -42,7 +42,7 @@ private:
     }
 };
 
-/// Sections 3 and 4 word for word: implicit indices, Eq. (9) for every access, one core.
+/// Sections 3 and 4 implemented literally: implicit indices, Eq. (9) for every access, one core.
 class OiReference final : public Builder {
 public:
     explicit OiReference(const BuildOptions& options) : order_(options.order)

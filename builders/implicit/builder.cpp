@@ -19,7 +19,7 @@ public:
         : ImplicitBuilder(programs, card, layout, options), asked_(meeting), meeting_(meeting)
     {
         choose_cut(programs.device(), options, meeting, 1,
-                   format().box_bytes());  // refuses bad options now
+                   format().box_bytes());  // throws for bad options now
     }
 
 private:
@@ -30,7 +30,7 @@ private:
 
     void enqueue_hierarchy(Queue& queue) override { enqueue(whole_, queue); }
 
-    /// Where boxes are rounded into cells, those of one object are cells of all: who moves may move all of them.
+    /// If boxes are rounded to cells, the cells depend on all objects, so one moved object may change the boxes of all.
     bool can_update_some() const override { return !tree_.format->has_cells(); }
     void plan_updates(Arena& arena) override { update_.take(arena, whole_); }
     void begin_update(const cl::CommandQueue& queue, std::span<const uint> objects) override
@@ -44,7 +44,7 @@ private:
     bool waits() const { return meeting_ == Meeting::by_waiting; }
     bool by_groups() const { return cut_.form == KernelForm::groups; }
 
-    /// The kernel that reads leaves in mesh order, or nodes, of groups as `cut` says.
+    /// Returns the group kernel for `cut`, or the work-item kernel, that reads leaves in mesh order (`from_leaves`) or nodes.
     cl::Kernel kernel(const Cut& cut, bool from_leaves) const
     {
         const char* name = waits() ? "waiting" : in_one_launch() ? "single" : "multi";
@@ -59,7 +59,7 @@ private:
         return programs_.kernel(tree_.layout.build_groups, name, defines,
                                 in_one_launch()
                                     ? Optimise::on_gpus
-                                    : Optimise::freely);  // groups return before a barrier
+                                    : Optimise::freely);  // groups may return before a barrier
     }
 
     void plan_hierarchy(Arena& arena) override;
@@ -77,14 +77,15 @@ private:
     cl::Kernel from_leaves_, from_nodes_;
     Launches whole_, update_;
     Buffer<uint>
-        arrivals_;  ///< by hand-off only: one a slot, up to those of the last tree's first subtrees
-    Buffer<cl_ulong> posts_;  ///< if groups wait: a box a group
+        arrivals_;  ///< by_handoff only: one per slot, up to those of the last tree's first subtree roots.
+    Buffer<cl_ulong> posts_;  ///< If groups wait: a box per group.
 };
 
-/// POSTS_A_BOX of build_waiting.clh, where nothing posted is a word of ones.
+/// Returns POSTS_A_BOX of build_waiting.clh, in which an empty post is a word with all bits set.
 std::size_t words_per_post(const BoxFormat& format) { return format.number == BOX_F64 ? 6 : 3; }
 
-/// A CPU takes groups in order, so that whom a group waits for has begun; it is asked to in tests only.
+/// True if groups may wait for each other. A CPU runs groups in order, so those that a group waits for have started; waiting is
+/// chosen there in tests only.
 bool KernelBuilder::may_wait() const
 {
     const Device& device = programs_.device();
@@ -92,8 +93,8 @@ bool KernelBuilder::may_wait() const
            device.tuned(implicit_waits) != 0;
 }
 
-/// Whether the device has the local memory that the kernels need. Boxes that take at most half of it fit for sure, since
-/// compilers add only a few bytes; else the kernels are compiled to find out.
+/// True if the kernels' local memory fits on the device. Boxes that take at most half of it always fit, because compilers add
+/// only a few bytes; otherwise the kernels are compiled to find out.
 bool KernelBuilder::fits(const Cut& cut) const
 {
     const std::size_t local = programs_.device().cl.getInfo<CL_DEVICE_LOCAL_MEM_SIZE>();
@@ -123,7 +124,7 @@ void KernelBuilder::choose_and_plan(Meeting meeting)
 void KernelBuilder::plan_hierarchy(Arena& arena)
 {
     choose_and_plan(may_wait() ? Meeting::by_waiting : asked_);
-    // Those that wait leave at least one unit to those they wait for, in whatever order groups start.
+    // The waiting groups must leave at least one compute unit to the groups they wait for, whatever the order of starting.
     const Device& device = programs_.device();
     if (!device.is_cpu() &&
         whole_.later_list.size() >= device.cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>())
@@ -189,7 +190,7 @@ void KernelBuilder::enqueue(const Launches& launches, Queue& queue)
     }
 }
 
-/// Children read once, nodes written once. A hand-off build does all levels in its first launch.
+/// Returns the bytes moved: children read once, nodes written once. A build in one launch has all levels in it.
 std::int64_t KernelBuilder::moved_bytes(uint leaves, const SubtreeLaunch& launch) const
 {
     const auto stored_on = [&](uint level) { return tree_.layout.stored_on(leaves, level); };

@@ -19,15 +19,15 @@ uint most_group_size(const Device& device, uint items, std::size_t box_bytes)
         {room, device.cl.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>(), std::size_t{1024}})));
 }
 
-/// A group of g work-items, i nodes each, has g * i nodes on its entry level and one on its last.
+/// Returns the cut for groups of g work-items with i nodes each: g * i nodes on the entry level, one on the last.
 Cut groups_of(uint group_size, uint items)
 {
     return {KernelForm::groups, group_size, items, floor_log2(2 * group_size * items)};
 }
 
-/// The smallest group that gets by with the fewest launches. On an H200 (µs, hierarchy from ids): 871,306
-/// triangles take 28 in groups of 256 (3 launches), 23 of 512 and 25 of 1024 (2 launches); 2,880,000 take
-/// 58 of 256 and 60 of 512 (3 launches), 58 of 1024 (2 launches).
+/// Returns the cut with the smallest groups among those with the fewest launches. On an H200 (µs, hierarchy from ids): 871,306
+/// triangles take 28 with groups of 256 (3 launches), 23 with 512 and 25 with 1024 (2 launches); 2,880,000 take 58 with 256 and
+/// 60 with 512 (3 launches), 58 with 1024 (2 launches).
 Cut smallest_group_with_fewest_launches(uint leaf_level, uint items, uint most)
 {
     Cut best = groups_of(std::min(256u, most), items);
@@ -38,8 +38,9 @@ Cut smallest_group_with_fewest_launches(uint leaf_level, uint items, uint most)
     return best;
 }
 
-/// Many subtrees a core, so that none waits long for another, each small enough for a core's cache. On two cores (ms,
-/// subtrees of 10, 12, 14 and 16 levels): 144,046 triangles 0.26, 0.16, 0.32, 0.41; 1,087,716 3.5, 3.3, 3.3, 3.8.
+/// Returns the cut for `chunks`: many subtrees per core, so that no core waits long for another, but small enough for its
+/// cache. On two cores (ms, subtrees of 10, 12, 14, 16 levels): 144,046 triangles 0.26, 0.16, 0.32, 0.41; 1,087,716 3.5, 3.3,
+/// 3.3, 3.8.
 Cut subtrees_of_items(const Device& device, uint leaf_level)
 {
     const uint cores = device.cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
@@ -48,9 +49,9 @@ Cut subtrees_of_items(const Device& device, uint leaf_level)
             std::clamp(leaf_level > split ? leaf_level - split : 0u, 10u, 14u)};
 }
 
-/// Where groups go on in one launch, their number costs little. On an H200 (µs, hierarchy from ids): 144,046 triangles
-/// take 11.1 in groups of 256 and 12.3 of 512 with two nodes each; 2,880,000 take 59.8 and 56.3. Where few wait, small
-/// groups are best: they make way for others soonest.
+/// Returns the cut for a build in one launch, where the number of groups costs little. On an H200 (µs, hierarchy from ids):
+/// 144,046 triangles take 11.1 with groups of 256 and 12.3 with groups of 512 and two nodes per work-item; 2,880,000 take 59.8
+/// and 56.3. If groups wait, small groups are best, because they free their units soonest.
 Cut groups_of_one_launch(Meeting meeting, uint leaf_level, uint items, uint most)
 {
     if (meeting == Meeting::by_waiting || leaf_level <= 18 || items != 0)
@@ -70,7 +71,7 @@ void require_power_of_two(const char* what, uint value, uint most, const Device&
 Cut choose_cut(const Device& device, const BuildOptions& options, Meeting meeting, uint leaves,
                std::size_t box_bytes)
 {
-    // Where groups wait, more nodes a work-item were never better.
+    // If groups wait, more nodes per work-item were never faster.
     const bool is_tuned =
         !device.is_cpu() && options.group_size == 0 && meeting != Meeting::by_waiting;
     const uint items = options.items != 0 ? options.items
@@ -78,7 +79,7 @@ Cut choose_cut(const Device& device, const BuildOptions& options, Meeting meetin
                                           : 1;
     require_power_of_two("the number of items a work-item", items, 8, device);
     const uint most = most_group_size(device, items, box_bytes);
-    if (options.group_size != 0) {  // the paper's groups are asked for by their size, on a CPU too
+    if (options.group_size != 0) {  // explicit group sizes select the paper's groups, on a CPU too
         require_power_of_two("a group size", options.group_size, most, device);
         return groups_of(options.group_size, items);
     }

@@ -11,28 +11,28 @@
 
 namespace bvhbench {
 
-/// How the launches of Algorithm 1 are cut up on a device.
+/// How the launches of Algorithm 1 are divided among work-items.
 struct Cut {
     KernelForm form =
-        KernelForm::groups;  ///< groups: a group a subtree; chunks: a work-item a subtree
+        KernelForm::groups;  ///< groups: one group per subtree; chunks: one work-item per subtree.
     uint group_size = 1;
-    uint items = 1;   ///< groups: entry-level nodes that a work-item merges in registers
-    uint levels = 1;  ///< levels a launch builds at most
+    uint items = 1;   ///< groups: entry-level nodes that a work-item merges in registers.
+    uint levels = 1;  ///< Most levels that one launch builds.
 };
 
-/// The cut for a tree of `leaves` and boxes of so many bytes on `device`: what `options` asks for, else what was measured to be fastest
-/// on that kind of device. Throws BadUsage for a group the device does not have.
+/// Returns the cut for a tree of `leaves` leaves with boxes of `box_bytes` bytes on `device`: as `options` asks, else the
+/// fastest measured on that kind of device. Throws BadUsage for a group size that the device does not support.
 Cut choose_cut(const Device& device, const BuildOptions& options, Meeting meeting, uint leaves,
                std::size_t box_bytes = sizeof(Aabb));
 
-/// Bytes of local memory that a group keeps boxes in: two a work-item, or its entry level if that is more.
+/// Returns the bytes of local memory for a group's boxes: two per work-item, or its entry level if that is larger.
 inline std::size_t local_box_bytes(const Cut& cut, std::size_t box_bytes)
 {
     return std::size_t{cut.group_size} * std::max(2u, cut.items) * box_bytes;
 }
 
-/// `cut`, its groups halved until it `fits`: compilers take local memory of their own, 16 bytes say, and a group may have
-/// been given all there is. The smallest there is, if none fits.
+/// Returns `cut` with its group size halved until `fits` is true, or 1 if no size fits. Needed because compilers reserve local
+/// memory of their own (such as 16 bytes), and a group may have been given all of it.
 Cut cut_that_fits(Cut cut, const std::function<bool(const Cut&)>& fits);
 
 }  // namespace bvhbench

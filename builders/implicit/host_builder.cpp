@@ -18,11 +18,11 @@ struct BoxOf {
     Side low[3], high[3];
 };
 
-/// Four neighbouring floats of a box, wherever it starts: one instruction where floats would be six.
+/// Four consecutive floats of a box from any side on: loaded by one instruction.
 typedef float FourFloats __attribute__((vector_size(16), aligned(4), may_alias));
 
-/// `merged`, of boxes without NaN, in two vectors that overlap: the lower four floats have the three minima, the
-/// upper four the three maxima. Compilers make one instruction of either choice, and six of merged's.
+/// Returns `merged` of boxes without NaN, in two overlapping vectors: the lower four floats include the three minima, the upper
+/// four the three maxima. Each comparison compiles to one instruction; `merged` needs six.
 inline Aabb merged_boxes(const Aabb& a, const Aabb& b)
 {
     const auto fours = [](const float& first) {
@@ -46,7 +46,7 @@ inline BoxOf<Side> merged_boxes(const BoxOf<Side>& a, const BoxOf<Side>& b)
     return box;
 }
 
-/// Nodes from `begin` to before `end` of a level, from the `count` children that are there.
+/// Builds the nodes `begin` to `end` - 1 of a level from the `count` nodes of the level below.
 template <class Box, class Child>
 inline void merge_pairs(Box* to, uint begin, uint end, uint count, const Child& child)
 {
@@ -58,19 +58,18 @@ inline void merge_pairs(Box* to, uint begin, uint end, uint count, const Child& 
         to[p] = child(2 * p);
 }
 
-/// An implicit tree in the host's memory, of a layout without padding: see ImplicitTree. Its boxes are Aabb, or BoxOf
-/// doubles, 16 or 8 bits.
+/// An implicit tree in host memory, of a layout without padding: see ImplicitTree. Box is Aabb, or BoxOf doubles or of integers
+/// of 16 or 8 bits.
 template <class Box>
 struct HostLevels {
     ImplicitLayout layout;
     uint leaves = 0;
-    Box* nodes = nullptr;  ///< by slot
+    Box* nodes = nullptr;  ///< By slot.
     const Box* leaf_boxes =
-        nullptr;                ///< in mesh order; null if leaves are in `nodes`, in leaf order
-    const uint* ids = nullptr;  ///< triangles in leaf order
+        nullptr;                ///< In mesh order; null if leaves are in `nodes`, in leaf order.
+    const uint* ids = nullptr;  ///< Triangles in leaf order.
 
-    /// Build from the leaves to the node at `position` of `root_level`, which is above the leaves: all inner nodes
-    /// of that subtree, level by level.
+    /// Builds the inner nodes of the subtree whose root is at `position` of `root_level`, level by level from the leaves.
     void build_subtree(uint root_level, uint position) const
     {
         for (uint level = implicit_leaf_level(leaves); level-- > root_level;) {
@@ -80,7 +79,7 @@ struct HostLevels {
         }
     }
 
-    /// Build all levels above `level`, which stands.
+    /// Builds all levels above `level`, which is complete.
     void build_above(uint level) const
     {
         while (level-- > 0)
@@ -101,12 +100,12 @@ private:
     }
 };
 
-/// Levels of a subtree that one thread builds: its 2^12 leaves' boxes and ids, 112 KiB, and its nodes stay in a core's
-/// cache; there are enough of them for threads that are interrupted not to be waited for.
+/// Levels of a subtree that one thread builds. The boxes and ids of its 2^12 leaves (112 KiB) and its nodes stay in a core's
+/// cache, and there are enough subtrees that an interrupted thread delays the others little.
 constexpr uint levels_a_subtree = 12;
 
-/// The hierarchy by threads of the host over leaves that the device has lined up: what a kernel of the same shape is
-/// measured against.
+/// Builds the hierarchy on host threads over leaves that the device has ordered: a reference time for kernels of the same
+/// structure.
 class HostThreadsBuilder final : public ImplicitBuilder {
 public:
     HostThreadsBuilder(Programs& programs, const BuilderCard& card, const ImplicitLayout& layout,
@@ -158,7 +157,7 @@ private:
     unsigned threads_;
 };
 
-/// Level of the roots of the subtrees that threads build; 0 where the tree is one, or nothing but a leaf.
+/// Returns the level of the roots of the subtrees that threads build; 0 if the tree is one subtree or one leaf.
 uint root_level(uint leaves)
 {
     const uint leaf_level = implicit_leaf_level(leaves);

@@ -32,7 +32,7 @@ void ImplicitBuilder::plan(Arena& arena, std::span<const uint> sizes)
 
     tree_.slot_count = slots;
     tree_.nodes = arena.take<std::byte>(slots * tree_.format->box_bytes(), Use::tree);
-    if (!tree_.sorted_leaves)  // what a padded layout stores past the leaves
+    if (!tree_.sorted_leaves)  // the padding of a layout on the leaf level
         arena.take<Aabb>(padding, Use::tree);
     arena.take<uint>(padding, Use::tree);
     tree_.device_objects = arena.take<ForestObject>(sizes.size(), Use::tree);

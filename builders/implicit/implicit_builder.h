@@ -6,8 +6,8 @@
 
 namespace bvhbench {
 
-/// What builders of implicit trees share, one tree or several: memory, leaves, what is never timed. How the
-/// hierarchy is made is left to who derives from it.
+/// Shared part of the builders of implicit trees, for one or several objects: memory, leaves and untimed preparation. Derived
+/// classes build the hierarchy.
 class ImplicitBuilder : public OrderedBuilder {
 protected:
     ImplicitBuilder(Programs& programs, const BuilderCard& card, const ImplicitLayout& layout,
@@ -15,12 +15,12 @@ protected:
 
     void plan(Arena& arena, std::span<const uint> sizes) final;
 
-    /// Take what making the hierarchy needs besides; `tree_` is planned.
+    /// Takes the additional memory of the hierarchy; `tree_` is planned already.
     virtual void plan_hierarchy(Arena& arena) = 0;
 
     void prepare(const cl::CommandQueue& queue) override;
 
-    /// The topology of an implicit tree is the order of its leaves, so this is the hierarchy over the old one.
+    /// Builds the hierarchy over the old leaf order, which determines the topology of an implicit tree.
     void enqueue_refit(Queue& queue) final { enqueue_hierarchy(queue); }
 
     DeviceTree& tree() final { return tree_; }
@@ -29,7 +29,7 @@ protected:
     ImplicitTree tree_;
 
 private:
-    Buffer<uint> slots_;  ///< of several objects' sorted leaves: see GatherPlace
+    Buffer<uint> slots_;  ///< Several objects with sorted leaves only: see GatherPlace.
 };
 
 }  // namespace bvhbench

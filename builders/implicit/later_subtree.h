@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What a group of a later round of build_waiting.clh builds.
+// Input of a group of a later round of build_waiting.clh.
 #ifndef BVHBENCH_BUILDERS_IMPLICIT_LATER_SUBTREE_H
 #define BVHBENCH_BUILDERS_IMPLICIT_LATER_SUBTREE_H
 
@@ -8,8 +8,8 @@
 
 SHARED_BEGIN
 
-/// The `position`-th subtree of the round in an object's tree, from the roots that the round before built of it. Groups post
-/// their roots by their own number; those begin at `children`.
+/// The `position`-th subtree of round `round` in an object's tree, built over subtree roots of the previous round. Groups post
+/// their roots by group number; the roots of the object's previous round begin at index `children`.
 typedef struct {
     uint children, round, position, object;
 } LaterSubtree;

@@ -6,12 +6,12 @@
 namespace bvhbench {
 namespace {
 
-/// What later rounds build, round by round and object by object.
+/// Returns the subtrees of all rounds but the first, by round, then by object.
 std::vector<LaterSubtree> later_subtrees(std::span<const uint> objects,
                                          std::span<const SubtreeSchedule> schedules)
 {
     std::vector<LaterSubtree> list;
-    std::vector<uint> below;  // where the roots of the round before begin, by object
+    std::vector<uint> below;  // per object, the first root of the previous round
     uint next = 0;
     for (const SubtreeSchedule& schedule : schedules) {
         below.push_back(next);

@@ -13,38 +13,38 @@
 
 namespace bvhbench {
 
-/// One launch, of all objects: those whose trees are so high take part in it.
+/// One launch for all objects whose trees are high enough to take part in it.
 struct Launch {
-    uint first_subtree = 0, subtrees = 0;  ///< of the list; later ones are not among them
+    uint first_subtree = 0, subtrees = 0;  ///< Range of the list; first round only if groups wait.
     std::int64_t moved_bytes = 0;
 };
 
-/// How a builder's launches are planned, by each tree's leaves.
+/// How launches are planned from the number of leaves of each tree.
 struct LaunchPlan {
     std::span<const ForestObject>
-        objects;  ///< all; of several, launches are listed for kernels to look up
+        objects;  ///< All objects; if there are several, kernels look their subtrees up in a list.
     std::function<SubtreeSchedule(uint leaves)> schedule;
     std::function<std::int64_t(uint leaves, const SubtreeLaunch&)> moved_bytes;
-    bool in_one_launch = false;  ///< the first launch goes on to the roots
+    bool in_one_launch = false;  ///< The first launch builds up to the roots.
     bool waits =
-        false;  ///< and there are groups in it that wait for what later launches would start from
+        false;  ///< Some of its groups wait for the roots that further launches would start from.
 };
 
-/// The launches that build the trees of all objects, or of some.
+/// The launches that build the trees of all or some objects.
 struct Launches {
     std::vector<Launch> list;
-    std::vector<cl_uint2> subtree_list;  ///< object and position, launch by launch
+    std::vector<cl_uint2> subtree_list;  ///< Object and position, launch by launch.
     Buffer<cl_uint2> subtrees;
-    std::vector<LaterSubtree> later_list;  ///< where groups wait: those of all but the first round
+    std::vector<LaterSubtree> later_list;  ///< If groups wait: subtrees of rounds after the first.
     Buffer<LaterSubtree> later;
 
-    /// Those of some of the objects.
+    /// Plans the launches of the objects `chosen`.
     void plan(std::span<const uint> chosen, const LaunchPlan& how);
 
-    /// Take room for what `most` lists.
+    /// Takes memory for the lists of `most`.
     void take(Arena& arena, const Launches& most);
 
-    /// Waits.
+    /// Uploads the lists. Blocks.
     void upload(const cl::CommandQueue& queue);
 };
 

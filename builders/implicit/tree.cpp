@@ -45,7 +45,7 @@ HostTree ImplicitTree::spelled_out_object(uint object) const
     const std::vector<Aabb> mesh_order =
         sorted_leaves ? std::vector<Aabb>{} : leaf_boxes.download(queue->cl());
 
-    // Breadth-first without padding: the used nodes of a level follow those of the level above.
+    // Nodes are in breadth-first order without padding: the used nodes of a level follow those of the level above.
     HostTree tree;
     tree.rounding = own_rounding;
     const uint leaf_level = implicit_leaf_level(own_leaves);
@@ -53,7 +53,7 @@ HostTree ImplicitTree::spelled_out_object(uint object) const
     for (uint level = 0; level <= leaf_level; ++level)
         count += implicit_used_on(own_leaves, level);
     tree.nodes.reserve(count);
-    std::size_t below = 0;  // where the next level starts in tree.nodes
+    std::size_t below = 0;  // start of the next level in tree.nodes
     for (uint level = 0; level <= leaf_level; ++level) {
         const uint used = implicit_used_on(own_leaves, level);
         below += used;

@@ -6,31 +6,31 @@
 
 namespace bvhbench {
 
-/// The implicit trees of one or more objects in device memory, one behind the other. Leaf k of the whole line
-/// holds triangle ids[k].
+/// Implicit trees of one or more objects in device memory, one after the other. Leaf k, counted over all objects, holds
+/// triangle ids[k].
 ///
-///     sorted leaves:   nodes = of each object, inner nodes and then leaf boxes in leaf order
-///     else (paper):    nodes = of each object, inner nodes;  leaf_boxes = one a triangle, in mesh order
+///     sorted leaves:     nodes = per object, inner nodes, then leaf boxes in leaf order
+///     otherwise (paper): nodes = per object, inner nodes;  leaf_boxes = one per triangle, in mesh order
 class ImplicitTree final : public DeviceTree {
 public:
     ImplicitLayout layout;
-    uint leaves = 0;       ///< of all objects
-    uint most_leaves = 0;  ///< of one object
+    uint leaves = 0;       ///< Leaves of all objects.
+    uint most_leaves = 0;  ///< Leaves of the largest object.
     bool sorted_leaves = false;
     const BoxFormat* format = &float_boxes();
-    std::size_t slot_count = 0;  ///< of all objects
-    Buffer<std::byte> nodes;     ///< by slot, a box of the format each
-    Buffer<SceneCells> cells;    ///< one, of formats with cells
-    Buffer<Aabb> leaf_boxes;     ///< unless sorted
+    std::size_t slot_count = 0;  ///< Slots of all objects.
+    Buffer<std::byte> nodes;     ///< By slot, one box in `format` each.
+    Buffer<SceneCells> cells;    ///< One element, used by formats with cells.
+    Buffer<Aabb> leaf_boxes;     ///< Unless leaves are sorted.
     Buffer<uint> ids;
 
     std::size_t node_count() const override;
     HostTree spelled_out_object(uint object) const override;
 
-    /// How leaves were rounded last. Waits.
+    /// Returns how the leaf boxes were last rounded. Blocks.
     BoxRounding rounding() const;
 
-    /// Slots of a tree of so many leaves: inner nodes, and with sorted leaves all that are stored.
+    /// Returns the slots of a tree of `leaf_count` leaves: inner nodes, and with sorted leaves all nodes stored.
     std::size_t slots(uint leaf_count) const;
 
     uint leaf_count() const override { return leaves; }

@@ -37,7 +37,8 @@ void LeafOrder::plan(Arena& arena, std::span<const uint> sizes, Use boxes, bool 
         ids_ = arena.take<uint>(primitives, Use::tree);
         cells_->plan(arena, primitives);
     } else {
-        // The line begins with what sorts for as many objects. Codes keep their words: what does not fit is dropped.
+        // Codes include the object number. They keep their number of words, so bits of a box's code that do not fit are
+        // dropped.
         const uint object_bits = ceil_log2(static_cast<uint>(sizes.size()));
         codes_.emplace(programs_, order_, form_, sizes.size());
         sort_.emplace(programs_, kept_code_bits(order_.code_bits, sizes.size()) + object_bits,

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// From triangles to a line of leaves: what every builder that starts from sorted codes shares.
+// From triangles to ordered leaves: the stages that all builders over sorted codes share.
 //
 //     triangles --bounds--> boxes (mesh order), bounds --codes--> codes --sort--> ids --order--> ids
 //
-// Several objects are lined up at once, one after the other: the object is the highest part of a code, and the rest
-// is measured against the object's own bounds.
+// Several objects are sorted at once and stored one after the other: the object number forms the highest bits of a code, and
+// the rest is computed in the object's own bounds (or in the scene's, see GridOver).
 //
-// The last stage belongs to orders with medians only; with medians everywhere it starts from the boxes.
+// Only orders with medians have the last stage; with medians everywhere it reads the boxes and there are no codes.
 #pragma once
 
 #include <optional>
@@ -24,56 +24,55 @@
 
 namespace bvhbench {
 
-/// The stages bounds, codes, sort and order on a device, those of them that the order has.
+/// The stages bounds, codes, sort and order on a device, as far as the order has them.
 class LeafOrder {
 public:
-    /// Throws BadUsage if no order is called `order`.
+    /// Throws BadUsage if there is no order called `order`.
     LeafOrder(Programs& programs, std::string_view order, KernelForm form = KernelForm::of_device,
               GridOver grid = GridOver::object);
 
-    /// Take every buffer the stages need for objects of so many triangles each. The sorted ids are tree memory;
-    /// the leaf boxes are what `boxes` says; everything else is scratch. Without `reads_codes`, orders with
-    /// medians leave none. Throws BadUsage for several objects and an order with medians.
+    /// Takes all buffers for objects of `sizes` triangles. Sorted ids are counted as tree memory, leaf boxes as `boxes`,
+    /// everything else as scratch. Without `reads_codes`, orders with medians produce no codes. Throws BadUsage for several
+    /// objects and an order with medians.
     void plan(Arena& arena, std::span<const uint> sizes, Use boxes, bool reads_codes);
 
-    /// Write down what builds expect. Waits.
+    /// Uploads the constant inputs of builds. Blocks until done.
     void prepare(const cl::CommandQueue& queue);
 
-    /// Enqueue the stages. Allocates nothing and does not wait.
+    /// Enqueues all stages. Allocates nothing and does not block.
     void enqueue(const Input& input, Queue& queue);
 
-    /// Enqueue the first stage only: new boxes, and the order that was. Does not wait.
+    /// Enqueues the first stage only: new boxes, unchanged order. Does not block.
     void enqueue_boxes(const Input& input, Queue& queue);
 
-    /// Takes the memory that updates of some of several objects need besides.
+    /// Takes the additional memory for updates of some of several objects.
     void plan_updates(Arena& arena);
 
-    /// Plans the next updates: of objects that are rebuilt, leaves are lined up anew; of those that are refitted, boxes are
-    /// made. Never timed. Waits.
+    /// Plans the next updates: rebuilt objects get new boxes and a new leaf order, refitted objects new boxes only. Never
+    /// timed. Blocks.
     void begin_update(const cl::CommandQueue& queue, std::span<const TreeUpdate> updates);
 
-    /// Enqueues the stages of such an update; other objects' boxes and ids stay. Allocates nothing and does not wait.
+    /// Enqueues the stages of a planned update; other objects keep boxes and ids. Allocates nothing and does not block.
     void enqueue_update(const Input& input, Queue& queue);
 
-    /// The triangles that an update of some of several objects is about.
+    /// Returns the runs of triangles that the planned update processes.
     const ObjectRuns& updated() const { return updated_; }
 
     const Buffer<Aabb>& boxes() const
     {
         return bounds_.boxes();
-    }  ///< one a triangle, in mesh order
-    /// One an object: of its boxes and of their centres.
+    }  ///< One per triangle, in mesh order.
+    /// Bounds of the boxes and of their centres, one element per object.
     const Buffer<Bounds>& bounds() const { return bounds_.bounds(); }
-    /// Ascending, of the leaves in their order; over 32 bits, two words each, low word first. Medians leave
-    /// codes that do not ascend, so with them the codes are the leaves' positions: their radix tree is the
-    /// tree whose splits the medians are.
+    /// Ascending codes of the ordered leaves; above 32 bits, two words each, low word first. Codes do not ascend after medians,
+    /// so with medians these are the leaves' positions, whose radix tree is the tree of the median splits.
     const Buffer<uint>& codes() const;
-    const Buffer<uint>& ids() const { return ids_; }  ///< triangle ids in leaf order
+    const Buffer<uint>& ids() const { return ids_; }  ///< Triangle ids in leaf order.
 
-    unsigned code_bits() const;  ///< of `codes`
+    unsigned code_bits() const;  ///< Bits of `codes`.
 
 private:
-    /// What boxes' codes are measured against.
+    /// Returns the bounds that codes are computed in.
     const Buffer<Bounds>& grid_bounds() const
     {
         return grid_ == GridOver::scene ? bounds_.bounds_of_all() : bounds_.bounds();
@@ -83,24 +82,24 @@ private:
     const OrderEntry& order_;
     KernelForm form_;
     GridOver grid_;
-    std::vector<uint> sizes_;  ///< of the objects
+    std::vector<uint> sizes_;  ///< Triangles of each object.
     BoundsStage bounds_;
-    std::optional<CodesStage> codes_;  ///< these two unless medians are everywhere
+    std::optional<CodesStage> codes_;  ///< Absent, with the sort, if medians are everywhere.
     std::optional<RadixSort> sort_;
-    std::optional<CellMedians> cells_;  ///< if they are
+    std::optional<CellMedians> cells_;  ///< If medians are everywhere.
     std::optional<BlockMedians> blocks_;
     std::optional<NumberAll> number_;
-    Buffer<uint> positions_;  ///< what codes are with medians, if anyone reads them
+    Buffer<uint> positions_;  ///< Codes of orders with medians, if they are read.
     Buffer<uint> ids_;
     ObjectRuns updated_;
     cl::Kernel put_runs_;
 };
 
-/// The same on the host, slowly and obviously: the oracle for the kernels, equal bit for bit.
+/// Leaf order computed on the host: the oracle of the kernels, equal bit for bit.
 struct HostLeafOrder {
-    std::vector<Aabb> boxes;   ///< one a triangle, in mesh order
-    std::vector<ulong> codes;  ///< ascending; with medians, positions
-    std::vector<uint> ids;     ///< triangle ids in leaf order
+    std::vector<Aabb> boxes;   ///< One per triangle, in mesh order.
+    std::vector<ulong> codes;  ///< Ascending; with medians, positions.
+    std::vector<uint> ids;     ///< Triangle ids in leaf order.
 };
 HostLeafOrder host_leaf_order(std::vector<Aabb> boxes, std::string_view order);
 

@@ -19,7 +19,7 @@ OrderedBuilder::OrderedBuilder(Programs& programs, const BuilderCard& card,
                        " are made where leaves are lined up, so leaves must be sorted");
     if (options.sorted_leaves)
         gather_.emplace(programs, KernelForm::of_device, 0, format_);
-    options_.order = find_order(options.order).name;  // outlive the caller's text
+    options_.order = find_order(options.order).name;  // the caller's text may be freed
     options_.boxes = format_.name;
 }
 
@@ -46,7 +46,7 @@ Footprint OrderedBuilder::footprint(std::size_t primitives) const
 
 Footprint OrderedBuilder::planned(std::span<const uint> sizes) const
 {
-    // A twin plans, so that a builder that has memory keeps it.
+    // Plans on a twin, so that the memory of this builder is kept.
     const std::unique_ptr<OrderedBuilder> planner = twin();
     Arena arena = Arena::measuring(programs_.device());
     planner->plan(arena, sizes);
@@ -75,7 +75,7 @@ void OrderedBuilder::reserve_objects(std::span<const uint> sizes)
     const Footprint wanted = planned(sizes);
     const Device& device = programs_.device();
     update_arena_.reset();
-    arena_.reset();  // the old memory goes before the new comes
+    arena_.reset();  // frees the old memory before new memory is taken
     arena_ = Arena::reserved(device, wanted);
     sizes_.assign(sizes.begin(), sizes.end());
     plan(*arena_, sizes_);
@@ -128,7 +128,7 @@ std::vector<TreeUpdate> OrderedBuilder::plan_update(std::span<const TreeUpdate> 
     update_ = update_of_all(wanted, can_refit());
     of_some_ = can_update_some() && std::any_of(wanted.begin(), wanted.end(),
                                                 [&](TreeUpdate one) { return one != update_; });
-    if (!of_some_)  // as builds and refits do it, or nothing to do
+    if (!of_some_)  // one update for all objects, by build or refit, or none
         return std::vector<TreeUpdate>(wanted.size(), update_);
     if (!update_arena_)
         reserve_updates();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What device builders share that start from leaves in an order of the catalog: all but the hierarchy.
+// Shared part of all device builders over leaves in a catalog order: everything but the hierarchy.
 #pragma once
 
 #include <optional>
@@ -12,11 +12,11 @@
 
 namespace bvhbench {
 
-/// Memory, the order of the leaves and the stages around the hierarchy, which is left to who derives from it.
+/// Manages memory, the leaf order and the stages around the hierarchy; derived classes build the hierarchy.
 class OrderedBuilder : public Builder {
 public:
-    /// Throws BadUsage if there is no such order or format of boxes, and for a format whose boxes are made where leaves
-    /// are lined up, if they are not to be.
+    /// Throws BadUsage for an unknown order or box format, and for a format other than f32 without sorted leaves, because
+    /// `gather` makes such boxes.
     OrderedBuilder(Programs& programs, const BuilderCard& card, const BuildOptions& options);
 
     BuilderCard card() const final { return card_; }
@@ -31,42 +31,42 @@ public:
     const Tree& update(const Input& input, Queue& queue) final;
 
 protected:
-    /// Another one like this, without memory.
+    /// Returns a builder with the same options and no memory.
     virtual std::unique_ptr<OrderedBuilder> twin() const = 0;
 
-    /// Take every buffer for objects of so many triangles each, `leaf_order_`'s too. With sorted leaves, plan where they go
-    /// by `plan_gather`.
+    /// Takes all buffers for objects of `sizes` triangles, those of `leaf_order_` included. Calls `plan_gather` with the
+    /// destination of sorted leaves.
     virtual void plan(Arena& arena, std::span<const uint> sizes) = 0;
 
-    /// Fill what builds expect and leave as it was. Waits.
+    /// Uploads the constant inputs of builds. Blocks until done.
     virtual void prepare(const cl::CommandQueue& queue) = 0;
 
-    /// Enqueue what makes the tree of the leaves; for a refit, what makes its boxes while its topology stands.
+    /// Enqueues the hierarchy over the leaves; `enqueue_refit`: only its boxes, with unchanged topology.
     virtual void enqueue_hierarchy(Queue& queue) = 0;
     virtual void enqueue_refit(Queue& queue) = 0;
 
-    /// Whether it can make the trees of some objects only, by the next three.
+    /// True if the builder can update the trees of some objects only, through the next three functions.
     virtual bool can_update_some() const { return false; }
 
-    /// Take what updates need besides; of several objects only.
+    /// Takes the additional memory for updates of some of several objects.
     virtual void plan_updates(Arena&) {}
 
-    /// Write down that updates from here on make the trees of these objects, which are rebuilt or refitted. Waits.
+    /// Plans updates of the trees of `objects`, which are rebuilt or refitted. Blocks.
     virtual void begin_update(const cl::CommandQueue&, std::span<const uint>) {}
 
-    /// Enqueue what makes those.
+    /// Enqueues the planned hierarchies.
     virtual void enqueue_update(Queue&) {}
 
     virtual DeviceTree& tree() = 0;
 
-    /// What the builder's tree keeps its boxes in.
+    /// Returns the storage format of the tree's boxes.
     const BoxFormat& format() const { return format_; }
 
-    /// Throws BadUsage if that is not floats: for builders whose trees know no others.
+    /// Throws BadUsage if the format is not floats; for builders that support floats only.
     void require_floats() const;
 
-    /// The boxes of sorted leaves go to `place`. Takes what lining them up in the format needs besides, once the leaves' own is
-    /// taken: the cells it will find.
+    /// Sets the destination of sorted leaf boxes to `place` and takes the additional memory of their format, after that of the
+    /// leaf order. Returns the buffer of the cells that `gather` will compute; empty without sorted leaves.
     Buffer<SceneCells> plan_gather(Arena& arena, const GatherPlace& place);
 
     Programs& programs_;
@@ -81,10 +81,10 @@ private:
 
     BuilderCard card_;
     const BoxFormat& format_;
-    std::optional<GatherStage> gather_;  ///< with sorted leaves
+    std::optional<GatherStage> gather_;  ///< Present with sorted leaves.
     std::optional<Arena> arena_, update_arena_;
-    std::vector<uint> sizes_;  ///< of the objects that there is memory for
-    /// What updates do: the same for all objects, or not.
+    std::vector<uint> sizes_;  ///< Triangles of each object, as reserved.
+    /// Planned update; with `of_some_` objects are updated separately, and this is the most work that one of them needs.
     TreeUpdate update_ = TreeUpdate::rebuild;
     bool of_some_ = false;
 };

@@ -2,18 +2,18 @@
 // check: -DGROUP_SIZE=64u -DROUNDS=4u -DSWEPT=0
 // check: -DGROUP_SIZE=64u -DROUNDS=4u -DSWEPT=1
 //
-// Triangles to boxes, and in the same pass the bounds of them all. Every group or chunk leaves the bounds of what it saw
-// in `partials`. Who joins those is the last group to finish, where groups may meet (device/handoff.clh), else a launch of
-// its own. No float atomics.
+// Computes the boxes of triangles and, in the same pass, their common bounds. Every group or chunk writes the bounds of its
+// triangles to `partials`. The last group to finish joins them if groups may meet (device/handoff.clh), else a second launch
+// does. No float atomics.
 //
-// Of several objects a group or a work-item takes one run (ObjectRun, from .x to before .y) of one object's triangles. Then
-// one an object joins what its runs left: of objects[k], from first_runs[k] on.
+// With several objects, a group or work-item processes one run (ObjectRun: .x to .y - 1) of one object's triangles. A second
+// launch joins each object's partials: those of objects[k] start at first_runs[k].
 #include "builders/stages/bounds_parts.clh"
 #include "builders/stages/chunk.clh"
 #include "device/handoff.clh"
 
-/// boxes[k] is the box of faces[k], for all `count`; *result the bounds of them all. The groups together take `rounds`
-/// rounds of a group's size each. *arrivals is zero before and after. Unless they `meet`, nobody joins.
+/// Writes the box of faces[k] to boxes[k], for all `count`, and their bounds to *result. The groups together process `rounds`
+/// rounds of a group's size each. *arrivals is zero before and after. Without `meet`, the partials are not joined.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void bounds_groups(
     POINTS_PARAMETERS(restrict), global const Face* restrict faces, global float2* restrict boxes,
     global Bounds* partials, global Bounds* restrict result,
@@ -38,7 +38,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void bounds_group
     }
     barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE);
 
-    // All groups go on, so that no barrier is left out, but only the last has something to join.
+    // All groups continue, so that every work-item reaches the barriers; only the last group has partials to join.
     bounds = joined_partials(partials, 0u, is_last[0] != 0u ? (uint)get_num_groups(0) : 0u, parts);
     if (item == 0u && is_last[0] != 0u) {
         *result = bounds;
@@ -46,7 +46,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void bounds_group
     }
 }
 
-/// *result is the bounds of all `partial_count` partials. One group.
+/// Writes the bounds of all `partial_count` partials to *result. Launched as one group.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void join_groups(
     global const Bounds* restrict partials, global Bounds* restrict result,
     const uint partial_count)
@@ -57,7 +57,8 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void join_groups(
         *result = bounds;
 }
 
-/// boxes[k] is the box of faces[k]; partials[g] the bounds of runs[g], ROUNDS times a group's size at most.
+/// Writes the box of faces[k] to boxes[k] and the bounds of runs[g] to partials[g]. A run has at most ROUNDS * GROUP_SIZE
+/// faces.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void runs_groups(
     POINTS_PARAMETERS(restrict), global const Face* restrict faces, global float2* restrict boxes,
     global Bounds* restrict partials, global const uint4* restrict runs)
@@ -77,7 +78,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void runs_groups(
         partials[get_group_id(0)] = bounds;
 }
 
-/// A group an object.
+/// Joins the partials of one object per group.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void join_objects_groups(
     global const Bounds* restrict partials, global Bounds* restrict result,
     global const uint* restrict first_runs, global const uint* restrict objects)
@@ -89,7 +90,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void join_objects
         result[objects[k]] = bounds;
 }
 
-/// A work-item makes boxes[k] of faces[k] from `first` to before `end`; returns their bounds.
+/// Writes the boxes of faces `first` to `end` - 1, by one work-item. Returns their bounds.
 static inline Bounds make_run(POINTS_PARAMETERS(), global const Face* faces, global Aabb* boxes,
                               const uint first, const uint end)
 {
@@ -110,7 +111,7 @@ static inline Bounds joined_run(global const Bounds* partials, const uint first,
     return bounds;
 }
 
-/// As bounds_groups, each work-item by itself.
+/// As bounds_groups, a chunk per work-item, without joining.
 kernel void bounds_chunks(POINTS_PARAMETERS(restrict), global const Face* restrict faces,
                           global Aabb* restrict boxes, global Bounds* restrict partials,
                           const uint count)
@@ -119,14 +120,14 @@ kernel void bounds_chunks(POINTS_PARAMETERS(restrict), global const Face* restri
     partials[get_global_id(0)] = make_run(POINTS, faces, boxes, chunk.first, chunk.end);
 }
 
-/// As join_groups, in one work-item.
+/// As join_groups, by one work-item.
 kernel void join_chunks(global const Bounds* restrict partials, global Bounds* restrict result,
                         const uint partial_count)
 {
     *result = joined_run(partials, 0u, partial_count);
 }
 
-/// As runs_groups, a work-item a run.
+/// As runs_groups, a run per work-item.
 kernel void runs_chunks(POINTS_PARAMETERS(restrict), global const Face* restrict faces,
                         global Aabb* restrict boxes, global Bounds* restrict partials,
                         global const uint4* restrict runs)
@@ -135,7 +136,7 @@ kernel void runs_chunks(POINTS_PARAMETERS(restrict), global const Face* restrict
     partials[get_global_id(0)] = make_run(POINTS, faces, boxes, run.x, run.y);
 }
 
-/// As join_objects_groups, a work-item an object.
+/// As join_objects_groups, an object per work-item.
 kernel void join_objects_chunks(global const Bounds* restrict partials,
                                 global Bounds* restrict result,
                                 global const uint* restrict first_runs,

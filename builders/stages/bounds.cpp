@@ -10,7 +10,7 @@
 namespace bvhbench {
 namespace {
 
-/// Groups that keep every compute unit busy; more would only leave more partials to join.
+/// Returns the number of groups that keep every compute unit busy; more would only add partials to join.
 std::size_t most_groups(const Device& device)
 {
     return device.tuned(bounds_groups_per_unit) *
@@ -133,7 +133,7 @@ void BoundsStage::enqueue_chosen(const Input& input, const ObjectRuns& chosen, Q
 {
     if (chosen.count() == 0)
         return;
-    // Of the points those of the chosen objects, of which an equal share is as good a guess as any.
+    // The bytes of the chosen objects' points are estimated as a proportional share of all.
     const double share =
         static_cast<double>(chosen.triangles()) / static_cast<double>(boxes_.size());
     const auto moved =

@@ -14,33 +14,33 @@
 
 namespace bvhbench {
 
-/// The stage `bounds`: triangles to leaf boxes in mesh order, swept if the input is, and the bounds of each object's boxes.
-/// One pass over all objects, or those chosen, however many there are.
+/// Stage `bounds`: computes the leaf boxes of triangles in mesh order, swept if the input is, and the bounds of each object's
+/// boxes. One pass serves all objects, or a chosen subset, however many there are.
 class BoundsStage {
 public:
-    /// `group_size` 0: as the device is tuned.
+    /// `group_size` 0: the device's tuned value.
     explicit BoundsStage(Programs& programs, KernelForm form = KernelForm::of_device,
                          uint group_size = 0);
 
-    /// Take the buffers for objects of so many triangles each, none of them empty. The boxes are what `boxes` says, the rest
-    /// is scratch. With `of_all`, the bounds of all objects together are made as well.
+    /// Takes the buffers for objects of `sizes` triangles, each at least 1. Boxes are counted as `boxes`, everything else as
+    /// scratch. With `of_all`, the stage also computes the bounds of all objects together.
     void plan(Arena& arena, std::span<const uint> sizes, Use boxes, bool of_all = false);
 
-    /// The same of one object.
+    /// Takes the buffers for one object.
     void plan(Arena& arena, std::size_t primitives, Use boxes);
 
-    /// Write down what `enqueue` expects and leaves as it was. Waits.
+    /// Uploads the constant inputs of `enqueue`. Blocks until done.
     void prepare(const cl::CommandQueue& queue);
 
-    /// Enqueue for an input of objects as planned, as a stage called so. Does not wait.
+    /// Enqueues the pass over all objects as a stage named `stage`. Does not block.
     void enqueue(const Input& input, Queue& queue, std::string_view stage = "bounds");
 
-    /// The boxes of chosen objects of several, and the bounds of those that are lined up. All others stay.
+    /// Enqueues the boxes of the chosen objects and the bounds of those that are reordered. Other objects keep theirs.
     void enqueue(const Input& input, const ObjectRuns& chosen, Queue& queue);
 
-    const Buffer<Aabb>& boxes() const { return boxes_; }      ///< one a triangle, in mesh order
-    const Buffer<Bounds>& bounds() const { return bounds_; }  ///< one an object
-    /// Of all objects, each as it was when it was lined up last; of several only if planned.
+    const Buffer<Aabb>& boxes() const { return boxes_; }      ///< One per triangle, in mesh order.
+    const Buffer<Bounds>& bounds() const { return bounds_; }  ///< One per object.
+    /// Bounds of all objects together, each as of its last reordering. With several objects, only if planned.
     const Buffer<Bounds>& bounds_of_all() const { return is_forest() ? bounds_of_all_ : bounds_; }
 
 private:
@@ -54,22 +54,22 @@ private:
 
     Programs& programs_;
     KernelForm form_;
-    uint group_size_;   ///< for one object; runs of several have their own
-    bool groups_meet_;  ///< the last one joins what all have found
+    uint group_size_;   ///< For one object; runs of several objects have their own group size.
+    bool groups_meet_;  ///< True if the last group to finish joins the partial bounds.
     std::size_t most_partials_;
     ObjectRuns all_;
     cl::Kernel of_frame_, join_kernel_;
-    std::optional<cl::Kernel> swept_;  ///< compiled when an input first asks for it
+    std::optional<cl::Kernel> swept_;  ///< Compiled at the first swept input.
     Buffer<Aabb> boxes_;
-    Buffer<Bounds> partials_;  ///< one a group, work-item or run
+    Buffer<Bounds> partials_;  ///< One per group, work-item or run.
     Buffer<Bounds> bounds_;
-    Buffer<uint> arrivals_;  ///< of groups that are done; 0 between launches
+    Buffer<uint> arrivals_;  ///< Number of finished groups; 0 between launches.
     Buffer<Bounds> bounds_of_all_;
-    Buffer<uint> all_objects_;  ///< from 0 to their number, as a run of `bounds_`
-    Buffer<uint> one_;          ///< the one place in `bounds_of_all_`
+    Buffer<uint> all_objects_;  ///< The range 0 to the number of objects, as one run of `bounds_`.
+    Buffer<uint> one_;          ///< Index of the only element of `bounds_of_all_`.
 };
 
-/// The same on the host: the bounds of `boxes`.
+/// Returns the bounds of `boxes`, computed on the host.
 Bounds host_bounds(std::span<const Aabb> boxes);
 
 }  // namespace bvhbench

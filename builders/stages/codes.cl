@@ -3,9 +3,10 @@
 // check: -DAXIS_BITS=16u -DHILBERT=1 -DSTRETCHED=1 -DSEVERAL_OBJECTS=1
 // check: -DAXIS_BITS=21u -DHILBERT=1 -DSTRETCHED=0 -DSEVERAL_OBJECTS=1
 //
-// codes[k] is afterwards the code of boxes[k], given the bounds of all boxes and of their centres. Of several objects
-// (SEVERAL_OBJECTS) each box is measured against its object's bounds, all_bounds[bounds_apart * object]: with 0, all share the first.
-// Its code is then the object above, and below it the box's, without the `dropped` lowest bits for which there is no room.
+// Writes the code of boxes[k] to codes[k], given the bounds of all boxes and of their centres. With several objects
+// (SEVERAL_OBJECTS) each code is computed in all_bounds[bounds_apart * object]; with bounds_apart 0 all objects share the
+// first. Such a code has the object number above the box's code, without the lowest `dropped` bits of it, for which there is no
+// room.
 #include "builders/stages/code_of.clh"
 #include "geometry/box_words.clh"
 
@@ -34,7 +35,7 @@ kernel void codes_of_all(global const float2* restrict boxes,
     }
 }
 
-/// The same of some of the objects, a run (ObjectRun) a group: their codes are put one object behind the other.
+/// Computes the codes of some objects, a run (ObjectRun) per group, and stores them one object after the other.
 kernel void codes_of_runs(global const float2* restrict boxes,
                           global const Bounds* restrict all_bounds,
                           global const uint4* restrict runs, global Code* restrict codes,

@@ -4,7 +4,7 @@
 namespace bvhbench {
 namespace {
 
-/// How far the bounds of two neighbouring objects are from each other: 0 if there is one for all.
+/// Returns the distance between the bounds of consecutive objects, in elements: 0 if all objects share one.
 uint apart(const Buffer<Bounds>& bounds) { return bounds.size() > 1 ? 1 : 0; }
 
 }  // namespace

@@ -11,35 +11,35 @@
 
 namespace bvhbench {
 
-/// 32-bit words a code takes in device memory: one, or two with the low word first.
+/// Returns the 32-bit words of a code in device memory: one, or two with the low word first.
 constexpr uint code_words(unsigned code_bits) { return code_bits > 32 ? 2 : 1; }
 
-/// Bits of a code that are kept below the number of one of so many objects: as many as its words have room for.
+/// Returns the bits of a box's code that are kept below the object number: as many as the code's words have room for.
 constexpr uint kept_code_bits(unsigned code_bits, std::size_t objects)
 {
     const uint object_bits = ceil_log2(static_cast<uint>(objects));
     return std::min(code_bits, 32 * code_words(code_bits) - object_bits);
 }
 
-/// The stage `codes`: one code a leaf box, by an order of the catalog, of code_words() words each. Of several objects a code
-/// is the object, from bit kept_code_bits() on, and below it the box's, without the bits that are not kept. Owns no memory.
-/// `bounds` are one an object, or of all together.
+/// Stage `codes`: computes one code of code_words() words per leaf box, in an order of the catalog. With several objects a code
+/// has the object number from bit kept_code_bits() on, and below it the highest bits of the box's code. `bounds` holds one
+/// element per object, or one for all. Owns no memory.
 class CodesStage {
 public:
     CodesStage(Programs& programs, const OrderEntry& order, KernelForm form = KernelForm::of_device,
                std::size_t objects = 1);
 
-    /// Enqueue: `codes` gets the codes of all `boxes`, whose objects are `owners`. Does not wait.
+    /// Enqueues the codes of all `boxes`; `owners` holds the object of each box. Does not block.
     void enqueue(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bounds,
                  const Buffer<uint>& owners, const Buffer<uint>& codes, Queue& queue);
 
-    /// The same of the objects that `runs` lines up, at least one of several: their codes one object behind the other.
+    /// Enqueues the codes of the objects that `runs` reorders (at least one, of several), stored one object after the other.
     void enqueue(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bounds, const ObjectRuns& runs,
                  const Buffer<uint>& codes, Queue& queue);
 
 private:
     uint words_;
-    uint kept_, dropped_;  ///< bits of a box's code
+    uint kept_, dropped_;  ///< Bits of a box's code.
     uint group_size_;
     KernelForm form_;
     std::size_t chunks_;

@@ -3,19 +3,19 @@
 // check: -DAXIS_BITS=16u -DHILBERT=1 -DSTRETCHED=1 -DSEVERAL_OBJECTS=1
 // check: -DAXIS_BITS=21u -DHILBERT=1 -DSTRETCHED=0 -DSEVERAL_OBJECTS=1
 //
-// As codes.cl for devices with a few fast cores: a work-item takes a run of boxes, a block at a time.
+// As codes.cl, for devices with a few fast cores: a work-item processes a run of boxes, one block at a time.
 //
-// Within a block every step is a loop over all of its boxes without a branch, which compilers turn into vector
-// instructions: to cells, one turn of the curve after the other, to codes. What waits between two steps is in arrays
-// that stay in the nearest cache. Boxes are read as floats: loads of pairs are not put together to vectors.
+// Within a block every step is a loop over all of its boxes without branches, which compilers vectorise: to cells, then each
+// turn of the curve, then to codes. Between two steps the values are in arrays that fit the nearest cache. Boxes are read as
+// single floats, because compilers do not combine loads of pairs into vectors.
 #include "builders/stages/chunk.clh"
 #include "builders/stages/code_of.clh"
 
 #define BLOCK 64u
 #define FLOATS_PER_BOX 6ul
 
-/// The codes of `lanes` boxes from `box_floats` on, at most a block, measured against `bounds`: without their `dropped`
-/// lowest bits, under `above`.
+/// Computes the codes of `lanes` boxes (at most BLOCK) from `box_floats` on, in the grid over `bounds`. Drops the lowest
+/// `dropped` bits of each code and sets the bits `above`.
 static inline __attribute__((always_inline)) void code_block(global const float* box_floats,
                                                              const Bounds bounds,
                                                              global Code* codes, const uint lanes,

@@ -4,16 +4,16 @@
 // check: -DGROUP_SIZE=64u -DSEVERAL_OBJECTS=1 -DBOX_FORMAT=2u
 // check: -DGROUP_SIZE=64u -DSEVERAL_OBJECTS=0 -DBOX_FORMAT=4u
 //
-// sorted[first + k] becomes boxes[ids[k]], for all k below `count`. Boxes are seen as three pairs of sides. Of several
-// objects (SEVERAL_OBJECTS), `first` is the owner's slot, modulo 2^32: its own leaves do not begin at k = 0.
+// Copies boxes[ids[k]] to sorted[first + k], for all k below `count`. A box is three pairs of sides. With several objects
+// (SEVERAL_OBJECTS), the owner's slot replaces `first`, modulo 2^32, because k counts the leaves of all objects.
 //
-// Boxes are floats; those lined up are in the format that trees keep (BOX_FORMAT), and this is the one place where they
-// are rounded. `cells` is what scene_cells.cl has found; of formats without cells nobody reads it.
+// The input boxes are floats; the output is in the tree's format (BOX_FORMAT). This is the only place where boxes are rounded.
+// `cells` is the result of scene_cells.cl; formats without cells do not read it.
 #include "builders/stages/chunk.clh"
 #include "builders/stages/stored_box.clh"
 
-/// A group fills GROUP_SIZE boxes, and neighbours in it neighbouring pairs of floats: the memory sees whole
-/// lines written, which a work-item writing its own 24 bytes would not give it.
+/// A group writes GROUP_SIZE boxes, neighbouring work-items neighbouring pairs of sides, so that whole memory lines are
+/// written; if each work-item wrote its own box of 24 bytes, they would not be.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void gather_groups(
     global const float2* restrict boxes, global const uint* restrict ids,
     global BoxWord* restrict sorted, global const uint* restrict owners,
@@ -34,7 +34,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void gather_group
     }
 }
 
-/// The same, each work-item by itself.
+/// As gather_groups, a chunk per work-item.
 kernel void gather_chunks(global const float2* restrict boxes, global const uint* restrict ids,
                           global BoxWord* restrict sorted, global const uint* restrict owners,
                           global const uint* restrict slots, const uint first,
@@ -47,7 +47,7 @@ kernel void gather_chunks(global const float2* restrict boxes, global const uint
     }
 }
 
-/// As gather_groups, of some of several objects: a group fills a run (ObjectRun), whatever the group's size.
+/// As gather_groups, for some of several objects: a group copies a run (ObjectRun), with any group size.
 kernel void gather_runs_groups(global const float2* restrict boxes, global const uint* restrict ids,
                                global BoxWord* restrict sorted, global const uint4* restrict runs,
                                global const uint* restrict slots CELLS_PARAMETER)
@@ -60,7 +60,7 @@ kernel void gather_runs_groups(global const float2* restrict boxes, global const
             STORED_WORD(boxes[3ul * ids[run.x + word / 3u] + word % 3u], word % 3u);
 }
 
-/// The same, each work-item a run.
+/// As gather_runs_groups, a run per work-item.
 kernel void gather_runs_chunks(global const float2* restrict boxes, global const uint* restrict ids,
                                global BoxWord* restrict sorted, global const uint4* restrict runs,
                                global const uint* restrict slots CELLS_PARAMETER)

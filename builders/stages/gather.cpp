@@ -63,7 +63,7 @@ void GatherStage::find_cells(Queue& queue)
                  static_cast<std::int64_t>(bounds_.bytes() + cells_.bytes()));
 }
 
-/// All arguments, those of the format behind the others.
+/// Sets all arguments, that of the format last.
 template <class... Arguments>
 void GatherStage::bind(cl::Kernel& kernel, const Arguments&... arguments) const
 {
@@ -106,7 +106,7 @@ void GatherStage::enqueue(const Buffer<Aabb>& boxes, const Buffer<uint>& ids,
                  moved_bytes(runs.triangles()));
 }
 
-/// A box read, through its triangle's number, and one written.
+/// Returns the bytes moved: per triangle, its id and its box read and one box written.
 std::int64_t GatherStage::moved_bytes(std::size_t count) const
 {
     return static_cast<std::int64_t>(count * (sizeof(uint) + sizeof(Aabb) + format_.box_bytes()));

@@ -10,34 +10,35 @@
 
 namespace bvhbench {
 
-/// Where boxes in leaf order go.
+/// Destination of boxes in leaf order.
 struct GatherPlace {
-    Buffer<std::byte> boxes;  ///< in the format that trees keep theirs in
-    uint first = 0;           ///< leaf k of all goes there and k further
-    /// If not empty, leaf k of an object goes to the object's slot here and k further, modulo 2^32: k counts all leaves.
+    Buffer<std::byte> boxes;  ///< In the tree's format.
+    uint first = 0;           ///< Leaf 0 goes to index `first`, leaf k to first + k.
+    /// If not empty, leaf k of object o goes to index slots[o] + k, modulo 2^32; k counts the leaves of all objects.
     Buffer<uint> slots = {};
 };
 
-/// The stage `gather`: boxes in the order of ids, at any place of an array, in the format that trees keep theirs in.
+/// Stage `gather`: copies boxes into the order of ids, anywhere in an array, in the tree's format.
 class GatherStage {
 public:
-    /// `group_size` 0: as the device is tuned. Throws Unavailable where a format needs doubles that the device lacks.
+    /// `group_size` 0: the device's tuned value. Throws Unavailable if the format needs doubles and the device has none.
     explicit GatherStage(Programs& programs, KernelForm form = KernelForm::of_device,
                          uint group_size = 0, const BoxFormat& format = float_boxes());
 
-    /// Boxes will go to `place`. Takes what a format other than floats needs: scenes have these bounds, one an object, by the
-    /// time their boxes are gathered.
+    /// Sets the destination to `place` and takes the memory that formats other than floats need. `bounds` has one element per
+    /// object and must be computed before boxes are gathered.
     void plan(Arena& arena, const GatherPlace& place, const Buffer<Bounds>& bounds = {});
 
-    /// One: of the scene gathered last; of formats with cells.
+    /// One element: the cells of the scene gathered last, in formats with cells.
     const Buffer<SceneCells>& cells() const { return cells_; }
 
-    /// Enqueue: the box of every id goes to its place. Whose triangles are, `owners` says if there are slots. Does not wait.
+    /// Enqueues the copy of all boxes. `owners` holds the object of each triangle; it is read only if there are slots. Does not
+    /// block.
     void enqueue(const Buffer<Aabb>& boxes, const Buffer<uint>& ids, const Buffer<uint>& owners,
                  Queue& queue);
 
-    /// The same of the objects that `runs`, cut for this form, are of, of several; not of formats with cells, which are those
-    /// of all objects.
+    /// Enqueues the copy for the objects of `runs` only, of several objects; `runs` must have this stage's kernel form. Not
+    /// allowed in formats with cells, which depend on all objects.
     void enqueue(const Buffer<Aabb>& boxes, const Buffer<uint>& ids, const ObjectRuns& runs,
                  Queue& queue);
 
@@ -55,7 +56,7 @@ private:
     GatherPlace place_;
     cl::Kernel kernel_, runs_kernel_, cells_kernel_;
     Buffer<Bounds> bounds_;
-    Buffer<SceneCells> cells_;  ///< one, of others than floats
+    Buffer<SceneCells> cells_;  ///< One element, unless boxes are floats.
 };
 
 }  // namespace bvhbench

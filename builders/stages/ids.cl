@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // check:
 
-/// numbers[k] is k, for all `count`.
+/// Writes k to numbers[k], for all k below `count`.
 kernel void number_all(global uint* restrict numbers, const uint count)
 {
     const uint k = (uint)get_global_id(0);
@@ -9,9 +9,9 @@ kernel void number_all(global uint* restrict numbers, const uint count)
         numbers[k] = k;
 }
 
-/// Ids of the leaves of some objects go back among those of all objects. `sorted` holds them one object behind the other,
-/// and counts both places and ids among these objects only: before run.first, run.standing triangles (ObjectRun) belong to
-/// other objects. A run is a work-group's or a work-item's.
+/// Copies the ids of reordered objects back among those of all objects, one run per work-group or work-item. `sorted` has only
+/// the reordered objects, one after the other, and counts both places and ids among their triangles; run.standing (ObjectRun)
+/// triangles of other objects precede a run.
 kernel void put_runs(global const uint* restrict sorted, global const uint4* restrict runs,
                      global uint* restrict ids)
 {

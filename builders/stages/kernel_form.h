@@ -6,14 +6,14 @@
 
 namespace bvhbench {
 
-/// Kernels come in two forms with equal results. Which one is fast depends on the device.
+/// Two forms of the same kernels, with equal results. Which one is faster depends on the device.
 enum class KernelForm {
-    of_device,  ///< chunks on a CPU, groups elsewhere
-    groups,     ///< work-groups of many lanes that share local memory and take neighbouring items
-    chunks,     ///< a few work-items, each with a long run of neighbouring items to itself
+    of_device,  ///< `chunks` on a CPU, `groups` elsewhere.
+    groups,  ///< Work-groups of many lanes, which share local memory and process neighbouring items.
+    chunks,  ///< A few work-items, each of which processes a long run of neighbouring items.
 };
 
-/// `form`, or the device's own if that was left open.
+/// Returns `form`, or the device's own form if it is of_device.
 inline KernelForm chosen_form(const Device& device, KernelForm form)
 {
     if (form != KernelForm::of_device)
@@ -21,7 +21,7 @@ inline KernelForm chosen_form(const Device& device, KernelForm form)
     return device.is_cpu() ? KernelForm::chunks : KernelForm::groups;
 }
 
-/// The same for kernels whose groups want as much memory and as many work-items as GPUs have for long had.
+/// As above, but returns `chunks` for of_device if the device lacks this much local memory or groups of this size.
 inline KernelForm chosen_form(const Device& device, KernelForm form, std::size_t local_bytes,
                               std::size_t group_size)
 {
@@ -30,7 +30,7 @@ inline KernelForm chosen_form(const Device& device, KernelForm form, std::size_t
     return form == KernelForm::of_device && !fits ? KernelForm::chunks : chosen_form(device, form);
 }
 
-/// Work-items for the form `chunks`: some a core, so that a core that was interrupted is not waited for.
+/// Returns the work-items for the form `chunks`: several per core, so that an interrupted core delays the others little.
 inline std::size_t chunk_count(const Device& device)
 {
     return device.tuned(chunks_per_core) *

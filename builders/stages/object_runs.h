@@ -10,47 +10,48 @@
 
 namespace bvhbench {
 
-/// Neighbouring triangles of one object, which a group or a work-item takes. 16 bytes, a uint4 on the device.
+/// A run of neighbouring triangles of one object, processed by one group or work-item. 16 bytes, a uint4 on the device.
 struct ObjectRun {
     uint first = 0, end = 0;
     uint object = 0;
-    /// Triangles before them whose leaves keep their order: so much lower is their place among those whose do not.
+    /// Triangles before this run in mesh order that are not reordered: the run's codes and sorted ids are stored that much
+    /// earlier. 0 in runs that are not reordered.
     uint standing = 0;
 };
 static_assert(sizeof(ObjectRun) == 16);
 
-/// Which objects a pass over triangles is about, cut into runs: all, or some. Those that are lined up come first.
+/// The objects that a pass over triangles processes (all or some), cut into runs. Runs of reordered objects come first.
 class ObjectRuns {
 public:
     static constexpr uint usual_group_size = 256;
-    static constexpr uint rounds = 4;  ///< of a group's size each, that a group takes at most
+    static constexpr uint rounds = 4;  ///< A run has at most rounds * group_size triangles.
 
     ObjectRuns(const Device& device, KernelForm form, uint group_size = usual_group_size);
 
-    /// Take room for any of the objects of so many triangles each, none of them empty.
+    /// Takes memory for any subset of objects of `sizes` triangles, each at least 1.
     void plan(Arena& arena, std::span<const uint> sizes);
 
-    /// Those `lined_up` anew, and `others`; both ascending. Waits.
+    /// Chooses the objects `lined_up`, which are reordered, and `others`; both ascending. Blocks.
     void choose(const cl::CommandQueue& queue, std::span<const uint> lined_up,
                 std::span<const uint> others = {});
 
-    /// All of them, lined up anew. Waits.
+    /// Chooses all objects as reordered. Blocks.
     void choose_all(const cl::CommandQueue& queue);
 
-    /// Work-items for each run.
+    /// Returns the work-items per run.
     std::size_t group() const { return form_ == KernelForm::groups ? group_size_ : 1; }
-    uint group_size() const { return group_size_; }  ///< whatever the form
+    uint group_size() const { return group_size_; }  ///< Independent of the kernel form.
 
     std::size_t count() const { return count_; }
-    std::size_t lined_up_count() const { return lined_up_count_; }      ///< runs of those lined up
-    std::size_t lined_up_objects() const { return lined_up_objects_; }  ///< how many of those
+    std::size_t lined_up_count() const { return lined_up_count_; }      ///< Reordered runs.
+    std::size_t lined_up_objects() const { return lined_up_objects_; }  ///< Reordered objects.
     uint triangles() const { return triangles_; }
     uint lined_up_triangles() const { return lined_up_triangles_; }
 
     const Buffer<ObjectRun>& runs() const { return runs_; }
-    /// Of each chosen object, and the end.
+    /// First run of each chosen object, then the number of runs.
     const Buffer<uint>& first_runs() const { return first_runs_; }
-    const Buffer<uint>& objects() const { return objects_; }  ///< the chosen ones
+    const Buffer<uint>& objects() const { return objects_; }  ///< The chosen objects.
 
 private:
     KernelForm form_;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // check: -DGROUP_SIZE=256u -DVALUES_PER_ITEM=4u
 //
-// Each value becomes the sum of all before it. Three launches: every group or chunk leaves the sum of its values in
-// `partials`, one group or work-item scans those, and every group or chunk goes on from its own.
+// Exclusive prefix sums in three launches: every group or chunk writes the sum of its values to `partials`, one group or
+// work-item scans the partials, and every group or chunk scans its values from its own partial on.
 #include "builders/stages/chunk.clh"
 #include "builders/stages/group_scan.clh"
 
 #define TILE (GROUP_SIZE * VALUES_PER_ITEM)
 
-/// Values of this work-item, zero past all. One by one: `values` need not end with a whole tile.
+/// Returns this work-item's values; 0 past the end. Loads are scalar, because `values` may end within a tile.
 static inline uint4 own_values(global const uint* values, const uint first, const uint count)
 {
     return (uint4)(first < count ? values[first] : 0u, first + 1u < count ? values[first + 1u] : 0u,
@@ -16,7 +16,7 @@ static inline uint4 own_values(global const uint* values, const uint first, cons
                    first + 3u < count ? values[first + 3u] : 0u);
 }
 
-/// partials[g] is the sum of group g's tile.
+/// Writes the sum of group g's tile to partials[g].
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void sum_groups(
     global const uint* restrict values, global uint* restrict partials, const uint count)
 {
@@ -29,7 +29,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void sum_groups(
         partials[get_group_id(0)] = all;
 }
 
-/// One group, each work-item a run of partials: no loop goes round a barrier.
+/// Scans the partials in one group, a run per work-item, so that no barrier is in a loop.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void scan_partials_group(
     global uint* restrict partials, const uint partial_count)
 {
@@ -66,7 +66,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void scan_groups(
         values[first + 3u] = before + own.x + own.y + own.z;
 }
 
-/// As sum_groups, each work-item by itself.
+/// As sum_groups, a chunk per work-item.
 kernel void sum_chunks(global const uint* restrict values, global uint* restrict partials,
                        const uint count)
 {
@@ -77,7 +77,7 @@ kernel void sum_chunks(global const uint* restrict values, global uint* restrict
     partials[get_global_id(0)] = sum;
 }
 
-/// One work-item.
+/// As scan_partials_group, in one work-item.
 kernel void scan_partials_chunk(global uint* restrict partials, const uint partial_count)
 {
     uint before = 0u;

@@ -8,15 +8,15 @@
 
 namespace bvhbench {
 
-/// Prefix sums in place: each value becomes the sum of all before it, modulo 2^32.
+/// Exclusive prefix sums in place, modulo 2^32.
 class ScanStage {
 public:
     explicit ScanStage(Programs& programs, KernelForm form = KernelForm::of_device);
 
-    /// Take the scratch for `size` values.
+    /// Takes the scratch memory for `size` values.
     void plan(Arena& arena, std::size_t size);
 
-    /// Enqueue, as part of the stage begun, for as many values as planned. Does not wait.
+    /// Enqueues the sums of all planned values within the current stage. Does not block.
     void enqueue(const Buffer<uint>& values, Queue& queue);
 
 private:
@@ -25,7 +25,7 @@ private:
     KernelForm form_;
     std::size_t chunks_;
     cl::Kernel sum_, scan_partials_, scan_;
-    Buffer<uint> partials_;  ///< one a group or chunk
+    Buffer<uint> partials_;  ///< One per group or chunk.
 };
 
 }  // namespace bvhbench

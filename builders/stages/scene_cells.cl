@@ -2,8 +2,8 @@
 // check: -DGROUP_SIZE=64u -DCELLS_OF=3u
 // check: -DGROUP_SIZE=1u -DCELLS_OF=2u
 //
-// The cells that a scene is cut into in the format of boxes that CELLS_OF names, from the bounds of its objects: one
-// object's or all of them together, so that boxes of different trees can be compared. A kernel of its own, of one group.
+// Computes the cells of a scene in the box format CELLS_OF from the bounds of all of its objects, so that boxes of different
+// trees can be compared. Launched as one group.
 #include "builders/stages/bounds_parts.clh"
 #include "geometry/box_cells.h"
 

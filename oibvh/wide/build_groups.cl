@@ -2,21 +2,21 @@
 // check: -include oibvh/wide/wide4_access.clh -DGROUP_SIZE=64u -DSEVERAL_OBJECTS=1
 // check: -include oibvh/wide/wide8_access.clh -DGROUP_SIZE=512u -DFROM_LEAVES=1
 //
-// Algorithm 1 over a wide tree, for devices with many lanes: a group builds a subtree from GROUP_SIZE children, a power
-// of the children a node, up to its root.
+// Algorithm 1 over a wide tree, for devices with many lanes: a group builds a subtree over GROUP_SIZE children, a power of the
+// arity, up to its root.
 //
-//     below the entry level   o o o o o o o o   o o o o o o o o   ...     a child a work-item
+//     below the entry level   o o o o o o o o   o o o o o o o o   ...     one child per work-item
 //     entry level                    n                 n                  their nodes' boxes, in local memory, are
-//     ...                                                                 the next level's children
+//     ...                                                                 the children of the next level
 //
-// Compiled behind wide4_access.clh or wide8_access.clh.
+// Compiled after wide4_access.clh or wide8_access.clh.
 #include "builders/implicit/own_subtree.clh"
 #include "oibvh/wide/layout.h"
 
 #define WIDE_KERNEL kernel __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1)))
 
-/// A subtree's levels from `level` up: the `position`-th GROUP_SIZE children below it are in `boxes`, of what is not
-/// real the empty box.
+/// Builds a subtree's levels from `level` up. `boxes` holds the boxes of the GROUP_SIZE children below it that start at
+/// `position` * GROUP_SIZE; virtual children have the empty box.
 static inline void build_subtree(global uint4* nodes, local float2* boxes, const uint leaves,
                                  const uint position, int level)
 {
@@ -31,15 +31,15 @@ static inline void build_subtree(global uint4* nodes, local float2* boxes, const
                 store_child(nodes, wide_first_slot(leaves, TREE_CHILD_BITS, (uint)level) + node,
                             item % LANE_COUNT, load_local_box(boxes, item));
         }
-        barrier(CLK_LOCAL_MEM_FENCE);  // all have read
+        barrier(CLK_LOCAL_MEM_FENCE);  // all children have been read
         if (item < width && item % LANE_COUNT == 0u)
             store_local_box(boxes, item / LANE_COUNT, whole);
         barrier(CLK_LOCAL_MEM_FENCE);
     }
 }
 
-/// One of several launches, which begins `levels_done` above the leaves: from `leaf_boxes`, one a triangle in mesh order, by
-/// way of `ids`, the triangles in leaf order (FROM_LEAVES), or from the nodes below the entry level.
+/// One of several launches, which starts `levels_done` levels above the leaves. Reads `leaf_boxes` (one per triangle, in mesh
+/// order) through `ids` (triangles in leaf order) with FROM_LEAVES, else the nodes below the entry level.
 WIDE_KERNEL void build(global const float2* leaf_boxes, global const uint* ids, global uint4* nodes,
                        global const ForestObject* objects, global const uint2* subtrees,
                        const uint all_leaves, const uint first_subtree, const uint levels_done)

@@ -3,20 +3,20 @@
 // check: -include oibvh/wide/wide8_access.clh -DFROM_LEAVES=1
 //
 // Algorithm 1 over a wide tree, for devices with a few fast cores: a work-item builds a whole subtree, level by level.
-// The same launches and arguments as build_groups.cl, with `levels` a launch chosen at run time.
+// Same launches and arguments as build_groups.cl, with the number of `levels` per launch chosen at run time.
 //
-// Compiled behind wide4_access.clh or wide8_access.clh.
+// Compiled after wide4_access.clh or wide8_access.clh.
 #include "builders/implicit/own_subtree.clh"
 #include "oibvh/wide/layout.h"
 
-/// Store a node of these children.
+/// Stores a node with these children.
 static inline void store_node(global uint4* nodes, const uint slot, const Aabb* children)
 {
     for (uint k = 0u; k < LANE_COUNT; ++k)
         store_child(nodes, slot, k, children[k]);
 }
 
-/// The nodes of `level` from position `begin` to before `end`, from the level below.
+/// Builds the nodes of `level` at positions `begin` to `end` - 1 from the level below.
 static inline void build_level(global uint4* nodes, const uint leaves, const uint level,
                                const uint begin, const uint end)
 {
@@ -33,7 +33,7 @@ static inline void build_level(global uint4* nodes, const uint leaves, const uin
     }
 }
 
-/// The subtree rooted at `position`, `above` levels above `level`: its levels above that one.
+/// Builds the levels above `level` of the subtree whose root is at `position`, `above` levels higher.
 static inline void build_upwards(global uint4* nodes, const uint leaves, const uint position,
                                  uint level, uint above)
 {

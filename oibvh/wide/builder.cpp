@@ -20,8 +20,8 @@ BuildOptions without_gather(BuildOptions options)
     return options;
 }
 
-/// A builder of Appendix C's trees, bottom-up in several launches, by kernels that suit the kind of device. `sorted_leaves`
-/// changes nothing: nodes hold the leaves' boxes in leaf order.
+/// Builds the trees of Appendix C bottom-up in several launches, with kernels for the kind of device. Ignores `sorted_leaves`:
+/// nodes hold the leaf boxes in leaf order in any case.
 class WideBuilder final : public OrderedBuilder {
 public:
     WideBuilder(Programs& programs, const BuilderCard& card, const WideFormat& format,
@@ -30,7 +30,7 @@ public:
     {
         require_floats();
         tree_.format = format;
-        choose(1);  // refuses bad options now
+        choose(1);  // throws for bad options now
     }
 
 private:
@@ -43,7 +43,7 @@ private:
     void prepare(const cl::CommandQueue& queue) override;
     void enqueue_hierarchy(Queue& queue) override { enqueue(whole_, queue); }
 
-    /// As of any implicit tree, the topology is the order of the leaves: this is the hierarchy over the old one.
+    /// Builds the hierarchy over the old leaf order, which determines the topology of an implicit tree.
     void enqueue_refit(Queue& queue) override { enqueue(whole_, queue); }
 
     bool can_update_some() const override { return true; }
@@ -67,13 +67,13 @@ private:
 
     WideTree tree_;
     Cut cut_;
-    uint levels_ = 1;  ///< of wide nodes that a launch makes
+    uint levels_ = 1;  ///< Levels of wide nodes per launch.
     cl::Kernel from_leaves_, from_nodes_;
     Launches whole_, update_;
 };
 
-/// The binary builder's cut in whole levels of wide nodes. A group of a child a work-item is a power of the children a
-/// node: 512 where there are 8 and 256 where there are 4, if no other size is asked for.
+/// Uses the binary builder's cut, in whole levels of wide nodes. A group has one child per work-item, so its size is a power of
+/// the arity. Without a requested size, groups have 512 work-items for arity 8 and at least 256 for arity 4.
 void WideBuilder::choose(uint leaves)
 {
     cut_ = choose_cut(programs_.device(), {.group_size = options_.group_size},
@@ -128,7 +128,7 @@ LaunchPlan WideBuilder::launch_plan() const
             .moved_bytes = std::bind_front(&WideBuilder::moved_bytes, this)};
 }
 
-/// Children read once, nodes written once.
+/// Returns the bytes moved: children read once, nodes written once.
 std::int64_t WideBuilder::moved_bytes(uint leaves, const SubtreeLaunch& launch) const
 {
     const auto node_bytes = static_cast<std::int64_t>(tree_.format.node_words() * sizeof(NodeWord));
@@ -154,7 +154,7 @@ void WideBuilder::prepare(const cl::CommandQueue& queue)
             defines, optimise);
     };
     from_leaves_ = kernel(true, Optimise::freely);
-    // The few nodes that are left: where optimising is in doubt, there is nothing to win.
+    // These kernels build only the few upper nodes, so optimisation that may be unsafe would gain nothing.
     from_nodes_ = kernel(false, Optimise::on_gpus);
     tree_.device_objects.upload(queue, tree_.objects);
     whole_.upload(queue);

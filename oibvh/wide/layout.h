@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// Appendix C where the arity is a power of two, k = 2^bits: kary_layout.h without a loop or a division by an unknown,
-// for kernels that ask at every node. Its levels are every bits-th level of the binary tree, counted from the leaves.
+// Appendix C for a power-of-two arity k = 2^bits: kary_layout.h without loops or divisions by a variable, for kernels that
+// evaluate it at every node. Its levels are every bits-th level of the binary tree, counted from the leaves.
 //
-// A node is named by its label: a leading 1, below it the position on its level, `bits` bits a level, so that its
-// ancestors are its own leading bits:
+// A node is named by its label: a leading 1, followed by the position on its level with `bits` bits per level, so that the
+// labels of its ancestors are its leading bits:
 //
 //     label = 1 ppp ppp ... ppp       k = 8
 //
-// Only inner nodes are stored, each with the boxes of its children: by level, a level's from its left end. One leaf has
-// an inner node above it too, which holds its box. Valid for up to kary_most_leaves(k) leaves, 2^30 for k = 4 and 8.
+// Only inner nodes are stored, level by level from the left, each with the boxes of its children. A single leaf has an inner
+// node above it, too, which holds its box. Valid for up to kary_most_leaves(k) leaves, 2^30 for k = 4 and 8.
 #ifndef BVHBENCH_OIBVH_WIDE_LAYOUT_H
 #define BVHBENCH_OIBVH_WIDE_LAYOUT_H
 
@@ -17,19 +17,20 @@
 
 SHARED_BEGIN
 
-/// Level of the leaves, at least 1; the root is level 0.
+/// Returns the level of the leaves, at least 1; the root is level 0.
 SHARED_FN uint wide_leaf_level(uint leaves, uint bits)
 {
     return leaves <= 1u ? 1u : divided_up(ceil_log2(leaves), bits);
 }
 
-/// Real nodes on a level.
+/// Returns the real nodes on a level.
 SHARED_FN uint wide_real_on(uint leaves, uint bits, uint level)
 {
     return ((leaves - 1u) >> (bits * (wide_leaf_level(leaves, bits) - level))) + 1u;
 }
 
-/// The sum of a number's digits to the base k, bits being 2 or 3: each set bit counts as much as it does in its digit.
+/// Returns the sum of the digits of `number` to the base k, for bits = 2 or 3: each set bit counts with its weight within its
+/// digit.
 SHARED_FN uint wide_digit_sum(uint bits, uint number)
 {
     return bits == 2u ? popcount(number) + popcount(number & 0xaaaaaaaau)
@@ -37,7 +38,7 @@ SHARED_FN uint wide_digit_sum(uint bits, uint number)
                             3u * popcount(number & 0x24924924u);
 }
 
-/// Slot of the leftmost node of a level: kary_first_slot.
+/// Returns the slot of the leftmost node of a level; equals kary_first_slot.
 SHARED_FN uint wide_first_slot(uint leaves, uint bits, uint level)
 {
     const uint leaf_level = wide_leaf_level(leaves, bits);
@@ -47,7 +48,7 @@ SHARED_FN uint wide_first_slot(uint leaves, uint bits, uint level)
     return first - above - (above - wide_digit_sum(bits, above)) / ((1u << bits) - 1u);
 }
 
-/// Inner nodes, which are all that is stored.
+/// Returns the number of inner nodes, which are all that is stored.
 SHARED_FN uint wide_inner_count(uint leaves, uint bits)
 {
     return wide_first_slot(leaves, bits, wide_leaf_level(leaves, bits));

@@ -7,7 +7,7 @@
 namespace bvhbench {
 namespace {
 
-/// The stored box of a node's child, as child_box of the format's text.
+/// Returns the stored box of a node's child, as child_box in floats.clh.
 Aabb child_box(const WideFormat& format, std::span<const NodeWord> node, uint child)
 {
     const uint lanes = format.children();
@@ -53,7 +53,7 @@ HostTree WideTree::spelled_out_object(uint object) const
     const std::size_t inner = wide_inner_count(own.leaves, bits);
     tree.nodes.resize(inner + own.leaves);
     HostTree::Node& root =
-        tree.nodes.front();  // nobody keeps its box: it is what its children fill
+        tree.nodes.front();  // no node stores the root's box: it is the union of its children's
     root.box = empty_box();
     for (uint level = 0; level < leaf_level; ++level)
         for (uint p = 0; p < wide_real_on(own.leaves, bits, level); ++p) {

@@ -8,33 +8,33 @@
 
 namespace bvhbench {
 
-/// How many children a wide node has; its layout is in oibvh/wide/floats.clh.
+/// Number of children of a wide node; its layout is in oibvh/wide/floats.clh.
 struct WideFormat {
-    uint child_bits;  ///< log2 of the children a node
+    uint child_bits;  ///< log2 of the children per node.
     std::string_view
-        text;  ///< header that says so to kernels, and how they walk such a tree (builders/device_tree.h)
+        text;  ///< Kernel header that defines the arity and the access functions of builders/device_tree.h.
 
     uint children() const { return 1u << child_bits; }
-    std::size_t node_words() const { return 6 * std::size_t{children()} / 4; }  ///< of 16 bytes
+    std::size_t node_words() const { return 6 * std::size_t{children()} / 4; }  ///< Of 16 bytes.
 };
 
-using NodeWord = std::array<uint, 4>;  ///< 16 bytes, the widest access of a lane
+using NodeWord = std::array<uint, 4>;  ///< 16 bytes, the widest access of a lane.
 
-/// The wide trees of one or more objects in device memory, one behind the other. Leaf k of the whole line holds
-/// triangle ids[k].
+/// Wide trees of one or more objects in device memory, one after the other. Leaf k, counted over all objects, holds triangle
+/// ids[k].
 class WideTree final : public DeviceTree {
 public:
     WideFormat format;
-    uint leaves = 0;         ///< of all objects
-    uint most_leaves = 0;    ///< of one object
-    Buffer<NodeWord> nodes;  ///< inner nodes by slot
+    uint leaves = 0;         ///< Leaves of all objects.
+    uint most_leaves = 0;    ///< Leaves of the largest object.
+    Buffer<NodeWord> nodes;  ///< Inner nodes by slot.
     Buffer<uint> ids;
 
     std::size_t node_count() const override;
     HostTree spelled_out_object(uint object) const override;
 
-    /// Boxes of an object's nodes as their parents keep them: of child k of the inner node in slot s at [s * children + k].
-    /// Of children that are not real, anything.
+    /// Returns the boxes of an object's nodes as stored in their parents: child k of the inner node in slot s is at [s *
+    /// children + k]. Entries of virtual children are undefined.
     std::vector<Aabb> stored_boxes(uint object) const;
 
     uint leaf_count() const override { return leaves; }

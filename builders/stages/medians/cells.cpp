@@ -9,20 +9,20 @@
 namespace bvhbench {
 namespace {
 
-/// Of a pass that counts in local memory: few large groups, so that few counts are added up in the end.
+/// For passes that count in local memory: few large groups, so that few counts are added up in the end.
 constexpr uint local_group_size = 1024;
 constexpr uint local_groups_per_unit = 1;
 
 constexpr uint halve_group_size = 256;
 constexpr uint halve_slabs = 4096;
-constexpr uint local_slabs = 8192;  // 32 KiB a group
-/// Of halving many small nodes, whose groups should be many at a time.
+constexpr uint local_slabs = 8192;  // 32 KiB per group
+/// For many small nodes: small groups, many of which run at a time.
 constexpr uint small_halve_group_size = 128;
 constexpr uint small_halve_slabs = 1024;
 
 std::int64_t bytes(std::size_t size) { return static_cast<std::int64_t>(size); }
 
-/// A level's first node, if nodes are numbered level by level.
+/// Returns the number of a level's first node; nodes are numbered level by level.
 constexpr std::size_t first_node(uint level) { return (std::size_t{1} << level) - 1; }
 
 }  // namespace
@@ -66,7 +66,7 @@ CellMedians::CellMedians(Programs& programs, MedianShape shape)
     halve_small_ = halve(small_halve_group_size, small_halve_slabs);
 }
 
-/// Nodes of a level that have leaves.
+/// Returns the number of nodes of a level that have leaves.
 uint CellMedians::nodes_on(uint level) const
 {
     return divided_up(static_cast<uint>(size_), 1u << (root_height_ - level));
@@ -159,7 +159,7 @@ void CellMedians::enqueue_halve(const Buffer<uint>& ids, uint level, Queue& queu
                  level < levels_ ? bytes(slabs_on(level) * sizeof(uint)) : 0);
 }
 
-/// The first levels one by one, for want of nodes; the others at once, each work-item a subtree.
+/// Splits the first levels in one launch each, because they have few nodes; then one launch with a subtree per work-item.
 void CellMedians::in_chunks(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bounds,
                             const Buffer<uint>& ids, Queue& queue)
 {

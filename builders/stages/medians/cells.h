@@ -13,21 +13,21 @@
 
 namespace bvhbench {
 
-/// Halves all leaves at exact medians, level by level from the root of a tree without pointers, down to aligned
-/// blocks of 2^block_height leaves. Within a block, ids are left in any order.
+/// Splits all leaves at exact medians, level by level from the root of an implicit tree, down to aligned blocks of
+/// 2^block_height leaves. Within a block the order of ids is unspecified.
 ///
-/// A node's leaves are cut across its cell (geometry/split.h): no box is looked at to choose the axis, so that
-/// each level is one pass over the leaves. A pass tells most leaves their side by their slab alone; those in
-/// the slab of the median wait in a list for a small launch between two passes, which halves the
-/// list exactly, and from the pass's counts of slabs finds the next level's cuts.
+/// A node's leaves are split across its cell (geometry/split.h). The cell alone determines the axis, so each level is one pass
+/// over the leaves. The slab of a leaf decides its side, except in the slab that holds the median: its leaves are appended to a
+/// list. A small launch between two passes splits the lists exactly and computes the next level's cuts from the pass's counts
+/// per slab.
 class CellMedians {
 public:
     explicit CellMedians(Programs& programs, MedianShape shape = {});
 
-    /// Take scratch memory for `size` leaves.
+    /// Takes scratch memory for `size` leaves.
     void plan(Arena& arena, std::size_t size);
 
-    /// Enqueue, as part of the stage begun: `ids` get the leaves. Does not wait.
+    /// Enqueues the splits within the current stage; writes the ids of all leaves to `ids`. Does not block.
     void enqueue(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bounds, const Buffer<uint>& ids,
                  Queue& queue);
 
@@ -43,27 +43,27 @@ private:
     MedianShape shape_;
     uint units_;
     uint local_leaves_ =
-        0;  ///< a work-item looks at, at a time, in a pass that counts in local memory
-    uint pass_group_size_ = 0;  ///< of one that counts in global memory
+        0;  ///< Leaves that a work-item loads at a time in a pass that counts in local memory.
+    uint pass_group_size_ = 0;  ///< Of a pass that counts in global memory.
     uint pass_leaves_ = 0;
-    uint chunk_levels_ = 0;  ///< halved by fewer work-items than there are cores, level by level
+    uint chunk_levels_ = 0;  ///< Levels that `chunks` splits one at a time, with few nodes.
     std::size_t size_ = 0;
     uint root_height_ = 0;
-    uint levels_ = 0;  ///< above the blocks
+    uint levels_ = 0;  ///< Number of levels above the blocks.
     NumberAll number_;
     cl::Kernel clear_, first_pass_, local_pass_, pass_, last_pass_, halve_, halve_small_;
-    Buffer<Aabb> cells_;     ///< of the nodes above blocks, numbered level by level
-    Buffer<CellCut> cuts_;   ///< one a node above blocks
-    Buffer<uint> lefts_;     ///< of each such node: how many of the leaves that wait go left
-    Buffer<uint> waiting_;   ///< of each such node: how many leaves wait
-    Buffer<ulong> lists_;    ///< key and id of those that wait, where their nodes' leaves are
-    Buffer<float> centres_;  ///< x of all, then y, then z
-    Buffer<uint> nodes_;     ///< of each leaf: the position on its level of the node it is in
-    Buffer<uint> counts_;    ///< leaves in each slab of each node of a level
-    Buffer<uint> placed_;    ///< leaves of each block that have their places
+    Buffer<Aabb> cells_;    ///< Of the nodes above blocks, level by level.
+    Buffer<CellCut> cuts_;  ///< One per node above blocks.
+    Buffer<uint> lefts_;    ///< Per such node: entries of its list that go left.
+    Buffer<uint> waiting_;  ///< Per such node: length of its list.
+    Buffer<ulong> lists_;  ///< Keys and ids of the lists; a node's list starts where its leaves do.
+    Buffer<float> centres_;  ///< All x, then all y, then all z.
+    Buffer<uint> nodes_;     ///< Per leaf: the position of its node on the current level.
+    Buffer<uint> counts_;    ///< Leaves in each slab of each node of a level.
+    Buffer<uint> placed_;    ///< Per block: leaves that have their places.
 };
 
-/// The same on the host, slowly and obviously: equal to the kernels as sets, block by block.
+/// Host version of CellMedians, the oracle of the kernels: each block has the same set of leaves.
 void host_cell_medians(std::span<const Aabb> boxes, std::span<uint> ids, uint block_height);
 
 }  // namespace bvhbench

@@ -2,22 +2,21 @@
 // check: -DGROUP_SIZE=256u -DLEAVES=2u -DLOCAL_SLABS=0u
 // check: -DGROUP_SIZE=64u -DLEAVES=4u -DLOCAL_SLABS=4096u
 //
-// All leaves are halved at exact medians, a level at a time, by their cells (geometry/split.h). Launches by
-// turns, for the levels from the root down to that of the blocks:
+// Splits all leaves at exact medians, one level at a time, by their nodes' cells (geometry/split.h). Two kernels alternate, for
+// the levels from the root down to that of the blocks:
 //
-//     pass     every leaf goes to the side of its node's cut that its slab is on, and its slab among those of
-//              its new node is counted; leaves in the slab of the median are appended to their node's list
-//     halve    a group a node: its list is halved exactly and its leaves are counted too; then the
-//              counts of its two children give their cuts
+//     pass     sends every leaf to the side of its node's cut that its slab is on, and counts its slab among those
+//              of its new node; leaves in the slab of the median are appended to their node's list
+//     halve    a group per node: splits its list exactly and counts the slabs of its leaves too; then the counts of
+//              its two children determine their cuts
 //
-// The first pass has no cut to go by, the last counts nothing but gives every leaf a place in its block.
-// A work-item looks at LEAVES at a time. What reaches memory does so in any order: only which leaf goes where
-// is the same every time.
+// The first pass has no cuts yet; the last one counts nothing and gives every leaf a place in its block. A work-item processes
+// LEAVES leaves at a time. Memory is updated in any order; only the set of leaves in each node is deterministic.
 #include "builders/stages/medians/cells.clh"
 #include "geometry/box_words.clh"
 
 #define TILE (LEAVES * GROUP_SIZE)
-#define NOWHERE (~0u)  // the node of a leaf that waits
+#define NOWHERE (~0u)  // node of a leaf in a list
 
 #if LOCAL_SLABS > 0
 #define COUNT_ONE(counters, which) atomic_inc(&(counters)[which])
@@ -26,7 +25,8 @@
 #endif
 
 #if LOCAL_SLABS > 0
-/// With LOCAL_SLABS, all slabs of a level fit a group's memory: it counts there and adds up at the end.
+/// With LOCAL_SLABS, the counts of all slabs of a level fit in local memory: a group counts there and adds its counts to the
+/// global ones at the end.
 static inline void clear_counts(local uint* const counted, const uint size)
 {
     for (uint k = (uint)get_local_id(0); k < size; k += GROUP_SIZE)
@@ -45,7 +45,7 @@ static inline void add_counts(local const uint* const counted, volatile global u
 #endif
 
 #if LOCAL_SLABS == 0
-/// What is counted during the passes starts at zero.
+/// Sets all counters of the passes to zero.
 kernel void clear_all(global uint* restrict counts, const uint count_size,
                       global uint* restrict waiting, const uint waiting_size,
                       global uint* restrict placed, const uint placed_size)
@@ -60,7 +60,7 @@ kernel void clear_all(global uint* restrict counts, const uint count_size,
 #endif
 
 #if LOCAL_SLABS > 0
-/// The first pass: centres by axis, the root's cut, and the counts of its slabs.
+/// First pass: writes the centres by axis, the root's cut and the counts of the root's slabs.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void first_pass(
     global const float2* restrict boxes, global const Bounds* restrict bounds,
     global float* restrict centres, global Aabb* restrict cells, global CellCut* restrict cuts,
@@ -96,7 +96,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void first_pass(
 }
 #endif
 
-/// A pass down to `level`, not the blocks' own.
+/// Pass down to `level`, above the level of the blocks.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void pass(
     global const float* restrict centres, global uint* restrict nodes,
     global const CellCut* restrict cuts, volatile global uint* counts,
@@ -111,14 +111,14 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void pass(
 #else
     volatile global uint* const counted = counts;
 #endif
-    // Several leaves at a time: what each waits for is read for all of them at once.
+    // Each step is done for all LEAVES leaves before the next, so that their loads overlap.
     for (uint first = (uint)get_group_id(0) * TILE; first < count;
          first += (uint)get_num_groups(0) * TILE) {
         uint node[LEAVES];
         CellCut cut[LEAVES];
         float at[LEAVES];
         for (uint i = 0u; i < LEAVES; ++i) {
-            // Past the end is not the last leaf's node, which may be written by now.
+            // Not clamped to the last leaf, whose node may have been overwritten by then.
             const uint k = first + i * GROUP_SIZE + (uint)get_local_id(0);
             node[i] = level > 1u && k < count ? nodes[k] : 0u;
         }
@@ -156,7 +156,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void pass(
 }
 
 #if LOCAL_SLABS == 0
-/// The pass down to the blocks: every leaf gets a place in its block.
+/// Pass down to the blocks: gives every leaf a place in its block, except leaves in lists.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void last_pass(
     global const float* restrict centres, global const uint* restrict nodes,
     global const CellCut* restrict cuts, volatile global uint* placed,

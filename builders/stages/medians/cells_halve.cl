@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: MIT
 // check: -DGROUP_SIZE=256u -DMOST_SLABS=4096u
 //
-// Between two passes of cells_groups.cl: a group a node. MOST_SLABS is what its children have together, or
-// the root.
+// Between two passes of cells_groups.cl: splits lists exactly, a group per node. MOST_SLABS is the number of slabs of the
+// node's children together, or of the root.
 #include "builders/stages/group_scan.clh"
 #include "builders/stages/medians/cells.clh"
 #include "geometry/bits.h"
 
 #define DIGITS 256u
-#define FEW GROUP_SIZE  // entries that are ranked by comparing each with all
+#define FEW GROUP_SIZE  // entries that are ranked by comparing each with all others
 
-// What happens in a turn.
-#define PARTS_TURN 0u  // a long list's entries are counted by parts of their slab
-#define FEW_TURN 1u    // a short list, or the entries of one part, are ranked
+// Turns of the loop in halve_lists.
+#define PARTS_TURN 0u  // counts a long list's entries by parts of their slab
+#define FEW_TURN 1u    // ranks the entries of a short list, or those of one part
 #define DIGITS_TURN \
-    2u  // and 7 more: a list of which a part is long is counted by digits of key and id
-#define CHILDREN_TURN 10u  // the list is halved, and the children's counts give their cuts
+    2u  // first of 8 turns: counts the entries by a digit of key and id, if one part is long
+#define CHILDREN_TURN 10u  // splits the list; the children's counts determine their cuts
 
-/// Which of a list's entries go left: those whose digits of `mask` are at most those of `last`.
+/// The entries of a list that go left: those whose digits in `mask` are at most those of `last`.
 typedef struct {
     ulong mask, last;
-    uint wanted;    ///< go left, of the entries that are not told apart yet
-    uint is_found;  ///< none are left to be told apart
+    uint wanted;    ///< Entries that go left among the undecided ones.
+    uint is_found;  ///< 1 if no entry is undecided.
 } Selection;
 
 static inline bool goes_left(local const Selection* const selection, const ulong entry)
@@ -29,7 +29,7 @@ static inline bool goes_left(local const Selection* const selection, const ulong
     return (entry & selection->mask) <= selection->last;
 }
 
-/// Which of DIGITS equal parts of its slab an entry is in. Never falls where the entry rises.
+/// Returns which of DIGITS equal parts of its slab an entry is in; monotonic in the entry.
 static inline uint part_of_slab(const CellCut cut, const ulong entry)
 {
     const float at = from_ordered_bits((uint)(entry >> 32u));
@@ -37,10 +37,10 @@ static inline uint part_of_slab(const CellCut cut, const ulong entry)
     return (uint)fmin(fmax(parts - (float)(cut.slab * DIGITS), 0.0f), (float)(DIGITS - 1u));
 }
 
-/// Of the digit that is counted in a turn, its lowest bit.
+/// Returns the lowest bit of the digit that is counted in a turn.
 static inline uint shift_of(const uint turn) { return 56u - 8u * (turn - DIGITS_TURN); }
 
-/// Count the entries that are not told apart yet by their part or digit.
+/// Counts the undecided entries by their part or digit.
 static inline void count_digits(local const Selection* const selection, global const ulong* list,
                                 const uint size, const CellCut cut, const uint turn,
                                 volatile local uint* digits)
@@ -54,7 +54,7 @@ static inline void count_digits(local const Selection* const selection, global c
     }
 }
 
-/// The next digit is known, with how many entries have less and how many have it.
+/// Records the next digit, given how many undecided entries have a smaller digit and how many have the same.
 static inline void add_digit(local Selection* const selection, const uint turn, const uint digit,
                              const uint less, const uint equal)
 {
@@ -64,7 +64,7 @@ static inline void add_digit(local Selection* const selection, const uint turn, 
     selection->last |= (ulong)digit << shift_of(turn);
 }
 
-/// Among few: the entry that as many are less than as go left before it is the last to go left.
+/// Selects among few entries: the last to go left is the one with `wanted` - 1 smaller entries.
 static inline void select_of_few(local Selection* const selection, local const ulong* const few,
                                  const uint size, const uint wanted)
 {
@@ -81,13 +81,12 @@ static inline void select_of_few(local Selection* const selection, local const u
     }
 }
 
-/// Halve the lists of the nodes on the level above `level`, count their leaves among the slabs of their
-/// children, and find the children's cuts and their children's cells. With `level` 0 there is only the root, and
-/// no list. On the level of the blocks leaves get their places instead.
+/// Splits the lists of the nodes on the level above `level`, counts their leaves in the slabs of the children, and stores the
+/// children's cuts and the cells of the children's children. `level` 0: the root has no list, and only its cut is found. On the
+/// level of the blocks, leaves get their places instead.
 ///
-/// One loop over turns, in most of which the sums of some bins tell which of them holds the one looked for.
-/// (PoCL 3.1 cannot inline sum_before twice, and loses what a loop carries over its barriers but for a number:
-/// so what is known is in local memory.)
+/// One loop over turns. In most of them, prefix sums over bins tell which bin holds the wanted entry. (PoCL 3.1 cannot inline
+/// sum_before twice, and loses loop variables across barriers except for the counter, so the state is kept in local memory.)
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void halve_lists(
     global const float* restrict centres, global uint* restrict nodes,
     global CellCut* restrict cuts, global Aabb* restrict cells, global uint* restrict lefts,
@@ -95,13 +94,13 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void halve_lists(
     global const ulong* restrict lists, volatile global uint* placed, global uint* restrict ids,
     const uint count, const uint root_height, const uint block_height, const uint level)
 {
-    local uint bins[MOST_SLABS];  // of the children's slabs, one child's after the other's
+    local uint bins[MOST_SLABS];  // of the children's slabs, one child after the other
     local uint digits[DIGITS];
     local ulong few[FEW];
     local uint few_size;
     local uint scratch[SCAN_SCRATCH];
     local uint
-        found[6];  // of a digit or of each child: the bin, how many before it, how many in it
+        found[6];  // of a digit or of each child: the bin, the entries before it, the entries in it
     local Selection selection;
     const uint item = (uint)get_local_id(0);
     const uint node = (uint)get_group_id(0);
@@ -115,7 +114,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void halve_lists(
     const uint size = level > 0u ? waiting[above] : 0u;
     const uint list_start = level > 0u ? node << (height + 1u) : 0u;
     global const ulong* const list = lists + list_start;
-    // What may be needed is read before it is known whether it is: nothing here waits for anything else.
+    // Loads whatever may be needed before it is known whether it is, so that the loads do not wait for each other.
     const CellCut cut = cuts[above];
     const ulong own_entry = list_start + item < count ? list[item] : 0ul;
     const uint real_children = min(children, divided_up(count, 1u << height) - first_child);
@@ -132,7 +131,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void halve_lists(
         found[2] = size;
     }
     const uint all_slabs = at_blocks ? 0u : slabs * children;
-    // First all are read, then all are cleared, lest each waits for the one before.
+    // Reads all counters before clearing any, so that the loads overlap.
     const uint real_slabs = min(all_slabs, slabs * real_children);
     for (uint k = item; k < all_slabs; k += GROUP_SIZE)
         bins[k] = k < real_slabs ? counts[first_child * slabs + k] : 0u;
@@ -191,11 +190,11 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void halve_lists(
             sum += counted[bin];
         uint all;
         uint before = sum_before(sum, scratch, &all);
-        const uint child = begin / child_bins;  // of which all of this work-item's bins are
+        const uint child = begin / child_bins;  // child that all of this item's bins belong to
         const uint first = (first_child + child) << height;
         const uint leaves = selects || first >= count ? 0u : min(1u << height, count - first);
         const uint target = selects ? selection.wanted : left_count(leaves, height);
-        before -= child > 0u ? 1u << height : 0u;  // what the other child has
+        before -= child > 0u ? 1u << height : 0u;  // leaves of the other child
         if (before < target && target <= before + sum)
             for (uint bin = begin; bin < end; ++bin) {
                 if (before < target && target <= before + counted[bin]) {

@@ -19,7 +19,7 @@ Aabb box_of_centres(std::span<const Aabb> boxes, std::span<const uint> ids)
     return centres;
 }
 
-/// The first `left` along an axis, equals by id, go before all others.
+/// Moves the `left` leaves that are first along an axis, equals by id, before all others.
 void halve(std::span<const Aabb> boxes, std::span<uint> ids, std::size_t left, uint axis)
 {
     const auto place = [&](uint id) {

@@ -9,7 +9,7 @@ namespace bvhbench {
 namespace {
 
 constexpr std::size_t block_bytes =
-    38 << 10;  // local memory of a group over 2^median_block_height leaves
+    38 << 10;  // local memory of a group for 2^median_block_height leaves
 
 }  // namespace
 
@@ -26,7 +26,7 @@ BlockMedians::BlockMedians(Programs& programs, MedianShape shape) : shape_(shape
     shape_.form = chosen_form(programs.device(), shape.form, block_bytes, shape.group_size);
     if (shape_.form == KernelForm::groups) {
         assert(shape.group_size >= 32 && shape.group_size <= 1u << shape.block_height);
-        assert(shape.block_height <= 10);  // a place in a list is ten bits
+        assert(shape.block_height <= 10);  // a place in a list has ten bits
         kernel_ = programs.kernel(
             "builders/stages/medians/medians_groups.cl", "order_blocks",
             {{"GROUP_HEIGHT", floor_log2(shape.group_size)}, {"BLOCK_HEIGHT", shape.block_height}},

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Leaves are halved at exact medians, each run of them by one work-item: the form of medians_groups.cl and cells_groups.cl
-// for a few fast cores.
+// Splits leaves at exact medians, one run per work-item: the form of medians_groups.cl and cells_groups.cl for devices with a
+// few fast cores.
 #include "builders/stages/medians/cells.clh"
 #include "geometry/box_words.clh"
 #include "geometry/grid.h"
@@ -11,8 +11,8 @@ static inline ulong middle_of(const ulong a, const ulong b, const ulong c)
     return max(min(a, b), min(max(a, b), c));
 }
 
-/// Hoare's selection: afterwards no key before `place` is larger than one from it on. Keys differ from each
-/// other; `first` <= `place` <= `last`.
+/// Hoare's selection: afterwards no key before `place` is larger than a key at or after it. Keys are distinct; `first` <=
+/// `place` <= `last`.
 static inline void select_smallest(global ulong* keys, const int place, int first, int last)
 {
     while (first < last) {
@@ -30,7 +30,7 @@ static inline void select_smallest(global ulong* keys, const int place, int firs
                 keys[down--] = key;
             }
         }
-        // Before `up` nothing is larger than the pivot, after `down` nothing smaller.
+        // No key before `up` is larger than the pivot, and none after `down` is smaller.
         if (place <= down)
             last = down;
         else if (place >= up)
@@ -40,8 +40,8 @@ static inline void select_smallest(global ulong* keys, const int place, int firs
     }
 }
 
-/// Select along an axis: afterwards the lower words of `keys` are the ids of the `count` leaves from `first`
-/// on, those that go left before the others.
+/// Selects along an axis: afterwards the lower words of `keys` are the ids of the `count` leaves from `first` on, with the
+/// `left` leaves that go left first.
 static inline void select_left(global const float2* boxes, global const uint* ids,
                                global ulong* keys, const uint axis, const uint first,
                                const uint count, const uint left)
@@ -51,7 +51,7 @@ static inline void select_left(global const float2* boxes, global const uint* id
     select_smallest(keys, (int)(first + left), (int)first, (int)(first + count - 1u));
 }
 
-/// Halve the `count` leaves from `first` on, those of a node, and leave its children's cells.
+/// Splits the `count` leaves of a node, from `first` on, and stores its children's cells.
 static inline void halve_by_cell(global const float2* boxes, global uint* ids, global ulong* keys,
                                  global Aabb* cells, const uint first, const uint count,
                                  const uint level, const uint height)
@@ -77,8 +77,8 @@ static inline void halve_by_cell(global const float2* boxes, global uint* ids, g
     cells[child + 1u] = right_cell(cell, cut, slabs);
 }
 
-/// The nodes on `level`, a work-item each, are halved, their children are, and so on down to what is
-/// 2^(bottom - 1) leaves high. `keys` is scratch, one a leaf; `cells` of a level are known.
+/// Splits the nodes on `level`, one per work-item, then their children, and so on down to nodes at height `bottom`, which are
+/// split last. `keys` is scratch, one per leaf; the cells of `level` must be known (level 0 sets the root's).
 kernel void halve_nodes(global const float2* restrict boxes, global const Bounds* restrict bounds,
                         global uint* restrict ids, global ulong* restrict keys,
                         global Aabb* restrict cells, const uint count, const uint root_height,
@@ -95,7 +95,7 @@ kernel void halve_nodes(global const float2* restrict boxes, global const Bounds
                           root_height - height, height);
 }
 
-/// What the leaves with `count` keys from `first` on cost as a half of a node.
+/// Returns the cost, as a half of a node, of the leaves of the `count` keys from `first` on.
 static inline float cost_of_keys(global const float2* boxes, global const ulong* keys,
                                  const uint first, const uint count, const float scale)
 {
@@ -106,7 +106,7 @@ static inline float cost_of_keys(global const float2* boxes, global const ulong*
                         count);
 }
 
-/// Halve the `count` leaves from `first` on by cost, if they are more than the left side holds.
+/// Splits the `count` leaves from `first` on by cost, if the left side cannot hold them all.
 static inline void halve_by_cost(global const float2* boxes, global uint* ids, global ulong* keys,
                                  const uint first, const uint count, const uint height,
                                  const float scale)
@@ -115,7 +115,7 @@ static inline void halve_by_cost(global const float2* boxes, global uint* ids, g
     if (left == count)
         return;
     uint axis = 0u;
-    if (height > 1u) {  // two leaves cost nothing however they are cut
+    if (height > 1u) {  // with two leaves, every split costs nothing
         float costs[3];
         for (axis = 0u; axis < 3u; ++axis) {
             select_left(boxes, ids, keys, axis, first, count, left);
@@ -130,8 +130,7 @@ static inline void halve_by_cost(global const float2* boxes, global uint* ids, g
         ids[k] = (uint)keys[k];
 }
 
-/// Every aligned run of 2^top leaves, a work-item's own, is halved, its halves are halved, and so on.
-/// `keys` is scratch, one a leaf.
+/// Splits every aligned run of 2^top leaves, one per work-item, then its halves, and so on. `keys` is scratch, one per leaf.
 kernel void halve_blocks(global const float2* restrict boxes, global uint* restrict ids,
                          global ulong* restrict keys, const uint count, const uint top)
 {

@@ -2,21 +2,20 @@
 // check: -DGROUP_HEIGHT=5u -DBLOCK_HEIGHT=6u
 // check: -DGROUP_HEIGHT=8u -DBLOCK_HEIGHT=10u
 //
-// Every aligned block of 2^BLOCK_HEIGHT leaves is put into the order of exact median splits, by a group in
-// local memory. The block's leaves are slots; three lists hold them sorted along each axis, once and for all:
-// halving a run of a list keeps its order. So a run's medians are where its lists' middles are. A level at a
-// time, for all runs:
+// Puts every aligned block of 2^BLOCK_HEIGHT leaves into the order of exact median splits, a group per block in local memory.
+// The block's leaves are slots. Three lists hold the slots sorted along each axis; they are sorted once, because splitting a
+// run of a list preserves order. So the median of a run is the middle of its list. Per level, for all runs:
 //
-//     mark     in each list, which leaves are right of the middle along each other axis: one bit each
-//     ends     where the marks of either kind begin and end: the box around a half's centres
-//     weigh    what the halves along each axis cost
-//     move     in each list, what goes left before what goes right
+//     mark     one bit per list, leaf and other axis: whether the leaf is right of the median along that axis
+//     ends     the first and last leaf of each half along the other axes: the box around its centres
+//     weigh    the cost of the halves along each axis
+//     move     in each list, leaves that go left before leaves that go right
 //
-// In runs of few leaves it is quicker to look at each of them than for ends. What fills up the last block lies
-// at infinity and comes last in every list.
+// In runs of few leaves, reading every leaf is faster than searching for ends. Padding of the last block lies at infinity and
+// is last in every list.
 #include "builders/stages/medians/block_halves.clh"
 
-/// Every run is halved along its chosen axis: leaf by leaf finds its new place in each list.
+/// Splits every run along its chosen axis: computes each leaf's new place in each list.
 static inline void move(local ushort* const slots, local uint* const places,
                         local const uint* const marks, local const uint* const marks_before,
                         local const float* const costs, const uint height)
@@ -35,7 +34,7 @@ static inline void move(local ushort* const slots, local uint* const places,
     }
 }
 
-/// What two leaves cost as a half of a run; nothing if one is not real.
+/// Returns the cost of two leaves as a half of a run; 0 unless `is_real`.
 static inline float cost_of_pair(const float3 a, const float3 b, const float scale,
                                  const bool is_real)
 {
@@ -44,26 +43,26 @@ static inline float cost_of_pair(const float3 a, const float3 b, const float sca
     return is_real ? cost_of_half(high.x - low.x, high.y - low.y, high.z - low.z, scale, 2u) : 0.0f;
 }
 
-/// Of leaf 0's three partners which it shares a half with, if the four at these places are halved: 1, 2 or 3.
+/// Returns which of leaves 1, 2 and 3 is in the same half as leaf 0 if the four, at these places, are split.
 static inline uint partner_of_first(const uint4 places)
 {
     const uint before = (places.y < places.x ? 1u : 0u) + (places.z < places.x ? 1u : 0u) +
                         (places.w < places.x ? 1u : 0u);
     const uint least = min(places.y, min(places.z, places.w));
     const uint most = max(places.y, max(places.z, places.w));
-    // Leaf 0 is among the first two with the least of the others, or among the last two with the most.
+    // Leaf 0 is in the first half with the smallest of the others, or in the second half with the largest.
     const uint partner = before < 2u ? least : most;
     return partner == places.y ? 1u : partner == places.z ? 2u : 3u;
 }
 
-/// The last cuts, of runs of four leaves, each by a work-item: ids in their final order. Of two leaves every
-/// cut costs nothing, so that they are in the order of the first axis.
+/// Makes the last splits, of runs of four leaves, one run per work-item, and writes ids in their final order. All splits of two
+/// leaves cost nothing, so two leaves are in the order of the first axis.
 static inline void halve_fours(local const float* const at, local const ushort* const slots,
                                local const uint* const places, local const uint* const slot_ids,
                                global uint* ids, const uint here, const float scale)
 {
     for (uint start = 4u * (uint)get_local_id(0); start < here; start += 4u * GROUP_SIZE) {
-        // In the order of the first axis: 0 before 1 before 2 before 3, what is not real last.
+        // In the order of the first axis; padding is last.
         const uint4 four = four_slots(slots, start);
         const uint s0 = four.x, s1 = four.y, s2 = four.z, s3 = four.w;
         const float3 c0 = (float3)(at[s0], at[BLOCK + s0], at[2u * BLOCK + s0]);
@@ -95,7 +94,7 @@ static inline void halve_fours(local const float* const at, local const ushort* 
         const uint mate = partner == 1u ? s1 : partner == 2u ? s2 : s3;
         const uint other = partner == 1u ? s2 : s1;
         const uint last = partner == 3u ? s2 : s3;
-        // Leaf 0's half is the left one if it begins before the other.
+        // Leaf 0's half is the left one if its first place is before that of the other half.
         const uint others_least = partner == 1u   ? min(along.z, along.w)
                                   : partner == 2u ? min(along.y, along.w)
                                                   : min(along.y, along.z);
@@ -113,27 +112,27 @@ static inline void halve_fours(local const float* const at, local const ushort* 
     }
 }
 
-/// The ids of each block, leaves in any order before, in the order of median splits after.
+/// Reorders the ids of each block from any order to that of the median splits.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void order_blocks(
     global const float2* restrict boxes, global uint* restrict ids, const uint count)
 {
-    local float at[3u * BLOCK];                                  // centres, by axis and slot
+    local float at[3u * BLOCK];                                  // centres by axis and slot
     local uint slot_ids[BLOCK];                                  // by slot
     local ushort slots[3u * BLOCK] __attribute__((aligned(8)));  // the lists: by axis and place
-    local uint places[BLOCK];                                    // by slot, in all three
-    local uint marks[6u * WORDS];                                // by row and place, a bit each
+    local uint places[BLOCK];                                    // by slot, in all three lists
+    local uint marks[6u * WORDS];                                // by row and place, one bit each
     local uint marks_before[6u * WORDS];
     local ushort ends[ENDS * (BLOCK >> SMALL_HEIGHT) / 2u];  // by end and run
     local uint ranges[RANGES];
     local uint scratch[SORT_SCRATCH];
-    local float* const costs = (local float*)scratch;  // by half, axis and run, once all is sorted
+    local float* const costs = (local float*)scratch;  // by half, axis and run; reuses scratch
     const uint start = (uint)get_group_id(0) * BLOCK;
     const uint here = min(BLOCK, count - start);
 
     load_block(boxes, ids + start, here, at, slot_ids);
     find_ranges(at, slot_ids, here, ranges, scratch);
     sort_block(at, slot_ids, slots, places, here, ranges, scratch);
-    // Over its barriers the loop carries nothing but the height: PoCL 3.1 loses what else there is.
+    // Only the height is carried across the loop's barriers: PoCL 3.1 loses all other loop variables.
     for (uint height = BLOCK_HEIGHT; height > 2u; --height) {
         mark(slots, places, marks, 1u << (height - 1u));
         barrier(CLK_LOCAL_MEM_FENCE);

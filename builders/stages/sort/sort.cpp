@@ -47,7 +47,7 @@ RadixSort::RadixSort(Programs& programs, unsigned code_bits, SortShape shape)
     } else if (shape_.form == KernelForm::groups) {
         assert(shape.group_size >= 16 && shape.group_size <= 256);
         assert(shape.keys_per_item % 2 == 1 && shape.keys_per_item <= 15);
-        // Where a whole group may return before a barrier, PoCL 3.1 makes code that crashes.
+        // PoCL 3.1 generates crashing code if a whole group may return before a barrier.
         const auto kernel = [&](const char* name) {
             return programs.kernel(groups_path, name,
                                    {{"GROUP_SIZE", shape.group_size},
@@ -73,7 +73,7 @@ RadixSort::RadixSort(Programs& programs, unsigned code_bits, SortShape shape)
     passes_ = divided_up(code_bits, digit_bits_);
 }
 
-/// Tiles or chunks the pairs are cut into.
+/// Returns the number of tiles or chunks that the pairs are divided into.
 uint RadixSort::run_count(std::size_t size) const
 {
     const auto count = static_cast<uint>(size);

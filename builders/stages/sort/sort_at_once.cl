@@ -2,20 +2,21 @@
 // check: -DGROUP_SIZE=512u -DKEYS_PER_ITEM=4u -DCODE_WORDS=1u -DDIGIT_BITS=8u -DSTATE_EPOCH_BITS=31u
 // check: -DGROUP_SIZE=32u -DKEYS_PER_ITEM=3u -DCODE_WORDS=2u -DDIGIT_BITS=8u -DSTATE_EPOCH_BITS=31u
 //
-// The passes of sweep.cl in one launch, for so few pairs that each group has one tile and all of them run at the same
-// time. Nobody counts beforehand and nobody looks back tile by tile: each group reads what every other one says of its
-// tile, all at once, which tells it what comes before and how many there are of each digit. After a pass groups wait
-// until all have written their pairs, and each goes on with those that stand where its tile is.
+// The passes of sweep.cl in one launch, for so few pairs that each group has one tile and all groups are resident at the same
+// time. There is no counting beforehand and no look-back tile by tile: each group reads all other groups' digit counts at once,
+// which gives both the total of each digit and the sum over earlier tiles. After a pass, groups wait until all have written
+// their pairs; each then continues with the pairs that are now in its tile.
 //
-// Buffers change hands within the launch: none is restrict, so that none is read by way of a cache that is not kept up.
+// Buffers swap roles within the launch, so none is restrict; a restrict buffer may be read through a cache that is not
+// coherent.
 #include "builders/stages/sort/look_back.clh"
 #include "builders/stages/sort/tile_digits.clh"
 
-// Work-items that read one digit's states, and states that each reads at once.
+// Work-items that read the states of one digit, and states that each of them reads at once.
 #define PARTS (GROUP_SIZE > DIGITS ? GROUP_SIZE / DIGITS : 1u)
 #define WINDOW 8u
 
-/// Add to totals[d] how many pairs of digit d there are, and to before[d] how many of those are in tiles before `own`.
+/// Adds to totals[d] the number of pairs with digit d, and to before[d] the number of those in tiles before `own`.
 static inline void read_tiles(local uint* const totals, local uint* const before,
                               volatile global const ulong* states, const uint own, const uint tiles,
                               const uint epoch)
@@ -42,18 +43,18 @@ static inline void read_tiles(local uint* const totals, local uint* const before
     }
 }
 
-/// Sort the `count` pairs of codes_a, whose ids are their positions, by `passes` digits; from a to b and back. As many
-/// groups as tiles, all of which run at once. `states` has a row of digits a tile and then a word a tile; `epoch` is, and
-/// so are the `passes` - 1 behind it, of no earlier pass.
+/// Sorts the `count` pairs of codes_a, whose ids are their positions, by `passes` digits, alternating between buffers a and b.
+/// Launched with one group per tile, all of which must be resident. `states` has a row of digits per tile, then a word per
+/// tile. No earlier pass may have used the epochs `epoch` to `epoch` + `passes` - 1.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void sort_at_once(
     global Code* codes_a, global uint* ids_a, global Code* codes_b, global uint* ids_b,
     volatile global ulong* states, const uint count, const uint passes, const uint epoch)
 {
     local uint words[SCRATCH_WORDS] __attribute__((aligned(8)));
-    local uint starts[DIGITS];  // where the digit's pairs start in the sorted tile
+    local uint starts[DIGITS];  // start of the digit's pairs in the sorted tile
     local uint places
-        [DIGITS];  // first the pairs of each digit, then where the digit starts in the output, minus starts[digit]
-    local uint before[DIGITS];  // how many there are in tiles before
+        [DIGITS];  // first the number of pairs of each digit, then the start of the digit in the output minus starts[digit]
+    local uint before[DIGITS];  // number of pairs in earlier tiles
     local uint team_sums[TEAMS];
     const uint item = (uint)get_local_id(0), tile = (uint)get_group_id(0);
     const uint tiles = (uint)get_num_groups(0);

@@ -2,18 +2,18 @@
 // check: -DDIGIT_BITS=8u -DCODE_WORDS=1u
 // check: -DDIGIT_BITS=8u -DCODE_WORDS=2u
 //
-// One pass of a stable radix sort of (code, id) pairs by a digit, in a few chunks, each a work-item's own.
-// Three launches a pass:
+// One pass of a stable radix sort of (code, id) pairs by one digit, in a few chunks, one per work-item. Three launches per
+// pass:
 //
-//     count_chunks    counts[d][c]  how often chunk c holds digit d
-//     scan_chunks     counts[d][c]  where the first pair of chunk c with digit d goes
-//     scatter_chunks  pairs, to their places
+//     count_chunks    counts[d][c]  occurrences of digit d in chunk c
+//     scan_chunks     counts[d][c]  destination of the first pair with digit d of chunk c
+//     scatter_chunks  moves the pairs
 #include "builders/stages/chunk.clh"
 #include "builders/stages/code.clh"
 
 #define DIGITS (1u << DIGIT_BITS)
 
-/// counts[d][c] of chunk c, this work-item's. `mask` is the largest digit there is.
+/// Writes counts[d][c] of this work-item's chunk c. `mask` is the largest digit.
 kernel void count_chunks(global const Code* restrict codes, global uint* restrict counts,
                          const uint count, const uint shift, const uint mask)
 {
@@ -27,7 +27,7 @@ kernel void count_chunks(global const Code* restrict codes, global uint* restric
         counts[digit * get_global_size(0) + get_global_id(0)] = histogram[digit];
 }
 
-/// Each of the `count_size` counts becomes the sum of all before it. One work-item.
+/// Computes the exclusive prefix sums of the `count_size` counts, by one work-item.
 kernel void scan_chunks(global uint* restrict counts, const uint count_size)
 {
     uint before = 0u;
@@ -38,8 +38,7 @@ kernel void scan_chunks(global uint* restrict counts, const uint count_size)
     }
 }
 
-/// Move every pair to its place by the digit. On the first pass ids are the pairs' own positions and
-/// `ids_in` is not read.
+/// Moves every pair to its destination. In the first pass, ids are the pairs' positions and `ids_in` is not read.
 kernel void scatter_chunks(global const Code* restrict codes_in, global const uint* restrict ids_in,
                            global Code* restrict codes_out, global uint* restrict ids_out,
                            global const uint* restrict counts, const uint count, const uint shift,

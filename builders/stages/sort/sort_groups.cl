@@ -2,22 +2,21 @@
 // check: -DGROUP_SIZE=256u -DKEYS_PER_ITEM=15u -DCODE_WORDS=1u -DDIGIT_BITS=8u
 // check: -DGROUP_SIZE=64u -DKEYS_PER_ITEM=3u -DCODE_WORDS=2u -DDIGIT_BITS=8u
 //
-// One pass of a stable radix sort of (code, id) pairs by a digit of up to eight bits, in groups. A group
-// owns a tile of neighbouring pairs. Three launches a pass:
+// One pass of a stable radix sort of (code, id) pairs by a digit of up to eight bits. A group owns a tile of neighbouring
+// pairs. Three launches per pass:
 //
-//     count_tiles     counts[d][t]  how often tile t holds digit d
-//     scan_digits     counts[d][t]  how often the tiles before t do; totals[d] all tiles together
-//     scatter_tiles   pairs, to where smaller digits, earlier tiles and earlier pairs end
+//     count_tiles     counts[d][t]  occurrences of digit d in tile t
+//     scan_digits     counts[d][t]  occurrences in the tiles before t; totals[d]: in all tiles
+//     scatter_tiles   moves each pair to its place: after smaller digits, then earlier tiles, then earlier pairs
 //
-// A group sorts its tile, stably, by four bits of every entry at a time. Each work-item counts the digits of its own few
-// neighbouring entries in one register: 16 counters of four bits. What comes before each digit of each work-item is then a
-// sum over the group, digit by digit and within a digit work-item by work-item. Two digits share a word, so it is a sum over
-// eight words a work-item:
+// A group sorts its tile, stably, by four bits at a time. Each work-item counts the digits of its few neighbouring entries in
+// 16 counters of four bits, in one register. The number of entries before a digit of a work-item is then a prefix sum over the
+// group, ordered by digit, then by work-item. Two digits share a word, so the sum is over eight words per work-item:
 //
 //     word w of work-item i:  low half digit w, high half digit w + 8      8 * GROUP_SIZE words, w by w
 //
-// Every work-item adds up eight of them in a row, the group scans those sums, and every work-item spreads the result over
-// its eight. No atomics, and every barrier is reached by all.
+// Every work-item adds up eight consecutive words, the group scans those sums, and every work-item expands the result over its
+// eight words. No atomics; every barrier is reached by all work-items.
 #include "builders/stages/code.clh"
 #include "builders/stages/group_scan.clh"
 
@@ -25,13 +24,13 @@
 
 #define COUNTER_WORDS (8u * GROUP_SIZE)
 
-// One word in 32 is left out, so that work-items that each read eight in a row start in different banks.
+// One word in 32 is unused, so that work-items that each read eight consecutive words start in different banks.
 #define PADDED(word) ((word) + (word) / 32u)
 
 /// Local memory for the counters, in uints.
 #define COUNTER_SCRATCH PADDED(COUNTER_WORDS)
 
-/// Add up the counters: each half word becomes the sum of all that comes before it.
+/// Replaces each half word of the counters by the sum of all that precede it.
 static inline void scan_counters(local uint* const counters, local uint* const scratch)
 {
     const uint first = (uint)get_local_id(0) * 8u;
@@ -41,7 +40,7 @@ static inline void scan_counters(local uint* const counters, local uint* const s
         sum += counters[PADDED(first + k)];
     uint all;
     uint before = sum_before(sum, scratch, &all);
-    before += all << 16u;  // digits 8 to 15 come after all of digits 0 to 7
+    before += all << 16u;  // digits 8 to 15 come after digits 0 to 7
 #pragma unroll
     for (uint k = 0u; k < 8u; ++k) {
         const uint own = counters[PADDED(first + k)];
@@ -51,9 +50,9 @@ static inline void scan_counters(local uint* const counters, local uint* const s
     barrier(CLK_LOCAL_MEM_FENCE);
 }
 
-/// Sort the TILE entries of `tile` by their bits `shift` to `shift` + 3. Work done on `tile` before is
-/// waited for; the result may be read after the call. KEYS_PER_ITEM is at most 15, for the counters' sake,
-/// and odd, so that work-items reading their own entries read different banks. TILE is below 2^16.
+/// Sorts the TILE entries of `tile` by their bits `shift` to `shift` + 3. Has a barrier before (earlier accesses to `tile` are
+/// complete) and after (the result may be read). KEYS_PER_ITEM is at most 15, because counters have four bits, and odd, so that
+/// work-items read their entries from different banks. TILE is below 2^16.
 static inline void sort_tile(local uint* const tile, local uint* const counters,
                              local uint* const scratch, const uint shift)
 {
@@ -91,13 +90,13 @@ static inline void sort_tile(local uint* const tile, local uint* const counters,
 #define DIGITS (1u << DIGIT_BITS)
 #define DIGITS_PER_ITEM (DIGITS / GROUP_SIZE)
 
-/// Pairs in this group's tile: TILE in all but the last.
+/// Returns the number of pairs in this group's tile: TILE in all but the last.
 static inline uint pairs_here(const uint count)
 {
     return min(TILE, count - (uint)get_group_id(0) * TILE);
 }
 
-/// counts[d][t] of tile t, this group's. `mask` is the largest digit there is.
+/// Writes counts[d][t] of this group's tile t. `mask` is the largest digit.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void count_tiles(
     global const Code* restrict codes, global uint* restrict counts, const uint count,
     const uint shift, const uint mask)
@@ -117,8 +116,8 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void count_tiles(
         counts[digit * get_num_groups(0) + get_group_id(0)] = histogram[digit];
 }
 
-/// Row d of `counts`, d this group's number, becomes the sums of what came before in the row; totals[d] the
-/// sum of the row.
+/// Computes the exclusive prefix sums of row d of `counts`, where d is this group's number, and writes the sum of the row to
+/// totals[d].
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void scan_digits(
     global uint* restrict counts, global uint* restrict totals, const uint tiles)
 {
@@ -138,7 +137,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void scan_digits(
         totals[get_group_id(0)] = before_round;
 }
 
-/// places[d] is afterwards where the first pair with digit d of this group's tile goes.
+/// Writes to places[d] the destination of the first pair with digit d of this group's tile.
 static inline void find_places(global const uint* counts, global const uint* totals,
                                const uint mask, local uint* const places, local uint* const scratch)
 {
@@ -155,12 +154,10 @@ static inline void find_places(global const uint* counts, global const uint* tot
         }
 }
 
-/// Move every pair to its place by the digit. On the first pass ids are the pairs' own positions and
-/// `ids_in` is not read.
+/// Moves every pair to its destination. In the first pass, ids are the pairs' positions and `ids_in` is not read.
 ///
-/// The tile is first sorted in local memory, as entries of a digit and the position it came from, so that
-/// pairs with one digit leave as one run of neighbouring writes. The pairs are then read again, from a
-/// stretch of memory this group has just read.
+/// The tile is first sorted in local memory, as entries of a digit and a position in the tile, so that the pairs of one digit
+/// are written consecutively. The pairs are then read again, from memory that this group has just read.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void scatter_tiles(
     global const Code* restrict codes_in, global const uint* restrict ids_in,
     global Code* restrict codes_out, global uint* restrict ids_out,
@@ -175,16 +172,17 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void scatter_tile
     const uint first = (uint)get_group_id(0) * TILE;
     const uint here = pairs_here(count);
 
-    // What fills up the last tile has the largest digit and comes last, before and after sorting.
+    // Padding of the last tile has the largest digit, so it is last before and after sorting.
     for (uint k = item; k < TILE; k += GROUP_SIZE)
         tile[k] =
             k << DIGIT_BITS | (k < here ? digit_of(codes_in[first + k], shift, mask) : DIGITS - 1u);
     find_places(counts, totals, mask, places, scratch);
-    // A loop, not two calls: inlining the second crashes PoCL 3.1.
+    // A loop instead of two calls: PoCL 3.1 crashes when it inlines the second.
     for (uint half_digit = 0u; half_digit < DIGIT_BITS; half_digit += 4u)
         sort_tile(tile, counters, scratch, half_digit);
 
-    // The run of digit d starts at some k of the sorted tile: afterwards places[d] + k is right for all of it.
+    // The run of digit d starts at some k in the sorted tile. Afterwards places[d] + k is the destination of every pair of the
+    // run.
     for (uint k = item; k < here; k += GROUP_SIZE) {
         const uint digit = tile[k] & (DIGITS - 1u);
         if (k == 0u || digit != (tile[k - 1u] & (DIGITS - 1u)))

@@ -2,22 +2,20 @@
 // check: -DGROUP_SIZE=512u -DKEYS_PER_ITEM=16u -DCODE_WORDS=1u -DDIGIT_BITS=8u -DMOST_PASSES=8u -DSTATE_EPOCH_BITS=31u
 // check: -DGROUP_SIZE=32u -DKEYS_PER_ITEM=3u -DCODE_WORDS=2u -DDIGIT_BITS=8u -DMOST_PASSES=8u -DSTATE_EPOCH_BITS=31u
 //
-// A stable radix sort of (code, id) pairs that reads and writes each pair once a digit [Adinets2022]. One launch counts
-// the digits of all passes. Then a launch a pass: a group takes the next tile of pairs, sorts it in local memory, says
-// how many pairs of each digit it has, and looks back over what the tiles before it said until it knows how many
-// all of them have. So groups wait for others of the same launch, which must be running already: tiles are
-// handed out in the order in which groups start.
+// A stable radix sort of (code, id) pairs that reads and writes each pair once per digit [Adinets2022]. One launch counts the
+// digits of all passes. Then there is one launch per pass: a group takes the next tile of pairs, announces its number of pairs
+// per digit, and looks back over the announcements of earlier tiles until it knows their sums. So groups wait for other groups
+// of the same launch, which must be running already: tiles are handed out in the order in which groups start.
 #include "builders/stages/sort/look_back.clh"
 #include "builders/stages/sort/tile_digits.clh"
 
-/// Where in `counters` what is: a row of digits a pass, how often each occurs; then how many tiles of each pass are
-/// taken. All are zero before the first launch: of two such tables, which sorts take in turns, the first pass clears the
-/// one that it does not use.
+/// Layout of `counters`: a row of digit counts per pass, then the number of tiles taken in each pass. All are zero before the
+/// first launch. Consecutive sorts alternate between two such tables; the first pass clears the one not in use.
 #define HISTOGRAM(pass) ((pass)*DIGITS)
 #define TICKETS(pass) (MOST_PASSES * DIGITS + (pass))
 #define COUNTERS (MOST_PASSES * (DIGITS + 1u))
 
-/// Count the digits of all passes, which are those of `bits` bits.
+/// Counts the digits of all passes of codes of `bits` bits.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void count_digits(
     global const Code* restrict codes, volatile global uint* counters, const uint count,
     const uint bits)
@@ -38,8 +36,8 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void count_digits
             atomic_add(&counters[k], counts[k]);
 }
 
-/// The pass by digit `pass`: every pair goes to its place. `epoch` is that of no other pass since `states` was zero. On
-/// the first pass ids are the pairs' own positions and `ids_in` is not read.
+/// Moves every pair to its place by digit `pass`. `epoch` must not have been used by another pass since `states` was zero. In
+/// the first pass, ids are the pairs' positions and `ids_in` is not read.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void sweep(
     global const Code* restrict codes_in, global const uint* restrict ids_in,
     global Code* restrict codes_out, global uint* restrict ids_out, volatile global uint* counters,
@@ -47,12 +45,12 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void sweep(
     const uint pass, const uint epoch)
 {
     const uint shift = DIGIT_BITS * pass;
-    // The counters of the teams make way for the tile once pairs know their places.
+    // Holds the teams' counts, then the tile, once the pairs' places are known.
     local uint words[SCRATCH_WORDS] __attribute__((aligned(8)));
     local uint* const team_counts = words;
-    local uint starts[DIGITS];  // where the digit's pairs start in the sorted tile
-    local uint places[DIGITS];  // where the digit starts in the output, minus starts[digit]
-    local uint sums[DIGITS];    // how many there are in the tile
+    local uint starts[DIGITS];  // start of the digit's pairs in the sorted tile
+    local uint places[DIGITS];  // start of the digit in the output, minus starts[digit]
+    local uint sums[DIGITS];    // number of pairs in the tile
     local uint team_sums[TEAMS];
     local uint own_tile;
     const uint item = (uint)get_local_id(0);
@@ -75,7 +73,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void sweep(
     rank_pairs(&own, team_counts + team * DIGITS, shift);
     barrier(CLK_LOCAL_MEM_FENCE);
 
-    // The first tile knows what comes before: all pairs of smaller digits.
+    // The first tile needs no look-back: only pairs with smaller digits precede its pairs.
     if (tile_number == 0u) {
         for (OWN_DIGITS(digit))
             places[digit] = counters[HISTOGRAM(pass) + digit];

@@ -14,11 +14,11 @@ namespace {
 constexpr uint digits = 1u << tile_digit_bits;
 constexpr uint most_passes = 64 / tile_digit_bits;
 
-/// Bits of a look-back state that number its epoch (look_back.clh). Epoch 0 is that of cleared states.
+/// Bits of the epoch in a look-back state (look_back.clh). Epoch 0 is that of cleared states.
 constexpr uint state_epoch_bits = 31;
 constexpr uint last_epoch = (1u << state_epoch_bits) - 1;
 
-/// A work-item, at once: with fewer, groups read more of each other than they sort.
+/// Fewest keys per work-item in one launch: with fewer, groups read more of each other's counts than they sort.
 constexpr uint fewest_keys = 4;
 
 }  // namespace
@@ -74,7 +74,7 @@ void WaitingSort::plan_at_once(Arena& arena, uint count)
     states_ = arena.take<ulong>(std::size_t{divided_up(count, tile_)} * (digits + 1), Use::scratch);
 }
 
-/// As many keys as asked for, or half as many where that would leave half of the compute units without a tile.
+/// Uses the requested keys per work-item, or half as many if half of the compute units would otherwise have no tile.
 void WaitingSort::plan_sweeps(Arena& arena, uint count)
 {
     const bool is_small = count < std::size_t{units_} * group_size_ * most_keys_ / 2;
@@ -105,7 +105,7 @@ void WaitingSort::enqueue(const std::array<Buffer<uint>, 2>& codes, const Buffer
         queue.clear(states_.cl(), states_.bytes());
         epoch_ = 1;
     }
-    const bool is_odd = passes_ % 2 == 1;  // ids go as codes do: to the result with the last pass
+    const bool is_odd = passes_ % 2 == 1;  // the last pass writes ids to `result`
     const Buffer<uint>& ids_a = is_odd ? other : result;
     const Buffer<uint>& ids_b = is_odd ? result : other;
     if (is_at_once_)

@@ -9,29 +9,29 @@
 
 namespace bvhbench {
 
-/// Bits that a pass of the sorts by groups sorts by, which kernels are compiled with.
+/// Bits per pass of the group sorts; a compile-time constant of the kernels.
 inline constexpr uint tile_digit_bits = 8;
 
-/// A radix sort whose groups wait for each other, for devices that let them.
+/// A radix sort whose groups wait for each other, for devices that allow it.
 ///
-///     sweep.cl           a launch a pass, in which groups wait for those before them [Adinets2022]
-///     sort_at_once.cl    all passes in one launch, between which groups wait for all: of so few pairs that a group has one
-///                        tile and that all groups run at the same time, for which there may be no more than compute
-///                        units. Where groups cannot wait, a single one.
+///     sweep.cl           one launch per pass; groups wait for those of earlier tiles [Adinets2022]
+///     sort_at_once.cl    all passes in one launch with device-wide barriers in between. Each group has one tile, and all groups
+///                        must be resident at the same time, so there are at most as many as compute units (one group where
+///                        groups cannot wait).
 class WaitingSort {
 public:
-    /// `group_size` work-items, a power of two from 32 (from 16 where a team is one work-item) to 512, take
-    /// `most_keys` pairs each, or fewer of few pairs. `at_once` says whether few pairs are sorted in one launch.
+    /// A group of `group_size` work-items, a power of two from 32 (from 16 if LANES is 1) to 512, takes `most_keys` pairs per
+    /// work-item, or fewer if there are few pairs. `at_once` allows a single launch for few pairs.
     WaitingSort(Programs& programs, unsigned code_bits, uint group_size, uint most_keys,
                 bool at_once);
 
     void plan(Arena& arena, std::size_t size);
 
-    /// Write down what `enqueue` expects and leaves as it was. Waits.
+    /// Uploads the constant inputs of `enqueue`. Blocks until done.
     void prepare(const cl::CommandQueue& queue);
 
-    /// Sort the first `count` from codes[0], with ids 0, 1, 2, …. Codes end in the buffer that the number of
-    /// passes leads to, ids in `result`, by way of `other`. Does not wait.
+    /// Sorts the first `count` codes of codes[0], with ids 0, 1, 2, ... Codes end in codes[passes % 2], ids in `result`;
+    /// `other` is scratch. Does not block.
     void enqueue(const std::array<Buffer<uint>, 2>& codes, const Buffer<uint>& result,
                  const Buffer<uint>& other, uint count, Queue& queue);
 
@@ -46,16 +46,16 @@ private:
 
     Programs& programs_;
     uint code_bits_, code_words_, passes_, group_size_, most_keys_, units_;
-    uint most_tiles_at_once_;  ///< 0: never
-    bool is_at_once_ = false;  ///< as planned
+    uint most_tiles_at_once_;  ///< 0: never in one launch.
+    bool is_at_once_ = false;  ///< True if the planned size is sorted in one launch.
     uint tile_ = 0;
     cl::Kernel count_, sort_;
-    uint epoch_ = 1;  ///< of the next pass
-    uint turn_ = 0;   ///< which of the counters are next
+    uint epoch_ = 1;  ///< Epoch of the next pass.
+    uint turn_ = 0;   ///< Index of the counters of the next sort.
     std::array<Buffer<uint>, 2>
-        counters_;  ///< sweeps only: a row of digits a pass, then the tiles taken in each pass
+        counters_;  ///< sweep.cl only: a row of digits per pass, then the tiles taken in each pass.
     Buffer<ulong>
-        states_;  ///< a row of digits a tile (look_back.clh); at once, behind them a word a tile
+        states_;  ///< A row of digits per tile (look_back.clh); sort_at_once.cl appends a word per tile.
 };
 
 }  // namespace bvhbench
