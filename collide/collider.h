@@ -46,20 +46,16 @@ struct ColliderOptions {
 struct QueryCounts {
     std::uint64_t pairs = 0;
     std::optional<std::uint64_t> box_tests;  ///< box-box overlap tests, if counted
-    std::optional<std::uint64_t>
-        bvtt_peak;  ///< largest size of a queue of node pairs, if there are queues
-    std::optional<std::uint64_t>
-        tasks;  ///< leaves-against-another-tree tasks, if there are several objects
-    std::vector<std::pair<std::string_view, std::uint64_t>> more =
-        {};  ///< counters specific to the collider, by name
+    std::optional<std::uint64_t> bvtt_peak;  ///< largest queue of node pairs, if any
+    std::optional<std::uint64_t> tasks;      ///< tasks between objects, if several
+    std::vector<std::pair<std::string_view, std::uint64_t>> more = {};  ///< by counter name
 };
 
 /// Pairs in device memory; their number is at PAIRS_COUNT of `counters` (collide/counters.h).
 struct DevicePairs {
     Buffer<Pair> pairs;
     Buffer<uint> counters;
-    MemoryShare memory =
-        {};  ///< the owner's share of memory; empty if another object accounts for it
+    MemoryShare memory = {};  ///< of these buffers, if not counted elsewhere
 };
 
 /// Finds all pairs of triangles of a frame whose closed boxes overlap: smaller id first, each pair once.
@@ -74,8 +70,7 @@ public:
 
     virtual ColliderCard card() const = 0;
 
-    /// True if the collider queries a builder's tree. Otherwise it is given no tree, reads the input itself, and everything it
-    /// computes is part of its query.
+    /// True if the collider queries a builder's tree. Otherwise it is given none, and reading the input is part of its query.
     virtual bool needs_tree() const { return true; }
 
     /// True if the collider carries state from frame to frame (see `next_frame`) and therefore needs exclusive use of its tree.

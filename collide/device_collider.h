@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Base of all colliders on the device: the tree of the frame, kernels and ropes, memory, counters, and pair buffers that grow
-// when they are too small.
+// Base of all colliders on the device: the frame's tree, kernels, ropes, memory, counters, and growing pair buffers.
 //
 //     reserve    compile; then, once to measure and once to allocate: plan, fill
 //     query      ropes, if any; clear the counters; enqueue
@@ -47,8 +46,7 @@ protected:
     /// Allocates buffers other than counters and pairs. Runs twice; the first run measures only.
     virtual void plan(Arena& arena) = 0;
 
-    /// `save` copies to the host what must survive a reallocation. `fill` uploads the constant inputs of queries into the new
-    /// memory. Both block.
+    /// `save` downloads what must survive a reallocation. `fill` uploads constant inputs of queries to new memory. Both block.
     virtual void save(const cl::CommandQueue&) {}
     virtual void fill(const cl::CommandQueue&) {}
 

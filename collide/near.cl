@@ -31,8 +31,7 @@ static inline void add_tests(local ulong* tests, const ulong own, volatile globa
         add_wide(count, sum);
 }
 
-/// Writes the objects that object k overlaps from lists[LISTED * k] on, and their number to list_sizes[k]. Beyond LISTED, objects
-/// are counted but not written.
+/// Writes the objects that object k overlaps to lists[LISTED * k], ..., as far as LISTED, and their full number to list_sizes[k].
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void list_touching(
     global const Bounds* restrict bounds, const uint object_count, global uint* restrict lists,
     global uint* restrict list_sizes, volatile global uint* test_count)

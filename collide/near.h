@@ -16,8 +16,7 @@ namespace bvhbench {
 
 struct NearOptions {
     KernelForm form = KernelForm::of_device;
-    /// Capacity of an object's list of overlapping objects. An object that overlaps more is tested against all objects, which
-    /// gives the same result.
+    /// Capacity of an object's list of overlapping objects. If it overlaps more, all are tested, with the same result.
     unsigned listed = 256;
 };
 
@@ -73,9 +72,8 @@ private:
     cl::Kernel list_, flag_, count_, compact_, map_;
     std::optional<Arena> arena_;
     Buffer<uint> lists_,
-        list_sizes_;  ///< per object: the objects whose boxes overlap its box, and how many there are
-    Buffer<uint>
-        places_;  ///< per triangle, and one more at the end: number of near triangles before it
+        list_sizes_;               ///< per object: objects that its box overlaps
+    Buffer<uint> places_;          ///< near triangles before each triangle, and in all
     Buffer<uint> first_faces_;     ///< first triangle of each object; then the triangle count
     Buffer<uint> counts_, ranks_;  ///< per object
     Buffer<uint> test_count_;      ///< one 64-bit count

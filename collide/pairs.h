@@ -20,8 +20,8 @@ struct Pair {
 
 /// A set of pairs in canonical form: smaller id first, each pair once, ascending.
 ///
-/// Colliders find pairs in any order. Two colliders agree if their lists are equal; equal hashes imply equal lists, except for a
-/// collision in 64 bits.
+/// Colliders find pairs in any order. They agree if their lists are equal; so are the hashes, and, short of a collision in 64
+/// bits, only then.
 class PairList {
 public:
     PairList() = default;

@@ -7,8 +7,7 @@
 
 namespace bvhbench {
 
-/// Smallest work-group size: one work-item for each counter flushed at the end of an iteration, and one for each child of the
-/// widest node.
+/// Smallest work-group size: one work-item per counter that an iteration flushes, and one per child of the widest node.
 inline constexpr uint smallest_group = 8;
 
 constexpr Parameter number_parameter(std::string_view name, std::string_view meaning,

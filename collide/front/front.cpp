@@ -225,14 +225,12 @@ private:
     }
 
     cl::Kernel advance_, roots_, list_parents_, cut_off_roots_, list_depths_;
-    uint block_pairs_ =
-        0;  ///< entries of a block of a work-item, three blocks each, in the chunk form
+    uint block_pairs_ = 0;  ///< entries per block, in the chunk form
     std::size_t queue_room_ = 0, front_room_ = 0;
     std::array<Buffer<Pair>, 2> fronts_;  ///< the current one, and the one that the query writes
-    std::array<Buffer<Pair>, 2>
-        queues_;            ///< sprouted pairs; each step reads one and writes the other
-    Buffer<Pair> parents_;  ///< see front_parents.cl; one element if not needed
-    Buffer<Pair> blocks_;   ///< blocks of the chunk form
+    std::array<Buffer<Pair>, 2> queues_;  ///< sprouted pairs: read and written by turns
+    Buffer<Pair> parents_;                ///< see front_parents.cl; one element if not needed
+    Buffer<Pair> blocks_;                 ///< blocks of the chunk form
     std::vector<Pair> set_aside_, parents_aside_;
 
     std::optional<uint> standing_;    ///< entries of the current front; empty: start from the roots

@@ -10,8 +10,7 @@ kernel void list_parents(FOREST_PARAMETERS, global uint2* parents)
     PICK_WHOLE_TREE
     const Chunk chunk = own_chunk(leaves);
     for (uint k = chunk.first; k < chunk.end; ++k) {
-        if (k + 1u ==
-            leaves) {  // one inner node fewer than leaves: item leaves - 1 handles the root
+        if (k + 1u == leaves) {  // the last item has no inner node
             parents[tree_number(TREE, tree_root(TREE))] = (uint2)(TREE_NONE, 0u);
             continue;
         }

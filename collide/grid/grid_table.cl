@@ -10,8 +10,7 @@
 //         ... prefix sum of ends ...   where bucket b begins
 //     enter_cells   entries      as in hash_grid.h, ordered by bucket; afterwards ends[b] is where bucket b ends
 //
-// Counting per bucket places every entry without an unsorted list of entries, and without a pass over a number of entries that
-// only the device knows.
+// Counting per bucket places every entry without a list of unsorted ones, or a pass over a number that only the device knows.
 #include "builders/stages/chunk.clh"
 #include "collide/grid/hash_grid.h"
 #include "geometry/scene_bounds.h"

@@ -13,8 +13,7 @@
 //   - Two closed boxes overlap if and only if the lower corner of their intersection, the larger min on every axis, is in both.
 //     On every level, the cell of that corner is then among the cells of both boxes; it is the only cell that reports the pair.
 //
-// Coordinates are not relative to the scene's corner: floats are finest near the origin, and subtracting a far corner would lose
-// that precision.
+// Coordinates are not relative to the scene's corner: floats are finest near the origin; subtracting a far corner loses that.
 #ifndef BVHBENCH_COLLIDE_HASH_GRID_H
 #define BVHBENCH_COLLIDE_HASH_GRID_H
 
@@ -79,9 +78,8 @@ SHARED_FN CellRange cells_of_box(Aabb box, float scale)
     return range;
 }
 
-/// Number of a cell. Space wraps around: cells 512 apart along an axis have the same number, which two cells of one box never do.
-/// So a box has at most one entry per number, and equal numbers serve as equal cells: a pair may be tested needlessly, but is
-/// reported once.
+/// Number of a cell. Space wraps around: cells 512 apart along an axis share a number, which two cells of one box never do. So a
+/// box has at most one entry per number, and numbers serve as cells: a pair may be tested needlessly, but is reported once.
 SHARED_FN uint cell_number(uint level, int x, int y, int z)
 {
     const uint mask = (1u << HASH_AXIS_BITS) - 1u;

@@ -2,12 +2,11 @@
 //
 // Second filter of the narrow phase: decides in doubles whether two triangles meet, unless a sign that it uses is in doubt.
 //
-// It uses signs of orientations alone, as [Guigue2003] does, but different ones. Suppose that no corner lies in the other
-// triangle's plane and that each triangle crosses the other's plane. Then each triangle has one corner alone on its side, and two
-// edges from it cross the plane: p -> q, p -> r and p' -> q', p' -> r'. They cross on the common line of both planes, at I, J and
-// K, M. The sign of orient3d(p, q, p', q') gives the order of I and K on that line, up to a sign that is the same for all four
-// combinations, since all edges cross to the far side. So the triangles are apart if the four signs are equal, and meet if any
-// two of them differ.
+// It uses signs of orientations alone, as [Guigue2003] does, but different ones. Suppose that no corner lies in the other plane
+// and that each triangle crosses the other's plane. Then each triangle has one corner alone on its side, and two edges from it
+// cross the plane: p -> q, p -> r and p' -> q', p' -> r'. They cross on the common line of both planes, at I, J and K, M. The
+// sign of orient3d(p, q, p', q') gives the order of I and K on that line, up to a sign that is the same for all four
+// combinations, since all edges cross to the far side. So the triangles are apart if the four signs are equal, else they meet.
 //
 // With a shared corner v as origin, the far edges cross the line, n x n', at y and z. With n the normal of a, n' that of b,
 //     y ~ a1 (n'.a2) - a2 (n'.a1) = n' x (a1 x a2) = n' x n   up to the sign of n'.a1, and z ~ n x n' up to that of n.b1,
@@ -23,8 +22,7 @@
 #if HAS_DOUBLES
 SHARED_BEGIN
 
-/// Signed heights of three corners over a plane, scaled by twice the area of the triangle that spans the plane, and their common
-/// error bound.
+/// Heights of three corners over a plane, scaled by twice the area of the triangle in the plane; and their error bound.
 typedef struct {
     double of[3];
     double bound;

@@ -3,12 +3,11 @@
 // Exact test whether two triangles that share corners by index meet anywhere else.
 //
 // Shared corner v: a ray from v through another common point leaves each triangle at the edge opposite v. Where it leaves the
-// first of the two, that point of the edge is in the other triangle. So they meet beyond v if and only if the far edge of one
-// meets the other. This requires that v is not on its far edge: a triangle without area is therefore replaced by its two sides at
-// v, each with its end as the far edge.
+// first one, that point of the edge is in the other triangle. So they meet beyond v if and only if the far edge of one meets the
+// other. This requires v off its far edge: a triangle without area is replaced by its two sides at v, their ends as far edges.
 //
-// Shared edge: they meet beyond it if they are in one plane and on one side of the edge. Triangles without area do if both reach
-// beyond the same end of the edge.
+// Shared edge: they meet beyond it if they are in one plane and on one side of the edge; without area, if both reach beyond the
+// same end of the edge.
 #ifndef BVHBENCH_COLLIDE_EXACT_ADJACENT_H
 #define BVHBENCH_COLLIDE_EXACT_ADJACENT_H
 

@@ -48,8 +48,7 @@ struct NarrowCounts {
 /// shared vertex or edge. Triangles with the same three indices are the same triangle twice and intersect. Vertices at one
 /// position with two indices are not shared. docs/contacts.md has the details.
 ///
-/// The number of candidates stays on the device. As in a collider, no contact is dropped silently: a query is repeated until it
-/// is `complete`.
+/// The number of candidates stays on the device. No contact is dropped silently: a query is repeated until it is `complete`.
 class NarrowPhase {
 public:
     /// Throws BadUsage as check_narrow does, and Unavailable if the method needs doubles that the device lacks.
@@ -61,9 +60,8 @@ public:
     /// Memory reserved at present.
     Footprint reserved() const { return arena_ ? arena_->used() : Footprint{}; }
 
-    /// Enqueues the stage `narrow` over candidates in any order, whose number is at PAIRS_COUNT of their counters. Candidates
-    /// beyond their own buffer are not tested, so the broad phase must be complete. Allocates nothing; does not block on devices
-    /// with doubles.
+    /// Enqueues the stage `narrow` over candidates in any order, whose number is at PAIRS_COUNT of their counters. The broad
+    /// phase must be complete. Allocates nothing; does not block on devices with doubles.
     void query(const Input& input, const Buffer<Pair>& candidates,
                const Buffer<uint>& candidate_counters, Queue& queue);
 

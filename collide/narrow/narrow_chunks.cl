@@ -3,8 +3,7 @@
 // check: -DSINK_BLOCK=512u -DKEEP_ADJACENT=1 -DWITH_DOUBLES=1
 // check: -DSINK_BLOCK=512u -DKEEP_ADJACENT=1 -DWITH_DOUBLES=0 -Xclang -cl-ext=-cl_khr_fp64,-__opencl_c_fp64
 //
-// The chunk form of the narrow phase. Work-items take batches of candidates from a counter, and each collects contacts and unsure
-// candidates in blocks of its own.
+// The chunk form: work-items take batches of candidates from a counter, and collect contacts and unsure ones in own blocks.
 //
 // Each step over a batch is a branch-free loop over coordinates stored side by side, so that the compiler vectorises it:
 //

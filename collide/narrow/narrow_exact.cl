@@ -2,9 +2,8 @@
 // check: -DKEEP_ADJACENT=0
 // check: -DKEEP_ADJACENT=1
 //
-// Decides the pairs that no filter could decide, in exact arithmetic. Both kernel forms share this kernel: it has no barriers,
-// since PoCL 3.1 fails on barriers in a kernel with many helper functions, and it uses one atomic per contact, which is cheap
-// beside the test itself.
+// Decides the pairs that no filter could decide, in exact arithmetic. One kernel serves both forms: it has no barriers, as PoCL
+// 3.1 fails on barriers in a kernel with many helpers, and it uses an atomic per contact, which is cheap beside the test.
 #include "collide/found.clh"
 #include "collide/narrow/exact_adjacent.h"
 #include "collide/narrow/narrow_words.h"

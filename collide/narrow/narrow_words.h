@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Constants of the narrow phase: verdicts on a pair of triangles, and indices of device counters, which are 64-bit, two words
-// each (collide/found.clh).
+// Verdicts of the narrow phase on a pair of triangles, and indices of its 64-bit device counters (collide/found.clh).
 #ifndef BVHBENCH_COLLIDE_NARROW_WORDS_H
 #define BVHBENCH_COLLIDE_NARROW_WORDS_H
 

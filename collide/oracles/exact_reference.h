@@ -11,9 +11,9 @@ namespace bvhbench {
 /// True if the build includes CGAL, and with it the reference.
 constexpr bool has_exact_reference = BVHBENCH_HAS_CGAL != 0;
 
-/// Returns the candidates whose triangles intersect, as defined in collide/narrow/narrow.h, by CGAL's exact predicates. This is
-/// the oracle of the narrow phase and shares no code with it. Single-threaded. Throws Unavailable in a build without CGAL and if
-/// host memory is too small.
+/// Returns the candidates whose triangles intersect, as defined in collide/narrow/narrow.h, by CGAL's exact predicates: the
+/// oracle of the narrow phase, independent of its code. Single-threaded. Throws Unavailable without CGAL or with too little host
+/// memory.
 PairList intersecting_pairs(std::span<const Point> points, std::span<const Face> faces,
                             const PairList& candidates, bool keep_adjacent);
 

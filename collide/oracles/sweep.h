@@ -19,8 +19,7 @@ using Wanted = std::function<bool(uint a, uint b)>;
 /// that host memory is checked first; another one lists them. Throws Unavailable if host memory is too small.
 PairList overlapping_pairs(std::span<const Aabb> boxes, const Wanted& wanted = {});
 
-/// As overlapping_pairs, for pairs of triangles that `among` accepts; without `keep_adjacent`, only pairs without a common vertex
-/// index.
+/// As overlapping_pairs, for pairs of triangles that `among` accepts; without `keep_adjacent`, only without a common vertex.
 PairList touching_pairs(std::span<const Aabb> boxes, std::span<const Face> faces,
                         bool keep_adjacent, std::span<const FaceRange> objects = {},
                         Among among = Among::all);

@@ -85,8 +85,7 @@ private:
     void compile(const Input&) override
     {
         block_pairs_ = by_groups() ? 0 : device().tuned(bvtt_block_pairs);
-        queue_count_ =
-            static_cast<uint>(steps().size()) + 1;  // one more for the output of the last step
+        queue_count_ = static_cast<uint>(steps().size()) + 1;  // and the output of the last step
         const Define label{"LABEL_BITS", node_bits(tree())};
         const Define one_object{"ONE_OBJECT", object_count() == 1 ? 1u : 0u};
         if (object_count() > 1)
@@ -159,13 +158,11 @@ private:
     }
 
     cl::Kernel roots_, expand_;
-    uint block_pairs_ =
-        0;  ///< entries of a work-item's block, for each of two lists, in the chunk form
+    uint block_pairs_ = 0;           ///< entries per block, in the chunk form
     uint launched_ = 0;              ///< steps launched by the last query
     uint needed_steps_ = all_steps;  ///< steps that had entries to expand in the last query
     std::size_t queue_room_ = 0;
-    std::array<Buffer<Pair>, 2>
-        queues_;  ///< node pairs; each step reads one queue and writes the other
+    std::array<Buffer<Pair>, 2> queues_;  ///< node pairs: read and written by turns
     Buffer<Pair> blocks_;
 };
 

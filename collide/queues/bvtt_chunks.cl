@@ -2,8 +2,7 @@
 // check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=0 -DSINK_BLOCK=512u -DONE_OBJECT=0 -DLABEL_BITS=20
 // check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DSINK_BLOCK=512u -DONE_OBJECT=1 -DLABEL_BITS=32
 //
-// A step of the traversal in the chunk form: a work-item takes a contiguous run of tasks and has one block of output for nodes
-// and one for pairs.
+// A step of the traversal in the chunk form: each work-item takes a contiguous run of tasks and has an output block per list.
 #include "collide/sinks/lists_chunks.clh"
 
 #include "collide/queues/bvtt.clh"

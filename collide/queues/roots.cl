@@ -43,9 +43,8 @@ kernel void find_roots(FOREST_PARAMETERS, const uint object_count, const uint wi
     add_wide(counters + BOX_TESTS_COUNT, tests);
 }
 
-/// Writes the initial front of front tracking: all these pairs of roots, leaves and disjoint boxes included, since otherwise
-/// objects that come into contact later would be missed. One work-item per ordered pair of objects, object_count^2 in all;
-/// `front` has room for every entry.
+/// Writes the initial front: all these pairs of roots, including leaves and disjoint boxes, since objects may come into contact
+/// later. One work-item per ordered pair of objects, object_count^2 in all; `front` has room for every entry.
 kernel void list_roots(FOREST_PARAMETERS, const uint object_count, const uint within,
                        const uint between, global uint2* front)
 {

@@ -43,8 +43,7 @@
 
 /// State of a team, in local memory.
 typedef struct {
-    uint2 kept
-        [KEPT];  ///< first member: a write past its end corrupts the members behind it and is noticed
+    uint2 kept[KEPT];                    ///< first: an overflow shows in the members behind
     BoxWord own[WORDS_PER_BOX * BLOCK];  ///< boxes of the block's leaves, the last one repeated
     BoxWord seen[WORDS_PER_BOX * SEEN];  ///< boxes of leaves to be tested
     uint own_ids[BLOCK];                 ///< triangles of the block
@@ -72,8 +71,8 @@ static inline uint meet_within(local Team *team, SINK_PARAMETERS, uint kept_coun
     return kept_count;
 }
 
-/// Tests the block's `own_count` leaves against `count` collected leaves from `first` on (count 1 to 32). Returns the number of
-/// buffered pairs.
+/// Tests the block's `own_count` leaves against `count` (1 to 32) collected ones from `first` on. Returns the buffered pairs'
+/// number.
 static inline uint meet_seen(local Team *team, SINK_PARAMETERS, TREE_PARAMETERS, uint kept_count,
                              const uint own_count, const uint first, const uint count)
 {

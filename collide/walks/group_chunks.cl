@@ -92,8 +92,7 @@ static inline void put_hits(const Line* own, const Line* line, const uint* hits,
     }
 }
 
-/// Finds the pairs of the task's `own_count` leaves with those of a line, which may be the same line. Returns the number of box
-/// tests.
+/// Finds the pairs of the task's `own_count` leaves and a line, possibly the same line. Returns the number of box tests.
 static inline uint hold_against(Line* own, const uint own_count, Line* line, const uint count,
                                 global const Face* faces, global uint2* pairs, const uint capacity,
                                 volatile global uint* counters)
@@ -124,8 +123,7 @@ static inline uint hold_against(Line* own, const uint own_count, Line* line, con
     return LANES * tests;
 }
 
-/// Loads into `own` the task's leaves, with `some` only those that overlap `whole`, and sets `common` to their common box.
-/// Returns their number.
+/// Loads the task's leaves, with `some` only those that overlap `whole`, and their common box. Returns their number.
 static inline uint line_up(FOREST_PARAMETERS, const QueryTask task, const bool some,
                            const Aabb whole, Line* own, Aabb* common)
 {

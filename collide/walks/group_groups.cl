@@ -16,8 +16,7 @@
 // The frontier cannot overflow: work-items take no more nodes than there is room for their children. If there is hardly any room,
 // they take one node, the last, until its subtree is done; RESERVE, one more than a tree has levels, is kept free for that.
 //
-// An iteration has one barrier between taking nodes and processing them, and one at its end. It passes on its state in local
-// memory only.
+// An iteration has a barrier between taking and processing nodes, and one at its end. All state is in local memory.
 #include "collide/sinks/sink_groups.clh"
 
 #include "collide/walks/group_descent.clh"

@@ -4,8 +4,7 @@
 // check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DGROUP_SIZE=64u
 // check: -include baselines/radix/access_apetrei.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=1 -DGROUP_SIZE=64u
 //
-// One work-group per task, one work-item per leaf. The neighbouring leaves of a group visit mostly the same nodes, and their
-// pairs are written together.
+// One work-group per task, one work-item per leaf: neighbouring leaves visit mostly the same nodes and write pairs together.
 #include "collide/sinks/sink_groups.clh"
 
 #include "collide/walks/leaf.clh"

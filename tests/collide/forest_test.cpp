@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Several objects in a frame: one build makes a tree of each, and every collider finds the oracle's pairs between objects, within
-// objects, or both.
+// Several objects in a frame: a build makes a tree of each, and every collider finds the oracle's pairs between or within them.
 #include <cstring>
 
 #include "builders/device_tree.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Front tracking over frames that move a little, jump, part and return: every frame has the oracle's pairs, each once, whatever
-// the state of the front.
+// Front tracking over frames that move a little, jump, part and return: every frame has the oracle's pairs, each once.
 #include <cmath>
 #include <map>
 
@@ -19,8 +18,8 @@ struct Moving : ManyObjects {
             add(part);
     }
 
-    /// Returns the points with every vertex displaced along its own path by at most `by`, and each object shifted by (apart, 0,
-    /// 0) relative to the previous one.
+    /// Returns the points, each displaced by at most `by` along its own path, and each object shifted by `apart` from the
+    /// previous one.
     std::vector<Point> moved(float by, int frame, float apart = 0) const
     {
         std::vector<Point> points = mesh.points;
@@ -113,8 +112,7 @@ protected:
     KernelForm form() const { return std::get<1>(GetParam()); }
 };
 
-/// Runs small motions, a jump and back, a jump that stays until the tree is rebuilt, small motions again, and the return to the
-/// start.
+/// Runs small motions, a jump and back, a jump that stays until the tree is rebuilt, small motions, and a return to the start.
 void run_all(Tracked& tracked, const Moving& moving)
 {
     int frame = 0;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The hashed grid of one object or many over several frames, and its arithmetic. collider_test compares it with the oracle on
-// hard meshes, like every collider.
+// The hashed grid of one object or many over several frames, and its arithmetic. collider_test has the hard meshes.
 #include <limits>
 
 #include "collide/grid/hash_grid.h"

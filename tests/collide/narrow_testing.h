@@ -43,8 +43,7 @@ struct Candidates {
     }
 };
 
-/// Returns pairs of a class in which each second face shares one to three indices with the first, at any corners; some faces name
-/// an index twice.
+/// Returns pairs of a class that share one to three indices, at any corners; some faces name an index twice.
 inline Mesh adjacent_pairs(const PairClass& of, uint count)
 {
     Mesh mesh = apart_pairs(of, count, count);

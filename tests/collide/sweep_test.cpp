@@ -23,8 +23,7 @@ PairList brute_force(std::span<const Aabb> boxes)
     return PairList(std::move(found));
 }
 
-/// Returns boxes around (0, 0, 0) with coordinates that are small integers times `x`, `y` and `z`, so that many boxes touch or
-/// begin at the same place.
+/// Returns boxes around (0, 0, 0) at small integer multiples of `x`, `y`, `z`, so that many touch or begin at the same place.
 std::vector<Aabb> lattice_boxes(std::size_t count, float x, float y, float z, unsigned seed)
 {
     std::mt19937 random(seed);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Swept boxes of two frames contain every frame in between; every builder makes the same ones, and every collider finds the pairs
-// of them that the sweep finds.
+// Swept boxes contain every frame in between; every builder makes the same ones, and every collider finds the oracle's pairs.
 #include <cstdlib>
 #include <random>
 
