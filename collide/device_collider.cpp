@@ -120,10 +120,9 @@ void DeviceCollider::query(const Tree* tree, const Input& input, Queue& queue)
     if (has_pairs && needs_tree() && has_ropes(*tree_)) {
         queue.begin("ropes");
         set_arguments_from(ropes_kernel_, tree_->bind(ropes_kernel_, 0), ropes_);
-        launch(ropes_kernel_, by_groups() ? triangles_ : chunks_, by_groups() ? group_size_ : 1,
-               queue,
-               2 * static_cast<std::int64_t>(
-                       ropes_.bytes()));  // each child is read, each rope written
+        launch(
+            ropes_kernel_, by_groups() ? triangles_ : chunks_, by_groups() ? group_size_ : 1, queue,
+            2 * static_cast<std::int64_t>(ropes_.bytes()));  // reads each child, writes each rope
     }
     if (has_pairs)
         enqueue_before(input, queue);

@@ -6,9 +6,9 @@
 //
 //     list_touching  lists      per object, the objects whose boxes overlap its box
 //     flag_near      places[k]  1 if the box of triangle k overlaps one of those boxes, else 0
-//         ... prefix sum of places ...   number of near triangles before k
+//       ... prefix sum of places ...   number of near triangles before k
 //     count_near     counts     per object, the number of near triangles; ranks: 1 if there are any, else 0
-//         ... prefix sum of ranks ...    rank of the object among those that have any
+//       ... prefix sum of ranks ...    rank of the object among those that have any
 //     compact_near   near_*     the near triangles, in the frame's order, with object ranks instead of object numbers
 //
 // Each work-group takes a contiguous range of items in all kernels. GROUP_SIZE is 1 in the chunk form.

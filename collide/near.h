@@ -71,13 +71,12 @@ private:
     ScanStage scan_places_, scan_ranks_;
     cl::Kernel list_, flag_, count_, compact_, map_;
     std::optional<Arena> arena_;
-    Buffer<uint> lists_,
-        list_sizes_;               ///< per object: objects that its box overlaps
-    Buffer<uint> places_;          ///< near triangles before each triangle, and in all
-    Buffer<uint> first_faces_;     ///< first triangle of each object; then the triangle count
-    Buffer<uint> counts_, ranks_;  ///< per object
-    Buffer<uint> test_count_;      ///< one 64-bit count
-    Buffer<Face> faces_;           ///< near triangles, as are owners_ and ids_
+    Buffer<uint> lists_, list_sizes_;  ///< per object: objects that its box overlaps
+    Buffer<uint> places_;              ///< near triangles before each triangle, and in all
+    Buffer<uint> first_faces_;         ///< first triangle of each object; then the triangle count
+    Buffer<uint> counts_, ranks_;      ///< per object
+    Buffer<uint> test_count_;          ///< one 64-bit count
+    Buffer<Face> faces_;               ///< near triangles, as are owners_ and ids_
     Buffer<uint> owners_;
     Buffer<uint> ids_;  ///< their ids in the whole frame
 };

@@ -20,8 +20,8 @@ struct Pair {
 
 /// A set of pairs in canonical form: smaller id first, each pair once, ascending.
 ///
-/// Colliders find pairs in any order. They agree if their lists are equal; so are the hashes, and, short of a collision in 64
-/// bits, only then.
+/// Colliders find pairs in any order. Two colliders agree if and only if their lists are equal. Equal hashes imply equal lists,
+/// short of a collision in 64 bits.
 class PairList {
 public:
     PairList() = default;

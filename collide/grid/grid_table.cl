@@ -7,7 +7,7 @@
 //     add_sides     partials[i]  sums of the boxes' half sides
 //     choose_cells  *grid        side of the cells, from the mean
 //     count_cells   ends[b]      number of entries of bucket b
-//         ... prefix sum of ends ...   where bucket b begins
+//       ... prefix sum of ends ...   where bucket b begins
 //     enter_cells   entries      as in hash_grid.h, ordered by bucket; afterwards ends[b] is where bucket b ends
 //
 // Counting per bucket places every entry without a list of unsorted ones, or a pass over a number that only the device knows.

@@ -84,7 +84,7 @@ SHARED_FN bool is_thin(Corners a)
     return turn_of(a, 0u) == 0 && turn_of(a, 1u) == 0 && turn_of(a, 2u) == 0;
 }
 
-/// True if, projected along `axis`, the line of an edge of `a`, whose orientation is `turn`, has `b` strictly beyond it.
+/// True if, projected along `axis`, the line of an edge of `a` (of orientation `turn`) has `b` strictly beyond it.
 SHARED_FN bool edge_parts(Corners a, Corners b, int turn, uint axis)
 {
     for (uint i = 0u; i < 3u; ++i) {

@@ -71,8 +71,7 @@ static inline uint meet_within(local Team *team, SINK_PARAMETERS, uint kept_coun
     return kept_count;
 }
 
-/// Tests the block's `own_count` leaves against `count` (1 to 32) collected ones from `first` on. Returns the buffered pairs'
-/// number.
+/// Tests the block's `own_count` leaves against `count` (1 to 32) others from `first` on. Returns the number of buffered pairs.
 static inline uint meet_seen(local Team *team, SINK_PARAMETERS, TREE_PARAMETERS, uint kept_count,
                              const uint own_count, const uint first, const uint count)
 {

@@ -72,9 +72,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void group_pairs(
         }
         barrier(CLK_LOCAL_MEM_FENCE);
         const uint begin = is_own && turn == 0u ? item + 1u : 0u;
-        if (is_testing &&
-            item <
-                count)  // first iteration: the task's own leaves, only those after the work-item's
+        if (is_testing && item < count)  // first iteration: later leaves of its own
             tests[item] +=
                 test_boxes(seen, seen_ids, begin, takes, own, own_ids, item, faces, SINK);
         if (!is_testing && item < takes) {

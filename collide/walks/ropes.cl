@@ -2,7 +2,7 @@
 // check: -include baselines/radix/access.clh -DSORTED_LEAVES=0
 //
 // Writes ropes (skip links) for trees that store only children: for each node, by its number, the node after its subtree in
-// depth-first order. With several objects, whose trees are parts of one tree, the last rope of one leads to the next one's root.
+// depth-first order. The trees of several objects are parts of one tree, so the last rope of one leads into what follows it.
 //
 // The subtrees that end where a left child's subtree ends are those of this child, of its right child, of that one's right child
 // and so on down to a leaf; the right sibling comes after all of them. Every node that is not on the root's right edge is in

@@ -44,7 +44,7 @@ protected:
     KernelForm form() const { return std::get<2>(GetParam()); }
     ColliderOptions options() const { return {.form = form()}; }
 
-    /// True for the device's own kernel form, and for the other form if the builder is the first of those with the same tree.
+    /// True for the device's own kernel form, and in the other form for the first builder of each tree.
     bool is_thorough() const
     {
         const bool is_own = (form() == KernelForm::chunks) == session().device().is_cpu();

@@ -88,8 +88,7 @@ public:
         , pipeline_(session(), {.name = "oibvh-multi"}, between("group"), input_)
     {}
 
-    /// Moves the second object to `along` widths from the first. Returns the triangles in the frame: all of them without the
-    /// rule.
+    /// Moves the second object to `along` widths from the first. Returns the triangles that enter: all of them without the rule.
     double entered_at(float along, Motion motion)
     {
         const std::size_t half = points_.size() / 2;
