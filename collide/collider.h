@@ -70,7 +70,8 @@ public:
 
     virtual ColliderCard card() const = 0;
 
-    /// True if the collider queries a builder's tree. Otherwise it is given none, and reading the input is part of its query.
+    /// True if the collider queries a builder's tree. Otherwise it is given none, and all its work on the input is part of a
+    /// query.
     virtual bool needs_tree() const { return true; }
 
     /// True if the collider carries state from frame to frame (see `next_frame`) and therefore needs exclusive use of its tree.

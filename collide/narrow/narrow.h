@@ -33,7 +33,7 @@ struct NarrowOptions {
 /// Results of a query, by the arithmetic that decided: by_floats, by_doubles and exactly add up to the candidates.
 struct NarrowCounts {
     std::uint64_t contacts = 0;
-    std::uint64_t by_floats = 0;  ///< or by indices alone
+    std::uint64_t by_floats = 0;  ///< in floats, or by indices alone
     std::uint64_t by_doubles = 0;
     std::uint64_t exactly = 0;
 
@@ -60,8 +60,9 @@ public:
     /// Memory reserved at present.
     Footprint reserved() const { return arena_ ? arena_->used() : Footprint{}; }
 
-    /// Enqueues the stage `narrow` over candidates in any order, whose number is at PAIRS_COUNT of their counters. The broad
-    /// phase must be complete. Allocates nothing; does not block on devices with doubles.
+    /// Enqueues the stage `narrow` over candidates in any order, whose number is at PAIRS_COUNT of their counters. Candidates
+    /// beyond their buffer are not tested, so complete the broad phase first. Allocates nothing; does not block on devices with
+    /// doubles.
     void query(const Input& input, const Buffer<Pair>& candidates,
                const Buffer<uint>& candidate_counters, Queue& queue);
 

@@ -85,8 +85,8 @@ private:
     void compile_group()
     {
         // Reserve for the descent from the last node: in a binary tree, one node more than there are levels; in a wide tree, all
-        // children of a node per level. A query starts with at most one node per level, so twice the reserve suffices; more is
-        // for speed.
+        // children of a node per level. A query starts with at most one node per level, so twice that suffices; more is for
+        // speed.
         const bool is_wide = tree().child_bits() > 1;
         const uint levels = tree().most_levels();
         const uint reserve = (is_wide ? levels << tree().child_bits() : levels) + 1;
