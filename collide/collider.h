@@ -19,108 +19,105 @@
 
 namespace bvhbench {
 
-/// Who a collider is, for listings and result files.
+/// Name and source of a collider, for listings and result files.
 struct ColliderCard {
-    std::string_view name;    ///< unique, stable, used on the command line and in result files
+    std::string_view name;    ///< unique and stable: used on the command line and in result files
     std::string_view method;  ///< the publication or library, as cited in docs/references.md
 };
 
-/// How to query. One struct for all colliders: what a collider has no use for it ignores.
+/// Options of a query, shared by all colliders. A collider ignores the options that it does not use.
 struct ColliderOptions {
     Among among = Among::all;
-    /// Whether pairs that share a vertex index are wanted too: they touch by construction.
+    /// True to report pairs that share a vertex index as well. Such pairs touch by construction.
     bool keep_adjacent = true;
-    /// Levels a step of a traversal descends, Eq. (12); 0 leaves the choice to the collider.
+    /// Levels that a traversal step descends, Eq. (12); 0: the collider chooses.
     unsigned jump = 0;
-    /// The level a traversal starts on, so that no box above it is tested; 0 leaves the choice to the collider, usually the root.
+    /// Level that a traversal starts on; boxes above it are not tested. 0: the collider chooses, usually the root.
     unsigned start_level = 0;
-    unsigned rules_off = 0;  ///< of skips.h: work that is done although it need not be
-    /// Work-items in a group, a power of two; 0 leaves the choice to the collider, by kind of device.
+    unsigned rules_off = 0;  ///< SkipRule bits of skips.h that are switched off
+    /// Work-items in a work-group, a power of two; 0: the collider chooses, by kind of device.
     unsigned group_size = 0;
     KernelForm form = KernelForm::of_device;
-    /// Entries that buffers of pairs and queues have at first; 0: a guess. They grow when they must.
+    /// Initial capacity of pair buffers and queues, in entries; 0: estimated. They grow when too small.
     std::size_t capacity = 0;
 };
 
-/// What a query found and took. The same for every query of one tree.
+/// Result and cost of a query. Every query of the same tree gives the same numbers.
 struct QueryCounts {
     std::uint64_t pairs = 0;
-    std::optional<std::uint64_t> box_tests;  ///< of two boxes for overlap, if they are counted
-    std::optional<std::uint64_t>
-        bvtt_peak;                       ///< most entries in a queue of node pairs, if it has any
-    std::optional<std::uint64_t> tasks;  ///< held against other objects' trees, if it has several
-    std::vector<std::pair<std::string_view, std::uint64_t>> more =
-        {};  ///< its own, by counters' names
+    std::optional<std::uint64_t> box_tests;  ///< box-box overlap tests, if counted
+    std::optional<std::uint64_t> bvtt_peak;  ///< largest queue of node pairs, if any
+    std::optional<std::uint64_t> tasks;      ///< tasks between objects, if several
+    std::vector<std::pair<std::string_view, std::uint64_t>> more = {};  ///< by counter name
 };
 
-/// Pairs where a query left them, and their number at PAIRS_COUNT of the counters (collide/counters.h).
+/// Pairs in device memory; their number is at PAIRS_COUNT of `counters` (collide/counters.h).
 struct DevicePairs {
     Buffer<Pair> pairs;
     Buffer<uint> counters;
-    MemoryShare memory = {};  ///< if it is nobody else's
+    MemoryShare memory = {};  ///< of these buffers, if not counted elsewhere
 };
 
-/// Finds the pairs of triangles of a frame whose closed boxes overlap: the smaller id first, each once.
+/// Finds all pairs of triangles of a frame whose closed boxes overlap: smaller id first, each pair once.
 ///
-/// A query never drops a pair in silence: `complete` tells whether all of them found room, and makes room if
-/// not, for the query to be repeated. `find_pairs` does so.
+/// A query never drops pairs silently: `complete` tells whether every buffer was large enough, and enlarges those that were not,
+/// so that the query can be repeated. `find_pairs` does both.
 ///
-/// Stages are words from a fixed list: ropes, broad; and of those with trees of their own hierarchy, refit.
+/// Stage names come from a fixed list: ropes, codes, sort, broad, copy; and refit, for colliders with hierarchies of their own.
 class Collider {
 public:
     virtual ~Collider() = default;
 
     virtual ColliderCard card() const = 0;
 
-    /// Whether it queries a builder's tree. One that does not is handed none, and keeps up with the input itself: all
-    /// that takes is part of its query.
+    /// True if the collider queries a builder's tree. Otherwise it is given none, and all its work on the input is part of a
+    /// query.
     virtual bool needs_tree() const { return true; }
 
-    /// Whether it goes on from frame to frame, as `next_frame` says, and so wants a tree that nobody else builds.
+    /// True if the collider carries state from frame to frame (see `next_frame`) and therefore needs exclusive use of its tree.
     virtual bool keeps_tree() const { return false; }
 
-    /// Queries from here on are of the frame after the one that was queried last, completely; without such a query, of
-    /// a first frame. What its tree must be: rebuilt or refitted, before each of them or once for all. They begin where
-    /// that frame left off, however often they are repeated. If it is never called, all are of a first frame.
+    /// Moves to the next frame, and returns how its tree must be brought up to date: by a rebuild or a refit, before each query
+    /// or once for all queries. Queries start from the state that the last complete query of the previous frame left, however
+    /// often they are repeated. Without such a query, or if this is never called, they are queries of a first frame.
     virtual TreeUpdate next_frame() { return TreeUpdate::rebuild; }
 
-    /// Whether what it finds are the pairs that intersect, instead of those whose boxes overlap.
+    /// True if the collider reports pairs of intersecting triangles rather than pairs of overlapping boxes.
     virtual bool finds_contacts() const { return false; }
 
-    /// Why it cannot query trees of this kind, as a sentence; empty if it can.
+    /// Returns the reason why the collider cannot query trees of this kind, as a sentence; empty if it can.
     virtual std::string refusal(const Tree& tree) const = 0;
 
-    /// Compile for this kind of tree, or none, and take memory for frames like this one: the same faces and objects,
-    /// other points. Never timed. Throws Unavailable, and BadUsage for what `refusal` tells or options that the
-    /// tree does not allow.
+    /// Compiles for this kind of tree, or for none, and reserves memory for frames like `input`: same faces and objects, any
+    /// points. Never timed. Throws Unavailable; throws BadUsage if `refusal` is not empty or the tree does not allow the options.
     virtual void reserve(const Tree* tree, const Input& input) = 0;
 
-    /// What stands reserved.
+    /// Memory reserved at present.
     virtual Footprint reserved() const = 0;
 
-    /// Enqueue one query of the tree that the last build left over `input`. Allocates nothing, does not wait.
+    /// Enqueues one query of the tree that the last build made over `input`. Allocates nothing and does not block.
     virtual void query(const Tree* tree, const Input& input, Queue& queue) = 0;
 
-    /// Whether everything the last query found had room; if not, there is more now. Waits.
+    /// True if every buffer of the last query was large enough; otherwise enlarges the buffers. Blocks.
     virtual bool complete(const Queue& queue) = 0;
 
-    /// Of the last query, which was complete. Both wait.
+    /// Counts and pairs of the last query, which must have been complete. Both functions block.
     virtual QueryCounts counts(const Queue& queue) const = 0;
     virtual std::vector<Pair> pairs(const Queue& queue) const = 0;
 
-    /// The same on the device, for what comes behind it in the queue. Of a collider on the host it copies them there, in
-    /// a stage `copy` that waits. Throws Unavailable if it finds contacts already.
+    /// The pairs in device memory, for commands that follow in the queue. A collider on the host copies its pairs there, in a
+    /// stage `copy` that blocks. Throws Unavailable if the collider finds contacts itself.
     virtual DevicePairs device_pairs(Queue& queue) = 0;
 };
 
-/// Query until it is complete; how many queries that took. Waits.
+/// Repeats the query until it is complete; returns the number of queries. Blocks.
 int find_pairs(Collider& collider, const Tree* tree, const Input& input, Queue& queue);
 
-/// Makes a collider on the device that `programs` compiles for. Throws BadUsage for options it cannot keep.
+/// Makes a collider on the device of `programs`. Throws BadUsage for options that the collider does not support.
 using MakeCollider = std::unique_ptr<Collider> (*)(Programs& programs,
                                                    const ColliderOptions& options);
 
-/// Every way to find pairs; docs/architecture.md tells what each does.
+/// Factories of all colliders; docs/architecture.md describes each.
 std::unique_ptr<Collider> make_leaf(Programs& programs, const ColliderOptions& options);
 std::unique_ptr<Collider> make_bvtt(Programs& programs, const ColliderOptions& options);
 std::unique_ptr<Collider> make_front(Programs& programs, const ColliderOptions& options);

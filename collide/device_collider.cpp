@@ -12,7 +12,7 @@
 namespace bvhbench {
 namespace {
 
-/// What a group of `group` keeps in local memory grows with its size: this many fit into 48 KB.
+/// Largest work-group size: local memory per group grows with it, and this many work-items fit into 48 KB.
 constexpr std::size_t most_group_size = 256;
 
 uint chosen_group_size(const Device& device, KernelForm form, unsigned asked,
@@ -21,7 +21,7 @@ uint chosen_group_size(const Device& device, KernelForm form, unsigned asked,
     const std::size_t most = std::min<std::size_t>(
         most_group_size, std::bit_floor(device.cl.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>()));
     if (asked == 0 && chosen_form(device, form) == KernelForm::chunks)
-        return 1;  // groups of the form for few cores are of one work-item
+        return 1;  // in the chunk form, a work-group is one work-item
     if (asked == 0)
         return static_cast<uint>(std::min<std::size_t>(device.tuned(usual), most));
     if (!std::has_single_bit(asked) || asked > most || asked < usual.least)
@@ -122,7 +122,7 @@ void DeviceCollider::query(const Tree* tree, const Input& input, Queue& queue)
         set_arguments_from(ropes_kernel_, tree_->bind(ropes_kernel_, 0), ropes_);
         launch(
             ropes_kernel_, by_groups() ? triangles_ : chunks_, by_groups() ? group_size_ : 1, queue,
-            2 * static_cast<std::int64_t>(ropes_.bytes()));  // each child read, each rope written
+            2 * static_cast<std::int64_t>(ropes_.bytes()));  // reads each child, writes each rope
     }
     if (has_pairs)
         enqueue_before(input, queue);
@@ -135,7 +135,7 @@ void DeviceCollider::query(const Tree* tree, const Input& input, Queue& queue)
 
 std::int64_t DeviceCollider::reads_at_least() const
 {
-    if (!within())  // of trees that are apart from all others hardly anything is read
+    if (!within())  // if all objects are apart, hardly anything is read
         return 0;
     const std::int64_t leaves = triangles_, nodes = 2 * leaves - std::ssize(tree_->objects);
     return nodes * static_cast<std::int64_t>(tree_->box_format().box_bytes()) +

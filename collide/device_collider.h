@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// What all colliders on the device share: the frame's tree, its kernels and ropes, memory, counters, and pairs with more
-// room where there was too little.
+// Base of all colliders on the device: the frame's tree, kernels, ropes, memory, counters, and growing pair buffers.
 //
-//     reserve    compile, then with memory measured and taken: plan, fill
-//     query      ropes, if any; counters are cleared; enqueue
-//     complete   make_room; if anything found none, save, plan and fill over again
+//     reserve    compile; then, once to measure and once to allocate: plan, fill
+//     query      ropes, if any; clear the counters; enqueue
+//     complete   make_room; if any buffer was too small: save, plan and fill again
 #pragma once
 
 #include <optional>
@@ -30,42 +29,43 @@ public:
     DevicePairs device_pairs(Queue&) final { return {pairs_, counters_}; }
 
 protected:
-    /// Whether it queries a tree, and walks it without a stack: then trees that have no arithmetic for that get ropes.
+    /// Whether the collider queries a tree, and whether it walks the tree without a stack. For the latter, trees that have no
+    /// arithmetic for the next node get ropes.
     enum class Wants { no_tree, tree, tree_with_ropes };
 
-    /// `group_size` is what the device chooses if options do not. Throws BadUsage for one that the device does not have.
+    /// `group_size` applies if the options set none. Throws BadUsage for a group size that the device does not support.
     DeviceCollider(Programs& programs, const ColliderCard& card, const ColliderOptions& options,
                    const Parameter& group_size, Wants wants);
 
-    /// Why it cannot query this kind of tree, as a sentence; empty if it can.
+    /// Returns the reason why the collider cannot query this kind of tree, as a sentence; empty if it can.
     virtual std::string objection(const DeviceTree&) const { return {}; }
 
-    /// Compile for frames like this one, and choose how large buffers are at first, and `queue_count_`.
+    /// Compiles for frames like `input`; sets the initial buffer sizes and `queue_count_`.
     virtual void compile(const Input& input) = 0;
 
-    /// Take buffers besides counters and pairs. Run twice, first measuring.
+    /// Allocates buffers other than counters and pairs. Runs twice; the first run measures only.
     virtual void plan(Arena& arena) = 0;
 
-    /// Copy what must outlive the memory that goes; write what queries expect in the new, and leave as it was. Both wait.
+    /// `save` downloads what must survive a reallocation. `fill` uploads constant inputs of queries to new memory. Both block.
     virtual void save(const cl::CommandQueue&) {}
     virtual void fill(const cl::CommandQueue&) {}
 
-    /// Launch what comes before the stage `broad`, and what finds the pairs there; counters are zero. Neither is called
-    /// where there can be no pair.
+    /// `enqueue_before` enqueues what precedes the stage `broad`; `enqueue` enqueues the search for pairs in that stage, with
+    /// zeroed counters. Neither is called if there is only one triangle.
     virtual void enqueue_before(const Input&, Queue&) {}
     virtual void enqueue(const Input& input, Queue& queue) = 0;
 
-    /// Whether so many tasks and entries of each queue had room; if not, `plan` takes more from here on.
+    /// True if `tasks` and the entries of each queue fitted; otherwise the next `plan` allocates more.
     virtual bool make_room(std::uint64_t tasks, const std::vector<std::uint64_t>& queues) = 0;
 
-    /// Bytes that `broad` must read: of a tree held against itself each box, and each leaf's triangle, once.
+    /// Lower bound on the bytes that `broad` reads: each box and each leaf's triangle once, if a tree is tested against itself.
     virtual std::int64_t reads_at_least() const;
 
-    /// A kernel over the tree, compiled behind its access header, with `more` besides the defines that all have.
+    /// Compiles a kernel behind the tree's access header, with the defines that all such kernels have and with `more`.
     cl::Kernel kernel(std::string_view path, const char* name, std::vector<Define> more = {},
                       Optimise optimise = Optimise::freely) const;
 
-    /// Set the arguments that all have, the tree's first; `more` come behind.
+    /// Sets the arguments that all kernels share, the tree's first, then `more`.
     template <class... Arguments>
     void bind(cl::Kernel& kernel, const Input& input, const Arguments&... more) const
     {
@@ -73,7 +73,7 @@ protected:
                            static_cast<uint>(pairs_.size()), counters_, more...);
     }
 
-    /// Launch a work-item for each of `items`, in groups.
+    /// Launches at least `items` work-items, in work-groups of `group`.
     static void launch(const cl::Kernel& kernel, std::size_t items, std::size_t group, Queue& queue,
                        std::int64_t moved_bytes = 0)
     {
@@ -92,7 +92,7 @@ protected:
     Programs& programs() const { return programs_; }
     const Device& device() const { return programs_.device(); }
 
-    /// Entries that a list begins with: as many as options say, else `guess`, as far as one allocation goes.
+    /// Initial capacity of a list: the option `capacity` if set, else `guess`, limited by the largest allocation.
     std::size_t first_room(std::size_t guess, std::size_t entry_bytes = sizeof(Pair)) const
     {
         return options_.capacity != 0 ? options_.capacity : device().room_for(guess, entry_bytes);
@@ -100,11 +100,11 @@ protected:
 
     ColliderOptions options_;
     uint group_size_;
-    std::size_t chunks_;     ///< work-items of the form for few cores
-    uint triangles_ = 0;     ///< that there is memory for
-    uint queue_count_ = 0;   ///< counters of queues
-    Buffer<uint> counters_;  ///< as collide/counters.h says
-    Buffer<Pair> pairs_;     ///< found, in no order
+    std::size_t chunks_;     ///< work-items of the chunk form (for few cores)
+    uint triangles_ = 0;     ///< triangles that memory is reserved for
+    uint queue_count_ = 0;   ///< number of queue counters
+    Buffer<uint> counters_;  ///< layout: collide/counters.h
+    Buffer<Pair> pairs_;     ///< pairs found, in no order
 
 private:
     bool has_ropes(const DeviceTree& tree) const
@@ -117,11 +117,11 @@ private:
     ColliderCard card_;
     Wants wants_;
     KernelForm form_;
-    const DeviceTree* tree_ = nullptr;  ///< of the last call
+    const DeviceTree* tree_ = nullptr;  ///< tree of the last call
     std::size_t pair_room_ = 0;
     cl::Kernel ropes_kernel_;
     std::optional<Arena> arena_;
-    Buffer<uint> ropes_;  ///< one a node; one word where there are none
+    Buffer<uint> ropes_;  ///< one per node; a single word if the tree needs none
 };
 
 }  // namespace bvhbench

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Lists that kernels fill on the device: memory for them, their counts, and more room where those found none.
+// Lists that kernels fill on the device: allocation, 64-bit counts, download and growth.
 #pragma once
 
 #include <algorithm>
@@ -19,10 +19,10 @@
 
 namespace bvhbench {
 
-/// Most entries of a list: kernels place them by 32 bits.
+/// Largest number of entries of a list: kernels index entries by 32 bits.
 inline constexpr std::uint64_t most_entries = std::numeric_limits<uint>::max();
 
-/// Take what `plan` takes of an arena, measured first; the old memory goes before the new comes.
+/// Measures what `plan` allocates, frees the old arena, and allocates a new one of that size.
 template <class Plan>
 void take_memory(std::optional<Arena>& arena, const Device& device, const Plan& plan)
 {
@@ -33,7 +33,7 @@ void take_memory(std::optional<Arena>& arena, const Device& device, const Plan& 
     plan(*arena);
 }
 
-/// The 64-bit counts of `words`, two words each (collide/found.clh).
+/// Returns the 64-bit counts stored in `words`, two words each (collide/found.clh). Blocks.
 inline std::vector<std::uint64_t> wide_counts(const Buffer<uint>& words, const Queue& queue)
 {
     const std::vector<uint> halves = words.download(queue.cl());
@@ -43,7 +43,7 @@ inline std::vector<std::uint64_t> wide_counts(const Buffer<uint>& words, const Q
     return counts;
 }
 
-/// The first `count` entries of a list. Throws Unavailable when the host has not the memory.
+/// Downloads the first `count` entries of a list. Throws Unavailable if host memory is too small.
 template <class T>
 std::vector<T> first_entries(const Buffer<T>& list, std::uint64_t count, const Queue& queue,
                              const std::string& what)
@@ -56,8 +56,8 @@ std::vector<T> first_entries(const Buffer<T>& list, std::uint64_t count, const Q
     return entries;
 }
 
-/// Whether `needed` entries, as counted, fit into a list with this `room`; if not, it is made for them and for `more`, as
-/// far as one allocation goes. Throws Unavailable for more than 32 bits count.
+/// True if `needed` entries fit into a list with this `room`. Otherwise sets `room` to `needed` plus `more`, limited by the
+/// largest allocation. Throws Unavailable if `needed` exceeds 32 bits.
 inline bool had_room(std::size_t& room, std::uint64_t needed, std::uint64_t more,
                      std::size_t entry_bytes, const Device& device, std::string_view what)
 {

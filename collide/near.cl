@@ -2,22 +2,22 @@
 // check: -DGROUP_SIZE=64u -DLISTED=256u
 // check: -DGROUP_SIZE=1u -DLISTED=4u
 //
-// Which triangles can be in a pair between two objects, and those alone as a frame of their own:
+// Gathers the triangles that can be in a pair between two objects, as a frame of their own:
 //
-//     list_touching  lists      of each object the others whose boxes touch its box
-//     flag_near      places[k]  1 if triangle k's box touches one of those boxes, else 0
-//       ... a scan of places ...  how many are near before it
-//     count_near     counts     of each object the triangles that are near; ranks: 1 if there are any
-//       ... a scan of ranks ...   which of the objects that have some it is
-//     compact_near   near_*     what is near, in the frame's order, by what it is there
+//     list_touching  lists      per object, the objects whose boxes overlap its box
+//     flag_near      places[k]  1 if the box of triangle k overlaps one of those boxes, else 0
+//       ... prefix sum of places ...   number of near triangles before k
+//     count_near     counts     per object, the number of near triangles; ranks: 1 if there are any, else 0
+//       ... prefix sum of ranks ...    rank of the object among those that have any
+//     compact_near   near_*     the near triangles, in the frame's order, with object ranks instead of object numbers
 //
-// A group, or a work-item that is one, has neighbouring items in all of them: GROUP_SIZE is 1 on few cores.
+// Each work-group takes a contiguous range of items in all kernels. GROUP_SIZE is 1 in the chunk form.
 #include "builders/stages/chunk.clh"
 #include "collide/found.clh"
 #include "geometry/box_words.clh"
 #include "geometry/scene_bounds.h"
 
-/// Add what a group's work-items have counted.
+/// Adds the counts of a group's work-items to `count`. Contains a barrier.
 static inline void add_tests(local ulong* tests, const ulong own, volatile global uint* count)
 {
     tests[get_local_id(0)] = own;
@@ -31,8 +31,7 @@ static inline void add_tests(local ulong* tests, const ulong own, volatile globa
         add_wide(count, sum);
 }
 
-/// lists[LISTED * k] has those that object k touches, list_sizes[k] of them; where they are more than LISTED, the rest
-/// is counted and not written.
+/// Writes the objects that object k overlaps to lists[LISTED * k], ..., as far as LISTED, and their full number to list_sizes[k].
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void list_touching(
     global const Bounds* restrict bounds, const uint object_count, global uint* restrict lists,
     global uint* restrict list_sizes, volatile global uint* test_count)
@@ -54,7 +53,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void list_touchin
     add_tests(group_tests, (ulong)(part.end - part.first) * (object_count - 1u), test_count);
 }
 
-/// Whether `box`, of object `own`, touches the box of another. An object whose list ran over is held against all.
+/// True if `box`, of object `own`, overlaps the box of another object. If the list of `own` overflowed, all objects are tested.
 static inline bool is_near(const Aabb box, const uint own, global const Bounds* bounds,
                            const uint object_count, global const uint* lists,
                            global const uint* list_sizes, ulong* tests)
@@ -73,7 +72,7 @@ static inline bool is_near(const Aabb box, const uint own, global const Bounds* 
     return touches;
 }
 
-/// One place more than there are triangles: behind the last one, 0.
+/// Writes count + 1 flags; the last one is 0.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void flag_near(
     global const float2* restrict boxes, global const uint* restrict owners,
     global const Bounds* restrict bounds, const uint object_count,
@@ -91,7 +90,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void flag_near(
     add_tests(group_tests, tests, test_count);
 }
 
-/// Object k has the triangles from first_faces[k] to before first_faces[k + 1].
+/// Object k consists of triangles first_faces[k] to first_faces[k + 1] - 1.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void count_near(
     global const uint* restrict places, global const uint* restrict first_faces,
     const uint object_count, global uint* restrict counts, global uint* restrict ranks)
@@ -104,7 +103,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void count_near(
     }
 }
 
-/// What finds no room among `most` is not written: then nobody reads any of it.
+/// Writes nothing beyond `most` entries; if there are more, the host uses the whole frame and reads none of the output.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void compact_near(
     global const uint* restrict places, global const Face* restrict faces,
     global const uint* restrict owners, global const uint* restrict ranks,
@@ -122,8 +121,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void compact_near
     }
 }
 
-/// Pairs of what is near become pairs of the frame's triangles. Those are in the same order, so that the smaller one
-/// stays first.
+/// Replaces ids of near triangles in `pairs` by ids in the whole frame. The order is the same, so the smaller id stays first.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void map_pairs(
     global uint2* restrict pairs, global const uint* restrict pair_count, const uint capacity,
     global const uint* restrict near_ids)

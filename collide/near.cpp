@@ -14,7 +14,7 @@ namespace {
 constexpr auto path = "collide/near.cl";
 constexpr uint usual_group_size = 64;
 
-/// Groups a compute unit that numbers are mapped by, however many pairs there may be.
+/// Work-groups per compute unit that map pairs back, at most.
 constexpr std::size_t map_groups_a_unit = 64;
 
 }  // namespace

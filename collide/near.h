@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The rule `near` (skips.h) on the device: the triangles of a frame that can be in a pair between two objects.
+// Device part of the rule `near` (skips.h): finds the triangles of a frame that can be in a pair between two objects.
 #pragma once
 
 #include <cstdint>
@@ -16,46 +16,47 @@ namespace bvhbench {
 
 struct NearOptions {
     KernelForm form = KernelForm::of_device;
-    /// Objects that an object is held against by a list of its own; against more, all are tested. Never wrong.
+    /// Capacity of an object's list of overlapping objects. If it overlaps more, all are tested, with the same result.
     unsigned listed = 256;
 };
 
-/// Finds the triangles whose box touches the box of another object, and puts them together as a frame of their own.
+/// Finds the triangles whose box overlaps the box of another object, and gathers them as a frame of their own.
 ///
-/// Two triangles of two objects that overlap are both near: each touches the other's object. So that frame has all
-/// pairs between objects. A triangle may be near without being in any pair.
+/// If two triangles of two objects overlap, each overlaps the box of the other object, so both are gathered and that frame
+/// contains all pairs between objects. A gathered triangle need not be in any pair.
 class NearTriangles {
 public:
     NearTriangles(Programs& programs, const NearOptions& options);
 
-    /// With more near triangles than this, the whole frame is used.
+    /// Largest number of near triangles that is used; with more, the whole frame is used.
     static std::size_t most_of(std::size_t triangles) { return triangles / 2; }
 
-    /// Whether the search may be worth its time on so many triangles. A GPU builds over a million of them sooner than it
-    /// makes the search's launches and the host reads what it found; a processor's launches cost nothing beside.
+    /// True if the search may pay off for this many triangles. Below some four million, a GPU builds a tree over all of them
+    /// sooner than it finishes the search and the host reads its result; on a CPU, launches cost next to nothing.
     static bool may_pay(const Device& device, std::size_t triangles)
     {
         return device.is_cpu() || triangles >= std::size_t{1} << 22;
     }
 
-    /// Take memory for frames like this one: the same faces and objects, other points. Never timed. Waits.
+    /// Reserves memory for frames like `input`: same faces and objects, any points. Never timed. Blocks.
     void reserve(const Input& input);
 
-    /// What stands reserved.
+    /// Memory reserved at present.
     Footprint reserved() const { return arena_ ? arena_->used() : Footprint{}; }
 
-    /// Find and gather them, in the stage `near`, whose last command reads back how many each object has. Waits for it.
+    /// Finds and gathers the near triangles in the stage `near`; returns their number per object. Blocks on the final read.
     std::vector<uint> find(const Input& input, Queue& queue);
 
-    /// The frame of what was found, most_of at most, and the objects that have some. Shares memory with this, so that
-    /// another `find` fills it again, and with `whole`, which is not swept; `faces` is where its copy on the host goes. Waits.
+    /// Returns the frame of the near triangles, of which there may be at most most_of, with the objects that have any. Its
+    /// buffers belong to this object, and the next `find` overwrites them; the points are those of `whole`, which must not be
+    /// swept. `faces` receives the host copy of the faces. Blocks.
     Input frame(const Input& whole, const std::vector<uint>& counts, std::vector<Face>& faces,
                 const Queue& queue) const;
 
-    /// Enqueue, as part of the stage begun, what gives the triangles of that frame's pairs the whole frame's numbers.
+    /// Enqueues, in the current stage, the conversion of pairs of that frame to triangle ids of the whole frame.
     void map_back(const DevicePairs& found, Queue& queue);
 
-    /// Boxes that the last `find` has tested for overlap. Waits.
+    /// Box tests of the last `find`. Blocks.
     std::uint64_t box_tests(const Queue& queue) const;
 
 private:
@@ -70,14 +71,14 @@ private:
     ScanStage scan_places_, scan_ranks_;
     cl::Kernel list_, flag_, count_, compact_, map_;
     std::optional<Arena> arena_;
-    Buffer<uint> lists_, list_sizes_;  ///< of each object, the others that its box touches
-    Buffer<uint> places_;  ///< of each triangle and behind the last, how many before it are near
-    Buffer<uint> first_faces_;     ///< of each object, and behind the last one's end
-    Buffer<uint> counts_, ranks_;  ///< of each object
-    Buffer<uint> test_count_;      ///< of two words
-    Buffer<Face> faces_;           ///< of the frame, as owners_ and ids_
+    Buffer<uint> lists_, list_sizes_;  ///< per object: objects that its box overlaps
+    Buffer<uint> places_;              ///< near triangles before each triangle, and in all
+    Buffer<uint> first_faces_;         ///< first triangle of each object; then the triangle count
+    Buffer<uint> counts_, ranks_;      ///< per object
+    Buffer<uint> test_count_;          ///< one 64-bit count
+    Buffer<Face> faces_;               ///< near triangles, as are owners_ and ids_
     Buffer<uint> owners_;
-    Buffer<uint> ids_;  ///< which triangles of the whole frame they are
+    Buffer<uint> ids_;  ///< their ids in the whole frame
 };
 
 }  // namespace bvhbench

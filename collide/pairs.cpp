@@ -10,7 +10,7 @@
 
 namespace bvhbench {
 
-// The hash reads the list's own bytes.
+// The hash reads the bytes of the list directly.
 static_assert(std::endian::native == std::endian::little && sizeof(Pair) == 8);
 
 PairList::PairList(std::vector<Pair> found) : pairs_(std::move(found))

@@ -11,32 +11,31 @@
 
 namespace bvhbench {
 
-/// Two triangles by their frame-wide ids: position in Scene::faces, through all objects. 8 bytes.
+/// Two triangles by frame-wide ids, that is positions in Scene::faces across all objects. 8 bytes.
 struct Pair {
     uint a = 0;
     uint b = 0;
     auto operator<=>(const Pair&) const = default;
 };
 
-/// A set of pairs in canonical form: the smaller id first, each pair once, ascending.
+/// A set of pairs in canonical form: smaller id first, each pair once, ascending.
 ///
-/// Colliders find pairs in any order. Two colliders agree when their lists are equal, and lists are equal
-/// when their hashes are, short of a collision in 64 bits.
+/// Colliders find pairs in any order. Two colliders agree if and only if their lists are equal. Equal hashes imply equal lists,
+/// short of a collision in 64 bits.
 class PairList {
 public:
     PairList() = default;
 
-    /// From pairs in any order, either id first.
+    /// Takes pairs in any order, with either id first.
     explicit PairList(std::vector<Pair> found);
 
     std::span<const Pair> pairs() const { return pairs_; }
     std::size_t size() const { return pairs_.size(); }
 
-    /// How many of the pairs found are not in the list: found before, or a triangle with itself. A collider
-    /// that keeps its promise has none.
+    /// Number of input pairs that are not in the list: duplicates, or a triangle with itself. A correct collider has none.
     std::size_t surplus() const { return surplus_; }
 
-    /// FNV-1a over the little-endian 32-bit ids, pair after pair: a format others can reproduce.
+    /// FNV-1a over the little-endian 32-bit ids, pair after pair, so that other programs can reproduce it.
     std::uint64_t hash() const;
 
     bool operator==(const PairList& other) const { return pairs_ == other.pairs_; }
@@ -46,31 +45,31 @@ private:
     std::size_t surplus_ = 0;
 };
 
-/// What the two triangles of a pair are to each other. Papers count different ones, so ours are told apart.
+/// Relation between the two triangles of a pair. Papers count different relations, so they are kept apart here.
 enum class Relation {
-    between_objects,  ///< of two objects, even if they share a vertex
-    apart,            ///< of one object, no vertex shared
-    adjacent,         ///< of one object, with a shared vertex: their boxes always overlap
+    between_objects,  ///< two objects, even if a vertex is shared
+    apart,            ///< one object, no shared vertex
+    adjacent,         ///< one object, a shared vertex: the boxes always overlap
 };
 
-/// The triangles that pairs speak of.
+/// Triangles that pairs refer to.
 struct Family {
     std::span<const Face> faces;
-    std::span<const uint> objects;  ///< object of each face; empty if there is one object only
+    std::span<const uint> objects;  ///< object of each face; empty if there is only one object
 };
 
 Relation relation_of(Pair pair, const Family& family);
 
-/// Which pairs are looked for, by the objects their triangles are of.
+/// Which pairs are wanted, by the objects of their triangles.
 enum class Among { all, between_objects, within_objects };
 
-/// Whether a pair is one of those, of triangles of these objects.
+/// True if `pair` is among the wanted ones; `objects` are the face ranges of all objects.
 bool is_among(Pair pair, std::span<const FaceRange> objects, Among among);
 
-/// The pairs among those objects.
+/// Returns the pairs that `is_among` accepts.
 PairList among_objects(const PairList& pairs, std::span<const FaceRange> objects, Among among);
 
-/// The pairs of one relation.
+/// Returns the pairs with the given relation.
 PairList selected(const PairList& pairs, const Family& family, Relation relation);
 
 }  // namespace bvhbench

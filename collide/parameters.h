@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// What colliders and the narrow phase let a device choose (device/tuning.h), beside builders/parameters.h.
+// Tuning parameters of colliders and of the narrow phase (device/tuning.h); builders/parameters.h has the others.
 #pragma once
 
 #include "device/tuning.h"
 
 namespace bvhbench {
 
-/// Work-items that a group has at the least: one each for what is counted at the end of a turn, and for the children of
-/// the widest node.
+/// Smallest work-group size: one work-item per counter that an iteration flushes, and one per child of the widest node.
 inline constexpr uint smallest_group = 8;
 
 constexpr Parameter number_parameter(std::string_view name, std::string_view meaning,
@@ -19,7 +18,7 @@ constexpr Parameter number_parameter(std::string_view name, std::string_view mea
     return {name, meaning, stage, usual, usual, least, most, values, candidates};
 }
 
-/// Work-items in a group.
+/// A parameter that is a work-group size.
 constexpr Parameter group_size_parameter(std::string_view name, std::string_view meaning,
                                          std::string_view stage, uint usual)
 {
@@ -27,7 +26,7 @@ constexpr Parameter group_size_parameter(std::string_view name, std::string_view
                             ValueIs::group_size);
 }
 
-/// Entries that a work-item of the form for few cores collects in a block before it passes them on.
+/// A parameter that is the number of entries that a work-item of the chunk form buffers before it writes them out.
 constexpr Parameter block_parameter(std::string_view name, std::string_view meaning,
                                     std::string_view stage, uint usual)
 {
@@ -101,7 +100,7 @@ inline constexpr Parameter narrow_block_pairs =
     block_parameter("narrow.block_pairs",
                     "pairs of a kind that a work-item of it collects, on few cores", "narrow", 512);
 
-/// All of them.
+/// All parameters of this file.
 inline constexpr const Parameter* collider_parameters[] = {&leaf_group_size,
                                                            &group_group_size,
                                                            &walk_task_leaves,

@@ -7,7 +7,7 @@
 
 namespace bvhbench {
 
-/// Work that a scene does not need, as rules: each can be switched off, and none of them changes what is found.
+/// Rules that skip work a scene does not need. Each can be switched off; none changes the pairs found.
 enum SkipRule : unsigned {
     skip_unchanged = 1u << 0,
     skip_rigid = 1u << 1,
@@ -20,17 +20,17 @@ enum SkipRule : unsigned {
 
 struct SkipRuleEntry {
     SkipRule rule;
-    std::string_view name;     ///< the key on the command line and in result files
+    std::string_view name;     ///< key on the command line and in result files
     std::string_view summary;  ///< one line
 };
 
-/// Every rule, in the order tables list them.
+/// All rules, in the order of tables.
 std::span<const SkipRuleEntry> skip_rules();
 
-/// Rules by their names, "all" for all of them. Throws BadUsage with the known names.
+/// Returns the rules with these names; "all" means every rule. Throws BadUsage, with the known names, for an unknown one.
 unsigned skip_rules_called(std::span<const std::string> names);
 
-/// "rigid, apart"
+/// Names of the rules, as in "rigid, apart".
 std::string skip_rules_text(unsigned rules);
 
 }  // namespace bvhbench

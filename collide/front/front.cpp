@@ -13,23 +13,22 @@
 namespace bvhbench {
 namespace {
 
-/// To look whether parents are apart costs more tests than all else of a frame. So entries climb only in a frame that
-/// comes to a front grown past this multiple of what was left when they last did, and once in so many frames besides, as
-/// what parts does not grow; until then a front is right but deeper than it need be.
+/// Testing whether parents are apart costs more than the rest of a frame. So entries climb only in a frame whose front has grown
+/// past this multiple of what the last climb left, and also every frames_to_climb frames, because objects that part do not let
+/// the front grow. In between, the front is correct but deeper than necessary.
 constexpr double growth_to_climb = 1.5;
 constexpr uint frames_to_climb = 16;
 
-/// Boxes that are only refitted grow loose, and the front grows with them: where entries have climbed and still leave a
-/// front past this multiple of what the last build left, the tree is built anew and the front starts from the roots.
-/// Contacts make it grow as well; then what the new build leaves is the new measure, so that they cost a few builds and
-/// not one a frame.
+/// Refitted boxes become loose, and the front grows with them. If entries have climbed and the front still exceeds this multiple
+/// of the front after the last build, the tree is rebuilt and the front starts from the roots. Contacts let the front grow as
+/// well; the front after the rebuild is then the new reference, so that contacts cost a few builds rather than one per frame.
 constexpr double growth_to_restart = 2;
 
-/// Entries, 128 MiB of them, from which on room is given sparingly: repeating a query costs less than what it would take.
+/// Number of entries (128 MiB) from which buffers grow by less: repeating a query costs less than the extra memory.
 constexpr std::size_t many = std::size_t{1} << 24;
 
-/// The front that stands is never written to: a query goes from it to another, and the next frame exchanges them. So a
-/// query that lacked room, or is timed, can be repeated.
+/// The current front is never written to: a query reads it and writes another one, and the next frame exchanges the two. So a
+/// query that ran out of room, or is timed, can be repeated.
 class Front final : public DeviceCollider {
 public:
     Front(Programs& programs, const ColliderOptions& options)
@@ -89,14 +88,14 @@ private:
         return naming_objection("front", tree);
     }
 
-    /// Entries of the front that tracking begins with.
+    /// Number of entries of the initial front.
     std::uint64_t root_count() const
     {
         const std::uint64_t objects = object_count();
         return (within() ? objects : 0) + (between(objects) ? objects * (objects - 1) / 2 : 0);
     }
 
-    /// Levels below the root: a step each, behind that of the front itself.
+    /// Levels below the root: one step each, after step 0 over the front itself.
     uint descents() const { return tree().most_levels() - 1; }
 
     void compile(const Input&) override
@@ -106,7 +105,7 @@ private:
             throw Unavailable(std::to_string(roots) + " pairs of objects: a front holds at most " +
                               std::to_string(most_entries));
         block_pairs_ = by_groups() ? 0 : device().tuned(bvtt_block_pairs);
-        queue_count_ = 3 + descents();  // of the front, of prunes, and behind each descent
+        queue_count_ = 3 + descents();  // front, prunes, and the output of each step
         const Define label{"LABEL_BITS", node_bits(tree())};
         advance_ =
             by_groups()
@@ -141,7 +140,7 @@ private:
         blocks_ = arena.take<Pair>(by_groups() ? 1 : 3 * block_pairs_ * chunks_, Use::scratch);
     }
 
-    /// What the frame goes on from is all that more memory must not lose.
+    /// Saves the state that the frame starts from, which must survive a reallocation: the current front and the parents.
     void save(const cl::CommandQueue& queue) override
     {
         set_aside_.resize(standing_.value_or(0));
@@ -168,7 +167,7 @@ private:
     {
         constexpr std::size_t queues = (FRONT_QUEUES_COUNT - QUEUES_COUNT) / 2 + 1;
         const std::uint64_t waiting = *std::max_element(sizes.begin() + queues, sizes.end());
-        // Steps behind one that ran over have seen only some of their entries: they, and the front, will need more.
+        // Steps after an overflow have seen only some of their entries, so they, and the front, will need more.
         const bool queues_fit =
             had_room(queue_room_, waiting, waiting < many ? waiting : waiting / 16, sizeof(Pair),
                      device(), "pairs of nodes");
@@ -180,7 +179,7 @@ private:
         return queues_fit && front_fits;
     }
 
-    /// The front that stands. What of the tree it leads to depends on how it stands.
+    /// Bytes of the current front. How much of the tree a frame reads beyond it depends on the front.
     std::int64_t reads_at_least() const override
     {
         return std::int64_t{standing_.value_or(0)} * std::int64_t{sizeof(Pair)};
@@ -196,7 +195,7 @@ private:
             bind(advance_, input, parents_, from, queues_[(step + 1) % 2],
                  static_cast<uint>(queue_room_), fronts_[1], static_cast<uint>(front_room_), step,
                  standing, climbs_ ? 1u : 0u, blocks_);
-            // An entry has 4 pairs of children a level of binary trees.
+            // In binary trees, an entry has 4 pairs of children per level.
             const std::size_t tasks = std::size_t{standing}
                                       << std::min(2 * tree().child_bits() * step, 30u);
             if (by_groups())
@@ -226,22 +225,20 @@ private:
     }
 
     cl::Kernel advance_, roots_, list_parents_, cut_off_roots_, list_depths_;
-    uint block_pairs_ = 0;  ///< of a work-item's own, for each of three lists, on few cores
+    uint block_pairs_ = 0;  ///< entries per block, in the chunk form
     std::size_t queue_room_ = 0, front_room_ = 0;
-    std::array<Buffer<Pair>, 2> fronts_;  ///< that stands, and that the query leaves
-    std::array<Buffer<Pair>, 2>
-        queues_;            ///< of nodes that sprout; a step goes from one to the other
-    Buffer<Pair> parents_;  ///< front_parents.cl; one where there is arithmetic
-    Buffer<Pair> blocks_;   ///< of the form for few cores
+    std::array<Buffer<Pair>, 2> fronts_;  ///< the current one, and the one that the query writes
+    std::array<Buffer<Pair>, 2> queues_;  ///< sprouted pairs: read and written by turns
+    Buffer<Pair> parents_;                ///< see front_parents.cl; one element if not needed
+    Buffer<Pair> blocks_;                 ///< blocks of the chunk form
     std::vector<Pair> set_aside_, parents_aside_;
 
-    std::optional<uint>
-        standing_;  ///< entries of the front that stands; none: start from the roots
-    std::optional<uint> last_front_;  ///< that the last query left, if it was complete
-    bool climbs_ = false;             ///< whether entries of the front that stands may climb
-    uint since_climb_ = 0;            ///< frames
-    double after_build_ = 0;          ///< entries that the first frame after the last build left
-    double after_climb_ = 0;          ///< the same of the last frame in which they climbed
+    std::optional<uint> standing_;    ///< entries of the current front; empty: start from the roots
+    std::optional<uint> last_front_;  ///< entries that the last query left, if it was complete
+    bool climbs_ = false;             ///< whether entries of the current front may climb
+    uint since_climb_ = 0;            ///< frames since the last climb
+    double after_build_ = 0;          ///< entries after the first frame since the last build
+    double after_climb_ = 0;          ///< entries after the last frame with climbing
     std::uint64_t restarts_ = 0;
 };
 

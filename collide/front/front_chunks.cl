@@ -2,13 +2,13 @@
 // check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=0 -DSINK_BLOCK=256u -DLABEL_BITS=20
 // check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DSINK_BLOCK=256u -DLABEL_BITS=32
 //
-// A step of front tracking, a work-item a run of neighbouring tasks, with a block each for nodes that sprout, for
-// entries of the front and for pairs.
+// A step of front tracking in the chunk form: a work-item takes a contiguous run of tasks and has one block of output each for
+// sprouted nodes, front entries and pairs.
 #include "collide/sinks/lists_chunks.clh"
 
 #include "collide/front/front.clh"
 
-/// As in front_groups.cl. `blocks` has 3 SINK_BLOCK pairs a work-item.
+/// As `advance` in front_groups.cl. `blocks` has 3 SINK_BLOCK pairs per work-item.
 kernel void advance(FOREST_PARAMETERS, global const uint* ropes, global const Face* faces,
                     global uint2* pairs, const uint capacity, volatile global uint* counters,
                     global const uint2* parents, global const uint2* queue, global uint2* next,

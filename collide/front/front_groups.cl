@@ -2,15 +2,15 @@
 // check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=0 -DGROUP_SIZE=64u -DITEMS=4u -DLABEL_BITS=20
 // check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DGROUP_SIZE=64u -DITEMS=4u -DLABEL_BITS=32
 //
-// A step of front tracking by groups: ITEMS tasks a work-item a turn. What a group keeps of a turn is in
-// the lists of sinks/lists_groups.clh: nodes that sprout, pairs, and entries of the front.
+// A step of front tracking by work-groups: ITEMS tasks per work-item and iteration. A group buffers the output of an iteration in
+// the lists of sinks/lists_groups.clh: sprouted nodes, pairs, and front entries.
 #include "collide/sinks/lists_groups.clh"
 
 #include "collide/front/front.clh"
 
-/// Step 0 takes the old front, `standing` entries, from `queue`; a later one the nodes that the step before it left
-/// there. With `climbs`, entries of the old front do. `next` gets those of the step after it, `front` what stays, and
-/// `pairs` what is found. Nothing is written where there is no room, but all is counted.
+/// Advances the front by a step. In step 0, `queue` is the old front of `standing` entries, which climb if `climbs` is set; later
+/// it holds the nodes that the previous step queued. `next` receives the entries of the next step, `front` the entries that stay,
+/// and `pairs` the pairs found. What exceeds a capacity is counted, not written.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void advance(
     FOREST_PARAMETERS, global const uint* ropes, global const Face* faces, global uint2* pairs,
     const uint capacity, volatile global uint* counters, global const uint2* parents,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // check: -include baselines/radix/access.clh -DSORTED_LEAVES=0
 //
-// For trees that know only their children: each node's parent and how deep it lies below its object's root, by its
-// number. Three launches, after each build; a refit leaves them right.
+// For trees that store only children: computes each node's parent and its depth below its object's root, by node number. Takes
+// three launches after each build; a refit leaves the result valid.
 #include "builders/stages/chunk.clh"
 
 kernel void list_parents(FOREST_PARAMETERS, global uint2* parents)
@@ -10,7 +10,7 @@ kernel void list_parents(FOREST_PARAMETERS, global uint2* parents)
     PICK_WHOLE_TREE
     const Chunk chunk = own_chunk(leaves);
     for (uint k = chunk.first; k < chunk.end; ++k) {
-        if (k + 1u == leaves) {  // as many inner nodes as leaves, but for one: the root
+        if (k + 1u == leaves) {  // the last item has no inner node
             parents[tree_number(TREE, tree_root(TREE))] = (uint2)(TREE_NONE, 0u);
             continue;
         }
@@ -21,7 +21,7 @@ kernel void list_parents(FOREST_PARAMETERS, global uint2* parents)
     (void)objects;
 }
 
-/// Objects' trees are parts of one; nothing climbs out of them.
+/// Cuts the trees of the objects, which are parts of one tree, apart, so that no entry climbs out of its object's tree.
 kernel void cut_off_roots(FOREST_PARAMETERS, global uint2* parents, const uint object_count)
 {
     const uint object = (uint)get_global_id(0);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Spatial hashing, each frame anew: the table of collide/grid/grid_table.cl, then collide/grid/grid_walk.clh along it. Where
-// others sort (cell, triangle) entries by digits, buckets are counted, scanned and filled: one pass in place of four,
-// and no sort of as many entries as there might be, since only the device knows how many there are.
+// Spatial hashing, rebuilt every frame: grid_table.cl makes the table and grid_walk.clh finds the pairs. Where other
+// implementations sort (cell, triangle) entries by digits, this one counts entries per bucket, scans and fills: one pass instead
+// of four, and no sort over an upper bound of entries, whose number only the device knows.
 #include <algorithm>
 #include <bit>
 #include <cassert>
@@ -20,14 +20,14 @@
 namespace bvhbench {
 namespace {
 
-constexpr uint sum_group = 256;    // of the kernels that find the mean side
-constexpr uint sums_per_unit = 2;  // groups of those, a compute unit
+constexpr uint sum_group = 256;    // work-group size of the kernels that compute the mean side
+constexpr uint sums_per_unit = 2;  // their work-groups per compute unit
 
-// How long a cell of the finest level is, in mean longest sides of boxes. Of 1, 1.5, 2 and 3, two has the fewest box
-// tests where objects differ in detail; on closed surfaces 1.5 has a tenth to a fifth fewer, and more entries.
+// Side of a cell of the finest level, as a multiple of the mean longest side of boxes. Of 1, 1.5, 2 and 3, the value 2 gives the
+// fewest box tests where objects differ in detail; on closed surfaces 1.5 gives a tenth to a fifth fewer, but more entries.
 constexpr float cell_sides = 2.0f;
 
-constexpr std::size_t entries_each = 4;  // a triangle, that there is room for at first
+constexpr std::size_t entries_each = 4;  // initial capacity: entries per triangle
 
 class HashedGrid final : public DeviceCollider {
 public:
@@ -50,7 +50,7 @@ private:
         return had_room(entry_room_, queues[0], queues[0] / 8, sizeof(GridEntry), device(),
                         "entries of cells");
     }
-    std::int64_t reads_at_least() const override  // one entry a triangle, or more
+    std::int64_t reads_at_least() const override  // at least one entry per triangle
     {
         return has_pairs_ ? std::int64_t{triangles_} * std::int64_t{sizeof(GridEntry)} : 0;
     }
@@ -59,16 +59,16 @@ private:
     void enqueue_cells(Queue& queue);
     void enqueue_entries(Queue& queue);
 
-    /// That a work-item of the form for few cores collects before it passes them on.
+    /// Pairs that a work-item of the chunk form buffers.
     uint block_pairs() const { return device().tuned(grid_block_pairs); }
 
-    /// What leaves of a hashed word the number of a bucket.
+    /// Right shift that turns a 32-bit hash into a bucket number.
     uint bucket_shift() const
     {
         return static_cast<uint>(std::countl_zero(static_cast<uint>(ends_.size()))) + 1;
     }
 
-    /// A work-item a triangle, in either form: what these kernels do is scatter.
+    /// Launches one work-item per triangle, in both kernel forms, since these kernels scatter.
     void launch_each(const cl::Kernel& kernel, std::size_t bytes, Queue& queue) const
     {
         launch(kernel, triangles_, table_group_, queue, static_cast<std::int64_t>(bytes));
@@ -78,12 +78,12 @@ private:
     ScanStage scan_;
     std::size_t table_group_;
     cl::Kernel add_sides_, choose_cells_, count_cells_, enter_cells_, cell_pairs_, level_pairs_;
-    bool has_pairs_ = false;  ///< with one object there are none between objects
+    bool has_pairs_ = false;  ///< a single object has no pairs between objects
     std::size_t entry_room_ = 0;
-    Buffer<float> sides_;  ///< partial sums
+    Buffer<float> sides_;  ///< partial sums of half sides
     Buffer<HashGrid> grid_;
-    Buffer<uint> ends_;          ///< of the buckets
-    Buffer<GridEntry> entries_;  ///< bucket after bucket
+    Buffer<uint> ends_;          ///< ends of the buckets
+    Buffer<GridEntry> entries_;  ///< entries, ordered by bucket
     Buffer<Pair> blocks_;
 };
 
@@ -98,7 +98,7 @@ void HashedGrid::compile(const Input& input)
     choose_cells_ = table("choose_cells");
     count_cells_ = table("count_cells");
     enter_cells_ = table("enter_cells");
-    const bool one_object = input.objects.size() == 1;  // then all pairs are within it
+    const bool one_object = input.objects.size() == 1;  // all pairs are within it
     has_pairs_ = !one_object || within();
     const uint among = one_object ? 0 : static_cast<uint>(options_.among);
     const auto pairs = [&](const char* name) {

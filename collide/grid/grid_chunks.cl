@@ -2,13 +2,13 @@
 // check: -DAMONG=0 -DKEEP_ADJACENT=0 -DSINK_BLOCK=512u
 // check: -DAMONG=1 -DKEEP_ADJACENT=1 -DSINK_BLOCK=512u
 //
-// A work-item a run of entries, or of triangles.
+// The chunk form: a work-item takes a contiguous run of entries or of triangles.
 #include "builders/stages/chunk.clh"
 #include "collide/sinks/sink_chunks.clh"
 
 #include "collide/grid/grid_walk.clh"
 
-/// As in grid_groups.cl. `blocks` has SINK_BLOCK pairs a work-item.
+/// As `cell_pairs` in grid_groups.cl. `blocks` has SINK_BLOCK pairs per work-item.
 kernel void cell_pairs(TABLE_PARAMETERS, global uint2* pairs, const uint capacity,
                        volatile global uint* counters, global uint2* blocks)
 {
@@ -28,7 +28,7 @@ kernel void level_pairs(TABLE_PARAMETERS, global uint2* pairs, const uint capaci
 {
     const uint levels = grid->levels;
     if (levels == 1u)
-        return;  // the smallest boxes are of level 0, and there are no others
+        return;  // only level 0 has boxes
     const Chunk chunk = own_chunk(triangles);
     OPEN_SINK
     ulong tests = 0ul;

@@ -2,13 +2,12 @@
 // check: -DAMONG=0 -DKEEP_ADJACENT=0 -DGROUP_SIZE=64u
 // check: -DAMONG=2 -DKEEP_ADJACENT=1 -DGROUP_SIZE=64u
 //
-// A work-item an entry, or a triangle; a group's neighbouring entries read much the same others.
+// The work-group form: one work-item per entry or per triangle. The neighbouring entries of a group read mostly the same memory.
 #include "collide/sinks/sink_groups.clh"
 
 #include "collide/grid/grid_walk.clh"
 
-/// `counters` begin as zero. Afterwards `pairs` hold those of one level, if there was room, and the count of the first
-/// queue is that of entries.
+/// Finds the pairs of boxes of one level; `counters` must be zero. Also sets the count at QUEUES_COUNT to the number of entries.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void cell_pairs(
     TABLE_PARAMETERS, global uint2* pairs, const uint capacity, volatile global uint* counters)
 {
@@ -29,7 +28,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void cell_pairs(
     close_sink(SINK);
 }
 
-/// The same, of two levels.
+/// Adds the pairs of boxes of two different levels.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void level_pairs(
     TABLE_PARAMETERS, global uint2* pairs, const uint capacity, volatile global uint* counters,
     const uint triangles)
@@ -39,7 +38,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void level_pairs(
     const uint item = (uint)get_local_id(0);
     const uint levels = grid->levels;
     if (levels == 1u)
-        return;  // the smallest boxes are of level 0, and there are no others
+        return;  // only level 0 has boxes
     barrier(CLK_LOCAL_MEM_FENCE);
     tests[item] = 0u;
     if (get_global_id(0) < triangles)

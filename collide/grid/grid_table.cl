@@ -2,22 +2,21 @@
 // check: -DGROUP_SIZE=256u -DSTRIDED=1
 // check: -DGROUP_SIZE=1u -DSTRIDED=0
 //
-// The table of a hashed grid, made anew every frame:
+// Builds the table of the hashed grid, every frame:
 //
-//     add_sides     partials[i]  sums of the boxes' sides
-//     choose_cells  *grid        the side of cells, from the mean
-//     count_cells   ends[b]      how many entries bucket b gets
-//       ... a scan of ends ...   where bucket b begins
-//     enter_cells   entries      as in hash_grid.h, bucket after bucket; ends[b] is where b ends
+//     add_sides     partials[i]  sums of the boxes' half sides
+//     choose_cells  *grid        side of the cells, from the mean
+//     count_cells   ends[b]      number of entries of bucket b
+//       ... prefix sum of ends ...   where bucket b begins
+//     enter_cells   entries      as in hash_grid.h, ordered by bucket; afterwards ends[b] is where bucket b ends
 //
-// Counting by buckets places every entry with no list of unsorted ones, and no pass over a number of entries that only
-// the device knows.
+// Counting per bucket places every entry without a list of unsorted ones, or a pass over a number that only the device knows.
 #include "builders/stages/chunk.clh"
 #include "collide/grid/hash_grid.h"
 #include "geometry/box_words.clh"
 #include "geometry/scene_bounds.h"
 
-/// partials[i] is what work-item i's share of the boxes adds to the mean half side. The order of adding is fixed.
+/// Sums the half sides of the share of work-item i into partials[i], in a fixed order.
 kernel void add_sides(global const float2* restrict boxes, global float* restrict partials,
                       const uint count)
 {
@@ -34,10 +33,10 @@ kernel void add_sides(global const float2* restrict boxes, global float* restric
     partials[get_global_id(0)] = sum;
 }
 
-/// Cells are `cell_sides` times as long as the mean longest side of a box: one that covers fewer cells has more company in
-/// each. Where all boxes are points, as if their sides were the scene's divided by their number. One group.
+/// Sets the cell side to `cell_sides` times the mean longest side of a box. A smaller cell has fewer boxes, but a box covers more
+/// cells. If all boxes are points, the scene's longest side divided by `count` replaces the mean. Runs as one work-group.
 ///
-/// 2^126 cells a unit are the most: all of a scene of denormals is in one.
+/// The number of cells per unit of length is at most 2^126, so that a scene of denormals is in one cell.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void choose_cells(
     global const float* restrict partials, global const Bounds* restrict bounds,
     global HashGrid* restrict grid, const uint partial_count, const uint count,
@@ -61,7 +60,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void choose_cells
     }
 }
 
-/// `ends` are zero.
+/// Counts the entries per bucket. `ends` must be zero.
 kernel void count_cells(global const float2* restrict boxes, volatile global HashGrid* grid,
                         volatile global uint* ends, const uint count, const uint shift)
 {
@@ -76,12 +75,12 @@ kernel void count_cells(global const float2* restrict boxes, volatile global Has
         for (int y = range.low_y; y <= range.high_y; ++y)
             for (int x = range.low_x; x <= range.high_x; ++x)
                 atomic_inc(&ends[bucket_of(cell_number(level, x, y, z), shift)]);
-    // Nearly always somebody was here before: looking is cheaper than an atomic on one word by all.
+    // The bit is almost always set already, and a load is cheaper than an atomic on one word by all work-items.
     if ((grid->levels & 1u << level) == 0u)
         atomic_or(&grid->levels, 1u << level);
 }
 
-/// What finds no room is counted in `ends` and not written.
+/// Writes the entries. Entries beyond `entry_room` are counted in `ends`, not written.
 kernel void enter_cells(global const float2* restrict boxes, global const HashGrid* restrict grid,
                         volatile global uint* ends, global uint4* restrict entries,
                         const uint entry_room, const uint count, const uint shift)

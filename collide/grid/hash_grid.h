@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: MIT
 //
-// The arithmetic of a hierarchical hashed grid, on both sides.
+// Arithmetic of a hierarchical hashed grid, for host and device.
 //
-// Level 0 has the finest cells, each level above cells of four times the side. A box belongs to the finest level whose
-// cells are no shorter than its longest side, so it covers two cells along an axis, three where rounding has it so, and
-// never more: what a large triangle costs is bounded, and small ones do not pay for it.
+// Level 0 has the finest cells; the cells of each further level are four times as long. A box belongs to the finest level whose
+// cells are no shorter than its longest side. So it covers at most two cells along an axis, three in case of rounding: the cost
+// of a large triangle is bounded, and small triangles do not pay for it.
 //
-// No overlapping pair is missed, and each is met in one cell only:
+// No overlapping pair is missed, and each is reported in exactly one cell:
 //
-//   - A coordinate becomes a cell by a multiplication, rounded to nearest, a floor and a clamp. Each never falls where
-//     its argument rises, so neither does all of it: cell(x) is from cell(min) to cell(max) for every x in between.
-//   - Two closed boxes overlap if and only if the lower corner of what they share, the larger of both mins on every axis,
-//     is in both. Its cell is then among the cells of both, on every level, and is the only one that reports them.
+//   - A coordinate is mapped to a cell by a multiplication rounded to nearest, a floor and a clamp. Each is monotonic, so the
+//     whole is: cell(x) lies between cell(min) and cell(max) for every x between min and max.
+//   - Two closed boxes overlap if and only if the lower corner of their intersection, the larger min on every axis, is in both.
+//     On every level, the cell of that corner is then among the cells of both boxes; it is the only cell that reports the pair.
 //
-// Coordinates are not taken relative to the scene's corner: near the origin floats are finer than anywhere, and
-// subtracting a far corner would lose that.
+// Coordinates are not relative to the scene's corner: floats are finest near the origin; subtracting a far corner loses that.
 #ifndef BVHBENCH_COLLIDE_HASH_GRID_H
 #define BVHBENCH_COLLIDE_HASH_GRID_H
 
@@ -27,22 +26,22 @@ SHARED_BEGIN
 
 /// The grid of one frame. 8 bytes.
 typedef struct {
-    float scale;  // cells of level 0 a unit of length
-    uint levels;  // bit L: there is a box of level L
+    float scale;  // cells of level 0 per unit of length
+    uint levels;  // bit L: level L has at least one box
 } HashGrid;
 
-/// The cells that a box covers, ends included.
+/// Range of cells that a box covers, both ends included.
 typedef struct {
     int low_x, low_y, low_z, high_x, high_y, high_z;
 } CellRange;
 
-/// Cells of `level` a unit of length. By a power of two: exact, and where it underflows all of a level is one cell.
+/// Cells of `level` per unit of length. The factor is a power of two: exact; where it underflows, the level is a single cell.
 SHARED_FN float level_scale(float scale, uint level)
 {
     return scale * as_float((127u - 2u * level) << 23u);
 }
 
-/// The cell of coordinate x. Clamped as a float, since converting what does not fit differs between devices.
+/// Returns the cell of coordinate x. Clamps as a float, since converting an out-of-range value differs between devices.
 SHARED_FN int cell_along(float x, float scale)
 {
     const float limit = 1073741824.0f;
@@ -51,7 +50,7 @@ SHARED_FN int cell_along(float x, float scale)
     return (float)whole > at ? whole - 1 : whole;
 }
 
-/// Half the longest side. Halved before it is subtracted, so that nothing overflows.
+/// Half the longest side of a box. Halving before subtracting avoids overflow.
 SHARED_FN float half_longest(Aabb box)
 {
     const float x = 0.5f * box.max_x - 0.5f * box.min_x;
@@ -60,8 +59,8 @@ SHARED_FN float half_longest(Aabb box)
     return fmax(fmax(x, y), z);
 }
 
-/// The level a box belongs to. The last one takes all that is left: with cells no shorter than the mean side none is,
-/// since a side is at most the sum of all, and there are fewer than 4^15 triangles.
+/// Returns the level of a box. The last level would take all larger boxes; with cells no shorter than the mean side there are
+/// none, since a side is at most the sum of all sides and there are fewer than 4^15 triangles.
 SHARED_FN uint level_of_box(Aabb box, float scale)
 {
     const float half_side = half_longest(box);
@@ -79,9 +78,8 @@ SHARED_FN CellRange cells_of_box(Aabb box, float scale)
     return range;
 }
 
-/// The number of a cell. Space is rolled up: cells 512 apart along an axis have the same number, which the cells of one
-/// box never do. So a box has one entry of a number at most, and equal numbers are as good as equal cells: a pair may
-/// be tested where it need not, and is reported once.
+/// Number of a cell. Space wraps around: cells 512 apart along an axis share a number, which two cells of one box never do. So a
+/// box has at most one entry per number, and numbers serve as cells: a pair may be tested needlessly, but is reported once.
 SHARED_FN uint cell_number(uint level, int x, int y, int z)
 {
     const uint mask = (1u << HASH_AXIS_BITS) - 1u;
@@ -92,7 +90,7 @@ SHARED_FN uint cell_number(uint level, int x, int y, int z)
 
 SHARED_FN uint level_of_number(uint number) { return number >> 3u * HASH_AXIS_BITS; }
 
-/// The number of the cell that reports two overlapping boxes on `level`.
+/// Returns the number of the cell that reports two overlapping boxes on `level`.
 SHARED_FN uint meeting_number(Aabb a, Aabb b, uint level, float scale)
 {
     return cell_number(level, cell_along(fmax(a.min_x, b.min_x), scale),
@@ -100,11 +98,11 @@ SHARED_FN uint meeting_number(Aabb a, Aabb b, uint level, float scale)
                        cell_along(fmax(a.min_z, b.min_z), scale));
 }
 
-/// The bucket of a number, of 2^(32 - shift) of them: multiplied by 2^32 over the golden ratio.
+/// Bucket of a cell number, of 2^(32 - shift) buckets: multiplicative hashing by 2^32 over the golden ratio.
 SHARED_FN uint bucket_of(uint number, uint shift) { return number * 2654435769u >> shift; }
 
-// An entry of the table: a cell's number and one of its triangles, with the triangle's box, so that a walk along a cell
-// reads one line of memory and fetches nothing from elsewhere. 32 bytes, in kernels two words:
+// An entry of the table: a cell's number and one of its triangles, with the triangle's box, so that a walk along a cell reads
+// contiguous memory only. 32 bytes, in kernels two uint4:
 //
 //     min x, y, z, max x | max y, z, number, triangle
 #ifdef __OPENCL_C_VERSION__

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
 //
-// The second look at a pair, in doubles: whether two triangles meet, where no sign it takes is in doubt.
+// Second filter of the narrow phase: decides in doubles whether two triangles meet, unless a sign that it uses is in doubt.
 //
-// By orientations alone, as [Guigue2003], and by other ones. No corner in the plane of the other and both planes crossed,
-// each triangle has one corner alone on its side, and from there two edges across: p -> q, p -> r and p' -> q',
-// p' -> r'. They cross on the line that both planes have in common, at I, J and K, M. The sign of orient3d(p, q, p', q') is the order of I and K on it, up to a sign that is the
-// same for all four, since all edges cross to the far side. So the triangles are apart if the four signs are equal.
-// As soon as two differ they meet.
+// It uses signs of orientations alone, as [Guigue2003] does, but different ones. Suppose that no corner lies in the other plane
+// and that each triangle crosses the other's plane. Then each triangle has one corner alone on its side, and two edges from it
+// cross the plane: p -> q, p -> r and p' -> q', p' -> r'. They cross on the common line of both planes, at I, J and K, M. The
+// sign of orient3d(p, q, p', q') gives the order of I and K on that line, up to a sign that is the same for all four
+// combinations, since all edges cross to the far side. So the triangles are apart if the four signs are equal, else they meet.
 //
-// A shared corner v for origin: the far edges cross the line, n x n', at y and z. With n the normal of a, n' that of b,
+// With a shared corner v as origin, the far edges cross the line, n x n', at y and z. With n the normal of a, n' that of b,
 //     y ~ a1 (n'.a2) - a2 (n'.a1) = n' x (a1 x a2) = n' x n   up to the sign of n'.a1, and z ~ n x n' up to that of n.b1,
-// so that they lie on one side of v if n'.a1 and n.b1 have different signs.
+// so y and z lie on one side of v if n'.a1 and n.b1 have different signs.
 //
-// The bounds are those of geometry/orient.h, with one origin for all differences and the largest of them all.
+// The error bounds are those of geometry/orient.h, with one origin for all differences and the largest of them throughout.
 #ifndef BVHBENCH_COLLIDE_DOUBLE_FILTER_H
 #define BVHBENCH_COLLIDE_DOUBLE_FILTER_H
 
@@ -22,14 +22,13 @@
 #if HAS_DOUBLES
 SHARED_BEGIN
 
-/// Of three corners over a plane, each as large as twice the area of the triangle that it is of, and what they may be
-/// off by.
+/// Heights of three corners over a plane, scaled by twice the area of the triangle in the plane; and their error bound.
 typedef struct {
     double of[3];
     double bound;
 } Heights;
 
-/// Of `b` over the plane of `a`.
+/// Returns the heights of the corners of `b` over the plane of `a`.
 SHARED_FN_INLINED Heights heights_over(Corners a, Corners b)
 {
     const Vector u = difference(a.at[1], a.at[0]), v = difference(a.at[2], a.at[0]);
@@ -43,7 +42,7 @@ SHARED_FN_INLINED Heights heights_over(Corners a, Corners b)
     return heights;
 }
 
-/// As sides_to_plane, each side in doubt UNSURE.
+/// As sides_to_plane, but a side in doubt is UNSURE.
 SHARED_FN_INLINED Sides likely_sides(Corners a, Corners b)
 {
     const Heights heights = heights_over(a, b);
@@ -63,7 +62,7 @@ SHARED_FN_INLINED bool any_unsure(Sides sides)
     return sides.of[0] == UNSURE || sides.of[1] == UNSURE || sides.of[2] == UNSURE;
 }
 
-/// With the corner first that is alone on its side.
+/// Returns `a`, rotated so that the corner alone on its side comes first.
 SHARED_FN_INLINED Corners led_by_lone(Corners a, Sides sides)
 {
     const Corners second = {{a.at[1], a.at[2], a.at[0]}};
@@ -73,7 +72,7 @@ SHARED_FN_INLINED Corners led_by_lone(Corners a, Sides sides)
     return sides.of[0] == sides.of[2] ? second : a;
 }
 
-/// Whether two triangles meet, of which each has its first corner alone on one side of the other's plane.
+/// Verdict for two triangles, each with its first corner alone on one side of the other's plane.
 SHARED_FN_INLINED uint lone_corners_verdict(Corners a, Corners b)
 {
     const Vector q = difference(a.at[1], a.at[0]), r = difference(a.at[2], a.at[0]);
@@ -90,7 +89,7 @@ SHARED_FN_INLINED uint lone_corners_verdict(Corners a, Corners b)
     return low > bound || high < -bound ? VERDICT_APART : VERDICT_UNSURE;
 }
 
-/// Of two triangles that share no corner.
+/// Verdict for two triangles that share no corner.
 SHARED_FN_INLINED uint likely_meet(Corners a, Corners b)
 {
     const Sides of_b = likely_sides(a, b);
@@ -122,7 +121,7 @@ SHARED_FN_INLINED Point chosen(bool first, Point a, Point b)
     return p;
 }
 
-/// As led_by_lone, of heights none of which is in doubt.
+/// As led_by_lone, from heights none of which is in doubt.
 SHARED_FN_INLINED Corners turned_to_lone(Corners a, Heights h)
 {
     const bool last = (h.of[0] > 0.0) == (h.of[1] > 0.0);
@@ -133,7 +132,7 @@ SHARED_FN_INLINED Corners turned_to_lone(Corners a, Heights h)
     return turned;
 }
 
-/// As likely_meet, and all of it for every pair, without a branch: for many pairs side by side in wide registers.
+/// As likely_meet, but branch-free: every pair takes all steps, so that the compiler can process many pairs in wide registers.
 SHARED_FN_INLINED uint likely_meet_unbranched(Corners a, Corners b)
 {
     const Heights of_b = heights_over(a, b), of_a = heights_over(b, a);
@@ -143,10 +142,10 @@ SHARED_FN_INLINED uint likely_meet_unbranched(Corners a, Corners b)
     return parted ? VERDICT_APART : (in_doubt ? VERDICT_UNSURE : verdict);
 }
 
-/// Of two that share their first corner: beyond it.
+/// Verdict for two triangles that share their first corner: whether they meet beyond it.
 SHARED_FN_INLINED uint likely_meet_beyond_corner(Corners a, Corners b)
 {
-    // The side of the corner itself is 0, computed without rounding: UNSURE.
+    // The shared corner has height 0, computed without rounding, so its side is UNSURE.
     const Sides of_b = likely_sides(a, b), of_a = likely_sides(b, a);
     const bool b_known = of_b.of[1] != UNSURE && of_b.of[2] != UNSURE;
     const bool a_known = of_a.of[1] != UNSURE && of_a.of[2] != UNSURE;
@@ -157,13 +156,13 @@ SHARED_FN_INLINED uint likely_meet_beyond_corner(Corners a, Corners b)
     return of_a.of[1] != of_b.of[1] ? VERDICT_MEET : VERDICT_APART;
 }
 
-/// Of two that share their first two corners: beyond that edge.
+/// Verdict for two triangles that share their first two corners: whether they meet beyond that edge.
 SHARED_FN_INLINED uint likely_meet_beyond_edge(Corners a, Corners b)
 {
     return likely_sides(a, b).of[2] != UNSURE ? VERDICT_APART : VERDICT_UNSURE;
 }
 
-/// Of two that share their first so many corners.
+/// Verdict for two triangles that share their first `shared` corners.
 SHARED_FN_INLINED uint likely_verdict(Corners a, Corners b, uint shared)
 {
     if (shared == 0u)

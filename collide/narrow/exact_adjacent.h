@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// Whether two triangles that share corners by index meet anywhere else, exactly.
+// Exact test whether two triangles that share corners by index meet anywhere else.
 //
-// A shared corner v: a ray from v through another common point leaves each triangle at the edge opposite v, and leaves
-// first the one whose edge then is in the other. So they meet beyond v if the far edge of one meets the other. That
-// wants v off its far edge: a triangle without area is taken for its two sides at v, each with its end for a far edge.
+// Shared corner v: a ray from v through another common point leaves each triangle at the edge opposite v. Where it leaves the
+// first one, that point of the edge is in the other triangle. So they meet beyond v if and only if the far edge of one meets the
+// other. This requires v off its far edge: a triangle without area is replaced by its two sides at v, their ends as far edges.
 //
-// A shared edge: they meet beyond it if they are in one plane and on one side of it. Without area, if both reach
-// beyond the same end.
+// Shared edge: they meet beyond it if they are in one plane and on one side of the edge; without area, if both reach beyond the
+// same end of the edge.
 #ifndef BVHBENCH_COLLIDE_EXACT_ADJACENT_H
 #define BVHBENCH_COLLIDE_EXACT_ADJACENT_H
 
@@ -18,7 +18,7 @@ SHARED_BEGIN
 
 SHARED_FN bool same_place(Point p, Point q) { return p.x == q.x && p.y == q.y && p.z == q.z; }
 
-/// Order along any line: by x, then y, then z.
+/// Orders points along any line: by x, then y, then z.
 SHARED_FN bool comes_before(Point p, Point q)
 {
     if (p.x != q.x)
@@ -26,7 +26,7 @@ SHARED_FN bool comes_before(Point p, Point q)
     return p.y != q.y ? p.y < q.y : p.z < q.z;
 }
 
-/// From corner 0 to corner k and back.
+/// Returns the segment from corner 0 to corner k, as a triangle without area.
 SHARED_FN Corners side_to(Corners a, uint k)
 {
     const Corners side = {{a.at[0], a.at[k], a.at[k]}};
@@ -39,11 +39,11 @@ SHARED_FN Corners far_edge(Corners a)
     return edge;
 }
 
-/// Whether they meet beyond their shared corner 0.
+/// True if they meet beyond their shared corner 0.
 SHARED_FN bool meet_beyond_corner(Corners a, Corners b)
 {
     const bool thin_a = is_thin(a), thin_b = is_thin(b);
-    // Both sides of each, where it is thin; a side without length holds nothing beyond.
+    // A thin triangle is replaced by its two sides; a side of length zero has no point beyond the corner.
     for (uint k = 0u; k < 4u; ++k) {
         const uint i = 1u + k / 2u, j = 1u + k % 2u;
         if ((!thin_a && i == 2u) || (!thin_b && j == 2u))
@@ -59,7 +59,7 @@ SHARED_FN bool meet_beyond_corner(Corners a, Corners b)
     return false;
 }
 
-/// Whether they meet beyond their shared edge, corners 0 and 1.
+/// True if they meet beyond their shared edge, corners 0 and 1.
 SHARED_FN bool meet_beyond_edge(Corners a, Corners b)
 {
     const Point u = a.at[0], v = a.at[1], p = a.at[2], q = b.at[2];
@@ -73,7 +73,7 @@ SHARED_FN bool meet_beyond_edge(Corners a, Corners b)
             return turn_a == turn_b;
         in_a_line = in_a_line && turn_of(ends, axis) == 0;
     }
-    // Where u and v are one place, p and q may still lie in different directions from it.
+    // If u and v coincide, p and q may still lie in different directions from them.
     if (!in_a_line)
         return false;
     const Point low = comes_before(u, v) ? u : v, high = comes_before(u, v) ? v : u;
@@ -81,7 +81,7 @@ SHARED_FN bool meet_beyond_edge(Corners a, Corners b)
            (comes_before(p, low) && comes_before(q, low));
 }
 
-/// Whether two triangles meet beyond the corners that they share, the first `shared` of each.
+/// True if two triangles meet beyond the corners that they share, which are the first `shared` corners of each.
 SHARED_FN bool corners_meet(Corners a, Corners b, uint shared)
 {
     if (shared == 0u)

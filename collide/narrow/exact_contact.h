@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
 //
-// Whether two closed triangles have a point in common, exactly, by signs of orientations alone.
+// Exact test whether two closed triangles have a point in common, by signs of orientations alone.
 //
-// In space: the sides of each one's corners to the other's plane. All strictly on one side: apart. Else, unless all is
-// in one plane, they meet if an edge of one meets the other, and edges that lie in the other's plane need no look:
-// what they touch there, another edge touches too. An edge meets a triangle that it crosses the plane of if the
-// triangle's edges all turn the same way around it, or not at all.
+// In space: compute the sides of each triangle's corners to the other's plane. If all are strictly on one side, the triangles are
+// apart. Otherwise, unless both are in one plane, they meet if and only if an edge of one meets the other. Edges that lie in the
+// other's plane need no test: what they touch there, another edge touches too. An edge that crosses the plane of a triangle meets
+// the triangle if the triangle's edges all turn the same way around it, or not at all.
 //
-// In one plane: seen along an axis that the plane is not parallel to, two convex sets are apart if their boxes are, or
-// if the line of one's edge has the other strictly beyond it. A triangle without area, a segment or a point, is such a
-// set too; but two of them have no plane that they tell by themselves: they are apart if their lines pass each other,
-// else they meet if they do as seen along each of the three axes, of which at least one shows all there is.
+// In one plane: project along an axis that the plane is not parallel to. Two convex sets are then apart if their boxes are, or if
+// the line of an edge of one has the other strictly beyond it. A triangle without area, a segment or a point, is such a set too.
+// But two triangles without area determine no common plane: they are apart if the line of an edge of one passes an edge of the
+// other in space; otherwise they meet if they do in the projections along all three axes, at least one of which loses nothing.
 //
-// docs/contacts.md has the reasons in full.
+// docs/contacts.md gives the proofs.
 #ifndef BVHBENCH_COLLIDE_EXACT_CONTACT_H
 #define BVHBENCH_COLLIDE_EXACT_CONTACT_H
 
@@ -33,7 +33,7 @@ static inline Corners corners_of(global const Point* points, const Face face)
 }
 #endif
 
-/// Of three corners to a plane or line: -1, 0 or 1 each.
+/// Sides of three corners relative to a plane or line: -1, 0 or 1 each.
 typedef struct {
     int of[3];
 } Sides;
@@ -48,7 +48,7 @@ SHARED_FN bool all_within(Sides sides)
     return sides.of[0] == 0 && sides.of[1] == 0 && sides.of[2] == 0;
 }
 
-/// The sides of `b` to the plane of `a`.
+/// Returns the sides of the corners of `b` relative to the plane of `a`.
 SHARED_FN Sides sides_to_plane(Corners a, Corners b)
 {
     const Point p = a.at[0], q = a.at[1], r = a.at[2];
@@ -57,7 +57,7 @@ SHARED_FN Sides sides_to_plane(Corners a, Corners b)
     return sides;
 }
 
-/// Whether an edge of `a` that is not in the plane of `b` meets `b`. `sides` are those of `a`.
+/// True if an edge of `a` that is not in the plane of `b` meets `b`. `sides` are those of `a`.
 SHARED_FN bool pierces(Corners a, Corners b, Sides sides)
 {
     for (uint i = 0u; i < 3u; ++i) {
@@ -78,13 +78,13 @@ SHARED_FN bool pierces(Corners a, Corners b, Sides sides)
 
 SHARED_FN int turn_of(Corners a, uint axis) { return orient2d(a.at[0], a.at[1], a.at[2], axis); }
 
-/// Whether it has no area.
+/// True if the triangle has no area.
 SHARED_FN bool is_thin(Corners a)
 {
     return turn_of(a, 0u) == 0 && turn_of(a, 1u) == 0 && turn_of(a, 2u) == 0;
 }
 
-/// Whether, seen along the axis, the line of an edge of `a`, which turns so, has `b` strictly beyond.
+/// True if, projected along `axis`, the line of an edge of `a` (of orientation `turn`) has `b` strictly beyond it.
 SHARED_FN bool edge_parts(Corners a, Corners b, int turn, uint axis)
 {
     for (uint i = 0u; i < 3u; ++i) {
@@ -97,7 +97,7 @@ SHARED_FN bool edge_parts(Corners a, Corners b, int turn, uint axis)
     return false;
 }
 
-/// Whether both without area, some edge of one passes an edge of the other without meeting its line.
+/// For two triangles without area: true if an edge of one passes an edge of the other without meeting its line.
 SHARED_FN bool pass_in_space(Corners a, Corners b)
 {
     for (uint k = 0u; k < 9u; ++k) {
@@ -108,7 +108,7 @@ SHARED_FN bool pass_in_space(Corners a, Corners b)
     return false;
 }
 
-/// For two in one plane, or both without area.
+/// True if two triangles in one plane, or both without area, meet.
 SHARED_FN bool meet_in_plane(Corners a, Corners b)
 {
     if (!overlap(triangle_box(a.at[0], a.at[1], a.at[2]), triangle_box(b.at[0], b.at[1], b.at[2])))
@@ -128,7 +128,7 @@ SHARED_FN bool triangles_meet(Corners a, Corners b)
     const Sides of_a = sides_to_plane(b, a);
     if (strictly_beyond(of_a))
         return false;
-    // Corners in the plane of the other tell nothing if that one has none.
+    // If `b` has no area, sides of 0 say nothing about its plane.
     if (all_within(of_a) && !is_thin(b))
         return meet_in_plane(a, b);
     const Sides of_b = sides_to_plane(a, b);

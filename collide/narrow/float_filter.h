@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// The first look at a pair: whether the plane of one triangle has the other strictly on one side, in floats.
+// First filter of the narrow phase, in floats: whether the plane of one triangle has the other strictly on one side.
 //
-// Said only where rounding cannot be to blame. With u = 2^-24 and X, Y, Z the largest differences along each axis as
-// computed, a determinant of differences is off by at most 46 u X Y Z (geometry/orient.h counts), if nothing overflows
-// or underflows. So all of X, Y, Z must be between 2^-30 and 2^40: then six products of three are below 2^123, and
-// what a device that flushes denormals makes of a difference, a product of two and one of three is off by 2^-126,
-// where they are measured against 2^-30, 2^-60 and 2^-90: by 2^-36 of X Y Z at most, u / 4096, a few times. 48 u covers
-// both. What is smaller or larger, and a triangle along an axis, is left to doubles.
+// It answers yes only where rounding cannot be the cause. With u = 2^-24 and X, Y, Z the largest computed differences along each
+// axis, a determinant of differences is off by at most 46 u X Y Z (derived in geometry/orient.h), if nothing overflows or
+// underflows. So X, Y and Z must each be between 2^-30 and 2^40. Then six products of three factors are below 2^123. A device
+// that flushes denormals errs by at most 2^-126 in a difference, a product of two and a product of three, which are compared with
+// 2^-30, 2^-60 and 2^-90: at most 2^-36 of X Y Z, or u / 4096, a few times. The bound of 48 u covers both errors. Smaller or
+// larger differences, and a triangle along an axis, are left to doubles.
 #ifndef BVHBENCH_COLLIDE_FLOAT_FILTER_H
 #define BVHBENCH_COLLIDE_FLOAT_FILTER_H
 
@@ -15,8 +15,8 @@
 
 SHARED_BEGIN
 
-// Not fmax and fmin, which tell numbers from NaN: that takes several instructions on processors, and nothing compared
-// here is one unless `x` is infinite, which is out of range.
+// fmax and fmin are avoided: they treat NaN specially, which takes several instructions on CPUs. Nothing compared here is NaN
+// unless a coordinate is infinite, which is out of range.
 SHARED_FN_INLINED float larger_of(float a, float b) { return a < b ? b : a; }
 SHARED_FN_INLINED float smaller_of(float a, float b) { return a < b ? a : b; }
 
@@ -25,7 +25,7 @@ SHARED_FN_INLINED float largest_of(float a, float b, float c)
     return larger_of(larger_of(fabs(a), fabs(b)), fabs(c));
 }
 
-/// Whether the plane of a, b, c is certain to have p, q, r strictly on one side.
+/// True if the plane of a, b, c certainly has p, q, r strictly on one side.
 SHARED_FN_INLINED bool plane_parts(Point a, Point b, Point c, Point p, Point q, Point r)
 {
     const float ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;

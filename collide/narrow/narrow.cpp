@@ -15,7 +15,7 @@
 namespace bvhbench {
 namespace {
 
-// To add a narrow phase that rounds, add its line here and its text to rounded.clh.
+// To add a rounded method: add a line here and its kernel code to rounded.clh.
 constexpr NarrowMethod catalog[] = {
     {"filter-f64+exact", "floats, then doubles with error bounds, then exact sums: no error", true},
     {"guigue-f64", "orientations in doubles, as computed", false, 2, 64},
@@ -81,7 +81,7 @@ NarrowPhase::NarrowPhase(Programs& programs, const NarrowOptions& options)
         block_pairs_ = device.tuned(narrow_block_pairs);
     check_narrow(options.method, options.keep_adjacent);
     const NarrowMethod& method = find_narrow_method(options.method);
-    options_.method = method.name;  // words that stay
+    options_.method = method.name;  // refers to static storage
     if (method.real_bits == 64 && !has_doubles_)
         throw Unavailable(std::string(method.name) + " needs doubles, which the device has not");
     filter_ = compiled_filter(method);
@@ -126,7 +126,7 @@ void NarrowPhase::take_all()
     });
 }
 
-/// No more than make every compute unit's lanes full. The kernels' turns see to the rest.
+/// Number of work-groups: at most what fills the device; each group loops over the remaining candidates.
 std::size_t NarrowPhase::group_count(std::size_t candidates) const
 {
     const Device& device = programs_.device();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The narrow phase: which of the pairs that a broad phase found on the device intersect.
+// The narrow phase: decides which of the pairs that a broad phase found on the device intersect.
 #pragma once
 
 #include <cstdint>
@@ -18,59 +18,58 @@
 namespace bvhbench {
 
 struct NarrowOptions {
-    /// Of collide/narrow/narrow_methods.h. One that rounds may be wrong, and is for measuring how often.
+    /// A name of collide/narrow/narrow_methods.h. Rounded methods can be wrong; they exist to measure how often.
     std::string_view method = "exact";
-    /// Whether pairs that share a vertex index are wanted, and then only if they meet beyond what they share.
-    /// Without, candidates normally have none; those they have are left out.
+    /// True to report pairs that share a vertex index if they meet beyond what they share. False to leave such pairs out; the
+    /// candidates normally contain none then.
     bool keep_adjacent = false;
     KernelForm form = KernelForm::of_device;
-    /// Pairs that the buffers of contacts and of unsure candidates have room for at first; 0: a guess. They grow.
+    /// Initial capacity of the buffers of contacts and of unsure candidates, in pairs; 0: estimated. They grow when too small.
     std::size_t capacity = 0;
-    /// Decide on the host what floats leave open, as on devices without doubles: `query` then waits. For tests.
+    /// True to decide on the host what floats leave open, as on devices without doubles; `query` then blocks. For tests.
     bool without_doubles = false;
 };
 
-/// What a query decided, and with what arithmetic: by_floats, by_doubles and exactly add up to the candidates.
+/// Results of a query, by the arithmetic that decided: by_floats, by_doubles and exactly add up to the candidates.
 struct NarrowCounts {
     std::uint64_t contacts = 0;
-    std::uint64_t by_floats = 0;  ///< or by their indices alone
+    std::uint64_t by_floats = 0;  ///< in floats, or by indices alone
     std::uint64_t by_doubles = 0;
     std::uint64_t exactly = 0;
 
     std::uint64_t candidates() const { return by_floats + by_doubles + exactly; }
 };
 
-/// Decides for each candidate whether its triangles intersect, exactly for the coordinates as stored, all of which
-/// must be finite; by a method that rounds, as it may happen to come out.
+/// Decides for each candidate whether its triangles intersect: exactly for the coordinates as stored, all of which must be
+/// finite. Rounded methods give whatever their arithmetic yields.
 ///
-/// Triangles are closed sets: touching is intersecting. One without area is the segment or point that it is. Two
-/// that share vertices by index touch by construction, and count only if they have more in common than the vertex or
-/// edge they share; the same three indices are the same triangle twice, which counts. Vertices at one place under
-/// two indices are not shared. docs/contacts.md has the rest.
+/// Triangles are closed sets: touching is intersecting. A triangle without area is the segment or point that it degenerates to.
+/// Two triangles that share vertices by index touch by construction, and intersect only if they have more in common than the
+/// shared vertex or edge. Triangles with the same three indices are the same triangle twice and intersect. Vertices at one
+/// position with two indices are not shared. docs/contacts.md has the details.
 ///
-/// The host never learns how many candidates there are: what a broad phase left is read where it is. As in a
-/// collider, nothing is dropped in silence: a query is repeated until it is `complete`.
+/// The number of candidates stays on the device. No contact is dropped silently: a query is repeated until it is `complete`.
 class NarrowPhase {
 public:
-    /// Throws BadUsage as check_narrow does, and Unavailable for doubles that the device has not.
+    /// Throws BadUsage as check_narrow does, and Unavailable if the method needs doubles that the device lacks.
     NarrowPhase(Programs& programs, const NarrowOptions& options);
 
-    /// Take memory for about as many contacts as there are triangles. Never timed. Throws Unavailable.
+    /// Reserves memory for about as many contacts as triangles. Never timed. Throws Unavailable.
     void reserve(std::size_t triangles);
 
-    /// What stands reserved.
+    /// Memory reserved at present.
     Footprint reserved() const { return arena_ ? arena_->used() : Footprint{}; }
 
-    /// Enqueue the stage `narrow` over candidates in any order, counted at PAIRS_COUNT of their counters.
-    /// Candidates that found no room themselves are not looked at: complete the broad phase first.
-    /// Allocates nothing and, on devices with doubles, does not wait.
+    /// Enqueues the stage `narrow` over candidates in any order, whose number is at PAIRS_COUNT of their counters. Candidates
+    /// beyond their buffer are not tested, so complete the broad phase first. Allocates nothing; does not block on devices with
+    /// doubles.
     void query(const Input& input, const Buffer<Pair>& candidates,
                const Buffer<uint>& candidate_counters, Queue& queue);
 
-    /// Whether everything the last query found had room; if not, there is more now. Waits.
+    /// True if every buffer of the last query was large enough; otherwise enlarges the buffers. Blocks.
     bool complete(const Queue& queue);
 
-    /// Of the last query, which was complete. Both wait.
+    /// Counts and contacts of the last query, which must have been complete. Both functions block.
     NarrowCounts counts(const Queue& queue) const;
     std::vector<Pair> contacts(const Queue& queue) const;
 
@@ -88,18 +87,18 @@ private:
     bool is_exact_;
     std::size_t chunks_;
     uint group_size_ = 1;
-    uint block_pairs_ = 0;  ///< of each kind, that a work-item of the form for few cores collects
+    uint block_pairs_ = 0;  ///< pairs of each kind that a work-item of the chunk form buffers
     std::size_t contact_room_ = 0, unsure_room_ = 0;
     std::optional<Arena> arena_;
     cl::Kernel filter_;
     cl::Kernel exact_;
     Buffer<Pair> contacts_;
-    Buffer<Pair> unsure_;    ///< candidates that wait for exact arithmetic
-    Buffer<Pair> blocks_;    ///< of the form for few cores
-    Buffer<uint> counters_;  ///< as collide/narrow/narrow_words.h says
+    Buffer<Pair> unsure_;    ///< candidates left to exact arithmetic
+    Buffer<Pair> blocks_;    ///< blocks of the chunk form
+    Buffer<uint> counters_;  ///< layout: collide/narrow/narrow_words.h
 };
 
-/// Query until it is complete; how many queries that took. Waits.
+/// Repeats the query until it is complete; returns the number of queries. Blocks.
 int find_contacts(NarrowPhase& narrow, const Input& input, const Buffer<Pair>& candidates,
                   const Buffer<uint>& candidate_counters, Queue& queue);
 

@@ -3,20 +3,19 @@
 // check: -DSINK_BLOCK=512u -DKEEP_ADJACENT=1 -DWITH_DOUBLES=1
 // check: -DSINK_BLOCK=512u -DKEEP_ADJACENT=1 -DWITH_DOUBLES=0 -Xclang -cl-ext=-cl_khr_fp64,-__opencl_c_fp64
 //
-// Candidates in batches, which work-items take from a counter and each keeps contacts and unsure ones in a block of.
+// The chunk form: work-items take batches of candidates from a counter, and collect contacts and unsure ones in own blocks.
 //
-// Each look at a batch is a loop of its own over coordinates that lie side by side, and has no branch, so that the
-// compiler makes wide registers of it:
+// Each step over a batch is a branch-free loop over coordinates stored side by side, so that the compiler vectorises it:
 //
-//     batch         corners, gathered            -> open: neither plane parts the two
-//     open ones     their corners, moved up      -> verdicts, in doubles
-//     unsure ones   for exact arithmetic
+//     batch         corners, gathered               -> open: neither plane separates the two
+//     open ones     their corners, moved together   -> verdicts, in doubles
+//     unsure ones   left to exact arithmetic
 #include "collide/narrow/verdict.clh"
 #include "collide/sinks/sink_chunks.clh"
 
 #define BATCH 256u
 
-/// Corners of pairs of triangles, a coordinate after the other: corner c of pair k has its x at [3 c][k].
+/// Corners of pairs of triangles, one array per coordinate: corner c of pair k has its x at [3 c][k].
 typedef struct {
     float at[18][BATCH];
 } Batch;
@@ -34,7 +33,7 @@ static inline void set_corner(Batch* batch, const uint c, const uint k, const Po
     batch->at[3u * c + 2u][k] = p.z;
 }
 
-/// The corners of `count` candidates, and which of them share one.
+/// Gathers the corners of `count` candidates, and marks in `adjacent` those that share a corner.
 static inline void gather_pairs(global const Point* points, global const Face* faces,
                                 global const uint2* candidates, const uint count, Batch* batch,
                                 uint* adjacent)
@@ -52,7 +51,7 @@ static inline void gather_pairs(global const Point* points, global const Face* f
     }
 }
 
-/// The pairs that floats leave open, and adjacent ones if those are kept: into `list`, how many.
+/// Writes to `list` the pairs that floats leave open, and adjacent pairs if they are kept; returns their number.
 static inline uint open_pairs(const Batch* batch, const uint count, const uint* adjacent,
                               uint* list)
 {
@@ -71,7 +70,7 @@ static inline uint open_pairs(const Batch* batch, const uint count, const uint* 
     return found;
 }
 
-/// What the open pairs are, as if none were adjacent. Moves their corners up.
+/// Writes the verdicts of the open pairs, computed as if none were adjacent. Moves their corners to the front of the batch.
 static inline void verdicts_of(Batch* batch, const uint* list, const uint count, uint* verdicts)
 {
 #if FILTER_DOUBLES
@@ -91,7 +90,7 @@ static inline void verdicts_of(Batch* batch, const uint* list, const uint count,
 #endif
 }
 
-/// As in narrow_groups.cl. `blocks` has room for 2 SINK_BLOCK pairs a work-item.
+/// As `filter_pairs` in narrow_groups.cl. `blocks` has room for 2 SINK_BLOCK pairs per work-item.
 kernel void filter_pairs(global const Point* points, global const Face* faces,
                          global const uint2* candidates, global const uint* candidate_counters,
                          const uint candidate_room, global uint2* contacts, const uint contact_room,

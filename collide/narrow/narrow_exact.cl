@@ -2,15 +2,14 @@
 // check: -DKEEP_ADJACENT=0
 // check: -DKEEP_ADJACENT=1
 //
-// The pairs that no filter could decide, in exact arithmetic. One kernel for both forms: without barriers, which many
-// helpers in one kernel and PoCL 3.1 do not go together with, and with an atomic a contact, which is little beside
-// what it takes to find one.
+// Decides the pairs that no filter could decide, in exact arithmetic. One kernel serves both forms: it has no barriers, as PoCL
+// 3.1 fails on barriers in a kernel with many helpers, and it uses an atomic per contact, which is cheap beside the test.
 #include "collide/found.clh"
 #include "collide/narrow/exact_adjacent.h"
 #include "collide/narrow/narrow_words.h"
 #include "collide/narrow/sharing.h"
 
-/// Behind filter_pairs, whose `unsure` and `counters` these are. Adds to `contacts`.
+/// Runs after filter_pairs, which wrote `unsure` and `counters`. Appends to `contacts`.
 kernel void decide_exactly(global const Point* points, global const Face* faces,
                            global const uint2* unsure, const uint unsure_room,
                            global uint2* contacts, const uint contact_room,

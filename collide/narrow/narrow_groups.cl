@@ -6,13 +6,13 @@
 // check: -include collide/narrow/rounded.clh -DGROUP_SIZE=128u -DROUNDED_TEST=2 -DREAL_BITS=32 -Xclang -cl-ext=-cl_khr_fp64,-__opencl_c_fp64
 // check: -include collide/narrow/rounded.clh -DGROUP_SIZE=128u -DROUNDED_TEST=2 -DREAL_BITS=64
 //
-// Candidates in groups, one a work-item a turn; contacts and unsure ones are in the lists of sinks/lists_groups.clh.
-// Compiled behind the header that says what a candidate is.
+// The work-group form of the narrow phase: one candidate per work-item and iteration. Contacts and unsure candidates are in the
+// lists of sinks/lists_groups.clh. Compiled behind the header that defines the verdict on a candidate.
 #define ITEMS 1u
 #include "collide/narrow/narrow_words.h"
 #include "collide/sinks/lists_groups.clh"
 
-/// `counters` are zero. Afterwards `contacts` and `unsure` begin with what there was room for; all is counted.
+/// Tests all candidates; `counters` must be zero. `contacts` and `unsure` receive what fits; everything is counted.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void filter_pairs(
     global const Point* points, global const Face* faces, global const uint2* candidates,
     global const uint* candidate_counters, const uint candidate_room, global uint2* contacts,

@@ -3,7 +3,7 @@
 // check: -DSINK_BLOCK=512u -DROUNDED_TEST=2 -DREAL_BITS=32 -Xclang -cl-ext=-cl_khr_fp64,-__opencl_c_fp64
 // check: -DSINK_BLOCK=512u -DROUNDED_TEST=2 -DREAL_BITS=64
 //
-// As narrow_chunks.cl, of a test in rounded arithmetic: pair by pair, since these tests branch, and nothing is unsure.
+// As narrow_chunks.cl, for tests in rounded arithmetic: pair by pair, since these tests branch. No candidate is unsure.
 #include "collide/narrow/rounded.clh"
 #include "collide/sinks/sink_chunks.clh"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Which corners two triangles share, by index.
+// Finds the corners that two triangles share by index.
 #ifndef BVHBENCH_COLLIDE_SHARING_H
 #define BVHBENCH_COLLIDE_SHARING_H
 
@@ -8,8 +8,8 @@
 
 SHARED_BEGIN
 
-/// How many different indices two faces have in common, 0 to 3, and both faces with the shared ones first, in the
-/// same order. A face that names an index twice shares it once.
+/// Number of distinct indices that two faces have in common, 0 to 3, and both faces with the shared corners first, in the same
+/// order. A face that names an index twice shares it once.
 typedef struct {
     uint count;
     Face a, b;
@@ -23,7 +23,7 @@ SHARED_FN Face turned(Face f)
     return t;
 }
 
-/// With `index`, which it names, first.
+/// Returns `f`, rotated so that `index`, one of its corners, comes first.
 SHARED_FN Face led_by(Face f, uint index)
 {
     if (f.a != index)
@@ -33,7 +33,7 @@ SHARED_FN Face led_by(Face f, uint index)
     return f;
 }
 
-/// With `index`, which its last two corners name, second.
+/// Returns `f` with `index`, one of its last two corners, second.
 SHARED_FN Face followed_by(Face f, uint index)
 {
     const Face swapped = {f.a, f.c, f.b};

@@ -32,7 +32,7 @@ Corners3<Kernel> corners(std::span<const Point> points, Face face)
     return {at(face.a), at(face.b), at(face.c)};
 }
 
-/// CGAL wants triangles with area, and segments with length.
+/// CGAL requires that triangles have area and segments have length.
 template <class Kernel>
 using Shape =
     std::variant<typename Kernel::Triangle_3, typename Kernel::Segment_3, typename Kernel::Point_3>;
@@ -55,7 +55,7 @@ bool meet(const Shape<Predicates>& a, const Shape<Predicates>& b)
         b);
 }
 
-/// The indices that both name, each once.
+/// Returns the distinct indices that both faces name.
 std::vector<uint> common(Face a, Face b)
 {
     std::vector<uint> shared;
@@ -65,7 +65,7 @@ std::vector<uint> common(Face a, Face b)
     return shared;
 }
 
-/// The two indices of a face without one that it names.
+/// Returns the two indices of a face that remain without one occurrence of `index`.
 std::array<uint, 2> others(Face face, uint index)
 {
     if (face.a == index)
@@ -75,7 +75,7 @@ std::array<uint, 2> others(Face face, uint index)
     return {face.a, face.b};
 }
 
-/// What is left for two with area that share one corner: the edge opposite, and the other triangle.
+/// For two triangles with area that share one corner: true if the edge opposite that corner meets the other triangle.
 bool far_edge_meets(std::span<const Point> points, Face face, uint corner, Face other)
 {
     const auto [p, q] = others(face, corner);
@@ -85,13 +85,13 @@ bool far_edge_meets(std::span<const Point> points, Face face, uint corner, Face 
                               Predicates::Triangle_3(at[0], at[1], at[2]));
 }
 
-/// The third corner of a face that has area and names u and v.
+/// Returns the third corner of a face that has area and names u and v.
 uint third(Face face, uint u, uint v)
 {
     return others(face, u)[0] == v ? others(face, u)[1] : others(face, u)[0];
 }
 
-/// Two with area that share the edge u, v: folded onto each other?
+/// True if two triangles with area that share the edge u, v are folded onto each other.
 bool folded(std::span<const Point> points, Face a, Face b, uint u, uint v)
 {
     const Corners3<Predicates> edge = corners<Predicates>(points, {u, v, v});
@@ -101,7 +101,7 @@ bool folded(std::span<const Point> points, Face a, Face b, uint u, uint v)
            CGAL::coplanar_orientation(edge[0], edge[1], tips[0], tips[1]) == CGAL::POSITIVE;
 }
 
-/// What a segment has in common with `other`, constructed: more than what lies between `ends`?
+/// True if the constructed intersection of a segment with `other` contains more than what lies between `ends`.
 template <class Other>
 bool more_than(const Constructions::Segment_3& segment, const Other& other,
                const Corners3<Constructions>& ends)
@@ -114,7 +114,8 @@ bool more_than(const Constructions::Segment_3& segment, const Other& other,
            *line != Constructions::Segment_3(ends[1], ends[0]);
 }
 
-/// Where one has no area. One that is a point is the shared corner, and has no more.
+/// For two triangles of which at least one has no area: true if they have more in common than `shared`. A triangle that is a
+/// point is the shared corner itself and has no more.
 bool more_in_common(std::span<const Point> points, Face a, Face b, const std::vector<uint>& shared)
 {
     using Segment = Constructions::Segment_3;

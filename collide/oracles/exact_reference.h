@@ -8,12 +8,12 @@
 
 namespace bvhbench {
 
-/// Whether there is a reference: the build does without CGAL.
+/// True if the build includes CGAL, and with it the reference.
 constexpr bool has_exact_reference = BVHBENCH_HAS_CGAL != 0;
 
-/// The candidates whose triangles intersect, as collide/narrow/narrow.h says, by CGAL's exact predicates: the oracle that the
-/// narrow phase is held to, and none of its code. On one core. Throws Unavailable in a build without CGAL and when the host
-/// has not the memory.
+/// Returns the candidates whose triangles intersect, as defined in collide/narrow/narrow.h, by CGAL's exact predicates: the
+/// oracle of the narrow phase, independent of its code. Single-threaded. Throws Unavailable without CGAL or with too little host
+/// memory.
 PairList intersecting_pairs(std::span<const Point> points, std::span<const Face> faces,
                             const PairList& candidates, bool keep_adjacent);
 

@@ -33,7 +33,7 @@ void copy_pairs(std::span<const Pair> found, DevicePairs& to, const Queue& queue
 DevicePairs HostCollider::device_pairs(Queue& queue)
 {
     if (copied_.pairs.size() < std::max<std::size_t>(1, found_.size())) {
-        copied_ = {};  // the old memory goes before the new comes
+        copied_ = {};  // frees the old buffers first
         copied_ = room_for_pairs(device_, found_.size() + found_.size() / 8 + 1);
     }
     queue.on_host("copy", [&] { copy_pairs(found_, copied_, queue); });

@@ -7,13 +7,13 @@
 
 namespace bvhbench {
 
-/// Room on the device for `count` pairs, as a query would leave them. Throws Unavailable when there is none.
+/// Allocates room for `count` pairs and their counters on the device. Throws Unavailable if memory is too small.
 DevicePairs room_for_pairs(const Device& device, std::size_t count);
 
-/// Put `found` where there is room for them. Waits.
+/// Copies `found` and their number into `to`. Blocks.
 void copy_pairs(std::span<const Pair> found, DevicePairs& to, const Queue& queue);
 
-/// What colliders on the host share: the pairs they found, there and on their way to the device.
+/// Base of colliders on the host: the pairs found, on the host and copied to the device.
 class HostCollider : public Collider {
 public:
     HostCollider(const Device& device, const ColliderCard& card, const ColliderOptions& options)
@@ -31,7 +31,7 @@ public:
 
 protected:
     ColliderOptions options_;
-    std::vector<Pair> found_;  ///< by the last query
+    std::vector<Pair> found_;  ///< pairs of the last query
 
 private:
     const Device& device_;

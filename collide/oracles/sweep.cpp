@@ -16,12 +16,12 @@ namespace {
 struct Axis {
     float Aabb::*min;
     float Aabb::*max;
-    double low = 0;     ///< where the first box begins
-    double length = 0;  ///< from there to where the last one ends
-    double share = 0;   ///< of it that a box takes, on average
+    double low = 0;     ///< smallest coordinate of all boxes
+    double length = 0;  ///< extent of all boxes along the axis
+    double share = 0;   ///< mean extent of a box, as a fraction of `length`
 };
 
-/// The axes, those first along which a box takes the smallest share: the fewest overlap along it, as a rule.
+/// Returns the axes, ordered by the mean share of a box: the fewest boxes overlap, as a rule, along the first.
 std::array<Axis, 3> axes_of(std::span<const Aabb> boxes)
 {
     Aabb all = empty_box();
@@ -44,12 +44,12 @@ std::array<Axis, 3> axes_of(std::span<const Aabb> boxes)
     return axes;
 }
 
-/// Boxes in strips, each strip swept along the first axis. A box is in every strip that it reaches into.
+/// Boxes in strips across the second axis, each swept along the first axis. A box is in every strip that it overlaps.
 class Strips {
 public:
     explicit Strips(std::span<const Aabb> boxes) : boxes_(boxes), axes_(axes_of(boxes))
     {
-        // So wide that a box reaches into one and a half, on average.
+        // Strip width: a box overlaps one and a half strips on average.
         const double count = std::min(0.5 / axes_[1].share, static_cast<double>(boxes.size()) / 16);
         count_ = count > 1 ? static_cast<std::size_t>(count) : 1;
         ends_.assign(count_ + 1, 0);
@@ -68,17 +68,17 @@ public:
             std::sort(ids_.begin() + begin_of(k), ids_.begin() + end_of(k), begins_first);
     }
 
-    /// Calls `found` with every pair of boxes that overlap, once.
+    /// Calls `found` once for each pair of boxes that overlap.
     template <class FoundPair>
     void sweep(const FoundPair& found) const
     {
-        std::vector<Aabb> swept;  // next to each other in memory in the order they are read
+        std::vector<Aabb> swept;  // contiguous copies, in the order in which they are read
         for (std::size_t k = 0; k < count_; ++k) {
             const std::span ids(ids_.begin() + begin_of(k), ids_.begin() + end_of(k));
             swept.clear();
             for (const uint id : ids)
                 swept.push_back(boxes_[id]);
-            // Of two boxes that overlap, the later to begin does so before the earlier ends.
+            // If two boxes overlap, the one that begins later does so before the other ends.
             for (std::size_t i = 0; i < swept.size(); ++i) {
                 const float end = swept[i].*axes_[0].max;
                 for (std::size_t j = i + 1; j < swept.size() && swept[j].*axes_[0].min <= end; ++j)
@@ -88,7 +88,7 @@ public:
         }
     }
 
-    /// About the most bytes of the host's memory that a sweep of `boxes` boxes takes, without the pairs.
+    /// Estimated peak host memory of a sweep of `boxes` boxes, without the pairs, in bytes.
     static std::uint64_t bytes(std::size_t boxes)
     {
         return boxes * (sizeof(Aabb) + 2 * sizeof(uint) + sizeof(uint) / 2);
@@ -104,7 +104,7 @@ private:
         return static_cast<std::ptrdiff_t>(ends_[strip]);
     }
 
-    /// The strip of a place: never a smaller one for a larger place. What is no number is in the first.
+    /// Returns the strip of a coordinate; monotonic. NaN is in the first strip.
     std::size_t strip_of(float place) const
     {
         const double at = (static_cast<double>(place) - axes_[1].low) / axes_[1].length *
@@ -114,7 +114,7 @@ private:
     std::size_t first_of(const Aabb& box) const { return strip_of(box.*axes_[1].min); }
     std::size_t last_of(const Aabb& box) const { return strip_of(box.*axes_[1].max); }
 
-    /// Two boxes may meet in several strips. They are a pair of the one in which their common part begins.
+    /// Two boxes may overlap in several strips. Their pair is reported in the strip in which their intersection begins.
     bool is_of(std::size_t strip, const Aabb& a, const Aabb& b) const
     {
         return count_ == 1 || strip_of(std::max(a.*axes_[1].min, b.*axes_[1].min)) == strip;
@@ -123,7 +123,7 @@ private:
     std::span<const Aabb> boxes_;
     std::array<Axis, 3> axes_;
     std::size_t count_ = 1;
-    std::vector<std::size_t> ends_;  ///< of each strip, in `ids_`
+    std::vector<std::size_t> ends_;  ///< end of each strip in `ids_`
     std::vector<uint> ids_;
 };
 

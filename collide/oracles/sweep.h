@@ -9,22 +9,22 @@
 
 namespace bvhbench {
 
-/// Whether a pair of boxes is wanted, by their numbers; an empty one wants all.
+/// True if a pair of boxes, by their indices, is wanted; an empty function accepts all pairs.
 using Wanted = std::function<bool(uint a, uint b)>;
 
-/// Every pair of boxes that share a point; touching counts. Box k is triangle k.
+/// Returns every pair of boxes that have a point in common; touching counts. Box k is triangle k.
 ///
-/// Sweep and prune on one core, without any tree: the oracle that trees are held to. The boxes are swept along the axis on
-/// which they are shortest for the extent of all, in strips across the next such axis. It sweeps twice: once to count,
-/// so that memory is asked for before it is taken, and once to list. Throws Unavailable when the host has not enough.
+/// The oracle of the trees: single-threaded sweep and prune, without any tree. The boxes are swept along the axis along which
+/// they are shortest relative to the extent of all, in strips across the axis that comes second. One sweep counts the pairs, so
+/// that host memory is checked first; another one lists them. Throws Unavailable if host memory is too small.
 PairList overlapping_pairs(std::span<const Aabb> boxes, const Wanted& wanted = {});
 
-/// The same of triangles that lie among `objects` so; without `keep_adjacent`, only pairs that share no vertex index.
+/// As overlapping_pairs, for pairs of triangles that `among` accepts; without `keep_adjacent`, only without a common vertex.
 PairList touching_pairs(std::span<const Aabb> boxes, std::span<const Face> faces,
                         bool keep_adjacent, std::span<const FaceRange> objects = {},
                         Among among = Among::all);
 
-/// Of the boxes that the triangles have in one frame.
+/// As above, for the boxes of the triangles in one frame.
 PairList touching_pairs(std::span<const Point> points, std::span<const Face> faces,
                         bool keep_adjacent, std::span<const FaceRange> objects = {},
                         Among among = Among::all);

@@ -2,10 +2,10 @@
 // check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DTASK_LEAVES=64u -DSKIP_APART=1 -DSKIP_OVERLAP=1
 // check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DTASK_LEAVES=64u -DSKIP_APART=0 -DSKIP_OVERLAP=0
 //
-// The tasks between objects: leaves of the object that has more, against every object whose box meets theirs. Their
-// box is that of the subtree over them, Eq. (13); in a tree with pointers it is that of their object. SKIP_OVERLAP and
-// SKIP_APART: whether that box's test, and the whole object's, leave tasks out (skips.h). A work-item holds its leaves
-// against OTHERS_A_WORK_ITEM objects, one after the other.
+// Finds the tasks between objects: chunks of leaves of the object with more leaves, against each object whose box overlaps the
+// box of the chunk. That box is the box of the subtree over the leaves, Eq. (13); in a tree with pointers it is the box of the
+// whole object. SKIP_OVERLAP and SKIP_APART: drop tasks by the test of the chunk's box and of the object's box (skips.h). A
+// work-item tests its chunk against OTHERS_A_WORK_ITEM objects, one after the other.
 #include "builders/stages/chunk.clh"
 #include "collide/found.clh"
 #include "collide/walks/task.clh"
@@ -21,14 +21,14 @@ static inline Aabb task_box(FOREST_PARAMETERS, const QueryTask task)
 #endif
 }
 
-/// Whether the leaves of `a` are held against `b`, and not the other way round: many short walks end sooner than a
-/// few long ones. A ball's 760 leaves against a cloth's 91,470 took 7 times as long as the cloth's against the ball's.
+/// True if the leaves of `a` query the tree of `b` rather than the other way round. Many short walks end sooner than a few long
+/// ones: a ball's 760 leaves against a cloth's 91,470 took 7 times as long as the cloth's leaves against the ball.
 static inline bool asks(const ForestObject a, const ForestObject b, const bool comes_first)
 {
     return a.leaves > b.leaves || (a.leaves == b.leaves && comes_first);
 }
 
-/// `chunks` has the neighbouring leaves of all objects. What finds no room in `between` is counted and not written.
+/// `chunks` are runs of neighbouring leaves of all objects. Tasks beyond the capacity of `between` are counted, not written.
 kernel void find_between(FOREST_PARAMETERS, global const QueryTask* chunks, const uint chunk_count,
                          const uint object_count, global QueryTask* between,
                          const uint most_between, volatile global uint* counters)

@@ -14,7 +14,7 @@
 namespace bvhbench {
 namespace {
 
-constexpr uint most_jump = 5;  // 4^5 tasks an entry
+constexpr uint most_jump = 5;  // 4^5 tasks per entry
 constexpr uint most_start_level = 12;
 constexpr uint all_steps = std::numeric_limits<uint>::max();
 
@@ -40,7 +40,7 @@ public:
         counts.bvtt_peak = std::max<std::uint64_t>(
             1, *std::max_element(all.begin() + QUEUES_COUNT / 2, all.end()));
         if (counts.tasks)
-            counts.tasks = all[QUEUES_COUNT / 2];  // the pairs of roots it starts with
+            counts.tasks = all[QUEUES_COUNT / 2];  // pairs of roots in the first queue
         return counts;
     }
 
@@ -57,8 +57,8 @@ private:
         return naming_objection("bvtt", tree);
     }
 
-    /// What was asked for, else as the device is tuned where nodes have descendants by arithmetic, else 0. Tuned are
-    /// levels of binary trees: as many of a wide one would be 2^48 pairs at once of 8 levels of 8 children.
+    /// Returns `asked` if set; else the device's tuned value where descendants are found by arithmetic; else 0. Tuned values
+    /// count levels of a binary tree: used unscaled, 8 levels of an 8-wide tree would be 2^48 pairs per entry.
     uint chosen(uint asked, const Parameter& parameter) const
     {
         return asked != 0             ? asked
@@ -66,11 +66,11 @@ private:
                                       : 0;
     }
 
-    /// Levels each step descends. To start below the root is to jump there first.
+    /// Levels that each step descends. A start level below the root is reached by a first jump.
     std::vector<uint> steps() const
     {
         uint left = tree().most_levels() - 1;
-        if (object_count() > 1)  // roots that are leaves meet in a step too
+        if (object_count() > 1)  // pairs of roots that are leaves need a step as well
             left = std::max(left, 1u);
         std::vector<uint> steps;
         const uint start_level = chosen(options_.start_level, bvtt_start_level);
@@ -85,7 +85,7 @@ private:
     void compile(const Input&) override
     {
         block_pairs_ = by_groups() ? 0 : device().tuned(bvtt_block_pairs);
-        queue_count_ = static_cast<uint>(steps().size()) + 1;  // and what the last would leave
+        queue_count_ = static_cast<uint>(steps().size()) + 1;  // and the output of the last step
         const Define label{"LABEL_BITS", node_bits(tree())};
         const Define one_object{"ONE_OBJECT", object_count() == 1 ? 1u : 0u};
         if (object_count() > 1)
@@ -111,13 +111,13 @@ private:
 
     bool make_room(std::uint64_t, const std::vector<std::uint64_t>& sizes) override
     {
-        // Entries that the last step left although it was not the last there is: all are launched next time.
+        // False if the last launched step left entries although the tree has more steps; then the next query launches all steps.
         const bool ended = launched_ + 1 == sizes.size() || sizes[launched_] == 0;
-        // One object's first entry, the root with itself, is in no queue.
+        // With one object, the first entry (the root with itself) is in no queue.
         const auto first_empty =
             std::find(sizes.begin() + (object_count() == 1 ? 1 : 0), sizes.end(), 0u);
         needed_steps_ = ended ? static_cast<uint>(first_empty - sizes.begin()) : all_steps;
-        // Steps behind one that ran over have seen only some of their entries: they will need more.
+        // Steps after an overflow have seen only some of their entries, so they will need more than was counted.
         const std::uint64_t most = *std::max_element(sizes.begin(), sizes.end());
         return had_room(queue_room_, most, most, sizeof(Pair), device(), "pairs of nodes") && ended;
     }
@@ -144,7 +144,7 @@ private:
             depth += tree().child_bits() * levels;
             if (by_groups()) {
                 bind(expand_, input, from, to, room, launched_, levels);
-                // Of one object no more tasks than there are pairs of nodes that deep.
+                // With one object, there are no more tasks than pairs of nodes at this depth.
                 const std::size_t tasks = std::size_t{1}
                                           << (one_object ? std::min(2 * depth, 40u) : 40);
                 launch(expand_, group_count(device(), tasks, group_size_) * group_size_,
@@ -158,11 +158,11 @@ private:
     }
 
     cl::Kernel roots_, expand_;
-    uint block_pairs_ = 0;           ///< of a work-item's own, for each of two lists, on few cores
-    uint launched_ = 0;              ///< steps of the last query
-    uint needed_steps_ = all_steps;  ///< those of the query before that had something to expand
+    uint block_pairs_ = 0;           ///< entries per block, in the chunk form
+    uint launched_ = 0;              ///< steps launched by the last query
+    uint needed_steps_ = all_steps;  ///< steps that had entries to expand in the last query
     std::size_t queue_room_ = 0;
-    std::array<Buffer<Pair>, 2> queues_;  ///< of nodes; a step goes from one to the other
+    std::array<Buffer<Pair>, 2> queues_;  ///< node pairs: read and written by turns
     Buffer<Pair> blocks_;
 };
 

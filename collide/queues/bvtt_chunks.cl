@@ -2,12 +2,12 @@
 // check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=0 -DSINK_BLOCK=512u -DONE_OBJECT=0 -DLABEL_BITS=20
 // check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DSINK_BLOCK=512u -DONE_OBJECT=1 -DLABEL_BITS=32
 //
-// A step of the traversal, a work-item a run of neighbouring tasks, with a block for nodes and one for pairs.
+// A step of the traversal in the chunk form: each work-item takes a contiguous run of tasks and has an output block per list.
 #include "collide/sinks/lists_chunks.clh"
 
 #include "collide/queues/bvtt.clh"
 
-/// As in bvtt_groups.cl. `blocks` has 2 SINK_BLOCK pairs a work-item.
+/// As `expand` in bvtt_groups.cl. `blocks` has 2 SINK_BLOCK pairs per work-item.
 kernel void expand(FOREST_PARAMETERS, global const uint* ropes, global const Face* faces,
                    global uint2* pairs, const uint capacity, volatile global uint* counters,
                    global const uint2* queue, global uint2* next, const uint queue_capacity,

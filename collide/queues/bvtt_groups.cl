@@ -2,14 +2,14 @@
 // check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=0 -DGROUP_SIZE=64u -DITEMS=4u -DONE_OBJECT=0 -DLABEL_BITS=20
 // check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DGROUP_SIZE=64u -DITEMS=4u -DONE_OBJECT=1 -DLABEL_BITS=32
 //
-// A step of the traversal by groups: ITEMS tasks a work-item a turn. What a group keeps of a turn is in the
-// lists of sinks/lists_groups.clh.
+// A step of the traversal by work-groups: ITEMS tasks per work-item and iteration. A group buffers the output of an iteration in
+// the lists of sinks/lists_groups.clh.
 #include "collide/sinks/lists_groups.clh"
 
 #include "collide/queues/bvtt.clh"
 
-/// `queue` holds the entries of this step, counted before it; `next` gets those of the step after it, and `pairs`
-/// what is found. Nothing is written where there is no room, but all is counted.
+/// Expands the entries of `queue`, counted by the previous step. `next` receives the entries of the next step, `pairs` the pairs
+/// found. What exceeds a capacity is counted, not written.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void expand(
     FOREST_PARAMETERS, global const uint* ropes, global const Face* faces, global uint2* pairs,
     const uint capacity, volatile global uint* counters, global const uint2* queue,

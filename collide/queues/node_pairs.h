@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What traversals of pairs of nodes share, bvtt and front.
+// Shared by the traversals over pairs of nodes, bvtt and front.
 #pragma once
 
 #include <algorithm>
@@ -12,13 +12,13 @@
 
 namespace bvhbench {
 
-/// Bits of a node in the word that names it (queues/nodes.clh); the object is in the rest.
+/// Bits of the node in the word that encodes it (queues/nodes.clh); the remaining bits are the object.
 inline uint node_bits(const DeviceTree& tree)
 {
     return tree.objects.size() > 1 && tree.is_implicit() ? tree.label_bits() : 32;
 }
 
-/// Why objects and nodes of these trees cannot be named so, as a sentence; empty if they can.
+/// Returns the reason why objects and nodes of these trees do not fit into one word, as a sentence; empty if they do.
 inline std::string naming_objection(std::string_view collider, const DeviceTree& tree)
 {
     const auto objects = static_cast<uint>(tree.objects.size());
@@ -29,7 +29,7 @@ inline std::string naming_objection(std::string_view collider, const DeviceTree&
            std::to_string(tree.label_bits()) + " bits";
 }
 
-/// Groups for so many tasks: as many as have something to do, up to what fills the device.
+/// Number of work-groups for `tasks` tasks: enough that each has work, at most what fills the device.
 inline std::size_t group_count(const Device& device, std::size_t tasks, uint group_size)
 {
     const std::size_t a_group = std::size_t{group_size} * device.tuned(bvtt_items);

@@ -2,8 +2,8 @@
 // check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DLABEL_BITS=20 -DSKIP_APART=1
 // check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DLABEL_BITS=32 -DSKIP_APART=0
 //
-// What traversals of pairs of nodes begin with, of several objects: each root with itself, if pairs within objects are
-// wanted, and the roots of two objects, if pairs between them are.
+// Initial entries of traversals over pairs of nodes with several objects: each root with itself if pairs within objects are
+// wanted, and the roots of two objects if pairs between objects are.
 #include "collide/found.clh"
 #include "collide/queues/nodes.clh"
 #include "collide/walks/task.h"
@@ -17,8 +17,8 @@ static inline void push(global uint2* queue, const uint capacity, volatile globa
         queue[slot] = entry;
 }
 
-/// The first queue of bvtt: roots that are no leaves, with themselves, untested, and those of two objects whose boxes
-/// overlap; without SKIP_APART (skips.h) of all two objects. A work-item holds an object against OTHERS_A_WORK_ITEM.
+/// Writes the first queue of bvtt: inner roots with themselves, untested, and pairs of roots whose boxes overlap; without
+/// SKIP_APART (skips.h) all pairs of roots. A work-item tests one object against OTHERS_A_WORK_ITEM objects.
 kernel void find_roots(FOREST_PARAMETERS, const uint object_count, const uint within,
                        const uint between, global uint2* queue, const uint capacity,
                        volatile global uint* counters)
@@ -43,8 +43,8 @@ kernel void find_roots(FOREST_PARAMETERS, const uint object_count, const uint wi
     add_wide(counters + BOX_TESTS_COUNT, tests);
 }
 
-/// The front that tracking begins with: the same of all, be their boxes apart or not, for else nobody would notice when
-/// objects meet. A work-item for each of object_count^2 pairs of objects, ordered; `front` has room for all.
+/// Writes the initial front: all these pairs of roots, including leaves and disjoint boxes, since objects may come into contact
+/// later. One work-item per ordered pair of objects, object_count^2 in all; `front` has room for every entry.
 kernel void list_roots(FOREST_PARAMETERS, const uint object_count, const uint within,
                        const uint between, global uint2* front)
 {

@@ -4,23 +4,23 @@
 // check: -include oibvh/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DTEAMS=4u -DLOOSE=4u -DBOX_FORMAT=1u
 // check: -include oibvh/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DTEAMS=4u -DLOOSE=4u -DBOX_FORMAT=2u
 //
-// A block of 32 neighbouring leaves, a subtree, as one query of a team, which takes an implicit tree for one of nodes
-// with 32 children each: five levels are skipped, Eq. (12), and a node's descendants there are neighbours in memory. A
-// lane tests one of them against the block's box. Leaves that are met are collected, and when there are 32, each lane
-// holds its own against all of them.
+// A team queries the tree with a block of 32 neighbouring leaves, which form a subtree. It traverses the implicit binary tree as
+// a tree of nodes with 32 children: each step skips five levels, Eq. (12), since a node's descendants there are contiguous in
+// memory. Each lane tests one descendant against the block's box. Leaves that overlap it are collected; once there are 32, each
+// lane tests its own leaf of the block against all of them.
 //
-//     level          L - 10     L - 5      L           of the binary tree; the leaves' is L
+//     level          L - 10     L - 5      L           of the binary tree; L is the level of the leaves
 //     wide level     2          1          0
-//                    o          oooo...    oooo...     a step takes one node's 32 descendants, a lane each
+//                    o          oooo...    oooo...     a step takes the 32 descendants of one node, one per lane
 //
-// A block's own tree is walked behind it alone: of its ancestors, descendants that lie behind its own line; so each
-// pair of blocks is met once. Where the order of leaves jumps, a block's box is that of places far apart: if it is LOOSE
-// times as large, by area, as its leaves' are together, a node must meet one of them as well.
+// In its own tree, a block is tested only against what follows it: of its ancestors, only the descendants after the block's own
+// path. So each pair of blocks is met once. Where the order of leaves jumps, a block's box spans distant places: if its area is
+// more than LOOSE times the summed area of its leaves, a node must also overlap one of the leaves.
 //
-// The walk goes depth-first, the last node first. Of a node taken at most 32 come back, one level nearer to the leaves:
-// so a stack of 31 for each wide level below the root's, and a block's ancestors, is never full.
+// The traversal is depth-first, last node first. A node taken from the stack leaves at most 32 nodes, one wide level nearer to
+// the leaves. So a stack with 31 entries per wide level below the root's, plus the block's ancestors, never overflows.
 //
-// `pairs`, `counters` and the tasks are group_groups.cl's. Teams do not meet before they add up what they tested.
+// `pairs`, `counters` and the tasks are as in group_groups.cl. Teams of a group synchronise only to add up their box tests.
 #include "collide/sinks/sink_teams.clh"
 #include "collide/walks/task.clh"
 
@@ -29,40 +29,40 @@
 #endif
 
 #define BLOCK BLOCK_LEAVES
-#define WIDE_LEVELS 7u                    // of a tree of 2^31 leaves
-#define STACK (32u * (WIDE_LEVELS - 1u))  // 31 a wide level and one more, and five ancestors
+#define WIDE_LEVELS 7u                    // enough for 2^31 leaves
+#define STACK (32u * (WIDE_LEVELS - 1u))  // 31 per wide level and one more, and five ancestors
 #define SEEN (2u * BLOCK)
 
-// A node on the stack: its wide level, and its label, which has 26 bits below a tree's last five levels.
+// A stack entry: a node's wide level, and its label, which has 26 bits above a tree's last five levels.
 #define ENTRY(wide, node) ((wide) << 27u | (node))
 #define WIDE_OF(entry) ((entry) >> 27u)
 #define NODE_OF(entry) ((entry)&0x7ffffffu)
 
-/// Leaves of a block or children of a node by a team's lanes, each its own.
+/// Loops over the leaves of a block or the children of a node, split among the lanes of a team.
 #define EACH(k) for (uint k = lane; k < BLOCK; k += LANES)
 
-/// What a team knows together.
+/// State of a team, in local memory.
 typedef struct {
-    uint2 kept[KEPT];  ///< first, so that one too many would be seen in what stands behind
-    BoxWord own[WORDS_PER_BOX * BLOCK];  ///< boxes of the block's leaves, the last repeated
-    BoxWord seen[WORDS_PER_BOX * SEEN];  ///< and of leaves that were met
-    uint own_ids[BLOCK];                 ///< triangles
-    uint seen_ids[SEEN];                 ///< labels of leaves, then triangles
+    uint2 kept[KEPT];                    ///< first: an overflow shows in the members behind
+    BoxWord own[WORDS_PER_BOX * BLOCK];  ///< boxes of the block's leaves, the last one repeated
+    BoxWord seen[WORDS_PER_BOX * SEEN];  ///< boxes of leaves to be tested
+    uint own_ids[BLOCK];                 ///< triangles of the block
+    uint seen_ids[SEEN];                 ///< labels of those leaves, later their triangles
     uint stack[STACK];
-    uint rows[WIDE_LEVELS], ends[WIDE_LEVELS];  ///< of the other tree's wide levels
+    uint rows[WIDE_LEVELS], ends[WIDE_LEVELS];  ///< rows and ends of the other tree's wide levels
 } Team;
 
-/// Each of a block's leaves against those behind it around the circle, half way. How many pairs are kept.
+/// Tests each leaf of a block against the half of the block that follows it cyclically. Returns the number of buffered pairs.
 static inline uint meet_within(local Team *team, SINK_PARAMETERS, uint kept_count, const uint count)
 {
     EACH (k) {
         const Aabb box = load_local_box(team->own, k);
-        uint behind = 0u;  // bit s: it meets the one s + 1 behind it
+        uint behind = 0u;  // bit s: overlaps leaf k + s + 1, cyclically
 #pragma unroll
         for (uint step = 0u; step < BLOCK / 2u; ++step)
             if (overlap(box, load_local_box(team->own, (k + step + 1u) % BLOCK)))
                 behind |= 1u << step;
-        if (k >= BLOCK / 2u)  // the one opposite counts it
+        if (k >= BLOCK / 2u)  // the opposite leaf counts this pair
             behind &= ~(1u << (BLOCK / 2u - 1u));
         const uint hits = rotate(behind, k + 1u) & (0xffffffffu >> (BLOCK - count));
         kept_count =
@@ -71,7 +71,7 @@ static inline uint meet_within(local Team *team, SINK_PARAMETERS, uint kept_coun
     return kept_count;
 }
 
-/// The block's `own_count` leaves against `count` seen ones from `first` on, 1 to 32. How many pairs are kept.
+/// Tests the block's `own_count` leaves against `count` (1 to 32) others from `first` on. Returns the number of buffered pairs.
 static inline uint meet_seen(local Team *team, SINK_PARAMETERS, TREE_PARAMETERS, uint kept_count,
                              const uint own_count, const uint first, const uint count)
 {
@@ -96,7 +96,7 @@ static inline uint meet_seen(local Team *team, SINK_PARAMETERS, TREE_PARAMETERS,
     return kept_count;
 }
 
-/// Whether one of a block's boxes overlaps `box`.
+/// True if one of a block's boxes overlaps `box`.
 static inline bool meets_any(local const BoxWord *boxes, const Aabb box)
 {
     bool meets = false;
@@ -106,7 +106,7 @@ static inline bool meets_any(local const BoxWord *boxes, const Aabb box)
     return meets;
 }
 
-/// The leaves of a task into `team`. Whether their common box says too little of them.
+/// Loads the leaves of a task into `team`. True if their common box is loose (LOOSE).
 static inline bool load_block(FOREST_PARAMETERS, local Team *team, const uint lane,
                               const QueryTask task, const Aabb common)
 {
@@ -122,8 +122,8 @@ static inline bool load_block(FOREST_PARAMETERS, local Team *team, const uint la
     return half_surface(common) > LOOSE * team_sum(area);
 }
 
-/// Where a walk begins: the root, and of the block's own tree its ancestors on wide levels, the nearest last, for the
-/// leaf with the label `own_leaf`; 0 in another object's tree. How many they are.
+/// Initialises the stack: with the root, and in the block's own tree with its ancestors on wide levels, the nearest last.
+/// `own_leaf` is the label of the block's first leaf, 0 in another object's tree. Returns the number of entries.
 static inline uint open_walk(TREE_PARAMETERS, local Team *team, const uint lane,
                              const uint own_leaf)
 {
@@ -131,7 +131,7 @@ static inline uint open_walk(TREE_PARAMETERS, local Team *team, const uint lane,
     const uint wide_levels = divided_up(leaf_level, BLOCK_LEVELS);
     const uint depth = own_leaf == 0u ? 1u : max(wide_levels, 1u) - 1u;
     for (uint k = lane; k < depth; k += LANES) {
-        // The root's descendants are the nodes of a level that has 32 at most: of label 1 the 32, of 0 fewer.
+        // The root's descendants are the level with at most 32 nodes: label 1 if it has exactly 32, label 0 if fewer.
         const uint node = k > 0u ? own_leaf >> (BLOCK_LEVELS * (wide_levels - k))
                           : leaf_level > 0u && leaf_level % BLOCK_LEVELS == 0u ? 1u
                                                                                : 0u;
@@ -145,7 +145,7 @@ static inline uint open_walk(TREE_PARAMETERS, local Team *team, const uint lane,
     return depth;
 }
 
-/// The pairs of a task's leaves. How many boxes it tested.
+/// Finds the pairs of a task's leaves. Returns the number of box tests.
 static inline uint walk_block(FOREST_PARAMETERS, local Team *team, SINK_PARAMETERS,
                               const QueryTask task, const Aabb common)
 {
@@ -163,7 +163,7 @@ static inline uint walk_block(FOREST_PARAMETERS, local Team *team, SINK_PARAMETE
     while (waiting > 0u) {
         --waiting;
         const uint entry = team->stack[waiting], node = NODE_OF(entry);
-        const uint wide = max(WIDE_OF(entry), 1u) - 1u;  // of its descendants
+        const uint wide = max(WIDE_OF(entry), 1u) - 1u;  // wide level of the descendants
         const uint row = team->rows[wide], end = team->ends[wide], first = node << BLOCK_LEVELS;
         const uint own_below = own_leaf >> (BLOCK_LEVELS * wide);
         const bool is_ancestor = is_own && own_below >> BLOCK_LEVELS == node;
@@ -210,7 +210,7 @@ static inline Aabb block_box(FOREST_PARAMETERS, const QueryTask task)
     return tree_box(TREE, tree_ancestor(TREE, tree_leaf(TREE, task.first), BLOCK_LEVELS));
 }
 
-/// `counters` are zero but for the tasks. Afterwards `pairs` begin with all of them, if there was room.
+/// One team per task. `counters` are zero but for what between.cl added. `pairs` receives what fits; everything is counted.
 __attribute__((reqd_work_group_size(TEAMS * LANES, 1, 1))) kernel void block_pairs(
     FOREST_PARAMETERS, global const uint *ropes, global const Face *faces, global uint2 *pairs,
     const uint capacity, volatile global uint *counters, TASKS_PARAMETERS)

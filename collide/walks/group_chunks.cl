@@ -8,20 +8,20 @@
 // check: -include oibvh/wide/wide4_access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=1 -DTASK_LEAVES=64u -DSKIP_OVERLAP=0
 // check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DTASK_LEAVES=64u -DSKIP_OVERLAP=1
 //
-// A task's neighbouring leaves as one query, for few cores with wide registers. Their common box walks the tree, and
-// what it meets is lined up; eight of the leaves after the other take the steps of the line that their own common box
-// meets, and hold each of their boxes against eight boxes of a step at once.
+// Queries a tree with all leaves of a task at once, for few cores with wide registers. The common box of the leaves traverses the
+// tree, and the leaves that it overlaps are collected in a line. Then each block of LANES leaves of the task selects the steps of
+// the line that overlap the common box of the block, and tests each of its leaves against LANES boxes of a step at once.
 //
 //     task's leaves    | block | block | ...            line    | step | step | step | ...
-//     block x line     the steps that meet the block's box
-//     leaf x step      a hit: the lanes that the leaf meets; then those that share no corner with it; then pairs
+//     block x line     the steps that overlap the block's box
+//     leaf x step      a hit: the lanes that overlap the leaf; without those that share a corner with it; then pairs
 //
-// Each of these is a loop without a branch on what was found: entries are written always and counted only if wanted.
+// Each of these is a loop without a data-dependent branch: entries are always written, and counted only if wanted.
 #include "collide/found.clh"
 #include "collide/walks/line_walk.clh"
 #include "geometry/bits.h"
 
-/// What leaf `leaf` of the task's, of 256 at most, meets in a step: lanes lowest, then the step, then the leaf.
+/// A hit of leaf `leaf` of the task, at most 256, in a step: low bits the lanes, then the step, then the leaf.
 static inline uint hit_of(const uint leaf, const uint step, const uint lanes)
 {
     return leaf << (LANES + 8u) | step << LANES | lanes;
@@ -30,7 +30,7 @@ static inline uint lanes_of(const uint hit) { return hit & ALL_LANES; }
 static inline uint step_of(const uint hit) { return hit >> LANES & 0xffu; }
 static inline uint leaf_of(const uint hit) { return hit >> (LANES + 8u); }
 
-/// The steps of `line`, from `first` on, that a block meets: into `steps`, how many.
+/// Writes to `steps` the steps of `line`, from `first` on, that overlap a block's box; returns their number.
 static inline uint near_steps(const Line* own, const uint begin, const uint end, const Line* line,
                               const uint first, const uint count, uchar* steps)
 {
@@ -45,7 +45,7 @@ static inline uint near_steps(const Line* own, const uint begin, const uint end,
     return found;
 }
 
-/// The hits of a block's leaves in these steps; of the task's own line, only with leaves behind each.
+/// Writes the hits of a block's leaves in these steps; on the task's own line, only with later leaves. Returns their number.
 static inline uint hits_of(const Line* own, const uint begin, const uint end, const Line* line,
                            const uchar* steps, const uint step_count, uint* hits)
 {
@@ -64,7 +64,7 @@ static inline uint hits_of(const Line* own, const uint begin, const uint end, co
     return found;
 }
 
-/// Those without lanes that share a corner. In place.
+/// Removes, in place, lanes that share a corner and hits that are then empty. Returns the number of hits.
 static inline uint without_adjacent(const Line* own, const Line* line, uint* hits, const uint count)
 {
     uint found = 0u;
@@ -77,7 +77,7 @@ static inline uint without_adjacent(const Line* own, const Line* line, uint* hit
     return found;
 }
 
-/// A pair a lane, as many as there is room for: one loop over all lanes of all hits, behind which stands an empty one.
+/// Writes one pair per lane, up to `count`, in a single loop over the lanes of all hits. The hit after the last must be empty.
 static inline void put_hits(const Line* own, const Line* line, const uint* hits,
                             global uint2* pairs, const uint count)
 {
@@ -92,7 +92,7 @@ static inline void put_hits(const Line* own, const Line* line, const uint* hits,
     }
 }
 
-/// The pairs of the task's `own_count` leaves with those of a line; both may be the same. How many boxes it tested.
+/// Finds the pairs of the task's `own_count` leaves and a line, possibly the same line. Returns the number of box tests.
 static inline uint hold_against(Line* own, const uint own_count, Line* line, const uint count,
                                 global const Face* faces, global uint2* pairs, const uint capacity,
                                 volatile global uint* counters)
@@ -123,7 +123,7 @@ static inline uint hold_against(Line* own, const uint own_count, Line* line, con
     return LANES * tests;
 }
 
-/// The task's leaves, or `some`, those that meet `whole`: into `own`, how many, and around them `common`.
+/// Loads the task's leaves, with `some` only those that overlap `whole`, and their common box. Returns their number.
 static inline uint line_up(FOREST_PARAMETERS, const QueryTask task, const bool some,
                            const Aabb whole, Line* own, Aabb* common)
 {
@@ -141,7 +141,7 @@ static inline uint line_up(FOREST_PARAMETERS, const QueryTask task, const bool s
     return count;
 }
 
-/// As in leaf_chunks.cl.
+/// As leaf_pairs in leaf_chunks.cl, but work-items take tasks from a counter.
 kernel void group_pairs(FOREST_PARAMETERS, global const uint* ropes, global const Face* faces,
                         global uint2* pairs, const uint capacity, volatile global uint* counters,
                         TASKS_PARAMETERS)

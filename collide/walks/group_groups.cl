@@ -4,25 +4,24 @@
 // check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DGROUP_SIZE=64u -DFRONTIER=512u -DRESERVE=97u -DLOOSE=4u
 // check: -include baselines/radix/access_apetrei.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=1 -DGROUP_SIZE=64u -DFRONTIER=512u -DRESERVE=97u -DLOOSE=4u
 //
-// A task's neighbouring leaves as one query: their common box goes down the tree, so that a node is fetched once a
-// group, and each leaf that it meets is tested by every work-item against its own. Where the order of leaves jumps, a
-// common box is that of places far apart and meets all between: leaves whose box is more than LOOSE times as large,
-// by area, as they are together walk each by itself.
+// Queries a tree with all leaves of a task at once. Their common box descends the tree, so that a node is loaded once per group,
+// and every work-item tests its own leaf against each leaf that the common box overlaps. Where the order of leaves jumps, a
+// common box spans distant places and overlaps everything between: if its area is more than LOOSE times the summed area of the
+// leaves, each leaf walks the tree on its own.
 //
-//     frontier   nodes to be tested, the last first; at the start what lies behind the task's leaves, a chain of
-//                whole subtrees that next_node leads along: as many as the tree has levels, at most
-//     met        leaves that the common box meets, at most two groups full; at the start its own
+//     frontier   nodes to be tested, last first; initially what follows the task's leaves, a chain of
+//                whole subtrees linked by next_node: at most as many as the tree has levels
+//     met        leaves that the common box overlaps, at most two groups full; initially the task's own leaves
 //
-// No tree makes the frontier run over: work-items take no more nodes than there is room for the children of, and
-// where there is hardly any they take one, the last, until its subtree is done, for which RESERVE is kept: one more
-// than a tree has levels.
+// The frontier cannot overflow: work-items take no more nodes than there is room for their children. If there is hardly any room,
+// they take one node, the last, until its subtree is done; RESERVE, one more than a tree has levels, is kept free for that.
 //
-// A turn has one barrier between taking and doing and one behind it. Everything it hands on is in local memory.
+// An iteration has a barrier between taking and processing nodes, and one at its end. All state is in local memory.
 #include "collide/sinks/sink_groups.clh"
 
 #include "collide/walks/group_descent.clh"
 
-/// `counters` are zero but for the tasks. Afterwards `pairs` begin with all of them, if there was room.
+/// One work-group per task. `counters` are zero but for what between.cl added. `pairs` receives what fits; everything is counted.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void group_pairs(
     FOREST_PARAMETERS, global const uint* ropes, global const Face* faces, global uint2* pairs,
     const uint capacity, volatile global uint* counters, TASKS_PARAMETERS)
@@ -33,7 +32,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void group_pairs(
     local BoxWord own[3 * GROUP_SIZE], seen[3 * GROUP_SIZE], common[3];
     local uint own_ids[GROUP_SIZE], seen_ids[GROUP_SIZE], taken[GROUP_SIZE];
     local uint frontier[FRONTIER], met[2 * GROUP_SIZE];
-    local uint waiting[2], met_count[2];  // before turn t in [t % 2]
+    local uint waiting[2], met_count[2];  // of iteration t: at [t % 2]
     const uint item = (uint)get_local_id(0);
     const QueryTask task = task_of(TASKS, counters, (uint)get_group_id(0));
     const uint count = task.count;
@@ -73,7 +72,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void group_pairs(
         }
         barrier(CLK_LOCAL_MEM_FENCE);
         const uint begin = is_own && turn == 0u ? item + 1u : 0u;
-        if (is_testing && item < count)  // in the first turn its own leaves, those behind its own
+        if (is_testing && item < count)  // first iteration: later leaves of its own
             tests[item] +=
                 test_boxes(seen, seen_ids, begin, takes, own, own_ids, item, faces, SINK);
         if (!is_testing && item < takes) {

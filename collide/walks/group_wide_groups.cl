@@ -2,20 +2,20 @@
 // check: -include oibvh/wide/wide4_access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=0 -DGROUP_SIZE=64u -DFRONTIER=512u -DRESERVE=97u -DLOOSE=2u
 // check: -include oibvh/wide/wide8_access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DGROUP_SIZE=64u -DFRONTIER=512u -DRESERVE=97u -DLOOSE=2u
 //
-// As group_groups.cl over a wide tree: a task's neighbouring leaves as one query, whose common box goes down. As many
-// neighbouring work-items as a node has children take one node, a child each, whose boxes lie side by side.
+// As group_groups.cl, over a wide tree: a task's leaves query it at once by their common box. TREE_CHILDREN neighbouring
+// work-items take one node, a child each, whose boxes are contiguous in memory.
 //
-//     frontier   inner nodes that the common box meets, the last first; at the start, of the leaves' own tree, all those
-//                above the last leaf, none of which has to be tested, so that the first turn is on all levels at once
-//     met        leaves that the common box meets, boxes and triangles, two groups full at most
+//     frontier   inner nodes that the common box overlaps, last first; initially, in the leaves' own tree, all
+//                ancestors of the last leaf, which need no test, so that the first iteration covers all levels at once
+//     met        leaves that the common box overlaps, boxes and triangles, at most two groups full
 //
-// The frontier cannot run over, as there: a node that is taken leaves TREE_CHILDREN - 1 more at most, and RESERVE is
-// that on every level. A turn has one barrier between taking and doing and one behind it.
+// The frontier cannot overflow, as in group_groups.cl: a node taken leaves at most TREE_CHILDREN - 1 more, and RESERVE holds that
+// many for every level. An iteration has one barrier between taking nodes and processing them, and one at its end.
 #include "collide/sinks/sink_groups.clh"
 
 #include "collide/walks/group_descent.clh"
 
-/// How many nodes a turn takes.
+/// Number of nodes that an iteration takes.
 static inline uint wide_nodes_taken(const uint nodes_there)
 {
     const uint kept_free = nodes_there + RESERVE;
@@ -23,8 +23,8 @@ static inline uint wide_nodes_taken(const uint nodes_there)
     return min(min(nodes_there, GROUP_SIZE / TREE_CHILDREN), max(room, 1u));
 }
 
-/// Child k of a node, if it is behind place `first` and not above `last_leaf`, whose ancestors wait for themselves: if
-/// it meets the common box it is met or waits.
+/// Tests child k of a node against the common box, unless it lies before place `first` or is an ancestor of `last_leaf`, all of
+/// which start in the frontier. If they overlap, a leaf is added to the leaves met, an inner node to the frontier.
 static inline void descend_to_child(TREE_PARAMETERS, const uint node, const uint k,
                                     const uint first, const uint last_leaf, const Aabb common,
                                     local uint* frontier, volatile local uint* waiting,
@@ -48,7 +48,7 @@ static inline void descend_to_child(TREE_PARAMETERS, const uint node, const uint
     met_ids[slot] = tree_triangle(TREE, child);
 }
 
-/// `counters` are zero but for the tasks. Afterwards `pairs` begin with all of them, if there was room.
+/// One work-group per task. `counters` are zero but for what between.cl added. `pairs` receives what fits; everything is counted.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void group_pairs(
     FOREST_PARAMETERS, global const uint* ropes, global const Face* faces, global uint2* pairs,
     const uint capacity, volatile global uint* counters, TASKS_PARAMETERS)
@@ -59,7 +59,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void group_pairs(
     local BoxWord own[3 * GROUP_SIZE], met_boxes[6 * GROUP_SIZE], common[3];
     local uint own_ids[GROUP_SIZE], met_ids[2 * GROUP_SIZE], taken[GROUP_SIZE / TREE_CHILDREN];
     local uint frontier[FRONTIER];
-    local uint waiting[2], met_count[2];  // before turn t in [t % 2]
+    local uint waiting[2], met_count[2];  // of iteration t: at [t % 2]
     const uint item = (uint)get_local_id(0);
     const QueryTask task = task_of(TASKS, counters, (uint)get_group_id(0));
     const uint count = task.count;
@@ -71,7 +71,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void group_pairs(
     tests[item] = 0u;
     const bool is_loose = take_common_box(met_boxes, areas, common);
     const uint first = is_own ? last + 1u : 0u, last_leaf = is_own ? tree_leaf(TREE, last) : 0u;
-    const uint levels_above = is_own ? tree_leaf_level(TREE) : 1u;  // other trees start at the root
+    const uint levels_above = is_own ? tree_leaf_level(TREE) : 1u;  // other trees: from the root
     if (item == 0u) {
         waiting[0] = is_loose || count == 0u ? 0u : levels_above;
         met_count[0] = 0u;

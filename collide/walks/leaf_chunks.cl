@@ -3,13 +3,13 @@
 // check: -include oibvh/wide/wide8_access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=1 -DSINK_BLOCK=512u
 // check: -include baselines/radix/access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=1 -DSINK_BLOCK=512u
 //
-// A work-item a run of tasks, leaf after leaf.
+// The chunk form: a work-item takes a contiguous run of tasks, leaf after leaf.
 #include "builders/stages/chunk.clh"
 #include "collide/sinks/sink_chunks.clh"
 
 #include "collide/walks/leaf.clh"
 
-/// As in leaf_groups.cl. `blocks` has SINK_BLOCK pairs a work-item.
+/// As `leaf_pairs` in leaf_groups.cl. `blocks` has SINK_BLOCK pairs per work-item.
 kernel void leaf_pairs(FOREST_PARAMETERS, global const uint* ropes, global const Face* faces,
                        global uint2* pairs, const uint capacity, volatile global uint* counters,
                        TASKS_PARAMETERS, global uint2* blocks)

@@ -4,12 +4,12 @@
 // check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DGROUP_SIZE=64u
 // check: -include baselines/radix/access_apetrei.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=1 -DGROUP_SIZE=64u
 //
-// A group a task, a work-item a leaf; a group's neighbouring leaves walk much the same nodes and write their pairs together.
+// One work-group per task, one work-item per leaf: neighbouring leaves visit mostly the same nodes and write pairs together.
 #include "collide/sinks/sink_groups.clh"
 
 #include "collide/walks/leaf.clh"
 
-/// `counters` are zero. Afterwards `pairs` begin with all of them, if there was room.
+/// `counters` are zero but for what between.cl added. `pairs` receives what fits; everything is counted.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void leaf_pairs(
     FOREST_PARAMETERS, global const uint* ropes, global const Face* faces, global uint2* pairs,
     const uint capacity, volatile global uint* counters, TASKS_PARAMETERS)

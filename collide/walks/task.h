@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: MIT
 //
-// How queries are cut up, on both sides.
+// Tasks that queries are split into, for host and device.
 #ifndef BVHBENCH_COLLIDE_TASK_H
 #define BVHBENCH_COLLIDE_TASK_H
 
 #include "geometry/dialect.h"
 
-// Objects that a work-item holds one against, where it looks for pairs of objects.
+// Objects that a work-item tests one object against in the search for pairs of objects.
 #define OTHERS_A_WORK_ITEM 16u
 
-// Leaves of a task of `block`, and the levels of the subtree that they are; lanes of a team that takes one, if it has more
-// than one: LANES of builders/stages/sort/peers.clh.
+// BLOCK_LEAVES: leaves of a task of `block`; BLOCK_LEVELS: levels of the subtree that they form. TEAM_LANES: lanes of a team of
+// more than one work-item, which is LANES of builders/stages/sort/peers.clh.
 #define BLOCK_LEVELS 5u
 #define BLOCK_LEAVES (1u << BLOCK_LEVELS)
 #define TEAM_LANES 32u
 
 SHARED_BEGIN
 
-/// Some neighbouring leaves of one object against the tree of another, or of the same. 16 bytes.
+/// Neighbouring leaves of one object to be tested against the tree of another object, or of the same. 16 bytes.
 typedef struct {
-    uint own;    ///< the object that the leaves are of
-    uint other;  ///< the object whose tree they are held against
+    uint own;    ///< object of the leaves
+    uint other;  ///< object whose tree they are tested against
     uint first;  ///< place of the first leaf
-    uint count;  ///< of leaves; 0: nothing to do
+    uint count;  ///< number of leaves; 0: nothing to do
 } QueryTask;
 
 SHARED_END

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Colliders that find all pairs in one launch: tasks of neighbouring leaves, each against an object's tree.
+// Colliders that find all pairs in one launch: tasks of neighbouring leaves, each tested against the tree of one object.
 #include <algorithm>
 
 #include "collide/counters.h"
@@ -60,7 +60,7 @@ private:
             first_room(std::max<std::size_t>(256, 2 * own_list_.size()), sizeof(QueryTask));
     }
 
-    /// A group a task, or of `block` a team of a group.
+    /// One work-group per task; for `block`, one team per task.
     void compile_groups()
     {
         task_leaves_ = group_size_;
@@ -84,9 +84,9 @@ private:
 
     void compile_group()
     {
-        // Of a binary tree one more node than there are levels, for the way down from the last one. A node of a wide
-        // tree leaves its other children waiting on each level. A query starts with a node a level at most, so that twice
-        // as much is enough for any tree, if not for speed.
+        // Reserve for the descent from the last node: in a binary tree, one node more than there are levels; in a wide tree, all
+        // children of a node per level. A query starts with at most one node per level, so twice that suffices; more is for
+        // speed.
         const bool is_wide = tree().child_bits() > 1;
         const uint levels = tree().most_levels();
         const uint reserve = (is_wide ? levels << tree().child_bits() : levels) + 1;
@@ -102,8 +102,8 @@ private:
                    Optimise::on_gpus);
     }
 
-    /// A few work-items share all tasks: of `leaf` a run of neighbouring ones each, in which they collect pairs in a block;
-    /// of the others, the same without warps, from a counter.
+    /// A few work-items share all tasks. For `leaf`, each takes a contiguous run of tasks and collects pairs in a block;
+    /// otherwise each takes tasks from a counter, and `block` runs as `group`.
     void compile_chunks()
     {
         task_leaves_ = device().tuned(walk_task_leaves);
@@ -114,7 +114,7 @@ private:
             walk_ = kernel("collide/walks/leaf_chunks.cl", "leaf_pairs",
                            {{"SINK_BLOCK", block_pairs_}});
         } else {
-            queue_count_ = 1;  // the place of TASKS_BEGUN
+            queue_count_ = 1;  // room for TASKS_BEGUN
             walk_ = kernel(
                 "collide/walks/group_chunks.cl", "group_pairs",
                 {{"TASK_LEAVES", task_leaves_}, {"SKIP_OVERLAP", skips(skip_overlap) ? 1u : 0u}});
@@ -161,12 +161,12 @@ private:
     static constexpr uint wide_frontier_per_item = 4;
 
     By by_;
-    uint task_leaves_ = 0;  ///< neighbouring leaves of a task, at most; a power of two
-    std::size_t items_a_task_ = 0, launch_group_ = 1;  ///< work-items; 0: all share all tasks
-    uint block_pairs_ = 0;  ///< that a work-item collects before it passes them on, if it does
+    uint task_leaves_ = 0;                             ///< most leaves of a task; a power of two
+    std::size_t items_a_task_ = 0, launch_group_ = 1;  ///< in work-items; 0: all share all tasks
+    uint block_pairs_ = 0;                             ///< pairs that a work-item buffers; 0: none
     cl::Kernel walk_, between_kernel_;
-    std::vector<QueryTask> own_list_;  ///< neighbouring leaves of each object, against its own tree
-    std::size_t between_room_ = 0;     ///< tasks between objects that there is room for
+    std::vector<QueryTask> own_list_;  ///< tasks of each object against its own tree
+    std::size_t between_room_ = 0;     ///< capacity of between_, in tasks
     Buffer<QueryTask> own_;
     Buffer<QueryTask> between_;
     Buffer<Pair> blocks_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Queries over trees whose boxes are rounded find exactly the pairs whose rounded boxes overlap, so that none of the
-// pairs of exact boxes is missed, and how many are false is known beforehand.
+// Queries over trees with rounded boxes find exactly the pairs whose rounded boxes overlap: no pair of exact boxes is missed, and
+// the number of false pairs is known beforehand.
 #include "builders/device_tree.h"
 #include "tests/collide/collider_testing.h"
 #include "tests/collide/many_objects.h"
@@ -9,7 +9,7 @@
 namespace bvhbench {
 namespace {
 
-/// Pairs of faces without a common corner whose rounded boxes overlap, each against each.
+/// Returns the pairs of faces without a common corner whose rounded boxes overlap, by testing all pairs.
 PairList rounded_pairs(const Mesh& mesh, const BoxFormat& format)
 {
     Aabb scene = empty_box();
@@ -27,7 +27,7 @@ PairList rounded_pairs(const Mesh& mesh, const BoxFormat& format)
     return PairList(std::move(pairs));
 }
 
-/// Of few triangles, and of as many as blocks and groups of leaves want.
+/// Returns meshes of few triangles, and of as many as blocks and work-groups need.
 std::vector<NamedMesh> telling_meshes()
 {
     std::vector<NamedMesh> meshes = hard_meshes(9);
@@ -40,11 +40,11 @@ std::vector<NamedMesh> telling_meshes()
     return meshes;
 }
 
-/// A collider over trees of a format, in one form of its kernels.
+/// A box format, a collider over trees of that format, and a kernel form.
 using Case = std::tuple<BoxFormat, ColliderEntry, KernelForm>;
 
-/// All colliders in both forms over u16, whose text the others' is but for types, and over the others those that do more
-/// with boxes than compare them: lanes and areas.
+/// All colliders in both kernel forms over u16. Other formats differ from u16 in types only, so they run those colliders that do
+/// more with boxes than compare them: lanes and areas.
 std::vector<Case> cases()
 {
     std::vector<Case> all;
@@ -63,7 +63,7 @@ protected:
 
     BuildOptions options() const { return {.sorted_leaves = true, .boxes = format().name}; }
 
-    /// Hold what is found to the pairs of rounded boxes.
+    /// Compares the pairs found with the pairs of rounded boxes.
     PairList expect_rounded_pairs(const Standing& standing) const
     {
         const auto collider = made(std::get<1>(GetParam()).name,
@@ -86,13 +86,13 @@ TEST_P(BoxFormats, FindThePairsOfRoundedBoxesAndMissNone)
     }
 }
 
-/// For the device that checks every access.
+/// Small enough for a simulated device that checks every memory access.
 TEST_P(BoxFormats, FindThePairsOfFew)
 {
     expect_rounded_pairs(Standing(crowded_mesh(21), "oibvh-single", options()));
 }
 
-/// Boxes of different trees are compared, so one set of cells serves them all.
+/// Boxes of different trees are compared, so all objects must be rounded to the same cells.
 TEST_P(BoxFormats, FindThePairsOfSeveralObjectsToo)
 {
     expect_rounded_pairs(ManyObjects({1, 70, 3, 2, 129, 200, 1})

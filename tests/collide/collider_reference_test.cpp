@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Every collider against what a separate program counted on real meshes.
+// Compares every collider with the counts of a separate program on real meshes.
 #include "tests/collide/collider_testing.h"
 #include "tests/collide/reference_testing.h"
 

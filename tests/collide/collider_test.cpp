@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Every collider of the catalog finds the oracle's pairs on every device tree, or without one. A new one is tested the
-// moment it is listed, as is a new builder.
+// Every collider of the catalog finds the oracle's pairs, on every device tree or without a tree. Colliders and builders are
+// tested as soon as they are in the catalogs.
 #include <span>
 
 #include "builders/device_tree.h"
@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t few_sizes[] = {1, 2, 3, 5, 8, 33, 65}, fewer_sizes[] = {1, 3, 33};
 
-/// A collider, over trees of a builder if it wants any, in one form of its kernels.
+/// A collider, a builder whose trees it queries (if it needs any), and a kernel form.
 using Case = std::tuple<ColliderEntry, BuilderEntry, KernelForm>;
 
 std::vector<Case> cases()
@@ -29,7 +29,7 @@ std::vector<Case> cases()
     return all;
 }
 
-/// Meshes that are hard on builders and queries, one of them with boxes of many sizes.
+/// Meshes that are hard for builders and queries, one of them with boxes of many sizes.
 std::vector<NamedMesh> meshes(std::size_t count)
 {
     std::vector<NamedMesh> all = hard_meshes(count);
@@ -44,7 +44,7 @@ protected:
     KernelForm form() const { return std::get<2>(GetParam()); }
     ColliderOptions options() const { return {.form = form()}; }
 
-    /// The form of the device over all trees, and the other one over the first of those that are the same tree.
+    /// True for the device's own kernel form, and in the other form for the first builder of each tree.
     bool is_thorough() const
     {
         const bool is_own = (form() == KernelForm::chunks) == session().device().is_cpu();
@@ -83,7 +83,7 @@ TEST_P(ColliderContract, FindsTheOraclesPairsOfMany)
         const auto one = made(wanted);
         for (const auto& [name, mesh] : meshes(is_thorough() ? 777 : 130)) {
             if (!keep_adjacent && !shares_vertices(mesh))
-                continue;  // as before
+                continue;  // same result as with adjacent pairs
             SCOPED_TRACE(name + (keep_adjacent ? ", adjacent kept" : ", adjacent dropped"));
             expect_oracles_pairs(*one, standing(mesh), keep_adjacent);
         }
@@ -130,7 +130,7 @@ INSTANTIATE_TEST_SUITE_P(Catalog, ColliderContract, testing::ValuesIn(cases()), 
 
 class Bvtt : public testing::TestWithParam<KernelForm> {
 protected:
-    /// Every jump and start level of these.
+    /// Tests every jump up to `most_jump` with every start level.
     static void expect_oracles_pairs_of_all(const Standing& standing, unsigned most_jump,
                                             std::initializer_list<unsigned> start_levels)
     {
@@ -190,14 +190,14 @@ TEST_P(Bvtt, TakesTunedLevelsForThoseOfBinaryTrees)
 
 TEST_P(Bvtt, CountsWhatAHandCounts)
 {
-    // Four triangles in a row, each overlapping the next: the levels of the tree are 01 23 and 0 1 2 3.
+    // Four triangles in a row, each overlapping the next; the levels of the tree are 01 23 and 0 1 2 3.
     const Standing standing(collinear_mesh(4), "oibvh-multi");
     const auto bvtt = made("bvtt", {.form = GetParam()});
     expect_oracles_pairs(*bvtt, standing);
     const QueryCounts counts = bvtt->counts(session().queue());
-    EXPECT_EQ(counts.pairs, 5u);      // 01 12 23 and, 2.5 being long, 02 13
+    EXPECT_EQ(counts.pairs, 5u);      // 01 12 23, and 02 13 because triangles are 2.5 long
     EXPECT_EQ(counts.box_tests, 7u);  // (01, 23); 01; 23; 02 03 12 13
-    EXPECT_EQ(counts.bvtt_peak, 3u);  // 01 and 23 with themselves and with each other
+    EXPECT_EQ(counts.bvtt_peak, 3u);  // (01, 01), (23, 23), (01, 23)
 }
 
 TEST_P(Bvtt, RefusesWhatAnArithmeticWouldBeNeededFor)
@@ -224,7 +224,7 @@ TEST(Group, IsRightWhereItsFrontierHasNoRoom)
         }
 }
 
-// In between, and those of parameters, are in `bvhbench stress`, family group-sizes.
+// Sizes in between, and those of parameters, are in `bvhbench stress`, family group-sizes.
 TEST(Colliders, TakeTheLeastAndTheMostOfGroupSizesAndRefuseOthers)
 {
     const Standing standing(crowded_mesh(600), "karras");
@@ -237,7 +237,7 @@ TEST(Colliders, TakeTheLeastAndTheMostOfGroupSizesAndRefuseOthers)
             expect_oracles_pairs(*collider, standing);
             expect_oracles_pairs(*collider, wide);
         }
-    // Groups of 4 would not take a node of 8 children, ever, and groups of 1 count two things with one work-item.
+    // Groups of 4 could never take a node with 8 children; groups of 1 would have one work-item for two counters.
     for (const unsigned group_size : {1u, 2u, 4u, 48u, 512u})
         EXPECT_THROW(made("leaf", {.group_size = group_size}), BadUsage);
 }
@@ -260,7 +260,7 @@ TEST(Colliders, TakeEveryTreeOnADeviceButBlockBinaryImplicitOnes)
 
 TEST(Block, FindsTheOraclesPairsWhereItsTreeHasSeveralLevelsOfBlocks)
 {
-    // Leaves at and beside what five, ten and fifteen levels hold; an order that jumps, and one that does not.
+    // Sizes at and next to what five, ten and fifteen levels hold, in an order with jumps and in one without.
     for (const std::size_t size : {31u, 32u, 1023u, 1024u, 1025u, 32769u})
         for (const char* order : {"morton30", "kd"}) {
             SCOPED_TRACE(std::to_string(size) + " triangles, " + order);
@@ -272,7 +272,7 @@ TEST(Block, FindsTheOraclesPairsWhereItsTreeHasSeveralLevelsOfBlocks)
 
 TEST(Block, FindsMorePairsThanATeamKeeps)
 {
-    // The same triangle 200 times: seven blocks meet each other, more than 256 pairs most times.
+    // The same triangle 200 times: seven blocks, most pairs of which meet in more than 256 pairs of triangles.
     Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, std::vector<Face>(200, Face{0, 1, 2})};
     const auto block = made("block", {.form = KernelForm::groups});
     const Standing standing(mesh, "perfect");
@@ -280,7 +280,7 @@ TEST(Block, FindsMorePairsThanATeamKeeps)
     EXPECT_EQ(block->counts(session().queue()).pairs, 200u * 199 / 2);
 }
 
-// A thousand are in `bvhbench stress`, family repeats.
+// `bvhbench stress`, family repeats, does a thousand.
 TEST(Colliders, FindOneSetOfPairsInAHundredRepeats)
 {
     const Standing standing(hard_meshes(900).back().mesh, "oibvh-multi");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What the tests of colliders share: a session, meshes that are hard to collide, and the pairs of a query.
+// Shared by the tests of colliders: a session, meshes that are hard for queries, and checks of the pairs of a query.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ inline Session& session()
     return session;
 }
 
-/// A session whose device is asked to let groups wait.
+/// Returns a session on a device that is configured to let work-groups wait for each other.
 inline Session& waiting_session()
 {
     static Session& waiting = *[] {
@@ -45,14 +45,14 @@ struct NamedMesh {
     Mesh mesh;
 };
 
-/// The first frame of a scene.
+/// Returns the first frame of a scene.
 inline Mesh scene_mesh(const std::string& name)
 {
     const Scene scene = load_scene(name, {});
     return {scene.frames.front(), scene.faces};
 }
 
-/// All triangles along a line, each overlapping the next few.
+/// Returns triangles along a line, each overlapping the next few.
 inline Mesh collinear_mesh(uint count)
 {
     Mesh mesh;
@@ -64,7 +64,7 @@ inline Mesh collinear_mesh(uint count)
     return mesh;
 }
 
-/// Large triangles in a small space: most pairs overlap.
+/// Returns large triangles in a small space, most of whose pairs overlap.
 inline Mesh crowded_mesh(std::size_t count)
 {
     Mesh mesh = hard_inputs().front().make(count);
@@ -76,7 +76,7 @@ inline Mesh crowded_mesh(std::size_t count)
     return mesh;
 }
 
-/// Sides from a thousandth to a hundred, so that many levels are in use.
+/// Returns triangles with sides from a thousandth to a hundred, so that many grid levels are in use.
 inline Mesh mesh_of_many_sizes(uint count)
 {
     std::mt19937 engine{7};
@@ -93,7 +93,7 @@ inline Mesh mesh_of_many_sizes(uint count)
     return mesh;
 }
 
-/// The hard inputs of builders at `count` triangles, and more that are hard on queries.
+/// Returns the hard inputs of builders with `count` triangles, and more meshes that are hard for queries.
 inline std::vector<NamedMesh> hard_meshes(std::size_t count)
 {
     std::vector<NamedMesh> meshes;
@@ -101,7 +101,7 @@ inline std::vector<NamedMesh> hard_meshes(std::size_t count)
         meshes.push_back({std::string(input.name), input.make(count)});
     meshes.push_back({"collinear", collinear_mesh(static_cast<uint>(count))});
     meshes.push_back({"crowded", crowded_mesh(count)});
-    if (count > 1) {  // with shared vertices, and each triangle twice
+    if (count > 1) {  // one with shared vertices, one with each triangle twice
         Mesh surface = scene_mesh("sphere:" + std::to_string(std::max<std::size_t>(8, count)));
         meshes.push_back({"surface", surface});
         const std::size_t once = surface.faces.size() / 2;
@@ -112,7 +112,7 @@ inline std::vector<NamedMesh> hard_meshes(std::size_t count)
     return meshes;
 }
 
-/// Whether an index stands in more than one place: only then are there pairs that share one.
+/// True if an index occurs more than once; only then can pairs share one.
 inline bool shares_vertices(const Mesh& mesh)
 {
     std::vector<bool> named(mesh.points.size());
@@ -125,7 +125,7 @@ inline bool shares_vertices(const Mesh& mesh)
     return false;
 }
 
-/// The builders whose trees are in device memory.
+/// Returns the builders whose trees are in device memory.
 inline std::vector<BuilderEntry> device_builders()
 {
     std::vector<BuilderEntry> builders;
@@ -136,7 +136,7 @@ inline std::vector<BuilderEntry> device_builders()
     return builders;
 }
 
-/// The colliders whose pairs are those of boxes that overlap; those that query a builder's tree, or all.
+/// Returns the colliders that find pairs of overlapping boxes: only those that query a builder's tree, or all.
 inline std::vector<ColliderEntry> box_colliders(bool of_trees)
 {
     std::vector<ColliderEntry> colliders;
@@ -150,7 +150,7 @@ inline std::vector<ColliderEntry> box_colliders(bool of_trees)
     return colliders;
 }
 
-/// GoogleTest takes letters, digits and _ only.
+/// Replaces `-` by `_`, since GoogleTest allows only letters, digits and _ in names.
 inline std::string test_name(std::string name)
 {
     std::replace(name.begin(), name.end(), '-', '_');
@@ -168,7 +168,7 @@ std::string name_of(const Entry& entry)
     return test_name(std::string(entry.name));
 }
 
-/// Names a case of a parameterized test by its parameters, in their order.
+/// Names a case of a parameterized test by its parameters, in order.
 struct CaseName {
     template <class... Parts>
     std::string operator()(const testing::TestParamInfo<std::tuple<Parts...>>& tested) const
@@ -187,13 +187,13 @@ struct CaseName {
 
 inline const auto both_forms = testing::Values(KernelForm::groups, KernelForm::chunks);
 
-/// A collider of the catalog.
+/// Makes a collider of the catalog.
 inline std::unique_ptr<Collider> made(std::string_view name, const ColliderOptions& options = {})
 {
     return find_collider(name).make(session().programs(), options);
 }
 
-/// Objects of a mesh on the device, one or several, with a tree of each if there is a builder.
+/// A mesh of one or several objects on the device, with a tree of each object if there is a builder.
 struct Standing {
     Mesh mesh;
     Input input;
@@ -216,7 +216,7 @@ struct Standing {
         : Standing(over, find_builder(builder_name).make, options, objects)
     {}
 
-    /// Go on to these points, without a tree over them.
+    /// Replaces the points, without building a tree over them.
     void place(const std::vector<Point>& points)
     {
         mesh.points = points;
@@ -234,7 +234,7 @@ struct Standing {
     }
 };
 
-/// Whether it queries such trees; if not, it says so before anything is taken.
+/// True if the collider queries such trees; otherwise checks that `reserve` throws BadUsage.
 inline bool takes(Collider& collider, const Standing& standing)
 {
     if (standing.tree == nullptr || collider.refusal(*standing.tree).empty())
@@ -243,7 +243,7 @@ inline bool takes(Collider& collider, const Standing& standing)
     return false;
 }
 
-/// Hold one query of a collider with memory for it, repeated until complete, to these pairs. How many queries that took.
+/// Compares one query, repeated until complete, with the expected pairs; memory must be reserved. Returns the number of queries.
 inline int expect_pairs(Collider& collider, const Standing& standing, const PairList& expected)
 {
     const int queries = find_pairs(collider, standing.tree, standing.input, session().queue());
@@ -255,7 +255,7 @@ inline int expect_pairs(Collider& collider, const Standing& standing, const Pair
     return queries;
 }
 
-/// The same from the start, with the oracle's pairs, if it takes such trees.
+/// Reserves memory and compares a query with the oracle's pairs, unless the collider refuses such trees.
 inline void expect_oracles_pairs(Collider& collider, const Standing& standing,
                                  bool keep_adjacent = true, Among among = Among::all)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Contacts against what a separate program counted on real meshes, and against CGAL pair for pair: from triangles to
-// contacts on the device, with nothing read back in between.
+// Compares contacts with the counts of a separate program on real meshes, and pair for pair with CGAL. From triangles to
+// contacts, everything stays on the device.
 #include "collide/narrow/narrow.h"
 #include "collide/oracles/exact_reference.h"
 #include "tests/collide/collider_testing.h"
@@ -15,7 +15,7 @@ struct Chain {
     PairList contacts;
 };
 
-/// The broad phase, and the narrow phase right behind it until both had room.
+/// Runs the broad phase and the narrow phase directly after it, repeated until both are complete.
 Chain run_chain(const Standing& standing, KernelForm form, bool keep_adjacent)
 {
     Queue& queue = session().queue();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Reads the data sets of BVHBENCH_DATA in the one binary PLY form they are kept in. Not a PLY reader.
+// Reads the data sets of BVHBENCH_DATA, which are in one binary PLY form; not a general PLY reader.
 #pragma once
 
 #include <filesystem>
@@ -17,7 +17,7 @@ namespace bvhbench {
 struct DataSetMesh {
     std::vector<Point> points;
     std::vector<Face> faces;
-    std::vector<uint> objects;  ///< empty if the file names none
+    std::vector<uint> objects;  ///< object of each face; empty if the file has none
 };
 
 template <class T>
@@ -28,7 +28,7 @@ T read_value(std::istream& in)
     return value;
 }
 
-/// Little-endian, float x y z, faces of three ints with an optional ushort object. Throws otherwise.
+/// Reads a little-endian file with float x y z and faces of three ints with an optional ushort object; throws for other forms.
 inline DataSetMesh read_data_set_mesh(const std::filesystem::path& path)
 {
     std::ifstream in(path, std::ios::binary);
@@ -60,7 +60,7 @@ inline DataSetMesh read_data_set_mesh(const std::filesystem::path& path)
     return mesh;
 }
 
-/// Positions of all frames: frames x points x 3 floats.
+/// Reads the positions of all frames: frames x points x 3 floats.
 inline std::vector<std::vector<Point>> read_frames(const std::filesystem::path& path,
                                                    std::size_t frame_count, std::size_t point_count)
 {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Several objects of a frame: one build makes a tree of each, and every collider finds the oracle's pairs between
-// them, within them, or both.
+// Several objects in a frame: a build makes a tree of each, and every collider finds the oracle's pairs between or within them.
 #include <cstring>
 
 #include "builders/device_tree.h"
@@ -59,8 +58,8 @@ TEST_P(Objects, HaveEachATreeOverTheirOwnTriangles)
     EXPECT_LE(nodes, standing.tree->node_count());
 }
 
-/// With few objects nothing of a code is dropped, so that each tree is the one of its object alone. Radix trees break
-/// ties of codes by places in the whole line, which are others.
+/// With few objects, codes lose no bits to the object number, so each tree equals the tree of its object alone. Radix trees break
+/// ties of codes by positions in the whole sequence, which differ.
 TEST_P(Objects, HaveTheTreesThatTheyHaveAlone)
 {
     const ManyObjects many({300, 64, 65, 1});
@@ -125,8 +124,7 @@ TEST(ObjectsOfOneBuild, MayBeHundreds)
     }
 }
 
-/// Two objects that move through each other: as many steps are launched as the frame before had use for, and if that
-/// is too few, all of them.
+/// Two objects move through each other: a query launches as many steps as the previous one needed, and all if those are too few.
 TEST(ObjectsOfOneBuild, AreGivenNoStepsForEmptyQueues)
 {
     for (const char* builder : {"oibvh-multi", "karras"})

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Front tracking over frames that move a little, jump, part and come back: every frame has the oracle's pairs, each
-// once, whatever became of the front.
+// Front tracking over frames that move a little, jump, part and return: every frame has the oracle's pairs, each once.
 #include <cmath>
 #include <map>
 
@@ -11,7 +10,7 @@
 namespace bvhbench {
 namespace {
 
-/// Three objects in each other's way, one of them a single triangle.
+/// Three objects that overlap, one of them a single triangle.
 struct Moving : ManyObjects {
     Moving() : ManyObjects({})
     {
@@ -19,7 +18,8 @@ struct Moving : ManyObjects {
             add(part);
     }
 
-    /// Every vertex on a way of its own, `by` long at most; each object besides by (apart, 0, 0) from the last.
+    /// Returns the points, each displaced by at most `by` along its own path, and each object shifted by `apart` from the
+    /// previous one.
     std::vector<Point> moved(float by, int frame, float apart = 0) const
     {
         std::vector<Point> points = mesh.points;
@@ -33,7 +33,7 @@ struct Moving : ManyObjects {
     }
 };
 
-/// A front and the tree that it keeps, from frame to frame.
+/// A front and its tree, carried from frame to frame.
 class Tracked {
 public:
     Tracked(const Moving& moving, bool as_one, MakeBuilder make, const ColliderOptions& options,
@@ -46,7 +46,7 @@ public:
         front_->reserve(standing_.tree, standing_.input);
     }
 
-    /// Go on to these points and hold what is found to the oracle's pairs.
+    /// Moves to these points and compares the pairs found with the oracle's.
     void expect_pairs_at(const std::vector<Point>& points)
     {
         standing_.place(points);
@@ -58,7 +58,7 @@ public:
         prunes += counted().at("prunes_count");
     }
 
-    /// The same frame once more, from the same front.
+    /// Repeats the query of the same frame from the same front.
     void expect_the_same_again()
     {
         const std::map<std::string, double> before = counted();
@@ -112,8 +112,7 @@ protected:
     KernelForm form() const { return std::get<1>(GetParam()); }
 };
 
-/// Small motions, a jump and back, and a jump that stays until the tree is built anew, small motions again, and back to
-/// where all began.
+/// Runs small motions, a jump and back, a jump that stays until the tree is rebuilt, small motions, and a return to the start.
 void run_all(Tracked& tracked, const Moving& moving)
 {
     int frame = 0;
@@ -167,7 +166,7 @@ TEST_P(FrontOver, NoticesObjectsThatComeBack)
         move_to(x);
     for (int frame = 0; frame < 16; ++frame)
         move_to(50);
-    EXPECT_EQ(tracked.counted().at("front_count"), 3);  // the roots
+    EXPECT_EQ(tracked.counted().at("front_count"), 3);  // pairs of roots
     for (const float x : {50.1f, 0.9f, 0.2f, 0.0f})
         move_to(x);
 }
@@ -204,7 +203,7 @@ TEST_P(FrontOver, MayBeRepeatedWhileItMoves)
 
 TEST_P(FrontOver, ClimbsBackWhenItHasGrown)
 {
-    // Over the same tree the highest front depends on the points alone, not on the way there.
+    // Over the same tree, the highest front depends on the points alone, not on the frames before.
     const Moving moving;
     for (const bool as_one : {true, false}) {
         Tracked tracked(moving, as_one, make(), {.form = form()});

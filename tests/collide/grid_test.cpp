@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The hashed grid of one object or many, frame after frame, and its arithmetic. collider_test holds it to the oracle on
-// hard meshes, as every collider.
+// The hashed grid of one object or many over several frames, and its arithmetic. collider_test has the hard meshes.
 #include <limits>
 
 #include "collide/grid/hash_grid.h"
@@ -10,7 +9,7 @@
 namespace bvhbench {
 namespace {
 
-/// Corners on whole numbers: boxes that only touch, where cells touch as well.
+/// Returns a mesh with integer corners: boxes that only touch, at borders of cells.
 Mesh mesh_of_touching_boxes()
 {
     Mesh mesh;
@@ -46,7 +45,7 @@ TEST_P(GridCollider, KeepsUpWithPointsThatMoveAndFacesThatGrow)
     std::vector<Point> points = standing.mesh.points;
     for (const float factor : {1.0f, 3.0f, 0.01f, -40.0f}) {
         for (std::size_t k = 0; k < points.size(); k += 3)
-            points[k].x *= factor;  // triangles change their sizes, and so the levels they are on
+            points[k].x *= factor;  // triangles change size, and with it their level
         standing.place(points);
         expect_pairs(*grid, standing, standing.expected(true));
     }

@@ -12,10 +12,10 @@ namespace bvhbench {
 struct ManyObjects {
     Mesh mesh;
     std::vector<FaceRange> objects;
-    std::vector<uint> owners;        ///< of faces
-    std::vector<uint> point_owners;  ///< of vertices
+    std::vector<uint> owners;        ///< object of each face
+    std::vector<uint> point_owners;  ///< object of each vertex
 
-    /// Objects that lie across each other, one of them a single triangle, and one far from all others.
+    /// Makes objects that overlap each other, one of them a single triangle, and one that is far from all others.
     explicit ManyObjects(const std::vector<std::size_t>& sizes)
     {
         for (std::size_t k = 0; k < sizes.size(); ++k) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The narrow phase against CGAL, pair for pair, on pairs that are hard to tell apart.
+// Compares the narrow phase with CGAL, pair for pair, on pairs that are hard to decide.
 #include <algorithm>
 #include <array>
 #include <map>
@@ -28,7 +28,7 @@ protected:
                 .without_doubles = std::get<1>(GetParam())};
     }
 
-    /// So many pairs of every class, without and with shared corners, as the reference decides them.
+    /// Compares every class with the reference: `apart` pairs without and `adjacent` pairs with shared corners.
     static void hold_to_reference(const NarrowOptions& options, uint apart, uint adjacent)
     {
         NarrowPhase narrow(bench().programs, options);
@@ -98,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(Forms, Narrow,
                                     (std::get<1>(tested.param) ? "_without_doubles" : "");
                          });
 
-/// What a method gets wrong of a class, missed ones and false ones.
+/// Errors of a method on a class: missed and false contacts.
 std::array<std::size_t, 2> errors_of(std::string_view method, KernelForm form, const char* name)
 {
     NarrowPhase narrow(bench().programs, {.method = method, .form = form});
@@ -127,7 +127,7 @@ TEST(RoundedNarrow, IsRightWhereNothingIsClose)
         }
 }
 
-// Each would pass for exact where the class is not hard on it: these are.
+// On other classes each rounded method could pass for exact; these are hard for it.
 TEST(RoundedNarrow, IsWrongWhereItRounds)
 {
     if (!has_exact_reference)
@@ -140,7 +140,7 @@ TEST(RoundedNarrow, IsWrongWhereItRounds)
     }
 }
 
-// Few enough for a simulated device that checks every access.
+// Small enough for a simulated device that checks every memory access.
 TEST(RoundedNarrow, LooksAtEachOfFewPairs)
 {
     const Mesh mesh = apart_pairs(find_pair_class("lattice_3"), 130, 1);
@@ -166,7 +166,7 @@ TEST(RoundedNarrow, RefusesCornersThatAreShared)
 
 TEST(NarrowStages, EachDecideWhatTheyAreFor)
 {
-    // Which of the stages decide some of a class.
+    // Stages that decide at least one pair of a class.
     struct Expected {
         bool floats, doubles, exactly;
         bool operator==(const Expected&) const = default;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What the tests of the narrow phase share: candidates on the device, as a broad phase would have left them.
+// Shared by the tests of the narrow phase: candidates on the device, as a broad phase would leave them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@
 
 namespace bvhbench {
 
-/// A mesh and candidates of it on the device.
+/// A mesh, and candidates of it on the device.
 struct Candidates {
     Mesh mesh;
     PairList pairs;
@@ -33,7 +33,7 @@ struct Candidates {
         , input(upload(bench().device, bench().queue, mesh.points, mesh.faces))
     {
         const std::vector<uint> counts = {static_cast<uint>(found.size()), 0, 0, 0};
-        found.resize(found.size() + 1);  // what is behind the last must not be looked at
+        found.resize(found.size() + 1);  // must not be read
         take_memory(arena, bench().device, [&](Arena& from) {
             on_device = from.take<Pair>(found.size(), Use::scratch);
             counters = from.take<uint>(counts.size(), Use::scratch);
@@ -43,8 +43,7 @@ struct Candidates {
     }
 };
 
-/// Pairs of a class, with one to three indices of each second face, at any corners, those of the first; now and then an
-/// index twice in a face.
+/// Returns pairs of a class that share one to three indices, at any corners; some faces name an index twice.
 inline Mesh adjacent_pairs(const PairClass& of, uint count)
 {
     Mesh mesh = apart_pairs(of, count, count);
@@ -69,7 +68,7 @@ inline Mesh adjacent_pairs(const PairClass& of, uint count)
     return mesh;
 }
 
-/// Of a mesh made of pairs: 0 with 1, 2 with 3.
+/// Returns the pairs of a mesh that consists of pairs of faces: 0 with 1, 2 with 3, ...
 inline std::vector<Pair> neighbours(const Mesh& mesh)
 {
     std::vector<Pair> pairs;
@@ -93,7 +92,7 @@ inline std::string spelled(const Mesh& mesh, Pair pair)
     return text;
 }
 
-/// The contacts that a query finds, repeated until it is complete.
+/// Returns the contacts of a query, repeated until it is complete.
 inline PairList contacts_found(NarrowPhase& narrow, const Candidates& candidates)
 {
     find_contacts(narrow, candidates.input, candidates.on_device, candidates.counters,
@@ -107,7 +106,7 @@ inline PairList contacts_found(NarrowPhase& narrow, const Candidates& candidates
     return found;
 }
 
-/// Pair for pair, with the first that differ spelled out.
+/// Compares two lists pair for pair; the message spells out the first differences.
 inline void expect_equal(const Mesh& mesh, const PairList& found, const PairList& wanted)
 {
     std::vector<Pair> differ;

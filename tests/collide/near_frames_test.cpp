@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Whole frames of nothing but triangles that are near another object: the pairs between objects are the oracle's.
+// Frames reduced to triangles near another object have the oracle's pairs between objects.
 #include "harness/measure/pipeline.h"
 #include "tests/collide/near_objects.h"
 
@@ -24,7 +24,7 @@ bool has_stage(const std::vector<StageTime>& stages, std::string_view name)
                        [&](const StageTime& stage) { return stage.stage == name; });
 }
 
-/// Tests of frames under the rule, where it may pay.
+/// Base of tests of frames under the rule; skipped where the rule cannot pay off.
 template <class Test>
 struct IfItMayPay : Test {
     void SetUp() override
@@ -77,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(
         return test_name(tested.param.name) + (tested.param.sorted_leaves ? "_sorted" : "");
     });
 
-/// Two objects that meet, part, lie across each other, and meet again.
+/// Two objects that meet, part, overlap and meet again.
 class Frames {
 public:
     Frames()
@@ -88,7 +88,7 @@ public:
         , pipeline_(session(), {.name = "oibvh-multi"}, between("group"), input_)
     {}
 
-    /// The second object moved along by so many widths. How many triangles entered: all without the rule.
+    /// Moves the second object to `along` widths from the first. Returns the triangles that enter: all of them without the rule.
     double entered_at(float along, Motion motion)
     {
         const std::size_t half = points_.size() / 2;
@@ -153,7 +153,7 @@ TEST_F(NearFrames, AreKeptWhenNothingMoves)
     EXPECT_TRUE(frames.had("near"));
 }
 
-/// What is refitted is a tree of all triangles, and a frame of fewer has left none.
+/// A refit needs a tree of all triangles, which a frame of fewer triangles does not leave.
 TEST_F(NearFrames, AreRefittedAsAWholeOnly)
 {
     Frames frames;
@@ -190,7 +190,7 @@ TEST_F(NearFrames, ThatLaterChangeTheirMindAreAnError)
     Input input = uploaded(many);
     Pipeline pipeline(session(), {.name = "oibvh-multi"}, between("leaf"), input);
     pipeline.settle(input);
-    points.back().x = -100;  // so that its object's box goes round all of the other
+    points.back().x = -100;  // its object's box now contains the other object
     input.device_points.upload(session().queue().cl(), points);
     EXPECT_THROW(pipeline.once(input), Unavailable);
     session().queue().finish();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Objects of which some triangles are near another, and which those are by the definition.
+// Objects with some triangles near another object, and the near triangles by definition.
 #pragma once
 
 #include "collide/near.h"
@@ -22,7 +22,7 @@ inline float width(const Mesh& mesh)
     return box.max_x - box.min_x;
 }
 
-/// Squares of two triangles in a row, from `first` on. All coordinates are small integers: boxes touch exactly.
+/// Returns a row of squares, of two triangles each, from x = `first` on. Coordinates are small integers, so boxes touch exactly.
 inline Mesh squares(uint first, uint count)
 {
     Mesh mesh;
@@ -35,7 +35,7 @@ inline Mesh squares(uint first, uint count)
     return mesh;
 }
 
-/// Spheres in a row, so many of their widths apart from one to the next.
+/// Returns `count` spheres in a row, each `step` widths from the previous one.
 inline ManyObjects row(uint count, float step, std::size_t triangles = 400)
 {
     const Mesh part = sphere(triangles);
@@ -50,11 +50,11 @@ inline ManyObjects touching_squares()
     ManyObjects many({});
     many.add(squares(0, 6), 0);
     many.add(squares(6, 5), 0);
-    many.add(squares(12, 4), 0);  // one square further on
+    many.add(squares(12, 4), 0);  // one square further away
     return many;
 }
 
-/// Two that meet, with one between them in the line of triangles that is far away and one behind them.
+/// Returns two spheres that meet, and two far ones: one between them and one after them in the order of triangles.
 inline ManyObjects some_far()
 {
     ManyObjects many = row(1, 0);
@@ -65,7 +65,7 @@ inline ManyObjects some_far()
     return many;
 }
 
-/// A triangle inside a sphere, near its box and no triangle's.
+/// Returns a triangle inside a sphere: near the sphere's box, but near no triangle of it.
 inline ManyObjects one_inside()
 {
     ManyObjects many = row(1, 0);
@@ -98,7 +98,7 @@ inline std::vector<NamedObjects> all_objects()
             {"one inside", one_inside()},  {"bodies", bodies()}};
 }
 
-/// By the definition: of each object, the triangles whose box touches another object's.
+/// Returns, per object, the triangles whose box overlaps another object's box, by the definition.
 inline std::vector<std::vector<uint>> near_by_definition(const ManyObjects& many)
 {
     const std::vector<Aabb> triangles = face_boxes(many.mesh.points, many.mesh.faces);

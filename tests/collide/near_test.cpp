@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Triangles that are near another object: those that the definition says.
+// Compares the triangles near another object with the definition.
 #include "tests/collide/near_objects.h"
 
 namespace bvhbench {
@@ -82,14 +82,14 @@ TEST_P(Near, OfFewAreThoseAndGetTheirNumbersBack)
     Arena arena = Arena::reserved(session().device(), {0, 1 << 16});
     DevicePairs found{arena.take<Pair>(3, Use::scratch), arena.take<uint>(8, Use::scratch)};
     found.pairs.upload(queue, std::vector<Pair>{{0, 2}, {1, 3}, {0, 1}});
-    found.counters.upload(queue, std::vector<uint>{2, 0});  // the third is nobody's
+    found.counters.upload(queue, std::vector<uint>{2, 0});  // the count excludes the third pair
     near.map_back(found, session().queue());
     const std::vector<Pair> mapped = found.pairs.download(queue);
     EXPECT_EQ(mapped, (std::vector<Pair>{{10, 12}, {11, 13}, {0, 1}}));
     session().queue().finish();
 }
 
-/// Trees and colliders in the same form, over what is near alone.
+/// Trees and colliders over the near triangles alone, in the same kernel form.
 TEST_P(Near, HaveThePairsBetweenObjects)
 {
     const ManyObjects many = some_far();

@@ -28,7 +28,7 @@ TEST(PairList, CountsPairsFoundTwiceAndTrianglesFoundWithThemselves)
 
 TEST(PairList, HashIsFnv1aOverLittleEndianWords)
 {
-    // The published offset, and two values worked out by a separate program.
+    // The published offset basis, and two values computed by a separate program.
     EXPECT_EQ(hex(PairList().hash()), "14650fb0739d0383");
     EXPECT_EQ(hex(PairList({{0, 1}}).hash()), "a803617659589552");
     EXPECT_EQ(hex(PairList({{65536, 258}, {0, 1}}).hash()), "35342af7f7154f02");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The oracle against what a separate program counted on real meshes.
+// Compares the oracle with the counts of a separate program on real meshes.
 #include <limits>
 
 #include "collide/oracles/sweep.h"
@@ -17,7 +17,7 @@ void expect_reference(const DataSetMesh& mesh, const nlohmann::json& reference)
     const PairList all = overlapping_pairs(boxes);
 
     std::size_t counts[3] = {0, 0, 0};
-    std::vector<Pair> not_adjacent;  // what the reference hash is over
+    std::vector<Pair> not_adjacent;  // input of the reference hash
     for (const Pair pair : all.pairs()) {
         const Relation relation = relation_of(pair, {mesh.faces, mesh.objects});
         ++counts[static_cast<std::size_t>(relation)];

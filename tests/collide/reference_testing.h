@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Data sets with what a separate program counted on them, as the tests that are held to it go through them.
+// Data sets with the counts of a separate program, and loops over them for the tests that compare with these counts.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace bvhbench {
 
 constexpr auto no_data_sets = "BVHBENCH_DATA is not set: nothing is compared with the data sets";
 
-/// Where data sets are; empty without.
+/// Returns the folder of the data sets; empty if there is none.
 inline std::filesystem::path data_sets()
 {
     const char* folder = std::getenv("BVHBENCH_DATA");
@@ -29,7 +29,7 @@ inline nlohmann::json read_json(const std::filesystem::path& path)
     return nlohmann::json::parse(in);
 }
 
-/// Calls compare(mesh, reference) for every static mesh that is there and has at most so many triangles.
+/// Calls compare(mesh, reference) for every static mesh that is present and has at most `most_triangles` triangles.
 template <class Compare>
 void compare_static_meshes(std::size_t most_triangles, const Compare& compare)
 {
@@ -48,7 +48,7 @@ void compare_static_meshes(std::size_t most_triangles, const Compare& compare)
     EXPECT_GT(compared, 0u);
 }
 
-/// Calls compare(mesh, reference, whether it is its sequence's last) for every frame with a reference.
+/// Calls compare(mesh, reference, is_last) for every frame with a reference; is_last is true for a sequence's last frame.
 template <class Compare>
 void compare_frames(const Compare& compare)
 {

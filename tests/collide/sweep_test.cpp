@@ -10,7 +10,7 @@
 namespace bvhbench {
 namespace {
 
-/// All pairs, one test each.
+/// Returns the overlapping pairs by testing all pairs.
 PairList brute_force(std::span<const Aabb> boxes)
 {
     std::vector<Pair> found;
@@ -23,8 +23,7 @@ PairList brute_force(std::span<const Aabb> boxes)
     return PairList(std::move(found));
 }
 
-/// Boxes about (0, 0, 0), stretched by `x`, `y`, `z`. Coordinates are small integers times those, so that
-/// many boxes touch and begin together.
+/// Returns boxes around (0, 0, 0) at small integer multiples of `x`, `y`, `z`, so that many touch or begin at the same place.
 std::vector<Aabb> lattice_boxes(std::size_t count, float x, float y, float z, unsigned seed)
 {
     std::mt19937 random(seed);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Boxes around the way between two frames: they hold every frame in between, every builder makes them, and every collider
-// finds the sweep's pairs of them.
+// Swept boxes contain every frame in between; every builder makes the same ones, and every collider finds the oracle's pairs.
 #include <cstdlib>
 #include <random>
 
@@ -24,7 +23,7 @@ Scene moving_scene(std::vector<Face> faces, std::vector<Point> from, std::vector
     return finished(std::move(scene));
 }
 
-/// A strip of triangles that wanders about, so that neighbours share vertices, each vertex going its own way.
+/// Returns a strip of triangles along a random path, in which neighbours share vertices and each vertex moves on its own.
 Scene random_motion(uint triangles, float way)
 {
     std::mt19937 random(7);
@@ -43,7 +42,7 @@ Scene random_motion(uint triangles, float way)
     return moving_scene(std::move(faces), std::move(from), std::move(to));
 }
 
-/// A square sheet of two triangles at rest, and a triangle that falls through it: v4 to v6, above and then below.
+/// Returns a square sheet of two triangles at rest, and a triangle that falls through it: v4 to v6, first above, then below.
 Scene falling_triangle()
 {
     const std::vector<Point> sheet = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
@@ -77,7 +76,7 @@ PairList right_pairs(const Input& input, Among among)
     return touching_pairs(leaf_boxes(input), input.faces, false, input.objects, among);
 }
 
-/// Whether a collider without a tree, or over trees of this builder, takes such an input.
+/// True if the collider needs no tree, or accepts trees of this builder over such an input.
 bool takes(const BuilderChoice& builder, const ColliderChoice& choice, const Input& input)
 {
     const auto collider = make_collider(choice, session().programs());
@@ -112,8 +111,8 @@ TEST(SweptParts, AreVerticesAndFacesAndEachEdgeOnceByItsLargerVertex)
     EXPECT_EQ(place_of_edge(edges, 5, 5), std::nullopt);
 }
 
-// Counted by hand: each vertex of the falling triangle passes through the boxes of both of the sheet's, and each corner of
-// the sheet that is on one of its triangles alone touches the other's box. Its diagonal is crossed by three edges.
+// Counted by hand: each vertex of the falling triangle passes through the boxes of both triangles of the sheet, and each corner
+// of the sheet that belongs to only one of its triangles touches the other one's box. Three edges cross the sheet's diagonal.
 TEST(SweptBoxes, OfATriangleFallingThroughASheetMeetAsCountedByHand)
 {
     const Scene scene = falling_triangle();
@@ -126,7 +125,7 @@ TEST(SweptBoxes, OfATriangleFallingThroughASheetMeetAsCountedByHand)
         .name = "leaf", .among = Among::within_objects, .keep_adjacent = false};
     EXPECT_EQ(pairs_by({.name = "oibvh-multi"}, within, swept_input(scene, edges)),
               PairList({{1, 5}, {1, 6}, {1, 7}}));
-    // In either frame alone hardly anything meets.
+    // In a single frame, hardly anything meets.
     const Input first =
         upload(session().device(), session().queue(), scene.frames[0], vf.faces, vf.objects);
     EXPECT_EQ(pairs_by({.name = "oibvh-multi"}, between, first), PairList({{1, 8}, {3, 7}}));
@@ -149,7 +148,7 @@ TEST(SweptBoxes, HoldEveryFrameInBetween)
     }
 }
 
-/// A builder of implicit trees and one of radix trees: the others make the same boxes, as the test of all of them says.
+/// One builder of implicit trees and one of radix trees: another test shows that all builders make the same boxes.
 class SweptPairs : public testing::TestWithParam<const char*> {};
 
 TEST_P(SweptPairs, AreThoseOfTheSweepByEveryCollider)
@@ -222,7 +221,7 @@ TEST(SweptBoxes, HaveNoNarrowPhase)
     }
 }
 
-/// All steps of a scene, and what the cells say.
+/// Returns the cells of all steps of a scene.
 std::vector<Cell> cells_of(CollideTask task)
 {
     std::vector<Cell> cells;
@@ -238,7 +237,7 @@ std::vector<Cell> cells_of(CollideTask task)
     return cells;
 }
 
-// Steps share buffers, which change places from one to the next; a front goes on over them.
+// Consecutive steps share buffers, which they exchange, and a front continues over them.
 TEST(SweptSteps, OfASequenceAreEachHeldToTheSweep)
 {
     CollideTask task;
@@ -259,7 +258,7 @@ TEST(SweptSteps, OfASequenceAreEachHeldToTheSweep)
     EXPECT_NE(hashes.front(), hashes[hashes.size() - 5]);
 }
 
-// Rounded outward, the box around the way has false pairs and misses none.
+// A swept box rounded outward has false pairs and misses none.
 TEST(SweptSteps, OverRoundedBoxesMissNothing)
 {
     CollideTask task;
