@@ -6,8 +6,8 @@
 
 SHARED_BEGIN
 
-/// Axis-aligned closed box of six scalars. With float sides it has 24 bytes in C++ and in OpenCL C, where a float3
-/// would take 16 bytes. In kernels over trees, BOX_FORMAT gives the type of the sides.
+/// Axis-aligned closed box of six scalars. With float sides it has 24 bytes in C++ and in OpenCL C, where a float3 would take
+/// 16 bytes. In kernels over trees, BOX_FORMAT gives the type of the sides.
 typedef struct {
     BoxSide min_x, min_y, min_z;
     BoxSide max_x, max_y, max_z;

@@ -6,11 +6,11 @@
 //
 //     floor(x * scale) - first     for a lower side, ceil for an upper side
 //
-// `scale` has 8 significant bits, so its product with a float is exact in a double. floor and ceil are exact, and
-// `first`, the scene's lower end, is rounded down to such a whole number too. The only rounding is therefore the
-// intended one: cells keep the order of coordinates, the cell of a lower side is never above its coordinate, and that
-// of an upper side is never below it. Boxes that overlap as floats overlap as cells, and the box of an inner node is
-// the union of its children's boxes in both representations.
+// `scale` has 8 significant bits, so its product with a float is exact in a double. floor and ceil are exact, and `first`, the
+// scene's lower end, is rounded down to such a whole number too. The only rounding is therefore the intended one: cells keep
+// the order of coordinates, the cell of a lower side is never above its coordinate, and that of an upper side is never below
+// it. Boxes that overlap as floats overlap as cells, and an inner node's box is the union of its children's boxes in both
+// representations.
 //
 //     u8, u16     254 and 65,534 cells; the cell number is the side
 //     f16         one cell per smallest half, from the most negative half to the largest; the cell number, counted from
@@ -50,8 +50,8 @@ SHARED_FN_INLINED double last_cell(uint format)
                                : 0.0;
 }
 
-/// Returns the whole number nearest to `x`, which has at most 32 significant bits: beyond 2^51 it is whole. Used in
-/// place of floor and ceil, which are function calls on PoCL and made gathering the leaves several times slower.
+/// Returns the whole number nearest to `x`, which has at most 32 significant bits: beyond 2^51 it is whole. Used in place of
+/// floor and ceil, which are function calls on PoCL and made gathering the leaves several times slower.
 SHARED_FN_INLINED double whole_near(double x)
 {
     const double shift =
@@ -74,8 +74,8 @@ SHARED_FN_INLINED double whole_above(double x)
 /// Returns `x`, which is positive, with all but its 8 leading significant bits cleared.
 SHARED_FN double eight_bits_of(double x) { return as_double(as_ulong(x) & 0xffffe00000000000ul); }
 
-/// Returns the cells 0 to `last` along an axis on which the scene extends between two finite floats. The cells reach
-/// beyond both ends by at most one cell, and their width is within one part in 128 of the smallest possible.
+/// Returns the cells 0 to `last` along an axis on which the scene extends between two finite floats. The cells reach beyond
+/// both ends by at most one cell, and their width is within one part in 128 of the smallest possible.
 SHARED_FN AxisCells axis_cells(float low, float high, double last)
 {
     AxisCells cells;

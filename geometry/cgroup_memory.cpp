@@ -13,8 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// File names and memory.stat keys of one cgroup version. In v1, keys of sums over a group and its subgroups have a
-/// prefix.
+/// File names and memory.stat keys of one cgroup version. In v1, keys of sums over a group and its subgroups have a prefix.
 struct Version {
     const char* limit;
     const char* usage;
@@ -32,8 +31,8 @@ struct Mount {
     fs::path topmost;
 };
 
-/// Returns the mounts of groups that can limit memory. A line of mountinfo: id, parent, device, root, mount point,
-/// options, " - ", type, source, options of the type.
+/// Returns the mounts of groups that can limit memory. A line of mountinfo:
+/// id, parent, device, root, mount point, options, " - ", type, source, options of the type.
 std::vector<Mount> mounts(const fs::path& root)
 {
     std::vector<Mount> found;
@@ -112,8 +111,7 @@ std::optional<std::uint64_t> cgroup_memory_left(const fs::path& root)
         fs::path below = own->lexically_relative(mount.topmost);
         if (below.empty() || *below.begin() == "..")
             below = ".";
-        // Visits the group and every mounted group around it. Without a limit, v1 gives a number that is larger than
-        // any memory.
+        // Visits the group and all mounted groups around it. Without a limit, v1 gives a number larger than any memory.
         for (;; below = below.parent_path()) {
             if (const auto here = left_in(mount.point / below, *mount.version))
                 left = std::min(left.value_or(*here), *here);

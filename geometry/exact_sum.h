@@ -2,16 +2,16 @@
 //
 // Exact sign of a sum of doubles, by passes that keep the exact sum and shrink the rounding errors in it.
 //
-// One pass adds the terms in order. The rounding error of each addition is itself a double and replaces the term; the
-// rounded sum is stored after all errors:
+// One pass adds the terms in order. The rounding error of each addition is itself a double and replaces the term; the rounded
+// sum is stored after all errors:
 //
 //     terms     t0  t1  t2  ...  tn-1
 //     errors        e1  e2  ...  en-1  s        their exact sum is that of the terms
 //
-// If the absolute errors together are less than |s|, the sign of s is the result. Each pass reduces the errors by a
-// factor of 2n u, u = 2^-53 [Ogita2005]. Terms made from floats are multiples of a smallest number, and so are the
-// errors: errors below it are zero. For the 48 terms of orient3d the factor is 2^46 per pass, from 2^390 down to
-// 2^-447, hence at most 19 passes; 2 or 3 are usual.
+// If the absolute errors together are less than |s|, the sign of s is the result. Each pass reduces the errors by a factor of
+// 2n u, u = 2^-53 [Ogita2005]. Terms made from floats are multiples of a smallest number, and so are the errors: errors below
+// it are zero. For the 48 terms of orient3d the factor is 2^46 per pass, from 2^390 down to 2^-447, hence at most 19 passes; 2
+// or 3 are usual.
 #ifndef BVHBENCH_GEOMETRY_EXACT_SUM_H
 #define BVHBENCH_GEOMETRY_EXACT_SUM_H
 

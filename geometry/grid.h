@@ -5,9 +5,8 @@
 //     cubic       over all centres; cubic cells, sized by the longest side
 //     stretched   over the scene's box; as many cells along each axis, however short the axis
 //
-// The cubic grid is the default. With cells stretched to the scene's sides, a step along a short axis counts as much as
-// one along a long axis, which makes the trees of flat scenes several times worse. The paper's Table 4 uses the
-// stretched grid.
+// The cubic grid is the default. With cells stretched to the scene's sides, a step along a short axis counts as much as one
+// along a long axis, which makes the trees of flat scenes several times worse. The paper's Table 4 uses the stretched grid.
 #ifndef BVHBENCH_GEOMETRY_GRID_H
 #define BVHBENCH_GEOMETRY_GRID_H
 
@@ -36,8 +35,8 @@ SHARED_FN float longest_side(Aabb box, float scale)
     return fmax(fmax(x, y), z);
 }
 
-/// Returns the cubic grid over the bounds of all centres. If its side overflows a float, everything is halved, which is
-/// exact for all coordinates that matter at that size. Otherwise nothing is halved, so that denormals keep every bit.
+/// Returns the cubic grid over the bounds of all centres. If its side overflows a float, everything is halved, which is exact
+/// for all coordinates that matter at that size. Otherwise nothing is halved, so that denormals keep every bit.
 SHARED_FN Grid cubic_grid(Aabb centres)
 {
     const float largest = 3.402823466e+38f;
@@ -52,9 +51,8 @@ SHARED_FN Grid cubic_grid(Aabb centres)
 
 /// Returns which of `cells` equal parts of [0, side] holds `offset`; the upper end belongs to the last part.
 ///
-/// Divides instead of multiplying by a reciprocal, which is infinite for a denormal side. Clamps as a float, because
-/// the conversion of out-of-range floats differs between devices. If all centres coincide, 0 / 0 is NaN, which fmax
-/// turns into 0.
+/// Divides instead of multiplying by a reciprocal, which is infinite for a denormal side. Clamps as a float, because the
+/// conversion of out-of-range floats differs between devices. If all centres coincide, 0 / 0 is NaN, which fmax turns into 0.
 SHARED_FN uint part_of(float offset, float side, float cells)
 {
     return (uint)fmin(fmax(offset / side * cells, 0.0f), cells - 1.0f);
@@ -72,8 +70,8 @@ SHARED_FN Cell cubic_cell(Aabb box, Bounds bounds, float cells)
     return cell;
 }
 
-/// Returns which of `cells` equal parts of [low, high] holds `x`; 0 if the bounds are equal. Halves its arguments, so
-/// that no side overflows; only denormals lose a bit.
+/// Returns which of `cells` equal parts of [low, high] holds `x`; 0 if the bounds are equal. Halves its arguments, so that no
+/// side overflows; only denormals lose a bit.
 SHARED_FN uint part_between(float low, float high, float x, float cells)
 {
     return part_of(0.5f * x - 0.5f * low, 0.5f * high - 0.5f * low, cells);

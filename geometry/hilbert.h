@@ -2,17 +2,16 @@
 //
 // Hilbert codes: the index of a cell on a curve that visits every cell of a cube, each adjacent to the previous one.
 //
-// The curve is defined octant by octant, from the largest down. The eight octants of a cube are visited in Gray-code
-// order, so consecutive octants share a face. For the curve to leave one octant where it enters the next, the curve
-// inside an octant is mirrored or has two axes exchanged. Both operations are applied to the cell instead of the curve
-// [Skilling2004]:
+// The curve is defined octant by octant, from the largest down. The eight octants of a cube are visited in Gray-code order, so
+// consecutive octants share a face. For the curve to leave one octant where it enters the next, the curve inside an octant is
+// mirrored or has two axes exchanged. Both operations are applied to the cell instead of the curve [Skilling2004]:
 //
 //     for each bit, from the highest down to bit 1, for each axis
 //         the bit is set      mirror the smaller bits of x
 //         it is not           exchange the smaller bits of x and of this axis
 //
-// The result is one Gray code of three bits per size that includes the turns of all larger sizes. It is decoded, and
-// its bits are interleaved like those of a Morton code.
+// The result is one Gray code of three bits per size that includes the turns of all larger sizes. It is decoded, and its bits
+// are interleaved like those of a Morton code.
 #ifndef BVHBENCH_GEOMETRY_HILBERT_H
 #define BVHBENCH_GEOMETRY_HILBERT_H
 
@@ -20,8 +19,7 @@
 
 SHARED_BEGIN
 
-/// Returns a number whose bit k is the parity of the bits of `x` above k. This is the decoding of a Gray code, shifted
-/// down by one.
+/// Returns a number whose bit k is the parity of the bits of `x` above k. This decodes a Gray code, shifted down by one bit.
 SHARED_FN_INLINED uint parity_above(uint x)
 {
     x >>= 1u;
@@ -32,8 +30,8 @@ SHARED_FN_INLINED uint parity_above(uint x)
     return x ^ x >> 16u;
 }
 
-/// One step: applies the turn of the octant given by bit `size` of each axis to all lower bits. Without branches, so
-/// that many cells can be processed at once.
+/// One step: applies the turn of the octant given by bit `size` of each axis to all lower bits. Without branches, so that many
+/// cells can be processed at once.
 SHARED_FN_INLINED Cell hilbert_turned(Cell cell, uint size)
 {
     const uint smaller = (1u << size) - 1u;
@@ -61,8 +59,8 @@ SHARED_FN_INLINED Cell hilbert_ungrayed(Cell cell)
     return cell;
 }
 
-/// Returns the cell whose Morton code is the Hilbert code of `cell`, with 1 to 31 `bits` per axis. The curve starts at
-/// (0, 0, 0) and ends at the other end of the x axis.
+/// Returns the cell whose Morton code is the Hilbert code of `cell`, for 1 to 31 `bits` per axis. The curve starts at (0, 0, 0)
+/// and ends at the other end of the x axis.
 SHARED_FN Cell hilbert_cell(Cell cell, uint bits)
 {
     for (uint size = bits - 1u; size > 0u; --size)

@@ -20,8 +20,8 @@ constexpr std::uint64_t no_limit = std::numeric_limits<std::uint64_t>::max();
 // A limit applies to the whole process, and so do these values.
 std::atomic<std::uint64_t> given = 0, predicted = 0, most_data = no_limit;
 
-/// Bytes that may be requested before the host's memory is checked again: a sixteenth of what was left at the last
-/// check. A check reads some 20 files of /proc and of the control groups, and most requests are small.
+/// Bytes that may be requested before the host's memory is checked again: a sixteenth of what was left at the last check. A
+/// check reads some 20 files of /proc and of the control groups, and most requests are small.
 std::atomic<std::uint64_t> unasked = 0;
 
 bool take_unasked(std::uint64_t bytes)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Limits for the host memory of this process. The kernel grants more memory than exists and kills the process that uses
-// it, so large allocations are checked here first. Allocations that are not checked, such as those of libraries, fail
-// at RLIMIT_DATA and are reported as errors too.
+// Limits for the host memory of this process. The kernel grants more memory than exists and kills the process that uses it, so
+// large allocations are checked here first. Allocations that are not checked, such as those of libraries, fail at RLIMIT_DATA
+// and are reported as errors too.
 #pragma once
 
 #include <cstdint>
@@ -12,14 +12,14 @@
 
 namespace bvhbench {
 
-/// Limits this process to `limit` bytes in total, including what it already has; 0 limits it to the memory available.
-/// Sets RLIMIT_DATA, so that allocations beyond the limit fail (not under a sanitizer). May be called again, when the
-/// memory that the process needs before it measures is known. Throws Unavailable if the process already has more.
+/// Limits this process to `limit` bytes in total, including what it already has; 0 limits it to the memory available. Sets
+/// RLIMIT_DATA, so that allocations beyond the limit fail (not under a sanitizer). May be called again, when the memory that
+/// the process needs before it measures is known. Throws Unavailable if the process already has more.
 void limit_host_memory(std::uint64_t limit);
 
 /// Returns the bytes that this process can still take: the minimum over its limit, the machine, its control groups and
-/// RLIMIT_AS. A tenth of the memory left in the machine and the groups is reserved for other processes. Memory that is
-/// mapped but was never written counts as taken.
+/// RLIMIT_AS. A tenth of the memory left in the machine and the groups is reserved for other processes. Memory that is mapped
+/// but was never written counts as taken.
 std::uint64_t host_memory_left();
 
 /// Throws Unavailable, naming `what`, if host_memory_left() is less than `bytes`. Called before an allocation.
@@ -34,9 +34,9 @@ struct HostMemoryFacts {
 };
 HostMemoryFacts host_memory_facts();
 
-/// Returns the bytes that this process may still take before it reaches a memory limit of its control group or of an
-/// enclosing one; nothing if no group has a limit. The page cache counts as free, because the kernel drops it first.
-/// Reads cgroup v2 (memory.max) and v1 (memory.limit_in_bytes) below `root`; tests pass another folder.
+/// Returns the bytes that this process may still take before it reaches a memory limit of its control group or of an enclosing
+/// one; nothing if no group has a limit. The page cache counts as free, because the kernel drops it first. Reads cgroup v2
+/// (memory.max) and v1 (memory.limit_in_bytes) below `root`; tests pass another folder.
 std::optional<std::uint64_t> cgroup_memory_left(const std::filesystem::path& root = "/");
 
 }  // namespace bvhbench

@@ -5,10 +5,10 @@
 //     orient3d(a, b, c, d)    sign of (a-d) . ((b-d) x (c-d)); 0: the four points are coplanar
 //     orient2d(a, b, c, k)    orientation of a, b, c projected along axis k; 0: their projections are collinear
 //
-// As in [Shewchuk1997], the determinant is first computed in doubles, which decides unless the points are nearly
-// coplanar. A difference of floats is rounded at most once. No product of three differences can overflow or underflow:
-// the smallest float is 2^-149, the smallest product 2^-447, and the smallest double 2^-1074. With u = 2^-53 and X, Y,
-// Z the largest computed differences along each axis, the error is at most
+// As in [Shewchuk1997], the determinant is first computed in doubles, which decides unless the points are nearly coplanar. A
+// difference of floats is rounded at most once. No product of three differences can overflow or underflow: the smallest float
+// is 2^-149, the smallest product 2^-447, and the smallest double 2^-1074. With u = 2^-53 and X, Y, Z the largest computed
+// differences along each axis, the error is at most
 //
 //     a difference            u X
 //     a minor x y' - x' y     8 u X Y      two products of rounded factors, 3 u each; their difference, 2 u
@@ -17,11 +17,11 @@
 // up to terms of order u^2, which 48 u covers. In the plane the bound is 8 u X Y; 9 u covers it.
 //
 // If that does not decide, one of two exact sums does. If all coordinates along an axis are multiples of some g and the
-// differences are less than 2^26 g, as in most doubtful cases, all differences and minors are exact doubles, and a
-// product of three is the sum of two doubles: 6 terms. Otherwise the determinant is a sum of products of coordinates,
-// not of differences: the product of two floats is exact in a double, and its upper and its lower half each have an
-// exact product with a third float, so the 24 products of the determinant become 48 terms. The terms and all their sums
-// are multiples of 2^-447 below 2^390, so nothing overflows or underflows.
+// differences are less than 2^26 g, as in most doubtful cases, all differences and minors are exact doubles, and a product of
+// three is the sum of two doubles: 6 terms. Otherwise the determinant is a sum of products of coordinates, not of differences:
+// the product of two floats is exact in a double, and its upper and its lower half each have an exact product with a third
+// float, so the 24 products of the determinant become 48 terms. The terms and all their sums are multiples of 2^-447 below
+// 2^390, so nothing overflows or underflows.
 #ifndef BVHBENCH_GEOMETRY_ORIENT_H
 #define BVHBENCH_GEOMETRY_ORIENT_H
 
@@ -49,10 +49,10 @@ SHARED_FN double upper_half(double x)
     return spread - (spread - x);
 }
 
-/// True if x is a multiple of some g such that `most`, the largest difference along the axis of x, is below 2^26 g.
-/// Tests whether x survives the addition to L = 2^28 `most`. Floats that are 2^26 times as large as their differences
-/// have no differences, so |x| is below L / 4. The sum is therefore rounded to a multiple of at least half the last bit
-/// of L, which is at least 2^-54 L, or 2^-26 `most`.
+/// True if x is a multiple of some g such that `most`, the largest difference along the axis of x, is below 2^26 g. Tests
+/// whether x survives the addition to L = 2^28 `most`. Floats that are 2^26 times as large as their differences have no
+/// differences, so |x| is below L / 4. The sum is therefore rounded to a multiple of at least half the last bit of L, which is
+/// at least 2^-54 L, or 2^-26 `most`.
 SHARED_FN bool is_regular(float x, double most)
 {
     const double large = 0x1p28 * most;

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// Splitting of a set of boxes in two: as many boxes go left as the tree has leaves there, namely those whose centres
-// come first along one axis; ties are broken by id. The result depends on the set alone and not on the order in which
-// the boxes are stored. The axis is chosen in one of two ways:
+// Splitting of a set of boxes in two: as many boxes go left as the tree has leaves there, namely those whose centres come first
+// along one axis; ties are broken by id. The result depends on the set alone and not on the order in which the boxes are
+// stored. The axis is chosen in one of two ways:
 //
 //     by cell    the longest side of the node's cell: for large nodes, without reading the boxes
 //     by cost    the axis whose halves have the smallest boxes around their centres, weighted by their counts
 //
-// The cell of a node is the part of the box around all centres that the cuts above the node leave. It is divided into
-// slabs, and the children's cells end at the edges of the slab that holds the median, so both are known before the
-// median is.
+// The cell of a node is the part of the box around all centres that the cuts above the node leave. It is divided into slabs,
+// and the children's cells end at the edges of the slab that holds the median, so both are known before the median is.
 #ifndef BVHBENCH_GEOMETRY_SPLIT_H
 #define BVHBENCH_GEOMETRY_SPLIT_H
 
@@ -55,9 +54,8 @@ SHARED_FN float scale_to_one(float side)
     return as_float((exponent < 253u ? 254u - exponent : 1u) << 23u);
 }
 
-/// Returns the cost of one half of a node: the half surface of the box around its `count` centres, with sides x, y and
-/// z, times `count`. Sides are scaled first, so that the surfaces of small and large scenes stay in the range of
-/// floats.
+/// Returns the cost of one half of a node: the half surface of the box around its `count` centres, with sides x, y and z, times
+/// `count`. Sides are scaled first, so that the surfaces of small and large scenes stay in the range of floats.
 SHARED_FN float cost_of_half(float x, float y, float z, float scale, uint count)
 {
     x *= scale;
@@ -80,8 +78,8 @@ typedef struct {
     uint slab;  ///< slab of the last box that goes left; beyond all slabs if there is no cut
 } CellCut;
 
-/// Returns the number of slabs for a node of 2^height leaves on a level, such that few boxes share a slab. On the first
-/// levels, the counters of all nodes together, at most 2^13, must fit a work-group's local memory.
+/// Returns the number of slabs for a node of 2^height leaves on a level, such that few boxes share a slab. On the first levels,
+/// the counters of all nodes together, at most 2^13, must fit a work-group's local memory.
 SHARED_FN uint slab_count(uint level, uint height)
 {
     const uint most = level < 3u ? 4096u >> level : level < 6u ? 8192u >> level : 1024u;
@@ -110,9 +108,8 @@ SHARED_FN CellCut cut_of_cell(Aabb cell, uint slabs)
     return cut;
 }
 
-/// Returns the slab that holds a coordinate along the cut's axis. Never decreases as the coordinate rises; coordinates
-/// outside the cell belong to its first or last slab. In a cell without extent, 0 * infinity is NaN, which fmax turns
-/// into 0.
+/// Returns the slab that holds a coordinate along the cut's axis. Never decreases as the coordinate rises; coordinates outside
+/// the cell belong to its first or last slab. In a cell without extent, 0 * infinity is NaN, which fmax turns into 0.
 SHARED_FN uint slab_of(CellCut cut, float at, uint slabs)
 {
     return (uint)fmin(fmax((at - cut.low) * cut.slabs_per_unit, 0.0f), (float)(slabs - 1u));
@@ -152,8 +149,8 @@ SHARED_FN Aabb right_cell(Aabb cell, CellCut cut, uint slabs)
     return cell;
 }
 
-/// Returns how many of `count` boxes go left if the left subtree has room for 2^(height - 1) leaves: the split of a
-/// tree without pointers, whose levels fill from the left.
+/// Returns how many of `count` boxes go left if the left subtree has room for 2^(height - 1) leaves: the split of a tree
+/// without pointers, whose levels fill from the left.
 SHARED_FN uint left_count(uint count, uint height)
 {
     return count < 1u << (height - 1u) ? count : 1u << (height - 1u);

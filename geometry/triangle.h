@@ -19,8 +19,8 @@ typedef struct {
 #if BOX_FORMAT == BOX_F32
 /// Returns the box of a triangle, without negative zeros.
 ///
-/// -0 and +0 compare equal, so fmin and fmax may return either, and devices differ. Adding +0 turns -0 into +0 and
-/// changes nothing else, so every box of a tree has the same bits on every device.
+/// -0 and +0 compare equal, so fmin and fmax may return either, and devices differ. Adding +0 turns -0 into +0 and changes
+/// nothing else, so every box of a tree has the same bits on every device.
 SHARED_FN Aabb triangle_box(Point a, Point b, Point c)
 {
     Aabb box;

@@ -24,8 +24,7 @@ void require_memory(std::string_view scene, std::uint64_t bytes)
     require_host_memory("scene " + in_quotes(scene), bytes);
 }
 
-/// Returns the whole number that `number`, a part of the name `scene`, spells. Throws BadUsage unless it is from 1 to
-/// `most`.
+/// Returns the whole number that `number`, a part of the name `scene`, spells. Throws BadUsage unless it is from 1 to `most`.
 uint count_in(std::string_view scene, std::string_view number, const char* what, uint most)
 {
     const bool digits = !number.empty() && number.find_first_not_of("0123456789") == number.npos;

@@ -22,12 +22,11 @@ struct SceneLibrary {
     std::function<void(const std::string& line)> tell = {};
 };
 
-/// Loads the scene called `text`: a generator with its size ("torus:2880000"), a moving generator with its size and
-/// optionally its number of frames ("cloth-ball:92000:94"), a data set by name ("bunny"), a path to a mesh file, or
-/// "refine:SCENE:N".
+/// Loads the scene called `text`: a generator with its size ("torus:2880000"), a moving generator with its size and optionally
+/// its number of frames ("cloth-ball:92000:94"), a data set by name ("bunny"), a path to a mesh file, or "refine:SCENE:N".
 ///
-/// Throws BadUsage, listing the known scenes, if no scene has this name. Throws Unavailable, with one sentence that
-/// gives the reason, if a file is missing, malformed, or holds something that is not a valid scene.
+/// Throws BadUsage, listing the known scenes, if no scene has this name. Throws Unavailable, with one sentence that gives the
+/// reason, if a file is missing, malformed, or holds something that is not a valid scene.
 Scene load_scene(std::string_view text, const SceneLibrary& library);
 
 /// Returns the files and folders that loading the scene `text` may read; some of them need not exist.
@@ -49,9 +48,8 @@ struct SceneListing {
 std::vector<SceneListing> list_scenes(const SceneLibrary& library);
 
 /// As load_scene. If `text` is a data set whose file is missing or is another edition, loads the first possible of its
-/// stand-ins and sets `stand_in_for`. The stand-in of a mesh has the same number of triangles. The stand-in of a
-/// sequence is other frames or a simulation of about its size; its numbers of triangles, objects and frames must be
-/// read from the scene.
+/// stand-ins and sets `stand_in_for`. The stand-in of a mesh has the same number of triangles. The stand-in of a sequence is
+/// other frames or a simulation of about its size; its numbers of triangles, objects and frames must be read from the scene.
 Scene load_or_stand_in(std::string_view text, const SceneLibrary& library);
 
 }  // namespace bvhbench

@@ -31,8 +31,7 @@ struct Extent {
     double half() const { return low <= high ? 0.5 * high - 0.5 * low : 0; }
 };
 
-/// Returns 0 if floats of this size are normal numbers and twice the size is representable; otherwise the binary
-/// exponent that scales it to about 1.
+/// Returns 0 if floats of this size are normal and twice the size is one too; else the power of two that scales it to about 1.
 int scale_for(double largest)
 {
     if (largest == 0)

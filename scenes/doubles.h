@@ -2,9 +2,9 @@
 //
 // Conversion to floats of vertex coordinates that floats cannot hold exactly.
 //
-// Rounded directly, vertices far from the origin fall onto the coarse grid that floats have there, and disjoint boxes
-// may touch (docs/accuracy.md, Input). If the middle of their box is subtracted first, in doubles, they keep nearly the
-// full precision of floats. Both ways preserve the order of coordinates, so boxes that overlap still overlap.
+// Rounded directly, vertices far from the origin fall onto the coarse grid that floats have there, and disjoint boxes may touch
+// (docs/accuracy.md, Input). If the middle of their box is subtracted first, in doubles, they keep nearly the full precision of
+// floats. Both ways preserve the order of coordinates, so boxes that overlap still overlap.
 #pragma once
 
 #include <cstdint>
@@ -35,9 +35,8 @@ Doubles doubles_called(std::string_view name);
 
 /// Result of a conversion of doubles x to the floats nearest to 2^scale_log2 (x - offset).
 struct Rounding {
-    std::optional<Doubles>
-        how;                ///< none: floats held all coordinates exactly, and nothing was changed
-    WidePoint offset = {};  ///< in the unit of the file
+    std::optional<Doubles> how;  ///< none: floats held all coordinates, nothing changed
+    WidePoint offset = {};       ///< in the unit of the file
     int scale_log2 = 0;
     std::uint64_t rounded_count =
         0;  ///< number of coordinates in all frames that were changed by rounding
@@ -47,9 +46,9 @@ struct Rounding {
 /// Describes a rounding in one sentence.
 std::string rounding_text(const Rounding& rounding);
 
-/// Converts `wide` to floats. On entry, `frames` holds the same vertices and frames, rounded as they are; on return,
-/// the converted ones. All frames share one offset and one scale, so vertices at rest remain at rest. Coordinates that
-/// are not finite, which no scene may have, become infinity or NaN.
+/// Converts `wide` to floats. On entry, `frames` holds the same vertices and frames, rounded as they are; on return, the
+/// converted ones. All frames share one offset and one scale, so vertices at rest remain at rest. Coordinates that are not
+/// finite, which no scene may have, become infinity or NaN.
 Rounding round_frames(std::span<const std::vector<WidePoint>> wide, Doubles how,
                       std::vector<std::vector<Point>>& frames);
 

@@ -85,8 +85,7 @@ private:
     std::uint64_t listed_ = 0, colliding_ = 0;
 };
 
-/// Returns the only step of a scene of two frames. Without `ccd` in meta.json, ground truth is only unambiguous for
-/// such a scene.
+/// Returns the only step of a scene of two frames. Without `ccd` in meta.json, only such a scene is unambiguous.
 std::size_t only_step(const Scene& scene)
 {
     if (scene.frames.size() != 2)

@@ -13,8 +13,8 @@ namespace {
 
 using Reader = FileMesh (*)(std::string_view bytes, const std::string& name);
 
-/// Bytes of mesh per byte of its file. A vertex in doubles, as a float, and once more while arrays grow takes about
-/// three bytes per byte of text, in addition to the text. Files of short numbers that need more hit RLIMIT_DATA.
+/// Bytes of mesh per byte of its file. A vertex in doubles, as a float, and once more while arrays grow takes about three bytes
+/// per byte of text, in addition to the text. Files of short numbers that need more hit RLIMIT_DATA.
 constexpr std::uint64_t bytes_a_file_byte = 4;
 
 std::string lower_extension(const std::filesystem::path& path)

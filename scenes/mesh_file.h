@@ -5,16 +5,15 @@
 
 namespace bvhbench {
 
-/// Returns all bytes of a regular file. Throws Unavailable if it does not exist, is not a regular file, or cannot be
-/// read. Requires `times` the file's size of free host memory first, for the bytes and for what the caller makes of
-/// them.
+/// Returns all bytes of a regular file. Throws Unavailable if it does not exist, is not a regular file, or cannot be read.
+/// Requires `times` the file's size of free host memory first, for the bytes and for what the caller makes of them.
 std::string file_bytes(const std::filesystem::path& path, std::uint64_t times = 1);
 
 /// True if `read_mesh_file` can read files with this extension.
 bool is_mesh_file(const std::filesystem::path& path);
 
-/// Reads a mesh file by its extension: .obj, .ply, .off and .stl with the readers of formats/, other formats with
-/// assimp in a worker process. Throws Unavailable.
+/// Reads a mesh file by its extension: .obj, .ply, .off and .stl with the readers of formats/, other formats with assimp in a
+/// worker process. Throws Unavailable.
 FileMesh read_mesh_file(const std::filesystem::path& path, const SceneLibrary& library);
 
 /// Moves the file's triangles and objects into `scene`, grouped (scenes/face_order.h), but not its points.

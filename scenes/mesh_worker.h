@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// assimp 5.2.5 crashes or hangs on many malformed files, so it runs in a separate process: this program, started again
-// with a hidden first argument. The process is spawned, because one that has used PoCL cannot be forked. Every main
-// that may read a mesh file begins with
+// assimp 5.2.5 crashes or hangs on many malformed files, so it runs in a separate process: this program, started again with a
+// hidden first argument. The process is spawned, because one that has used PoCL cannot be forked. Every main that may read a
+// mesh file begins with
 //
 //     if (is_mesh_worker(argc, argv))
 //         return mesh_worker_main(argc, argv);
@@ -20,16 +20,16 @@ namespace bvhbench {
 /// True if this process was started by `read_in_worker`.
 bool is_mesh_worker(int argc, char** argv);
 
-/// Reads the file named by the arguments with assimp and writes it to standard output as a message. Discards everything
-/// else that is written to standard output. Returns the exit code.
+/// Reads the file named by the arguments with assimp and writes it to standard output as a message. Discards everything else
+/// that is written to standard output. Returns the exit code.
 int mesh_worker_main(int argc, char** argv);
 
 /// True if assimp has a reader for files with this extension (".gltf").
 bool assimp_knows(const std::string& extension);
 
-/// Reads `path` with assimp. Each instance of a mesh becomes an object, transformed by the nodes above it. Vertices are
-/// not merged, points and lines are skipped, and polygons are cut into fans. Throws Unavailable if assimp refuses the
-/// file, crashes, or exceeds a limit of `library`.
+/// Reads `path` with assimp. Each instance of a mesh becomes an object, transformed by the nodes above it. Vertices are not
+/// merged, points and lines are skipped, and polygons are cut into fans. Throws Unavailable if assimp refuses the file,
+/// crashes, or exceeds a limit of `library`.
 FileMesh read_in_worker(const std::filesystem::path& path, const SceneLibrary& library);
 
 /// Encodes the worker's answer, in the byte order of the machine:
@@ -41,8 +41,8 @@ FileMesh read_in_worker(const std::filesystem::path& path, const SceneLibrary& l
 std::string mesh_message(const FileMesh& file);
 std::string refusal_message(std::string_view why);
 
-/// Decodes the mesh or the refusal in `message`; nothing if the message is incomplete, as after a crash. Does not check
-/// that the mesh is valid.
+/// Decodes the mesh or the refusal in `message`; nothing if the message is incomplete, as after a crash. Does not check that
+/// the mesh is valid.
 std::optional<std::variant<FileMesh, std::string>> decoded(std::string_view message);
 
 }  // namespace bvhbench

@@ -22,8 +22,7 @@ Matrix<n> diagonalise(Matrix<n>& a)
     Matrix<n> vectors{};
     for (std::size_t k = 0; k < n; ++k)
         vectors[k][k] = 1;
-    for (int sweep = 0; sweep < 30;
-         ++sweep)  // converges quadratically: about six sweeps are enough
+    for (int sweep = 0; sweep < 30; ++sweep)  // quadratic: about six are enough
         for (std::size_t p = 0; p < n; ++p)
             for (std::size_t q = p + 1; q < n; ++q) {
                 if (a[p][q] == 0)
@@ -154,8 +153,7 @@ std::vector<Motion> object_motions(const Scene& scene, std::size_t from, std::si
     assert(from < scene.frames.size() && to < scene.frames.size());
     const std::vector<Point>& old_points = scene.frames[from];
     const std::vector<Point>& new_points = scene.frames[to];
-    std::vector<std::size_t> seen(old_points.size(),
-                                  0);  // number of the last object that used the vertex, from 1
+    std::vector<std::size_t> seen(old_points.size(), 0);  // last object that uses it, from 1
     std::vector<Vector> before, after;
     std::vector<Motion> motions;
     for (const SceneObject& object : scene.objects) {

@@ -27,8 +27,8 @@ struct Outlier {
 
 /// Input of the builders: triangles of one or more objects, with one or more frames of vertex positions.
 ///
-/// All frames share the connectivity. Objects are contiguous, in order, and cover every face. Positions are finite and
-/// contain no negative zeros, and indices are in range: every finished Scene is valid.
+/// All frames share the connectivity. Objects are contiguous, in order, and cover every face. Positions are finite and contain
+/// no negative zeros, and indices are in range: every finished Scene is valid.
 struct Scene {
     std::string name;                  ///< the name that the user typed, unique in a result file
     std::vector<Face> faces;           ///< faces of all objects, at least one
@@ -36,8 +36,8 @@ struct Scene {
     bool has_meshes = false;           ///< true if the source of the scene names these objects
     std::vector<std::vector<Point>> frames;  ///< positions of all vertices, one vector per frame
     std::vector<std::string> frame_labels;   ///< names of the frames in the source, or empty
-    /// Number of triangle k in the file (or generator); empty: k. Set if triangles were reordered so that those of an
-    /// object are consecutive (scenes/face_order.h).
+    /// Number of triangle k in the file (or generator); empty: k. Set if triangles were reordered so that those of an object
+    /// are consecutive (scenes/face_order.h).
     std::vector<uint> file_faces;
     /// Number of object k in the file; empty: k.
     std::vector<std::int64_t> object_ids;
@@ -47,19 +47,18 @@ struct Scene {
         folder;  ///< folder that the frames were read from, which may hold ground truth, or empty
     std::string stand_in_for;  ///< name of the missing data set that this scene replaces, or empty
     Outlier outlier;
-    Rounding rounding;  ///< rounding of coordinates that floats could not hold
-    std::string
-        bend_of;  ///< name of the scene to which this one adds a second, bent frame; else empty
+    Rounding rounding;               ///< rounding of coordinates that floats could not hold
+    std::string bend_of;             ///< scene to which this one adds a bent frame, or empty
     std::uint64_t content_hash = 0;  ///< covers faces, objects and all frames, but no names
 
     uint triangle_count() const { return static_cast<uint>(faces.size()); }
 };
 
-/// Validates a scene: turns negative zeros into positive ones, sets `content_hash`, and gives a scene without objects
-/// one object over all faces. `name` and `source` must be set.
+/// Validates a scene: turns negative zeros into positive ones, sets `content_hash`, and gives a scene without objects one
+/// object over all faces. `name` and `source` must be set.
 ///
-/// Throws Unavailable, in one sentence, if the scene has no triangles or frames, an index is out of range, a position
-/// is not finite, or the objects do not cover the faces in order.
+/// Throws Unavailable, in one sentence, if the scene has no triangles or frames, an index is out of range, a position is not
+/// finite, or the objects do not cover the faces in order.
 Scene finished(Scene scene);
 
 }  // namespace bvhbench

@@ -28,8 +28,8 @@ std::vector<std::vector<Point>> read_frames(const std::filesystem::path& path, s
     return frames;
 }
 
-/// Returns the last number in a file's name, by which frames are ordered; nothing if there is none. Throws Unavailable
-/// if the number is too large.
+/// Returns the last number in a file's name, by which frames are ordered; nothing if there is none. Throws Unavailable if the
+/// number is too large.
 std::optional<std::int64_t> frame_number(const std::filesystem::path& path)
 {
     const std::string stem = path.stem().string();
@@ -74,8 +74,7 @@ bool same(const std::vector<Face>& a, const std::vector<Face>& b)
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Face)) == 0;
 }
 
-/// Reads the files again and returns their vertices in doubles. Few sequences need this, so the others reserve no
-/// memory for it.
+/// Reads the files again, for their vertices in doubles. Few sequences need this, so the others use no memory for it.
 std::vector<std::vector<WidePoint>> wide_frames(const NumberedFiles& files,
                                                 const SceneLibrary& library)
 {

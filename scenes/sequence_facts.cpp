@@ -135,8 +135,7 @@ void read_facts(const std::filesystem::path& meta, const std::function<void(cons
 {
     if (!std::filesystem::exists(meta))
         return;
-    const Json json = Json::parse(file_bytes(meta), nullptr,
-                                  false);  // no exceptions: a parse error gives a discarded value
+    const Json json = Json::parse(file_bytes(meta), nullptr, false);  // no exceptions: "discarded"
     try {
         if (json.is_discarded())
             throw Fault{"is not JSON"};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A user-defined kernel that traverses the tree in place and counts, for each of several points, the triangle boxes
-// that contain it. Compares the counts with brute force: exits with 1 if they differ, with 3 if there is no device.
+// A user-defined kernel that traverses the tree in place and counts, for each of several points, the triangle boxes that
+// contain it. Compares the counts with brute force: exits with 1 if they differ, with 3 if there is no device.
 #include "example.h"
 
 namespace oibvh = bvhbench::oibvh;

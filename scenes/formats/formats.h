@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// Readers of the four plain formats. assimp is not used for these: it gives every corner of an OBJ face a separate
-// vertex, so that neighbours share none; it accepts some files that are truncated or name missing vertices; and it
-// ignores the object ids of a PLY file.
+// Readers of the four plain formats. assimp is not used for these: it gives every corner of an OBJ face a separate vertex, so
+// that neighbours share none; it accepts some files that are truncated or name missing vertices; and it ignores the object ids
+// of a PLY file.
 //
-// All four keep the order of vertices and faces, merge nothing, and cut a polygon into a fan around its first corner.
-// They throw Unavailable, in one sentence that begins with `name`, for any content that they do not understand, and
-// drop no face.
+// All four keep the order of vertices and faces, merge nothing, and cut a polygon into a fan around its first corner. They
+// throw Unavailable, in one sentence that begins with `name`, for any content that they do not understand, and drop no face.
 #pragma once
 
 #include <string>
@@ -26,12 +25,11 @@ struct FileMesh {
     std::vector<uint> object_of_face = {};
     /// Numbers of the objects in the file; empty: 0, 1, ...
     std::vector<std::int64_t> object_ids = {};
-    /// The same vertices in double precision. Empty if `has_doubles` is false, as for a file whose numbers are floats;
-    /// the reader sets `has_doubles` before it adds points.
+    /// The same vertices in double precision. Empty if `has_doubles` is false, as for a file whose numbers are floats; the
+    /// reader sets `has_doubles` before it adds points.
     std::vector<WidePoint> wide = {};
     bool has_doubles = true;
-    /// True if the floats of `mesh` hold every coordinate of the file: a double equals its float, or a text has no
-    /// further digits.
+    /// True if floats hold every coordinate of the file: a double equals its float, or a text has no further digits.
     bool floats_hold = true;
 
     void add_point(const FileNumber& x, const FileNumber& y, const FileNumber& z);
@@ -46,8 +44,8 @@ struct FileMesh {
 /// Wavefront OBJ: v and f lines, relative indices, continued lines. "o" begins an object.
 FileMesh read_obj(std::string_view bytes, const std::string& name);
 
-/// PLY, ascii and binary of either byte order. Faces with the same integer property `object_id` form an object,
-/// wherever they are in the file. Objects are ordered by their ids.
+/// PLY, ascii and binary of either byte order. Faces with the same integer property `object_id` form an object, wherever they
+/// are in the file. Objects are ordered by their ids.
 FileMesh read_ply(std::string_view bytes, const std::string& name);
 
 /// OFF and its variants with colours or normals after the three coordinates. Binary OFF is not supported.

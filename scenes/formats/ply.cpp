@@ -11,8 +11,8 @@
 namespace bvhbench {
 namespace {
 
-/// Reads the values after a header in sequence, in any of the formats. Throws Unavailable if the file ends too soon or
-/// holds something that is not a number.
+/// Reads the values after a header in sequence, in any of the formats. Throws Unavailable if the file ends too soon or holds
+/// something that is not a number.
 class Values {
 public:
     Values(const PlyHeader& header, const std::string& name)
@@ -39,8 +39,8 @@ public:
             read();
     }
 
-    /// A number beyond the range of floats becomes infinity, and its vertex is refused later. Floats hold a text whose
-    /// type is float, regardless of its number of digits.
+    /// A number beyond the range of floats becomes infinity, and its vertex is refused later. Floats hold a text whose type is
+    /// float, regardless of its number of digits.
     FileNumber number(const PlyType& type)
     {
         if (format_ == PlyFormat::ascii && !type.is_integer) {

@@ -9,8 +9,8 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "binary STL is little-endian");
 
-// A binary STL file consists of 80 arbitrary bytes, a facet count, and 50 bytes per facet: a normal, three corners of
-// three floats each, and two arbitrary bytes.
+// A binary STL file consists of 80 arbitrary bytes, a facet count, and 50 bytes per facet: a normal, three corners of three
+// floats each, and two arbitrary bytes.
 constexpr std::size_t binary_header = 84;
 constexpr std::size_t binary_facet = 50;
 

@@ -59,8 +59,7 @@ std::optional<FileNumber> parse_number(std::string_view word)
     const auto [stop, error] = std::from_chars(begin, end, number.wide);
     if (stop != end || error == std::errc::invalid_argument)
         return std::nullopt;
-    if (error ==
-        std::errc::result_out_of_range) {  // the exponent's sign tells overflow from underflow
+    if (error == std::errc::result_out_of_range) {  // too large or too small
         const bool small = word.find("e-") != word.npos || word.find("E-") != word.npos;
         number.rounded = small ? 0.0f : std::numeric_limits<float>::infinity();
         number.wide = number.rounded;

@@ -30,15 +30,14 @@ private:
     std::size_t number_ = 0;
 };
 
-/// Removes the next word and the white space before it from the front of `text`. Returns the word; empty if there is
-/// none.
+/// Removes the next word and the white space before it from the front of `text`. Returns the word; empty if there is none.
 std::string_view next_word(std::string_view& text);
 
-/// Parses the whole of `word` as a number in any locale: a decimal point, an optional sign. Infinity and NaN are
-/// accepted; numbers that are too large become infinity, too small ones zero. Nothing if `word` is not a number.
+/// Parses the whole of `word` as a number in any locale: a decimal point, an optional sign. Infinity and NaN are accepted;
+/// numbers that are too large become infinity, too small ones zero. Nothing if `word` is not a number.
 ///
-/// `floats_hold` is true if the float differs from the double by at most half a unit of the last written digit: floats
-/// that were printed with any number of digits are recognised as floats.
+/// `floats_hold` is true if the float differs from the double by at most half a unit of the last written digit: floats that
+/// were printed with any number of digits are recognised as floats.
 std::optional<FileNumber> parse_number(std::string_view word);
 
 /// Parses the whole of `word` as a decimal integer; nothing if it is none or is out of range.

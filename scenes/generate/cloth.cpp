@@ -46,8 +46,7 @@ void NearPairs::sort(const std::vector<Vector>& points, double distance)
     for (std::size_t k = 1; k < begin_.size(); ++k)
         begin_[k] += begin_[k - 1];
     members_.resize(points.size());
-    for (std::size_t k = points.size();
-         k-- > 0;)  // backwards, which turns bucket ends into bucket starts
+    for (std::size_t k = points.size(); k-- > 0;)  // backwards: turns bucket ends into starts
         members_[--begin_[bucket(cells_[k])]] = static_cast<uint>(k);
 }
 
@@ -71,8 +70,7 @@ const std::vector<std::pair<uint, uint>>& NearPairs::find(const std::vector<Vect
     return pairs_;
 }
 
-// Adds the springs of every other cell first and then the others, so that no direction is favoured and springs do not
-// depend on the previous one.
+// Adds the springs of every other cell first, then the others: no direction is favoured, and no spring depends on the last one.
 void Cloth::add_springs(const Sheet& sheet)
 {
     const uint wide = sheet.columns, high = sheet.rows;
@@ -154,9 +152,7 @@ bool Cloth::are_neighbours(uint a, uint b) const
 void Cloth::keep_apart()
 {
     if (steps_ % pairs_hold_for == 0) {
-        pairs_ = near_.find(
-            positions_,
-            1.25 * apart_);  // a larger distance, because particles move until the next search
+        pairs_ = near_.find(positions_, 1.25 * apart_);  // margin for movement
         std::erase_if(pairs_,
                       [&](const auto& pair) { return are_neighbours(pair.first, pair.second); });
     }

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// A small cloth simulation: particles of equal mass, coupled by distance constraints only, in small steps with one pass
-// over all constraints per step ([Macklin2019]: more steps do better than more passes).
+// A small cloth simulation: particles of equal mass, coupled by distance constraints only, in small steps with one pass over
+// all constraints per step ([Macklin2019]: more steps do better than more passes).
 //
 //     *---*---*     stretch: neighbours along a row and a column
 //     | X | X |     shear:   both diagonals of a cell, softer
 //     *---*---*     bend:    neighbours at distance two, softer still
 //
-// The order of operations is fixed, there is one thread, and all operations are defined by IEEE 754, so results are the
-// same on every machine.
+// One thread, a fixed order of operations, and only operations that IEEE 754 defines: results are the same on every machine.
 #pragma once
 
 #include <array>
@@ -20,8 +19,7 @@
 
 namespace bvhbench {
 
-/// Parameters of the simulation. Compliances are in metres per newton for particles of 1 kg; 0 is as stiff as one pass
-/// allows.
+/// Parameters of the simulation. Compliances are in metres per newton for particles of 1 kg; 0 is as stiff as one pass allows.
 struct ClothSettings {
     double step_s = 1e-3;
     double shear = 3e-6;
@@ -44,8 +42,8 @@ struct Sheet {
 /// Finds pairs of nearby points with a hashed grid. Keeps its memory between calls.
 class NearPairs {
 public:
-    /// Returns all pairs (i, j), i < j, of points nearer than `distance`, each once, in an order that depends on the
-    /// points only. The reference is valid until the next call.
+    /// Returns all pairs (i, j), i < j, of points nearer than `distance`, each once. Their order depends on the points only.
+    /// The reference is valid until the next call.
     const std::vector<std::pair<uint, uint>>& find(const std::vector<Vector>& points,
                                                    double distance);
 
@@ -54,9 +52,8 @@ private:
     std::size_t bucket(const Cell& cell) const;
     void sort(const std::vector<Vector>& points, double distance);
 
-    std::vector<Cell> cells_;  ///< cell of each point
-    std::vector<uint>
-        begin_;  ///< start of each bucket in `members_`, and the end of the last bucket
+    std::vector<Cell> cells_;    ///< cell of each point
+    std::vector<uint> begin_;    ///< bucket starts in `members_`, and the last end
     std::vector<uint> members_;  ///< points by bucket, ascending in each
     std::vector<std::pair<uint, uint>> pairs_;
 };
@@ -65,8 +62,8 @@ class Cloth {
 public:
     explicit Cloth(ClothSettings settings) : settings_(settings) {}
 
-    /// Adds a sheet whose cells have the rest lengths that they have at `position(u, v)`, u and v from 0 to 1. Perturbs
-    /// the particles slightly, because a symmetric sheet would never fold.
+    /// Adds a sheet whose cells have the rest lengths that they have at `position(u, v)`, u and v from 0 to 1. Perturbs the
+    /// particles slightly, because a symmetric sheet would never fold.
     Sheet add(uint columns, uint rows, bool closed,
               const std::function<Vector(double u, double v)>& position);
 

@@ -8,8 +8,8 @@
 namespace bvhbench {
 namespace {
 
-/// Returns the number of simulated cells along a side of a square sheet of `triangles` triangles: no more than are
-/// drawn, but enough to fall like cloth.
+/// Returns the number of simulated cells along a side of a square sheet of `triangles` triangles: no more than are drawn, but
+/// enough to fall like cloth.
 uint sheet_cells(uint triangles, uint most)
 {
     const auto drawn = static_cast<uint>(std::sqrt(0.5 * triangles));
@@ -56,8 +56,7 @@ struct Stage {
 };
 
 constexpr uint ball_steps = 2800;
-constexpr uint turns_from =
-    500;  // step at which the ball begins to turn; the cloth then lies on it
+constexpr uint turns_from = 500;  // by this step the cloth lies on the ball
 
 /// Returns the scene of sheets with the given numbers of triangles above a ball on the floor.
 Scene cloth_on_ball(const std::vector<uint>& sheets, uint most_columns, double apart,
@@ -92,8 +91,7 @@ const std::vector<Lathe::Ring> body_profile = {
     {0.06, 0.0},  {0.07, 0.1},  {0.11, 0.5}, {0.17, 0.9},  {0.12, 1.1},  {0.16, 1.3}, {0.16, 1.38},
     {0.05, 1.45}, {0.05, 1.52}, {0.1, 1.58}, {0.11, 1.66}, {0.07, 1.74}, {0.03, 1.76}};
 
-/// Returns a point of skirt k (three layers at each of three heights) without rotation: v runs down, and folds deepen
-/// to the hem.
+/// Returns a point of skirt k (three layers at each of three heights) without rotation: v runs down, and folds deepen.
 Vector skirt_point(const Lathe& body, uint k, double u, double v)
 {
     const double top = 1.04 - 0.2 * (k / 3);
@@ -169,8 +167,7 @@ Scene make_cloth_dress(uint triangles, uint frames)
     });
 }
 
-// The ball moves down at constant speed, through the neck and almost to the floor, with the cloth between ball and
-// funnel.
+// The ball moves down at constant speed, through the neck and almost to the floor, with the cloth between ball and funnel.
 Scene make_cloth_funnel(uint triangles, uint frames)
 {
     const Floor floor;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Classes of pairs that touch, overlap or miss each other exactly by construction: from small whole numbers, which
-// floats hold exactly, or from copied corners.
+// Classes of pairs that touch, overlap or miss each other exactly by construction: from small whole numbers, which floats hold
+// exactly, or from copied corners.
 #pragma once
 
 #include "scenes/generate/pair_classes.h"

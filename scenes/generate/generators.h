@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Generators of meshes and moving scenes with exactly N triangles. All are deterministic: the same N gives the same
-// scene. The torus and the sphere use sin and cos and may differ in the last bit between C libraries; the others use
-// only +, -, *, / and square root, which IEEE 754 defines.
+// Generators of meshes and moving scenes with exactly N triangles. All are deterministic: the same N gives the same scene. The
+// torus and the sphere use sin and cos and may differ in the last bit between C libraries; the others use only +, -, *, / and
+// square root, which IEEE 754 defines.
 #pragma once
 
 #include <span>
@@ -13,8 +13,8 @@
 
 namespace bvhbench {
 
-/// A bumpy torus, an evenly tessellated closed surface: the usual stand-in for a scanned model. Vertices at the two
-/// seams are not shared.
+/// A bumpy torus, an evenly tessellated closed surface: the usual stand-in for a scanned model. Vertices at the two seams are
+/// not shared.
 Mesh make_torus(uint triangles);
 
 /// A sphere of rings of nearly equal triangles; closed if `triangles` is even and at least 6.
@@ -29,17 +29,17 @@ Mesh make_hairball(uint triangles);
 /// Small random triangles in the unit cube without shared vertices. `triangles` <= 2^32 / 3.
 Mesh make_soup(uint triangles);
 
-/// A sheet of exactly `triangles` triangles over the unit square, with points at (u, v, 0): about `aspect` times as
-/// many quads along u as along v, two triangles each, row by row; the last row may be incomplete. `closed`: the points
-/// at u = 1 are those at u = 0. Every point is a corner of some triangle.
+/// A sheet of exactly `triangles` triangles over the unit square, with points at (u, v, 0): about `aspect` times as many quads
+/// along u as along v, two triangles each, row by row; the last row may be incomplete. `closed`: the points at u = 1 are those
+/// at u = 0. Every point is a corner of some triangle.
 Mesh make_sheet(uint triangles, double aspect, bool closed);
 
 /// Appends `part` to `mesh`.
 void append(Mesh& mesh, const Mesh& part);
 
-// Moving scenes: simulations of moving objects. Cloth is simulated with as many particles as N requires, up to about
-// ten thousand; finer meshes are sampled from the smooth surface through the particles. The motion is therefore nearly
-// the same for every N, and its cost is bounded.
+// Moving scenes: simulations of moving objects. Cloth is simulated with as many particles as N requires, up to about ten
+// thousand; finer meshes are sampled from the smooth surface through the particles. The motion is therefore nearly the same for
+// every N, and its cost is bounded.
 
 /// A square cloth falls on a ball that stands on a floor and begins to turn. Objects: cloth, ball.
 Scene make_cloth_ball(uint triangles, uint frames);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Modelled on the hairball of the McGuire archive: 2.88 million triangles in long thin tubes that curl inside a sphere.
-// A strand is a tube with three sides and `segments` segments of six triangles each:
+// Modelled on the hairball of the McGuire archive: 2.88 million triangles in long thin tubes that curl inside a sphere. A
+// strand is a tube with three sides and `segments` segments of six triangles each:
 //
 //     root ring   A0 B0 C0      on a small inner sphere
 //                 A1 B1 C1      each step turns the direction slightly and advances

@@ -10,8 +10,7 @@
 namespace bvhbench {
 namespace {
 
-/// Returns the first `triangles` triangles of a sheet of quads, row by row, with `wide` quads and `stride` vertices per
-/// row.
+/// Returns the first `triangles` triangles of a sheet of quads, row by row, with `wide` quads and `stride` vertices per row.
 ///
 ///     C---D    A B D and A D C of each quad
 ///     | / |
@@ -126,13 +125,11 @@ void append(Mesh& mesh, const Mesh& part)
 
 Mesh make_grid(uint triangles) { return make_patch(triangles, place_in_sheet); }
 
-// The size of triangles shrinks with the cube root of their number, so each overlaps about the same number of others
-// for any N.
+// The size of triangles shrinks with the cube root of their number, so each overlaps about the same number of others for any N.
 Mesh make_soup(uint triangles)
 {
     const float size = 0.5f / static_cast<float>(cells_per_side(triangles));
-    const float room =
-        1.0f - 2.0f * size;  // range of centres that keeps corners inside the unit cube
+    const float room = 1.0f - 2.0f * size;  // keeps corners in the unit cube
     Random random(triangles);
     Mesh mesh;
     mesh.points.reserve(std::size_t{3} * triangles);
@@ -152,8 +149,7 @@ Mesh make_sheet(uint triangles, double aspect, bool closed)
     const std::size_t quads = (std::size_t{triangles} + 1) / 2;
     const auto wanted =
         static_cast<std::size_t>(std::sqrt(static_cast<double>(quads) * aspect) + 0.5);
-    const std::size_t least =
-        closed ? 3 : 1;  // fewer columns would use a point twice in a triangle
+    const std::size_t least = closed ? 3 : 1;  // fewer would repeat a corner
     const std::size_t wide = std::max(least, std::min(wanted, quads));
     const std::size_t high = (quads + wide - 1) / wide;
     const std::size_t stride = closed ? wide : wide + 1;

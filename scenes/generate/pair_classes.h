@@ -58,8 +58,7 @@ std::span<const PairClass> pair_classes();
 /// Returns the class called `name`. Throws BadUsage, listing the known names, if there is none.
 const PairClass& find_pair_class(std::string_view name);
 
-/// Returns `count` pairs of a class without shared indices: pair k is faces 2k and 2k + 1. The same for a seed on every
-/// machine.
+/// Returns `count` pairs of a class without shared indices: pair k is faces 2k and 2k + 1. The result depends on `seed` only.
 Mesh apart_pairs(const PairClass& of, uint count, uint seed);
 
 }  // namespace bvhbench

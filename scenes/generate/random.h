@@ -7,8 +7,8 @@
 
 namespace bvhbench {
 
-/// SplitMix64 (Steele, Lea, Flood: "Fast Splittable Pseudorandom Number Generators"). Gives the same numbers on every
-/// machine, unlike the distributions of the standard library.
+/// SplitMix64 (Steele, Lea, Flood: "Fast Splittable Pseudorandom Number Generators"). Gives the same numbers on every machine,
+/// unlike the distributions of the standard library.
 class Random {
 public:
     explicit Random(std::uint64_t seed) : state_(seed) {}

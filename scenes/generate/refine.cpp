@@ -7,8 +7,8 @@
 //        /   \      =>     / | \          .
 //       a-----b           a--m--b         (a, b, w) becomes (a, m, w) and (m, b, w)
 //
-// Half-edge 3f + k is the side of triangle f from its corner k to the next corner. The half-edges of one edge form a
-// circular list through `next_in_ring_`; any number of triangles may share an edge.
+// Half-edge 3f + k is the side of triangle f from its corner k to the next corner. The half-edges of one edge form a circular
+// list through `next_in_ring_`; any number of triangles may share an edge.
 #include "scenes/generate/derived.h"
 
 #include <algorithm>
@@ -60,8 +60,7 @@ private:
     struct Candidate {
         float length;
         uint edge;
-        bool operator<(
-            const Candidate& other) const  // the greatest candidate is the top of the queue
+        bool operator<(const Candidate& other) const  // the top is the greatest
         {
             return length != other.length ? length < other.length : edge > other.edge;
         }
@@ -139,8 +138,7 @@ private:
             ring_.push_back(half);
         while ((half = next_in_ring_[half]) != half_of_[edge]);
         if (ring_.size() > triangles_ - origin_.size())
-            ring_.resize(triangles_ -
-                         origin_.size());  // last cut: only as many as are still needed
+            ring_.resize(triangles_ - origin_.size());  // last cut: no more than needed
         cut_ring(edge);
     }
 

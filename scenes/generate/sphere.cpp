@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A closed triangulated sphere with V vertices has 2V - 4 triangles. Two vertices are the poles; the other S lie on
-// rings, and stitching a ring of n vertices to one of m takes n + m triangles:
+// A closed triangulated sphere with V vertices has 2V - 4 triangles. Two vertices are the poles; the other S lie on rings, and
+// stitching a ring of n vertices to one of m takes n + m triangles:
 //
 //        pole          n_1 triangles
 //       * * *          n_1 + n_2

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Arithmetic of points (floats) and vectors (doubles), for simulations whose results are rounded to float once. Only
-// operations that IEEE 754 defines are used: with sin, a simulation would differ between C libraries by far more than a
-// last bit.
+// Arithmetic of points (floats) and vectors (doubles), for simulations whose results are rounded to float once. Only operations
+// that IEEE 754 defines are used: with sin, a simulation would differ between C libraries by far more than a last bit.
 #pragma once
 
 #include <cmath>

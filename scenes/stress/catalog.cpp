@@ -15,8 +15,8 @@ struct Named {
     double value;
 };
 
-// Families that vary coordinates: far from the origin, and of any size that floats represent. The exact pairs are those
-// of the floats as stored.
+// Families that vary coordinates: far from the origin, and of any size that floats represent. Pairs are exact for floats as
+// stored.
 
 std::vector<StressCase> translated_cases(const StressSize& size)
 {
@@ -87,8 +87,8 @@ std::vector<StressCase> not_finite_cases(const StressSize& size)
              }}};
 }
 
-// Families that vary the number of triangles: powers of two and their neighbours, where implicit layouts may fail, and
-// more than 2^24, where floats no longer represent every integer.
+// Families that vary the number of triangles: powers of two and their neighbours, where implicit layouts may fail, and more
+// than 2^24, where floats no longer represent every integer.
 
 std::vector<StressCase> counted_cases(const StressSize& size)
 {
@@ -105,10 +105,9 @@ std::vector<StressCase> counted_cases(const StressSize& size)
     return cases;
 }
 
-/// Returns sixteen rows of degenerate triangles, each overlapping the next two of its row: pairs can be counted, and a
-/// sweep along the rows finds them quickly for any number of triangles. The remainder is added to the last row: an
-/// additional row would change the bounds and so the codes, and fronts would become three times as large, too large for
-/// one allocation on PoCL.
+/// Returns sixteen rows of degenerate triangles, each overlapping the next two of its row: pairs can be counted, and a sweep
+/// along the rows finds them quickly for any number of triangles. The remainder is added to the last row: an additional row
+/// would change the bounds and so the codes, and fronts would be three times as large, too large for one allocation on PoCL.
 Mesh rows(uint triangles)
 {
     static constexpr uint row = 1u << 20, last = 15;

@@ -86,8 +86,7 @@ Mesh stack(uint sheets, uint each, float lowest, float gap)
 /// Returns two stacks whose sheets alternate.
 StressScene interleaved(const StressSize& size, float at, float gap)
 {
-    const bool is_one_plane =
-        at + gap == at;  // then each triangle overlaps triangles of all sheets
+    const bool is_one_plane = at + gap == at;  // then all sheets overlap
     const uint sheets = size.quick || is_one_plane ? 4 : 16;
     // In quick mode half as many triangles as elsewhere, for a quarter of the pairs: almost all pairs need exact sums.
     const uint each = (size.quick ? size.triangles() / 2 : size.triangles()) / 2 / sheets;

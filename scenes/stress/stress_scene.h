@@ -26,8 +26,7 @@ struct StressSize {
     uint crowded_triangles() const { return quick ? 120 : 300; }
 };
 
-/// Triangles of one or more objects, which cover all triangles in order. Unlike a Scene, it may hold what `finished`
-/// refuses.
+/// Triangles of one or more objects, which cover all triangles in order. Unlike a Scene, it may hold what `finished` refuses.
 struct StressScene {
     Mesh mesh;
     std::vector<FaceRange> objects;
@@ -56,8 +55,7 @@ StressScene single(Mesh mesh);
 /// Returns a scene of two objects, the second stored after the first.
 StressScene together(const Mesh& first, const Mesh& second);
 
-/// Returns two intersecting spheres of about unit size with `triangles` triangles in total. The seed determines their
-/// placement.
+/// Returns two intersecting spheres of about unit size, `triangles` triangles in total. The seed determines their placement.
 StressScene crossed_spheres(uint triangles, std::uint64_t seed);
 
 /// Returns `scene` with every coordinate replaced by `change(double) -> double`, rounded to float once.

@@ -38,8 +38,7 @@ std::vector<char*> pointers(std::vector<std::string>& words)
     return result;
 }
 
-/// Returns `variables`, followed by this process's variables whose names do not occur in them: the first of equal names
-/// counts.
+/// Returns `variables`, followed by this process's variables whose names do not occur in them: the first of equal names counts.
 std::vector<std::string> environment_under(std::vector<std::string> variables)
 {
     const auto name = [](std::string_view variable) {

@@ -27,8 +27,7 @@ class Child {
 public:
     enum class Stream { captured, inherited, dropped };
 
-    /// Parameters of the start. `words` is argv; `environment`, each "NAME=value", is added to this process's
-    /// environment and overrides it.
+    /// Start parameters. `words` is argv; `environment`, each "NAME=value", is put before this process's environment.
     struct Start {
         std::string path;  ///< searched in PATH if it contains no slash
         std::vector<std::string> words;
@@ -59,20 +58,20 @@ private:
     std::string text_;
 };
 
-/// Runs `command`, whose first word is a path, with standard error discarded. Kills it after `time_limit_s` or when
-/// this process ends. `extra_environment` is "NAME=value". Throws Unavailable if the process cannot be started.
+/// Runs `command`, whose first word is a path, with standard error discarded. Kills it after `time_limit_s` or when this
+/// process ends. `extra_environment` is "NAME=value". Throws Unavailable if the process cannot be started.
 ProcessEnd run_process(const std::vector<std::string>& command, double time_limit_s,
                        const std::string& extra_environment);
 
 /// Makes this process end with its parent, if the parent asked for it. Called at the beginning of main.
 void end_with_parent();
 
-/// First call of a worker: makes it end with its parent, disables core files, and limits its memory to `memory_bytes`,
-/// or to host_memory_left() if that is less. Throws Unavailable if the worker already has more.
+/// First call of a worker: makes it end with its parent, disables core files, and limits its memory to `memory_bytes`, or to
+/// host_memory_left() if that is less. Throws Unavailable if the worker already has more.
 void limit_worker(std::size_t memory_bytes);
 
-/// Reserves standard output for the worker's answer: all other output to standard output or standard error is discarded
-/// from now on. Returns the file descriptor for the answer.
+/// Reserves standard output for the worker's answer: other output to it or to standard error is discarded from now on. Returns
+/// the file descriptor for the answer.
 int take_standard_output();
 
 /// Writes all bytes, also when signals interrupt it. False if they could not be written.
