@@ -6,10 +6,10 @@
 //
 //     floor(x * scale) - first     for a lower side, ceil for an upper side
 //
-// `scale` has 8 significant bits, so its product with a float is exact in a double. floor and ceil are exact, and `first`, the
-// scene's lower end, is rounded down to such a whole number too. The only rounding is therefore the intended one: cells keep
-// the order of coordinates, the cell of a lower side is never above its coordinate, and that of an upper side is never below
-// it. Boxes that overlap as floats overlap as cells, and an inner node's box is the union of its children's boxes in both
+// `scale` has 8 significant bits, so its product with a float is exact in a double. floor, ceil and the subtraction are exact:
+// `first` is a whole number too, the scene's lower end rounded down. The only rounding is therefore the intended one: cells
+// keep the order of coordinates, a lower side's cell is never above its coordinate, and an upper side's is never below it.
+// Boxes that overlap as floats overlap as cells, and an inner node's box is the union of its children's boxes in both
 // representations.
 //
 //     u8, u16     254 and 65,534 cells; the cell number is the side
@@ -38,7 +38,7 @@ typedef struct {
     AxisCells x, y, z;
 } SceneCells;
 
-/// Number of cells from the middle to the largest half, 65504: a multiple of the smallest half.
+/// Number of cells from the middle to the largest half: 65504 in units of the smallest half.
 #define HALF_CELLS 1098974756864.0  // 2047 * 2^29
 
 /// Returns the number of the last cell along an axis; 0 for formats without cells.

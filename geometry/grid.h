@@ -70,7 +70,7 @@ SHARED_FN Cell cubic_cell(Aabb box, Bounds bounds, float cells)
     return cell;
 }
 
-/// Returns which of `cells` equal parts of [low, high] holds `x`; 0 if the bounds are equal. Halves its arguments, so that no
+/// Returns which of `cells` equal parts of [low, high] holds `x`; 0 if low equals high. Halves its arguments, so that no
 /// side overflows; only denormals lose a bit.
 SHARED_FN uint part_between(float low, float high, float x, float cells)
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Limits for the host memory of this process. The kernel grants more memory than exists and kills the process that uses it, so
+// Limits for the host memory of this process. Linux grants more memory than exists and kills the process that uses it, so
 // large allocations are checked here first. Allocations that are not checked, such as those of libraries, fail at RLIMIT_DATA
 // and are reported as errors too.
 #pragma once

@@ -2,7 +2,7 @@
 //
 // Morton codes: the interleaved bits of a cell's three numbers.
 //
-//     code = ... x1 y1 z1 x0 y0 z0        10 bits an axis in a uint, 16 or 21 in a ulong
+//     code = ... x1 y1 z1 x0 y0 z0        10 bits per axis in a uint, 16 or 21 in a ulong
 #ifndef BVHBENCH_GEOMETRY_MORTON_H
 #define BVHBENCH_GEOMETRY_MORTON_H
 

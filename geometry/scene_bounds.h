@@ -14,7 +14,7 @@ typedef struct {
 
 /// Returns the centre of a box, without negative zeros.
 ///
-/// Halves before it adds, so that no coordinate overflows; only denormals lose a bit. Two negative denormals may halve to -0;
+/// Halves both sides before adding, so that no coordinate overflows; only denormals lose a bit. Two negative denormals may halve to -0;
 /// adding +0 makes it +0 (see triangle_box).
 SHARED_FN Point box_centre(Aabb box)
 {

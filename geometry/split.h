@@ -97,7 +97,7 @@ SHARED_FN float high_side(Aabb cell, uint axis)
     return axis == 0u ? cell.max_x : axis == 1u ? cell.max_y : cell.max_z;
 }
 
-/// Returns the slabs of a cell. The slab of the last box that goes left is not set yet.
+/// Returns the slabs of a cell. `slab` is 0 until the median is known.
 SHARED_FN CellCut cut_of_cell(Aabb cell, uint slabs)
 {
     CellCut cut;

@@ -26,7 +26,7 @@ struct Extent {
         low = std::min(low, x);
         high = std::max(high, x);
     }
-    // Halves before it adds, so that no sum overflows.
+    // Halves both ends before adding, so that no sum overflows.
     double middle() const { return low <= high ? 0.5 * low + 0.5 * high : 0; }
     double half() const { return low <= high ? 0.5 * high - 0.5 * low : 0; }
 };

@@ -45,7 +45,7 @@ struct Scene {
         source;  ///< "generated", or the path of the file that was read, relative to the data folder if it is inside
     std::filesystem::path
         folder;  ///< folder that the frames were read from, which may hold ground truth, or empty
-    std::string stand_in_for;  ///< name of the missing data set that this scene replaces, or empty
+    std::string stand_in_for;  ///< name of the data set that this scene replaces, or empty
     Outlier outlier;
     Rounding rounding;               ///< rounding of coordinates that floats could not hold
     std::string bend_of;             ///< scene to which this one adds a bent frame, or empty

@@ -135,7 +135,7 @@ void read_facts(const std::filesystem::path& meta, const std::function<void(cons
 {
     if (!std::filesystem::exists(meta))
         return;
-    const Json json = Json::parse(file_bytes(meta), nullptr, false);  // no exceptions: "discarded"
+    const Json json = Json::parse(file_bytes(meta), nullptr, false);  // on errors: is_discarded()
     try {
         if (json.is_discarded())
             throw Fault{"is not JSON"};

@@ -9,7 +9,7 @@ namespace {
 constexpr uint n_body_steps = 1600;
 constexpr double step_s = 1.0 / 640;
 constexpr double pull = 6;       // acceleration towards the centre per unit of distance
-constexpr double drag = 0.25;    // fraction of the speed lost per second
+constexpr double drag = 0.25;    // relative loss of speed per second
 constexpr double bounce = 0.85;  // fraction of the speed that remains after a collision
 // Bodies collide slightly below their surfaces, as in a simulation with long steps, so their triangles do overlap.
 constexpr double below = 0.985;

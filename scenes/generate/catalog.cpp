@@ -6,7 +6,7 @@
 namespace bvhbench {
 namespace {
 
-/// A scene of one frame.
+/// Returns a scene of one frame.
 template <Mesh (*make)(uint triangles)>
 Scene still(uint triangles, uint)
 {

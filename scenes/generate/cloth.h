@@ -24,7 +24,7 @@ struct ClothSettings {
     double step_s = 1e-3;
     double shear = 3e-6;
     double bend = 1e-5;
-    double drag = 0.6;      ///< fraction of the speed lost per second
+    double drag = 0.6;      ///< relative loss of speed per second
     double friction = 0.5;  ///< friction coefficient with obstacles
     double apart =
         0.65;  ///< minimum distance of particles, as a fraction of the distance between neighbours

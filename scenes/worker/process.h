@@ -27,7 +27,7 @@ class Child {
 public:
     enum class Stream { captured, inherited, dropped };
 
-    /// Start parameters. `words` is argv; `environment`, each "NAME=value", is put before this process's environment.
+    /// Start parameters. `words` is argv; `environment`, each "NAME=value", overrides this process's environment.
     struct Start {
         std::string path;  ///< searched in PATH if it contains no slash
         std::vector<std::string> words;
