@@ -6,21 +6,21 @@
 
 SHARED_BEGIN
 
-/// Axis-aligned box, closed on all sides. 24 bytes on both sides: no float3, whose size is 16 in OpenCL C. In kernels over
-/// trees whose boxes are not floats its sides are what BOX_FORMAT says.
+/// Axis-aligned closed box of six scalars. With float sides it has 24 bytes in C++ and in OpenCL C, where a float3 would take
+/// 16 bytes. In kernels over trees, BOX_FORMAT gives the type of the sides.
 typedef struct {
     BoxSide min_x, min_y, min_z;
     BoxSide max_x, max_y, max_z;
 } Aabb;
 
-/// The box that contains nothing: the neutral element of `merged`.
+/// Returns the box that contains nothing, the neutral element of `merged`.
 SHARED_FN Aabb empty_box(void)
 {
     const Aabb box = {MOST_SIDE, MOST_SIDE, MOST_SIDE, LEAST_SIDE, LEAST_SIDE, LEAST_SIDE};
     return box;
 }
 
-/// The smallest box around two boxes.
+/// Returns the smallest box around `a` and `b`.
 SHARED_FN Aabb merged(Aabb a, Aabb b)
 {
     a.min_x = SIDE_MIN(a.min_x, b.min_x);
@@ -32,7 +32,7 @@ SHARED_FN Aabb merged(Aabb a, Aabb b)
     return a;
 }
 
-/// Whether two closed boxes share a point: touching counts.
+/// True if two closed boxes share a point. Boxes that only touch overlap.
 SHARED_FN bool overlap(Aabb a, Aabb b)
 {
     return a.min_x <= b.max_x && b.min_x <= a.max_x && a.min_y <= b.max_y && b.min_y <= a.max_y &&
@@ -40,7 +40,7 @@ SHARED_FN bool overlap(Aabb a, Aabb b)
 }
 
 #if BOX_FORMAT == BOX_F16
-/// A half, given by its place among all halves, in units of the smallest one.
+/// Returns the half with index `place` among all halves, in units of the smallest positive half.
 SHARED_FN float half_at(BoxSide place)
 {
     const uint bits = place < 0x8000 ? 0x8000u - place : place - 0x8000u;
@@ -53,7 +53,7 @@ SHARED_FN float half_at(BoxSide place)
 #define SIDE_LENGTH(low, high) ((float)((high) - (low)))
 #endif
 
-/// Half the surface of a box, in whatever its sides count.
+/// Returns half the surface area of a box, in the unit of its sides.
 SHARED_FN float half_surface(Aabb box)
 {
     const float x = SIDE_LENGTH(box.min_x, box.max_x);

@@ -6,13 +6,13 @@
 
 SHARED_BEGIN
 
-/// floor(log2 x) for x >= 1. In integers: through a float it goes wrong from 2,097,150 on.
+/// Returns floor(log2 x), x >= 1. Computed in integers: a float log2 is wrong from 2,097,150 on.
 SHARED_FN uint floor_log2(uint x) { return 31u - clz(x); }
 
-/// ceil(log2 x) for x >= 1.
+/// Returns ceil(log2 x), x >= 1.
 SHARED_FN uint ceil_log2(uint x) { return x == 1u ? 0u : 32u - clz(x - 1u); }
 
-/// ceil(count / size) without overflow near 2^32.
+/// Returns ceil(count / size) without overflow near 2^32.
 SHARED_FN uint divided_up(uint count, uint size)
 {
     return count / size + (count % size != 0u ? 1u : 0u);

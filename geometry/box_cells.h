@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: MIT
 //
-// From floats to the sides of boxes in other formats, rounded outward: lower sides down, upper ones up.
+// Conversion of float coordinates to box sides in other formats, rounded outward: lower sides down, upper sides up.
 //
-// A scene's bounds are cut into cells along each axis, and a coordinate becomes the number of its cell:
+// Each axis of the scene's bounds is divided into cells, and a coordinate becomes the number of its cell:
 //
-//     floor(x * scale) - first     of a lower side, ceil of an upper one
+//     floor(x * scale) - first     for a lower side, ceil for an upper side
 //
-// `scale` has 8 bits that count, so that its product with a float is exact in a double; floor and ceil are, and `first`,
-// the scene's lower end, is rounded to such a number too. So nothing is rounded but what is meant to be:
-// cells keep the order of coordinates, a lower side's is never above its coordinate and an upper one's never below it.
-// What overlaps as floats overlaps as cells, and an inner node's box is the union of its children's in either.
+// `scale` has 8 significant bits, so its product with a float is exact in a double. floor, ceil and the subtraction are exact:
+// `first` is a whole number too, the scene's lower end rounded down. The only rounding is therefore the intended one: cells
+// keep the order of coordinates, a lower side's cell is never above its coordinate, and an upper side's is never below it.
+// Boxes that overlap as floats overlap as cells, and an inner node's box is the union of its children's boxes in both
+// representations.
 //
-//     u8, u16     254 and 65,534 cells: the number is the side
-//     f16         as many as there are smallest halves from the most negative one to the largest; the number, counted
-//                 from the middle, is rounded once more, outward, to eleven bits, and stored as its place among all halves
-//     f64         no cells: a float is a double
+//     u8, u16     254 and 65,534 cells; the cell number is the side
+//     f16         one cell per smallest half, from the most negative half to the largest; the cell number, counted from
+//                 the middle, is rounded outward again, to eleven bits, and stored as its index among all halves
+//     f64         no cells: every float is a double
 //
-// [Ylitie2017] rounds the boxes of a node outward on a grid of its own; here one grid serves a scene.
+// [Ylitie2017] rounds the boxes of each node outward on a grid of that node; here one grid covers the whole scene.
 #ifndef BVHBENCH_GEOMETRY_BOX_CELLS_H
 #define BVHBENCH_GEOMETRY_BOX_CELLS_H
 
@@ -26,21 +27,21 @@
 
 SHARED_BEGIN
 
-/// The cells along one axis. 16 bytes.
+/// Cells along one axis. 16 bytes.
 typedef struct {
-    double scale;  ///< cells a unit of length
-    double first;  ///< the lower end's, before it is number 0
+    double scale;  ///< cells per unit of length
+    double first;  ///< number of the scene's lower end, subtracted from all cell numbers
 } AxisCells;
 
-/// Of all axes. 48 bytes.
+/// Cells along all three axes. 48 bytes.
 typedef struct {
     AxisCells x, y, z;
 } SceneCells;
 
-/// Cells from the middle to the largest half, 65504, in units of the smallest.
+/// Number of cells from the middle to the largest half: 65504 in units of the smallest half.
 #define HALF_CELLS 1098974756864.0  // 2047 * 2^29
 
-/// The number of the last cell along an axis; 0 of formats without cells.
+/// Returns the number of the last cell along an axis; 0 for formats without cells.
 SHARED_FN_INLINED double last_cell(uint format)
 {
     return format == BOX_U8    ? 254.0
@@ -49,12 +50,12 @@ SHARED_FN_INLINED double last_cell(uint format)
                                : 0.0;
 }
 
-/// The whole number nearest to `x`, whose bits are 32 at most: beyond 2^51 it is one. Where floor and ceil are a call, as
-/// PoCL's are, lining leaves up took several times as long with them.
+/// Returns the whole number nearest to `x`, which has at most 32 significant bits: beyond 2^51 it is whole. Used in place of
+/// floor and ceil, which are function calls on PoCL and made gathering the leaves several times slower.
 SHARED_FN_INLINED double whole_near(double x)
 {
     const double shift =
-        6755399441055744.0;  // 1.5 * 2^52: a double of that size has no bits after the point
+        6755399441055744.0;  // 1.5 * 2^52: a double of this size has no fractional bits
     return fabs(x) < 2251799813685248.0 ? (x + shift) - shift : x;
 }
 
@@ -70,11 +71,11 @@ SHARED_FN_INLINED double whole_above(double x)
     return near < x ? near + 1.0 : near;
 }
 
-/// `x`, positive, without all but the first 8 of its bits.
+/// Returns `x`, which is positive, with all but its 8 leading significant bits cleared.
 SHARED_FN double eight_bits_of(double x) { return as_double(as_ulong(x) & 0xffffe00000000000ul); }
 
-/// The cells, 0 to `last`, along an axis on which a scene is between two finite floats. They reach beyond both ends by one
-/// at most, and are the smallest such, but for a part in 128.
+/// Returns the cells 0 to `last` along an axis on which the scene extends between two finite floats. The cells reach beyond
+/// both ends by at most one cell, and their width is within one part in 128 of the smallest possible.
 SHARED_FN AxisCells axis_cells(float low, float high, double last)
 {
     AxisCells cells;
@@ -84,7 +85,7 @@ SHARED_FN AxisCells axis_cells(float low, float high, double last)
     return cells;
 }
 
-/// The number of the cell of a lower or an upper side; what is outside the scene is in its last cell.
+/// Returns the cell number of a lower or an upper side, clamped to 0 and `last` outside the scene.
 SHARED_FN_INLINED double cell_of(AxisCells cells, float x, bool is_upper, double last)
 {
     const double product = (double)x * cells.scale;
@@ -92,7 +93,7 @@ SHARED_FN_INLINED double cell_of(AxisCells cells, float x, bool is_upper, double
     return cell < 0.0 ? 0.0 : cell > last ? last : cell;
 }
 
-/// The largest half not above `size`, a whole number of smallest halves up to HALF_CELLS, as its bits.
+/// Returns the bits of the largest half not above `size`, a whole number of smallest halves, at most HALF_CELLS.
 SHARED_FN_INLINED uint half_below(double size)
 {
     if (size < 2048.0)
@@ -101,14 +102,14 @@ SHARED_FN_INLINED uint half_below(double size)
     return (uint)(bits >> 42u) - ((1023u + 9u) << 10u);
 }
 
-/// The smallest half not below it.
+/// Returns the bits of the smallest half not below `size`.
 SHARED_FN_INLINED uint half_above(double size)
 {
     const uint below = half_below(size);
     return size < 2048.0 || (as_ulong(size) & 0x3fffffffffful) == 0ul ? below : below + 1u;
 }
 
-/// The half that a cell's number is rounded to, as its place among all halves, 0 being at 32768.
+/// Rounds a cell number outward to a half and returns the index of that half among all halves; 0 has index 32768.
 SHARED_FN_INLINED uint half_of_cell(double cell, bool is_upper)
 {
     const double size = cell - HALF_CELLS;
@@ -117,14 +118,14 @@ SHARED_FN_INLINED uint half_of_cell(double cell, bool is_upper)
     return 0x8000u - (is_upper ? half_below(-size) : half_above(-size));
 }
 
-/// A side of a box in a format with cells.
+/// Returns the side of a box for a coordinate, in a format with cells.
 SHARED_FN_INLINED uint side_in(uint format, AxisCells cells, float x, bool is_upper)
 {
     const double cell = cell_of(cells, x, is_upper, last_cell(format));
     return format == BOX_F16 ? half_of_cell(cell, is_upper) : (uint)cell;
 }
 
-/// The number of the cell that a side is, of a format with cells.
+/// Returns the cell number of a side, in a format with cells.
 SHARED_FN double cell_of_side(uint format, uint side)
 {
     if (format != BOX_F16)

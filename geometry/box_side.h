@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// What numbers the sides of a tree's boxes are: BOX_FORMAT, given when a kernel over trees is compiled. Floats where it is
-// not, and on the host.
+// Number type of a tree's box sides: BOX_FORMAT, defined when a kernel over trees is compiled. The default is float.
 //
-// All but f32 and f64 are made from floats by rounding outward (geometry/box_cells.h), and that keeps their order. So
-// boxes of integers are merged and compared as integers, and nobody who builds or walks a tree ever reads a number back.
-// Halves are stored as the place that they have among all halves: f16 and u16 are one text.
+// All formats but f32 and f64 are made from floats by outward rounding (geometry/box_cells.h), which keeps their order. Boxes
+// of integers are therefore merged and compared as integers, and no builder or traversal converts a side back to a float. A
+// half is stored as its index among all halves, so f16 and u16 share one definition.
 #ifndef BVHBENCH_GEOMETRY_BOX_SIDE_H
 #define BVHBENCH_GEOMETRY_BOX_SIDE_H
 
@@ -21,8 +20,8 @@
 #define BOX_FORMAT BOX_F32
 #endif
 
-// BoxSide is a side, BoxWord two neighbouring ones, BoxFour and BoxEight more. Sides of the box that contains nothing are
-// MOST_SIDE and LEAST_SIDE. No box has the side NO_SIDE, and one that has it everywhere overlaps none.
+// BoxSide is one side; BoxWord, BoxFour and BoxEight are vectors of 2, 4 and 8 neighbouring sides. The empty box has MOST_SIDE
+// as lower and LEAST_SIDE as upper sides. No box has the side NO_SIDE, and a box with six of them overlaps no box.
 #if BOX_FORMAT == BOX_F32
 
 #define SIDE_MIN fmin

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Names of the files of one version. Sums over a group and those within it have a prefix in v1.
+/// File names and memory.stat keys of one cgroup version. In v1, keys of sums over a group and its subgroups have a prefix.
 struct Version {
     const char* limit;
     const char* usage;
@@ -24,14 +24,15 @@ constexpr Version v1 = {"memory.limit_in_bytes", "memory.usage_in_bytes", "total
                         "total_active_file"};
 constexpr Version v2 = {"memory.max", "memory.current", "inactive_file", "active_file"};
 
-/// Where the groups that can limit memory are mounted, and the one that is seen there as the topmost.
+/// Mount point of a hierarchy of groups that can limit memory, and the group that appears there as the topmost.
 struct Mount {
     const Version* version;
     fs::path point;
     fs::path topmost;
 };
 
-/// A line of mountinfo: id, parent, device, root, mount point, options, " - ", type, source, options of the type.
+/// Returns the mounts of groups that can limit memory. A line of mountinfo:
+/// id, parent, device, root, mount point, options, " - ", type, source, options of the type.
 std::vector<Mount> mounts(const fs::path& root)
 {
     std::vector<Mount> found;
@@ -52,7 +53,7 @@ std::vector<Mount> mounts(const fs::path& root)
     return found;
 }
 
-/// The group's path, of lines "4:memory:/path" (v1) and "0::/path" (v2).
+/// Returns the path of this process's group, from a line "4:memory:/path" (v1) or "0::/path" (v2).
 std::optional<fs::path> own_group(const fs::path& root, const Version& version)
 {
     std::ifstream file(root / "proc/self/cgroup");
@@ -69,7 +70,7 @@ std::optional<fs::path> own_group(const fs::path& root, const Version& version)
     return std::nullopt;
 }
 
-/// The number in a file, or nothing if there is none, as in v2's "max".
+/// Returns the number in a file; nothing if there is none, as in v2's "max".
 std::optional<std::uint64_t> number_in(const fs::path& path)
 {
     std::ifstream file(path);
@@ -110,7 +111,7 @@ std::optional<std::uint64_t> cgroup_memory_left(const fs::path& root)
         fs::path below = own->lexically_relative(mount.topmost);
         if (below.empty() || *below.begin() == "..")
             below = ".";
-        // The group and every one around it that is mounted. Of no limit v1 says a number that is larger than any memory.
+        // Visits the group and all mounted groups around it. Without a limit, v1 gives a number larger than any memory.
         for (;; below = below.parent_path()) {
             if (const auto here = left_in(mount.point / below, *mount.version))
                 left = std::min(left.value_or(*here), *here);

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// The words C++20 and OpenCL C 1.2 share.
+// Common subset of C++20 and OpenCL C 1.2.
 //
-// A header that includes this one is compiled twice: by the host compiler as constexpr C++, and by the
-// device compiler as OpenCL C. It may use uint and ulong, floats, plain structs passed by value,
-// and the names below. It may not use pointers, references, overloads or templates. Doubles it may use
-// behind #if HAS_DOUBLES: not every device has them. SHARED_FN_INLINED is for short functions on the way of every
-// item: drivers need not inline others, and PoCL does not.
+// A header that includes this one is compiled twice: as constexpr C++ by the host compiler, and as OpenCL C by the device
+// compiler. It may use uint, ulong, floats, plain structs passed by value, and the names below. It may not use pointers,
+// references, overloads or templates. Doubles are allowed behind #if HAS_DOUBLES, because not every device has them.
+// SHARED_FN_INLINED is for short functions that run for every item: drivers need not inline others, and PoCL does not.
 #ifndef BVHBENCH_GEOMETRY_DIALECT_H
 #define BVHBENCH_GEOMETRY_DIALECT_H
 
@@ -49,8 +48,8 @@ constexpr float as_float(uint x) { return std::bit_cast<float>(x); }
 constexpr ulong as_ulong(double x) { return std::bit_cast<ulong>(x); }
 constexpr double as_double(ulong x) { return std::bit_cast<double>(x); }
 
-/// OpenCL's fmin and fmax: of a number and a NaN, the number. Which zero wins between -0 and +0 is open on
-/// every device, so boxes are made from coordinates without -0 (see triangle_box).
+/// OpenCL's fmin and fmax: if one argument is NaN, they return the other. The result for -0 and +0 is unspecified on every
+/// device, so boxes are made from coordinates without -0 (see triangle_box).
 constexpr float fmin(float a, float b) { return b < a || a != a ? b : a; }
 constexpr float fmax(float a, float b) { return a < b || a != a ? b : a; }
 constexpr double fmax(double a, double b) { return a < b || a != a ? b : a; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What a user or a machine can cause, by the exit code it ends in. main is the only place that catches.
+// Exceptions for errors that a user or a machine can cause, one class for each exit code that main returns for them.
 #pragma once
 
 #include <stdexcept>
@@ -12,12 +12,12 @@ class BadUsage : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// A device, file, library or enough memory is not there, or a file is not what it should be. Exit code 3.
+/// A device, file, library or enough memory is missing, or a file is malformed. Exit code 3.
 class Unavailable : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// All that was to be measured was skipped or failed. Exit code 4.
+/// Every measurement that was asked for was skipped or failed. Exit code 4.
 class NothingMeasured : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };

@@ -6,12 +6,12 @@
 
 SHARED_BEGIN
 
-/// An object's tree among those of a frame, which share their arrays. 16 bytes.
+/// The tree of one object in a frame. All trees of the frame share their arrays. 16 bytes.
 typedef struct {
-    uint first;   ///< place of its first leaf in the line of all leaves
-    uint leaves;  ///< at least 1
-    uint nodes;   ///< without pointers: slot of its root, from which its layout counts
-    uint root;    ///< with pointers: its root, as the layout refers to nodes
+    uint first;   ///< position of the object's first leaf in the common order of leaves
+    uint leaves;  ///< number of leaves, at least 1
+    uint nodes;   ///< layouts without pointers: slot of the root, the origin of the layout's slots
+    uint root;    ///< layouts with pointers: the root, as a node reference of the layout
 } ForestObject;
 
 SHARED_END

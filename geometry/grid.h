@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// The cells that codes number: which cell of a grid holds the centre of a box.
+// Grids on which Morton and Hilbert codes are computed: the cell that holds the centre of a box.
 //
-//     cubic       over all centres, one cell size for all axes, that of the longest side
-//     stretched   over the scene's box, as many cells along each axis, however short
+//     cubic       over all centres; cubic cells, sized by the longest side
+//     stretched   over the scene's box; as many cells along each axis, however short the axis
 //
-// The cubic grid is the default: cells stretched to the scene's sides make a step along a short axis count as
-// much as one along a long axis, which costs a flat scene several times the tree quality. The paper's
-// Table 4 was made on the stretched one.
+// The cubic grid is the default. With cells stretched to the scene's sides, a step along a short axis counts as much as one
+// along a long axis, which makes the trees of flat scenes several times worse. The paper's Table 4 uses the stretched grid.
 #ifndef BVHBENCH_GEOMETRY_GRID_H
 #define BVHBENCH_GEOMETRY_GRID_H
 
@@ -15,19 +14,19 @@
 
 SHARED_BEGIN
 
-/// A cell of the grid, one number an axis.
+/// A cell of the grid, one number per axis.
 typedef struct {
     uint x, y, z;
 } Cell;
 
-/// A cubic grid: its low corner and side, both times `scale`.
+/// A cubic grid: its low corner and side, both multiplied by `scale`.
 typedef struct {
     Point low;
     float side;
     float scale;
 } Grid;
 
-/// The longest side of a box, times `scale`. Infinite if it overflows.
+/// Returns the longest side of a box, times `scale`. Infinite on overflow.
 SHARED_FN float longest_side(Aabb box, float scale)
 {
     const float x = box.max_x * scale - box.min_x * scale;
@@ -36,10 +35,8 @@ SHARED_FN float longest_side(Aabb box, float scale)
     return fmax(fmax(x, y), z);
 }
 
-/// The cubic grid over the bounds of all centres.
-///
-/// From one end of the floats to the other is further than a float can tell; then everything is halved,
-/// which is exact for all that matters at that size. Otherwise nothing is, so that denormals keep every bit.
+/// Returns the cubic grid over the bounds of all centres. If its side overflows a float, everything is halved, which is exact
+/// for all coordinates that matter at that size. Otherwise nothing is halved, so that denormals keep every bit.
 SHARED_FN Grid cubic_grid(Aabb centres)
 {
     const float largest = 3.402823466e+38f;
@@ -52,17 +49,16 @@ SHARED_FN Grid cubic_grid(Aabb centres)
     return grid;
 }
 
-/// Which of `cells` equal parts of [0, side] holds `offset`; the upper end belongs to the last part.
+/// Returns which of `cells` equal parts of [0, side] holds `offset`; the upper end belongs to the last part.
 ///
-/// Divided, not multiplied by a reciprocal: that of a denormal side is infinite. Clamped as a float, since
-/// converting what does not fit differs between devices. 0 / 0, where all centres coincide, is NaN and
-/// comes out of fmax as 0.
+/// Divides instead of multiplying by a reciprocal, which is infinite for a denormal side. Clamps as a float, because the
+/// conversion of out-of-range floats differs between devices. If all centres coincide, 0 / 0 is NaN, which fmax turns into 0.
 SHARED_FN uint part_of(float offset, float side, float cells)
 {
     return (uint)fmin(fmax(offset / side * cells, 0.0f), cells - 1.0f);
 }
 
-/// The cell of a box's centre in the cubic grid of `cells` cells a side over the bounds of all centres.
+/// Returns the cell of a box's centre in the cubic grid with `cells` cells per side over the bounds of all centres.
 SHARED_FN Cell cubic_cell(Aabb box, Bounds bounds, float cells)
 {
     const Grid grid = cubic_grid(bounds.centres);
@@ -74,14 +70,14 @@ SHARED_FN Cell cubic_cell(Aabb box, Bounds bounds, float cells)
     return cell;
 }
 
-/// Which of `cells` equal parts of [low, high] holds `x`; 0 where the two coincide. Halved, so that no side
-/// overflows; only denormals lose a bit by that.
+/// Returns which of `cells` equal parts of [low, high] holds `x`; 0 if low equals high. Halves its arguments, so that no
+/// side overflows; only denormals lose a bit.
 SHARED_FN uint part_between(float low, float high, float x, float cells)
 {
     return part_of(0.5f * x - 0.5f * low, 0.5f * high - 0.5f * low, cells);
 }
 
-/// The cell of a box's centre in the grid over the scene's box with `cells` cells along every axis.
+/// Returns the cell of a box's centre in the grid over the scene's box with `cells` cells along every axis.
 SHARED_FN Cell stretched_cell(Aabb box, Bounds bounds, float cells)
 {
     const Point centre = box_centre(box);

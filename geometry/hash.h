@@ -8,7 +8,7 @@
 
 namespace bvhbench {
 
-/// FNV-1a, 64 bits: hashes that mean "the same content", in result files and tests. Not for security.
+/// FNV-1a, 64 bits: identifies equal content in result files and tests. Not for security.
 class Hash {
 public:
     void bytes(const void* data, std::size_t size)
@@ -37,7 +37,7 @@ private:
     std::uint64_t state_ = 1469598103934665603u;
 };
 
-/// 16 hexadecimal digits: JSON numbers are doubles, so 64 bits travel as text.
+/// Returns `value` as 16 hexadecimal digits. JSON numbers are doubles, so 64-bit numbers are stored as text.
 inline std::string hex(std::uint64_t value)
 {
     std::string text(16, '0');

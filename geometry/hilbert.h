@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
-// Hilbert codes: the number of a cell on a curve that visits every cell of a cube, each next to the last.
+// Hilbert codes: the index of a cell on a curve that visits every cell of a cube, each adjacent to the previous one.
 //
-// Octant by octant, from the largest down. The eight octants of a cube are visited in Gray-code order, so
-// that neighbours on the curve share a face. For the curve to leave one octant where it enters the next,
-// the curve inside an octant is mirrored or has two axes exchanged. Both are done to the cell instead of to
-// the curve [Skilling2004]:
+// The curve is defined octant by octant, from the largest down. The eight octants of a cube are visited in Gray-code order, so
+// consecutive octants share a face. For the curve to leave one octant where it enters the next, the curve inside an octant is
+// mirrored or has two axes exchanged. Both operations are applied to the cell instead of the curve [Skilling2004]:
 //
-//     for each bit, from the second largest size down, for each axis
+//     for each bit, from the highest down to bit 1, for each axis
 //         the bit is set      mirror the smaller bits of x
 //         it is not           exchange the smaller bits of x and of this axis
 //
-// What is left is one Gray code of three bits a size, with the turns of all larger sizes in it; undone, the
-// bits are interleaved as a Morton code's are.
+// The result is one Gray code of three bits per size that includes the turns of all larger sizes. It is decoded, and its bits
+// are interleaved like those of a Morton code.
 #ifndef BVHBENCH_GEOMETRY_HILBERT_H
 #define BVHBENCH_GEOMETRY_HILBERT_H
 
@@ -20,8 +19,7 @@
 
 SHARED_BEGIN
 
-/// Bit k of the result is the parity of the bits of x above k: what turns a Gray code back into a number,
-/// shifted down by one.
+/// Returns a number whose bit k is the parity of the bits of `x` above k. This decodes a Gray code, shifted down by one bit.
 SHARED_FN_INLINED uint parity_above(uint x)
 {
     x >>= 1u;
@@ -32,8 +30,8 @@ SHARED_FN_INLINED uint parity_above(uint x)
     return x ^ x >> 16u;
 }
 
-/// One step: what the octant of `size`, bit `size` of each axis, does to all smaller bits. Without a branch, so that
-/// it can be taken for many cells at once.
+/// One step: applies the turn of the octant given by bit `size` of each axis to all lower bits. Without branches, so that many
+/// cells can be processed at once.
 SHARED_FN_INLINED Cell hilbert_turned(Cell cell, uint size)
 {
     const uint smaller = (1u << size) - 1u;
@@ -49,7 +47,7 @@ SHARED_FN_INLINED Cell hilbert_turned(Cell cell, uint size)
     return cell;
 }
 
-/// The cell whose Morton code is the Hilbert code, once all turns are taken: the Gray code of each size undone.
+/// Decodes the Gray code of each size, after all turns were applied. The Morton code of the result is the Hilbert code.
 SHARED_FN_INLINED Cell hilbert_ungrayed(Cell cell)
 {
     cell.y ^= cell.x;
@@ -61,8 +59,8 @@ SHARED_FN_INLINED Cell hilbert_ungrayed(Cell cell)
     return cell;
 }
 
-/// The cell whose Morton code is the Hilbert code of `cell`, for `bits` bits an axis, 1 to 31.
-/// The curve starts at (0, 0, 0) and ends at the other end of the x axis.
+/// Returns the cell whose Morton code is the Hilbert code of `cell`, for 1 to 31 `bits` per axis. The curve starts at (0, 0, 0)
+/// and ends at the other end of the x axis.
 SHARED_FN Cell hilbert_cell(Cell cell, uint bits)
 {
     for (uint size = bits - 1u; size > 0u; --size)
@@ -70,13 +68,13 @@ SHARED_FN Cell hilbert_cell(Cell cell, uint bits)
     return hilbert_ungrayed(cell);
 }
 
-/// The code of a cell of 10 bits an axis.
+/// Returns the Hilbert code of a cell with 10 bits per axis.
 SHARED_FN uint hilbert_30(Cell cell) { return morton_30(hilbert_cell(cell, 10u)); }
 
-/// The code of a cell of 16 bits an axis.
+/// Returns the Hilbert code of a cell with 16 bits per axis.
 SHARED_FN ulong hilbert_48(Cell cell) { return morton_48(hilbert_cell(cell, 16u)); }
 
-/// The code of a cell of 21 bits an axis.
+/// Returns the Hilbert code of a cell with 21 bits per axis.
 SHARED_FN ulong hilbert_63(Cell cell) { return morton_63(hilbert_cell(cell, 21u)); }
 
 SHARED_END

@@ -17,11 +17,11 @@ namespace {
 
 constexpr std::uint64_t no_limit = std::numeric_limits<std::uint64_t>::max();
 
-// A limit is of the process, and so are these.
+// A limit applies to the whole process, and so do these values.
 std::atomic<std::uint64_t> given = 0, predicted = 0, most_data = no_limit;
 
-/// Bytes that may be asked for before the host is looked at again, a sixteenth of what it had left then: a look reads some
-/// 20 files of /proc and of the control groups, and much that is asked for is small.
+/// Bytes that may be requested before the host's memory is checked again: a sixteenth of what was left at the last check. A
+/// check reads some 20 files of /proc and of the control groups, and most requests are small.
 std::atomic<std::uint64_t> unasked = 0;
 
 bool take_unasked(std::uint64_t bytes)
@@ -32,7 +32,7 @@ bool take_unasked(std::uint64_t bytes)
     return false;
 }
 
-/// The value in bytes of a line "VmRSS:  123 kB" of a file of /proc; `otherwise` if there is none.
+/// Returns the value in bytes of a line "VmRSS:  123 kB" of a file of /proc; `otherwise` if there is no such line.
 std::uint64_t bytes_in(const char* path, std::string_view key, std::uint64_t otherwise)
 {
     std::ifstream file(path);
@@ -55,7 +55,7 @@ std::uint64_t left_of(int resource, std::string_view used)
     return limit.rlim_cur - std::min<std::uint64_t>(limit.rlim_cur, own(used));
 }
 
-/// What others than the process itself leave to it.
+/// Returns the bytes that other processes leave to this one.
 std::uint64_t left_by_others()
 {
     const std::uint64_t machine = bytes_in("/proc/meminfo", "MemAvailable:", no_limit);
@@ -63,12 +63,12 @@ std::uint64_t left_by_others()
     return std::min(left / 10 * 9, left_of(RLIMIT_AS, "VmSize:"));
 }
 
-/// From now on an allocation fails if the process would have more than `more` bytes beyond what it has now.
+/// Makes allocations fail once the process has `more` bytes beyond what it has now.
 void limit_data(std::uint64_t more)
 {
     const std::uint64_t has = own("VmData:");
     most_data = has + std::min(more, no_limit - has);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they map terabytes
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // sanitizers map terabytes
     rlimit limit = {};
     if (getrlimit(RLIMIT_DATA, &limit) != 0)
         return;
@@ -104,7 +104,7 @@ void require_host_memory(std::string_view what, std::uint64_t bytes)
         return;
     std::uint64_t left = host_memory_left();
     if (bytes > left) {
-        malloc_trim(0);  // what was freed and kept
+        malloc_trim(0);  // returns freed memory to the system
         left = host_memory_left();
     }
     if (bytes > left)

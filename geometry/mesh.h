@@ -8,13 +8,13 @@
 
 namespace bvhbench {
 
-/// An indexed triangle mesh on the host. Triangle k is `faces[k]`; order and duplicates are kept as given.
+/// Indexed triangle mesh on the host. Triangle k is `faces[k]`; order and duplicates are kept.
 struct Mesh {
     std::vector<Point> points;
     std::vector<Face> faces;
 };
 
-/// Triangles that belong together: a run of neighbouring faces.
+/// A range of consecutive faces.
 struct FaceRange {
     uint first = 0;
     uint count = 0;
@@ -22,13 +22,13 @@ struct FaceRange {
     bool operator==(const FaceRange&) const = default;
 };
 
-/// The box of triangle `face` of `points`.
+/// Returns the box of triangle `face`.
 inline Aabb face_box(std::span<const Point> points, Face face)
 {
     return triangle_box(points[face.a], points[face.b], points[face.c]);
 }
 
-/// The boxes of all of `faces`.
+/// Returns the boxes of all `faces`, in their order.
 inline std::vector<Aabb> face_boxes(std::span<const Point> points, std::span<const Face> faces)
 {
     std::vector<Aabb> boxes;

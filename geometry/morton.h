@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Morton codes: the bits of a cell's three numbers, interleaved.
+// Morton codes: the interleaved bits of a cell's three numbers.
 //
-//     code = ... x1 y1 z1 x0 y0 z0        10 bits an axis in a uint, 16 or 21 in a ulong
+//     code = ... x1 y1 z1 x0 y0 z0        10 bits per axis in a uint, 16 or 21 in a ulong
 #ifndef BVHBENCH_GEOMETRY_MORTON_H
 #define BVHBENCH_GEOMETRY_MORTON_H
 
@@ -10,11 +10,11 @@
 
 SHARED_BEGIN
 
-#define CELLS_30 1024.0f     // 10 bits an axis: all that a uint holds with as many an axis
-#define CELLS_48 65536.0f    // 16 bits an axis: six passes of a sort by bytes, where 21 take eight
-#define CELLS_63 2097152.0f  // 21 bits an axis: all that a ulong holds
+#define CELLS_30 1024.0f   // 10 bits per axis: the most that a uint holds
+#define CELLS_48 65536.0f  // 16 bits per axis: a sort by bytes takes six passes, for 21 bits eight
+#define CELLS_63 2097152.0f  // 21 bits per axis: the most that a ulong holds
 
-/// The low 10 bits of x, two zeros before each.
+/// Returns the low 10 bits of x, with two zeros before each.
 SHARED_FN uint spread_10(uint x)
 {
     x &= 0x3ffu;
@@ -24,7 +24,7 @@ SHARED_FN uint spread_10(uint x)
     return (x | x << 2u) & 0x09249249u;
 }
 
-/// The low 21 bits of x, two zeros before each.
+/// Returns the low 21 bits of x, with two zeros before each.
 SHARED_FN ulong spread_21(ulong x)
 {
     x &= 0x1ffffful;
@@ -35,19 +35,19 @@ SHARED_FN ulong spread_21(ulong x)
     return (x | x << 2u) & 0x1249249249249249ul;
 }
 
-/// The code of a cell of 10 bits an axis.
+/// Returns the Morton code of a cell with 10 bits per axis.
 SHARED_FN uint morton_30(Cell cell)
 {
     return spread_10(cell.x) << 2u | spread_10(cell.y) << 1u | spread_10(cell.z);
 }
 
-/// The code of a cell of 21 bits an axis.
+/// Returns the Morton code of a cell with 21 bits per axis.
 SHARED_FN ulong morton_63(Cell cell)
 {
     return spread_21(cell.x) << 2u | spread_21(cell.y) << 1u | spread_21(cell.z);
 }
 
-/// The code of a cell of 16 bits an axis: that of 21 with nothing in its upper bits.
+/// Returns the Morton code of a cell with 16 bits per axis: the 63-bit code with zeros in its upper bits.
 SHARED_FN ulong morton_48(Cell cell) { return morton_63(cell); }
 
 SHARED_END

@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: MIT
 //
-// On which side of a plane or a line a point lies, exactly for the floats that are stored.
+// Side of a plane or a line on which a point lies, exact for the floats as stored.
 //
-//     orient3d(a, b, c, d)    the sign of (a-d) . ((b-d) x (c-d)); 0: the four are in one plane
-//     orient2d(a, b, c, k)    the turn a, b, c as seen along axis k; 0: in one line, so seen
+//     orient3d(a, b, c, d)    sign of (a-d) . ((b-d) x (c-d)); 0: the four points are coplanar
+//     orient2d(a, b, c, k)    orientation of a, b, c projected along axis k; 0: their projections are collinear
 //
-// As [Shewchuk1997] does it: first in doubles, which tells unless the points are all but in one plane. Differences of
-// floats are rounded at most once, no product of three can overflow, and none can underflow: the least float is 2^-149,
-// the least product 2^-447, and that of doubles 2^-1074. So the error is at most, with u = 2^-53 and X, Y, Z the largest
-// differences along each axis as computed,
+// As in [Shewchuk1997], the determinant is first computed in doubles, which decides unless the points are nearly coplanar. A
+// difference of floats is rounded at most once. No product of three differences can overflow or underflow: the smallest float
+// is 2^-149, the smallest product 2^-447, and the smallest double 2^-1074. With u = 2^-53 and X, Y, Z the largest computed
+// differences along each axis, the error is at most
 //
 //     a difference            u X
 //     a minor x y' - x' y     8 u X Y      two products of rounded factors, 3 u each; their difference, 2 u
 //     the sum of three        46 u X Y Z   each 8 + 2 for z + 2 for the product; two sums, 4 u and 6 u
 //
-// up to terms of u^2, which 48 u covers. In the plane the bound is 8 u X Y, which 9 u covers.
+// up to terms of order u^2, which 48 u covers. In the plane the bound is 8 u X Y; 9 u covers it.
 //
-// Otherwise by a sum that is exact, of which there are two. Where all coordinates along an axis are multiples of some g
-// and the differences less than 2^26 g, which holds for most of what is in doubt, all differences and minors are exact
-// doubles, and a product of three is the sum of two: 6 terms. Else as a sum of products of coordinates, not of
-// differences: two floats have an exact product in a double, and its upper and lower half have one with a third float,
-// so that the 24 products of the determinant are 48 terms. They and all their sums are multiples of 2^-447 below
-// 2^390: nothing overflows or underflows.
+// If that does not decide, one of two exact sums does. If all coordinates along an axis are multiples of some g and the
+// differences are less than 2^26 g, as in most doubtful cases, all differences and minors are exact doubles, and a product of
+// three is the sum of two doubles: 6 terms. Otherwise the determinant is a sum of products of coordinates, not of differences:
+// the product of two floats is exact in a double, and its upper and its lower half each have an exact product with a third
+// float, so the 24 products of the determinant become 48 terms. The terms and all their sums are multiples of 2^-447 below
+// 2^390, so nothing overflows or underflows.
 #ifndef BVHBENCH_GEOMETRY_ORIENT_H
 #define BVHBENCH_GEOMETRY_ORIENT_H
 
@@ -33,26 +33,26 @@ SHARED_BEGIN
 
 #define UNSURE 2
 
-/// The sign of a number that is off by at most `bound`, or UNSURE.
+/// Returns the sign of a number whose error is at most `bound`, or UNSURE.
 SHARED_FN int sign_beyond(double value, double bound)
 {
     return value > bound ? 1 : (value < -bound ? -1 : UNSURE);
 }
 
-/// What a determinant of differences may be off by, if none along an axis is larger than in `most`.
+/// Returns the error bound of a determinant of differences; `most` holds the largest difference along each axis.
 SHARED_FN double orient3d_bound(Vector most) { return 0x1.8p-48 * most.x * most.y * most.z; }
 
-/// The upper half of a double's bits: what is left has no more (Veltkamp's splitting).
+/// Returns the upper half of a double's bits; the rest has no more bits than that (Veltkamp's splitting).
 SHARED_FN double upper_half(double x)
 {
     const double spread = 134217729.0 * x;  // 2^27 + 1
     return spread - (spread - x);
 }
 
-/// Whether x is a multiple of a g such that `most`, the largest difference between x and its like, is below 2^26 g: it
-/// must survive being added to a number 2^28 times as large. The sum is rounded to a multiple of half that number's
-/// last bit, 2^-54 of it or more, or of more than that: floats that are 2^26 times as large as their differences have
-/// none, so x is below a quarter of the number.
+/// True if x is a multiple of some g such that `most`, the largest difference along the axis of x, is below 2^26 g. Tests
+/// whether x survives the addition to L = 2^28 `most`. Floats that are 2^26 times as large as their differences have no
+/// differences, so |x| is below L / 4. The sum is therefore rounded to a multiple of at least half the last bit of L, which is
+/// at least 2^-54 L, or 2^-26 `most`.
 SHARED_FN bool is_regular(float x, double most)
 {
     const double large = 0x1p28 * most;
@@ -64,7 +64,7 @@ SHARED_FN bool is_point_regular(Point p, Vector most)
     return is_regular(p.x, most.x) && is_regular(p.y, most.y) && is_regular(p.z, most.z);
 }
 
-/// The sign of u . n, exactly, if u and what n is the cross product of are regular.
+/// Returns the exact sign of u . n. The coordinates from which u and the factors of n were computed must be regular.
 SHARED_FN int sign_of_regular(Vector u, Vector n)
 {
     const double x = upper_half(n.x), y = upper_half(n.y), z = upper_half(n.z);
@@ -73,7 +73,7 @@ SHARED_FN int sign_of_regular(Vector u, Vector n)
     return sign_of_sum(terms, 6u);
 }
 
-/// orient3d of any floats, by nothing but the sum of 48: - [b c d] + [a c d] - [a b d] + [a b c].
+/// orient3d of arbitrary floats by the sum of 48 terms alone: - [b c d] + [a c d] - [a b d] + [a b c].
 SHARED_FN int orient3d_of_products(Point a, Point b, Point c, Point d)
 {
     Terms terms = {{0.0}};
@@ -104,7 +104,7 @@ SHARED_FN int orient3d(Point a, Point b, Point c, Point d)
     const int sign = sign_beyond(dot(u, normal), bound);
     if (sign != UNSURE)
         return sign;
-    if (bound == 0.0)  // along some axis there is no difference
+    if (bound == 0.0)  // all points are equal along some axis
         return 0;
     if (is_point_regular(a, most) && is_point_regular(b, most) && is_point_regular(c, most) &&
         is_point_regular(d, most))

@@ -6,16 +6,16 @@
 
 SHARED_BEGIN
 
-/// What codes are measured against: the box of a whole scene and the box of its boxes' centres. 48 bytes.
+/// Bounds that Morton and Hilbert codes are computed in: the box of the scene and the box of all box centres. 48 bytes.
 typedef struct {
     Aabb scene;
     Aabb centres;
 } Bounds;
 
-/// The centre of a box, without negative zeros.
+/// Returns the centre of a box, without negative zeros.
 ///
-/// Halved before they are added, so that no coordinate a float can hold overflows. Only denormals lose a
-/// bit by that. Two negative denormals may halve to -0; adding +0 makes it +0 (see triangle_box).
+/// Halves both sides before adding, so that no coordinate overflows; only denormals lose a bit. Two negative denormals may halve to -0;
+/// adding +0 makes it +0 (see triangle_box).
 SHARED_FN Point box_centre(Aabb box)
 {
     Point centre;
@@ -25,14 +25,14 @@ SHARED_FN Point box_centre(Aabb box)
     return centre;
 }
 
-/// The bounds of no box at all.
+/// Returns the bounds of an empty set of boxes.
 SHARED_FN Bounds empty_bounds(void)
 {
     const Bounds bounds = {empty_box(), empty_box()};
     return bounds;
 }
 
-/// `bounds` grown to hold one more box and its centre.
+/// Returns `bounds` extended by a box and its centre.
 SHARED_FN Bounds grown(Bounds bounds, Aabb box)
 {
     const Point centre = box_centre(box);
@@ -42,7 +42,7 @@ SHARED_FN Bounds grown(Bounds bounds, Aabb box)
     return bounds;
 }
 
-/// The bounds of two sets of boxes together. Smallest and largest do not depend on the order of joining.
+/// Returns the common bounds of two sets of boxes. Minimum and maximum do not depend on the order of joining.
 SHARED_FN Bounds joined(Bounds a, Bounds b)
 {
     a.scene = merged(a.scene, b.scene);

@@ -6,14 +6,14 @@
 
 SHARED_BEGIN
 
-/// The box around a triangle on its way from one frame to the next, of its boxes in the two.
+/// Returns the box around a triangle's motion from one frame to the next, given its boxes in the two frames.
 ///
-/// Vertices move in straight lines, p(t) = (1 - t) p0 + t p1 with t from 0 to 1. A coordinate of any point of the
-/// triangle at any t is a mean of its corners' coordinates in both frames, with weights that are not negative and sum to
-/// one; so it is between the smallest and the largest of these, which are sides of the two boxes. The smallest and largest
-/// of floats are floats: nothing is rounded, and since boxes are closed two that touch on the way have boxes that overlap.
-/// No smaller box will do, for the corners are where they are in both frames. Nor does it matter how a frame in between is
-/// computed, if it is rounded to floats to nearest in the end, for rounding keeps the order of numbers.
+/// Vertices move linearly, p(t) = (1 - t) p0 + t p1 with t from 0 to 1. At any t, a coordinate of any point of the triangle is
+/// a mean of its corners' coordinates in both frames, with non-negative weights that sum to one. It therefore lies between the
+/// smallest and the largest of these, which are sides of the two boxes. The minimum and maximum of floats are floats, so
+/// nothing is rounded; since boxes are closed, two triangles that touch during the motion have boxes that overlap. No smaller
+/// box suffices, because the corners are in it in both frames. The way in which a frame in between is computed does not matter
+/// if the result is rounded to the nearest floats, because rounding keeps the order of numbers.
 SHARED_FN Aabb swept_box(Aabb first, Aabb last) { return merged(first, last); }
 
 SHARED_END

@@ -6,7 +6,7 @@
 
 SHARED_BEGIN
 
-/// A vertex position. 12 bytes on both sides.
+/// A vertex position. 12 bytes in C++ and in OpenCL C.
 typedef struct {
     float x, y, z;
 } Point;
@@ -17,10 +17,10 @@ typedef struct {
 } Face;
 
 #if BOX_FORMAT == BOX_F32
-/// The box of a triangle, without negative zeros.
+/// Returns the box of a triangle, without negative zeros.
 ///
-/// -0 and +0 compare equal, so fmin and fmax may return either, and devices differ. Adding +0 turns -0 into
-/// +0 and changes nothing else, which makes every box of a tree the same bits on every device.
+/// -0 and +0 compare equal, so fmin and fmax may return either, and devices differ. Adding +0 turns -0 into +0 and changes
+/// nothing else, so every box of a tree has the same bits on every device.
 SHARED_FN Aabb triangle_box(Point a, Point b, Point c)
 {
     Aabb box;
@@ -34,7 +34,7 @@ SHARED_FN Aabb triangle_box(Point a, Point b, Point c)
 }
 #endif
 
-/// Whether two triangles name a vertex that is the same.
+/// True if two triangles share a vertex index.
 SHARED_FN bool share_a_vertex(Face a, Face b)
 {
     return a.a == b.a || a.a == b.b || a.a == b.c || a.b == b.a || a.b == b.b || a.b == b.c ||

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Differences of points, in doubles: each is rounded once at most, and exact where the points are of like size.
+// Differences of points, in doubles: rounded at most once, and exact where the points are of similar magnitude.
 #ifndef BVHBENCH_GEOMETRY_VECTORS_H
 #define BVHBENCH_GEOMETRY_VECTORS_H
 
@@ -28,21 +28,21 @@ SHARED_FN_INLINED Vector cross_product(Vector a, Vector b)
 
 SHARED_FN_INLINED double dot(Vector a, Vector b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-/// Of each component its size.
+/// Returns the absolute value of each component.
 SHARED_FN_INLINED Vector magnitude(Vector a)
 {
     const Vector v = {fabs(a.x), fabs(a.y), fabs(a.z)};
     return v;
 }
 
-/// Of each component the larger. None may be NaN.
+/// Returns the component-wise maximum. No component may be NaN.
 SHARED_FN_INLINED Vector larger(Vector a, Vector b)
 {
     const Vector v = {a.x < b.x ? b.x : a.x, a.y < b.y ? b.y : a.y, a.z < b.z ? b.z : a.z};
     return v;
 }
 
-/// Coordinate 0, 1 or 2; 3 and on begin again at 0.
+/// Returns coordinate `axis` modulo 3.
 SHARED_FN_INLINED float coordinate(Point p, uint axis)
 {
     axis = axis % 3u;

@@ -24,7 +24,7 @@ void require_memory(std::string_view scene, std::uint64_t bytes)
     require_host_memory("scene " + in_quotes(scene), bytes);
 }
 
-/// The whole number that `number`, a part of the name `scene`, is; `what` it counts is at least 1.
+/// Returns the whole number that `number`, a part of the name `scene`, spells. Throws BadUsage unless it is from 1 to `most`.
 uint count_in(std::string_view scene, std::string_view number, const char* what, uint most)
 {
     const bool digits = !number.empty() && number.find_first_not_of("0123456789") == number.npos;
@@ -40,7 +40,7 @@ uint triangle_count(std::string_view scene, std::string_view number, uint most)
     return count_in(scene, number, "triangle count", most);
 }
 
-/// A scene's name up to its first colon and from there on.
+/// A scene's name, split at its first colon.
 struct Parts {
     std::string_view head, rest;
 
@@ -50,7 +50,7 @@ struct Parts {
     {}
 };
 
-/// `rest` is "N", or "N:F" of what moves.
+/// Makes the scene of a generator. `rest` is "N", or "N:F" for moving scenes.
 Scene generated(std::string_view text, const Generator& generator, std::string_view rest)
 {
     const std::size_t colon = generator.moves ? rest.find(':') : rest.npos;
@@ -69,10 +69,10 @@ Scene generated(std::string_view text, const Generator& generator, std::string_v
     return scene;
 }
 
-/// A way to make a scene of another one, as "refine:SCENE:N".
+/// A way to derive a scene from another one, such as "refine:SCENE:N".
 struct Derivation {
     std::string_view name, form, summary;
-    std::size_t words;  ///< behind SCENE
+    std::size_t words;  ///< number of words after SCENE
 };
 
 constexpr Derivation derivations[] = {
@@ -82,13 +82,13 @@ constexpr Derivation derivations[] = {
      "any scene with triangle K moved away by D diagonals of its box", 2},
     {"bend", "bend:SCENE", "any scene of one frame with a second one, in which it is bent", 0},
 };
-constexpr uint most_refined = 0xffffffffu / 3;  // three half-edges a triangle
+constexpr uint most_refined = 0xffffffffu / 3;  // three half-edges per triangle
 
-/// A name like "refine:SCENE:N" taken apart.
+/// A name like "refine:SCENE:N", split into its parts.
 struct Derived {
     const Derivation* how = nullptr;
     std::string_view base;      ///< SCENE
-    std::string_view words[2];  ///< behind it; empty where they are missing
+    std::string_view words[2];  ///< the words after SCENE; empty if missing
 };
 
 std::optional<Derived> taken_apart(std::string_view text)
@@ -128,7 +128,7 @@ Scene made_of_another(std::string_view text, const Derived& derived, const Scene
     return with_outlier(load_any(base, library), static_cast<uint>(triangle), diameters->rounded);
 }
 
-/// Within the data folder, the path from there: where the folder lies says nothing to who reads it elsewhere.
+/// Returns `path` relative to the data folder if it is inside: the absolute path means nothing on another machine.
 std::string path_in_library(const std::filesystem::path& path, const SceneLibrary& library)
 {
     const std::filesystem::path inside = path.lexically_relative(library.data);
@@ -197,7 +197,7 @@ Scene unfinished(std::string_view text, const SceneLibrary& library)
 {
     if (const auto derived = taken_apart(text)) {
         Scene scene = made_of_another(text, *derived, library);
-        scene.folder.clear();  // which has other triangles or frames
+        scene.folder.clear();  // its triangles or frames differ
         return scene;
     }
     if (const ManifestEntry* const entry = manifest_entry(text))

@@ -14,7 +14,7 @@
 namespace bvhbench {
 namespace {
 
-/// The finite ones of all coordinates along an axis.
+/// Range of all finite coordinates along an axis.
 struct Extent {
     double low = std::numeric_limits<double>::max();
     double high = std::numeric_limits<double>::lowest();
@@ -26,12 +26,12 @@ struct Extent {
         low = std::min(low, x);
         high = std::max(high, x);
     }
-    // Halved before they are added: no sum overflows.
+    // Halves both ends before adding, so that no sum overflows.
     double middle() const { return low <= high ? 0.5 * low + 0.5 * high : 0; }
     double half() const { return low <= high ? 0.5 * high - 0.5 * low : 0; }
 };
 
-/// 0, if the floats of such a size are normal numbers and one of twice the size is one; else what brings it to about 1.
+/// Returns 0 if floats of this size are normal and twice the size is one too; else the power of two that scales it to about 1.
 int scale_for(double largest)
 {
     if (largest == 0)
@@ -41,10 +41,10 @@ int scale_for(double largest)
     return fits ? 0 : -exponent;
 }
 
-/// To nearest, once moved and scaled.
+/// Moves and scales `x`, and rounds it to the nearest float.
 float nearest(double x, double offset, int scale_log2)
 {
-    // Of what is beyond the floats C++ leaves the conversion open.
+    // C++ leaves the conversion of values beyond the range of floats undefined.
     constexpr double largest = std::numeric_limits<float>::max();
     const double moved = std::ldexp(x - offset, scale_log2);
     if (std::isnan(moved))
@@ -54,7 +54,7 @@ float nearest(double x, double offset, int scale_log2)
     return static_cast<float>(moved);
 }
 
-/// What became of x, counted.
+/// Records the rounding error of x and returns `rounded`.
 float counted(float rounded, double x, double offset, Rounding& rounding)
 {
     const long double back = std::ldexp(static_cast<long double>(rounded), -rounding.scale_log2);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Vertices whose coordinates floats cannot hold, and how they become floats.
+// Conversion to floats of vertex coordinates that floats cannot hold exactly.
 //
-// Rounded as they are, vertices far from the origin fall onto the coarse grid that floats are there, and boxes that were
-// apart touch (docs/accuracy.md, Input). With the middle of their box taken off before, in doubles, they keep nearly all
-// that floats have. Either way the order of coordinates stays, so boxes that overlap still do.
+// Rounded directly, vertices far from the origin fall onto the coarse grid that floats have there, and disjoint boxes may touch
+// (docs/accuracy.md, Input). If the middle of their box is subtracted first, in doubles, they keep nearly the full precision of
+// floats. Both ways preserve the order of coordinates, so boxes that overlap still overlap.
 #pragma once
 
 #include <cstdint>
@@ -22,33 +22,33 @@ struct WidePoint {
     double x = 0, y = 0, z = 0;
 };
 
-/// What is done to doubles before they are rounded.
+/// Transformation of doubles before they are rounded.
 enum class Doubles {
-    recentred,  ///< the middle of the box of all frames is taken off, and the rest scaled if floats do not reach so far
-    as_is,      ///< nothing
+    recentred,  ///< subtract the middle of the box of all frames, and scale if the result is out of the range of floats
+    as_is,      ///< none
 };
 
-/// "recentred", "as-is".
+/// Returns "recentred" or "as-is".
 std::string_view doubles_name(Doubles how);
-/// Throws BadUsage with the known names when there is none.
+/// Inverse of doubles_name. Throws BadUsage, listing the known names, for any other name.
 Doubles doubles_called(std::string_view name);
 
-/// How doubles became floats: the float nearest to 2^scale_log2 (x - offset).
+/// Result of a conversion of doubles x to the floats nearest to 2^scale_log2 (x - offset).
 struct Rounding {
-    std::optional<Doubles> how;  ///< none: floats held everything, and nothing was done
-    WidePoint offset = {};       ///< in the file's unit
+    std::optional<Doubles> how;  ///< none: floats held all coordinates, nothing changed
+    WidePoint offset = {};       ///< in the unit of the file
     int scale_log2 = 0;
     std::uint64_t rounded_count =
-        0;                     ///< coordinates, of all frames, that are not exactly what they were
-    double largest_error = 0;  ///< by how much, at most, in the file's unit
+        0;  ///< number of coordinates in all frames that were changed by rounding
+    double largest_error = 0;  ///< largest change of a coordinate, in the unit of the file
 };
 
-/// In a sentence, for people.
+/// Describes a rounding in one sentence.
 std::string rounding_text(const Rounding& rounding);
 
-/// Make floats of `wide`, the same vertices in as many frames as there are in `frames`, which hold them rounded as they
-/// are. One offset and one scale serve all frames: what stands still does so afterwards. Of coordinates that are not
-/// finite, which no scene may have, infinity or NaN is left.
+/// Converts `wide` to floats. On entry, `frames` holds the same vertices and frames, rounded as they are; on return, the
+/// converted ones. All frames share one offset and one scale, so vertices at rest remain at rest. Coordinates that are not
+/// finite, which no scene may have, become infinity or NaN.
 Rounding round_frames(std::span<const std::vector<WidePoint>> wide, Doubles how,
                       std::vector<std::vector<Point>>& frames);
 

@@ -6,7 +6,7 @@
 
 namespace bvhbench {
 
-/// The text of a file that was compiled in, by its path from the source root.
+/// Returns the text of a file that was compiled into the program, by its path from the source root; nothing if there is none.
 std::optional<std::string_view> embedded_scene_text(std::string_view path);
 
 }  // namespace bvhbench

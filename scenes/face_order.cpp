@@ -19,7 +19,7 @@ std::vector<T> taken(const std::vector<T>& values, const std::vector<uint>& from
     return result;
 }
 
-/// Disjoint sets of vertices, each known by its smallest.
+/// Disjoint sets of vertices, each identified by its smallest vertex.
 class Sets {
 public:
     explicit Sets(std::size_t count) : parent_(count)
@@ -60,7 +60,7 @@ void group_faces(Scene& scene, std::span<const uint> object_of_face)
         object.face_count = 0;
     for (const uint object : object_of_face)
         ++scene.objects[object].face_count;
-    std::vector<uint> next;  // of each object, the place of its next triangle
+    std::vector<uint> next;  // for each object, the index of its next triangle
     uint first = 0;
     for (SceneObject& object : scene.objects) {
         object.first_face = first;
@@ -85,7 +85,7 @@ void group_by_parts(Scene& scene)
         sets.join(face.a, face.c);
     }
     constexpr uint none = 0xffffffffu;
-    std::vector<uint> number(vertices, none);  // of the part whose smallest vertex it is
+    std::vector<uint> number(vertices, none);  // of the component with this smallest vertex
     std::vector<uint> part_of_face;
     part_of_face.reserve(scene.faces.size());
     scene.objects.clear();
@@ -128,7 +128,7 @@ Scene in_file_order(Scene scene)
         return scene;
     scene.faces = faces_in_file(scene);
     scene.file_faces.clear();
-    scene.objects.clear();  // finishing makes it one
+    scene.objects.clear();  // `finished` makes one object
     scene.object_ids.clear();
     scene.has_meshes = false;
     return finished(std::move(scene));
@@ -163,7 +163,7 @@ Scene with_objects(Scene scene, ObjectsBy by)
                     "' has no meshes to take for objects: what it was made from names none");
             return scene;
         case ObjectsBy::one:
-            scene.objects.clear();  // finishing makes it one
+            scene.objects.clear();  // `finished` makes one object
             scene.object_ids.clear();
             scene = in_file_order(std::move(scene));
             break;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// An object of a scene is a run of triangles. Files may have the triangles of their objects in any order: they are grouped
-// when they are read, and `Scene::file_faces` keeps the numbers that they have in the file.
+// Grouping of triangles by object. An object of a scene is a range of consecutive triangles, but a file may store triangles in
+// any order. They are grouped when the file is read, and `Scene::file_faces` keeps their numbers in the file.
 #pragma once
 
 #include <span>
@@ -11,42 +11,41 @@
 
 namespace bvhbench {
 
-/// Makes each object a run: triangles are sorted by `object_of_face`, the place of each one's object in `scene.objects`, and
-/// those of one object keep their order. Sets the ranges of the objects, whose names must be there. Where nothing has to
-/// move, `file_faces` stays as it is.
+/// Sorts triangles by `object_of_face`, the index of each triangle's object in `scene.objects`; triangles of one object keep
+/// their order. Sets the ranges of the objects, which must already have their names. If no triangle has to move, `file_faces`
+/// is left unchanged.
 void group_faces(Scene& scene, std::span<const uint> object_of_face);
 
-/// The same, with connected parts as objects, in the order of their first triangles.
+/// As group_faces, with the connected components as objects, in the order of their first triangles.
 void group_by_parts(Scene& scene);
 
-/// The triangles in the order of the file.
+/// Returns the triangles in the order of the file.
 std::vector<Face> faces_in_file(const Scene& scene);
 
-/// The number that the file gives each triangle's object, by the number that it gives the triangle.
+/// Returns, for each triangle in the order of the file, the number that the file gives its object.
 std::vector<std::int64_t> objects_in_file(const Scene& scene);
 
-/// `scene` for those that take all triangles as one object: with the triangles in the order of the file. Where grouping had
-/// moved them, there is one object then; else the scene stays as it is.
+/// Returns `scene` for algorithms that treat all triangles as one object: with the triangles in the order of the file. If
+/// grouping had moved triangles, the result has one object; otherwise the scene is unchanged.
 Scene in_file_order(Scene scene);
 
-/// What makes an object of a scene.
+/// Criterion by which a scene is divided into objects.
 enum class ObjectsBy {
-    automatic,  ///< as the scene was loaded: a sequence's objects, else the file's meshes, else all is one
-    one,         ///< all triangles are one object
-    mesh,        ///< as `automatic`, for scenes whose source does name objects
-    components,  ///< triangles that name a common vertex, and those that these meet so
+    automatic,  ///< as loaded: the objects of a sequence, else the meshes of the file, else one object
+    one,        ///< all triangles are one object
+    mesh,       ///< as `automatic`, only for scenes whose source names objects
+    components,  ///< connected components: triangles that share a vertex index, transitively
 };
 
-/// The one called "auto", "one", "mesh" or "components". Throws BadUsage, naming these.
+/// Returns the criterion called "auto", "one", "mesh" or "components". Throws BadUsage, listing these, for any other name.
 ObjectsBy objects_by_called(std::string_view name);
 
 std::string_view objects_by_name(ObjectsBy by);
 
-/// `scene` with its objects chosen so, finished again (the content hash covers objects).
+/// Returns `scene` divided into objects by `by`, finished again (the content hash covers objects).
 ///
-/// Components are in the order of their first triangles, and their triangles are grouped; those of
-/// one object are in the order of the file. Vertices and their numbers stay.
-/// Throws BadUsage by `mesh` when the scene's source names no objects.
+/// Components are in the order of their first triangles, and their triangles are grouped; the triangles of one object are in
+/// the order of the file. Vertices and their indices are unchanged. Throws BadUsage for `mesh` if the source names no objects.
 Scene with_objects(Scene scene, ObjectsBy by);
 
 }  // namespace bvhbench

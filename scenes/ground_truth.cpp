@@ -12,10 +12,10 @@
 namespace bvhbench {
 namespace {
 
-/// A file of lines of whole numbers from 0, apart by commas, the last of which is 0 or 1.
+/// A file of lines of comma-separated whole numbers from 0. The last number of a line is 0 or 1.
 class PairLines {
 public:
-    /// Numbers before the last and what each counts up to.
+    /// One of the numbers before the last: what it is an index of, and its exclusive upper limit.
     struct Column {
         const char* of;
         std::size_t end;
@@ -28,7 +28,7 @@ public:
     std::uint64_t listed() const { return listed_; }
     std::uint64_t colliding() const { return colliding_; }
 
-    /// `add` gets the numbers of each line. A file that is not there has none.
+    /// Calls `add` with the numbers of each line. A missing file has no lines.
     void read(const std::function<void(std::span<const uint>)>& add)
     {
         if (!std::filesystem::exists(path_))
@@ -43,7 +43,7 @@ public:
         }
     }
 
-    /// Hold a count of meta.json to what was found.
+    /// Throws Unavailable if a count of meta.json differs from the count found.
     void expect(const char* what, std::optional<std::uint64_t> said, std::uint64_t found) const
     {
         if (said && *said != found)
@@ -85,7 +85,7 @@ private:
     std::uint64_t listed_ = 0, colliding_ = 0;
 };
 
-/// As many steps as frames but one; a folder that says no more than its lists is about its only step.
+/// Returns the only step of a scene of two frames. Without `ccd` in meta.json, only such a scene is unambiguous.
 std::size_t only_step(const Scene& scene)
 {
     if (scene.frames.size() != 2)
@@ -112,7 +112,7 @@ SweptParts vertices_and_faces(const Scene& scene)
 
 SweptParts unique_edges(const Scene& scene)
 {
-    std::vector<std::pair<uint, uint>> edges;  // the larger vertex first, as they are sorted
+    std::vector<std::pair<uint, uint>> edges;  // larger vertex first, the order of sorting
     edges.reserve(3 * scene.faces.size());
     for (const Face& face : scene.faces)
         for (const auto& [a, b] :

@@ -124,11 +124,11 @@ Scene load_or_stand_in(std::string_view text, const SceneLibrary& library)
     const ManifestEntry* const entry = manifest_entry(text);
     if (entry == nullptr)
         return load_scene(text, library);
-    // What is generated always is; else the files that it is made of are there.
+    // True if the scene can be made: it is generated, or the files that it is made from exist.
     const auto is_possible = [&](const std::string& scene) {
         return !std::ranges::count(scene_files(scene, library), "");
     };
-    // A file of another size is another edition of the model: not this data set, and no error.
+    // A file of another size is another edition of the model: it is not this data set, and this is not an error.
     if (!located(*entry, library.data).empty()) {
         try {
             return load_scene(text, library);
@@ -143,7 +143,7 @@ Scene load_or_stand_in(std::string_view text, const SceneLibrary& library)
             scene.stand_in_for = text;
             return scene;
         }
-    return load_scene(text, library);  // says what is missing
+    return load_scene(text, library);  // throws, naming what is missing
 }
 
 }  // namespace bvhbench

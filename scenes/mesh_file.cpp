@@ -13,8 +13,8 @@ namespace {
 
 using Reader = FileMesh (*)(std::string_view bytes, const std::string& name);
 
-/// The share of a mesh that a byte of its file stands for: a vertex in doubles, as a float and, while arrays grow, once more
-/// takes about three bytes for one of text, beside that. What a file of short numbers takes besides meets RLIMIT_DATA.
+/// Bytes of mesh per byte of its file. A vertex in doubles, as a float, and once more while arrays grow takes about three bytes
+/// per byte of text, in addition to the text. Files of short numbers that need more hit RLIMIT_DATA.
 constexpr std::uint64_t bytes_a_file_byte = 4;
 
 std::string lower_extension(const std::filesystem::path& path)
@@ -25,7 +25,7 @@ std::string lower_extension(const std::filesystem::path& path)
     return extension;
 }
 
-/// Of the files that end so; nullptr of those that assimp has to read.
+/// Returns the reader for this extension; nullptr for formats that assimp has to read.
 Reader plain_reader(const std::string& extension)
 {
     return extension == ".obj"   ? read_obj

@@ -5,18 +5,18 @@
 
 namespace bvhbench {
 
-/// All bytes of a regular file. Throws Unavailable if it is not there, is no file, or cannot be read. Before it reads, it asks
-/// for `times` the file's size of the host's memory, for the bytes and for what is made of them.
+/// Returns all bytes of a regular file. Throws Unavailable if it does not exist, is not a regular file, or cannot be read.
+/// Requires `times` the file's size of free host memory first, for the bytes and for what the caller makes of them.
 std::string file_bytes(const std::filesystem::path& path, std::uint64_t times = 1);
 
-/// Whether `read_mesh_file` knows the format, by the extension.
+/// True if `read_mesh_file` can read files with this extension.
 bool is_mesh_file(const std::filesystem::path& path);
 
-/// What a mesh file holds, by its extension: .obj, .ply, .off and .stl by the readers of formats/, what
-/// else assimp knows by assimp in a worker. Throws Unavailable.
+/// Reads a mesh file by its extension: .obj, .ply, .off and .stl with the readers of formats/, other formats with assimp in a
+/// worker process. Throws Unavailable.
 FileMesh read_mesh_file(const std::filesystem::path& path, const SceneLibrary& library);
 
-/// Makes the file's triangles and objects the scene's, grouped (scenes/face_order.h). Not its points.
+/// Moves the file's triangles and objects into `scene`, grouped (scenes/face_order.h), but not its points.
 void take_mesh(Scene& scene, FileMesh&& file);
 
 }  // namespace bvhbench

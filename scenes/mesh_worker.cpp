@@ -17,7 +17,7 @@ namespace bvhbench {
 namespace {
 
 constexpr const char* argument = "--read-mesh";
-// A program whose main forgets to ask is_mesh_worker would start itself again and again.
+// Guards against a program whose main does not call is_mesh_worker: it would start itself over and over.
 constexpr const char* marker = "BVHBENCH_MESH_WORKER";
 
 constexpr std::string_view magic = "BVHMESH1";
@@ -30,7 +30,7 @@ void put(std::string& message, const List& list)
     message.append(reinterpret_cast<const char*>(list.data()), count * sizeof list[0]);
 }
 
-/// Takes a list off the front of `message`. False if it is not there in full.
+/// Removes a list from the front of `message`. False if the list is incomplete.
 template <class List>
 bool take(std::string_view& message, List& list)
 {
@@ -47,7 +47,7 @@ bool take(std::string_view& message, List& list)
     return true;
 }
 
-/// The hierarchy laid out flat, each mesh of each node an object.
+/// Flattens the node hierarchy: each mesh of each node becomes an object.
 class Flattened {
 public:
     explicit Flattened(const aiScene& scene) : scene_(scene) {}
@@ -88,7 +88,7 @@ private:
                                       std::to_string(mesh.mNumVertices));
                 corners.push_back(static_cast<uint>(first_point) + face.mIndices[corner]);
             }
-            file.add_polygon(corners);  // nothing for points and lines
+            file.add_polygon(corners);  // adds nothing for points and lines
         }
         file.add_object(name, first_face);
     }
@@ -96,11 +96,11 @@ private:
     const aiScene& scene_;
 };
 
-/// Reads in this process, which may crash it.
+/// Reads in this process, which assimp may crash.
 FileMesh read_with_assimp(const std::string& path)
 {
     Assimp::Importer importer;
-    // No post-processing: its steps merge vertices and remove faces that have no area.
+    // No post-processing: its steps merge vertices and remove faces without area.
     const aiScene* const scene = importer.ReadFile(path, 0);
     if (scene == nullptr || scene->mRootNode == nullptr) {
         const std::string error = importer.GetErrorString();
@@ -195,7 +195,7 @@ FileMesh read_in_worker(const std::filesystem::path& path, const SceneLibrary& l
 {
     if (std::getenv(marker) != nullptr)
         throw std::logic_error("main does not begin with is_mesh_worker, see scenes/mesh_worker.h");
-    // What the worker reads is in its memory and in this process's.
+    // The mesh is in the memory of the worker and of this process, so each gets at most half.
     const std::uint64_t memory =
         std::min<std::uint64_t>(library.memory_limit_bytes, host_memory_left() / 2);
     const ProcessEnd end =

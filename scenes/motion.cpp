@@ -15,14 +15,14 @@ namespace {
 template <std::size_t n>
 using Matrix = std::array<std::array<double, n>, n>;
 
-/// Eigenvectors of the symmetric `a`, in columns, by Jacobi's rotations; `a` becomes diagonal.
+/// Returns the eigenvectors of the symmetric matrix `a` as columns, by Jacobi rotations; `a` becomes diagonal.
 template <std::size_t n>
 Matrix<n> diagonalise(Matrix<n>& a)
 {
     Matrix<n> vectors{};
     for (std::size_t k = 0; k < n; ++k)
         vectors[k][k] = 1;
-    for (int sweep = 0; sweep < 30; ++sweep)  // squares what is left each time: some six are enough
+    for (int sweep = 0; sweep < 30; ++sweep)  // quadratic: about six are enough
         for (std::size_t p = 0; p < n; ++p)
             for (std::size_t q = p + 1; q < n; ++q) {
                 if (a[p][q] == 0)
@@ -55,7 +55,7 @@ Vector centre_of(std::span<const Vector> points)
     return (1 / static_cast<double>(points.size())) * sum;
 }
 
-/// Sum of a b^T over both sets of points, each from its centre.
+/// Returns the sum of a b^T over both sets of points, each relative to its centre.
 Matrix<3> products(std::span<const Vector> from, Vector from_centre, std::span<const Vector> to,
                    Vector to_centre)
 {
@@ -70,19 +70,19 @@ Matrix<3> products(std::span<const Vector> from, Vector from_centre, std::span<c
     return sum;
 }
 
-/// How far rounding may move a point of these.
+/// Returns how far rounding to float may move one of these points.
 double rounding_of(std::span<const Vector> points)
 {
     double largest = 0;
     for (const Vector a : points)
         largest = std::max({largest, std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)});
-    constexpr double smallest = 0x1p-150;  // half of the least float above 0
+    constexpr double smallest = 0x1p-150;  // half of the smallest positive float
     return std::sqrt(3.0) * std::max(0x1p-24 * largest, smallest);
 }
 
 bool is_rigid(std::span<const Vector> from, std::span<const Vector> to)
 {
-    constexpr double slack = 1 + 1e-3;  // what is not of first order, and arithmetic in double
+    constexpr double slack = 1 + 1e-3;  // covers higher-order terms and double arithmetic
     const double each = slack * (rounding_of(from) + rounding_of(to));
     const RigidFit fit = fit_rigid(from, to);
     const std::vector<double> allowances = fit_allowances(from);
@@ -153,7 +153,7 @@ std::vector<Motion> object_motions(const Scene& scene, std::size_t from, std::si
     assert(from < scene.frames.size() && to < scene.frames.size());
     const std::vector<Point>& old_points = scene.frames[from];
     const std::vector<Point>& new_points = scene.frames[to];
-    std::vector<std::size_t> seen(old_points.size(), 0);  // by which object, from 1
+    std::vector<std::size_t> seen(old_points.size(), 0);  // last object that uses it, from 1
     std::vector<Vector> before, after;
     std::vector<Motion> motions;
     for (const SceneObject& object : scene.objects) {

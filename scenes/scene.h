@@ -11,56 +11,54 @@
 
 namespace bvhbench {
 
-/// A range of a scene's triangles that moves as one thing.
+/// A range of a scene's triangles that moves as one object.
 struct SceneObject {
     std::string name;
     uint first_face = 0;
     uint face_count = 0;
 };
 
-/// How a scene differs from another one: by a triangle that was moved away (scenes/generate/derived.h).
+/// Difference of a scene from another scene: one triangle that was moved away (scenes/generate/derived.h).
 struct Outlier {
-    std::string of;  ///< that scene; empty: none was moved
+    std::string of;  ///< name of the other scene; empty: no triangle was moved
     uint triangle = 0;
-    double diameters = 0;  ///< how far, in diagonals of that scene's box
+    double diameters = 0;  ///< distance, in diagonals of the other scene's box
 };
 
-/// What is built over: triangles of one or more objects, with one or more frames of vertex positions.
+/// Input of the builders: triangles of one or more objects, with one or more frames of vertex positions.
 ///
-/// The connectivity holds for all frames. Objects are contiguous, in order, and cover every face.
-/// Positions are finite and free of negative zeros, indices are in range: a Scene that exists is valid.
+/// All frames share the connectivity. Objects are contiguous, in order, and cover every face. Positions are finite and contain
+/// no negative zeros, and indices are in range: every finished Scene is valid.
 struct Scene {
-    std::string name;                        ///< what the user typed, unique in a result file
-    std::vector<Face> faces;                 ///< of all objects, at least one
-    std::vector<SceneObject> objects;        ///< at least one
-    bool has_meshes = false;                 ///< what it was made from names these objects
-    std::vector<std::vector<Point>> frames;  ///< positions of all vertices, one vector a frame
-    std::vector<std::string>
-        frame_labels;  ///< what the frames are called where they come from, or empty
-    /// Which triangle of the file (or generator) triangle k is; empty: it is k. Not empty once triangles were
-    /// put into another order so that those of an object follow each other (scenes/face_order.h).
+    std::string name;                  ///< the name that the user typed, unique in a result file
+    std::vector<Face> faces;           ///< faces of all objects, at least one
+    std::vector<SceneObject> objects;  ///< at least one
+    bool has_meshes = false;           ///< true if the source of the scene names these objects
+    std::vector<std::vector<Point>> frames;  ///< positions of all vertices, one vector per frame
+    std::vector<std::string> frame_labels;   ///< names of the frames in the source, or empty
+    /// Number of triangle k in the file (or generator); empty: k. Set if triangles were reordered so that those of an object
+    /// are consecutive (scenes/face_order.h).
     std::vector<uint> file_faces;
-    /// The number that the file gives object k; empty: it is k.
+    /// Number of object k in the file; empty: k.
     std::vector<std::int64_t> object_ids;
     std::string
-        source;  ///< "generated", or the file that was read: its path in the data folder if it is there
+        source;  ///< "generated", or the path of the file that was read, relative to the data folder if it is inside
     std::filesystem::path
-        folder;  ///< where these frames were read from and more may be said of them, or empty
-    std::string
-        stand_in_for;  ///< the data set this one replaces because it is not there; else empty
+        folder;  ///< folder that the frames were read from, which may hold ground truth, or empty
+    std::string stand_in_for;  ///< name of the data set that this scene replaces, or empty
     Outlier outlier;
-    Rounding rounding;    ///< of coordinates that floats could not hold
-    std::string bend_of;  ///< the scene that this one gives a second frame, bent; else empty
-    std::uint64_t content_hash = 0;  ///< of faces, objects and all frames; not of names
+    Rounding rounding;               ///< rounding of coordinates that floats could not hold
+    std::string bend_of;             ///< scene to which this one adds a bent frame, or empty
+    std::uint64_t content_hash = 0;  ///< covers faces, objects and all frames, but no names
 
     uint triangle_count() const { return static_cast<uint>(faces.size()); }
 };
 
-/// Makes a Scene valid or refuses it: negative zeros become positive, `content_hash` is set, and a scene
-/// without objects gets one over all faces. `name` and `source` must be set.
+/// Validates a scene: turns negative zeros into positive ones, sets `content_hash`, and gives a scene without objects one
+/// object over all faces. `name` and `source` must be set.
 ///
-/// Throws Unavailable, in one sentence, when the scene has no triangles or frames, an index is out of
-/// range, a position is not finite, or the objects do not cover the faces in order.
+/// Throws Unavailable, in one sentence, if the scene has no triangles or frames, an index is out of range, a position is not
+/// finite, or the objects do not cover the faces in order.
 Scene finished(Scene scene);
 
 }  // namespace bvhbench

@@ -14,7 +14,7 @@ namespace {
 
 std::vector<std::vector<Point>> read_frames(const std::filesystem::path& path, std::size_t vertices)
 {
-    const std::string bytes = file_bytes(path, 2);  // once more as points
+    const std::string bytes = file_bytes(path, 2);  // twice: bytes and points
     const std::size_t frame_size = vertices * sizeof(Point);
     if (bytes.empty() || bytes.size() % frame_size != 0)
         throw Unavailable(path.string() + " has " + std::to_string(bytes.size()) +
@@ -28,8 +28,8 @@ std::vector<std::vector<Point>> read_frames(const std::filesystem::path& path, s
     return frames;
 }
 
-/// The last number in a file's name, by which frames are ordered; nothing if there is none. Throws Unavailable if it is
-/// too large.
+/// Returns the last number in a file's name, by which frames are ordered; nothing if there is none. Throws Unavailable if the
+/// number is too large.
 std::optional<std::int64_t> frame_number(const std::filesystem::path& path)
 {
     const std::string stem = path.stem().string();
@@ -45,7 +45,7 @@ std::optional<std::int64_t> frame_number(const std::filesystem::path& path)
     return number;
 }
 
-/// The mesh files of a folder by their numbers.
+/// The mesh files of a folder, by their numbers.
 using NumberedFiles = std::map<std::int64_t, std::filesystem::path>;
 
 NumberedFiles numbered_files(const std::filesystem::path& folder)
@@ -56,7 +56,7 @@ NumberedFiles numbered_files(const std::filesystem::path& folder)
     if (error)
         throw Unavailable(folder.string() + " cannot be read: " + error.message());
     for (const auto& entry : entries) {
-        // Whatever else is called like a frame is one: reading it says why it cannot be.
+        // Any other file that is named like a frame counts as one; reading it gives the reason why it is not valid.
         if (!is_mesh_file(entry.path()) || entry.is_directory(error))
             continue;
         const auto number = frame_number(entry.path());
@@ -74,7 +74,7 @@ bool same(const std::vector<Face>& a, const std::vector<Face>& b)
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Face)) == 0;
 }
 
-/// As the files have them. Read once more: few sequences are in doubles, and those that are not need no room for any.
+/// Reads the files again, for their vertices in doubles. Few sequences need this, so the others use no memory for it.
 std::vector<std::vector<WidePoint>> wide_frames(const NumberedFiles& files,
                                                 const SceneLibrary& library)
 {

@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// A disagreement, or something that is not as it should be; the file's name is put before it.
+/// A disagreement or malformed content. The file's name is put before the message.
 struct Fault {
     std::string what;
 };
@@ -54,8 +54,7 @@ void take_objects(Scene& scene, std::vector<SceneObject> table)
 {
     if (scene.objects.empty())
         scene.objects.push_back({"all", 0, scene.triangle_count()});
-    if (scene.objects.size() ==
-        1) {  // one, or a mesh that tells none apart: the table may divide it
+    if (scene.objects.size() == 1) {  // one object, or unnamed ones: the table may divide it
         std::uint64_t covered = 0;
         bool is_division = !table.empty();
         for (const SceneObject& object : table) {
@@ -131,12 +130,12 @@ StepFacts step_of(const Scene& scene, const Json& ccd)
     return facts;
 }
 
-/// If there is such a file, `use` gets what it holds.
+/// Calls `use` with the contents of the file, if it exists.
 void read_facts(const std::filesystem::path& meta, const std::function<void(const Json&)>& use)
 {
     if (!std::filesystem::exists(meta))
         return;
-    const Json json = Json::parse(file_bytes(meta), nullptr, false);  // no exceptions: "discarded"
+    const Json json = Json::parse(file_bytes(meta), nullptr, false);  // on errors: is_discarded()
     try {
         if (json.is_discarded())
             throw Fault{"is not JSON"};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What both examples need besides the library: a queue, and a torus to build over.
+// Code shared by both examples: an OpenCL queue and a torus.
 #pragma once
 
 #define CL_HPP_ENABLE_EXCEPTIONS
@@ -19,7 +19,7 @@
 
 namespace example {
 
-/// A queue as a program may have it, on the first device of the first platform that has one.
+/// Returns a queue on the first device of the first platform that has one.
 inline cl::CommandQueue first_queue()
 {
     std::vector<cl::Platform> platforms;
@@ -32,7 +32,7 @@ inline cl::CommandQueue first_queue()
     return {cl::Context(devices.front()), devices.front(), CL_QUEUE_PROFILING_ENABLE};
 }
 
-/// What main does: runs `run` and tells what it throws. Returns the exit code.
+/// Runs `run` and prints the message of any exception. Returns the exit code, 3 after an exception.
 inline int run_example(const char* name, int (*run)())
 {
     try {
@@ -48,7 +48,7 @@ struct Mesh {
     std::vector<bvhbench::oibvh::Face> faces;
 };
 
-/// 2 * around * along triangles: a tube of radius 1 around a circle of radius 3.
+/// Returns a torus of 2 * around * along triangles: a tube of radius 1 around a circle of radius 3.
 inline Mesh torus(std::uint32_t around, std::uint32_t along)
 {
     constexpr float turn = 6.2831853f;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// A kernel of the caller's own that walks the tree where it stands: how many triangles' boxes does each of some points lie
-// in? Holds the counts to brute force: exits 1 if they differ, 3 if there is no device.
+// A user-defined kernel that traverses the tree in place and counts, for each of several points, the triangle boxes that
+// contain it. Compares the counts with brute force: exits with 1 if they differ, with 3 if there is no device.
 #include "example.h"
 
 namespace oibvh = bvhbench::oibvh;
 
 namespace {
 
-// The tree's own functions come before it: Tree::kernel_text().
+// Tree::kernel_text() is put before this text and defines the functions of the tree.
 constexpr const char* count_boxes = R"(
 kernel void count_boxes(FOREST_PARAMETERS, global const float* points, global uint* counts)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Builds a tree over a torus, says what it is like, and finds the pairs of triangles whose boxes overlap. Holds them to
-// brute force: exits 1 if they differ, 3 if there is no device.
+// Builds a tree over a torus, prints its properties, and finds the pairs of triangles whose boxes overlap. Compares the pairs
+// with brute force: exits with 1 if they differ, with 3 if there is no device.
 #include <algorithm>
 
 #include "example.h"

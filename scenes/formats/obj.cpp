@@ -35,7 +35,7 @@ private:
             end_object();
             object_name_ = next_word(line);
         }
-        // Lines, points, texture coordinates, normals, groups and materials are not triangles.
+        // Lines, points, texture coordinates, normals, groups and materials are ignored.
     }
 
     void face(std::string_view words)
@@ -48,7 +48,7 @@ private:
         file_.add_polygon(corners_);
     }
 
-    /// "7", "7/1", "7//1" or "7/1/1"; negative counts back from the last vertex so far.
+    /// Parses "7", "7/1", "7//1" or "7/1/1". Negative numbers count back from the last vertex so far.
     uint corner(std::string_view word) const
     {
         const std::size_t slash = std::min(word.find('/'), word.size());

@@ -30,7 +30,7 @@ public:
     }
 
 private:
-    /// Moves on to the next line with anything but white space and a comment on it.
+    /// Advances to the next line that holds more than white space and a comment.
     bool next_line()
     {
         while (const auto line = lines_.next()) {
@@ -59,7 +59,7 @@ private:
             refuse("an OFF file begins with OFF, and there is " + in_quotes(whole));
     }
 
-    /// The vertex or face count, which no file can exceed that takes two bytes at least for each.
+    /// Returns the vertex or face count. Each takes at least two bytes, which limits the count by the size of the file.
     std::size_t count(const std::string& what)
     {
         std::string_view word = next_word(words_);
@@ -93,7 +93,7 @@ private:
         file_.add_polygon(corners_);
     }
 
-    std::string_view words_;  ///< what is left of the line
+    std::string_view words_;  ///< unread part of the line
     std::size_t size_;
 };
 

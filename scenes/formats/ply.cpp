@@ -11,15 +11,15 @@
 namespace bvhbench {
 namespace {
 
-/// The values behind a header, one after the other, whatever the format. Throws Unavailable where the
-/// file ends too soon or holds something that is no number.
+/// Reads the values after a header in sequence, in any of the formats. Throws Unavailable if the file ends too soon or holds
+/// something that is not a number.
 class Values {
 public:
     Values(const PlyHeader& header, const std::string& name)
         : rest_(header.data), format_(header.format), name_(name)
     {}
 
-    /// What is read from now on. Throws if the rest of the file cannot hold that many.
+    /// Starts reading `element`. Throws if the rest of the file cannot hold as many as the header says.
     void begin(const PlyElement& element)
     {
         element_ = &element;
@@ -31,7 +31,7 @@ public:
                               " bytes are left for them");
     }
 
-    /// Calls `read` as often as there are data of the element.
+    /// Calls `read` once for each instance of the element.
     template <class Read>
     void each(const Read& read)
     {
@@ -39,8 +39,8 @@ public:
             read();
     }
 
-    /// Beyond the floats, the nearest float is infinity, which is refused later with its vertex. A text whose type is a float
-    /// is held by floats, however many digits it has.
+    /// A number beyond the range of floats becomes infinity, and its vertex is refused later. Floats hold a text whose type is
+    /// float, regardless of its number of digits.
     FileNumber number(const PlyType& type)
     {
         if (format_ == PlyFormat::ascii && !type.is_integer) {
@@ -84,7 +84,7 @@ public:
                 word();
     }
 
-    /// After the last element. Throws if more than white space is left.
+    /// Called after the last element. Throws if anything but white space remains.
     void end() const
     {
         std::string_view rest = rest_;

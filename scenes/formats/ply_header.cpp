@@ -39,7 +39,7 @@ public:
     HeaderReader(std::string_view bytes, const std::string& name)
         : bytes_(bytes), rest_(bytes), name_(name)
     {
-        // The first line shows how lines end. It matters for the last: binary data may begin with a newline.
+        // The first line shows how lines end. This matters for the last line, because binary data may begin with a newline.
         const std::size_t end = bytes.find_first_of("\r\n");
         if (end != bytes.npos && bytes[end] == '\r')
             line_end_ = bytes.substr(end, 2) == "\r\n" ? "\r\n" : "\r";
@@ -75,7 +75,7 @@ private:
         return text;
     }
 
-    /// False at the end of the header.
+    /// Parses one line of the header. False at the end of the header.
     bool statement(std::string_view words)
     {
         const std::string_view keyword = next_word(words);

@@ -10,19 +10,19 @@ namespace bvhbench {
 
 enum class PlyFormat { ascii, binary_little_endian, binary_big_endian };
 
-/// A type of values. A double holds each of the eight exactly.
+/// Type of a value. A double can hold all values of each of the eight types.
 struct PlyType {
     std::string_view name, other_name;
     bool is_integer;
-    std::size_t size;                    ///< bytes of a value in a binary file
-    double (*value)(const char* bytes);  ///< of little-endian bytes
+    std::size_t size;                    ///< bytes per value in a binary file
+    double (*value)(const char* bytes);  ///< decodes little-endian bytes
 };
 
 struct PlyProperty {
     std::string name;
     const PlyType* type = nullptr;
-    const PlyType* count_type = nullptr;  ///< of a list's length; none: one value
-    std::size_t axis = 3;                 ///< of the coordinate that it is; 3: it is none
+    const PlyType* count_type = nullptr;  ///< type of a list's length; null: a single value
+    std::size_t axis = 3;  ///< axis of the coordinate that the property holds; 3: not a coordinate
 
     bool is_corner_list() const;
 };
@@ -32,17 +32,17 @@ struct PlyElement {
     std::uint64_t count = 0;
     std::vector<PlyProperty> properties;
 
-    /// The fewest bytes that one takes in the file.
+    /// Smallest number of bytes that one element takes in the file.
     std::uint64_t least_size(PlyFormat format) const;
 };
 
 struct PlyHeader {
     PlyFormat format = PlyFormat::ascii;
-    std::vector<PlyElement> elements;  ///< in the order their data follows
-    std::string_view data;             ///< what follows the header
+    std::vector<PlyElement> elements;  ///< in the order of their data
+    std::string_view data;             ///< the bytes after the header
 };
 
-/// Throws Unavailable, beginning with `name`, when `bytes` do not begin with a PLY header.
+/// Parses a PLY header. Throws Unavailable, with a message that begins with `name`, if `bytes` do not begin with one.
 PlyHeader read_ply_header(std::string_view bytes, const std::string& name);
 
 }  // namespace bvhbench

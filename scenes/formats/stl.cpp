@@ -9,8 +9,8 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "binary STL is little-endian");
 
-// A binary STL file: 80 bytes of anything, a facet count, and 50 bytes a facet: a normal, three corners
-// of three floats, two bytes of anything.
+// A binary STL file consists of 80 arbitrary bytes, a facet count, and 50 bytes per facet: a normal, three corners of three
+// floats each, and two arbitrary bytes.
 constexpr std::size_t binary_header = 84;
 constexpr std::size_t binary_facet = 50;
 
@@ -109,7 +109,7 @@ private:
 
 FileMesh read_stl(std::string_view bytes, const std::string& name)
 {
-    // Binary files may begin with "solid" too, so the size decides.
+    // Binary files may begin with "solid" too, so the file size decides.
     const bool has_header = bytes.size() >= binary_header;
     const std::size_t expected =
         has_header ? binary_header + binary_facet * std::size_t{facet_count(bytes)} : 0;

@@ -11,7 +11,7 @@ namespace {
 
 bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
-/// What the last digit of a decimal number counts: 0.01 of "-1.25", 10 of "125e1".
+/// Returns the unit of a decimal number's last digit: 0.01 for "-1.25", 10 for "125e1".
 double last_unit(std::string_view word)
 {
     const std::size_t e = std::min(word.find_first_of("eE"), word.size());
@@ -59,7 +59,7 @@ std::optional<FileNumber> parse_number(std::string_view word)
     const auto [stop, error] = std::from_chars(begin, end, number.wide);
     if (stop != end || error == std::errc::invalid_argument)
         return std::nullopt;
-    if (error == std::errc::result_out_of_range) {  // on which side it is, the exponent says
+    if (error == std::errc::result_out_of_range) {  // too large or too small
         const bool small = word.find("e-") != word.npos || word.find("E-") != word.npos;
         number.rounded = small ? 0.0f : std::numeric_limits<float>::infinity();
         number.wide = number.rounded;
@@ -67,7 +67,7 @@ std::optional<FileNumber> parse_number(std::string_view word)
     }
     if (std::from_chars(begin, end, number.rounded).ec != std::errc{})
         number.rounded = static_cast<float>(number.wide);  // zero or infinity
-    // `wide` is itself rounded: where a tie was printed, the difference may come out larger than half by that.
+    // `wide` is itself rounded, so the difference may exceed half a unit by that error if the number was a tie.
     const double allowed = 0.5 * last_unit(word) + 0x1p-53 * std::fabs(number.wide);
     number.floats_hold = !(std::fabs(number.wide - double{number.rounded}) > allowed);
     return number;

@@ -8,21 +8,21 @@
 
 namespace bvhbench {
 
-/// A number of a file: as it is there, and the float nearest to it.
+/// A number in a file: as a double, and as the nearest float.
 struct FileNumber {
     double wide = 0;
     float rounded = 0;
-    bool floats_hold = true;  ///< whether the float says the same
+    bool floats_hold = true;  ///< true if the float represents the number as written
 };
 
-/// Lines of a text, ended by LF, CR LF, CR or the end of the text.
+/// Splits a text into lines, ended by LF, CR LF, CR or the end of the text.
 class Lines {
 public:
     explicit Lines(std::string_view text) : rest_(text) {}
 
-    /// The next line without its end; nothing after the last.
+    /// Returns the next line without its end; nothing after the last line.
     std::optional<std::string_view> next();
-    /// Of the line last returned, from 1.
+    /// Returns the number of the last returned line, from 1.
     std::size_t number() const { return number_; }
 
 private:
@@ -30,20 +30,20 @@ private:
     std::size_t number_ = 0;
 };
 
-/// Takes the next word off the front of `text`, with the white space of any kind before it; empty when there is none.
+/// Removes the next word and the white space before it from the front of `text`. Returns the word; empty if there is none.
 std::string_view next_word(std::string_view& text);
 
-/// The whole of `word` as a number, whatever the locale: a decimal point, an optional sign. Infinity and
-/// not-a-number parse, too large numbers are infinity, too small ones zero. Nothing if it is no number.
+/// Parses the whole of `word` as a number in any locale: a decimal point, an optional sign. Infinity and NaN are accepted;
+/// numbers that are too large become infinity, too small ones zero. Nothing if `word` is not a number.
 ///
-/// A float is taken to hold it if it differs from the double by no more than half a unit of the last digit that is
-/// written: whatever was printed from floats, with however many digits, floats then hold.
+/// `floats_hold` is true if the float differs from the double by at most half a unit of the last written digit: floats that
+/// were printed with any number of digits are recognised as floats.
 std::optional<FileNumber> parse_number(std::string_view word);
 
-/// The whole of `word` as a decimal integer; nothing if it is none or does not fit.
+/// Parses the whole of `word` as a decimal integer; nothing if it is none or is out of range.
 std::optional<std::int64_t> parse_integer(std::string_view word);
 
-/// `word` in quotes for a message: shortened, with unprintable bytes as '?'.
+/// Returns `word` in quotes for a message: shortened, with unprintable bytes as '?'.
 std::string in_quotes(std::string_view word);
 
 }  // namespace bvhbench

@@ -8,13 +8,13 @@ namespace {
 
 constexpr uint n_body_steps = 1600;
 constexpr double step_s = 1.0 / 640;
-constexpr double pull = 6;       // acceleration towards the centre, a unit of distance
-constexpr double drag = 0.25;    // of speed, a second
-constexpr double bounce = 0.85;  // of speed that is left after two meet
-// Bodies meet a little below their surface, as in a simulation whose step is long: their triangles do overlap.
+constexpr double pull = 6;       // acceleration towards the centre per unit of distance
+constexpr double drag = 0.25;    // relative loss of speed per second
+constexpr double bounce = 0.85;  // fraction of the speed that remains after a collision
+// Bodies collide slightly below their surfaces, as in a simulation with long steps, so their triangles do overlap.
 constexpr double below = 0.985;
 
-/// A turn by a quaternion: w + (x, y, z).
+/// A rotation as a quaternion w + (x, y, z).
 struct Attitude {
     double w = 1;
     Vector v = {};
@@ -24,7 +24,7 @@ struct Attitude {
         const Vector twice = 2 * cross(v, a);
         return a + w * twice + cross(v, twice);
     }
-    /// After turning with `spin` radians a second, about its direction.
+    /// Returns the attitude after `seconds` of rotation by `spin` radians per second about the direction of `spin`.
     Attitude advanced(Vector spin, double seconds) const
     {
         const Vector half = (0.5 * seconds) * spin;
@@ -59,7 +59,7 @@ std::vector<Body> strewn_bodies()
     return bodies;
 }
 
-/// Moves two bodies apart and lets them bounce; the heavier one less.
+/// Separates two overlapping bodies and lets them bounce off each other; the heavier one moves less.
 void meet(Body& a, Body& b)
 {
     const Vector between = b.at - a.at;
@@ -95,9 +95,9 @@ void advance(std::vector<Body>& bodies)
 
 constexpr uint sphere_steps = 1000;
 constexpr double sphere_radius = 0.5;
-// Between centres: they touch at 1. At the end a twentieth of each surface is within the other.
+// Distances between centres; the spheres touch at 1. At the end a twentieth of each surface is inside the other sphere.
 constexpr double first_distance = 1.025, last_distance = 0.9;
-constexpr double turns = 0.25;  // of each by the end, one against the other
+constexpr double turns = 0.25;  // of each sphere by the end, in opposite directions
 
 }  // namespace
 
@@ -117,8 +117,8 @@ Scene make_n_body(uint triangles, uint frames)
 Scene make_two_spheres(uint triangles, uint frames)
 {
     const std::vector<uint> shares = even_shares(triangles, 2);
-    const Vector along = {0.9, 0.3, 0.316};  // nearly a unit, and no axis of anything
-    double part = 0;                         // of the way that is behind them
+    const Vector along = {0.9, 0.3, 0.316};  // nearly a unit vector, not aligned with any axis
+    double part = 0;                         // fraction of the distance covered so far
     Film film;
     film.add("standing", make_sphere(shares[0]), [&part](Point at) {
         return turned(sphere_radius * vector_of(at), turn_of(turns * part));

@@ -6,7 +6,7 @@
 namespace bvhbench {
 namespace {
 
-/// A scene of one frame.
+/// Returns a scene of one frame.
 template <Mesh (*make)(uint triangles)>
 Scene still(uint triangles, uint)
 {
@@ -33,7 +33,7 @@ constexpr Generator moving(std::string_view name, Scene (*make)(uint, uint), uin
 constexpr uint any = 0x80000000u;
 constexpr uint unshared = 0xffffffffu / 3;
 
-// To add a generator, add its line here. Nothing registers itself.
+// To add a generator, add its line here. There is no automatic registration.
 constexpr Generator catalog[] = {
     standing("torus", still<make_torus>, any, 18,
              "a bumpy torus: an even closed surface, like a scanned model"),

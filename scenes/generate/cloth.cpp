@@ -11,10 +11,10 @@ namespace bvhbench {
 namespace {
 
 constexpr double gravity = 9.81;
-constexpr double fastest = 8;  ///< metres a second: what keeps a fault from growing without end
-constexpr uint pairs_hold_for = 3;  ///< steps for which pairs that come near are known
+constexpr double fastest = 8;       ///< metres per second: keeps errors from growing without bound
+constexpr uint pairs_hold_for = 3;  ///< number of steps for which a list of nearby pairs is reused
 
-/// Weights of four neighbours of which the middle two are passed through.
+/// Weights of four neighbouring points of a curve that passes through the middle two.
 std::array<double, 4> weights(double t)
 {
     const double s = t * t, c = s * t;
@@ -29,7 +29,7 @@ std::size_t NearPairs::bucket(const Cell& cell) const
     const std::uint64_t mixed = static_cast<std::uint64_t>(cell[0]) * 0x9e3779b97f4a7c15u ^
                                 static_cast<std::uint64_t>(cell[1]) * 0xbf58476d1ce4e5b9u ^
                                 static_cast<std::uint64_t>(cell[2]) * 0x94d049bb133111ebu;
-    return (mixed >> 20) & (begin_.size() - 2);  // a power of two of buckets
+    return (mixed >> 20) & (begin_.size() - 2);  // the number of buckets is a power of two
 }
 
 void NearPairs::sort(const std::vector<Vector>& points, double distance)
@@ -46,7 +46,7 @@ void NearPairs::sort(const std::vector<Vector>& points, double distance)
     for (std::size_t k = 1; k < begin_.size(); ++k)
         begin_[k] += begin_[k - 1];
     members_.resize(points.size());
-    for (std::size_t k = points.size(); k-- > 0;)  // from the back, which turns ends into begins
+    for (std::size_t k = points.size(); k-- > 0;)  // backwards: turns bucket ends into starts
         members_[--begin_[bucket(cells_[k])]] = static_cast<uint>(k);
 }
 
@@ -70,7 +70,7 @@ const std::vector<std::pair<uint, uint>>& NearPairs::find(const std::vector<Vect
     return pairs_;
 }
 
-// Every other cell first, then the ones between: no direction is favoured, and no spring waits for the last.
+// Adds the springs of every other cell first, then the others: no direction is favoured, and no spring depends on the last one.
 void Cloth::add_springs(const Sheet& sheet)
 {
     const uint wide = sheet.columns, high = sheet.rows;
@@ -89,7 +89,7 @@ void Cloth::add_springs(const Sheet& sheet)
     each(0, 1, [&](uint i, uint j) { join(i, j, i, j + 1, 0); });
     each(1, 1, [&](uint i, uint j) { join(i, j, i + 1, j + 1, settings_.shear); });
     each(1, 1, [&](uint i, uint j) { join(i + 1, j, i, j + 1, settings_.shear); });
-    if (!sheet.closed || wide > 4)  // else two steps round meet from both sides
+    if (!sheet.closed || wide > 4)  // otherwise two steps around the ring meet from both sides
         each(2, 0, [&](uint i, uint j) { join(i, j, i + 2, j, settings_.bend); });
     each(0, 2, [&](uint i, uint j) { join(i, j, i, j + 2, settings_.bend); });
 }
@@ -136,7 +136,7 @@ void Cloth::stretch()
     }
 }
 
-/// Whether two particles of one sheet are in cells that touch: springs see to these.
+/// True if two particles of one sheet are in adjacent cells, whose distances the springs control.
 bool Cloth::are_neighbours(uint a, uint b) const
 {
     if (sheet_of_[a] != sheet_of_[b])
@@ -152,7 +152,7 @@ bool Cloth::are_neighbours(uint a, uint b) const
 void Cloth::keep_apart()
 {
     if (steps_ % pairs_hold_for == 0) {
-        pairs_ = near_.find(positions_, 1.25 * apart_);  // a little early, as they move on
+        pairs_ = near_.find(positions_, 1.25 * apart_);  // margin for movement
         std::erase_if(pairs_,
                       [&](const auto& pair) { return are_neighbours(pair.first, pair.second); });
     }
@@ -216,7 +216,7 @@ Vector Cloth::surface(const Sheet& sheet, double u, double v,
     const uint i = std::min(static_cast<uint>(x), sheet.columns - 1);
     const uint j = std::min(static_cast<uint>(y), sheet.rows - 1);
     const auto across = weights(x - i), down = weights(y - j);
-    // Beyond an edge the surface goes on as it came: the second point again, mirrored at the first.
+    // Continues the surface linearly beyond an edge: the second point is mirrored at the first.
     const auto in_row = [&](uint row, uint k) {
         const auto at = [&](uint column) { return positions_[sheet.particle(column, row)]; };
         if (sheet.closed)

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// A small cloth simulation: particles of one mass, held apart and together by distances only, in small steps
-// with one pass over all constraints each ([Macklin2019]: more steps do better than more passes).
+// A small cloth simulation: particles of equal mass, coupled by distance constraints only, in small steps with one pass over
+// all constraints per step ([Macklin2019]: more steps do better than more passes).
 //
 //     *---*---*     stretch: neighbours along a row and a column
 //     | X | X |     shear:   both diagonals of a cell, softer
-//     *---*---*     bend:    neighbours but one, softer still
+//     *---*---*     bend:    neighbours at distance two, softer still
 //
-// One order of all operations, one thread, and only operations that IEEE 754 fixes: the same everywhere.
+// One thread, a fixed order of operations, and only operations that IEEE 754 defines: results are the same on every machine.
 #pragma once
 
 #include <array>
@@ -19,18 +19,18 @@
 
 namespace bvhbench {
 
-/// Compliances are in metres a newton for particles of 1 kg; 0 is as stiff as one pass can make it.
+/// Parameters of the simulation. Compliances are in metres per newton for particles of 1 kg; 0 is as stiff as one pass allows.
 struct ClothSettings {
     double step_s = 1e-3;
     double shear = 3e-6;
     double bend = 1e-5;
-    double drag = 0.6;      ///< of speed, a second
-    double friction = 0.5;  ///< with obstacles
+    double drag = 0.6;      ///< relative loss of speed per second
+    double friction = 0.5;  ///< friction coefficient with obstacles
     double apart =
-        0.65;  ///< particles are kept apart by this part of the distance between neighbours
+        0.65;  ///< minimum distance of particles, as a fraction of the distance between neighbours
 };
 
-/// A sheet's particles: `columns` x `rows` cells, row by row; `closed`: the last column meets the first.
+/// Particles of a sheet of `columns` x `rows` cells, row by row. `closed`: the last column is joined to the first.
 struct Sheet {
     uint first = 0, columns = 1, rows = 1;
     bool closed = false;
@@ -39,11 +39,11 @@ struct Sheet {
     uint particle(uint i, uint j) const { return first + j * stride() + i % stride(); }
 };
 
-/// Finds pairs of points that are near each other, by a hashed grid. Keeps its memory between calls.
+/// Finds pairs of nearby points with a hashed grid. Keeps its memory between calls.
 class NearPairs {
 public:
-    /// All (i, j), i < j, of points nearer than `distance`, each once; in an order that depends on nothing but
-    /// the points. Holds until the next call.
+    /// Returns all pairs (i, j), i < j, of points nearer than `distance`, each once. Their order depends on the points only.
+    /// The reference is valid until the next call.
     const std::vector<std::pair<uint, uint>>& find(const std::vector<Vector>& points,
                                                    double distance);
 
@@ -52,8 +52,8 @@ private:
     std::size_t bucket(const Cell& cell) const;
     void sort(const std::vector<Vector>& points, double distance);
 
-    std::vector<Cell> cells_;    ///< of the points
-    std::vector<uint> begin_;    ///< of each bucket in `members_`, and the end of the last
+    std::vector<Cell> cells_;    ///< cell of each point
+    std::vector<uint> begin_;    ///< bucket starts in `members_`, and the last end
     std::vector<uint> members_;  ///< points by bucket, ascending in each
     std::vector<std::pair<uint, uint>> pairs_;
 };
@@ -62,20 +62,20 @@ class Cloth {
 public:
     explicit Cloth(ClothSettings settings) : settings_(settings) {}
 
-    /// A sheet whose cells have the lengths they have at `position(u, v)`, u and v from 0 to 1. Particles are
-    /// then shaken a little: what is symmetric would never fold.
+    /// Adds a sheet whose cells have the rest lengths that they have at `position(u, v)`, u and v from 0 to 1. Perturbs the
+    /// particles slightly, because a symmetric sheet would never fold.
     Sheet add(uint columns, uint rows, bool closed,
               const std::function<Vector(double u, double v)>& position);
 
-    /// From now on nothing moves the particle but `place`.
+    /// Pins a particle: from now on only `place` moves it.
     void pin(uint particle) { movable_[particle] = 0; }
     void place(uint particle, Vector at) { positions_[particle] = at; }
     Vector position(uint particle) const { return positions_[particle]; }
 
-    /// One step of `settings.step_s`. Obstacles and pinned particles stand where they were put.
+    /// Advances by `settings.step_s`. Obstacles and pinned particles do not move.
     void step(const std::vector<const Obstacle*>& obstacles);
 
-    /// The smooth surface through a sheet's particles (Catmull and Rom), outside of `obstacles`.
+    /// Returns a point of the smooth surface through a sheet's particles (Catmull-Rom), moved outside of `obstacles`.
     Vector surface(const Sheet& sheet, double u, double v,
                    const std::vector<const Obstacle*>& obstacles) const;
 
@@ -92,13 +92,13 @@ private:
 
     ClothSettings settings_;
     std::vector<Vector> positions_, before_, velocities_;
-    std::vector<double> movable_;  ///< 1, or 0 where pinned
+    std::vector<double> movable_;  ///< 1, or 0 if pinned
     std::vector<Spring> springs_;
     std::vector<Sheet> sheets_;
-    std::vector<uint> sheet_of_;  ///< by particle
+    std::vector<uint> sheet_of_;  ///< sheet of each particle
     double apart_ = 0;            ///< in metres
     NearPairs near_;
-    std::vector<std::pair<uint, uint>> pairs_;  ///< that may have to be kept apart
+    std::vector<std::pair<uint, uint>> pairs_;  ///< pairs that may have to be kept apart
     uint steps_ = 0;
 };
 

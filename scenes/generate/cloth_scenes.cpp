@@ -8,7 +8,7 @@
 namespace bvhbench {
 namespace {
 
-/// Cells along a side of a square sheet of so many triangles, to be simulated: not more than are drawn, but
+/// Returns the number of simulated cells along a side of a square sheet of `triangles` triangles: no more than are drawn, but
 /// enough to fall like cloth.
 uint sheet_cells(uint triangles, uint most)
 {
@@ -16,7 +16,7 @@ uint sheet_cells(uint triangles, uint most)
     return std::clamp<uint>(drawn, 8, most);
 }
 
-/// The surface of `lathe`, as triangles: u goes round, v down its profile.
+/// Returns a point on the surface of `lathe`: u runs around it, v down its profile.
 Vector on_lathe(const Lathe& lathe, Point at)
 {
     const double low = lathe.profile.front().height, high = lathe.profile.back().height;
@@ -27,13 +27,13 @@ Vector on_lathe(const Lathe& lathe, Point at)
     return lathe.placement.place({radius * turn.cosine, height, radius * turn.sine});
 }
 
-/// Cloth among obstacles, which must last as long, and what is shown of them.
+/// Cloth among obstacles, which must outlive the stage, and the film of both.
 struct Stage {
     Cloth cloth;
     std::vector<const Obstacle*> obstacles;
     Film film = {};
 
-    /// A square sheet of cloth where `position(u, v)` is.
+    /// Adds a square sheet of cloth at `position(u, v)`.
     void add_square(const std::string& name, uint triangles, uint cells,
                     const std::function<Vector(double u, double v)>& position)
     {
@@ -56,9 +56,9 @@ struct Stage {
 };
 
 constexpr uint ball_steps = 2800;
-constexpr uint turns_from = 500;  // the cloth lies on the ball by then
+constexpr uint turns_from = 500;  // by this step the cloth lies on the ball
 
-/// Sheets of so many triangles each above a ball on the floor.
+/// Returns the scene of sheets with the given numbers of triangles above a ball on the floor.
 Scene cloth_on_ball(const std::vector<uint>& sheets, uint most_columns, double apart,
                     uint ball_triangles, uint frames)
 {
@@ -91,7 +91,7 @@ const std::vector<Lathe::Ring> body_profile = {
     {0.06, 0.0},  {0.07, 0.1},  {0.11, 0.5}, {0.17, 0.9},  {0.12, 1.1},  {0.16, 1.3}, {0.16, 1.38},
     {0.05, 1.45}, {0.05, 1.52}, {0.1, 1.58}, {0.11, 1.66}, {0.07, 1.74}, {0.03, 1.76}};
 
-/// Skirt k of three layers at each of three heights, unturned: v goes down, and folds deepen towards the hem.
+/// Returns a point of skirt k (three layers at each of three heights) without rotation: v runs down, and folds deepen.
 Vector skirt_point(const Lathe& body, uint k, double u, double v)
 {
     const double top = 1.04 - 0.2 * (k / 3);
@@ -103,7 +103,7 @@ Vector skirt_point(const Lathe& body, uint k, double u, double v)
     return {radius * turn.cosine, height, radius * turn.sine};
 }
 
-/// The dancer turns one way, the other, and back, and sways.
+/// Moves the dancer, who turns in one direction, in the other, and back, and sways.
 void dance(Placement& body, uint step, double step_s)
 {
     const double t = static_cast<double>(step) / dress_steps;
@@ -115,21 +115,21 @@ void dance(Placement& body, uint step, double step_s)
 constexpr uint funnel_steps = 2400;
 constexpr double mouth = 0.62, neck = 0.1;
 constexpr double cloth_side = 0.85;
-constexpr double thickness = 0.0075;  // at most: more of the cloth would not fit the neck
+constexpr double thickness = 0.0075;  // maximum: more of the cloth would not fit through the neck
 
 }  // namespace
 
 Scene make_cloth_ball(uint triangles, uint frames)
 {
     const uint ball = even_part(triangles, triangles < 4000 ? 0.2 : 0.00824, 1);
-    // One sheet folds tighter with 0.5, and in few places goes through itself.
+    // With 0.5 a single sheet folds more tightly; it penetrates itself in few places.
     return cloth_on_ball({triangles - ball}, 110, 0.5, ball, frames);
 }
 
 Scene make_cloth_layers(uint triangles, uint frames)
 {
     const uint ball = even_part(triangles, triangles < 4000 ? 0.2 : 0.00824, 3);
-    // 0.8 is enough to keep sheets from each other, but for a few places.
+    // 0.8 is enough to keep sheets apart, except in a few places.
     return cloth_on_ball(even_shares(triangles - ball, 3), 70, 0.8, ball, frames);
 }
 
@@ -143,7 +143,7 @@ Scene make_cloth_dress(uint triangles, uint frames)
 
     ClothSettings settings;
     settings.drag = 1;
-    settings.apart = 0.5;  // layers are sewn on closer than cells are wide
+    settings.apart = 0.5;  // layers are attached closer to each other than the width of a cell
     Stage stage{Cloth(settings), {&body, &floor}};
     Cloth& cloth = stage.cloth;
     stage.show("body", make_sheet(body_triangles, 0.7, true), body);
@@ -167,7 +167,7 @@ Scene make_cloth_dress(uint triangles, uint frames)
     });
 }
 
-// The ball goes down at one speed, through the neck and almost to the floor; the cloth is in between.
+// The ball moves down at constant speed, through the neck and almost to the floor, with the cloth between ball and funnel.
 Scene make_cloth_funnel(uint triangles, uint frames)
 {
     const Floor floor;

@@ -19,7 +19,7 @@ double box_diagonal(const std::vector<Point>& points, const std::vector<Face>& f
     return length(difference({box.max_x, box.max_y, box.max_z}, {box.min_x, box.min_y, box.min_z}));
 }
 
-/// b of where `x` is between `low` and `high`; 0 where they are one.
+/// Returns b of the position of `x` between `low` and `high`; 0 if the two are equal.
 double bump(double x, double low, double high)
 {
     if (!(high > low))
@@ -117,7 +117,7 @@ Scene with_frames_between(Scene scene, uint between)
     }
     scene.frames = std::move(all);
     scene.frame_labels = std::move(labels);
-    scene.folder.clear();  // whose frames are further apart
+    scene.folder.clear();  // the folder's frames are further apart
     return finished(std::move(scene));
 }
 

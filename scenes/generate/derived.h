@@ -1,42 +1,40 @@
 // SPDX-License-Identifier: MIT
 //
-// Scenes made of another one. The caller makes them `finished`, but for `with_frames_between`.
+// Scenes derived from another scene. The caller calls `finished` on the results, except for `with_frames_between`.
 #pragma once
 
 #include "scenes/scene.h"
 
 namespace bvhbench {
 
-/// `scene` with exactly `triangles` triangles: its longest edge (in the first frame) is cut in the middle,
-/// and with it every triangle at that edge, until there are enough. The surface stays where it is. The last
-/// cut may be of some of an edge's triangles only and then leaves a vertex on the edge of another.
+/// Returns `scene` with exactly `triangles` triangles. The longest edge (in the first frame) is cut at its middle, together
+/// with every triangle at that edge, until there are enough triangles. The surface does not change. The last cut may split only
+/// some of the triangles at an edge and then leaves a vertex on the edge of the others.
 ///
-/// All frames are cut alike; objects stay together. Throws BadUsage when the scene has more triangles.
+/// All frames are cut in the same way; objects stay contiguous. Throws BadUsage if the scene has more triangles.
 Scene refined(Scene scene, uint triangles);
 
-/// `scene` with one triangle cut loose and moved by `diameters` times the diagonal of the scene's box, along the
-/// triangle's own normal (the paper's Fig. 12). The others stay where they are, and so does the order of all.
+/// Returns `scene` with one triangle detached and moved by `diameters` times the diagonal of the scene's box, along the
+/// triangle's normal (the paper's Fig. 12). All other triangles and the order of triangles are unchanged.
 ///
-/// In every frame by that frame's box and normal. The triangle gets three vertices of its own, so that its
-/// neighbours are not stretched. Throws BadUsage when there is no such triangle or it has no normal.
+/// Every frame uses its own box and normal. The triangle gets three new vertices, so that its neighbours are not stretched.
+/// Throws BadUsage if there is no such triangle or it has no normal.
 Scene with_outlier(Scene scene, uint triangle, double diameters);
 
-/// `scene`, which has one frame, with a second one in which it is bent: what moves smoothly, for scenes that do
-/// not move.
+/// Returns `scene`, which has one frame, with a second frame in which it is bent: a smooth motion for scenes without motion.
 ///
-/// With u, v, w a point's place in the box of all points, each from 0 to 1, and b(t) = 4t(1 - t), the point moves
-/// by b(v), b(w), b(u) along x, y, z, times 1/32 of the box's longest side. In double and without a function
-/// that IEEE 754 does not fix, so the same on every machine.
-/// Throws BadUsage when the scene has frames to move by.
+/// With u, v, w the position of a point in the box of all points, each from 0 to 1, and b(t) = 4t(1 - t), the point moves by
+/// b(v), b(w), b(u) along x, y, z, times 1/32 of the box's longest side. Computed in doubles with operations defined by IEEE
+/// 754 only, hence the same on every machine. Throws BadUsage if the scene has more than one frame.
 Scene with_bend(Scene scene);
 
-/// `scene` with `between` more frames after each but the last, every vertex on the straight way from one to the
-/// next: V(t) = (1 - t) V0 + t V1 at t = k / (between + 1), in double, rounded to float once. The frames that
-/// were there stay as they are, bit for bit. The scene is finished again; its name stays.
+/// Returns `scene` with `between` frames inserted after each frame but the last. Every vertex moves linearly from one frame to
+/// the next: V(t) = (1 - t) V0 + t V1 at t = k / (between + 1), in doubles, rounded to float once. The original frames are
+/// unchanged, bit for bit. The result is finished and keeps its name.
 ///
-/// What turns goes straight too and is a little smaller between two frames than in them: a rigid object is not
-/// rigid there. Swept-volume tests of such data assume the same motion.
-/// Throws BadUsage when the scene has one frame and `between` is not 0, Unavailable when memory is too small.
+/// A rotating object also moves linearly and is slightly smaller in the inserted frames, so a rigid object is not rigid there.
+/// Swept-volume tests of such data assume the same motion. Throws BadUsage if the scene has one frame and `between` is not 0,
+/// Unavailable if there is not enough memory.
 Scene with_frames_between(Scene scene, uint between);
 
 }  // namespace bvhbench

@@ -7,9 +7,9 @@
 namespace bvhbench {
 namespace {
 
-// Vectors here hold whole numbers of no more than a few thousand: all arithmetic is exact.
+// Vectors in this file hold whole numbers up to a few thousand, so all arithmetic is exact.
 
-/// Each coordinate from -size to size.
+/// Returns a vector with coordinates from -size to size.
 Vector any_whole(Dice& dice, int size)
 {
     const double x = dice.between(-size, size), y = dice.between(-size, size);
@@ -22,12 +22,12 @@ Vector any_flat(Dice& dice, int size)
     return {x, static_cast<double>(dice.between(-size, size)), 0};
 }
 
-/// Of a vector whose coordinates are multiples of `by`.
+/// Divides a vector whose coordinates are multiples of `by`.
 Vector divided(Vector a, double by) { return {a.x / by, a.y / by, a.z / by}; }
 
 using SixVectors = std::array<Vector, 6>;
 
-/// In space, the corners of each triangle in any order, either triangle first.
+/// Returns the triangles in space, the corners of each in random order, either triangle first.
 SixPoints stored_in_any_order(SixVectors six, Dice& dice)
 {
     for (const std::size_t at : {0u, 3u}) {
@@ -41,7 +41,7 @@ SixPoints stored_in_any_order(SixVectors six, Dice& dice)
     return points;
 }
 
-/// From the plane z = 0 to the one of coplanar_six.
+/// Maps points from the plane z = 0 to the plane of coplanar_six.
 SixPoints raised(SixPoints six)
 {
     for (Point& p : six)
@@ -51,7 +51,7 @@ SixPoints raised(SixPoints six)
 
 double area(Vector a, Vector b, Vector c) { return cross(b - a, c - a).z; }
 
-/// Three points of the plane z = 0, multiples of `step`, with area.
+/// Returns a triangle with positive area in the plane z = 0 whose coordinates are multiples of `step`.
 std::array<Vector, 3> flat_triangle(Dice& dice, int size, int step)
 {
     std::array<Vector, 3> three;
@@ -82,7 +82,7 @@ SixPoints lattice_six(Dice& dice, uint cells)
 
 SixPoints coplanar_six(Dice& dice) { return raised(lattice_six(dice, 8)); }
 
-/// The first one's centroid is that of the second, too: inside of both.
+/// The first triangle's centroid is also that of the second, hence inside both.
 SixPoints coplanar_overlapping_six(Dice& dice)
 {
     const auto [a, b, c] = flat_triangle(dice, 7, 3);
@@ -96,7 +96,7 @@ SixPoints coplanar_overlapping_six(Dice& dice)
     return raised(stored_in_any_order({a, b, c, centroid + u, centroid + v, centroid + w}, dice));
 }
 
-/// A corner on an edge of the first, the others not on that one's side of it.
+/// One corner of the second lies on an edge of the first; its other corners are not on the first's side of that edge.
 SixPoints coplanar_touching_six(Dice& dice)
 {
     const auto [a, b, c] = flat_triangle(dice, 7, 4);
@@ -111,7 +111,7 @@ SixPoints coplanar_touching_six(Dice& dice)
     return raised(stored_in_any_order({a, b, c, on_edge, second, beyond()}, dice));
 }
 
-/// On two sides of a strip of the lattice, which is then sheared.
+/// The triangles lie on different sides of a strip of the lattice, which is then sheared.
 SixPoints coplanar_disjoint_six(Dice& dice)
 {
     SixVectors six;
@@ -124,7 +124,7 @@ SixPoints coplanar_disjoint_six(Dice& dice)
     return raised(stored_in_any_order(six, dice));
 }
 
-/// The second is the first one, shrunk to a half or a quarter around its centroid.
+/// The second triangle is the first, shrunk to a half or a quarter around its centroid.
 SixPoints coplanar_nested_six(Dice& dice)
 {
     const auto [a, b, c] = flat_triangle(dice, 7, 12);
@@ -134,7 +134,7 @@ SixPoints coplanar_nested_six(Dice& dice)
     return raised(stored_in_any_order({a, b, c, within(a), within(b), within(c)}, dice));
 }
 
-/// A step of the largest height, so that all three are lifted by as much.
+/// Adds one float step of the largest height, so that all three corners are raised by the same amount.
 SixPoints parallel_planes_six(Dice& dice)
 {
     SixPoints six = coplanar_six(dice);
@@ -180,7 +180,7 @@ SixPoints vertex_on_face_six(Dice& dice)
         c = 4 * any_whole(dice, 8);
         normal = cross(b - a, c - a);
     } while (dot(normal, normal) == 0);
-    // Weights 2, 1, 1 of four, in any order of corners.
+    // Weights 2, 1, 1 of four, assigned to the corners in random order.
     const Vector sum = a + b + c;
     const std::array<Vector, 3> weighed = {sum + a, sum + b, sum + c};
     const Vector four = weighed[dice.below(3)];
@@ -227,7 +227,7 @@ SixPoints degenerate_six(Dice& dice)
             case 1:
                 six[at + 1] = six[at + 2] = six[at];
                 break;
-            case 2:  // three in a line
+            case 2:  // three collinear corners
                 six[at + 2] = 2 * six[at + 1] - six[at];
                 break;
             default:

@@ -8,15 +8,15 @@
 
 namespace bvhbench {
 
-/// Collects what moves and where it is at each frame.
+/// Collects moving meshes and records their positions at each frame.
 class Film {
 public:
-    /// Where a point of the mesh is now.
+    /// Returns the current position of a point of the mesh.
     using Place = std::function<Vector(Point)>;
     void add(std::string name, Mesh mesh, Place place);
 
-    /// The scene of `frames` moments, equally far apart, of `steps` steps; the last is after the last step. The
-    /// same steps whatever the number of frames. `advance` is told how many were made.
+    /// Returns a scene of `frames` frames at equal intervals within `steps` steps; the last frame is after the last step. The
+    /// steps do not depend on the number of frames. `advance` gets the number of steps made so far.
     Scene shoot(uint frames, uint steps, const std::function<void(uint step)>& advance) const;
 
 private:
@@ -28,11 +28,11 @@ private:
     std::vector<Actor> actors_;
 };
 
-/// `total` shared among `parts` as evenly as can be, each share but the last even if there are two for each: a
-/// closed surface has an even number of triangles.
+/// Divides `total` among `parts` as evenly as possible. Each share but the last is even if there are at least two for each,
+/// because a closed surface has an even number of triangles.
 std::vector<uint> even_shares(uint total, uint parts);
 
-/// `share` of `total`, even, at least 1 and such that `rest` are left.
+/// Returns about `share` of `total` as an even number, clamped to at least 1 and such that at least `rest` remain.
 uint even_part(uint total, double share, uint rest);
 
 }  // namespace bvhbench

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Meshes and moving scenes of exactly N triangles. All are deterministic: the same N gives the same scene. What uses sin and
-// cos (torus, sphere) may differ in a last bit between C libraries; the others use only +, -, *, / and
-// square root, which IEEE 754 fixes.
+// Generators of meshes and moving scenes with exactly N triangles. All are deterministic: the same N gives the same scene. The
+// torus and the sphere use sin and cos and may differ in the last bit between C libraries; the others use only +, -, *, / and
+// square root, which IEEE 754 defines.
 #pragma once
 
 #include <span>
@@ -13,71 +13,71 @@
 
 namespace bvhbench {
 
-/// A bumpy torus, an evenly tessellated closed surface: the usual stand-in for a scanned model.
-/// Vertices at the two seams are not shared.
+/// A bumpy torus, an evenly tessellated closed surface: the usual stand-in for a scanned model. Vertices at the two seams are
+/// not shared.
 Mesh make_torus(uint triangles);
 
-/// A sphere of rings of nearly equal triangles; closed when `triangles` is even and at least 6.
+/// A sphere of rings of nearly equal triangles; closed if `triangles` is even and at least 6.
 Mesh make_sphere(uint triangles);
 
 /// A flat sheet in z = 0: boxes without volume that touch exactly.
 Mesh make_grid(uint triangles);
 
-/// A ball of long thin curling strands: boxes overlap far more than triangles do.
+/// A ball of long thin curling strands: many more boxes overlap than triangles do.
 Mesh make_hairball(uint triangles);
 
-/// Small random triangles in the unit cube that share no vertices. `triangles` <= 2^32 / 3.
+/// Small random triangles in the unit cube without shared vertices. `triangles` <= 2^32 / 3.
 Mesh make_soup(uint triangles);
 
-/// A sheet of exactly `triangles` over the unit square, its points at (u, v, 0): about `aspect` times as many
-/// quads along u as along v, cut in two each, row by row; the last row may stop before its end. `closed`: what
-/// is at u = 1 is at u = 0. Every point is a corner of some triangle.
+/// A sheet of exactly `triangles` triangles over the unit square, with points at (u, v, 0): about `aspect` times as many quads
+/// along u as along v, two triangles each, row by row; the last row may be incomplete. `closed`: the points at u = 1 are those
+/// at u = 0. Every point is a corner of some triangle.
 Mesh make_sheet(uint triangles, double aspect, bool closed);
 
-/// Puts `part` behind what `mesh` holds.
+/// Appends `part` to `mesh`.
 void append(Mesh& mesh, const Mesh& part);
 
-// Scenes over time: objects that move, simulated. What cloth does is simulated with as many particles as N asks for, up to
-// some ten thousand; finer meshes are points of the smooth surface through these. So the motion is nearly the same whatever
-// N is, and its cost is bounded.
+// Moving scenes: simulations of moving objects. Cloth is simulated with as many particles as N requires, up to about ten
+// thousand; finer meshes are sampled from the smooth surface through the particles. The motion is therefore nearly the same for
+// every N, and its cost is bounded.
 
-/// A square cloth falls on a ball that begins to turn, on a floor. Objects: cloth, ball.
+/// A square cloth falls on a ball that stands on a floor and begins to turn. Objects: cloth, ball.
 Scene make_cloth_ball(uint triangles, uint frames);
 
-/// Nine skirts, three layers at each of three heights, round a dancer who turns. Objects: body, nine skirts.
+/// Nine skirts, three layers at each of three heights, around a turning dancer. Objects: body, nine skirts.
 Scene make_cloth_dress(uint triangles, uint frames);
 
 /// A ball pushes a square cloth through a funnel. Objects: cloth, funnel, ball, floor.
 Scene make_cloth_funnel(uint triangles, uint frames);
 
-/// Three square cloths, one above the other, fall on a ball that turns. Objects: three cloths, ball.
+/// Three square cloths, stacked vertically, fall on a turning ball. Objects: three cloths, ball.
 Scene make_cloth_layers(uint triangles, uint frames);
 
-/// 305 balls fall to their common centre, bounce, and stay there in a heap, each turning as it goes.
+/// 305 balls fall to their common centre, bounce, and stay there in a heap. Each of them rotates.
 Scene make_n_body(uint triangles, uint frames);
 constexpr uint n_body_count = 305;
 
-/// Two spheres turn while one sinks into the other, until a twentieth of each surface is inside.
+/// Two spheres rotate while one sinks into the other, until a twentieth of each surface is inside the other.
 Scene make_two_spheres(uint triangles, uint frames);
 
-/// A generator by name, as "torus:N", or "cloth-ball:N:F" of those that move.
+/// A generator by name: "torus:N", or "cloth-ball:N:F" for moving scenes.
 struct Generator {
     static constexpr uint usual_frames = 16, most_frames = 1000;
 
     std::string_view name;
     Scene (*make)(uint triangles, uint frames);
     bool moves;
-    uint least;             ///< triangles: one for each object
-    uint most;              ///< triangles, so that vertex indices fit 32 bits
-    uint bytes_a_triangle;  ///< of memory, about, and
-    uint bytes_a_frame;     ///< a triangle
+    uint least;  ///< minimum number of triangles: one per object
+    uint most;   ///< maximum number of triangles, such that vertex indices fit in 32 bits
+    uint bytes_a_triangle;  ///< approximate memory per triangle, and
+    uint bytes_a_frame;     ///< memory per triangle and frame
     std::string_view summary;
 };
 
-/// All generators: those of one frame first.
+/// Returns all generators, those of one frame first.
 std::span<const Generator> generators();
 
-/// nullptr if no generator is called so.
+/// Returns the generator with this name; nullptr if there is none.
 const Generator* generator_called(std::string_view name);
 
 }  // namespace bvhbench

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// After the hairball of the McGuire archive: 2.88 million triangles in long thin tubes that curl inside a
-// sphere. A strand is a tube of three sides, `segments` long, six triangles a segment:
+// Modelled on the hairball of the McGuire archive: 2.88 million triangles in long thin tubes that curl inside a sphere. A
+// strand is a tube with three sides and `segments` segments of six triangles each:
 //
 //     root ring   A0 B0 C0      on a small inner sphere
-//                 A1 B1 C1      each step turns a little and moves on
-//                 ...           a strand that nears the outer sphere is turned inwards
+//                 A1 B1 C1      each step turns the direction slightly and advances
+//                 ...           a strand near the outer sphere is turned inwards
 #include <algorithm>
 #include <cmath>
 
@@ -27,7 +27,7 @@ Point normalised(Point a)
     return size > 0 ? Point{a.x / size, a.y / size, a.z / size} : Point{1, 0, 0};
 }
 
-/// Some unit vector across `direction`, the same for the same direction.
+/// Returns a unit vector perpendicular to `direction`, always the same for the same direction.
 Point across(Point direction)
 {
     const Point helper = std::fabs(direction.x) < 0.9f ? Point{1, 0, 0} : Point{0, 1, 0};
@@ -56,8 +56,8 @@ void add_strand(Mesh& mesh, Random& random, uint segment_count)
 {
     Point direction = normalised(random.in_ball());
     Point centre = root_radius * direction;
-    const Point axis = normalised(random.in_ball());   // the strand's own curl is round this axis
-    const float curl = 0.15f + 0.35f * random.unit();  // radians a step, about
+    const Point axis = normalised(random.in_ball());   // axis of the strand's curl
+    const float curl = 0.15f + 0.35f * random.unit();  // radians per step, approximately
     add_ring(mesh, centre, direction);
     for (uint k = 0; k < segment_count; ++k) {
         direction = direction + curl * cross(axis, direction);
@@ -81,7 +81,7 @@ Mesh make_hairball(uint triangles)
     mesh.faces.reserve(std::size_t{triangles} + 6);
     mesh.points.reserve(std::size_t{triangles} / 2 + triangles / (2 * segments) + 6);
     for (uint strand = 0; mesh.faces.size() < triangles; ++strand) {
-        Random random(strand);  // a strand is the same whatever N is
+        Random random(strand);  // a strand does not depend on N
         const std::size_t missing = triangles - mesh.faces.size();
         const std::size_t length = std::min<std::size_t>(segments, (missing + 5) / 6);
         add_strand(mesh, random, static_cast<uint>(length));

@@ -10,11 +10,11 @@
 namespace bvhbench {
 namespace {
 
-/// The triangles of a sheet of quads, row by row, `wide` of them a row and `stride` vertices; exactly so many.
+/// Returns the first `triangles` triangles of a sheet of quads, row by row, with `wide` quads and `stride` vertices per row.
 ///
 ///     C---D    A B D and A D C of each quad
 ///     | / |
-///     A---B    behind the last vertex of a row is its first
+///     A---B    the vertex after the last one of a row is the first of that row
 std::vector<Face> sheet_faces(uint triangles, std::size_t wide, std::size_t stride)
 {
     std::vector<Face> faces;
@@ -31,7 +31,7 @@ std::vector<Face> sheet_faces(uint triangles, std::size_t wide, std::size_t stri
     return faces;
 }
 
-/// A sheet of w x h quads whose vertex (i, j) of 0..w x 0..h is at position(i, w, j, h).
+/// Returns a sheet of w x h quads with vertex (i, j) of 0..w x 0..h at position(i, w, j, h).
 template <class Position>
 Mesh make_patch(uint triangles, Position position)
 {
@@ -47,14 +47,14 @@ Mesh make_patch(uint triangles, Position position)
     return mesh;
 }
 
-/// i / w and j / h.
+/// Returns the point (i / w, j / h, 0).
 Point place_in_sheet(std::size_t i, std::size_t w, std::size_t j, std::size_t h)
 {
     return {static_cast<float>(i) / static_cast<float>(w),
             static_cast<float>(j) / static_cast<float>(h), 0};
 }
 
-/// Points in the order of their first use, and none that is not used.
+/// Removes unused points and orders the others by their first use.
 void drop_unused(Mesh& mesh)
 {
     constexpr uint none = 0xffffffffu;
@@ -82,7 +82,7 @@ Step step_of(std::size_t part, std::size_t whole)
     return {angle, std::sin(angle), std::cos(angle)};
 }
 
-/// The smallest k with k^3 >= count: 1/k is the side of a cube that holds one triangle on average.
+/// Returns the smallest k with k^3 >= count: a cube of side 1/k holds one triangle on average.
 uint cells_per_side(uint count)
 {
     std::uint64_t side = 1;
@@ -93,7 +93,7 @@ uint cells_per_side(uint count)
 
 }  // namespace
 
-// In double, stored as float: a = 2 pi i / w round the ring, b = 2 pi j / h round the tube,
+// Computed in doubles, stored as floats: a = 2 pi i / w around the ring, b = 2 pi j / h around the tube,
 // r = 0.4 + 0.05 sin(7a) cos(5b), at ((1 + r cos b) cos a, (1 + r cos b) sin a, r sin b).
 Mesh make_torus(uint triangles)
 {
@@ -125,12 +125,11 @@ void append(Mesh& mesh, const Mesh& part)
 
 Mesh make_grid(uint triangles) { return make_patch(triangles, place_in_sheet); }
 
-// A triangle's size shrinks with the cube root of their number, so each meets about as many others
-// whatever N is.
+// The size of triangles shrinks with the cube root of their number, so each overlaps about the same number of others for any N.
 Mesh make_soup(uint triangles)
 {
     const float size = 0.5f / static_cast<float>(cells_per_side(triangles));
-    const float room = 1.0f - 2.0f * size;  // centres keep corners inside the unit cube
+    const float room = 1.0f - 2.0f * size;  // keeps corners in the unit cube
     Random random(triangles);
     Mesh mesh;
     mesh.points.reserve(std::size_t{3} * triangles);
@@ -150,7 +149,7 @@ Mesh make_sheet(uint triangles, double aspect, bool closed)
     const std::size_t quads = (std::size_t{triangles} + 1) / 2;
     const auto wanted =
         static_cast<std::size_t>(std::sqrt(static_cast<double>(quads) * aspect) + 0.5);
-    const std::size_t least = closed ? 3 : 1;  // fewer round would name a point twice
+    const std::size_t least = closed ? 3 : 1;  // fewer would repeat a corner
     const std::size_t wide = std::max(least, std::min(wanted, quads));
     const std::size_t high = (quads + wide - 1) / wide;
     const std::size_t stride = closed ? wide : wide + 1;

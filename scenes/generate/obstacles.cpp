@@ -13,7 +13,7 @@ std::optional<Contact> Floor::contact(Vector at) const
 void Placement::advance(double seconds)
 {
     centre = centre + seconds * velocity;
-    const double half = 0.5 * seconds * spin;  // of the angle's tangent, which is near enough
+    const double half = 0.5 * seconds * spin;  // approximates the tangent of half the angle
     const double scale = 1 / (1 + half * half);
     const Turn by = {(1 - half * half) * scale, 2 * half * scale};
     const Turn next = {turn.cosine * by.cosine - turn.sine * by.sine,

@@ -8,39 +8,39 @@
 
 namespace bvhbench {
 
-/// How deep a point is in an obstacle, and how the obstacle moves there.
+/// Penetration of a point into an obstacle, and the obstacle's motion there.
 struct Contact {
-    Vector normal = {};  ///< of length 1, the way out
+    Vector normal = {};  ///< outward unit normal
     double depth = 0;
     Vector velocity = {};
 };
 
-/// Something hard that cloth lies on. All keep cloth `gap` away from their surface.
+/// A rigid obstacle for cloth. All obstacles keep cloth `gap` away from their surface.
 class Obstacle {
 public:
     static constexpr double gap = 0.003;
 
     virtual ~Obstacle() = default;
-    /// Nothing where `at` is outside.
+    /// Returns the contact at point `at`; nothing if the point is outside.
     virtual std::optional<Contact> contact(Vector at) const = 0;
 };
 
-/// Everything below height 0.
+/// The half-space below height 0.
 struct Floor : Obstacle {
     std::optional<Contact> contact(Vector at) const override;
 };
 
-/// Where an obstacle is and how it moves: it may turn about the vertical line through its centre.
+/// Position and motion of an obstacle, which may rotate about the vertical line through its centre.
 struct Placement {
     Vector centre = {};
     Vector velocity = {};
-    double spin = 0;  ///< radians a second, from z to x
-    Turn turn;        ///< how far it has turned
+    double spin = 0;  ///< radians per second, from z to x
+    Turn turn;        ///< current rotation
 
-    /// Moves on by `seconds`; the turn by a rational step, which only sqrt has to set right.
+    /// Advances by `seconds`. The rotation step uses rational functions; only its normalisation needs sqrt.
     void advance(double seconds);
     Vector velocity_at(Vector at) const;
-    /// Where a point of the thing goes that is at `local` from an unturned centre.
+    /// Returns the position of the point that is at `local` from the centre without rotation.
     Vector place(Vector local) const { return centre + turned(local, turn); }
 };
 
@@ -50,16 +50,16 @@ struct Ball : Obstacle {
     std::optional<Contact> contact(Vector at) const override;
 };
 
-/// A profile turned about its vertical line: solid inside, or a wall that keeps cloth inside.
+/// Surface of revolution of a profile about its vertical axis: a solid body, or a wall that keeps cloth inside.
 struct Lathe : Obstacle {
     struct Ring {
         double radius, height;
     };
     Placement placement;
-    std::vector<Ring> profile;  ///< upwards
+    std::vector<Ring> profile;  ///< from bottom to top
     bool is_wall = false;
     std::optional<Contact> contact(Vector at) const override;
-    /// The radius at `height` and how it changes with it; nothing above and below.
+    /// Returns the radius at `height` and its derivative; nothing above and below the profile.
     std::optional<std::pair<double, double>> radius_at(double height) const;
 };
 

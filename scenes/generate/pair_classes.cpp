@@ -12,18 +12,18 @@
 namespace bvhbench {
 namespace {
 
-// Of most classes nobody knows beforehand which pairs meet: their coordinates are rounded as they come.
+// For most classes it is not known beforehand which pairs meet, because their coordinates are rounded without control.
 
 constexpr float Point::*axes[] = {&Point::x, &Point::y, &Point::z};
 
 Point beside(Point p, Dice& dice) { return p + 1e-6f * dice.point(); }
 
-/// Where p is if seen from the other side of `centre`.
+/// Returns p reflected through `centre`.
 Point through(Point centre, Point p) { return 2 * centre - p; }
 
 Point between(Point a, Point b, float t) { return a + t * (b - a); }
 
-/// `x`, so many floats further, towards minus infinity if negative.
+/// Returns `x` moved by `steps` floats, towards minus infinity if negative.
 float some_steps(float x, int steps)
 {
     constexpr float end = std::numeric_limits<float>::infinity();
@@ -122,7 +122,7 @@ SixPoints flat_and_small_six(Dice& dice)
 
 using Six = std::function<SixPoints(Dice&)>;
 
-/// The points of `six` by `change(Point) -> Point`.
+/// Returns `six` with `change(Point) -> Point` applied to each point.
 template <class Change>
 Six changed(Six six, Change change)
 {
@@ -196,7 +196,7 @@ std::vector<PairClass> all_classes()
         {"small_and_denormal", "near_touching times 1e-37", scaled_six(near_touching_six, 1e-37f)},
         {"largest", "near_touching times 3.4e38", scaled_six(near_touching_six, 3.4e38f)},
     };
-    // Among them those whose products of three floats are where floats end, at either end.
+    // Includes scales at which products of three floats reach the limits of the float range, at both ends.
     for (const auto& [name, scale] : {std::pair{"1e-30", 1e-30f},
                                       {"1e-20", 1e-20f},
                                       {"1e-16", 1e-16f},

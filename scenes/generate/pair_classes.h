@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Pairs of triangles that are hard to tell apart, each class in its own way: what a narrow phase is held to.
+// Classes of triangle pairs that are difficult test cases for a narrow phase.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace bvhbench {
 
-/// Random numbers that are the same everywhere: the standard's distributions are not.
+/// Random numbers that are the same on every machine, unlike the distributions of the standard library.
 class Dice {
 public:
     explicit Dice(uint seed) : engine_(seed) {}
@@ -39,10 +39,10 @@ private:
     std::mt19937 engine_;
 };
 
-/// Corners of a pair of triangles, none shared by index: three of the first, three of the second.
+/// Corners of a pair of triangles without shared indices: three of the first, then three of the second.
 using SixPoints = std::array<Point, 6>;
 
-/// What the way in which a class is made promises, exactly, of the coordinates as stored.
+/// Which pairs of a class meet by construction, exactly for the coordinates as stored: unknown (some), all, or none.
 enum class Meeting { some, all, none };
 
 struct PairClass {
@@ -52,13 +52,13 @@ struct PairClass {
     Meeting meeting = Meeting::some;
 };
 
-/// Every class, in the order tables list them.
+/// Returns all classes, in the order of tables.
 std::span<const PairClass> pair_classes();
 
-/// By name. Throws BadUsage with the known names when there is none.
+/// Returns the class called `name`. Throws BadUsage, listing the known names, if there is none.
 const PairClass& find_pair_class(std::string_view name);
 
-/// `count` pairs of a class that share no index: pair k is faces 2k and 2k + 1. The same for a seed on every machine.
+/// Returns `count` pairs of a class without shared indices: pair k is faces 2k and 2k + 1. The result depends on `seed` only.
 Mesh apart_pairs(const PairClass& of, uint count, uint seed);
 
 }  // namespace bvhbench

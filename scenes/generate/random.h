@@ -7,8 +7,8 @@
 
 namespace bvhbench {
 
-/// SplitMix64 (Steele, Lea, Flood: "Fast Splittable Pseudorandom Number Generators"). The same numbers on
-/// every machine, unlike the distributions of the standard library.
+/// SplitMix64 (Steele, Lea, Flood: "Fast Splittable Pseudorandom Number Generators"). Gives the same numbers on every machine,
+/// unlike the distributions of the standard library.
 class Random {
 public:
     explicit Random(std::uint64_t seed) : state_(seed) {}
@@ -22,13 +22,13 @@ public:
         return mixed ^ (mixed >> 31);
     }
 
-    /// In [0, 1), a multiple of 2^-24: exact in float.
+    /// Returns a multiple of 2^-24 in [0, 1), exact in float.
     float unit() { return static_cast<float>(bits() >> 40) * 0x1p-24f; }
 
-    /// In [-1, 1).
+    /// Returns a number in [-1, 1).
     float symmetric() { return 2.0f * unit() - 1.0f; }
 
-    /// In the unit ball and not at its centre, by rejection.
+    /// Returns a point in the unit ball, not at its centre, by rejection sampling.
     Point in_ball()
     {
         while (true) {

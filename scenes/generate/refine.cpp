@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// Cutting an edge at its middle m, in each of its triangles:
+// Cuts an edge at its middle m, in each of its triangles:
 //
 //          w                 w            a-m keeps the number of the old edge, m-b and m-w are new,
 //         / \               /|\           b-w moves from the old triangle to the new one
 //        /   \      =>     / | \          .
 //       a-----b           a--m--b         (a, b, w) becomes (a, m, w) and (m, b, w)
 //
-// Half-edge 3f + k is the side of triangle f from its corner k to the next. Half-edges of one edge form a
-// ring through `next_in_ring_`; meshes may have any number of triangles at an edge.
+// Half-edge 3f + k is the side of triangle f from its corner k to the next corner. The half-edges of one edge form a circular
+// list through `next_in_ring_`; any number of triangles may share an edge.
 #include "scenes/generate/derived.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@
 namespace bvhbench {
 namespace {
 
-/// A vertex in the middle of two others.
+/// A vertex in the middle between two others.
 struct Middle {
     uint a, b;
 };
@@ -52,15 +52,15 @@ public:
             cut_longest();
     }
 
-    std::vector<uint> corners_;    ///< three a triangle
-    std::vector<uint> origin_;     ///< per triangle, the one of the scene that it is a part of
-    std::vector<Middle> middles_;  ///< the new vertices in order
+    std::vector<uint> corners_;    ///< three per triangle
+    std::vector<uint> origin_;     ///< for each triangle, the scene's triangle that it is a part of
+    std::vector<Middle> middles_;  ///< the new vertices, in order
 
 private:
     struct Candidate {
         float length;
         uint edge;
-        bool operator<(const Candidate& other) const  // the top of the queue is the greatest
+        bool operator<(const Candidate& other) const  // the top is the greatest
         {
             return length != other.length ? length < other.length : edge > other.edge;
         }
@@ -89,7 +89,7 @@ private:
         for (std::size_t first = 0, last = 0; first < sides.size(); first = last) {
             ring_.clear();
             for (last = first; last < sides.size() && sides[last].ends == sides[first].ends; ++last)
-                // A triangle with a repeated corner has an edge twice: its sides stay apart.
+                // A triangle with a repeated corner contains an edge twice; each of its sides becomes a separate edge.
                 if (is_proper(sides[last].half / 3))
                     ring_.push_back(sides[last].half);
                 else
@@ -138,7 +138,7 @@ private:
             ring_.push_back(half);
         while ((half = next_in_ring_[half]) != half_of_[edge]);
         if (ring_.size() > triangles_ - origin_.size())
-            ring_.resize(triangles_ - origin_.size());  // the last cut: nothing follows it
+            ring_.resize(triangles_ - origin_.size());  // last cut: no more than needed
         cut_ring(edge);
     }
 
@@ -159,7 +159,7 @@ private:
         make_spokes();
     }
 
-    /// (u, v, w) of side u-v becomes (u, m, w), in place, and (m, v, w).
+    /// Splits (u, v, w) at side u-v into (u, m, w), in place, and (m, v, w).
     void cut_triangle(uint side, uint m, bool starts_at_a)
     {
         const uint to_w = following(side), from_w = following(to_w);
@@ -175,7 +175,7 @@ private:
         spokes_.push_back({corners_[from_w], to_w, fresh + 2});
     }
 
-    /// The side v-w is now half-edge `to` of the new triangle.
+    /// Makes the side v-w half-edge `to` of the new triangle.
     void move_side(uint from, uint to)
     {
         uint before = from;
@@ -187,7 +187,7 @@ private:
         half_of_[edge_[to]] = to;
     }
 
-    /// The new edges m-w, one for each w: two triangles may have the same three corners.
+    /// Makes the new edges m-w, one per w. Two triangles may have the same three corners.
     void make_spokes()
     {
         std::sort(spokes_.begin(), spokes_.end());
@@ -206,11 +206,11 @@ private:
     std::vector<uint> edge_;                   ///< per half-edge
     std::vector<uint> half_of_;                ///< per edge, one of its half-edges
     std::priority_queue<Candidate> queue_;     ///< every edge, once
-    std::vector<uint> ring_, at_a_, at_b_;     // reused from cut to cut
+    std::vector<uint> ring_, at_a_, at_b_;     // reused by all cuts
     std::vector<std::array<uint, 3>> spokes_;  ///< w and the two half-edges
 };
 
-/// The parts of each triangle of the old scene follow each other, in its order: objects stay together.
+/// Sorts the new triangles by the old triangle that they are a part of, so that objects stay contiguous.
 std::vector<Face> in_order(const Refiner& refiner, std::vector<uint>& parts, std::size_t old_count)
 {
     parts.assign(old_count + 1, 0);
@@ -239,7 +239,7 @@ Scene refined(Scene scene, uint triangles)
     std::vector<uint> first_part;
     const std::size_t old_count = scene.faces.size();
     scene.faces = in_order(refiner, first_part, old_count);
-    scene.file_faces.clear();  // of triangles that are there no more
+    scene.file_faces.clear();  // the numbers refer to the old triangles
     for (SceneObject& object : scene.objects) {
         const uint last = object.first_face + object.face_count;
         object.first_face = first_part[object.first_face];

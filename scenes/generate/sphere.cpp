@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// A closed triangulated sphere of V vertices has 2V - 4 triangles. Two are the poles; the other S lie on
-// rings, and stitching a ring of n to one of m takes n + m triangles:
+// A closed triangulated sphere with V vertices has 2V - 4 triangles. Two vertices are the poles; the other S lie on rings, and
+// stitching a ring of n vertices to one of m takes n + m triangles:
 //
 //        pole          n_1 triangles
 //       * * *          n_1 + n_2
 //      * * * * *       n_2 + n_3
 //       * * * *        n_3
-//        pole          sum: 2 S, whatever the sizes of the rings
+//        pole          sum: 2 S, for any sizes of the rings
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -23,7 +23,7 @@ struct Ring {
     uint count = 0;
 };
 
-/// Shares `total` vertices among `rings` rings in proportion to their lengths, at least 3 each.
+/// Distributes `total` vertices among `rings` rings in proportion to their lengths, at least 3 each.
 std::vector<Ring> share(std::size_t total, std::size_t rings)
 {
     std::vector<double> length(rings);
@@ -63,7 +63,7 @@ void place(Mesh& mesh, const std::vector<Ring>& rings)
     mesh.points.push_back({0, 0, -1});
 }
 
-/// Walks round both rings at once and always advances the one that is behind.
+/// Advances along both rings at once and always on the ring that is behind.
 void stitch(Mesh& mesh, Ring upper, Ring lower)
 {
     uint i = 0, j = 0;
@@ -108,7 +108,7 @@ Mesh make_sphere(uint triangles)
     for (std::size_t k = 0; k + 1 < rings.size(); ++k)
         stitch(mesh, rings[k], rings[k + 1]);
     cap(mesh, static_cast<uint>(mesh.points.size() - 1), rings.back(), false);
-    mesh.faces.resize(triangles);  // one fewer when odd; the first few of six when below six
+    mesh.faces.resize(triangles);  // one fewer if odd; the first few of six if below six
     return mesh;
 }
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Arithmetic of points (floats) and of vectors (doubles), for what is simulated before it is rounded to float once. Only
-// operations that IEEE 754 fixes: a simulation that called sin would come out otherwise with another C library, by far
-// more than a last bit.
+// Arithmetic of points (floats) and vectors (doubles), for simulations whose results are rounded to float once. Only operations
+// that IEEE 754 defines are used: with sin, a simulation would differ between C libraries by far more than a last bit.
 #pragma once
 
 #include <cmath>
@@ -48,17 +47,17 @@ constexpr Point rounded(Vector a)
     return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
 }
 
-/// A point of the unit circle: the cosine and sine of an angle.
+/// A point on the unit circle: cosine and sine of an angle.
 struct Turn {
     double cosine = 1, sine = 0;
 };
 
-/// The point after `turns` full turns, to about 1e-15, the same on every machine.
+/// Returns the point after `turns` full turns, accurate to about 1e-15 and the same on every machine.
 inline Turn turn_of(double turns)
 {
     const double quarters = std::floor(4 * turns + 0.5);
     const double x =
-        1.5707963267948966 * (4 * turns - quarters);  // within an eighth of a turn of 0
+        1.5707963267948966 * (4 * turns - quarters);  // at most an eighth of a turn from 0
     const double s = x * x;
     double sine = 0, cosine = 0;  // Taylor to x^17 and x^18
     for (int k = 17; k >= 1; k -= 2) {
@@ -78,7 +77,7 @@ inline Turn turn_of(double turns)
     }
 }
 
-/// `a` turned about the y axis.
+/// Returns `a` rotated about the y axis.
 inline Vector turned(Vector a, Turn by)
 {
     return {by.cosine * a.x + by.sine * a.z, a.y, by.cosine * a.z - by.sine * a.x};

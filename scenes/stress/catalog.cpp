@@ -15,7 +15,7 @@ struct Named {
     double value;
 };
 
-// Where the numbers are: far from the origin, and of any size that a float can have. Pairs are exact for the floats that are
+// Families that vary coordinates: far from the origin, and of any size that floats represent. Pairs are exact for floats as
 // stored.
 
 std::vector<StressCase> translated_cases(const StressSize& size)
@@ -23,7 +23,7 @@ std::vector<StressCase> translated_cases(const StressSize& size)
     std::vector<StressCase> cases;
     for (const auto& [name, by] :
          {Named{"1", 1}, {"1e3", 1e3}, {"1e6", 1e6}, {"1e9", 1e9}, {"1e12", 1e12}}) {
-        const bool is_one_place = by > 1e7;  // floats are a unit apart, and more
+        const bool is_one_place = by > 1e7;  // floats are at least one unit apart
         const uint triangles = is_one_place ? size.crowded_triangles() : size.triangles();
         cases.push_back({name, [=, seed = size.seed, by = by] {
                              return changed(crossed_spheres(triangles, seed),
@@ -52,7 +52,7 @@ std::vector<StressCase> scaled_cases(const StressSize& size)
     return cases;
 }
 
-// Two spheres with vertices that are no places. A scene that is loaded never has any: `finished` refuses it.
+// Two spheres with some non-finite vertices. Loaded scenes never have any, because `finished` refuses them.
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -87,8 +87,8 @@ std::vector<StressCase> not_finite_cases(const StressSize& size)
              }}};
 }
 
-// How many triangles there are: at powers of two and beside them, where implicit layouts go wrong, and past 2^24, where
-// a float no longer tells a number from the next.
+// Families that vary the number of triangles: powers of two and their neighbours, where implicit layouts may fail, and more
+// than 2^24, where floats no longer represent every integer.
 
 std::vector<StressCase> counted_cases(const StressSize& size)
 {
@@ -105,9 +105,9 @@ std::vector<StressCase> counted_cases(const StressSize& size)
     return cases;
 }
 
-/// Sixteen rows of degenerate triangles, each over the next two of its row: pairs can be counted, and a sweep along the rows
-/// finds them soon however many there are. What is over goes into the last row: with a row more for it, the scene would have
-/// other bounds and so other codes, and fronts three times as large, too large for one piece of memory on PoCL.
+/// Returns sixteen rows of degenerate triangles, each overlapping the next two of its row: pairs can be counted, and a sweep
+/// along the rows finds them quickly for any number of triangles. The remainder is added to the last row: an additional row
+/// would change the bounds and so the codes, and fronts would be three times as large, too large for one allocation on PoCL.
 Mesh rows(uint triangles)
 {
     static constexpr uint row = 1u << 20, last = 15;

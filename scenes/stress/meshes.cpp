@@ -17,7 +17,7 @@ Mesh with_corners_of(uint triangles)
     return mesh;
 }
 
-/// All along one line, each over the next two.
+/// Returns triangles along one line, each overlapping the next two.
 Mesh collinear(uint triangles)
 {
     Mesh mesh = with_corners_of(triangles);
@@ -30,7 +30,7 @@ Mesh collinear(uint triangles)
     return mesh;
 }
 
-/// On few places, so that points, segments and triangles meet each other exactly.
+/// Returns triangles with corners on few lattice points, so that points, segments and triangles meet exactly.
 Mesh lattice(uint triangles, std::uint64_t seed)
 {
     Random random(seed);
@@ -43,16 +43,16 @@ Mesh lattice(uint triangles, std::uint64_t seed)
         corner[1] = corner[0] + Point{step(), step(), step()};
         corner[2] = corner[0] + Point{step(), step(), step()};
         if (k % 4 == 1)
-            corner[2] = corner[0];  // a segment with a name twice
+            corner[2] = corner[0];  // a segment: a repeated vertex index
         if (k % 4 == 2)
             corner[1] = corner[2] = corner[0];
-        if (k % 4 == 3)  // three in a line
+        if (k % 4 == 3)  // three collinear corners
             corner[2] = 2 * corner[1] - corner[0];
     }
     return mesh;
 }
 
-/// Triangles of a soup whose second and third corners all but coincide.
+/// Returns random triangles whose second and third corners nearly coincide.
 Mesh needles(uint triangles, std::uint64_t seed, float width)
 {
     Random random(seed);
@@ -74,7 +74,7 @@ Mesh moved(Mesh mesh, Point by)
     return mesh;
 }
 
-/// Sheets of `each` triangles on top of each other, `gap` apart, from `lowest` on.
+/// Returns a stack of sheets with `each` triangles each, `gap` apart, the first at `lowest`.
 Mesh stack(uint sheets, uint each, float lowest, float gap)
 {
     Mesh mesh;
@@ -83,17 +83,17 @@ Mesh stack(uint sheets, uint each, float lowest, float gap)
     return mesh;
 }
 
-/// Two stacks with their sheets between each other's.
+/// Returns two stacks whose sheets alternate.
 StressScene interleaved(const StressSize& size, float at, float gap)
 {
-    const bool is_one_plane = at + gap == at;  // then each triangle meets those of all sheets
+    const bool is_one_plane = at + gap == at;  // then all sheets overlap
     const uint sheets = size.quick || is_one_plane ? 4 : 16;
-    // If quick, half as many as elsewhere, a quarter of the pairs: almost all of them want exact sums.
+    // In quick mode half as many triangles as elsewhere, for a quarter of the pairs: almost all pairs need exact sums.
     const uint each = (size.quick ? size.triangles() / 2 : size.triangles()) / 2 / sheets;
     return together(stack(sheets, each, at, 2 * gap), stack(sheets, each, at + gap, 2 * gap));
 }
 
-/// Each triangle `times` times, the copies spread through the order.
+/// Returns each triangle `times` times, with the copies distributed over the order.
 Mesh repeated(const Mesh& mesh, uint times)
 {
     Mesh copies{mesh.points, {}};
@@ -115,7 +115,7 @@ StressScene with_far_triangle(uint triangles, double diameters)
 
 }  // namespace
 
-// Triangles without area, and triangles with hardly any.
+// Families of triangles with no area or almost none.
 
 std::vector<StressCase> degenerate_cases(const StressSize& size)
 {
@@ -146,7 +146,7 @@ std::vector<StressCase> needle_cases(const StressSize& size)
          }}};
 }
 
-// Meshes that lie in each other, or all but, and one that is far away.
+// Families of coplanar and coincident meshes, and of meshes with one triangle that is far away.
 
 std::vector<StressCase> coplanar_cases(const StressSize& size)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Scenes on which builders, colliders and libraries have failed, by families, one line each in the catalog. All are
-// generated, and the same for the same seed on every machine but for a last bit of sin and cos.
+// Scenes on which builders, colliders and libraries have failed, in families with one line each in the catalog. All are
+// generated and are the same for a seed on every machine, up to the last bit of sin and cos.
 #pragma once
 
 #include <cstdint>
@@ -15,29 +15,29 @@
 
 namespace bvhbench {
 
-/// How large scenes are to be, and which.
+/// Size of the scenes, and the seed that they are generated from.
 struct StressSize {
     bool quick = false;
     std::uint64_t seed = 1;
 
     uint triangles() const { return quick ? 300 : 5000; }
 
-    /// Where all pairs overlap.
+    /// Number of triangles in scenes in which all pairs overlap.
     uint crowded_triangles() const { return quick ? 120 : 300; }
 };
 
-/// Triangles of one or more objects, together all of them in order. Unlike a Scene it may hold what `finished` refuses.
+/// Triangles of one or more objects, which cover all triangles in order. Unlike a Scene, it may hold what `finished` refuses.
 struct StressScene {
     Mesh mesh;
     std::vector<FaceRange> objects;
 };
 
-/// A scene to be made: some of them are too large to be kept.
+/// A scene to be generated when needed, because some scenes are too large to be kept.
 struct StressCase {
-    std::string name;  ///< within its family, as "1e6"
+    std::string name;  ///< name within its family, such as "1e6"
     std::function<StressScene()> make;
     bool is_large =
-        false;  ///< past 2^24 triangles: only builders, and what is checked of them in parallel
+        false;  ///< more than 2^24 triangles: only builders are tested, with checks that run in parallel
 };
 
 struct StressFamily {
@@ -46,20 +46,19 @@ struct StressFamily {
     std::vector<StressCase> (*cases)(const StressSize& size);
 };
 
-/// All families, in the order tables list them.
+/// Returns all families, in the order of tables.
 std::span<const StressFamily> stress_families();
 
-/// Of one object.
+/// Returns a scene of one object.
 StressScene single(Mesh mesh);
 
-/// Of two objects, the second behind the first.
+/// Returns a scene of two objects, the second stored after the first.
 StressScene together(const Mesh& first, const Mesh& second);
 
-/// Two spheres of together so many triangles that lie across each other, of about one unit's size. How they lie
-/// depends on the seed.
+/// Returns two intersecting spheres of about unit size, `triangles` triangles in total. The seed determines their placement.
 StressScene crossed_spheres(uint triangles, std::uint64_t seed);
 
-/// Every coordinate by `change(double) -> double`, rounded to float once.
+/// Returns `scene` with every coordinate replaced by `change(double) -> double`, rounded to float once.
 template <class Change>
 StressScene changed(StressScene scene, const Change& change)
 {

@@ -38,7 +38,7 @@ std::vector<char*> pointers(std::vector<std::string>& words)
     return result;
 }
 
-/// `variables`, and those of this process's own that none of them names: of two of one name the first counts.
+/// Returns `variables`, followed by this process's variables whose names do not occur in them: the first of equal names counts.
 std::vector<std::string> environment_under(std::vector<std::string> variables)
 {
     const auto name = [](std::string_view variable) {
@@ -52,12 +52,12 @@ std::vector<std::string> environment_under(std::vector<std::string> variables)
     return variables;
 }
 
-/// Reads to the end of the pipe. False if `until` comes first.
+/// Reads to the end of the pipe. False if the time `until` comes first.
 bool drain(Child& child, Clock::time_point until)
 {
     while (true) {
         const Clock::time_point now = Clock::now();
-        if (now >= until)  // whatever has come in the meantime
+        if (now >= until)  // also if output keeps arriving
             return false;
         const auto left =
             std::chrono::duration_cast<std::chrono::milliseconds>(until - now).count();
@@ -173,9 +173,9 @@ void end_with_parent()
     if (wanted == nullptr)
         return;
     const long process = std::strtol(wanted, nullptr, 10);
-    unsetenv(parent);  // it says nothing to those that this one starts
+    unsetenv(parent);  // not meant for this process's children
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != process)  // it was over before the line above
+    if (getppid() != process)  // the parent ended before prctl
         _exit(128 + SIGKILL);
 }
 

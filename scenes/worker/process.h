@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Processes that are started from here: Python, and this program itself for what may crash or take too much.
+// Child processes: Python, and this program itself for tasks that may crash or use too much memory.
 #pragma once
 
 #include <sys/types.h>
@@ -11,7 +11,7 @@
 
 namespace bvhbench {
 
-/// How a process ended and what it wrote.
+/// How a process ended, and its output.
 struct ProcessEnd {
     enum class How { exited, signalled, timed_out };
     How how = How::exited;
@@ -19,37 +19,37 @@ struct ProcessEnd {
     std::string output;
 };
 
-/// "crashed (signal 11)", "took longer than 120 s" or "ended with exit code 1".
+/// Returns "crashed (signal 11)", "took longer than 120 s" or "ended with exit code 1".
 std::string spelled(const ProcessEnd& end, double time_limit_s);
 
-/// A process that was started from here. It does not outlive the object.
+/// A child process. The destructor ends it.
 class Child {
 public:
     enum class Stream { captured, inherited, dropped };
 
-    /// What it is started with. `words` are its argv; `environment`, each "NAME=value", comes on top of this process's own.
+    /// Start parameters. `words` is argv; `environment`, each "NAME=value", overrides this process's environment.
     struct Start {
-        std::string path;  ///< looked for in PATH if there is no slash in it
+        std::string path;  ///< searched in PATH if it contains no slash
         std::vector<std::string> words;
         std::vector<std::string> environment = {};
         Stream output = Stream::captured, errors = Stream::dropped;
     };
 
-    /// With nothing on standard input. Throws Unavailable if it cannot be started.
+    /// Starts the process with empty standard input. Throws Unavailable if it cannot be started.
     explicit Child(Start start);
     ~Child();
     Child(const Child&) = delete;
     Child& operator=(const Child&) = delete;
 
-    /// Becomes readable when there is more to take(): for poll.
+    /// Returns a file descriptor for poll that becomes readable when take() can read more.
     int reader() const { return reader_; }
 
-    /// Keep what has come of the captured streams for wait(). False once nothing will come any more.
+    /// Reads available output of the captured streams and keeps it for wait(). False at the end of the output.
     bool take();
 
     void send(int signal) const;
 
-    /// Waits until it is over.
+    /// Waits until the process has ended.
     ProcessEnd wait();
 
 private:
@@ -58,23 +58,23 @@ private:
     std::string text_;
 };
 
-/// Runs `command`, whose first word is a path, with standard error thrown away, and kills it after `time_limit_s` or when this
-/// process ends. `extra_environment` is "NAME=value". Throws Unavailable if it cannot be started.
+/// Runs `command`, whose first word is a path, with standard error discarded. Kills it after `time_limit_s` or when this
+/// process ends. `extra_environment` is "NAME=value". Throws Unavailable if the process cannot be started.
 ProcessEnd run_process(const std::vector<std::string>& command, double time_limit_s,
                        const std::string& extra_environment);
 
-/// At the beginning of main: from here on end with the process that started this one, if that wants it so.
+/// Makes this process end with its parent, if the parent asked for it. Called at the beginning of main.
 void end_with_parent();
 
-/// What a worker begins with: it ends with its parent, leaves no core file, and takes no more than so much memory, nor than
-/// its parent may. Throws Unavailable if it has more already.
+/// First call of a worker: makes it end with its parent, disables core files, and limits its memory to `memory_bytes`, or to
+/// host_memory_left() if that is less. Throws Unavailable if the worker already has more.
 void limit_worker(std::size_t memory_bytes);
 
-/// Keeps standard output for the worker's answer alone: whatever is written there, or to standard error, is thrown away from
-/// now on. Returns the file for the answer.
+/// Reserves standard output for the worker's answer: other output to it or to standard error is discarded from now on. Returns
+/// the file descriptor for the answer.
 int take_standard_output();
 
-/// All of it, whether signals come or not. False if it could not be written.
+/// Writes all bytes, also when signals interrupt it. False if they could not be written.
 bool write_all(int file, std::string_view bytes);
 
 }  // namespace bvhbench

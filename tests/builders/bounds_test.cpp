@@ -12,7 +12,7 @@ namespace {
 
 class BoundsContract : public testing::TestWithParam<KernelForm> {
 protected:
-    /// Of one object if there are none, of one frame or swept to `end`.
+    /// Compares with the host. Without `objects` there is one object; `end`, if given, is a second frame to sweep to.
     void expect_equal_to_host(const Mesh& mesh, uint group_size,
                               const std::vector<FaceRange>& objects = {},
                               const std::vector<Point>& end = {})
@@ -21,7 +21,8 @@ protected:
         BoundsStage stage(bench().programs, GetParam(), group_size);
         reserve([&](Arena& arena) { stage.plan(arena, object_sizes(input), Use::tree, true); });
         stage.prepare(bench().queue.cl());
-        // Again without the first one's result: each launch must leave all ready for the next. Then swept, by the same stage.
+        // Runs again over cleared results: each launch must leave its state ready for the next. Then sweeps with the same
+        // stage.
         expect_one(stage, input);
         Buffer<Bounds> found = stage.bounds();
         found.upload(bench().queue.cl(), std::vector(input.objects.size(), empty_bounds()));
@@ -56,7 +57,7 @@ TEST_P(BoundsContract, EqualTheHostsOnHardMeshes)
     }
 }
 
-// 16 groups of 16 at most on two cores: sizes past 256 take several rounds.
+// At most 16 groups of 16 on two cores, so sizes above 256 take several rounds.
 TEST_P(BoundsContract, EqualTheHostsOfEverySize)
 {
     const Mesh all = random_mesh(600);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Formats of boxes: what is rounded keeps its order and grows, everywhere, and device and host round alike.
+// Box formats: rounding keeps the order and only enlarges boxes, for all inputs, and device and host round identically.
 #include "builders/box_format.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ namespace {
 constexpr float largest = std::numeric_limits<float>::max();
 constexpr float denormal = std::numeric_limits<float>::denorm_min();
 
-/// Numbers at which rounding, subtracting or scaling goes wrong, ascending.
+/// Returns numbers at which rounding, subtraction or scaling may fail, in ascending order.
 std::vector<float> hard_numbers()
 {
     std::vector<float> positive = {
@@ -38,7 +38,7 @@ std::vector<float> hard_numbers()
 
 Aabb along_x(float low, float high) { return {low, low, low, high, high, high}; }
 
-/// A half by what its bits mean, in units of the smallest one.
+/// Returns the value of a half from its bits, in units of the smallest half.
 double half_of_bits(uint bits)
 {
     const int exponent = static_cast<int>(bits >> 10);
@@ -112,7 +112,7 @@ TEST_P(EachFormat, KeepsTheOrderOfSidesAndRoundsThemOutward)
         }
 }
 
-/// What sides are as numbers must be in the same order as what they were made of, or nobody could compare them.
+/// The stored sides must compare like the coordinates that they were made from, or comparisons would be wrong.
 TEST_P(EachFormat, ComparesAndMergesWhatIsStoredAsWhatItMeans)
 {
     if (!GetParam().has_cells())
@@ -136,7 +136,7 @@ TEST_P(EachFormat, ComparesAndMergesWhatIsStoredAsWhatItMeans)
     }
 }
 
-/// How much a rounded box may be too large along each axis: two cells, or of halves a part in a thousand and some.
+/// Along each axis, a rounded box may be too large by two cells, or for halves by slightly more than one part in a thousand.
 TEST_P(EachFormat, UsesNearlyAllOfItsNumbers)
 {
     const uint number = GetParam().number;
@@ -160,7 +160,7 @@ TEST_P(EachFormat, IsTheSameOnTheDevice)
             const Buffer<std::byte> sorted =
                 on_device(std::vector<std::byte>(boxes.size() * GetParam().box_bytes()));
             const Buffer<Bounds> device_bounds =
-                on_device(std::vector{bounds, empty_bounds()});  // as of two objects
+                on_device(std::vector{bounds, empty_bounds()});  // as for two objects
             reserve([&](Arena& arena) { gather.plan(arena, {sorted}, device_bounds); });
             gather.enqueue(on_device(boxes), on_device(ids), {}, bench().queue);
             bench().queue.finish();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Trees whose boxes are in another format keep every promise of a builder: each is the reference's, its boxes rounded as
-// the host rounds them, bit for bit.
+// Trees whose boxes are in another format keep every promise of a builder: each equals the reference tree with its boxes
+// rounded as the host rounds them, bit for bit.
 #include <gtest/gtest.h>
 
 #include "builders/spell_out.h"
@@ -42,11 +42,11 @@ class RoundedTrees : public testing::TestWithParam<BoxFormat> {};
 
 TEST_P(RoundedTrees, AreTheReferencesRounded)
 {
-    for (const unsigned group_size : {0u, 64u})  // a work-item a subtree, and a group
+    for (const unsigned group_size : {0u, 64u})  // one work-item per subtree, and a group
         expect_contract("oibvh-single", GetParam().name, group_size);
 }
 
-/// For the device that checks every access.
+/// Small inputs, for a device that checks every access.
 TEST_P(RoundedTrees, OfFewAreTheReferencesRounded)
 {
     for (const HardInput& input : hard_inputs().first(2))
@@ -57,7 +57,7 @@ TEST_P(RoundedTrees, OfFewAreTheReferencesRounded)
                 << input.name << ", " << size << " triangles";
 }
 
-/// Boxes are handed over by value, packed as the format says.
+/// With groups that wait, boxes are passed on by value, packed as the format requires.
 TEST_P(RoundedTrees, AreTheSameWhereGroupsWait)
 {
     EXPECT_EQ(broken_over(waiting_session(), rounding("oibvh-single", GetParam().name, 16),
@@ -65,7 +65,7 @@ TEST_P(RoundedTrees, AreTheSameWhereGroupsWait)
               "");
 }
 
-/// Inner nodes of radix trees are packed too, in words of a format's own.
+/// Inner nodes of radix trees are packed too, in words that depend on the format.
 TEST_P(RoundedTrees, OfFewAreRadixTreesToo)
 {
     for (const char* builder : {"karras", "apetrei", "apetrei-fused", "lbvh-levels"})
@@ -82,7 +82,7 @@ TEST_P(RoundedTrees, OfSeveralObjectsAreUpdatedWithTheirCells)
     const MakeBuilder make = find_builder("oibvh-multi").make;
     Standing updated = many.standing(make, options);
 
-    // The first object goes so far off that it is outside of all cells there were.
+    // Moves the first object so far away that it is outside of all previous cells.
     const FaceRange& moved = many.objects[0];
     for (uint face = moved.first; face < moved.first + moved.count; ++face)
         for (const uint corner :
@@ -111,7 +111,7 @@ TEST(RoundedTrees, AreBuiltByAllThatSayThatTheyCan)
 {
     for (const BuilderEntry& entry : builder_catalog())
         if (entry.takes_formats && entry.name != "oibvh-single")
-            for (const char* boxes : {"f64", "u16", "u8"})  // f16 is the text of u16
+            for (const char* boxes : {"f64", "u16", "u8"})  // f16 compiles to the same code as u16
                 expect_contract(entry.name, boxes, 0);
 }
 

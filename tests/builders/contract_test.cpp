@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Every builder of the catalog keeps the same promises. A new one is tested the moment it is listed.
+// Every builder of the catalog keeps the same promises. New builders are tested as soon as they are listed.
 #include "harness/judge/check.h"
 
 #include "builders/orders.h"
@@ -10,8 +10,8 @@
 namespace bvhbench {
 namespace {
 
-/// The promise that `choice` breaks over `mesh`, with the card's name checked on the way. A refusal by a
-/// builder that may refuse breaks none; without `refused` to tell of it, it does.
+/// Returns the promise that `choice` breaks over `mesh`, or ""; also checks the name on the builder's card. A refusal is
+/// reported through `refused`; without `refused` it counts as a broken promise.
 std::string broken_over(const BuilderChoice& choice, const Mesh& mesh, bool* refused = nullptr)
 {
     const Input input = upload(session().device(), session().queue(), mesh.points, mesh.faces);
@@ -86,7 +86,7 @@ TEST_P(EachBuilder, KeepsNothingOfTheSizeReservedBefore)
         EXPECT_EQ(broken_over(named(GetParam().name), make(size)), "") << size << " triangles";
 }
 
-/// An array of 2^28 boxes is 6 GiB, and whoever counts its bytes or words in 32 bits asks for too few.
+/// An array of 2^28 boxes has 6 GiB: a builder that counts its bytes or words in 32 bits asks for too few.
 TEST_P(EachBuilder, AsksForBytesInProportionToTheMeshPast32Bits)
 {
     for (const char* order : {"morton30", "hilbert63", "kd"})

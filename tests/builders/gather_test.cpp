@@ -8,7 +8,7 @@
 namespace bvhbench {
 namespace {
 
-/// Boxes that all differ.
+/// Returns boxes that are all different.
 std::vector<Aabb> numbered_boxes(std::size_t count)
 {
     std::vector<Aabb> boxes;
@@ -57,7 +57,7 @@ TEST_P(GatherContract, FillsItsPlaceInTheOrderOfTheIdsAndNothingElse)
     }
 }
 
-/// All objects, and the runs of some, whose slots are in another order than they are.
+/// Gathers all objects, and ranges of some objects whose slots are in a different order than the objects.
 TEST_P(GatherContract, FillsThePlacesOfChosenObjectsAndNoOthers)
 {
     ObjectRuns runs(bench().device, GetParam(), 16);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Threads of the host leave what kernels leave, object by object, in trees of one subtree and of several.
+// Host threads give the same results as kernels, object by object, in trees of one subtree and of several.
 #include "builders/spell_out.h"
 #include "tests/collide/collider_testing.h"
 #include "tests/collide/many_objects.h"

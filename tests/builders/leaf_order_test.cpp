@@ -61,7 +61,7 @@ TEST_P(LeafOrderContract, EqualsTheHostsOfEverySize)
 {
     for (const std::size_t size : {1, 2, 3, 4, 5, 255, 256, 257, 511, 512, 513, 1023, 1024, 1025,
                                    2047, 2049, 3841, 50'000}) {
-        // Orders with codes differ in their first kernel alone: one goes through many tiles for each width of codes.
+        // Orders with codes differ only in their first kernel, so many tiles are tested with one order for each width of codes.
         const std::string& name = GetParam().order;
         if (size == 50'000 && find_order(name).medians == Medians::nowhere && name != "morton30" &&
             name != "hilbert63")
@@ -96,7 +96,7 @@ INSTANTIATE_TEST_SUITE_P(AllOrders, LeafOrderContract, testing::ValuesIn([] {
                              return cases;
                          }()),
                          [](const auto& instance) {
-                             // GoogleTest takes letters, digits and _ only.
+                             // GoogleTest accepts only letters, digits and _.
                              std::string name =
                                  instance.param.order + "_" + form_name(instance.param.form);
                              std::ranges::replace_if(
@@ -104,7 +104,7 @@ INSTANTIATE_TEST_SUITE_P(AllOrders, LeafOrderContract, testing::ValuesIn([] {
                              return name;
                          });
 
-/// Each object's leaves on a grid of its own, or all on the scene's; with many objects the lowest bits are dropped.
+/// Each object's leaves use a grid of that object, or all use the scene's; with many objects the lowest code bits are dropped.
 TEST(LeafOrder, OfSeveralObjectsMeasuresCodesAgainstTheGridAskedFor)
 {
     const auto size = [](uint object) { return 1 + object * 7 % 40; };
@@ -122,11 +122,11 @@ TEST(LeafOrder, OfSeveralObjectsMeasuresCodesAgainstTheGridAskedFor)
         const Bounds whole = host_bounds(boxes);
         const Input input = upload(bench().device, bench().queue, mesh.points, mesh.faces, objects);
         const OrderEntry& entry = find_order("hilbert48");
-        const uint dropped = drops_bits ? 1 : 0;  // 17 bits of object, 47 of 48
+        const uint dropped = drops_bits ? 1 : 0;  // 17 bits of object, 47 of the 48 bits of code
         for (const GridOver grid : {GridOver::object, GridOver::scene})
             for (const KernelForm form : both_forms) {
                 if (drops_bits && form == KernelForm::groups)
-                    continue;  // seconds on a processor, and arguments are the same
+                    continue;  // takes seconds on a CPU, with the same kernel arguments
                 SCOPED_TRACE(form_name(form));
                 LeafOrder order(bench().programs, entry.name, form, grid);
                 reserve([&](Arena& arena) { order.plan(arena, sizes, Use::tree, true); });

@@ -14,8 +14,8 @@ namespace {
 
 std::vector<Aabb> boxes_of(const Mesh& mesh) { return face_boxes(mesh.points, mesh.faces); }
 
-/// The kernels of either kind beside the host's: medians within blocks, or by cells above them, where what is in which block
-/// is equal to the host's, in whatever order.
+/// Compares kernels of both kinds with the host: medians within blocks, or medians by cells above the blocks, for which each
+/// block must hold the same leaves as on the host, in any order.
 struct MedianCase {
     std::string name;
     bool is_of_cells;
@@ -111,7 +111,7 @@ TEST_P(MediansContract, EqualTheHostsOnHardMeshes)
     }
 }
 
-/// Most centres near the middle: the slab of a median holds more than what is compared each with all.
+/// Most centres lie near the middle, so the slab of a median holds more boxes than the kernel compares pairwise.
 TEST_P(MediansContract, EqualTheHostsOfClusters)
 {
     const auto drawn_in = [](float x) { return x * x * x * x * x; };
@@ -125,7 +125,7 @@ INSTANTIATE_TEST_SUITE_P(Shapes, MediansContract, testing::ValuesIn(cases),
 
 float centre_along(const Aabb& box, uint axis) { return coordinate(box_centre(box), axis); }
 
-/// Half the surface of the box around the centres, times their number.
+/// Returns half the surface of the box around the centres, times their number.
 double cost(const std::vector<Aabb>& boxes, std::span<const uint> ids)
 {
     double sides[3];
@@ -138,8 +138,8 @@ double cost(const std::vector<Aabb>& boxes, std::span<const uint> ids)
            static_cast<double>(ids.size());
 }
 
-/// The definition itself, in words: at every split of the tree without pointers, all that went left comes
-/// before all that went right along some axis, equals by id, and along no other would the halves cost less.
+/// Checks the definition: at every split of the tree without pointers, the left boxes come before all right boxes along some
+/// axis, ties broken by id, and no other axis gives a smaller cost of the halves.
 void expect_split(const std::vector<Aabb>& boxes, std::span<const uint> ids, uint height)
 {
     if (height == 0 || ids.empty())

@@ -17,7 +17,7 @@ namespace {
 
 Aabb point_box(float x, float y, float z) { return {x, y, z, x, y, z}; }
 
-/// Bounds of boxes that are points: the scene is where the centres are.
+/// Returns the bounds of a box that is a point: the scene is the box of the centres.
 Bounds bounds_of(Aabb box) { return {box, box}; }
 
 std::vector<OrderEntry> orders_with_codes()
@@ -57,7 +57,7 @@ TEST(Orders, TellApartAtBothEndsOfTheFloats)
         }
 }
 
-/// Cells of more bits lie within those of fewer, the last one too, which what lies on the upper end belongs to.
+/// Cells with more bits lie within cells with fewer bits, including the last cell, which also holds points on the upper end.
 TEST(Orders, OfMoreBitsGoOnWhereThoseOfFewerEnd)
 {
     const Bounds bounds = {{-1, -2, -3, 9, 8, 7}, {0, 0, 0, 8, 7, 6}};
@@ -104,7 +104,7 @@ TEST(Orders, NamesThoseThereAreWhenAskedForAnother)
     }
 }
 
-/// A torus of 2 * around * across triangles.
+/// Returns a torus of 2 * around * across triangles.
 Mesh torus(uint around, uint across)
 {
     Mesh mesh;
@@ -131,7 +131,7 @@ double area(Aabb box)
     return 2 * (x * y + y * z + z * x);
 }
 
-/// Eq. 1 of [Aila2013] for the tree over leaves in this order: 1.2 an inner node, 1 a triangle.
+/// Returns Eq. 1 of [Aila2013] for the tree over leaves in this order: cost 1.2 per inner node, 1 per triangle.
 double sah(const std::vector<Aabb>& boxes, const std::vector<uint>& ids)
 {
     std::vector<Aabb> level;
@@ -151,7 +151,7 @@ double sah(const std::vector<Aabb>& boxes, const std::vector<uint>& ids)
     return sum / area(level.front());
 }
 
-/// What orders are for: the same tree without pointers, over leaves in another order, costs less.
+/// Purpose of the orders: the same tree without pointers has a lower cost over leaves in a better order.
 TEST(OrderQuality, HilbertBeatsMortonAndMediansBeatBoth)
 {
     const Mesh mesh = torus(300, 100);

@@ -18,7 +18,7 @@ TEST_P(Scan, SumsUpAllThatComesBefore)
         std::vector<uint> values(size), expected(size);
         for (std::size_t k = 0; k < size; ++k)
             values[k] = static_cast<uint>(k * 2654435761u % 100);
-        values[size / 2] = 4000000000u;  // sums wrap
+        values[size / 2] = 4000000000u;  // sums wrap around
         std::exclusive_scan(values.begin(), values.end(), expected.begin(), 0u);
 
         const Buffer<uint> buffer = on_device(values);

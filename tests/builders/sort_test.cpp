@@ -8,7 +8,7 @@
 namespace bvhbench {
 namespace {
 
-/// The slow and obvious sort: ids of `codes` in ascending order, ties as they came.
+/// Reference sort: returns the ids of `codes` in ascending order; ties keep their order.
 std::vector<uint> host_sorted_ids(const std::vector<ulong>& codes)
 {
     std::vector<uint> ids(codes.size());
@@ -62,7 +62,7 @@ struct Case {
     SortShape shape;
 };
 
-/// In groups as small as can be: of one team on GPUs, and of 16 where a team is one work-item.
+/// Returns the shape with the smallest groups: one team on GPUs, and 16 work-items on CPUs, where a team is one work-item.
 SortShape sweeping(uint keys_per_item)
 {
     SortShape shape{KernelForm::groups};
@@ -73,7 +73,7 @@ SortShape sweeping(uint keys_per_item)
     return shape;
 }
 
-/// The same, all passes in one launch of as many groups as may wait for each other: one where none may.
+/// As `sweeping`, with all passes in one launch of as many groups as may wait for each other; one group if none may.
 SortShape at_once(uint keys_per_item)
 {
     SortShape shape = sweeping(keys_per_item);
@@ -119,7 +119,7 @@ protected:
         std::vector<ulong> sorted;
         for (const uint id : expected)
             sorted.push_back(codes[id]);
-        // Not EXPECT_EQ: it would print millions of numbers.
+        // EXPECT_EQ would print millions of numbers.
         EXPECT_TRUE(same_bits(from_device(sort_->ids()), expected));
         EXPECT_TRUE(same_bits(from_device(sort_->codes()), words_of(sorted, GetParam().bits)));
     }
@@ -145,14 +145,14 @@ TEST_P(RadixSortOfEverySize, EqualsAStableSortUpToPastTwoTiles)
     const std::size_t last = 2 * std::size_t{tile} + 1;
     std::vector<std::size_t> sizes(last + 1);
     std::iota(sizes.begin(), sizes.end(), std::size_t{0});
-    // As many tiles as the group that scans their counts has work-items, one less and one more.
+    // As many tiles as the group that scans their counts has work-items, and one less and one more.
     if (!sweeps)
         for (const std::size_t tiles :
              {shape.group_size - 1, shape.group_size, shape.group_size + 1})
             sizes.push_back(tiles * tile);
     for (const std::size_t size : sizes) {
         plan(size);
-        // Every size with codes of any kind and with hardly any that differ; all kinds around the ends of tiles.
+        // Tests every size with the codes "any" and "few", and sizes around the ends of tiles with all kinds of codes.
         const std::size_t past = size % tile;
         const bool at_an_end = past <= 1 || past == tile - 1;
         for (const auto& [name, codes] : hard_codes(size, GetParam().bits)) {
@@ -164,7 +164,7 @@ TEST_P(RadixSortOfEverySize, EqualsAStableSortUpToPastTwoTiles)
     }
 }
 
-// Tiles of 48 pairs, so that every size is tried and a few thousand pairs need many rounds of the scan.
+// Tiles of 48 pairs, so that all sizes are tested and a few thousand pairs need many rounds of the scan.
 INSTANTIATE_TEST_SUITE_P(Small, RadixSortOfEverySize, testing::ValuesIn([] {
                              std::vector<Case> cases;
                              for (const unsigned bits : {8, 30, 32, 63}) {
@@ -216,7 +216,7 @@ TEST(RadixSort, EqualsAStableSortPastTheIntegersOfAFloat)
     plan(sort, size);
     enqueue(sort, codes);
 
-    // Ascending codes, ascending ids among equal codes, and every code where its id says: then it is right.
+    // The result is correct if codes ascend, ids ascend among equal codes, and every code is that of its id.
     const std::vector<uint> ids = from_device(sort.ids());
     const std::vector<uint> sorted = from_device(sort.codes());
     bench().queue.finish();
@@ -237,7 +237,7 @@ TEST_P(RadixSortOfFewSizes, EqualsAStableSort)
     }
 }
 
-// Small enough for an interpreter that checks every access.
+// Sizes that are small enough for an interpreter that checks every access.
 INSTANTIATE_TEST_SUITE_P(
     Few, RadixSortOfFewSizes,
     testing::Values(Case{"groups", 30, three_launches(16, 3)},
@@ -247,7 +247,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"chunks", 30, {KernelForm::chunks}}),
     case_name);
 
-/// A pass of three launches takes a byte.
+/// A pass of three launches sorts by one byte.
 TEST(RadixSort, TakesNoMorePassesThanACodeHasBytes)
 {
     for (const unsigned bits : {30, 47, 48, 49, 63}) {

@@ -75,7 +75,7 @@ TEST(Refitted, ChangesNothingWhileNothingMoves)
 
 TEST(Refitted, PutsBoxesAroundMovedPointsAndKeepsTheTree)
 {
-    HostTree support = right_tree();  // a node with one child on the way to leaf 2
+    HostTree support = right_tree();  // a node with one child on the path to leaf 2
     support.nodes.push_back(support.nodes[2]);
     support.nodes[2] = {{}, {3, HostTree::none}, HostTree::none};
 

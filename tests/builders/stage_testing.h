@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What the tests of stages share: a device, meshes that are hard on boxes and codes, comparing bit for bit.
+// Shared by the tests of stages: a device, meshes that are difficult for boxes and codes, and comparison bit for bit.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@
 
 namespace bvhbench {
 
-/// A device with its queue and programs, compiled once for all tests of a program.
+/// A device with its queue and programs, which are compiled once for all tests of an executable.
 struct Bench {
     Device device = open_device("");
     Programs programs{device};
@@ -33,12 +33,12 @@ struct Bench {
 
 inline Bench& bench()
 {
-    // Never destroyed: statics go after the driver has gone.
+    // Never destroyed, because statics are destroyed after the driver has been unloaded.
     static Bench& bench = *new Bench;
     return bench;
 }
 
-/// What `take` takes of an arena, reserved exactly: as builders do it, measured first.
+/// Reserves exactly what `take` takes of an arena: measures first, as builders do.
 template <class Take>
 void reserve(const Take& take)
 {
@@ -48,7 +48,7 @@ void reserve(const Take& take)
     take(arena);
 }
 
-/// A buffer of its own with these values on the device.
+/// Returns a new buffer with these values on the device.
 template <class T>
 Buffer<T> on_device(const std::vector<T>& values)
 {
@@ -64,7 +64,7 @@ std::vector<T> from_device(const Buffer<T>& buffer)
     return buffer.download(bench().queue.cl());
 }
 
-/// 0, 1, 2, … in any order.
+/// Returns 0, 1, 2, ... in random order.
 inline std::vector<uint> shuffled_ids(std::size_t count)
 {
     std::vector<uint> ids(count);
@@ -82,7 +82,7 @@ bool same_bits(const std::vector<T>& a, const std::vector<T>& b)
            (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
-/// For tests that run over both forms of kernels, whatever the device.
+/// Both forms of kernels, for tests that run both on any device.
 constexpr KernelForm both_forms[] = {KernelForm::groups, KernelForm::chunks};
 
 inline std::string form_name(KernelForm form)
@@ -100,7 +100,7 @@ struct NamedMesh {
     Mesh mesh;
 };
 
-/// `count` small triangles with corners drawn from [-1, 1), each coordinate passed through `map`.
+/// Returns `count` small triangles with corners from [-1, 1); `map` is applied to each coordinate.
 template <class Map = std::identity>
 Mesh random_mesh(std::size_t count, const Map& map = {}, uint seed = 7)
 {
@@ -123,7 +123,7 @@ inline auto scaled(float by)
     return [by](Point p) { return Point{p.x * by, p.y * by, p.z * by}; };
 }
 
-/// Meshes of `count` triangles on which careless arithmetic overflows, divides by zero or loses all bits.
+/// Returns meshes of `count` triangles on which careless arithmetic overflows, divides by zero or loses all bits.
 inline std::vector<NamedMesh> hard_meshes(std::size_t count)
 {
     std::vector<NamedMesh> meshes;

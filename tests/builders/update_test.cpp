@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Updates of several objects' trees, each in its own way: every tree is bit for bit what it is when all are rebuilt, or
-// what the host makes of the tree that stood.
+// Updates of several objects' trees with a different kind of update for each: every tree equals, bit for bit, the tree of a
+// full rebuild, or the tree that the host makes from the previous one.
 #include <cstring>
 #include <optional>
 #include <random>
@@ -20,7 +20,7 @@ using Updates = std::vector<TreeUpdate>;
 struct Case {
     std::string name;
     BuildOptions options;
-    bool waits = false;  ///< whether groups of a single launch wait for others (implicit.waits)
+    bool waits = false;  ///< whether groups of a launch wait for other groups (implicit.waits)
 };
 
 std::vector<Case> all_cases()
@@ -73,7 +73,7 @@ protected:
         return trees;
     }
 
-    /// Move objects as their updates say: not at all, by a shift, or each corner by itself.
+    /// Moves objects as their updates require: not at all, by a translation, or each corner separately.
     void move(const Updates& updates)
     {
         std::uniform_real_distribution<float> by(0.0f, 0.2f);
@@ -111,7 +111,7 @@ protected:
         }
     }
 
-    /// A frame, and the same again.
+    /// Updates for a frame, and again for the same frame, in which no object has moved.
     void expect_update(const Updates& updates)
     {
         move(updates);
@@ -165,12 +165,12 @@ TEST_P(Updating, TakesAllObjectsOrOne)
             }
 }
 
-/// What is refitted or kept has no code and is not sorted, and what is kept has no box made either.
+/// Refitted and kept objects have no codes and are not sorted; for kept objects no boxes are computed either.
 TEST_P(Updating, HasOnlyTheStagesThatSomeObjectNeeds)
 {
     start({3, 480, 70});
     const bool gathers = dynamic_cast<const DeviceTree&>(*tree_)
-                             .has_sorted_leaves();  // nodes that hold leaves do not
+                             .has_sorted_leaves();  // nodes that contain leaves have none
     const auto stages_of = [&](const Updates& updates) {
         builder_->plan_update(updates, bench().queue());
         builder_->update(input_, bench().queue());
@@ -191,7 +191,7 @@ TEST_P(Updating, HasOnlyTheStagesThatSomeObjectNeeds)
     EXPECT_EQ(stages_of({rebuild, refit, keep}), built);
     const std::int64_t few = moved_;
     EXPECT_EQ(stages_of({rebuild, rebuild, refit}), built);
-    EXPECT_GT(2 * moved_, 3 * few);  // boxes are made of all that move, either way
+    EXPECT_GT(2 * moved_, 3 * few);  // boxes are computed for all moving objects, in both cases
     EXPECT_EQ(stages_of({keep, keep, refit}), refits);
 }
 

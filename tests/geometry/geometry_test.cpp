@@ -95,14 +95,14 @@ TEST(Hash, IsWrittenAsSixteenDigits)
     EXPECT_EQ(hex(0x00ab54a98ceb1f0aull), "00ab54a98ceb1f0a");
 }
 
-/// Steps between two cells along the axes.
+/// Returns the Manhattan distance of two cells.
 uint distance(Cell a, Cell b)
 {
     const auto apart = [](uint p, uint q) { return p < q ? q - p : p - q; };
     return apart(a.x, b.x) + apart(a.y, b.y) + apart(a.z, b.z);
 }
 
-/// The cells of a cube of 2^bits cells a side by their code; which cells were met twice is counted.
+/// The cells of a cube with 2^bits cells per side, indexed by their code, and the number of codes that occur twice.
 struct Curve {
     std::vector<Cell> cells;
     uint met_twice = 0;
@@ -143,8 +143,8 @@ TEST(Hilbert, StartsInOneCornerAndEndsAlongX)
     }
 }
 
-/// A cell that no test of 2^30 cells can reach, for the wide codes: eight cells that share all larger bits
-/// are eight neighbours on the curve.
+/// Tests the wide codes at a cell beyond the range of 30-bit tests: eight cells that share all higher bits are eight
+/// consecutive cells of the curve.
 TEST(Hilbert, VisitsEveryOctantBeforeItLeavesIt)
 {
     const Cell corner = {0x12344, 0x1edcba, 0x0f0f0e};

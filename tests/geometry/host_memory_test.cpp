@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A tree of files as /proc and /sys have them.
+/// A directory tree with files like those of /proc and /sys.
 class CgroupMemory : public testing::Test {
 protected:
     ~CgroupMemory() override { fs::remove_all(root_); }
@@ -27,7 +27,7 @@ protected:
         std::ofstream(root_ / path) << text;
     }
 
-    /// A group of v1: its limit, what it uses, and how much of that is files.
+    /// Writes a v1 group: its limit, its usage, and how much of the usage is page cache.
     void v1(const std::string& group, const char* limit, const char* used, int files) const
     {
         const std::string at = "sys/fs/cgroup/memory" + group;

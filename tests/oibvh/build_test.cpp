@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The kernels equal the reference bit for bit, whatever the size, the form of the kernels and the place of
-// the leaves.
+// The kernels equal the reference bit for bit, for any size, form of kernels and location of the leaves.
 #include <gtest/gtest.h>
 
 #include "baselines/baselines.h"
@@ -14,7 +13,7 @@
 namespace bvhbench {
 namespace {
 
-/// Programs of the same device, asked to let groups wait (implicit.waits).
+/// Returns programs of the same device with groups allowed to wait (implicit.waits).
 Programs& waiting_programs()
 {
     static Programs& waiting = *[] {
@@ -51,8 +50,8 @@ std::vector<Way> ways()
     return all;
 }
 
-/// Every way builds the tree of the reference over so many triangles, from triangles and from sorted leaves; in the memory of
-/// the build before unless it reserves.
+/// Expects every builder to build the reference tree over `triangles` triangles, from triangles and from sorted leaves; in the
+/// memory of the previous build unless `reserves`.
 void expect_all_equal(std::vector<std::unique_ptr<Builder>>& builders, uint triangles,
                       uint seed = 7, bool reserves = true)
 {
@@ -92,7 +91,7 @@ TEST(ImplicitBuilders, EqualTheReferenceInEveryWayOnSmallTrees)
         ASSERT_NO_FATAL_FAILURE(expect_all_equal(builders, triangles));
 }
 
-/// What a build leaves out stands there from the one before, unless that was of other triangles.
+/// A node that a build fails to write keeps its value from the previous build, which is of other triangles here.
 TEST(ImplicitBuilders, EqualTheReferenceInEveryWayAndKeepNothingOfTheTreeBefore)
 {
     auto builders = builders_of(ways());

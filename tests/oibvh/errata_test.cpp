@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// What the paper prints, beside what holds: one test an erratum, listed in docs/paper.md.
+// Formulas as the paper prints them, compared with correct ones: one test per erratum, listed in docs/paper.md.
 //
-// The functions named printed_... are typed as printed and are wrong on purpose. Nothing else uses them.
+// The functions named printed_... are transcribed as printed and are wrong on purpose. Nothing else uses them.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@
 namespace bvhbench {
 namespace {
 
-/// Y_k(L_v) of Eq. (4) and App. C: exponents of the largest powers that sum to `number`, as a list.
+/// Returns Y_k(L_v) of Eq. (4) and App. C: the exponents of the largest powers that sum to `number`, as a list.
 std::vector<uint> exponents(uint number, uint arity)
 {
     std::vector<uint> exponents;
@@ -44,14 +44,14 @@ TEST(Erratum, Equation5sFirstLineTakesPowersForExponents)
             sum += std::exp2(std::exp2(y)) - 1;
         return sum;
     };
-    // With y_k for x_k, the correction that suggests itself: still the trees' leaves less one each.
+    // With y_k for x_k, the obvious correction: the result is still the trees' leaves minus one each.
     const auto with_y = [](uint virtual_leaves) {
         uint sum = 0;
         for (const uint y : exponents(virtual_leaves, 2))
             sum += (1u << y) - 1;
         return sum;
     };
-    // With y_k + 1: a perfect tree with 2^y leaves has 2^(y + 1) - 1 nodes. Equals the second line.
+    // With y_k + 1: a perfect tree with 2^y leaves has 2^(y + 1) - 1 nodes. This equals the second line.
     const auto corrected = [](uint virtual_leaves) {
         uint sum = 0;
         for (const uint y : exponents(virtual_leaves, 2))
@@ -85,8 +85,7 @@ TEST(Erratum, TheFullnessConditionHoldsForNoLevelNotEvenTheRoots)
     for (uint leaves = 1; leaves <= 3000; ++leaves)
         for (uint level = 0; level <= oi_shape(leaves).leaf_level; ++level)
             ASSERT_FALSE(printed_is_full(leaves, oi_shape(leaves), level)) << leaves;
-    // LayoutOf.SaysOfEveryTreeWhatTheLiteralConstructionSays holds oi_is_full to the definition; as a
-    // condition on L_v it reads:
+    // LayoutOf.SaysOfEveryTreeWhatTheLiteralConstructionSays tests oi_is_full; as a condition on L_v it is:
     for (uint leaves = 1; leaves <= 3000; ++leaves) {
         const OiShape shape = oi_shape(leaves);
         for (uint level = 0; level <= shape.leaf_level; ++level)
@@ -104,7 +103,7 @@ TEST(Erratum, Equation18CountsFromTheWrongEnd)
     const KaryShape shape = kary_shape(5, 3);
     EXPECT_EQ(printed(shape, 1), 4u);  // of three nodes on that level
     EXPECT_EQ(kary_virtual_on(shape, 1), 1u);
-    // It disagrees with Eq. (8), whose general form it is said to be.
+    // It disagrees with Eq. (8), which it is said to generalise.
     EXPECT_NE(printed(kary_shape(5, 2), 3), oi_virtual_on(oi_shape(5), 3));
 }
 
@@ -143,27 +142,27 @@ TEST(Erratum, Section7sWorstCaseSavesMostOfThePadding)
         const OiShape shape = oi_shape(leaves);
         return double(oi_virtual_node_count(shape)) / double(oi_perfect_node_count(shape));
     };
-    // "The worst case", one past a power of two: half of the perfect tree is not stored. It is the worst
-    // case only in support nodes, one on every level but the last.
+    // "The worst case", one past a power of two: half of the perfect tree is not stored. It is the worst case only for the
+    // number of support nodes, one on every level but the last.
     const uint power = 1u << 20;
     EXPECT_NEAR(saved(power + 1), 0.5, 1e-4);
     EXPECT_EQ(popcount(oi_shape(power + 1).virtual_leaves), 20u);
-    // "A few increments off on the short side from creating a full tree": there is nothing to save.
+    // "A few increments off on the short side from creating a full tree": nothing is saved.
     EXPECT_LT(saved(power - 1), 1e-5);
     EXPECT_LT(saved(power - 3), 1e-5);
 }
 
 TEST(Erratum, Equation11sEquivalenceHoldsOnlyForItsWorstCase)
 {
-    // Support nodes are the set bits of L_v; log2(t) is their greatest number, not their number.
+    // The number of support nodes is the number of set bits of L_v; log2(t) is its maximum, not its value.
     for (uint bit = 1; bit < 30; ++bit)
         EXPECT_EQ(popcount(oi_shape((1u << bit) + 1).virtual_leaves), bit);
     EXPECT_EQ(popcount(oi_shape(1u << 20).virtual_leaves), 0u);  // log2(t) = 20
     EXPECT_EQ(popcount(oi_shape(2880000).virtual_leaves), 5u);   // log2(t) = 21.5
 }
 
-/// Algorithm 1 for one group over the whole tree, work-items one after another: how many internal nodes
-/// are written when the loop of line 19 starts `above` levels above the entry level.
+/// Runs Algorithm 1 for one group over the whole tree, work-items in sequence. Returns the number of internal nodes that are
+/// written when the loop of line 19 starts `above` levels above the entry level.
 std::size_t nodes_written(uint leaves, uint above)
 {
     const OiShape shape = oi_shape(leaves);
@@ -187,11 +186,11 @@ TEST(Erratum, Algorithm1sLoopMustStartAboveTheEntryLevel)
         const OiShape shape = oi_shape(leaves);
         const uint internal = oi_node_count(shape) - leaves;
         EXPECT_EQ(nodes_written(leaves, 1), internal) << leaves;
-        // As printed: each entry-level node is reached by one work-item only, which is therefore the
-        // first, and terminates. Those few whose node has no right child go on, and end one level up.
+        // As printed: only one work-item reaches each entry-level node, so it is the first one there and terminates. The few
+        // work-items whose node has no right child continue and end one level above.
         EXPECT_LT(nodes_written(leaves, 0), internal) << leaves;
     }
-    EXPECT_EQ(nodes_written(64, 0), 32u);  // the entry level and nothing else
+    EXPECT_EQ(nodes_written(64, 0), 32u);  // the entry level only
 }
 
 TEST(Erratum, AppendixBsThreadCountIsNotAWholeNumberOfGroups)
@@ -202,13 +201,13 @@ TEST(Erratum, AppendixBsThreadCountIsNotAWholeNumberOfGroups)
     const uint t2 = t1 / g1;
     EXPECT_EQ(t2, 563u);
     EXPECT_LE(g1, t2);       // so Eq. (16) keeps g_2 = g_1,
-    EXPECT_NE(t2 % g1, 0u);  // which 563 work-items do not fill, and t_3 = t_2 / g_2 is no number.
+    EXPECT_NE(t2 % g1, 0u);  // which 563 work-items do not fill; t_3 = t_2 / g_2 is no integer
 }
 
 TEST(Erratum, Equations14To16HaveNoEnd)
 {
     const auto next_group = [](uint r, uint g, uint t) { return g <= t ? g : 1u << floor_log2(r); };
-    // One node left at the entry level: groups of one, and the same again for ever.
+    // With one node at the entry level, groups have one work-item, and the next step is the same, without end.
     const uint r = 1, g = next_group(1, 256, 1);
     EXPECT_EQ(g, 1u);
     EXPECT_EQ(divided_up(r, g), r);
@@ -234,7 +233,7 @@ TEST(Table1, NodesAndPaddingFollowFromTheTriangleCounts)
     struct Column {
         uint triangles, perfect, radix, oi;
         double perfect_percent, oi_percent;  ///< printed, digits cut off and not rounded
-        double perfect_digit, oi_digit;      ///< the last printed digit's worth
+        double perfect_digit, oi_digit;      ///< value of the last printed digit
     };
     for (const Column& column : {Column{144046, 524287, 288091, 288100, 45.05, 3.1e-3, 0.01, 1e-4},
                                  {412669, 1048575, 825337, 825344, 21.2, 8.4e-4, 0.1, 1e-5},

@@ -12,7 +12,7 @@
 namespace bvhbench {
 namespace {
 
-/// One of the two dialects every kernel must compile as, on the default device.
+/// One of the two dialects in which every kernel must compile, on the default device.
 class LayoutOnTheDevice : public testing::TestWithParam<std::string> {
 protected:
     void SetUp() override
@@ -38,7 +38,7 @@ protected:
     std::unique_ptr<Queue> queue_;
 };
 
-/// Trees whose sizes tell, and of each the ends of every level and some nodes between.
+/// Returns trees of critical sizes, and for each tree the ends of every level and some nodes in between.
 std::vector<LayoutQuestion> questions()
 {
     std::vector<LayoutQuestion> questions;

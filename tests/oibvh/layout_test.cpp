@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Both layouts, of two children a node and of any number, beside the literal construction and arithmetic in 64 bits.
+// Both layouts, binary and of any arity, compared with the literal construction and with 64-bit arithmetic.
 #include "oibvh/layout.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 namespace bvhbench {
 namespace {
 
-/// A layout as a test asks it.
+/// The functions of a layout under test.
 struct Layout {
     std::string name;
     uint arity;
@@ -46,7 +46,7 @@ class LayoutOf : public testing::TestWithParam<Layout> {
 protected:
     const uint arity = GetParam().arity;
 
-    /// Node i of the literal tree, which has `real` nodes on its level, is what the layout says.
+    /// Expects the layout to agree with node i of the literal tree, which has `real` nodes on its level.
     void expect_node(const LiteralTree& literal, uint leaves, uint i, std::size_t real) const
     {
         const LiteralTree::Node& node = literal.nodes[i];
@@ -79,7 +79,7 @@ protected:
         ASSERT_EQ(found.half_way_up, above);
     }
 
-    /// In 64 bits, a level at a time, as the definition says: `arity` siblings share a parent.
+    /// Expects agreement with 64-bit arithmetic, level by level, by the definition: `arity` siblings share a parent.
     void expect_wide_agreement(uint leaves) const
     {
         SCOPED_TRACE("t = " + std::to_string(leaves));
@@ -114,7 +114,8 @@ protected:
     }
 };
 
-/// Every tree up to 3,000 leaves: of those up to 600 every node, of the others the ends of each level's real and virtual nodes.
+/// Tests every tree up to 3,000 leaves: up to 600 leaves all nodes, beyond that the ends of each level's real and virtual
+/// nodes.
 TEST_P(LayoutOf, SaysOfEveryTreeWhatTheLiteralConstructionSays)
 {
     for (uint leaves = 1; leaves <= 3000 && !HasFailure(); ++leaves) {
@@ -139,7 +140,7 @@ TEST_P(LayoutOf, SaysOfEveryTreeWhatTheLiteralConstructionSays)
                     i + 1 == end)
                     ASSERT_NO_FATAL_FAILURE(expect_node(literal, leaves, i, real)) << i;
         }
-        // Eq. (7) is 2t - 1 for a tree without support nodes and one more for each.
+        // Eq. (7) is 2t - 1 for a tree without support nodes, plus one for each support node.
         if (arity == 2)
             ASSERT_EQ(all_support, popcount(oi_shape(leaves).virtual_leaves));
     }
@@ -151,7 +152,7 @@ TEST_P(LayoutOf, HasDescendantsThatAreRepeatedChildren)
     for (uint i = 0; i < 64; ++i)
         for (uint n = 0; n <= most_levels; ++n)
             for (uint m = 0; m < kary_power(arity, n); ++m) {
-                uint walked = i;  // m's digits, highest first, say which child
+                uint walked = i;  // m's digits, highest first, select the children
                 for (uint step = n; step-- > 0;)
                     walked =
                         GetParam().child(arity, walked, m / kary_power(arity, step) % arity + 1);
@@ -166,7 +167,7 @@ TEST_P(LayoutOf, HoldsUpToTheMostLeavesThatFit)
     for (const uint leaves : {most, most - 1, most / arity + 1, most / arity, most / 2,
                               most / 2 + 1, (1u << 20) + 1, (1u << 24) - 1, 2880000u})
         expect_wide_agreement(leaves);
-    // The bound is the largest: one more level, and the last index does not fit.
+    // The bound is tight: with one more level, the last index does not fit.
     std::uint64_t nodes = 1;
     for (std::uint64_t width = 1; width < most; nodes += width)
         width *= arity;
@@ -195,14 +196,14 @@ TEST_P(OiLayoutAt, AgreesWithSixtyFourBitArithmetic) { EXPECT_EQ(broken_layout(G
 TEST_P(OiLayoutAt, IsHeldToItsNumbers)
 {
     OiShape other = oi_shape(GetParam());
-    other.virtual_leaves ^= 1u;  // an even number of virtual leaves where it is odd, and so on
+    other.virtual_leaves ^= 1u;  // an even number in place of an odd one, or the reverse
     EXPECT_NE(broken_layout(GetParam(), other), "");
     other = oi_shape(GetParam());
     other.leaves -= 1;
     EXPECT_NE(broken_layout(GetParam(), other), "");
 }
 
-// One below, at and above powers of two, up to the last tree whose indices fit, and Table 1's meshes.
+// Sizes one below, at and one above powers of two, up to the last tree whose indices fit, and the meshes of Table 1.
 INSTANTIATE_TEST_SUITE_P(TellingSizes, OiLayoutAt,
                          testing::Values((1u << 20) - 1, 1u << 20, (1u << 20) + 1, (1u << 24) - 1,
                                          1u << 24, (1u << 24) + 1, (1u << 30) - 1, 1u << 30,

@@ -9,16 +9,15 @@
 
 namespace bvhbench {
 
-/// No formula of the paper is used here. A perfect tree is drawn that is just wide enough; the leaves past
-/// the t-th are virtual; an inner node is virtual when all its children are; labels count all nodes level by
-/// level from the left, slots only the real ones.
+/// Uses no formula of the paper. It draws a perfect tree that is just wide enough. The leaves after the t-th are virtual; an
+/// inner node is virtual if all its children are. Labels count all nodes by level from the left, slots only real ones.
 class LiteralTree {
 public:
     struct Node {
         std::size_t level = 0;
         bool real = false;
         std::uint64_t slot = 0;         ///< real nodes only
-        std::size_t real_children = 0;  ///< none on leaves
+        std::size_t real_children = 0;  ///< 0 for leaves
     };
 
     LiteralTree(std::size_t leaves, std::size_t arity) : arity_(arity)
@@ -46,21 +45,21 @@ public:
     std::size_t level_count() const { return firsts_.size(); }
     std::size_t first(std::size_t level) const { return firsts_[level]; }
 
-    /// Label of the j-th child, j from 0: it stands below its parent, `arity` to a parent.
+    /// Returns the label of the j-th child, j from 0, with `arity` children per parent.
     std::size_t child(std::size_t label, std::size_t j) const
     {
         const std::size_t level = nodes[label].level;
         return firsts_[level + 1] + (label - firsts_[level]) * arity_ + j;
     }
 
-    /// Label of the parent of a node that is not the root.
+    /// Returns the label of the parent of a node other than the root.
     std::size_t parent(std::size_t label) const
     {
         const std::size_t level = nodes[label].level;
         return firsts_[level - 1] + (label - firsts_[level]) / arity_;
     }
 
-    std::vector<Node> nodes;  ///< by label: breadth first, virtual ones included
+    std::vector<Node> nodes;  ///< by label: breadth first, including virtual nodes
     std::uint64_t real_count = 0;
 
 private:

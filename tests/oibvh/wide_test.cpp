@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Wide trees: the arithmetic is Appendix C's, and what the kernels leave is what a literal construction leaves, bit for bit.
+// Wide trees: the arithmetic is that of Appendix C, and the kernels' result equals the literal construction bit for bit.
 #include <gtest/gtest.h>
 
 #include "builders/spell_out.h"
@@ -16,7 +16,7 @@ namespace {
 
 TEST(WideLayout, IsAppendixCsOfInnerNodes)
 {
-    // One above a power: every digit of the virtual leaves is as large as can be.
+    // One above a power: every digit of the number of virtual leaves has its maximum.
     std::vector<uint> sizes = {144046,         1087474,        2880000,        4194304,
                                (1u << 24) + 1, (1u << 27) + 1, (1u << 30) - 1, 1u << 30};
     for (uint leaves = 2; leaves < 5000; ++leaves)
@@ -52,8 +52,8 @@ struct Way {
 
 constexpr Way ways[] = {{"wide4", make_oibvh_wide4, 2}, {"wide8", make_oibvh_wide8, 3}};
 
-/// By definition: rows of nodes from the leaves up, each node over the next `children` of the row below. The boxes of each
-/// row, the root's first.
+/// Builds by definition: rows of nodes from the leaves up, each node over the next `children` nodes of the row below. Returns
+/// the boxes of each row, the root's row first.
 std::vector<std::vector<Aabb>> literal_rows(std::vector<Aabb> leaves, uint children)
 {
     std::vector<std::vector<Aabb>> rows = {std::move(leaves)};
@@ -71,7 +71,7 @@ std::vector<std::vector<Aabb>> literal_rows(std::vector<Aabb> leaves, uint child
     return rows;
 }
 
-/// Holds a tree, and every box where its parent keeps it, to the literal one over the reference's leaves.
+/// Compares a tree, and every box that is stored in its parent, with the literal tree over the reference's leaves.
 void expect_literal(const WideTree& tree, const HostTree& reference, const Way& way)
 {
     const HostTree found = tree.spelled_out();

@@ -77,9 +77,9 @@ TEST(DataSets, OfAnotherCountAreStoodInForAndRefusedByName)
     EXPECT_EQ(load_or_stand_in("bunny", library).stand_in_for, "bunny");
     EXPECT_TRUE(contains(refusal("bunny", library),
                          "Unavailable: data set 'bunny' has 144046 triangles, and "));
-    folder.file("bunny.obj", "v 0 0 0\n");  // the folder of its own comes first
+    folder.file("bunny.obj", "v 0 0 0\n");  // the data set's folder is searched first
     EXPECT_TRUE(contains(refusal("bunny", library), "bunny/bunny.obj has 1"));
-    folder.file("bunny/bunny.obj", "v 0\n");  // damaged is not absent
+    folder.file("bunny/bunny.obj", "v 0\n");  // a damaged file is not a missing file
     EXPECT_THROW(load_or_stand_in("bunny", library), Unavailable);
 }
 
@@ -117,7 +117,7 @@ TEST(DataSets, OfTablesTwoAndThreeEndInAStandInOfAsManyObjects)
         const std::string stand_in = manifest_entry(name)->stand_ins.back();
         const std::string small = stand_in.substr(0, stand_in.find(':')) + ":400:1";
         EXPECT_EQ(load_scene(small, {}).objects.size(), objects) << stand_in;
-        EXPECT_THROW(load_scene(name, {}), Unavailable);  // by name it is itself or nothing
+        EXPECT_THROW(load_scene(name, {}), Unavailable);  // no stand-in if asked for by name
     }
 }
 

@@ -37,7 +37,7 @@ TEST(NearPairs, AreThoseOfAllPairs)
                 if (length(points[j] - points[i]) < distance)
                     expected.insert({i, j});
         const auto& found = near.find(points, distance);
-        EXPECT_EQ(found.size(), expected.size());  // each once
+        EXPECT_EQ(found.size(), expected.size());  // each pair once
         EXPECT_TRUE((std::set(found.begin(), found.end()) == expected)) << distance;
     }
 }
@@ -60,7 +60,7 @@ TEST(SheetMesh, HasExactlyItsTrianglesAndNoUnusedPoint)
 
 TEST(SheetMesh, HasNoSeamWhenClosed)
 {
-    const Mesh mesh = make_sheet(2 * 12 * 4, 3, true);  // 12 round, 4 up
+    const Mesh mesh = make_sheet(2 * 12 * 4, 3, true);  // 12 around, 4 up
     EXPECT_EQ(mesh.points.size(), 12u * 5u);
     for (const Point& point : mesh.points)
         EXPECT_LT(point.x, 1.0f);
@@ -95,7 +95,7 @@ TEST(Cloth, HangsFromItsCornersWithoutBeingStretchedMuch)
         cloth.step({});
     EXPECT_EQ(length(cloth.position(sheet.particle(0, 0)) - held), 0.0);
     const double drop = held.y - cloth.position(sheet.particle(10, 20)).y;
-    EXPECT_GT(drop, 0.9);  // it did fall
+    EXPECT_GT(drop, 0.9);  // the cloth has fallen
     EXPECT_LT(drop, 1.5);
     for (uint j = 0; j < 20; ++j)
         for (uint i = 0; i <= 20; ++i) {

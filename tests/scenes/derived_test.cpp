@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Scenes made of another one: refine, outlier, bend.
+// Scenes derived from another scene: refine, outlier, bend.
 #include <cmath>
 #include <cstring>
 #include <map>
@@ -37,7 +37,7 @@ double longest_edge(const Scene& scene)
     return longest;
 }
 
-/// Sides of triangles without another triangle on the other side.
+/// Returns the number of triangle sides without a triangle on the other side.
 std::size_t open_sides(const Scene& scene)
 {
     std::map<std::pair<uint, uint>, int> count;
@@ -86,7 +86,7 @@ TEST(Refine, LeavesAClosedSurfaceClosedOrOneVertexOnASide)
 
 TEST(Refine, CutsTrianglesOfTheSameCornersAlike)
 {
-    // Two tetrahedra, one on top of the other, over the same vertices: every edge has four triangles.
+    // Two tetrahedra in the same place, with shared vertices: every edge has four triangles.
     const Folder folder;
     const std::string twice =
         folder.file("twice.obj",
@@ -165,7 +165,7 @@ TEST(Outlier, MovesOneTriangleAlongItsNormalAndNothingElse)
                 EXPECT_TRUE(same(is, was)) << "triangle " << k;
                 continue;
             }
-            EXPECT_EQ(is.x, was.x);  // a grid is flat: its normal is z
+            EXPECT_EQ(is.x, was.x);  // the grid is flat, with normal z
             EXPECT_EQ(is.y, was.y);
             EXPECT_NEAR(std::fabs(is.z), 2.5 * diagonal, 1e-6);
         }
@@ -226,7 +226,7 @@ TEST(Bend, LeavesAFlatSheetsEdgesInPlaceAndLiftsItsMiddle)
     for (std::size_t k = 0; k < sheet.frames[0].size(); ++k) {
         const Point was = sheet.frames[0][k];
         const Point is = sheet.frames[1][k];
-        EXPECT_EQ(is.y, was.y);  // it is flat in z, so nothing moves along y
+        EXPECT_EQ(is.y, was.y);  // the grid is flat in z, so nothing moves along y
         if (was.x == 0 || was.x == 1) {
             EXPECT_EQ(is.z, was.z);
         }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Files whose coordinates floats cannot hold: what is overlapping in doubles is so in the floats they are made, and no
-// more, unless they are asked for as they are; files that floats hold are left alone.
+// Files whose coordinates floats cannot hold: boxes overlap in the converted floats exactly if they overlap in doubles, unless
+// conversion as-is is selected; files that floats hold are not changed.
 #include "scenes/doubles.h"
 
 #include <cmath>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t triangles = 150;
 
-/// Small triangles in a cube of side 4, no two of which share a vertex.
+/// Returns small triangles without shared vertices in a cube of side 4.
 std::vector<WidePoint> soup_at(WidePoint at, double scale = 1)
 {
     std::mt19937_64 random(5);
@@ -46,7 +46,7 @@ bool overlap(const P* a, const P* b)
     return !apart(&P::x) && !apart(&P::y) && !apart(&P::z);
 }
 
-/// Pairs of triangles whose boxes overlap, by comparing all with all.
+/// Returns the pairs of triangles whose boxes overlap, by comparing all pairs.
 template <class P>
 std::vector<std::pair<std::size_t, std::size_t>> pairs_of(const std::vector<P>& points)
 {
@@ -58,7 +58,7 @@ std::vector<std::pair<std::size_t, std::size_t>> pairs_of(const std::vector<P>& 
     return found;
 }
 
-/// To a float and back. Stored, since GCC 12.2 drops both conversions where it makes vectors of them.
+/// Rounds to float. The result is stored, because GCC 12.2 drops both conversions when it vectorises them.
 double rounded(double x)
 {
     const volatile float stored = static_cast<float>(x);
@@ -102,7 +102,7 @@ std::string ply_of(const std::vector<WidePoint>& points, const char* type)
     return ply;
 }
 
-/// A line for each vertex and for each triangle, whose corners are counted from `first`.
+/// Returns a line of text for each vertex and each triangle; vertex indices start at `first`.
 std::string lines_of(const std::vector<WidePoint>& points, const std::string& vertex,
                      const std::string& face, std::size_t first)
 {
@@ -145,7 +145,7 @@ TEST(Doubles, AreSeenWhereDigitsSayMoreThanAFloatDoes)
         EXPECT_FALSE(held(word)) << word;
     EXPECT_EQ(parse_number("4500123.45")->wide, 4500123.45);
     EXPECT_EQ(parse_number("4500123.45")->rounded, 4500123.5f);
-    // Whatever was printed from floats, with however many digits.
+    // Floats printed with any number of digits.
     std::mt19937 random(1);
     for (int k = 0; k < 20000; ++k) {
         const auto bits = static_cast<uint>(random());
@@ -203,7 +203,7 @@ TEST(Doubles, FarOffAreRecentredSoThatTheSamePairsOverlap)
     for (std::size_t k = 0; k < points.size(); ++k)
         EXPECT_LE(std::fabs(scene.rounding.offset.x + scene.frames[0][k].x - points[k].x),
                   scene.rounding.largest_error);
-    // All formats of text say the same.
+    // All text formats give the same result.
     for (const std::string& path :
          {folder.file("a.obj", obj_of(points)), folder.file("a.off", off_of(points)),
           folder.file("a.stl", stl_of(points))}) {
@@ -215,7 +215,7 @@ TEST(Doubles, FarOffAreRecentredSoThatTheSamePairsOverlap)
     const Scene as_is = load_scene((folder.path() / "d.ply").string(), library);
     EXPECT_EQ(as_is.rounding.how, Doubles::as_is);
     EXPECT_EQ(as_is.rounding.offset.x, 0);
-    EXPECT_GT(as_is.rounding.largest_error, 0.1);  // floats are half a unit apart there
+    EXPECT_GT(as_is.rounding.largest_error, 0.1);  // floats are half a unit apart at this distance
     EXPECT_EQ(as_is.frames[0][0].x, static_cast<float>(points[0].x));
     const auto found = pairs_of(as_is.frames[0]);
     EXPECT_GT(found.size(), right.size() + right.size() / 10);
@@ -242,7 +242,7 @@ TEST(Doubles, BeyondTheFloatsAreScaledByAPowerOfTwo)
                          "a vertex, 7, that is not finite in float32"));
 }
 
-/// What stands still from frame to frame does so afterwards, though one of the files alone would be left as it is.
+/// What is at rest in all frames remains so, although one of the files alone would not be changed.
 TEST(Doubles, OfASequenceShareOneOffset)
 {
     const Folder folder;

@@ -19,7 +19,7 @@ COLUMNS = "name kind triangles vertices objects frames files sha256 url stand_in
 
 
 class Server(http.server.BaseHTTPRequestHandler):
-    """Serves CONTENT under every path but /missing*, half of it under /short*; sends the rest of it when asked for a range."""
+    """Serves CONTENT for every path except /missing*, and only half of it for /short*; supports range requests."""
 
     asked: list = []
 
@@ -57,7 +57,7 @@ class Fetch(unittest.TestCase):
         return done
 
     def fetch(self, code, url="-", sums=f"a.ply:{SUM}", words=None):
-        """What fetching says of a manifest of one file, and ends with."""
+        """Fetches a file by a manifest of that file alone, expects exit code `code`, and returns the output."""
         row = ["a", "mesh", "1", "3", "1", "1", "static/a.ply a.ply", sums, url, "-", "free", "ask the author", "-"]
         path = self.folder / "manifest.tsv"
         path.write_text("# a comment\n" + "\t".join(COLUMNS.split()) + "\n" + "\t".join(row) + "\n")

@@ -88,7 +88,7 @@ TEST(Files, OfStlHaveThreeVerticesATriangle)
     EXPECT_EQ(binary.triangle_count(), 2u);
     EXPECT_EQ(binary.frames[0].size(), 6u);
     EXPECT_EQ(binary.frames[0][4].x, 2.0f);
-    std::string titled = binary_stl();  // some programs write "solid" here too
+    std::string titled = binary_stl();  // some programs write "solid" in binary files too
     titled.replace(0, 6, "solid ");
     EXPECT_EQ(load_scene(folder.file("titled.stl", titled), {}).triangle_count(), 2u);
     const std::string facet =
@@ -134,8 +134,8 @@ TEST(Files, LoseNegativeZerosAndKeepEverythingElse)
         folder.file("a.obj", "v -0 -0.0 1e-45\nv 1 0 0\nv 1 0 0\nf 1 2 3\nf 1 1 1\nf 1 2 3\n"), {});
     EXPECT_FALSE(std::signbit(scene.frames[0][0].x));
     EXPECT_EQ(scene.frames[0][0].z, 1e-45f);
-    EXPECT_EQ(scene.frames[0].size(), 3u);  // equal vertices stay apart
-    EXPECT_EQ(scene.triangle_count(), 3u);  // so do triangles without area and repeated ones
+    EXPECT_EQ(scene.frames[0].size(), 3u);  // equal vertices are not merged
+    EXPECT_EQ(scene.triangle_count(), 3u);  // degenerate and repeated triangles are kept
 }
 
 TEST(Files, PassOverLinesAndPoints)
@@ -245,7 +245,7 @@ std::vector<NastyFile> listed(const std::filesystem::path& manifest)
     std::ifstream file(manifest);
     std::vector<NastyFile> result;
     std::string line;
-    std::getline(file, line);  // the names of the columns
+    std::getline(file, line);  // the column names
     while (std::getline(file, line)) {
         const auto fields = csv_fields(line);
         result.push_back({fields.at(0), fields.at(3), fields.at(4)});
@@ -253,7 +253,7 @@ std::vector<NastyFile> listed(const std::filesystem::path& manifest)
     return result;
 }
 
-/// Every file of a folder of difficult meshes, listed in its MANIFEST.csv. Files listed as "load" must load.
+/// Loads every file of a folder of difficult meshes, listed in its MANIFEST.csv. Files listed as "load" must load.
 TEST(NastyFiles, LoadWithTheListedTrianglesOrAreRefusedInOneSentence)
 {
     const std::filesystem::path folder = std::filesystem::path(data_folder()) / "nasty";

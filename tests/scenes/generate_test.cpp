@@ -59,7 +59,7 @@ TEST_P(EachGenerator, MakesExactlyTheTrianglesAskedForFromItsLeastOn)
     for (const uint over : more) {
         const Scene scene = generated(GetParam(), least + over);
         EXPECT_EQ(scene.triangle_count(), least + over);
-        EXPECT_EQ(scene.objects.size(), least);  // at least one triangle each
+        EXPECT_EQ(scene.objects.size(), least);  // one triangle each
     }
     EXPECT_TRUE(contains(refusal(std::string(GetParam().name) + ":" + std::to_string(least - 1)),
                          "BadUsage: scene '"));
@@ -100,7 +100,7 @@ TEST_P(EachGenerator, NamesItsObjectsAndRepeatsNoTriangleAndNoCorner)
     }
 }
 
-// Coordinates that left the stage would say that the simulation is not stable; loading refuses what is not finite.
+// Coordinates outside of the stage would mean an unstable simulation. Loading refuses coordinates that are not finite.
 TEST_P(EachMovingGenerator, StaysOnItsStageWhateverItsSize)
 {
     for (const std::size_t count : {310u, 5000u}) {
@@ -115,7 +115,7 @@ TEST_P(EachMovingGenerator, StaysOnItsStageWhateverItsSize)
     }
 }
 
-// No triangle side is much longer than it was at rest: what explodes or hangs on one particle has some.
+// No triangle side is much longer than at rest; cloth that explodes or hangs on one particle has longer sides.
 TEST_P(EachMovingGenerator, TearsNothing)
 {
     const Scene scene = generated(GetParam(), 3000, 5);
@@ -135,7 +135,7 @@ TEST_P(EachMovingGenerator, TearsNothing)
                 << object.name;
 }
 
-// What a published result was built over must stay what it was.
+// Scenes of published results must not change.
 TEST(Generators, KeepTheirContent)
 {
     const std::pair<const char*, const char*> hashes[] = {
@@ -163,7 +163,7 @@ TEST(Torus, HasTheVerticesOfItsFormula)
     ASSERT_EQ(scene.frames[0].size(), 12u);
     EXPECT_FLOAT_EQ(scene.frames[0][0].x, 1.4f);
     EXPECT_EQ(scene.frames[0][0].z, 0.0f);
-    EXPECT_FLOAT_EQ(scene.frames[0][4].x, 0.6f);  // half round the tube
+    EXPECT_FLOAT_EQ(scene.frames[0][4].x, 0.6f);  // half way around the tube
     const Face second = scene.faces[1];
     EXPECT_EQ(second.a, 0u);
     EXPECT_EQ(second.b, 5u);
@@ -218,7 +218,7 @@ TEST(NBody, MovesEveryBodyRigidlyAndBringsThemTogether)
         for (const Motion motion : object_motions(scene, frame - 1, frame))
             EXPECT_EQ(motion, Motion::rigid);
     EXPECT_LT(box_of(scene.frames.back()).max_x, 0.9f * box_of(scene.frames.front()).max_x);
-    std::size_t touching = 0;  // by boxes of bodies
+    std::size_t touching = 0;  // pairs of bodies whose boxes overlap
     std::vector<Aabb> boxes;
     for (const SceneObject& object : scene.objects) {
         Aabb box = empty_box();
@@ -245,7 +245,7 @@ TEST(ClothBall, LiesOnABallThatTurnsAndOnTheFloor)
         lowest = std::min(lowest, p.y);
         highest = std::max(highest, p.y);
         EXPECT_GE(p.y, 0.0f);
-        EXPECT_GE(std::hypot(p.x, p.y - 0.15, p.z), 0.15);  // outside of the ball
+        EXPECT_GE(std::hypot(p.x, p.y - 0.15, p.z), 0.15);  // outside the ball
     }
     EXPECT_LT(lowest, 0.01f);
     EXPECT_GT(highest, 0.29f);
@@ -255,7 +255,7 @@ TEST(ClothBall, LiesOnABallThatTurnsAndOnTheFloor)
 TEST(ClothFunnel, PushesTheClothThroughTheNeck)
 {
     const Scene scene = load_scene("cloth-funnel:3000:8", {});
-    const auto below_the_neck = [&](std::size_t frame) {  // what part of the cloth is
+    const auto below_the_neck = [&](std::size_t frame) {  // fraction of the cloth
         uint count = 0;
         for (uint k = 0; k < scene.objects[0].face_count; ++k)
             count += scene.frames[frame][scene.faces[k].a].y < 0.35f ? 1 : 0;
@@ -278,16 +278,15 @@ TEST(TwoSpheres, SinkIntoEachOtherAndTurn)
         for (const Motion motion : object_motions(scene, frame - 1, frame))
             EXPECT_EQ(motion, Motion::rigid);
     const std::size_t second = scene.faces[scene.objects[1].first_face].a;
-    const auto inside =
-        [&](std::size_t frame) {  // of the standing one, what part of the other's points
-            std::size_t count = 0;
-            for (std::size_t k = second; k < scene.frames[frame].size(); ++k) {
-                const Point p = scene.frames[frame][k];
-                count += std::hypot(p.x, p.y, p.z) < 0.5 ? 1 : 0;
-            }
-            return static_cast<double>(count) /
-                   static_cast<double>(scene.frames[frame].size() - second);
-        };
+    const auto inside = [&](std::size_t frame) {  // fraction of the second sphere's points
+        std::size_t count = 0;
+        for (std::size_t k = second; k < scene.frames[frame].size(); ++k) {
+            const Point p = scene.frames[frame][k];
+            count += std::hypot(p.x, p.y, p.z) < 0.5 ? 1 : 0;
+        }
+        return static_cast<double>(count) /
+               static_cast<double>(scene.frames[frame].size() - second);
+    };
     EXPECT_LT(inside(0), 0.01);
     EXPECT_NEAR(inside(3), 0.05, 0.01);
 }

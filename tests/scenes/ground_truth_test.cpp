@@ -7,7 +7,7 @@
 namespace bvhbench {
 namespace {
 
-/// A tetrahedron without its base, in as many frames as wanted, as a folder of numbered files.
+/// A tetrahedron without its base, in a given number of frames, as a folder of numbered files.
 class Sequence : public Folder {
 public:
     explicit Sequence(int frames = 2)
@@ -23,7 +23,7 @@ public:
         return ground_truth_of(scene, unique_edges(scene));
     }
 
-    /// Why it is refused, after the folder's name.
+    /// Returns the message with which it is refused, after the folder's name.
     std::string refusal() const
     {
         try {
@@ -38,7 +38,7 @@ public:
     }
 };
 
-// Edges by their larger vertex, then their smaller: 0-1, 0-2, 1-2, 0-3, 1-3, 2-3. Faces lie behind the four vertices.
+// Edges are ordered by larger, then smaller vertex: 0-1, 0-2, 1-2, 0-3, 1-3, 2-3. Faces follow the four vertices.
 TEST(GroundTruth, IsReadAsPlacesAmongVerticesAndFacesAndAmongEdges)
 {
     const Sequence sequence;

@@ -14,7 +14,7 @@
 
 namespace bvhbench {
 
-/// A folder of this test's own, gone with it.
+/// A temporary folder that is deleted with the object.
 class Folder {
 public:
     Folder()
@@ -41,7 +41,7 @@ private:
     std::filesystem::path path_;
 };
 
-/// What loading `text` is refused with, after its class: "BadUsage: no scene is called ...".
+/// Returns the message with which loading `text` is refused, after its class: "BadUsage: no scene is called ...".
 inline std::string refusal(std::string_view text, const SceneLibrary& library = {})
 {
     try {
@@ -61,7 +61,7 @@ inline testing::AssertionResult contains(const std::string& text, const std::str
     return testing::AssertionFailure() << "'" << text << "' lacks '" << part << "'";
 }
 
-/// The data folder of this machine, empty if there is none.
+/// Returns this machine's data folder; empty if there is none.
 inline std::string data_folder()
 {
     const char* const folder = std::getenv("BVHBENCH_DATA");

@@ -15,7 +15,7 @@ namespace {
 
 using Move = std::function<Vector(Vector)>;
 
-/// A turn about (1, 2, 2) / 3 and a shift.
+/// Rotates about (1, 2, 2) / 3 and translates.
 Vector turned_and_shifted(Vector a, double turns, Vector shift)
 {
     const Vector axis = {1 / 3.0, 2 / 3.0, 2 / 3.0};
@@ -24,7 +24,7 @@ Vector turned_and_shifted(Vector a, double turns, Vector shift)
            ((1 - turn.cosine) * dot(axis, a)) * axis + shift;
 }
 
-/// What `scene` is found to do when `move` gives it a second frame. Both frames are rounded, as in a file.
+/// Returns the motion found when `first` gives `scene` its first frame and `second` its second. Both are rounded, as in a file.
 Motion motion_of(std::string_view name, const Move& first, const Move& second)
 {
     Scene scene = load_scene(name, {});
@@ -63,7 +63,7 @@ TEST(Motion, OfWhatTurnsOrIsShiftedIsRigid)
 
 TEST(Motion, OfWhatBendsALittleIsNot)
 {
-    // A sheet bent out of its plane keeps its lengths to the square of this: no float shows that they change.
+    // A sheet that is bent out of its plane changes its lengths only by the square of this, which floats cannot show.
     for (const char* shape : {"grid:3000", "torus:500", "sphere:20000", "soup:200"}) {
         const Move bent = [](Vector a) { return a + Vector{0, 0, 4e-5 * a.x * a.x}; };
         EXPECT_EQ(motion_of(shape, still, bent), Motion::deforming) << shape;
@@ -83,7 +83,7 @@ TEST(Motion, OfWhatGrowsOrIsMirroredIsNot)
         EXPECT_EQ(motion_of(shape, still, mirrored), Motion::deforming) << shape;
     }
     EXPECT_EQ(motion_of("grid:3000", still, mirrored),
-              Motion::rigid);  // a sheet may be turned over
+              Motion::rigid);  // a flat sheet may be turned over
 }
 
 TEST(Motion, OfOneVertexAmongManyIsSeen)
@@ -110,7 +110,7 @@ TEST(Motion, IsToldForEachObject)
         EXPECT_EQ(motions[k], k == 3 ? Motion::deforming : Motion::unchanged);
 }
 
-// The bound itself: over many roundings of points in all shapes, the fit is never off by more.
+// Checks the bound itself: over many roundings of points in all shapes, the error of the fit never exceeds it.
 TEST(RigidFit, LeavesNoMoreThanItsAllowance)
 {
     Random random(5);
@@ -132,8 +132,8 @@ TEST(RigidFit, LeavesNoMoreThanItsAllowance)
     }
 }
 
-// Where the allowance must be more than the 2 of a point and the mean: most points pull the mean up, some at both ends
-// turn the fit, and one of those goes against all others.
+// Cases in which the allowance must exceed the 2 of a point and the mean: most points move the mean, some at both ends rotate
+// the fit, and one of these moves against all others.
 TEST(RigidFit, NeedsItsAllowanceForTheTurn)
 {
     std::vector<Vector> from, to;
@@ -153,7 +153,7 @@ TEST(RigidFit, NeedsItsAllowanceForTheTurn)
     EXPECT_LE(off, 1.001e-6 * fit_allowances(from).back());
 }
 
-/// One triangle whose first corner goes where the frames say.
+/// Returns one triangle whose first corner is at `corner[k]` in frame k.
 Scene path(std::initializer_list<Point> corner)
 {
     Scene scene;
@@ -189,7 +189,7 @@ TEST(FramesBetween, AreOnTheStraightWayRoundedOnce)
         EXPECT_EQ(is.x, static_cast<float>((1 - t) * a.x + t * b.x));
         EXPECT_EQ(is.y, static_cast<float>((1 - t) * a.y + t * b.y));
         EXPECT_EQ(is.z, static_cast<float>((1 - t) * a.z + t * b.z));
-        EXPECT_EQ(scene.frames[k][1].x, 1.0f);  // what stays stays
+        EXPECT_EQ(scene.frames[k][1].x, 1.0f);  // points at rest do not move
     }
 }
 

@@ -8,7 +8,7 @@
 namespace bvhbench {
 namespace {
 
-// Two squares whose triangles take turns in the file, and a triangle of the first at the end.
+// Two squares whose triangles alternate in the file, and another triangle of the first square at the end.
 constexpr const char* interleaved =
     "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 5 0 0\nv 6 0 0\nv 6 1 0\nv 5 1 0\nv 9 9 9\n"
     "f 1 2 3\nf 5 6 7\nf 1 3 4\nf 5 7 8\nf 4 3 9\n";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What a class of pairs promises holds exactly: shown in whole numbers, which all of these coordinates are.
+// The promises of pair classes hold exactly: checked in whole numbers, because all of these coordinates are whole.
 #include "scenes/generate/pair_classes.h"
 
 #include <gtest/gtest.h>
@@ -28,10 +28,10 @@ Vector whole(Point p, float of_half)
 
 double volume(Vector a, Vector b, Vector c, Vector d) { return dot(d - a, cross(b - a, c - a)); }
 
-/// The turn of a, b, c as seen along z.
+/// Returns the orientation of a, b, c seen along z.
 double turn(Vector a, Vector b, Vector c) { return cross(b - a, c - a).z; }
 
-/// With `axis` in the place of z.
+/// Returns p with its coordinate `axis` in the place of z.
 Vector seen_along(std::size_t axis, Vector p)
 {
     const double along[] = {p.x, p.y, p.z};
@@ -40,7 +40,7 @@ Vector seen_along(std::size_t axis, Vector p)
 
 using Three = std::array<Vector, 3>;
 
-/// Whether the line of an edge of `a` has `b` on the other side, all of it strictly or touching the line as well.
+/// True if the line of an edge of `a` separates `a` from `b`; unless `strictly`, `b` may touch the line.
 bool parts(const Three& a, const Three& b, bool strictly)
 {
     const double way = turn(a[0], a[1], a[2]) < 0 ? -1 : 1;
@@ -137,7 +137,7 @@ TEST(PairClasses, InOnePlaneTouchOverlapOrMissExactly)
     }
 }
 
-/// Whether a corner of `b` is in the plane of `a`, within it as seen along some axis, and nothing of `b` is below.
+/// True if a corner of `b` lies in the plane of `a`, within `a` as seen along some axis, and no part of `b` is below the plane.
 bool stands_on(const Three& a, const Three& b)
 {
     std::array<double, 3> heights;
@@ -164,7 +164,7 @@ TEST(PairClasses, WithACornerOnAFaceTouchThereExactly)
         EXPECT_TRUE(stands_on(six.a, six.b) || stands_on(six.b, six.a));
 }
 
-/// Whether edge i of `a` and edge j of `b` cross in their middles.
+/// True if edge i of `a` and edge j of `b` cross in their interiors.
 bool cross(const Three& a, std::size_t i, const Three& b, std::size_t j)
 {
     const Vector p = a[i], q = a[(i + 1) % 3], r = b[j], s = b[(j + 1) % 3];

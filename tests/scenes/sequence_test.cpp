@@ -45,7 +45,7 @@ TEST(Sequence, MustHoldWholeFrames)
     EXPECT_TRUE(contains(refusal(folder.path().string()), "frames.f32 has 0 bytes"));
 }
 
-/// A sequence of two frames with this for its meta.json.
+/// Returns a sequence of two frames with the given meta.json.
 Scene with_meta(const Folder& folder, const std::string& meta)
 {
     folder.file("mesh.ply", mesh);
@@ -149,10 +149,10 @@ TEST(Sequence, MayBeNumberedFilesWhosePartsAreObjects)
     folder.file("readme1.txt", "not a frame");
     const Scene scene = load_scene(folder.path().string(), {});
     ASSERT_EQ(scene.frames.size(), 2u);
-    EXPECT_EQ(scene.frames[0][3].z, 9.0f);  // by number, not by name
+    EXPECT_EQ(scene.frames[0][3].z, 9.0f);  // sorted by number, not by name
     EXPECT_EQ(scene.objects.size(), 2u);
     EXPECT_EQ(scene.frame_labels, (std::vector<std::string>{"9", "10"}));
-    EXPECT_FALSE(scene.has_meshes);  // parts were found, none was named
+    EXPECT_FALSE(scene.has_meshes);  // components were found, but no names
 
     folder.file("cloth11.obj", points("11") + "f 1 3 2\nf 4 5 6\n");
     EXPECT_TRUE(contains(refusal(folder.path().string()), "cloth11.obj has other triangles than "));
@@ -174,7 +174,7 @@ TEST(DataSets, ThatAreHereHoldWhatTheManifestSays)
             continue;
         ++found;
         SCOPED_TRACE(entry.name);
-        const Scene scene = load_scene(entry.name, library);  // throws when a count differs
+        const Scene scene = load_scene(entry.name, library);  // throws if a count differs
         EXPECT_EQ(scene.triangle_count(), entry.triangles);
         if (entry.objects != 0) {
             EXPECT_EQ(scene.objects.size(), entry.objects);

@@ -7,7 +7,7 @@
 namespace bvhbench {
 namespace {
 
-// Two instances of one square of two triangles, the second moved 10 along x.
+// Two instances of a square of two triangles, the second moved by 10 along x.
 constexpr const char* gltf =
     R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
 "nodes": [{"mesh": 0, "name": "still"}, {"mesh": 0, "name": "moved", "translation": [10, 0, 0]}],
@@ -32,7 +32,7 @@ TEST(Worker, ReadsWhatAssimpReadsWithTransformsAndInstances)
     folder.file("square.bin", square_bytes());
     const Scene scene = load_scene(folder.file("square.gltf", gltf), {});
     ASSERT_EQ(scene.triangle_count(), 4u);
-    ASSERT_EQ(scene.frames[0].size(), 8u);  // shared within an instance, not between them
+    ASSERT_EQ(scene.frames[0].size(), 8u);  // shared within an instance, not between instances
     ASSERT_EQ(scene.objects.size(), 2u);
     EXPECT_EQ(scene.objects[1].name, "moved");
     EXPECT_EQ(scene.objects[1].first_face, 2u);
@@ -53,7 +53,7 @@ TEST(Worker, IsEndedWhenItsTimeIsOver)
     const Folder folder;
     folder.file("square.bin", square_bytes());
     SceneLibrary library;
-    library.time_limit_s = 1e-4;  // no process starts that fast
+    library.time_limit_s = 1e-4;  // no process starts this fast
     EXPECT_TRUE(contains(refusal(folder.file("square.gltf", gltf), library),
                          "Unavailable: the reader took longer than 0.0001 s on "));
 }
@@ -104,7 +104,7 @@ TEST(Message, IsNothingWhenCutOrChanged)
         EXPECT_FALSE(decoded(whole.substr(0, size))) << size;
     EXPECT_FALSE(decoded(whole + "x"));
     std::string counts = whole;
-    counts[9 + 7] = '\x7f';  // an absurd number of points
+    counts[9 + 7] = '\x7f';  // an implausible number of points
     EXPECT_FALSE(decoded(counts));
 }
 

@@ -30,7 +30,7 @@ void expect_each_level_once(uint leaves, uint levels_a_launch)
             ++built[level];
         unbuilt -= launch.levels;
 
-        // The subtrees' roots are the nodes of the launch's last level: none missing, none too many.
+        // The subtrees' roots are exactly the nodes of the launch's last level.
         ASSERT_EQ(launch.subtrees,
                   implicit_used_on(leaves, launch.entry_level + 1 - launch.levels));
     }
@@ -58,7 +58,7 @@ TEST(SubtreeSchedule, IsEmptyForOneLeafAndOneLaunchForTwo)
 
 TEST(SubtreeSchedule, TakesTheLaunchesThatFollowFromTheGroupSize)
 {
-    // 2,880,000 leaves: 22 levels to build. Groups of 256 build 9 a launch.
+    // 2,880,000 leaves give 22 levels to build. Groups of 256 build 9 levels per launch.
     const SubtreeSchedule schedule = schedule_for(2880000, 9);
     ASSERT_EQ(schedule.count, 3u);
     EXPECT_EQ(schedule.launches[0].entry_level, 21u);
