@@ -10,7 +10,8 @@
 
 namespace bvhbench {
 
-/// Calls meet(a, b) for each two objects whose boxes overlap, and meet(a, a) for each object, as `among` wants.
+/// Calls meet(a, b) for each pair of objects whose boxes overlap unless `among` is within_objects, and meet(a, a) for each
+/// object unless `among` is between_objects.
 template <class Object, class Meet>
 void for_near_objects(const std::vector<std::unique_ptr<Object>>& objects,
                       std::span<const Aabb> boxes, Among among, const Meet& meet)
