@@ -10,8 +10,7 @@
 
 namespace bvhbench {
 
-/// Calls meet(a, b) for each pair of objects whose boxes overlap unless `among` is within_objects, and meet(a, a) for each
-/// object unless `among` is between_objects.
+/// Calls meet(a, b) for objects whose boxes overlap, unless among == within_objects, and meet(a, a), unless between_objects.
 template <class Object, class Meet>
 void for_near_objects(const std::vector<std::unique_ptr<Object>>& objects,
                       std::span<const Aabb> boxes, Among among, const Meet& meet)

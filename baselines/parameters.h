@@ -18,7 +18,6 @@ inline constexpr Parameter radix_group_size{
     .values = ValueIs::group_size,
     .candidates = {32, 64, 128, 256, 512}};
 
-/// All parameters of this file.
 inline constexpr const Parameter* baseline_parameters[] = {&radix_group_size};
 
 }  // namespace bvhbench

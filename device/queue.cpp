@@ -11,8 +11,7 @@ namespace bvhbench {
 
 namespace {
 
-/// Returns to - from, but 0 if that is negative or `from` is unset: some drivers take these times from another clock or do
-/// not set them.
+/// Returns to - from, or 0 if that is negative or `from` is unset: some drivers use another clock or set no time.
 std::int64_t between(cl_ulong from, cl_ulong to)
 {
     return from > 0 && to > from ? static_cast<std::int64_t>(to - from) : 0;

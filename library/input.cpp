@@ -35,7 +35,6 @@ std::string text_of(OwnPoint point)
            std::to_string(point.z) + ')';
 }
 
-/// True if the host may read the buffer.
 bool may_be_read(const cl::Buffer& buffer)
 {
     return (buffer.getInfo<CL_MEM_FLAGS>() & (CL_MEM_HOST_WRITE_ONLY | CL_MEM_HOST_NO_ACCESS)) == 0;
@@ -105,8 +104,7 @@ const bvhbench::Input& InputTaker::take(const Input& input, std::span<const std:
 {
     const bool are_boxes =
         std::holds_alternative<HostBoxes>(input) || std::holds_alternative<DeviceBoxes>(input);
-    // Releases the caller's former buffers, so that none is retained if this call fails, and copies that this kind of input
-    // does not use.
+    // Releases the caller's former buffers, lest a failed call retain them, and copies that this kind of input does not use.
     taken_.device_points = {};
     taken_.device_faces = {};
     if (!are_boxes) {

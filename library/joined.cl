@@ -14,8 +14,8 @@ kernel void number_behind(global const uint* restrict ids, global uint* restrict
         to[first + k] = ids[k] + first;
 }
 
-/// Subtracts `first`, the number of leaves of the first tree, from the second number of each pair. That number always
-/// belongs to the second tree, because pairs have the smaller number first.
+/// Subtracts `first`, the number of leaves of the first tree, from the second number of each pair, which belongs to the second
+/// tree, since pairs have the smaller number first.
 kernel void own_numbers(global uint2* restrict pairs, global const uint* restrict counters,
                         const uint room, const uint first)
 {

@@ -12,8 +12,7 @@ namespace {
 constexpr Named<MakeBuilder> builders[] = {{"oibvh-single", make_oibvh_single},
                                            {"oibvh-multi", make_oibvh_multi}};
 
-/// Returns the default builder: oibvh-single on GPUs whose work-groups may hand over work within a launch, where it takes
-/// 0.8 of the time of oibvh-multi (H200); else oibvh-multi.
+/// Returns oibvh-single on GPUs whose work-groups may hand over work within a launch (0.8 of the time on an H200), else multi.
 std::string_view builder_for(const bvhbench::Device& device)
 {
     return device.lets_groups_meet() && !device.is_cpu() ? "oibvh-single" : "oibvh-multi";

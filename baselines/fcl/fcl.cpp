@@ -72,8 +72,7 @@ private:
 
     void reserve_own(std::size_t) override {}
 
-    /// Creates a new model for each build, because FCL prints a warning when a model is filled again. Copying is not timed, as for
-    /// all builders.
+    /// Creates a new model for each build, since FCL prints a warning if a model is filled again. Untimed, as in all builders.
     void prepare(const Input& input, Queue&, Start) override
     {
         if (input.is_swept())

@@ -54,8 +54,7 @@ public:
     }
 };
 
-/// Builds a tree in heap order, without pointers: each set is split along its longest axis, at the position that the heap's shape
-/// dictates.
+/// Builds a tree in heap order, without pointers: each set is split along its longest axis, in the sizes that the heap dictates.
 class HeapMedian final : public HostBuilder {
 public:
     HeapMedian()

@@ -36,8 +36,8 @@ static inline Aabb box_of_child(const Tree tree, const uint child)
                                 : load_box(tree.boxes, child);
 }
 
-/// Returns the parent of `child`, which is the split towards its nearer neighbour, and stores the child and its end of the
-/// range there (Algorithm 1 of the paper).
+/// Returns the parent of `child`, the split towards its nearer neighbour, and stores the child and its end of the range there
+/// (Algorithm 1 of the paper).
 static inline uint choose_parent(const Tree tree, const uint leaves, const uint child,
                                  const uint first, const uint last)
 {

@@ -8,8 +8,8 @@
 //
 //     key = | code, 64 bits | place, 32 bits |      shorter codes are widened: common zeros change no comparison
 //
-// A node's first and last leaf never share equally long prefixes with their outer neighbours. Otherwise both would differ from
-// them first in the same bit, which, as keys ascend, would be 1 in the first leaf and 0 in the last; but inside a node it is equal.
+// A node's first and last leaf never share equally long prefixes with their outer neighbours. Otherwise both would first differ
+// in the same bit from them. Keys ascend, so it would be 1 in the first leaf and 0 in the last, but a node's leaves share it.
 #ifndef BVHBENCH_BASELINES_RADIX_DELTA_H
 #define BVHBENCH_BASELINES_RADIX_DELTA_H
 

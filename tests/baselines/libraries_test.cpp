@@ -42,7 +42,7 @@ TEST_F(Embree, CostsLessOfMediumQualityAndBuildsHighAlikeWhenItMayNotSplitTriang
 
 TEST_F(Embree, LeavesTheSameTreeEachTimeFromManyThreads)
 {
-    // Both meshes are large enough for Embree's parallel code. In the second all triangles are equal, so any split costs the same.
+    // Both meshes are large enough for Embree's parallel code. In the second all triangles are equal, so all splits cost as much.
     Mesh same{{{0, 0, 0}, {1, 0, 0}, {0, 1, 1}}, std::vector<Face>(50000, Face{0, 1, 2})};
     for (const Mesh& mesh : {mesh_of("torus:50000"), same})
         for (const MakeBuilder make : {make_embree_low, make_embree_medium}) {

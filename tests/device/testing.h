@@ -37,7 +37,6 @@ private:
     std::filesystem::path path_;
 };
 
-/// Fixture with a device, its programs and a queue.
 class OnDevice : public testing::Test {
 protected:
     Device device = open_device("");

@@ -4,8 +4,7 @@
 // work again once no call fails; and no OpenCL object may leak or be released twice. A shim that is linked before the
 // OpenCL loader intercepts every call.
 //
-// BVHBENCH_FAULTS=calls fails every call, once alone and once with all calls after it. The default tries every eightieth call
-// path.
+// BVHBENCH_FAULTS=calls fails every call, alone and with all calls after it. The default tries every eightieth call path.
 #include <optional>
 #include <set>
 
@@ -74,8 +73,7 @@ struct Outcome {
     long callers = 0;  ///< OpenCL calls that the caller made before any library call
 };
 
-/// Creates a caller and runs its work, a second time if the first run throws. If only one call fails, the second run must
-/// succeed.
+/// Creates a caller and runs its work, again if the first run throws. If only one call fails, the second run must succeed.
 Outcome live(cl_command_queue_properties kind, cl_device_id device, shim::Plan plan,
              const std::vector<PairList>& right)
 {

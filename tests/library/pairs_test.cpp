@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The library finds the same pairs as the sweep oracle, for every kind of input, collider and set of objects, and after
-// build, refit and update.
+// The library finds the sweep oracle's pairs for all kinds of input, colliders and objects, after build, refit and update.
 #include "tests/library/testing.h"
 
 namespace bvhbench {

@@ -181,7 +181,6 @@ inline PairList found_pairs(oibvh::Tree& tree, const Caller& caller,
     return pair_list(pairs);
 }
 
-/// Fixture with a caller and a Device on its queue.
 class OfACaller : public testing::Test {
 protected:
     Caller caller;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The library's trees equal those of the builders that bvhbench measures, bit for bit, and its buffers have the documented
-// layout.
+// The library's trees equal those of bvhbench's builders bit for bit, and its buffers have the documented layout.
 #include <cstring>
 
 #include "builders/implicit/tree.h"

@@ -150,14 +150,14 @@ struct Options {
     /// Order of the leaves: a name from `bvhbench list orders`, such as morton30, hilbert30 or kd. kd takes longer to build,
     /// gives better trees, and takes one object only.
     std::string order = "hilbert30";
-    /// True: leaf boxes are stored in leaf order, after the inner nodes. False: in input order, in a buffer of their own.
+    /// True: leaf boxes follow their tree's inner nodes, in leaf order. False: they are in their own buffer, in input order.
     bool sorted_leaves = true;
     /// Collider: leaf, group, block or bvtt. If empty, the library chooses by device.
     std::string collider = {};
     /// Whether queries also report pairs of triangles that share a point index. Queries between two trees always do.
     bool adjacent_pairs = true;
-    /// Whether builds check that indices are in range, coordinates finite and no box's minimum above its maximum. The check
-    /// waits for the device. Without it such input is undefined behaviour.
+    /// Whether build, refit and update check that indices are in range, coordinates finite and no box's minimum above its
+    /// maximum. The check waits for the device. Without it such input is undefined behaviour.
     bool check_input = true;
 };
 
@@ -210,9 +210,9 @@ struct Pairs {
     std::uint64_t count = 0;
 };
 
-/// A tree over triangles or boxes, or one tree for each of several objects. A build over other sizes than the build before
-/// allocates device memory anew; apart from that only queries allocate. All calls enqueue on the Device's queue. Their
-/// commands run after everything enqueued there before the call and before everything enqueued there after it.
+/// A tree over triangles or boxes, or one tree for each of several objects. Device memory is allocated when the sizes or the
+/// kind of the input change and when a query or an update needs more, and is reused otherwise. All calls enqueue on the Device's
+/// queue: after everything enqueued there before the call, and before everything enqueued there after it.
 class BVHBENCH_API Tree {
 public:
     /// Throws BadInput for an unknown builder, order or collider, Unavailable, or OpenClFailure.
@@ -222,9 +222,9 @@ public:
     Tree& operator=(Tree&& other) noexcept;
     ~Tree();
 
-    /// Builds over `input`: one tree, or, given `objects`, one tree for each consecutive run of that many triangles or boxes.
-    /// The sizes must sum to the size of the input. Waits if the input is checked, copied from the host, or of other sizes
-    /// than before. Throws any Error; afterwards there is no tree until a build succeeds.
+    /// Builds one tree over `input` or, if `objects` is not empty, one tree over each consecutive run of objects[k] triangles or
+    /// boxes; the sizes must sum to the size of the input. Waits if the input is checked, copied from the host, or of other
+    /// sizes than before. Throws any Error; afterwards there is no tree until a build succeeds.
     void build(const Input& input, std::span<const std::uint32_t> objects = {});
 
     /// Recomputes the boxes of the current tree from moved input of the same sizes. This is faster than a build, but queries
