@@ -36,11 +36,11 @@ struct Device {
 
     /// True if the driver ends loops early, as Mesa's llvmpipe does (22.3, through Rusticl). It allows a work-item 65,535
     /// iterations of all its loops together; after that each loop ends after one more iteration. Lanes of a group beyond the
-    /// last work-item use up iterations as well: their loads return 0, and a loop that waits for another value never ends in
-    /// them. OpenCL C allows neither.
+    /// last work-item use up iterations as well: their loads return 0, so a loop that waits for another value runs there until
+    /// none are left. OpenCL C allows neither.
     bool ends_loops = false;
 
-    /// Largest number of triangles for which the chunk kernels still work if `ends_loops`: few enough iterations a work-item.
+    /// Largest number of triangles for which the chunk kernels still work if `ends_loops`: few enough iterations each.
     static constexpr std::size_t most_triangles_in_short_loops = 16384;
 
     /// Upper bound, in bytes, on all device memory together, if less than the device has.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// rtcCollide: Embree's traversal of its own trees, as a program uses that takes its broad phase from a library.
+// rtcCollide: Embree's traversal of its own trees, the broad phase of programs that use a library for it.
 //
 // Each object is a scene with one user geometry. Objects whose boxes overlap are tested against each other, and an object
 // against itself only on request. This is never slower than one scene of all objects. Between the 305 objects of a real frame
@@ -56,7 +56,7 @@ void build(const Object& object)
     rtcCommitScene(object.scene.get());
 }
 
-/// Adds the pairs between `a` and `b`, or within one object if they are the same, for which `wanted` is true to `found`.
+/// Adds to `found` the pairs between `a` and `b`, or within the object if &a == &b, for which `wanted` is true.
 template <class Wanted>
 void meet(const Object& a, const Object& b, ThreadPairs& found, const Wanted& wanted)
 {

@@ -66,7 +66,7 @@ cl_uint RadixTree::bind(cl::Kernel& kernel, cl_uint first) const
     return set_arguments_from(kernel, first, leaf_boxes, ids, leaves, device_objects);
 }
 
-/// Lists the nodes in breadth-first order.
+/// Lists the nodes in breadth-first order, without recursion, since a radix tree may be 95 levels deep.
 HostTree RadixTree::spelled_out_object(uint object) const
 {
     HostTree tree;
