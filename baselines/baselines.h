@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Everything the paper's builders and colliders are compared with.
+// The builders and colliders that the paper's are compared with.
 #pragma once
 
 #include <memory>
@@ -11,43 +11,43 @@
 
 namespace bvhbench {
 
-/// The perfect implicit tree, padded to a power of two leaves: Table 1's first row.
+/// The perfect implicit tree, padded to a power of two leaves: the first row of Table 1.
 std::unique_ptr<Builder> make_perfect(Programs& programs, const BuildOptions& options);
 
-/// On one core of the host, from the root down, one triangle a leaf. They take no order: no code is computed.
+/// Top-down builders on one core of the host, with one triangle per leaf. They compute no codes, so `order` is ignored.
 std::unique_ptr<Builder> make_heap_median(Programs& programs, const BuildOptions& options);
 std::unique_ptr<Builder> make_median_split(Programs& programs, const BuildOptions& options);
 std::unique_ptr<Builder> make_sah_binned(Programs& programs, const BuildOptions& options);
 
-/// The binary radix tree of [Karras2012]: topology top-down from all nodes at once, then boxes bottom-up.
+/// The binary radix tree of [Karras2012]: the topology of all inner nodes in parallel, then boxes bottom-up.
 std::unique_ptr<Builder> make_karras(Programs& programs, const BuildOptions& options);
 
-/// The same tree bottom-up, as [Apetrei2014] prints it: Table 1's second row.
+/// The binary radix tree, built bottom-up as printed in [Apetrei2014]: the second row of Table 1.
 std::unique_ptr<Builder> make_apetrei(Programs& programs, const BuildOptions& options);
 
-/// The same, topology and boxes in one launch: the strongest form of [Apetrei2014] we know.
+/// The binary radix tree with topology and boxes in one launch: the fastest known form of [Apetrei2014].
 std::unique_ptr<Builder> make_apetrei_fused(Programs& programs, const BuildOptions& options);
 
-/// The same, a launch a level: top-down the topology, bottom-up the boxes, in the manner of [Lauterbach2009].
+/// The binary radix tree with one launch per level, topology top-down and boxes bottom-up, similar to [Lauterbach2009].
 std::unique_ptr<Builder> make_lbvh_levels(Programs& programs, const BuildOptions& options);
 
-/// The same tree top-down on one core of the host, slowly: the oracle for every builder of it.
+/// The binary radix tree, built top-down on one core of the host. Slow; the oracle for all builders of this tree.
 std::unique_ptr<Builder> make_radix_reference(Programs& programs, const BuildOptions& options);
 
-// Of libraries that the program was built without, all that makes something is nullptr and `..._absent` says why. Ask the
-// latter: under its undefined-behaviour sanitizer GCC 12 takes no function's address for a constant.
+// For a library that the program was built without, all its make_ functions are nullptr and `..._absent` gives the reason. Test
+// `..._absent`: with its undefined-behaviour sanitizer, GCC 12 does not treat a function's address as a constant.
 #if BVHBENCH_HAS_EMBREE
 inline constexpr std::string_view embree_absent = {};
 
-/// rtcBuildBVH, on all threads of the host, with binary nodes and one triangle a leaf. High quality is denied its
-/// splits, since they put a triangle in several leaves, and then builds as medium does.
-/// They throw Unavailable for coordinates beyond 1.8e18.
+/// Embree's rtcBuildBVH on all threads of the host, with binary nodes and one triangle per leaf. High quality runs without
+/// spatial splits, which put a triangle in several leaves, and then builds as medium quality does. A build throws Unavailable
+/// for coordinates beyond 1.8e18.
 std::unique_ptr<Builder> make_embree_low(Programs& programs, const BuildOptions& options);
 std::unique_ptr<Builder> make_embree_medium(Programs& programs, const BuildOptions& options);
 std::unique_ptr<Builder> make_embree_high(Programs& programs, const BuildOptions& options);
 
-/// rtcCollide over user geometry, built anew each query, on all threads of the host: pairs of boxes that overlap.
-/// Throws Unavailable for coordinates beyond 1.8e18.
+/// Embree's rtcCollide over user geometry, built anew for each query, on all threads of the host. Finds pairs of overlapping
+/// boxes. A query throws Unavailable for coordinates beyond 1.8e18.
 std::unique_ptr<Collider> make_embree_collider(Programs& programs, const ColliderOptions& options);
 #else
 inline constexpr std::string_view embree_absent = "built without Embree";
@@ -60,13 +60,13 @@ inline constexpr MakeCollider make_embree_collider = nullptr;
 #if BVHBENCH_HAS_FCL
 inline constexpr std::string_view fcl_absent = {};
 
-/// FCL's BVHModel in double, on one core of the host.
+/// FCL's BVHModel in double precision, on one core of the host.
 std::unique_ptr<Builder> make_fcl_aabb(Programs& programs, const BuildOptions& options);
 std::unique_ptr<Builder> make_fcl_obbrss(Programs& programs, const BuildOptions& options);
 
-/// FCL's models in double, on one core of the host: pairs of triangles that intersect and share no vertex. The trees are
-/// built each query; or refit, the topology being that of the points they were reserved for. They throw BadUsage if
-/// adjacent pairs are to be kept.
+/// FCL's collision of BVHModels in double precision, on one core of the host. Finds pairs of triangles that intersect and
+/// share no vertex. `fcl` builds its trees for each query; `fcl-refit` refits trees whose topology comes from the points given
+/// to `reserve`. Both throw BadUsage if adjacent pairs are to be kept.
 std::unique_ptr<Collider> make_fcl_collider(Programs& programs, const ColliderOptions& options);
 std::unique_ptr<Collider> make_fcl_refit_collider(Programs& programs,
                                                   const ColliderOptions& options);

@@ -10,7 +10,7 @@
 
 namespace bvhbench {
 
-/// Calls meet(a, b) for each two objects whose boxes overlap, and meet(a, a) for each object, as `among` wants.
+/// Calls meet(a, b) for objects whose boxes overlap, unless among == within_objects, and meet(a, a), unless between_objects.
 template <class Object, class Meet>
 void for_near_objects(const std::vector<std::unique_ptr<Object>>& objects,
                       std::span<const Aabb> boxes, Among among, const Meet& meet)

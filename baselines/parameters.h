@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What baselines let a device choose (device/tuning.h), beside builders/parameters.h.
+// Tuning parameters (device/tuning.h) of the baselines, in addition to builders/parameters.h.
 #pragma once
 
 #include "device/tuning.h"
@@ -18,7 +18,6 @@ inline constexpr Parameter radix_group_size{
     .values = ValueIs::group_size,
     .candidates = {32, 64, 128, 256, 512}};
 
-/// All of them.
 inline constexpr const Parameter* baseline_parameters[] = {&radix_group_size};
 
 }  // namespace bvhbench

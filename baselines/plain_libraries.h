@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Libraries as their manuals show them, without the care that our colliders take of them: what `bvhbench stress` finds
-// out about them. They may crash, hang, or take all memory: to be called in a process of its own.
+// Collision libraries called as their manuals show, without the workarounds of our colliders, for `bvhbench stress`. The calls
+// may crash, hang, or exhaust memory: make them in a separate process.
 #pragma once
 
 #include <span>
@@ -15,18 +15,18 @@ namespace bvhbench {
 
 struct PlainLibrary {
     std::string_view name;     ///< the key in tables and result files
-    std::string_view library;  ///< whose version it has: a name of the run's libraries
-    /// Whether it finds pairs of triangles that intersect and share no vertex; else of boxes that overlap.
+    std::string_view library;  ///< name of the library, as among the run's library versions
+    /// True: finds pairs of triangles that intersect and share no vertex. False: finds pairs of overlapping boxes.
     bool finds_contacts;
-    /// Of two objects the pairs between them, of one its pairs with itself, in any order.
+    /// Returns, in any order, the pairs between two objects or, given one object, its pairs with itself.
     std::vector<Pair> (*find)(std::span<const Point> points, std::span<const Face> faces,
                               std::span<const FaceRange> objects);
 };
 
-/// Those that the program was built with.
+/// Returns the libraries that the program was built with.
 std::span<const PlainLibrary> plain_libraries();
 
-/// Each library's, defined where it was built with it.
+// Each is defined only if the program was built with the library.
 std::vector<PlainLibrary> plain_embree();
 std::vector<PlainLibrary> plain_fcl();
 

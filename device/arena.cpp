@@ -11,8 +11,8 @@
 namespace bvhbench {
 namespace {
 
-/// Device memory that is there from now on. PoCL allocates a buffer when it is first used, and ends the process if it then
-/// cannot: so it is used at once, while what was asked for is free.
+/// Returns a buffer whose memory is really allocated. PoCL allocates a buffer at its first use and ends the process if that
+/// fails, so the buffer is written here, right after the check that the memory is free.
 cl::Buffer allocated(const Device& device, std::size_t bytes)
 {
     cl::Buffer memory(device.context, CL_MEM_READ_WRITE, std::max<std::size_t>(1, bytes));

@@ -11,8 +11,8 @@ namespace bvhbench {
 
 /// Device memory in bytes, by what it is for.
 struct Footprint {
-    std::size_t tree_bytes = 0;     ///< stays in use as long as the tree does
-    std::size_t scratch_bytes = 0;  ///< needed while building only; alignment gaps count here
+    std::size_t tree_bytes = 0;     ///< in use as long as the tree
+    std::size_t scratch_bytes = 0;  ///< in use only while building; includes alignment gaps
 
     std::size_t total() const { return tree_bytes + scratch_bytes; }
     bool operator==(const Footprint&) const = default;
@@ -21,20 +21,18 @@ struct Footprint {
 /// What a piece of an arena is for.
 enum class Use { tree, scratch };
 
-/// One allocation, handed out front to back in typed pieces: there is no second way to get device memory. Of more bytes
-/// than a device allocates at once, each piece is an allocation of its own.
+/// One allocation of device memory, handed out front to back in typed pieces; all device memory comes from arenas. If the
+/// total exceeds the largest single allocation of the device, each piece is allocated separately.
 ///
-/// A builder writes down once which pieces it takes, in one function of an Arena&. Run on a measuring arena
-/// that function predicts the footprint; run on a reserved one it gives the buffers. So prediction and fact
-/// cannot drift apart.
+/// A builder lists its pieces in one function of an Arena&. On a measuring arena this function predicts the footprint; on a
+/// reserved arena it returns the buffers. So the prediction always matches the memory taken.
 class Arena {
 public:
-    /// Hands out empty buffers and only adds up.
+    /// Returns an arena that hands out empty buffers and only adds up their bytes.
     static Arena measuring(const Device& device);
 
-    /// Exactly `footprint.total()` bytes of device memory.
-    /// Throws Unavailable, before allocating, if the device cannot hold them all; a piece too large for one allocation is
-    /// refused when it is taken.
+    /// Returns an arena of exactly `footprint.total()` bytes of device memory. Throws Unavailable, before allocating, if the
+    /// device cannot hold them. `take` throws Unavailable for a piece that is too large for one allocation.
     static Arena reserved(const Device& device, const Footprint& footprint);
 
     template <class T>
@@ -43,7 +41,7 @@ public:
         return {carve(size * sizeof(T), use), size};
     }
 
-    /// Bytes handed out so far.
+    /// Returns the bytes handed out so far.
     const Footprint& used() const { return used_; }
 
 private:
@@ -51,8 +49,8 @@ private:
     cl::Buffer carve(std::size_t bytes, Use use);
 
     MemoryShare share_;
-    cl::Buffer memory_;             ///< null when measuring, and of pieces of their own
-    std::optional<Device> pieces_;  ///< who allocates those
+    cl::Buffer memory_;             ///< null if measuring, or if pieces are allocated separately
+    std::optional<Device> pieces_;  ///< set if pieces are allocated separately, on this device
     std::size_t alignment_ = 1;
     std::size_t capacity_ = 0;
     Footprint used_;

@@ -12,7 +12,7 @@
 
 namespace bvhbench {
 
-/// Device memory holding `size()` values of T. Owned or carved out of an Arena; the type is the same.
+/// Device memory that holds `size()` values of T: an OpenCL buffer of its own or a piece of an Arena.
 template <class T>
 class Buffer {
     static_assert(std::is_trivially_copyable_v<T>, "device memory holds plain bytes");
@@ -22,7 +22,8 @@ public:
     Buffer(cl::Buffer memory, std::size_t size) : memory_(std::move(memory)), size_(size) {}
     Buffer(const Buffer&) = default;
     Buffer(Buffer&&) = default;
-    /// By a copy of its own: when a retain fails, the bindings' assignment leaves what it will release and never retained.
+    /// Copies first and then moves: if retaining fails inside the bindings' copy assignment, the target keeps a handle that it
+    /// never retained and later releases.
     Buffer& operator=(Buffer other)
     {
         memory_ = std::move(other.memory_);
@@ -35,7 +36,7 @@ public:
     std::size_t bytes() const { return size_ * sizeof(T); }
     const cl::Buffer& cl() const { return memory_; }
 
-    /// The same memory, holding values of another type.
+    /// Returns the same memory viewed as values of U.
     template <class U>
     Buffer<U> as() const
     {
@@ -43,7 +44,7 @@ public:
         return {memory_, bytes() / sizeof(U)};
     }
 
-    /// Write `values` to the front and wait.
+    /// Writes `values` to the front. Waits.
     void upload(const cl::CommandQueue& queue, std::span<const T> values)
     {
         assert(values.size() <= size_);
@@ -51,7 +52,7 @@ public:
             queue.enqueueWriteBuffer(memory_, CL_TRUE, 0, values.size_bytes(), values.data());
     }
 
-    /// A copy of everything, after all work enqueued before has run.
+    /// Returns a copy of all values, after everything enqueued before has run. Waits.
     std::vector<T> download(const cl::CommandQueue& queue) const
     {
         std::vector<T> values(size_);
@@ -65,12 +66,12 @@ private:
     std::size_t size_ = 0;
 };
 
-/// A buffer as the host sees it, from the end of what was enqueued before until this goes away. Nothing is copied
-/// where device and host share memory. Waits.
+/// Maps a buffer into host memory for the lifetime of the object. Nothing is copied if device and host share memory.
 template <class T>
 class Mapped {
 public:
-    /// `flags`: CL_MAP_READ, CL_MAP_WRITE or both. An empty buffer is mapped to nothing.
+    /// Maps the buffer once everything enqueued before has run. Waits. `flags` are CL_MAP_READ, CL_MAP_WRITE or both. For an
+    /// empty buffer `data()` is null.
     Mapped(const cl::CommandQueue& queue, const Buffer<T>& buffer, cl_map_flags flags)
         : queue_(queue), memory_(buffer.cl())
     {
@@ -82,7 +83,7 @@ public:
     Mapped& operator=(const Mapped&) = delete;
     ~Mapped()
     {
-        if (data_ != nullptr)  // the bindings' own would throw
+        if (data_ != nullptr)  // the bindings' function would throw
             clEnqueueUnmapMemObject(queue_(), memory_(), data_, 0, nullptr, nullptr);
     }
 
@@ -94,7 +95,7 @@ private:
     T* data_ = nullptr;
 };
 
-/// What OpenCL is handed for an argument: a buffer's memory, anything else as it is.
+/// Returns the kernel argument for a value: the cl::Buffer of a Buffer, any other value unchanged.
 template <class T>
 const cl::Buffer& memory_of(const Buffer<T>& buffer)
 {
@@ -106,7 +107,7 @@ const T& memory_of(const T& value)
     return value;
 }
 
-/// Set a kernel's arguments, all of them, in order.
+/// Sets all arguments of a kernel, in order.
 template <class... Arguments>
 cl::Kernel& set_arguments(cl::Kernel& kernel, const Arguments&... arguments)
 {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// The only place that includes the Khronos bindings, so that every file sees them configured alike.
+// The only file that includes the Khronos C++ bindings, so that their configuration is the same everywhere.
 #pragma once
 
 #include <string>
 
 #define CL_HPP_ENABLE_EXCEPTIONS
-// Both 1.2, so that the bindings of 2023.02 never ask a device for its platform's version, as they do at every copy of a
-// device when the least version is older: where that question fails they read what was never written.
-// tests/faults makes it fail. What is newer is asked of the C interface.
+// Both versions are 1.2, so that the bindings (2023.02) never query a device's platform version. With an older minimum they
+// query it at every copy of a cl::Device and, if the query fails, read an uninitialized variable; tests/faults makes it fail.
+// Newer features are used through the C interface.
 #define CL_HPP_TARGET_OPENCL_VERSION 120
 #define CL_HPP_MINIMUM_OPENCL_VERSION 120
 #define CL_TARGET_OPENCL_VERSION 300
@@ -22,7 +22,7 @@
 
 namespace bvhbench {
 
-/// The name of an OpenCL error code: "CL_OUT_OF_RESOURCES"; "OpenCL error -9999" for one of a vendor's own.
+/// Returns the name of an OpenCL error code, such as "CL_OUT_OF_RESOURCES", or "OpenCL error -9999" for an unknown code.
 std::string opencl_error_name(int code);
 
 }  // namespace bvhbench

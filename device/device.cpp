@@ -23,14 +23,14 @@ std::vector<Found> all_devices()
     std::vector<cl::Platform> platforms;
     try {
         cl::Platform::get(&platforms);
-    } catch (const cl::Error&) {  // the loader says "no platform" with an error
+    } catch (const cl::Error&) {  // the loader reports "no platform" as an error
     }
     std::vector<Found> found;
     for (const cl::Platform& platform : platforms) {
         std::vector<cl::Device> devices;
         try {
             platform.getDevices(CL_DEVICE_TYPE_ALL, &devices);
-        } catch (const cl::Error&) {  // so does a platform without devices
+        } catch (const cl::Error&) {  // a platform without devices reports an error, too
         }
         for (const cl::Device& device : devices)
             found.push_back({device, platform.getInfo<CL_PLATFORM_NAME>() + '/' +
@@ -72,7 +72,7 @@ const Found* choose(const std::vector<Found>& devices, std::string_view words)
     return words.empty() && !devices.empty() ? &devices.front() : nullptr;
 }
 
-/// Whether a loop of 100,000 steps ends early on the device: a probe, which compiles and runs a kernel.
+/// True if a loop of 100,000 iterations ends early on the device. Compiles and runs a kernel to find out.
 bool ends_loops_early(const Device& device)
 {
     constexpr cl_uint steps = 100'000;
@@ -137,7 +137,7 @@ void Device::require_group(std::string_view what, std::size_t group_size,
         throw Unavailable(std::string(what) + " needs groups of " + std::to_string(group_size) +
                           " work-items, and " + name() + " has them up to " + std::to_string(most));
     const std::size_t local = cl.getInfo<CL_DEVICE_LOCAL_MEM_SIZE>();
-    // NVIDIA's driver (580.159) says 8 bytes more than a kernel declares, and runs one that declares all there are.
+    // NVIDIA's driver (580.159) reports 8 bytes more than a kernel declares, yet runs one that declares all local memory.
     const std::size_t said_besides = is_nvidia() ? 8 : 0;
     if (local_bytes > local + said_besides)
         throw Unavailable(std::string(what) + " needs " + std::to_string(local_bytes) +
@@ -160,7 +160,7 @@ Device open_device(std::string_view words, Sources sources)
         Device device{.cl = found->device,
                       .context = cl::Context(found->device),
                       .sources = std::move(sources)};
-        // Kernels for few cores have long loops. PoCL is not asked: one program more costs it 40 ms at every start.
+        // CPU kernels have long loops. PoCL is not probed, because one more program costs it 40 ms at every start.
         if (device.is_cpu() && device.platform() != "Portable Computing Language")
             device.ends_loops = ends_loops_early(device);
         return device;

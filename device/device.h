@@ -15,64 +15,63 @@
 
 namespace bvhbench {
 
-/// Bytes of a device's memory that are taken for as long as this, or a copy of it, is there.
+/// A reservation of bytes of device memory. The bytes count as taken until the last copy is destroyed.
 using MemoryShare = std::shared_ptr<const std::size_t>;
 
-/// One OpenCL device with its context and its source of kernel text, owned by main and passed down.
-///
-/// The bindings' own defaults (cl::Device::getDefault and friends) are statics that outlive the driver;
-/// nothing here uses them.
+/// One OpenCL device with its context and its source of kernel text, owned by main and passed down. The defaults of the C++
+/// bindings (cl::Device::getDefault and similar) are not used, because they are static objects that outlive the driver.
 struct Device {
     cl::Device cl;
     cl::Context context;
     Sources sources;
-    Tuning tuning = {};  ///< set before anything is made for the device; none where nobody sets it
+    Tuning tuning = {};  ///< must be set before builders and colliders are made; defaults if unset
 
-    /// What `parameter` is on this device.
+    /// Returns the value of `parameter` on this device.
     uint tuned(const Parameter& parameter) const { return tuning.value(parameter, is_cpu()); }
 
-    /// Throws Unavailable, in one sentence that begins with `what`, if the device cannot give a group so much.
+    /// Throws Unavailable, with one sentence that begins with `what`, if the device does not support work-groups of
+    /// `group_size` work-items or `local_bytes` bytes of local memory per group.
     void require_group(std::string_view what, std::size_t group_size,
                        std::size_t local_bytes) const;
 
-    /// Whether its driver ends loops early, as Mesa's llvmpipe does (22.3, as OpenCL through Rusticl): it gives a work-item
-    /// 65,535 steps in all its loops together and then ends each loop after one step more. Lanes of a group that no work-item
-    /// has use the steps up too: what they load is 0, and a loop that waits for another value runs on in them. OpenCL C
-    /// allows neither.
+    /// True if the driver ends loops early, as Mesa's llvmpipe does (22.3, through Rusticl). It allows a work-item 65,535
+    /// iterations of all its loops together; after that each loop ends after one more iteration. Lanes of a group beyond the
+    /// last work-item use up iterations as well: their loads return 0, so a loop that waits for another value runs there until
+    /// none are left. OpenCL C allows neither.
     bool ends_loops = false;
 
-    /// Where loops end early, kernels for few cores still build scenes of up to this size: a work-item has few enough steps.
+    /// Largest number of triangles for which the chunk kernels still work if `ends_loops`: few enough iterations each.
     static constexpr std::size_t most_triangles_in_short_loops = 16384;
 
-    /// Bytes that all together may take, if less than the device has.
+    /// Upper bound, in bytes, on all device memory together, if less than the device has.
     std::size_t memory_limit = std::numeric_limits<std::size_t>::max();
 
-    /// Bytes that are taken: one account, however often a device is copied.
+    /// Bytes taken, shared by all copies of this Device.
     std::shared_ptr<std::size_t> taken = std::make_shared<std::size_t>(0);
 
     std::string name() const { return cl.getInfo<CL_DEVICE_NAME>(); }
     std::string platform() const;
 
-    /// Kernels are written for two kinds of device: many slow lanes in groups, or a few fast cores.
+    /// True for a CPU. Kernels come in two forms: for a few fast cores (CPUs) and for groups of many slow lanes (all others).
     bool is_cpu() const { return (cl.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU) != 0; }
 
-    /// Whether work-groups of one launch may hand work to each other: device/handoff.clh says why there.
+    /// True if work-groups of one launch may hand work to each other; device/handoff.clh gives the reasons.
     bool lets_groups_meet() const { return is_cpu() || is_nvidia(); }
 
-    /// Whether a group may also wait for one that has started, while others are not even there.
+    /// True if a work-group may also wait for a group that has started, even if other groups have not started yet.
     bool lets_groups_wait() const { return is_nvidia(); }
 
-    /// Bytes that one allocation may take, if less than the device says.
+    /// Upper bound, in bytes, on one allocation, if less than the device's own.
     std::size_t allocation_limit = std::numeric_limits<std::size_t>::max();
 
-    /// Bytes that one allocation may take: on many devices a quarter of the memory.
+    /// Returns the largest number of bytes of one allocation; on many devices that is a quarter of the memory.
     std::size_t most_at_once() const
     {
         return std::min<std::size_t>(cl.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>(), allocation_limit);
     }
 
-    /// The number of entries to allocate: `wanted`, which may be a guess, unless one allocation cannot hold them; then as many
-    /// as it holds. Never fewer than are `needed`.
+    /// Returns how many entries of `bytes_each` bytes to allocate: `wanted`, which may be a guess, but at most as many as fit
+    /// in one allocation, and never fewer than `needed`.
     std::size_t room_for(std::uint64_t wanted, std::size_t bytes_each,
                          std::uint64_t needed = 0) const
     {
@@ -80,11 +79,11 @@ struct Device {
             std::max(needed, std::min<std::uint64_t>(wanted, most_at_once() / bytes_each)));
     }
 
-    /// Count `bytes` as taken. Throws Unavailable when they will not fit: beside what is taken, or, on a CPU, whose memory
-    /// is the host's, into what the host has left (geometry/host_memory.h). Asked before memory is allocated.
+    /// Counts `bytes` as taken; call it before allocating them. Throws Unavailable if the device has too little memory besides
+    /// what is taken, or, on a CPU, if the host has too little free memory (geometry/host_memory.h).
     MemoryShare take_memory(std::size_t bytes) const;
 
-    /// Throws Unavailable if one allocation cannot be of `bytes`.
+    /// Throws Unavailable if `bytes` exceeds the largest single allocation.
     void require_at_once(std::size_t bytes) const;
 
 private:
@@ -97,12 +96,12 @@ private:
     }
 };
 
-/// "Platform/device" of every device there is, in the order an index chooses them.
+/// Returns "Platform/device" of every OpenCL device; `open_device` accepts an index into this list.
 std::vector<std::string> device_names();
 
-/// The device chosen by `words`: an index into device_names(), or words that its name all contains, in any
-/// case; the first CPU device, else the first device, if `words` is empty.
-/// Throws Unavailable with the list of devices when none matches or there is none.
+/// Opens the device that `words` selects: an index of up to three digits into device_names(), or words that the name must all
+/// contain, in any case. If `words` is empty, opens the first CPU device or, without one, the first device. Throws Unavailable,
+/// with the list of devices, if none matches.
 Device open_device(std::string_view words, Sources sources = Sources::preferred());
 
 }  // namespace bvhbench

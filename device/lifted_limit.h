@@ -5,9 +5,9 @@
 
 namespace bvhbench {
 
-/// Lifts RLIMIT_DATA while a driver starts or compiles. PoCL takes the limit for the memory of its device when it starts, and
-/// ends the process if that is less than 128 MiB; an allocation that fails in its compiler leaves a lock behind that the next
-/// call waits for without end. What a compilation takes is asked for before (device/program.cpp).
+/// Raises the soft limit RLIMIT_DATA to the hard limit while a driver starts or compiles. When PoCL starts, it takes the limit
+/// as its device's memory size and ends the process if that is below 128 MiB. If an allocation in its compiler fails, a lock
+/// stays held and the next call hangs. device/program.cpp checks beforehand that the host has memory for a compilation.
 class LiftedLimit {
 public:
     LiftedLimit()

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// What a device's limits are measured by. One text, because PoCL takes some 40 ms to read a program back at every start.
+// Kernels that measure a device's limits. They share one program, because PoCL takes some 40 ms to load each program at start.
 
-/// `to` holds `count` vectors of `from` afterwards. Neighbours in a group touch neighbouring vectors.
+/// Copies `count` vectors from `from` to `to`. Neighbouring work-items access neighbouring vectors.
 kernel void copy_strided(global const uint4* restrict from, global uint4* restrict to,
                          const uint count)
 {
@@ -10,7 +10,7 @@ kernel void copy_strided(global const uint4* restrict from, global uint4* restri
         to[i] = from[i];
 }
 
-/// The same with a contiguous run a work-item, which is what a core's caches want.
+/// Copies `count` vectors from `from` to `to`. Each work-item copies a contiguous run, which suits the caches of CPU cores.
 kernel void copy_runs(global const uint4* restrict from, global uint4* restrict to,
                       const uint count)
 {
@@ -21,31 +21,31 @@ kernel void copy_runs(global const uint4* restrict from, global uint4* restrict 
         to[i] = from[i];
 }
 
-/// Does nothing that can be seen: `word` is written only if it holds 1, and it holds 0.
+/// Reads `word`, which holds 0, and writes nothing. The conditional write keeps the compiler from removing the read.
 kernel void launch_empty(global uint* word)
 {
     if (word[0] == 1u)
         word[0] = 2u;
 }
 
-/// Takes its time: `rounds` steps, each of which needs the one before. `word` holds 0 before and after.
+/// Computes `rounds` dependent steps to pass time. `word` holds 0 before and after.
 kernel void keep_busy(global uint* word, const uint rounds)
 {
     uint x = word[0];
     for (uint round = 0u; round < rounds; ++round)
         x = (x ^ round) * 1664525u + 1013904223u;
-    if (x == 1u)  // the compiler cannot know, so it cannot leave the steps out
+    if (x == 1u)  // keeps the compiler from removing the loop
         word[0] = 0u;
 }
 
-/// Reads and writes all of `memory`, `count` vectors, so that afterwards no cache holds anything else.
+/// Reads and writes all `count` vectors of `memory`, which evicts everything else from the caches.
 kernel void walk(global uint4* memory, const uint count)
 {
     for (uint i = get_global_id(0); i < count; i += get_global_size(0))
         memory[i] += 1u;
 }
 
-/// A fixed piece of work, some of it arithmetic and some of it memory: each of `count` vectors takes `rounds` steps.
+/// A fixed amount of arithmetic and memory work: `rounds` steps on each of `count` vectors.
 kernel void calibrate(global uint4* memory, const uint count, const uint rounds)
 {
     for (uint i = get_global_id(0); i < count; i += get_global_size(0)) {
@@ -56,7 +56,7 @@ kernel void calibrate(global uint4* memory, const uint count, const uint rounds)
     }
 }
 
-/// Takes `steps` steps, each of which needs the one before, and leaves in `word` where they lead.
+/// Computes `steps` dependent steps and writes the result to `word`. The host compares it with its own.
 kernel void take_steps(global uint* word, const uint steps)
 {
     uint x = 0u;

@@ -9,24 +9,25 @@
 namespace bvhbench {
 namespace {
 
-/// OpenCL lets division be 2.5 ulp off unless asked; codes are compared bit for bit with the host's.
+/// True if the device can round division correctly. By default OpenCL allows an error of 2.5 ulp, but codes must equal the
+/// host's bit for bit.
 bool can_round_division(const cl::Device& device)
 {
     return (device.getInfo<CL_DEVICE_SINGLE_FP_CONFIG>() & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) !=
            0;
 }
 
-/// What a driver's compiler takes for a program, about. LLVM ends the process where an allocation fails.
+/// Host memory that a driver's compiler needs for a program, approximately. LLVM ends the process if an allocation fails.
 constexpr std::size_t compiler_bytes = std::size_t{64} << 20;
 
-/// Whether the driver is the one that device/builtins.clh was written for.
+/// True for PoCL 3.1, the driver that device/builtins.clh was written for.
 bool is_slow_to_declare(const cl::Device& device)
 {
     const cl::Platform platform(device.getInfo<CL_DEVICE_PLATFORM>());
     return platform.getInfo<CL_PLATFORM_VERSION>().find("PoCL 3.1") != std::string::npos;
 }
 
-/// Of the program, whichever source tree kernels are from: one file for all of them.
+/// Returns the embedded text of device/builtins.clh, even if kernels come from a source tree.
 const std::string& builtins()
 {
     static const std::string text = "#line 1 \"device/builtins.clh\"\n" +
@@ -107,12 +108,11 @@ cl::Program Programs::built(const std::string& text, const std::string& options)
     if (declares_builtins_) {
         cl::Program program(device_.context, builtins() + text);
         try {
-            // The guard of the header that declares all functions: PoCL then finds it included.
+            // The define is the include guard of PoCL's header with all declarations, which PoCL then skips.
             program.build(device_.cl, (options + " -D _OPENCL_H_").c_str());
             return program;
-        } catch (
-            const cl::
-                BuildError&) {  // a function that is not in the file, or an error, which is reported below
+        } catch (const cl::BuildError&) {
+            // A function is not declared, or the program has an error, which the build below reports.
         }
     }
     cl::Program program(device_.context, text);

@@ -13,48 +13,48 @@
 
 namespace bvhbench {
 
-/// A kernel that would not build, with the log the driver gave.
+/// Thrown if a kernel does not compile. The message contains the driver's build log.
 class BuildFailure : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// A number the kernel needs at compile time. The host passes its own constant, so there is one.
+/// A number that a kernel needs at compile time. The host passes its own constant, so that it is defined only once.
 struct Define {
     std::string_view name;
     unsigned value;
 };
 
-/// How far the compiler may go.
+/// Where the compiler may optimise a kernel.
 enum class Optimise {
     freely,
-    on_gpus,  ///< not on a CPU: of some kernels of many helpers PoCL 3.1 makes wrong code, and not so without, and
-              ///< oclgrind cannot read the marks that inlining leaves
+    /// Not on CPUs: PoCL 3.1 miscompiles some kernels with many inlined functions unless optimisation is off, and oclgrind
+    /// cannot read the annotations that inlining leaves.
+    on_gpus,
 };
 
-/// The programs of one device, each compiled once however many builders ask for it.
-///
-/// Cached by text, options and device (one object serves one device). Not for several threads at once.
+/// The compiled programs of one device, cached by text and options. Not thread-safe.
 class Programs {
 public:
-    /// `dialect` is what -cl-std= names; every kernel must compile as CL1.2 and as CL3.0.
+    /// `dialect` is the value of -cl-std=. Every kernel must compile as CL1.2 and as CL3.0.
     explicit Programs(const Device& device, std::string dialect = "CL1.2");
 
     const Device& device() const { return device_; }
 
-    /// The kernel `name` of the file `path`, built with `defines`. A new kernel object at every call, so that
-    /// arguments set by one owner never reach another. Throws BuildFailure, and Unavailable where the device cannot
-    /// give a group what the kernel says it needs.
+    /// Returns kernel `name` of file `path`, compiled with `defines`. Every call returns a new kernel object, so that owners do
+    /// not share arguments. Throws BuildFailure, or Unavailable if the device does not support the kernel's group size or
+    /// local memory.
     cl::Kernel kernel(std::string_view path, const char* name,
                       std::initializer_list<Define> defines = {},
                       Optimise optimise = Optimise::freely);
     cl::Kernel kernel(std::string_view path, const char* name, std::span<const Define> defines,
                       Optimise optimise = Optimise::freely);
 
-    /// The same of a file that is compiled behind a header it does not name, so that one text serves several.
+    /// Returns the kernel compiled from `header` followed by the file `path`, which does not include a header of this kind
+    /// itself. So one file serves several headers.
     cl::Kernel kernel(std::string_view header, std::string_view path, const char* name,
                       std::span<const Define> defines, Optimise optimise = Optimise::freely);
 
-    /// Host time spent compiling so far, in nanoseconds: reported once a run, never part of a sample.
+    /// Returns the host time spent compiling so far, in nanoseconds. It is reported once per run and never part of a sample.
     std::int64_t compile_ns() const { return compile_ns_; }
 
 private:
@@ -65,7 +65,7 @@ private:
 
     const Device& device_;
     std::string dialect_;
-    bool declares_builtins_;                       ///< whether texts go behind device/builtins.clh
+    bool declares_builtins_;                       ///< whether device/builtins.clh precedes texts
     std::map<std::string, cl::Program> programs_;  ///< by options and text
     std::int64_t compile_ns_ = 0;
 };

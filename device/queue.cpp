@@ -11,7 +11,7 @@ namespace bvhbench {
 
 namespace {
 
-/// Some drivers read these off another clock, or not at all: never less than 0.
+/// Returns to - from, or 0 if that is negative or `from` is unset: some drivers use another clock or set no time.
 std::int64_t between(cl_ulong from, cl_ulong to)
 {
     return from > 0 && to > from ? static_cast<std::int64_t>(to - from) : 0;
@@ -50,7 +50,7 @@ void Queue::begin(std::string_view stage)
 
 void Queue::declare(std::int64_t moved_bytes) { stages_.back().moved_bytes += moved_bytes; }
 
-/// Where the event of the next command goes; nowhere without times.
+/// Records a command of the current stage. Returns where to store its event, or null without times.
 cl::Event* Queue::record(std::int64_t moved_bytes)
 {
     assert(!stages_.empty() && "name the stage before its first launch");

@@ -11,73 +11,68 @@
 
 namespace bvhbench {
 
-/// What one stage of a build or a query cost. A duration's name says how it was read.
+/// Times and traffic of one stage of a build or a query. All times but `wall_ns` are from the device clock.
 struct StageTime {
     std::string stage;
-    std::int64_t busy_ns = 0;  ///< device clock, sum of the kernels' run times
-    std::int64_t span_ns =
-        0;  ///< device clock, first start to last end: gaps between launches count
-    std::int64_t wall_ns = 0;  ///< host clock; set by host stages only
-    int launches = 0;
-    std::int64_t moved_bytes = 0;  ///< the least its launches must read and write, as they declared
-    std::int64_t start_ns = 0;  ///< device clock, its first start, from that of the first stage on
-    std::int64_t queued_ns =
-        0;  ///< device clock, sum of the launches' times from queued to submitted
-    std::int64_t submitted_ns =
-        0;  ///< the same from submitted to started; from there on it is busy
+    std::int64_t busy_ns = 0;       ///< sum of the launches' run times
+    std::int64_t span_ns = 0;       ///< first start to last end, gaps between launches included
+    std::int64_t wall_ns = 0;       ///< host clock; 0 except for stages on the host
+    int launches = 0;               ///< number of launches
+    std::int64_t moved_bytes = 0;   ///< declared minimum of bytes that the launches read and write
+    std::int64_t start_ns = 0;      ///< first start, relative to that of the first stage
+    std::int64_t queued_ns = 0;     ///< sum of the launches' times from queued to submitted
+    std::int64_t submitted_ns = 0;  ///< sum of the launches' times from submitted to started
 
-    /// The one duration to quote: the span on the device, else the host clock.
+    /// Returns the duration to report: the span on the device or, for a host stage, the wall time.
     std::int64_t elapsed_ns() const { return launches > 0 ? span_ns : wall_ns; }
 };
 
-/// An in-order queue that remembers what it ran and on whose behalf.
-///
-/// Builders name their stages and launch kernels; they never see an event or a clock.
+/// A command queue that runs its commands in order and records them by stage. Builders name stages and launch kernels; they
+/// never handle events or clocks.
 class Queue {
 public:
     explicit Queue(const Device& device);
 
-    /// Somebody else's queue of that device, which stays theirs. Without profiling there are no times. In an out-of-order
-    /// queue each command waits for all before it, so that what is enqueued here still runs in order.
+    /// Shares the caller's queue `shared` of the device. Without profiling there are no times. On an out-of-order queue a
+    /// barrier follows each command, so that the commands enqueued here still run in order.
     Queue(const Device& device, cl::CommandQueue shared);
 
-    /// What is enqueued from here on runs after all that anybody has enqueued before: of an in-order queue no more than
-    /// the truth. Does not wait.
+    /// Makes all later commands run after all commands that were enqueued before, by any user of the queue. Enqueues a barrier
+    /// on an out-of-order queue and nothing on an in-order one. Does not wait.
     void join();
 
-    /// Whether `finish` reads the device clock; if not, durations are 0.
+    /// True if `finish` reads the device clock; if false, durations are 0.
     bool has_times() const { return has_times_; }
 
-    /// Forget the stages since the last `finish` without waiting for them.
+    /// Discards the stages recorded since the last `finish`. Does not wait.
     void forget();
 
-    /// Launches from here on belong to `stage`.
+    /// Begins a stage. Later launches belong to it.
     void begin(std::string_view stage);
 
-    /// Enqueue one kernel. `moved_bytes` is what it must read and write at least, each input and output once.
+    /// Enqueues one kernel. `moved_bytes` is the minimum that it reads and writes, each input and output counted once.
     void launch(const cl::Kernel& kernel, std::size_t global, std::size_t local,
                 std::int64_t moved_bytes);
 
-    /// Bytes besides, that the launches of the stage begun must read and write, and that are no single launch's.
+    /// Adds bytes that the current stage reads and writes but that belong to no single launch.
     void declare(std::int64_t moved_bytes);
 
-    /// Enqueue `bytes` of zeros at the front of `memory`. Timed like a launch.
+    /// Enqueues `bytes` of zeros at the front of `memory`. Timed like a launch.
     void clear(const cl::Buffer& memory, std::size_t bytes);
 
-    /// Enqueue a copy of `bytes` at the front of `from` to `to`, from its byte `first` on. Timed like a launch.
+    /// Enqueues a copy of `bytes` from the front of `from` to byte `first` of `to`. Timed like a launch.
     void copy(const cl::Buffer& from, const cl::Buffer& to, std::size_t first, std::size_t bytes);
 
-    /// Read the front of `memory` once all before has run. Waits. Timed like a launch.
+    /// Reads `bytes` from the front of `memory` after everything enqueued before. Waits. Timed like a launch.
     void read(const cl::Buffer& memory, std::size_t bytes, void* to);
 
-    /// Run host work as part of the stage begun last, which launches nothing, after everything enqueued before has
-    /// finished.
+    /// Waits for the queue and runs `work` as part of the current stage, which must have no launches.
     void work_on_host(const std::function<void()>& work);
 
-    /// The same as a stage of its own.
+    /// Begins the stage `stage`, waits for the queue and runs `work` in it.
     void on_host(std::string_view stage, const std::function<void()>& work);
 
-    /// Wait for everything, then return and forget the stages since the last call.
+    /// Waits for the queue, and returns and discards the stages recorded since the last call.
     std::vector<StageTime> finish();
 
     const cl::CommandQueue& cl() const { return queue_; }

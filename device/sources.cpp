@@ -12,7 +12,7 @@
 namespace bvhbench {
 namespace {
 
-/// The quoted path on an #include line, or nothing.
+/// Returns the quoted path of an #include line, or nothing for other lines.
 std::optional<std::string> included_path(const std::string& line)
 {
     const std::size_t hash = line.find_first_not_of(" \t");

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// Numbers that kernels are cut up by, and what they are on one device.
+// Tuning parameters, which say how kernels divide their work, and their values on one device.
 //
 //     a part of a room declares a Parameter  ──►  Device::tuned(parameter)  ──►  a kernel's define, a launch's size
 //                                                       ▲
-//                              Tuning: what `bvhbench tune` found for this device, if it did
+//                              Tuning: values that `bvhbench tune` found for this device, if any
 //
-// No value may change an answer: a parameter says how work is cut up and never what is done.
+// No value may change a result: a parameter determines how work is divided, never what is computed.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@
 
 namespace bvhbench {
 
-/// The values that a search tries, up to eight.
+/// Values that the tuning search tries, at most eight.
 class CandidateValues {
 public:
     constexpr CandidateValues(std::initializer_list<uint> values)
@@ -39,29 +39,24 @@ private:
     uint count_ = 0;
 };
 
-/// What values of a parameter there can be, besides its range.
-enum class ValueIs {
-    any_number,
-    odd,
-    power_of_two,
-    group_size
-};  ///< a group size is a power of two, too
+/// Constraint on a parameter's values besides its range. A group size must also be a power of two.
+enum class ValueIs { any_number, odd, power_of_two, group_size };
 
-/// A number that a part lets a device choose. Declared once, in its room's `parameters.h`.
+/// A number whose value depends on the device. Declared once, in its room's `parameters.h`.
 struct Parameter {
-    std::string_view name;     ///< "sort.keys_per_item"; unique, stable, the key in tuning files
-    std::string_view meaning;  ///< one line, with what 0 stands for if it may be 0
-    std::string_view stage;    ///< whose time it is judged by; empty: all stages together
-    uint on_cpu = 0;           ///< the default of devices with a few fast cores
-    uint elsewhere = 0;        ///< and of the others
-    uint least = 0, most = 0;
+    std::string_view name;     ///< unique and stable key in tuning files, as "sort.keys_per_item"
+    std::string_view meaning;  ///< one line of description; says what 0 means if 0 is allowed
+    std::string_view stage;    ///< the stage whose time tuning minimizes; empty: all stages
+    uint on_cpu = 0;           ///< default on CPUs
+    uint elsewhere = 0;        ///< default on all other devices
+    uint least = 0, most = 0;  ///< range, both ends included
     ValueIs values = ValueIs::any_number;
     CandidateValues candidates;
 
     constexpr uint usual(bool is_cpu) const { return is_cpu ? on_cpu : elsewhere; }
 
-    /// Why it cannot be `value`, as the end of a sentence, "must be odd, not 4"; empty if it can. A power of two may be
-    /// 0 where `least` is.
+    /// Returns why `value` is not allowed, as the end of a sentence ("must be odd, not 4"), or an empty string if it is. A
+    /// power of two may be 0 if `least` is 0.
     std::string refusal(uint value) const
     {
         const std::string but = ", not " + std::to_string(value);
@@ -76,20 +71,20 @@ struct Parameter {
     }
 };
 
-/// Values that take the place of defaults, and which parameters anybody has asked for.
+/// Values that replace defaults. Also records which parameters have been read.
 class Tuning {
 public:
     Tuning() = default;
     explicit Tuning(std::string origin) : origin_(std::move(origin)) {}
 
-    /// Where values come from, for people and result files: "none", or a file.
+    /// Returns where the values come from, "none" or a file, for output and result files.
     const std::string& origin() const { return origin_; }
 
     void set(const Parameter& parameter, uint value) { values_[parameter.name] = value; }
     void unset(const Parameter& parameter) { values_.erase(parameter.name); }
     bool has(const Parameter& parameter) const { return values_.contains(parameter.name); }
 
-    /// The value set, else the default.
+    /// Returns the value that was set, else the default. Records that the parameter was read.
     uint value(const Parameter& parameter, bool is_cpu) const
     {
         asked_.insert(&parameter);
@@ -97,16 +92,15 @@ public:
         return found != values_.end() ? found->second : parameter.usual(is_cpu);
     }
 
-    /// All values set, by parameters' names.
+    /// Returns all values that were set, by parameter name.
     const std::map<std::string_view, uint>& values() const { return values_; }
 
-    /// Parameters whose value anybody has asked for: what a builder or collider depends on need not be written down.
+    /// Returns the parameters that have been read. So the parameters of a builder or collider need not be listed anywhere.
     const std::set<const Parameter*>& asked() const { return asked_; }
 
 private:
     std::string origin_ = "none";
-    std::map<std::string_view, uint>
-        values_;  ///< names are parameters', which live as long as the program
+    std::map<std::string_view, uint> values_;  ///< keys refer to Parameter::name, which are static
     mutable std::set<const Parameter*> asked_;
 };
 

@@ -10,10 +10,10 @@ namespace {
 
 constexpr const char* kernels = "device/limits.cl";
 
-/// Steps of a head start, of some four cycles each: 40 to 60 µs on a GPU of 1 to 2 GHz.
+/// Steps of a head start of about four cycles each: 40 to 60 µs on a GPU of 1 to 2 GHz.
 constexpr cl_uint busy_rounds = 20'000;
 
-// A calibration takes some 100 to 200 µs on two cores, some 30 on a large GPU: short beside what it stands between.
+// With these sizes a calibration takes 100 to 200 µs on two cores and 30 µs on a large GPU, little beside the samples.
 constexpr std::size_t cpu_vectors = 1u << 15;
 constexpr std::size_t gpu_vectors = 1u << 22;
 constexpr cl_uint calibration_rounds = 8;
@@ -32,8 +32,8 @@ std::size_t compute_units(const Device& device)
     return device.cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
 }
 
-/// Vectors that fill twice the caches that the device says it has, but at least 64 MiB, which is past most last levels,
-/// since some say too little, and at most `most` bytes.
+/// Returns the number of vectors that fill twice the device's reported cache size, but at least 64 MiB, since some devices
+/// report too little and most last-level caches are smaller, and at most `most` bytes.
 std::size_t vectors_past_caches(const Device& device, std::size_t most)
 {
     const std::size_t cache = device.cl.getInfo<CL_DEVICE_GLOBAL_MEM_CACHE_SIZE>();
@@ -51,7 +51,7 @@ CopyRate measure_copy_rate(Programs& programs, Queue& queue)
 {
     const Device& device = programs.device();
     constexpr int samples = 9;
-    // 1 GiB on a GPU. Short enough for a slow host: whoever asks for one small build waits for it too.
+    // 1 GiB on a GPU. At most 512 MiB on a CPU, since even a run of one small build waits for this measurement.
     const std::size_t count = device.is_cpu() ? vectors_past_caches(device, std::size_t{512} << 20)
                                               : (std::size_t{1} << 30) / sizeof(cl_uint4);
     const std::size_t bytes = count * sizeof(cl_uint4);
@@ -66,12 +66,12 @@ CopyRate measure_copy_rate(Programs& programs, Queue& queue)
 
     std::vector<std::int64_t> times;
     queue.begin("clear");
-    queue.clear(from.cl(), from.bytes());  // memory never written may not be there to be read
+    queue.clear(from.cl(), from.bytes());  // memory never written may not be backed by pages yet
     for (int i = 0; i <= samples; ++i) {
         queue.begin("copy");
         queue.launch(copy, global, local, static_cast<std::int64_t>(2 * bytes));
         const StageTime time = queue.finish().back();
-        if (i > 0)  // the first one warms up, and is the first to touch what it writes
+        if (i > 0)  // the first is a warm-up and the first to touch `to`
             times.push_back(time.busy_ns);
     }
     const auto ns = static_cast<double>(median(times));
@@ -82,7 +82,7 @@ LaunchCost measure_launch_cost(Programs& programs, Queue& queue)
 {
     const Device& device = programs.device();
     constexpr int samples = 31;
-    constexpr int launches = 16;  // as many as a whole build has, and their gaps
+    constexpr int launches = 16;  // about as many as a whole build has
     const std::size_t local = device.is_cpu() ? 1 : 64;
 
     Arena arena = scratch_of(device, sizeof(cl_uint));
@@ -100,7 +100,7 @@ LaunchCost measure_launch_cost(Programs& programs, Queue& queue)
         for (int k = 0; k < launches; ++k)
             queue.launch(empty, compute_units(device) * local, local, 0);
         const StageTime time = queue.finish().back();
-        if (i > 0)  // the first one warms up
+        if (i > 0)  // the first is a warm-up
             costs.push_back(static_cast<double>(time.span_ns) / launches);
     }
     return {median(costs), launches, samples};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What times of stages are held against, and what is run between samples so that they are worth comparing.
+// Measured limits that stage times are compared with, and work that runs between samples to make them comparable.
 #pragma once
 
 #include "device/arena.h"
@@ -9,37 +9,37 @@
 
 namespace bvhbench {
 
-/// What the device's memory gives at best, measured.
+/// The measured copy bandwidth of the device's memory.
 struct CopyRate {
-    /// Bytes read plus bytes written, over the median device time; 0 if the device's clock showed none.
+    /// Bytes read plus bytes written per second of median device time; 0 if the device clock gave a time of 0.
     double bytes_per_s = 0;
     std::size_t buffer_bytes = 0;  ///< size of the source, larger than the caches
     int samples = 0;
 };
 
-/// Copy one large buffer to another with a plain 16-byte kernel, several times.
+/// Measures the rate of copying one large buffer to another with a kernel that copies 16 bytes at a time.
 CopyRate measure_copy_rate(Programs& programs, Queue& queue);
 
-/// What a launch takes that has next to nothing to do, measured.
+/// The measured cost of a launch with almost no work.
 struct LaunchCost {
-    /// Device clock: the span of many launches in a row over their number; the median of `samples`.
+    /// Nanoseconds of device time per launch: span of `launches` consecutive launches, divided by `launches`; the median.
     double ns = 0;
-    int launches = 0;  ///< in a row
+    int launches = 0;  ///< consecutive launches per sample
     int samples = 0;
 };
 
-/// Launch a kernel that reads one word, a group a compute unit, many times in a row, several times.
+/// Measures consecutive launches of a kernel that reads one word, with one group per compute unit.
 LaunchCost measure_launch_cost(Programs& programs, Queue& queue);
 
-/// Keeps a GPU busy for some tens of microseconds before a sample, untimed, so that the sample's launches wait in the queue
-/// when the first of them starts. Else a build of a few short launches is as long as the host takes to enqueue them, which
-/// is the host's time and not the device's. NVBench holds its streams for the same reason.
+/// Keeps a GPU busy for some tens of microseconds before a sample, untimed, so that the sample's launches are already queued
+/// when the first of them starts. Without it, a build of a few short launches takes as long as the host needs to enqueue them:
+/// host time, not device time. NVBench blocks its streams for the same reason.
 class HeadStart {
 public:
-    /// Throws what compiling throws. On a CPU, which shares its cores with the host, there is nothing to do.
+    /// Does nothing on a CPU, which shares its cores with the host. Throws what compiling throws.
     explicit HeadStart(Programs& programs, const Queue& queue);
 
-    /// Enqueue it. Waits for nothing.
+    /// Enqueues the work. Does not wait.
     void give(const Queue& queue);
 
 private:
@@ -47,10 +47,10 @@ private:
     Buffer<cl_uint> word_;
 };
 
-/// A kernel that keeps all of a device busy with vectors in memory, zeros at first.
+/// A kernel with enough work-items to fill a device, and the vectors that it works on, zeros at first.
 struct FillingKernel {
     cl::Kernel kernel;
-    Arena arena;  ///< kept, so that what it takes stays counted
+    Arena arena;  ///< kept, so that the memory stays counted as taken
     Buffer<cl_uint4> memory;
     std::size_t work_items, group;
 
@@ -58,28 +58,28 @@ struct FillingKernel {
     FillingKernel(Programs& programs, const Queue& queue, const char* name, std::size_t count);
 };
 
-/// Empties a device's caches of what a sample would find there: reads and writes a buffer of twice their size. On a CPU
-/// device the host's caches are the device's; on others they are left alone.
+/// Evicts a sample's data from the device's caches by reading and writing a buffer of twice their size. On a CPU these are the
+/// host's caches; with other devices the host's caches are not flushed.
 class CacheFlush {
 public:
-    /// Takes the buffer and runs once. Throws as FillingKernel.
+    /// Allocates the buffer and flushes once. Throws like FillingKernel.
     CacheFlush(Programs& programs, const Queue& queue);
 
-    /// Enqueue it, untimed, and wait.
+    /// Flushes the caches, untimed. Waits.
     void flush(const Queue& queue);
 
 private:
     FillingKernel walk_;
 };
 
-/// A fixed piece of work, run again and again between samples: where it takes longer than before, the machine is slower,
-/// whatever the reason, and no builder is to blame. It needs no counters of a vendor's.
+/// A fixed amount of work that is timed between samples. If it takes longer than before, the machine has become slower for a
+/// reason that no builder causes. It needs no vendor-specific counters.
 class Calibration {
 public:
-    /// Takes its memory and runs once. Throws as FillingKernel.
+    /// Allocates memory and runs once. Throws like FillingKernel.
     Calibration(Programs& programs, Queue& queue);
 
-    /// Run it: the median of a few launches in nanoseconds, on the device's clock. Waits.
+    /// Runs the work and returns the median device time of a few launches in nanoseconds. Waits.
     std::int64_t take(Queue& queue);
 
 private:

@@ -12,7 +12,7 @@
 namespace bvhbench::oibvh {
 namespace {
 
-/// OpenCL 2.0's word for a queue that kernels enqueue into; devices of 1.2 have none.
+/// CL_QUEUE_ON_DEVICE of OpenCL 2.0: a queue that kernels enqueue into. OpenCL 1.2 does not define it.
 constexpr cl_command_queue_properties on_device = cl_command_queue_properties{1} << 2;
 
 cl::CommandQueue checked(cl_command_queue queue)
@@ -64,7 +64,7 @@ void tune(bvhbench::Device& device, const DeviceOptions& options)
     }
 }
 
-/// Kernels come from the binary alone, whatever the environment says.
+/// Returns the internal device of the queue. Kernel text always comes from the binary, regardless of BVHBENCH_KERNELS.
 bvhbench::Device device_of(const cl::CommandQueue& queue, const DeviceOptions& options)
 {
     bvhbench::Device device{

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What is behind a Device, and how calls on it and its trees begin and end.
+// Implementation of Device, and the wrapper that all calls on a Device and its trees run in.
 #pragma once
 
 #include <memory>
@@ -18,17 +18,18 @@ namespace bvhbench::oibvh {
 struct Device::Impl {
     Impl(const cl::CommandQueue& queue, const DeviceOptions& options);
 
-    /// Launch a kernel whose work-items take chunks of `count` items: a few of them on a CPU, up to one an item elsewhere.
+    /// Launches a kernel whose work-items share `count` items in chunks (own_chunk): `chunk_count` work-items on a CPU, else
+    /// one per item up to 2^20.
     void launch(cl::Kernel& kernel, std::size_t count);
 
-    std::mutex mutex;  ///< trees of a Device share its programs and its account of memory
+    std::mutex mutex;  ///< guards the programs and the memory account, which all trees share
     bvhbench::Device device;
     Programs programs;
     Queue queue;
 };
 
-/// The context of a queue or a buffer, by OpenCL's own call: where it cannot retain the context, the bindings' getInfo would
-/// release it all the same.
+/// Returns the context of a queue or a buffer, not retained. Calls OpenCL's C function `ask`, because the C++ bindings'
+/// getInfo releases the context even if retaining it failed. Throws cl::Error with `call` as its text.
 template <class Handle, class Info>
 cl_context context_of(cl_int (*ask)(Handle, Info, std::size_t, void*, std::size_t*), Handle of,
                       std::type_identity_t<Info> what, const char* call)
@@ -39,10 +40,11 @@ cl_context context_of(cl_int (*ask)(Handle, Info, std::size_t, void*, std::size_
     return context;
 }
 
-/// `error` as one of the library's, where it is one of the rooms' below. Call it where it was caught.
+/// Rethrows the exception being handled, converted to an Error of the library if it is BadUsage, Unavailable, BuildFailure
+/// or cl::Error. Call it in a catch block.
 [[noreturn]] void rethrow_as_error();
 
-/// Run `work` as a call on the device: one at a time, with the library's errors.
+/// Runs `work` under the device's mutex and converts its exceptions with `rethrow_as_error`.
 template <class Work>
 auto as_call(Device::Impl& device, Work&& work)
 {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// Inputs: whether there is anything in one that no tree can be built over, and boxes as triangles. *is_bad is 0 before; 1
-// after if there is something. Which one it is, the host finds out.
+// Checks input values, and makes faces for boxes. A check sets *is_bad, 0 before the launch, to 1 if any value is invalid; the
+// host then searches for the first one.
 #include "builders/stages/chunk.clh"
 #include "geometry/triangle.h"
 
-/// Neither infinite nor no number: an exponent with a bit that is 0.
+/// True if no coordinate is infinite or NaN: each exponent has a zero bit.
 static inline bool is_finite(const Point point)
 {
     const uint exponent = 0x7f800000u;
@@ -13,7 +13,7 @@ static inline bool is_finite(const Point point)
            (as_uint(point.z) & exponent) != exponent;
 }
 
-/// Corners of all `count` faces: there up to `last`, and finite.
+/// Checks that the corner indices of all `count` faces are at most `last` and that the corners are finite.
 kernel void check_triangles(global const Point* restrict points, const uint last,
                             global const Face* restrict faces, const uint count,
                             global uint* is_bad)
@@ -30,7 +30,7 @@ kernel void check_triangles(global const Point* restrict points, const uint last
         *is_bad = 1u;
 }
 
-/// Boxes as pairs of corners: finite, and none ends before it begins.
+/// Checks that both corners of each box are finite and that no minimum exceeds its maximum.
 kernel void check_boxes(global const Point* restrict corners, const uint count, global uint* is_bad)
 {
     const Chunk chunk = own_chunk(count);
@@ -44,8 +44,8 @@ kernel void check_boxes(global const Point* restrict corners, const uint count, 
         *is_bad = 1u;
 }
 
-/// Corners 2k and 2k + 1 are the least and the greatest of box k, and so is the box of the triangle that has the one of them
-/// once and the other twice.
+/// Writes one face per box. Points 2k and 2k + 1 are the minimum and maximum corners of box k, so the bounding box of face
+/// (2k, 2k + 1, 2k + 1) is box k.
 kernel void box_faces(global Face* restrict faces, const uint count)
 {
     const Chunk chunk = own_chunk(count);

@@ -11,7 +11,7 @@
 namespace bvhbench::oibvh {
 namespace {
 
-// As builders call them.
+// The builders' types.
 using OwnPoint = bvhbench::Point;
 using OwnFace = bvhbench::Face;
 
@@ -35,7 +35,6 @@ std::string text_of(OwnPoint point)
            std::to_string(point.z) + ')';
 }
 
-/// Whether the host may read it.
 bool may_be_read(const cl::Buffer& buffer)
 {
     return (buffer.getInfo<CL_MEM_FLAGS>() & (CL_MEM_HOST_WRITE_ONLY | CL_MEM_HOST_NO_ACCESS)) == 0;
@@ -61,7 +60,7 @@ Buffer<T> InputTaker::room_for(std::size_t count, Room& room)
 {
     const std::size_t bytes = count * sizeof(T);
     if (bytes != room.memory.size()) {
-        room = {};  // the old memory goes before the new comes
+        room = {};  // freed before the new memory is allocated
         room.arena = Arena::reserved(device_.device, {.tree_bytes = 0, .scratch_bytes = bytes});
         room.memory = room.arena->take<std::byte>(bytes, Use::scratch);
     }
@@ -105,7 +104,7 @@ const bvhbench::Input& InputTaker::take(const Input& input, std::span<const std:
 {
     const bool are_boxes =
         std::holds_alternative<HostBoxes>(input) || std::holds_alternative<DeviceBoxes>(input);
-    // Of the caller's, none is kept when this fails; of copies, none that this kind of input has no use for.
+    // Releases the caller's former buffers, lest a failed call retain them, and copies that this kind of input does not use.
     taken_.device_points = {};
     taken_.device_faces = {};
     if (!are_boxes) {
@@ -188,7 +187,7 @@ void InputTaker::take_objects(std::span<const std::uint32_t> sizes)
                        std::to_string(count) + " triangles or boxes");
     if (objects == taken_.objects && taken_.device_owners.size() > 0)
         return;
-    taken_.objects.clear();  // until their owners are there
+    taken_.objects.clear();  // set once their owners are uploaded
     taken_.device_owners = {};
     std::vector<uint> owners(objects.size() > 1 ? count : 1, 0u);
     for (uint object = 0; objects.size() > 1 && object < objects.size(); ++object)
@@ -221,7 +220,7 @@ void InputTaker::check(bool are_boxes)
         complain(are_boxes);
 }
 
-/// Throws BadUsage about the first one.
+/// Throws BadUsage about the first invalid triangle or box.
 void InputTaker::complain(bool are_boxes) const
 {
     if (!may_be_read(taken_.device_points.cl()) || !may_be_read(taken_.device_faces.cl()))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// From what a caller has to what builders take.
+// Converts the input of library calls to the input of builders.
 #pragma once
 
 #include <optional>
@@ -13,29 +13,29 @@
 
 namespace bvhbench::oibvh {
 
-/// Triangles, in device memory. A box is a triangle whose corners are two of its own, opposite ones: its box is that box,
-/// and a buffer of boxes is one of points, two a box.
+/// Turns the caller's input into triangles in device memory. A box becomes a degenerate triangle over its minimum and maximum
+/// corners; the bounding box of that triangle is the box itself. So a buffer of boxes serves as one of points, two a box.
 class InputTaker {
 public:
     InputTaker(Device::Impl& device, bool check);
 
-    /// What builders take, of objects of so many triangles or boxes each; one, of all, if there are no sizes. Copies what
-    /// is on the host, and looks at all that there is if it is to be checked; waits for both. Holds until the next call.
-    /// Throws BadUsage for what cannot be.
+    /// Returns the builders' input for objects of `sizes` triangles or boxes each, or for one object if `sizes` is empty.
+    /// Copies host arrays, and checks all values if checking is on; both wait. The result is valid until the next call.
+    /// Throws BadUsage for invalid input.
     const bvhbench::Input& take(const Input& input, std::span<const std::uint32_t> sizes);
 
     const bvhbench::Input& taken() const { return taken_; }
 
-    /// Bytes of the device's that it has taken for what was copied.
+    /// Returns the bytes of device memory held: copies of host arrays, faces made for boxes, owners and the check's flag.
     std::size_t memory() const;
 
 private:
-    /// Memory of just the size that is wanted.
+    /// A buffer that is allocated at exactly the size needed.
     struct Room {
         std::optional<Arena> arena;
         Buffer<std::byte> memory;
     };
-    /// All of it; what was there is gone if it had another size.
+    /// Returns a buffer of `count` values in `room`. Reallocates, and loses the contents, if the size differs.
     template <class T>
     Buffer<T> room_for(std::size_t count, Room& room);
 
@@ -54,7 +54,7 @@ private:
     Device::Impl& device_;
     bool checks_;
     cl::Kernel triangles_kernel_, boxes_kernel_, faces_kernel_;
-    std::size_t box_faces_made_ = 0;  ///< for so many boxes; 0 while that has not gone well
+    std::size_t box_faces_made_ = 0;  ///< boxes that `box_faces_` holds faces for; 0 if none
     Room points_, faces_, box_faces_, owners_, flag_;
     bvhbench::Input taken_;
 };

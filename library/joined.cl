@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// Numbers of leaves where two trees are put side by side, and of their pairs, taken back.
+// Renumbers the leaves of the second of two joined trees, and restores its own numbers in the pairs found.
 #include "builders/stages/chunk.clh"
 #include "collide/counters.h"
 #include "geometry/dialect.h"
 
-/// to[first + k] becomes ids[k] + first, for all k below `count`.
+/// Writes ids[k] + first to to[first + k] for all k < count.
 kernel void number_behind(global const uint* restrict ids, global uint* restrict to,
                           const uint first, const uint count)
 {
@@ -14,7 +14,8 @@ kernel void number_behind(global const uint* restrict ids, global uint* restrict
         to[first + k] = ids[k] + first;
 }
 
-/// Each pair, the second tree's leaf behind the first's, gets that leaf's own number.
+/// Subtracts `first`, the number of leaves of the first tree, from the second number of each pair, which belongs to the second
+/// tree, since pairs have the smaller number first.
 kernel void own_numbers(global uint2* restrict pairs, global const uint* restrict counters,
                         const uint room, const uint first)
 {

@@ -39,7 +39,7 @@ void JoinedTrees::reserve(const ImplicitTree& a, const ImplicitTree& b)
     if (reserved_for_ == wanted)
         return;
     reserved_for_ = {};
-    collider_.reset();  // the old memory goes before the new comes
+    collider_.reset();  // freed before the new memory is allocated
     arena_.reset();
     tree_ = {};
     tree_.layout = a.layout;
@@ -88,7 +88,7 @@ Collider& JoinedTrees::find_pairs(const ImplicitTree& a, const ImplicitTree& b)
 {
     require_alike(a, b);
     reserve(a, b);
-    const auto reserved = std::exchange(reserved_for_, {});  // until all has gone well
+    const auto reserved = std::exchange(reserved_for_, {});  // restored on success
     enqueue_copies(a, b);
     bvhbench::find_pairs(*collider_, &tree_, {}, device_.queue);
     enqueue_own_numbers();

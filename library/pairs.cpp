@@ -26,8 +26,9 @@ bvhbench::Among internal(Among among)
 
 }  // namespace
 
-/// What was fastest wherever it was measured (docs/collisions.md): eight boxes at a time on a CPU, a warp's 32 on NVIDIA's
-/// GPUs. On others nothing was; leaves that walk by themselves want neither warps nor much local memory.
+/// The defaults are the fastest colliders in the measurements of docs/collisions.md: `group`, with eight boxes at a time, on
+/// CPUs, and `block`, with 32 per warp, on NVIDIA GPUs. Other devices were not measured; they get `leaf`, in which each leaf
+/// traverses the tree by itself, because it needs neither warps nor much local memory.
 const Named<MakeCollider>& collider_for(const bvhbench::Device& device, std::string_view asked)
 {
     if (asked.empty())
@@ -57,7 +58,7 @@ Pairs Tree::find_pairs(Among among)
             query.collider =
                 own.collider.second(own.device->programs,
                                     {.among = wanted, .keep_adjacent = own.options.adjacent_pairs});
-        if (!std::exchange(query.is_ready, false))  // until all has gone well
+        if (!std::exchange(query.is_ready, false))  // set again on success
             query.collider->reserve(&over, own.taker.taken());
         bvhbench::find_pairs(*query.collider, &over, own.taker.taken(), own.device->queue);
         query.is_ready = true;

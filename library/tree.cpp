@@ -12,7 +12,7 @@ namespace {
 constexpr Named<MakeBuilder> builders[] = {{"oibvh-single", make_oibvh_single},
                                            {"oibvh-multi", make_oibvh_multi}};
 
-/// Single where groups meet inside a launch and there are many of them: an H200 takes 0.8 of the time then.
+/// Returns oibvh-single on GPUs whose work-groups may hand over work within a launch (0.8 of the time on an H200), else multi.
 std::string_view builder_for(const bvhbench::Device& device)
 {
     return device.lets_groups_meet() && !device.is_cpu() ? "oibvh-single" : "oibvh-multi";
@@ -71,7 +71,7 @@ void Tree::Impl::renew(const Input& input, const std::function<void(const bvhben
     begin();
     const ImplicitTree* const standing = std::exchange(tree, nullptr);
     last_query = nullptr;
-    const std::vector<uint> same = std::exchange(sizes, {});  // until all has gone well
+    const std::vector<uint> same = std::exchange(sizes, {});  // restored on success
     make(taker.take(input, same));
     sizes = same;
     tree = standing;
@@ -97,7 +97,7 @@ Tree& Tree::operator=(Tree&& other) noexcept
     return *this;
 }
 
-/// The account of memory is the Device's, so that trees of other threads wait.
+/// Holds the Device's mutex, because freeing memory changes the Device's memory account, which other trees share.
 Tree::~Tree()
 {
     if (impl_ == nullptr)
@@ -116,7 +116,7 @@ void Tree::build(const Input& input, std::span<const std::uint32_t> objects)
         const bvhbench::Input& taken = own.taker.take(input, objects);
         const std::vector<uint> wanted = object_sizes(taken);
         if (std::exchange(own.sizes, {}) != wanted) {
-            for (Impl::Query& query : own.queries)  // their memory goes before more comes
+            for (Impl::Query& query : own.queries)  // freed before more is allocated
                 query = {};
             own.builder->reserve_objects(wanted);
         }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What is behind a Tree: a builder, its tree, and colliders made when they are first asked for.
+// Implementation of Tree: a builder, its tree, and one collider per Among, created by the first query that needs it.
 #pragma once
 
 #include <array>
@@ -19,11 +19,11 @@
 
 namespace bvhbench::oibvh {
 
-/// What options name: builders or colliders.
+/// A factory of builders or colliders, with the name that options select it by.
 template <class Make>
 using Named = std::pair<std::string_view, Make>;
 
-/// The one that is called so. Throws BadUsage, which says that `kind` and what there is.
+/// Returns the entry of `all` called `name`. Throws BadUsage, with `kind` and all known names, if there is none.
 template <class Make, std::size_t count>
 const Named<Make>& find_named(const Named<Make> (&all)[count], std::string_view name,
                               const char* kind)
@@ -38,18 +38,18 @@ const Named<Make>& find_named(const Named<Make> (&all)[count], std::string_view 
                    "'; there are: " + known);
 }
 
-/// The collider called so, or the device's own.
+/// Returns the collider called `asked`, or the default for the device if `asked` is empty. Throws BadUsage for another name.
 const Named<MakeCollider>& collider_for(const bvhbench::Device& device, std::string_view asked);
 
-/// Two trees that were built apart, put side by side as those of two objects of one frame: what colliders query. Copies of
-/// both, of which the second's leaves are numbered behind the first's.
+/// Copies of two separately built trees, joined as the trees of two objects of one frame, so that colliders can query them.
+/// The leaf ids of the second tree follow those of the first.
 class JoinedTrees {
 public:
     JoinedTrees(Device::Impl& device, MakeCollider make) : device_(device), make_(make) {}
 
-    /// Find the pairs of a leaf of `a` with one of `b`, each with the numbers of its own tree. Takes memory for trees of
-    /// other sizes than before. The collider that is returned has them until the next call. Waits. Throws BadUsage for
-    /// trees of several objects, or whose leaves are not kept alike.
+    /// Finds the overlapping pairs of a leaf of `a` and a leaf of `b`, each numbered as in its own tree. Allocates if the
+    /// trees' sizes differ from those of the last call. The returned collider holds the pairs until the next call. Waits.
+    /// Throws BadUsage if a tree has several objects, if `sorted_leaves` differs, or for more than 2^31 leaves together.
     Collider& find_pairs(const ImplicitTree& a, const ImplicitTree& b);
 
     std::size_t memory() const;
@@ -66,41 +66,40 @@ private:
     std::optional<Arena> arena_;
     ImplicitTree tree_;
     std::unique_ptr<Collider> collider_;
-    /// Leaves of both, and whether they are sorted.
+    /// Leaves of `a`, leaves of `b`, and whether leaves are sorted: what memory is reserved for.
     std::tuple<uint, uint, bool> reserved_for_ = {};
 };
 
 struct Tree::Impl {
     Impl(const std::shared_ptr<Device::Impl>& on, Options asked);
 
-    /// Begin a call that enqueues: behind everything that the caller has enqueued.
+    /// Begins a call that enqueues: discards recorded stages and orders the call behind everything enqueued before.
     void begin();
 
-    /// Make the tree that stands anew in part, over input of the same sizes.
+    /// Runs `make`, which refits or updates the current tree, on input of the same sizes. If it throws, there is no tree.
     void renew(const Input& input, const std::function<void(const bvhbench::Input&)>& make);
 
-    /// Throws BadUsage if there is none; `what` wants it.
+    /// Returns the current tree. Throws BadUsage, whose message begins with `what`, if there is none.
     const ImplicitTree& standing(const char* what) const;
 
-    /// What the collider's last query found.
+    /// Returns the pairs of the collider's last query, and remembers the collider for `read_pairs`.
     Pairs found_by(Collider& collider);
 
-    std::shared_ptr<Device::Impl> device;  ///< outlives all the others
+    std::shared_ptr<Device::Impl> device;  ///< declared first, so that it is destroyed last
     Options options;
     InputTaker taker;
     std::unique_ptr<Builder> builder;
     const Named<MakeCollider>& collider;
-    std::vector<uint> sizes;             ///< of the objects that there is memory for
-    const ImplicitTree* tree = nullptr;  ///< null where none stands
+    std::vector<uint> sizes;  ///< leaves of each object that memory is reserved for; empty if none
+    const ImplicitTree* tree = nullptr;  ///< null if there is no valid tree
 
-    /// By Among; null if not made, and without memory if not `is_ready`.
     struct Query {
-        std::unique_ptr<Collider> collider;
-        bool is_ready = false;
+        std::unique_ptr<Collider> collider;  ///< null until the first query
+        bool is_ready = false;               ///< whether the collider's memory is reserved
     };
-    std::array<Query, 3> queries;
+    std::array<Query, 3> queries;  ///< by Among
     JoinedTrees joined;
-    Collider* last_query = nullptr;  ///< that has pairs to be read; of joined trees `joined`'s
+    Collider* last_query = nullptr;  ///< holds the last query's pairs; null if there are none
 };
 
 }  // namespace bvhbench::oibvh

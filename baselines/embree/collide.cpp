@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// rtcCollide: Embree's own traversal of its own trees, the broad phase of whoever takes a library for it.
+// rtcCollide: Embree's traversal of its own trees, the broad phase of programs that use a library for it.
 //
-// A scene an object, of one user geometry each. Objects whose boxes overlap are held against each other, and an object
-// against itself only if that is asked for: never slower than one scene of all objects, and between the 305 of a
-// real frame a query is fourteen times as fast, for a scene against itself finds all pairs of neighbours first.
+// Each object is a scene with one user geometry. Objects whose boxes overlap are tested against each other, and an object
+// against itself only on request. This is never slower than one scene of all objects. Between the 305 objects of a real frame
+// a query is fourteen times as fast, because a scene tested against itself first yields all pairs of neighbouring triangles.
 #include <algorithm>
 #include <limits>
 
@@ -18,7 +18,7 @@
 namespace bvhbench {
 namespace {
 
-/// An object as Embree has it. It stays where it is: its scene asks for the boxes there.
+/// An object's Embree geometry and scene. Must not move in memory, since the geometry's callback refers to it.
 struct Object {
     FaceRange faces;
     const std::vector<Aabb>* boxes;  ///< of all triangles of the frame
@@ -43,7 +43,7 @@ std::unique_ptr<Object> object_of(const EmbreeHandle<RTCDevice>& device, FaceRan
     rtcSetGeometryBoundsFunction(object->geometry.get(), tell_box, nullptr);
     object->scene.reset(rtcNewScene(device.get()));
     rtcSetSceneFlags(object->scene.get(), flags);
-    // Low on both: of either alone Embree makes what takes longer than it saves when points move each frame.
+    // Low quality on both: with either one higher, Embree's build costs more than queries save if points move every frame.
     rtcSetGeometryBuildQuality(object->geometry.get(), RTC_BUILD_QUALITY_LOW);
     rtcSetSceneBuildQuality(object->scene.get(), RTC_BUILD_QUALITY_LOW);
     rtcAttachGeometry(object->scene.get(), object->geometry.get());
@@ -56,7 +56,7 @@ void build(const Object& object)
     rtcCommitScene(object.scene.get());
 }
 
-/// Pairs of a triangle of `a` with one of `b`, or of two of one object, that are wanted.
+/// Adds to `found` the pairs between `a` and `b`, or within the object if &a == &b, for which `wanted` is true.
 template <class Wanted>
 void meet(const Object& a, const Object& b, ThreadPairs& found, const Wanted& wanted)
 {
@@ -65,13 +65,13 @@ void meet(const Object& a, const Object& b, ThreadPairs& found, const Wanted& wa
         ThreadPairs& found;
         const Wanted& wanted;
     } meeting{a, b, found, wanted};
-    /// Called by all of Embree's threads, for a few pairs at a time whose leaves' boxes overlap.
+    /// Called from all of Embree's threads with a few pairs at a time whose leaf boxes overlap.
     const auto add = [](void* data, RTCCollision* collisions, unsigned count) {
         const auto& of = *static_cast<const Meeting*>(data);
         std::vector<Pair>& list = of.found.mine();
         for (const RTCCollision* one = collisions; one != collisions + count; ++one) {
             const Pair pair = {of.a.faces.first + one->primID0, of.b.faces.first + one->primID1};
-            // Of an object with itself both (a, b) and (b, a) are told, and triangles with themselves.
+            // For an object with itself, Embree reports both (a, b) and (b, a), and each triangle with itself.
             if ((&of.a != &of.b || pair.a < pair.b) && of.wanted(pair))
                 list.push_back(pair);
         }
@@ -79,9 +79,9 @@ void meet(const Object& a, const Object& b, ThreadPairs& found, const Wanted& wa
     rtcCollide(a.scene.get(), b.scene.get(), add, &meeting);
 }
 
-/// Embree has its threads take floats below the normal ones for zeros, most of the time, and some of it stops the
-/// program where an extent is one. Of floats that are zero or from `least` up, differences are zero or normal, too.
-/// A box rounded outward to these may only meet too many others.
+/// Returns x rounded down to zero or a magnitude of at least `least`. Embree's threads mostly treat subnormal floats as zeros,
+/// and some of its code aborts on a subnormal extent. Differences of rounded values are zero or normal. Boxes rounded outward
+/// contain the original boxes, so no pair is missed, but some found may not overlap.
 float rounded_down(float x)
 {
     constexpr float least = 0x1p-100f;
@@ -109,12 +109,12 @@ public:
         boxes_.resize(input.faces.size());
         objects_.clear();
         for (const FaceRange& faces : input.objects)
-            if (faces.count > 0)  // rtcCollide calls a scene without triangles an invalid operation
+            if (faces.count > 0)  // rtcCollide refuses a scene without triangles
                 objects_.push_back(object_of(device_, faces, boxes_, RTC_SCENE_FLAG_DYNAMIC));
         object_boxes_.resize(objects_.size());
     }
 
-    /// The boxes. What Embree takes it does not tell.
+    /// Counts the boxes. Embree does not report the memory it allocates.
     Footprint reserved() const override
     {
         return {0, (boxes_.size() + object_boxes_.size()) * sizeof(Aabb)};
@@ -132,7 +132,7 @@ public:
     }
 
 private:
-    /// The boxes of this frame. Throws for the first triangle that reaches beyond what Embree takes.
+    /// Computes the boxes of this frame. Throws Unavailable for the first triangle out of Embree's range of coordinates.
     void take_boxes(const Input& input)
     {
         is_rounded_ = false;
@@ -153,7 +153,8 @@ private:
         }
     }
 
-    /// To triangles that are all one point: over two to four of them Embree asserts that there is an extent.
+    /// Enlarges the box of an object whose triangles all lie in one point, and gives it to all of them: for two to four such
+    /// triangles Embree asserts a nonzero extent.
     void give_extent(uint first, uint count, Aabb& around)
     {
         constexpr float above = std::numeric_limits<float>::max();
@@ -183,13 +184,13 @@ private:
 
     EmbreeHandle<RTCDevice> device_;
     std::vector<std::unique_ptr<Object>> objects_;
-    std::vector<Aabb> boxes_;  ///< as Embree gets them, each the triangle's unless `is_rounded_`
+    std::vector<Aabb> boxes_;  ///< as given to Embree; equal to the triangles' unless `is_rounded_`
     std::vector<Aabb> object_boxes_;
     bool is_rounded_ = false;
     ThreadPairs by_thread_;
 };
 
-/// As its tutorial calls it: boxes as they are, what it tells taken at its word.
+/// Calls rtcCollide as in Embree's tutorial: boxes are not rounded and all reported pairs are returned.
 std::vector<Pair> find_plainly(std::span<const Point> points, std::span<const Face> faces,
                                std::span<const FaceRange> objects)
 {

@@ -21,7 +21,7 @@ inline std::array<float, 6> sides_of(const Aabb& box)
     return std::bit_cast<std::array<float, 6>>(box);
 }
 
-/// Throws Unavailable for a triangle that Embree would drop without a word.
+/// Throws Unavailable for a triangle whose coordinates are so large that Embree silently drops it.
 inline void require_in_range(const Aabb& box, std::size_t triangle)
 {
     for (const float x : sides_of(box))
@@ -37,11 +37,11 @@ struct EmbreeRelease {
     void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
 };
 
-/// One of Embree's own objects, let go of at the end.
+/// An owning handle of an Embree object.
 template <class Raw>
 using EmbreeHandle = std::unique_ptr<std::remove_pointer_t<Raw>, EmbreeRelease>;
 
-/// On as many threads as every result file says the host has: host_threads.
+/// Starts Embree with one thread per hardware thread, which is `host_threads` in result files. Throws Unavailable on failure.
 inline EmbreeHandle<RTCDevice> start_embree()
 {
     const std::string threads = "threads=" + std::to_string(std::thread::hardware_concurrency());
@@ -51,7 +51,7 @@ inline EmbreeHandle<RTCDevice> start_embree()
     return device;
 }
 
-/// Throws Unavailable if a call since the last one of this has failed: then Embree did not do what is `missing`.
+/// Throws Unavailable if an Embree call failed since the last call of this function. The message says "Embree `missing`".
 inline void require_success(const EmbreeHandle<RTCDevice>& device, const char* missing)
 {
     if (const RTCError error = rtcGetDeviceError(device.get()); error != RTC_ERROR_NONE)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Embree's own builders, asked for a binary tree with one triangle a leaf: rtcBuildBVH calls back for every node
-// and leaf, from all its threads, and we link them. What collides in such a tree is ours, so that the tree is
-// compared and not Embree's traversal of its wider ones.
+// Embree's builders, configured for binary nodes and one triangle per leaf. rtcBuildBVH calls back for every node and leaf, from
+// all its threads, and the callbacks link them. Our colliders query the tree, so that trees are compared and not Embree's
+// traversal of its wider trees.
 #include <string>
 #include <vector>
 
@@ -14,10 +14,10 @@
 namespace bvhbench {
 namespace {
 
-/// No tree of ours reaches it. At Embree's default of 32 it would cut sets in halves instead of where it says.
+/// Deeper than any tree built here. At the limit, by default 32, Embree splits sets in halves instead of by its own criterion.
 constexpr unsigned max_depth = 1024;
 
-// Made in Embree's memory, by whichever thread gets there.
+// Nodes are created in Embree's memory by its threads.
 //
 //     Inner  boxes and addresses of both children        Leaf  its box and triangle
 struct Node {
@@ -68,7 +68,7 @@ void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* pr
     return leaf;
 }
 
-/// The tree where Embree left it. Inner boxes are Embree's.
+/// The tree in Embree's memory. The boxes of inner nodes are those that Embree computed.
 class EmbreeTree final : public Tree {
 public:
     const Node* root = nullptr;
@@ -124,7 +124,7 @@ public:
     }
 
 private:
-    /// The nodes, boxes and what we hand over. What else Embree takes, and keeps between builds, it does not tell.
+    /// Counts nodes, boxes and the primitives given to Embree. Embree does not report what else it allocates and keeps.
     Footprint footprint(std::size_t primitives) const override
     {
         return {(primitives - 1) * sizeof(Inner) + primitives * sizeof(Leaf),
@@ -139,8 +139,8 @@ private:
         primitives_.resize(primitives);
     }
 
-    /// Boxes are handed over each time anew, since rtcBuildBVH rearranges what it is given; untimed, since a program that
-    /// has no other use for them writes them there at once.
+    /// Copies the boxes to `primitives_` before each build, since rtcBuildBVH rearranges its input. Untimed, since a program
+    /// without other use for the boxes would write them there in the first place.
     void prepare(const Input& input, Queue& queue, Start start) override
     {
         HostBuilder::prepare(input, queue, start);
@@ -188,8 +188,8 @@ std::unique_ptr<Builder> make_embree_medium(Programs&, const BuildOptions&)
         RTC_BUILD_QUALITY_MEDIUM);
 }
 
-// High quality splits triangles, and would put one in several leaves; each is in exactly one here. Without
-// splits Embree builds as for medium quality.
+// No splitPrimitive callback is set, because spatial splits put a triangle in several leaves, and trees here have each triangle
+// in exactly one. Without splits Embree builds as for medium quality.
 std::unique_ptr<Builder> make_embree_high(Programs&, const BuildOptions&)
 {
     return std::make_unique<Embree>(

@@ -12,13 +12,13 @@
 
 namespace bvhbench {
 
-/// Pairs that many threads find at once: each adds to a list of its own, without a lock.
+/// Pairs found by several threads at once. Each thread adds to its own list, without a lock.
 class ThreadPairs {
 public:
-    /// The list of the thread that asks.
+    /// Returns the list of the calling thread.
     std::vector<Pair>& mine()
     {
-        // By number, not by address: at a thread's last address a later one of us may live.
+        // Compares numbers, not addresses, since a later ThreadPairs may have the same address as a former one.
         thread_local std::uint64_t whose = 0;
         thread_local std::vector<Pair>* list = nullptr;
         if (whose != number_) {
@@ -29,14 +29,14 @@ public:
         return *list;
     }
 
-    /// No pairs, while no thread adds any. Memory stays.
+    /// Removes all pairs but keeps the memory. No thread may add pairs meanwhile.
     void clear()
     {
         for (auto& [thread, list] : lists_)
             list.pairs.clear();
     }
 
-    /// The pairs of all threads, in no order, while none adds any.
+    /// Appends the pairs of all threads to `all`, in no order. No thread may add pairs meanwhile.
     void append_to(std::vector<Pair>& all) const
     {
         for (const auto& [thread, list] : lists_)
@@ -44,7 +44,7 @@ public:
     }
 
 private:
-    /// In a cache line of its own, so that threads do not slow each other down.
+    /// Aligned to a cache line, so that lists of different threads do not share one.
     struct alignas(64) List {
         std::vector<Pair> pairs;
     };

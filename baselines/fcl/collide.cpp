@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// FCL's collision of meshes, the narrow phase of many robot planners: a model an object, its tree, and a test of two
-// triangles at the leaves. In double: FCL in float misses pairs. With axis-aligned boxes: with its oriented ones a
-// frame takes three to four times as long, in the trees and in their descent.
+// FCL's collision of meshes, the narrow phase of many robot planners: each object is a model with a tree, and leaves are tested
+// triangle against triangle. In double precision, because FCL in float misses pairs. With axis-aligned boxes, because with
+// oriented boxes a frame takes three to four times as long, both to build and to traverse.
 //
-// fcl::collide would copy both models for each pair of objects. What it calls then is called here instead.
+// The code calls the functions inside fcl::collide directly, because fcl::collide copies both models for each pair of objects.
 #include <fcl/math/bv/utility.h>
 #include <fcl/narrowphase/collision_request.h>
 #include <fcl/narrowphase/collision_result.h>
@@ -24,16 +24,16 @@ namespace {
 
 constexpr uint unused = std::numeric_limits<uint>::max();
 
-/// An object as FCL has it: the points that its triangles name, numbered anew.
+/// An object's FCL model, which contains only the points that its triangles use, renumbered.
 struct Object {
     FaceRange range;
     std::span<const Face> faces;
-    std::vector<uint> used;  ///< the frame's number of each of its points
+    std::vector<uint> used;  ///< index in the frame of each of the model's points
     std::vector<fcl::Vector3d> moved;
     std::unique_ptr<fcl::BVHModel<fcl::AABBd>> model;
 };
 
-/// FCL's descent of two trees. Adjacent triangles are not tested: FCL would find that they touch, and nothing else.
+/// FCL's traversal of two trees, without tests of triangles that share a vertex: FCL only reports that these touch.
 class Meeting final : public fcl::detail::MeshCollisionTraversalNode<fcl::AABBd> {
 public:
     Meeting(std::span<const Face> faces1, std::span<const Face> faces2)
@@ -54,7 +54,7 @@ private:
     std::span<const Face> faces2_;
 };
 
-/// What becomes of a tree when its points have moved.
+/// What is kept of a tree when its points have moved.
 enum class Keep { nothing, topology };
 
 class Fcl final : public HostCollider {
@@ -80,7 +80,7 @@ public:
                 objects_.push_back(object_of(input, range, renumbered));
     }
 
-    /// FCL's trees. Its copies of the mesh are not counted, and ours neither.
+    /// Counts FCL's trees. FCL's copies of the mesh and ours are not counted.
     Footprint reserved() const override
     {
         std::size_t nodes = 0;
@@ -126,7 +126,7 @@ private:
         return object;
     }
 
-    /// To where the points are now. The object's box.
+    /// Moves the model to the current points, and rebuilds or refits its tree. Returns the object's box.
     Aabb move(Object& object, std::span<const Point> points) const
     {
         Aabb around = empty_box();
@@ -135,7 +135,7 @@ private:
             object.moved[k] = fcl_point<double>(p);
             around = merged(around, triangle_box(p, p, p));
         }
-        // To replace, not to update: an updated model is around where its points were, too.
+        // Replaces instead of updating, since the boxes of an updated model also enclose the former points.
         object.model->beginReplaceModel();
         object.model->replaceSubModel(object.moved);
         const bool bottom_up = true;
@@ -152,7 +152,7 @@ private:
 
     void meet(Object& a, Object& b)
     {
-        // All pairs, and of each no more than that they meet.
+        // Requests all pairs, without contact data.
         const fcl::CollisionRequestd request(std::numeric_limits<std::size_t>::max(), false);
         fcl::CollisionResultd result;
         fcl::Transform3d in_place = fcl::Transform3d::Identity();
@@ -172,7 +172,7 @@ private:
 
     Keep keep_;
     std::vector<std::unique_ptr<Object>> objects_;
-    std::vector<Aabb> boxes_;  ///< of the objects
+    std::vector<Aabb> boxes_;  ///< one per object
 };
 
 }  // namespace

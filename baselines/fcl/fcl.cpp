@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The trees of FCL, the collision library of many robot planners: split at the mean of the triangles' centroids,
-// one triangle a leaf, on one core. In double: FCL in float misses pairs.
+// The trees of FCL, the collision library of many robot planners: split at the mean of the triangles' centroids, one triangle
+// per leaf, built on one core. In double precision, because FCL in float misses pairs.
 #include <type_traits>
 
 #include "baselines/baselines.h"
@@ -11,7 +11,7 @@
 namespace bvhbench {
 namespace {
 
-/// Through triangle_box, which leaves no negative zeros.
+/// Returns the box of three points, without negative zeros, as triangle_box computes it.
 Aabb box_around(const fcl::Vector3d& a, const fcl::Vector3d& b, const fcl::Vector3d& c)
 {
     const auto point = [](const fcl::Vector3d& p) {
@@ -20,7 +20,7 @@ Aabb box_around(const fcl::Vector3d& a, const fcl::Vector3d& b, const fcl::Vecto
     return triangle_box(point(a), point(b), point(c));
 }
 
-/// The model where FCL left it. `Volume` is what FCL keeps a node.
+/// An FCL model as a tree. `Volume` is FCL's bounding volume of a node.
 template <class Volume>
 class FclTree final : public Tree {
 public:
@@ -28,8 +28,8 @@ public:
 
     std::size_t node_count() const override { return static_cast<std::size_t>(model->getNumBVs()); }
 
-    /// Axis-aligned boxes are FCL's own: doubles that are floats. Of other volumes the tree keeps its nodes
-    /// and gets the boxes of its triangles, so that trees are compared and not shapes.
+    /// If volumes are axis-aligned boxes, uses them; they are doubles with float values. Otherwise keeps the nodes and computes
+    /// boxes from the triangles, so that topologies are compared and not volumes.
     HostTree spelled_out() const override
     {
         constexpr bool has_boxes = std::is_same_v<Volume, fcl::AABBd>;
@@ -56,14 +56,14 @@ public:
     }
 };
 
-/// FCL has no stage of its own for leaf boxes: it fits each node to all triangles under it.
+/// There is no stage `bounds`, because FCL fits each node to all triangles under it.
 template <class Volume>
 class Fcl final : public HostBuilder {
 public:
     using HostBuilder::HostBuilder;
 
 private:
-    /// The nodes and FCL's array of triangle numbers, which is as long. Its copy of the mesh is not counted.
+    /// Counts the nodes and FCL's equally long array of triangle indices. FCL's copy of the mesh is not counted.
     Footprint footprint(std::size_t primitives) const override
     {
         const std::size_t nodes = 2 * primitives - 1;
@@ -72,7 +72,7 @@ private:
 
     void reserve_own(std::size_t) override {}
 
-    /// Each time a new model: FCL warns on the terminal when one is filled again. Copying is not timed, as for every builder.
+    /// Creates a new model for each build, since FCL prints a warning if a model is filled again. Untimed, as in all builders.
     void prepare(const Input& input, Queue&, Start) override
     {
         if (input.is_swept())

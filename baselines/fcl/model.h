@@ -19,14 +19,14 @@ fcl::Vector3<Number> fcl_point(const Point& p)
     return {static_cast<Number>(p.x), static_cast<Number>(p.y), static_cast<Number>(p.z)};
 }
 
-/// Throws Unavailable if a call of a model that makes a tree has failed.
+/// Throws Unavailable if `result`, returned by an FCL call that builds or refits a tree, is an error.
 inline void require_tree(int result)
 {
     if (result != fcl::BVH_OK)
         throw Unavailable("FCL built no tree: its error " + std::to_string(result));
 }
 
-/// A model that a mesh has been handed to, without a tree.
+/// Returns a model that contains the mesh and has no tree yet.
 template <class Volume>
 std::unique_ptr<fcl::BVHModel<Volume>> model_of(std::span<const Point> points,
                                                 std::span<const Face> faces)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// fcl::collide of two models, asked for all contacts and nothing about them, in both of FCL's precisions and with its
-// smallest and its usual volume.
+// fcl::collide of two models, for all contacts without contact data, in both precisions, with FCL's smallest and its usual
+// bounding volume.
 #include <fcl/narrowphase/collision.h>
 
 #include <limits>
@@ -31,8 +31,8 @@ std::vector<Pair> find(std::span<const Point> points, std::span<const Face> face
         const auto& contact = result.getContact(k);
         const Pair pair = {first.first + static_cast<uint>(contact.b1),
                            second.first + static_cast<uint>(contact.b2)};
-        const bool is_asked =
-            objects.size() > 1 || pair.a < pair.b;  // of one object both ways are told
+        // For one object, FCL reports each pair in both orders.
+        const bool is_asked = objects.size() > 1 || pair.a < pair.b;
         if (is_asked && !share_a_vertex(faces[pair.a], faces[pair.b]))
             found.push_back(pair);
     }

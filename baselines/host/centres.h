@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What top-down builders ask of the centres of boxes: how far a few of them reach, and halves along an axis.
+// Box centres for top-down builders: bounds of a set of centres, and partition of a set along an axis.
 #pragma once
 
 #include <algorithm>
@@ -20,14 +20,14 @@ inline Centre centre_of(Aabb box)
     return {centre.x, centre.y, centre.z};
 }
 
-/// From where to where some centres lie along each axis. Doubles: the extent of floats may exceed a float.
+/// Bounds of a set of centres, by axis. Doubles, because the extent between two floats may exceed the range of a float.
 struct CentreBounds {
     std::array<double, 3> low;
     std::array<double, 3> high;
 
     double extent(std::size_t axis) const { return high[axis] - low[axis]; }
 
-    /// The first of the longest.
+    /// Returns the axis of the largest extent, the first one if several are equal.
     std::size_t longest_axis() const
     {
         std::size_t longest = 0;
@@ -38,7 +38,7 @@ struct CentreBounds {
     }
 };
 
-/// The bounds of the centres of `ids`, of which there is at least one.
+/// Returns the bounds of the centres of `ids`, which must not be empty.
 inline CentreBounds centre_bounds(std::span<const uint> ids, std::span<const Centre> centres)
 {
     CentreBounds bounds{};
@@ -55,8 +55,8 @@ inline CentreBounds centre_bounds(std::span<const uint> ids, std::span<const Cen
     return bounds;
 }
 
-/// Rearrange `ids` so that the `left` first are those that come first along the longest axis. Equal centres
-/// go by id, so the two sets are the same on every machine and no input makes one side empty.
+/// Partitions `ids` so that its first `left` entries are the lowest along the longest axis of their centres. Ties are broken by
+/// id, so the two sets are the same on every machine and have the given sizes for every input.
 inline void split_at(std::span<uint> ids, std::span<const Centre> centres, std::size_t left)
 {
     const std::size_t axis = centre_bounds(ids, centres).longest_axis();

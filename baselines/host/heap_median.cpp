@@ -11,8 +11,8 @@
 namespace bvhbench {
 namespace {
 
-/// How many of `leaves` leaves, two or more, lie under the left child of a left-balanced tree: every level
-/// full but the last, and the last filled from the left. Numbered level by level such a tree has no gaps.
+/// Returns the number of leaves under the left child of a left-balanced tree of `leaves` >= 2 leaves. In such a tree every level
+/// but the last is full and the last is filled from the left, so level-order numbers have no gaps.
 ///
 ///     5 leaves              0
 ///                     1           2         left: 3, right: 2
@@ -34,7 +34,7 @@ static_assert(heap_left_leaves(7) == 4);
 class HeapTree final : public Tree {
 public:
     std::vector<Aabb> boxes;       ///< by node
-    std::vector<uint> primitives;  ///< by leaf: the leaves are the last nodes
+    std::vector<uint> primitives;  ///< by leaf; the leaves are the last nodes
 
     std::size_t node_count() const override { return boxes.size(); }
 
@@ -54,8 +54,7 @@ public:
     }
 };
 
-/// Nodes without pointers, in the order of a heap: a set is split along its longest axis where the shape of
-/// the heap says, not where the triangles suggest.
+/// Builds a tree in heap order, without pointers: each set is split along its longest axis, in the sizes that the heap dictates.
 class HeapMedian final : public HostBuilder {
 public:
     HeapMedian()
@@ -89,7 +88,7 @@ private:
 
     const Tree& tree() const override { return tree_; }
 
-    /// As deep as the heap, a level for each bit of the number of leaves.
+    /// Builds the subtree of `node` over `ids`. The recursion is as deep as the heap: about log2 of the number of leaves.
     void split(std::size_t node, std::span<uint> ids)
     {
         if (ids.size() == 1) {

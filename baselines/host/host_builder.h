@@ -8,7 +8,7 @@
 
 namespace bvhbench {
 
-/// A tree that is kept as it is spelled out.
+/// A tree that is stored as a HostTree.
 class PlainTree final : public Tree {
 public:
     HostTree plain;
@@ -16,7 +16,7 @@ public:
     std::size_t node_count() const override { return plain.nodes.size(); }
     HostTree spelled_out() const override { return plain; }
 
-    /// Give inner nodes, of two children each, the boxes around their children's. Children come after their parent.
+    /// Computes the boxes of all inner nodes from their two children. Children must come after their parent in `nodes`.
     void merge_boxes()
     {
         std::vector<HostTree::Node>& nodes = plain.nodes;
@@ -27,8 +27,8 @@ public:
     }
 };
 
-/// Builds on the host, by default over leaf boxes: in the stages bounds and hierarchy. It has no codes then: a start from
-/// sorted leaves is a start from leaf boxes, and their order is the method's business.
+/// Base of builders that run on the host, in the stages `bounds` (leaf boxes) and `hierarchy`. By default there are no codes and
+/// no leaf order: with Start::from_sorted_leaves such a builder starts from leaf boxes.
 class HostBuilder : public Builder {
 public:
     HostBuilder(std::string_view name, std::string_view method)
@@ -53,10 +53,10 @@ public:
     }
 
 protected:
-    /// Allocate what `footprint` counts: host memory, `boxes_` first.
+    /// Allocates the host memory that `footprint` counts, including `boxes_` if it is used.
     virtual void reserve_own(std::size_t primitives) = 0;
 
-    /// What comes before the hierarchy: box k becomes triangle k's.
+    /// Runs the stages before the hierarchy. By default writes the box of triangle k to boxes_[k].
     virtual void prepare(const Input& input, Queue& queue, Start start)
     {
         if (start == Start::from_triangles)
@@ -66,7 +66,7 @@ protected:
             });
     }
 
-    /// Timed.
+    /// Builds the tree. Timed as the stage `hierarchy`.
     virtual void build_tree() = 0;
 
     virtual const Tree& tree() const = 0;

@@ -9,11 +9,11 @@
 namespace bvhbench {
 namespace {
 
-/// Rearranges two ids or more so that those of the left child come first. How many they are: at least one, and not all.
+/// Partitions at least two ids so that those of the left child come first. Returns their number: at least one, and not all.
 using Split = std::size_t (*)(std::span<uint> ids, std::span<const Aabb> boxes,
                               std::span<const Centre> centres);
 
-/// A hierarchy built from the root down, one triangle a leaf, by any way to part a set of triangles in two.
+/// Builds top-down with one triangle per leaf and a given function to split sets of triangles.
 class TopDown final : public HostBuilder {
 public:
     TopDown(std::string_view name, std::string_view method, Split split)
@@ -45,14 +45,14 @@ private:
 
     const Tree& tree() const override { return tree_; }
 
-    /// A node to come, and its ids as a range.
+    /// A node still to be built, and the range of its ids.
     struct Task {
         std::size_t node;
         std::size_t first;
         std::size_t count;
     };
 
-    /// A stack of our own: nothing bounds the depth of a tree that follows the costs.
+    /// Builds the topology with an explicit stack, since the depth of a tree that minimizes costs is unbounded.
     void link_nodes()
     {
         std::size_t used = 1;
@@ -82,7 +82,7 @@ private:
     std::vector<Centre> centres_;
 };
 
-/// Half of the triangles left, half right, along the longest axis of their centres.
+/// Splits at the median along the longest axis of the centres.
 std::size_t split_in_halves(std::span<uint> ids, std::span<const Aabb>,
                             std::span<const Centre> centres)
 {
@@ -90,7 +90,7 @@ std::size_t split_in_halves(std::span<uint> ids, std::span<const Aabb>,
     return ids.size() / 2;
 }
 
-/// Half the surface of a box. A double: the squares of large floats exceed a float.
+/// Returns half the surface area of a box, in double because the products of large floats exceed a float.
 double half_area(Aabb box)
 {
     const double x = static_cast<double>(box.max_x) - box.min_x;
@@ -101,7 +101,7 @@ double half_area(Aabb box)
 
 constexpr std::size_t bin_count = 16;
 
-/// Which of equally wide bins between the bounds a centre falls in.
+/// Assigns a centre to one of `bin_count` equally wide bins between the bounds along an axis.
 struct Binning {
     std::size_t axis;
     double low;
@@ -130,14 +130,14 @@ struct Bin {
     double cost() const { return half_area(box) * static_cast<double>(count); }
 };
 
-/// Where to cut, and what a ray through the node would pay for its children's triangles [Aila2013].
+/// A position to split at and its SAH cost: half area times number of triangles, summed over both children [Aila2013].
 struct Cut {
     double cost;
-    std::size_t axis = 3;     ///< 3: there is none
-    std::size_t left_bins{};  ///< how many bins lie left of it
+    std::size_t axis = 3;     ///< 3: no cut
+    std::size_t left_bins{};  ///< number of bins left of the cut
 };
 
-/// Replace `best` by the cheapest cut along the binning's axis, if that is cheaper.
+/// Replaces `best` by the cheapest cut along the binning's axis if that is cheaper.
 void try_axis(const Binning& binning, std::span<const uint> ids, std::span<const Aabb> boxes,
               std::span<const Centre> centres, Cut& best)
 {
@@ -145,7 +145,7 @@ void try_axis(const Binning& binning, std::span<const uint> ids, std::span<const
     for (const uint id : ids)
         bins[binning(centres[id])].add({boxes[id], 1});
 
-    std::array<Bin, bin_count> from_right = bins;  // each with all bins right of it
+    std::array<Bin, bin_count> from_right = bins;  // each merged with all bins right of it
     for (std::size_t i = bin_count - 1; i-- > 0;)
         from_right[i].add(from_right[i + 1]);
     Bin left;
@@ -157,8 +157,9 @@ void try_axis(const Binning& binning, std::span<const uint> ids, std::span<const
     }
 }
 
-/// The cheapest of the cuts between 16 bins an axis, down to single triangles. The first and the last bin
-/// along an axis hold a centre each, so there is a cut unless all centres are one: then halves, as they lie.
+/// Splits at the cheapest cut between 16 bins on each axis, also for small sets. Along an axis of nonzero extent the first and
+/// the last bin contain a centre each, so there is a cut unless all centres coincide. Then the ids are split into halves in
+/// their current order.
 std::size_t split_by_cost(std::span<uint> ids, std::span<const Aabb> boxes,
                           std::span<const Centre> centres)
 {

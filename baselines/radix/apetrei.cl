@@ -3,15 +3,15 @@
 // check: -DCODE_WORDS=2 -DSORTED_LEAVES=1
 // check: -DCODE_WORDS=1 -DSORTED_LEAVES=1 -DBOX_FORMAT=4u
 //
-// [Apetrei2014] as printed: a node is called after its split, its children and the two ends of its range lie in
-// arrays, each child writes its own half, and a counter lets the second of them go on.
+// [Apetrei2014] as printed: a node's index is its split. Its children and the two ends of its range are stored in arrays; each
+// child writes its half. A counter per node makes the second child to arrive continue.
 //
 //     leaves    first ... split | split+1 ... last      node `split`: children[split], ranges[split]
 #include "baselines/radix/leaves.clh"
 #include "device/handoff.clh"
 
-/// common[k] becomes how much leaves k and k + 1 have in common: delta of [Apetrei2014], turned round, since
-/// theirs grows with the distance.
+/// Writes radix_common of leaves k and k + 1 to common[k]. It is largest for the nearest neighbours, while delta of
+/// [Apetrei2014] is smallest for them.
 kernel void deltas(global const Code* restrict codes, global uint* restrict common,
                    const uint leaves)
 {
@@ -20,13 +20,13 @@ kernel void deltas(global const Code* restrict codes, global uint* restrict comm
         common[k] = common_of(codes, leaves, k, k + 1u);
 }
 
-/// What a build works on, as the kernel is handed it.
+/// Buffers of a build.
 typedef struct {
     global const uint* common;
     global const BoxWord* leaf_boxes;
     global const uint* ids;
-    global uint* children;  ///< left and right of node k at 2k and 2k + 1
-    global uint* ranges;    ///< first and last leaf, alike
+    global uint* children;  ///< left and right child of node k at 2k and 2k + 1
+    global uint* ranges;    ///< first and last leaf of node k at 2k and 2k + 1
     global BoxWord* boxes;
 } Tree;
 
@@ -36,7 +36,8 @@ static inline Aabb box_of_child(const Tree tree, const uint child)
                                 : load_box(tree.boxes, child);
 }
 
-/// Algorithm 1 of the paper: the parent is the split at the nearer neighbour, and learns of this child.
+/// Returns the parent of `child`, the split towards its nearer neighbour, and stores the child and its end of the range there
+/// (Algorithm 1 of the paper).
 static inline uint choose_parent(const Tree tree, const uint leaves, const uint child,
                                  const uint first, const uint last)
 {
@@ -68,8 +69,8 @@ static inline void climb_from(const Tree tree, volatile global Arrivals* arrival
     *root = child;
 }
 
-/// `children`, `ranges` and `boxes` become the radix tree whose neighbours have `common`; `root` its root.
-/// `arrivals` is zero, one an inner node, and is zero again afterwards.
+/// Builds the radix tree of `common` into `children`, `ranges` and `boxes`, and writes the root's index to `root`. `arrivals`
+/// has one entry per inner node, zero before and after.
 kernel void build(global const uint* restrict common, global const BoxWord* restrict leaf_boxes,
                   global const uint* restrict ids, global uint* children, global uint* ranges,
                   global BoxWord* boxes, volatile global Arrivals* arrivals, global uint* root,

@@ -5,7 +5,7 @@
 namespace bvhbench {
 namespace {
 
-/// As printed: boxes, children and ranges in arrays, by split, as are all nodes but the root.
+/// [Apetrei2014] as printed: boxes, children and ranges in arrays, indexed by split.
 class Apetrei final : public RadixBuilder {
 public:
     Apetrei(Programs& programs, const BuildOptions& options)
@@ -42,7 +42,7 @@ private:
         refit_nodes(queue);
     }
 
-    /// The kernel finds the same tree again while it climbs; what leaves have in common has not changed.
+    /// Builds the whole tree again: `common_` has not changed, so the kernel finds the same topology while it climbs.
     void refit_nodes(Queue& queue) override
     {
         set_arguments(build_, common_, tree_.leaf_boxes, tree_.ids, tree_.children, ranges_,
@@ -53,11 +53,11 @@ private:
     }
 
     cl::Kernel deltas_, build_;
-    Buffer<uint> ranges_;  ///< first, last
-    Buffer<uint> common_;  ///< one a gap between leaves
+    Buffer<uint> ranges_;  ///< first and last leaf of each inner node
+    Buffer<uint> common_;  ///< one entry per gap between leaves
 };
 
-/// In one launch. `arrivals_` holds the end of a range for each gap between leaves.
+/// [Apetrei2014] in one launch. `arrivals_` holds an end of a range for each gap between leaves.
 class ApetreiFused final : public RadixBuilder {
 public:
     ApetreiFused(Programs& programs, const BuildOptions& options)
@@ -82,7 +82,7 @@ private:
                tree_.codes.bytes() + box_bytes() + tree_.nodes.bytes());
     }
 
-    /// The codes are still there, and from them comes the same tree. No parents are stored that would tell sooner.
+    /// Builds the whole tree again from the same codes: no parents are stored that a faster refit could follow.
     void refit_nodes(Queue& queue) override { build_nodes(queue); }
 
     cl::Kernel build_;

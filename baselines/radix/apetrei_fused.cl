@@ -5,23 +5,22 @@
 // check: -DCODE_WORDS=1 -DSORTED_LEAVES=1 -DBOX_FORMAT=2u
 // check: -DCODE_WORDS=1 -DSORTED_LEAVES=1 -DBOX_FORMAT=4u
 //
-// [Apetrei2014] in the strongest form we know: topology and boxes in one launch, one exchange a meeting.
+// [Apetrei2014] in its fastest known form: topology and boxes in one launch, with one atomic exchange per inner node.
 //
-// As printed, a node's range lies in memory beside a counter, and boxes are read back. Here the first of two
-// siblings leaves the far end of its range in the slot of the gap between them, and that word is also the
-// sign that it has been there; the second takes it and knows the parent's range. It has its own box in
-// registers and reads only its sibling's. Nodes go where Karras would put them, so a range's ends say where
-// a sibling is, no range is ever stored and the root is node 0.
+// As printed, a node's range is stored beside a counter, and boxes are read back. Here the first of two siblings stores the far
+// end of its range in the slot of the gap between them; that word also shows that it has arrived. The second takes the word and
+// so knows the parent's range. It keeps its own box in registers and reads only its sibling's. Nodes are numbered as in
+// [Karras2012], so the ends of a range determine where a sibling is, no ranges are stored, and the root is node 0.
 //
 //     leaves    first ... split | split+1 ... last      ends[split]: first + 1 from the left child, or
 //               left child      | right child                        last + 1 from the right; 0 from neither
 //
-// Leaf boxes are read where they are, as the implicit builders read theirs: a copy as nodes would write 32
-// bytes a leaf that nobody needs. A leaf's box is input, so only inner nodes' boxes are handed over.
+// Leaf boxes are read in place, as in the implicit builders: copying them to nodes would write 32 bytes per leaf for nothing.
+// They are input of the launch, so only boxes of inner nodes are handed over between work-items.
 #include "baselines/radix/leaves.clh"
 #include "device/handoff.clh"
 
-/// From `leaf` upwards, until the sibling has yet to come or the root is built.
+/// Climbs from `leaf` until a sibling has not arrived yet or the root is built.
 static inline void climb_from(global const Code* codes, global const BoxWord* leaf_boxes,
                               global const uint* ids, global RadixWord* nodes,
                               volatile global Arrivals* ends, const uint leaves, const uint leaf)
@@ -31,7 +30,7 @@ static inline void climb_from(global const Code* codes, global const BoxWord* le
     uint after = common_of(codes, leaves, last, last + 1u);
     Aabb box = leaf_box(leaf_boxes, ids, leaf);
     while (before != after) {                 // equal only at the root, where both are 0
-        const bool is_left = after > before;  // the parent joins it to the nearer neighbour
+        const bool is_left = after > before;  // the parent joins the nearer neighbour
         const uint split = is_left ? last : first - 1u;
         const uint end = exchanged(&ends[split], (is_left ? first : last) + 1u);
         if (end == 0u)
@@ -55,8 +54,8 @@ static inline void climb_from(global const Code* codes, global const BoxWord* le
     }
 }
 
-/// `nodes` becomes the radix tree over `codes`, ascending. `ends` is zero, one a gap between leaves, and is zero
-/// again afterwards.
+/// Builds the radix tree over the ascending `codes` into `nodes`. `ends` has one entry per gap between leaves, zero before and
+/// after.
 kernel void build(global const Code* restrict codes, global const BoxWord* restrict leaf_boxes,
                   global const uint* restrict ids, global RadixWord* nodes,
                   volatile global Arrivals* ends, const uint leaves)

@@ -17,9 +17,9 @@ namespace {
 
 using Children = std::array<uint, 2>;
 
-/// Of keys whose highest part is the object, a radix tree's parts are the objects' own trees: those over an object's
-/// leaves. An inner node is its last leaf if it is a left child, else its first (node.h); and it is a left child if
-/// its object's number has more leading bits in common with the next one than with the one before.
+/// Returns the objects with their roots. The object number is the highest part of a key, so each object's leaves are exactly
+/// those of one subtree of the radix tree. An inner node's index is its last leaf if it is a left child, else its first leaf
+/// (node.h). A root is a left child if its object's number shares more leading bits with the next number than with the previous.
 std::vector<ForestObject> radix_objects(std::span<const uint> sizes)
 {
     const auto common = [&](uint object, uint other) {
@@ -51,7 +51,7 @@ std::size_t RadixTree::inner_bytes() const
                : sizeof(Children) + (format->box_bytes() + word - 1) / word * word;
 }
 
-/// From the root down every node splits at a lower bit of its leaves' keys than its parent.
+/// Returns an upper bound: each node splits at a lower bit of its leaves' keys than its parent.
 uint RadixTree::most_levels() const { return std::min(leaves, code_bits + ceil_log2(leaves) + 1); }
 
 std::string_view RadixTree::access_header() const
@@ -66,7 +66,7 @@ cl_uint RadixTree::bind(cl::Kernel& kernel, cl_uint first) const
     return set_arguments_from(kernel, first, leaf_boxes, ids, leaves, device_objects);
 }
 
-/// Breadth-first: a radix tree may be 95 levels deep, so nothing here recurses.
+/// Lists the nodes in breadth-first order, without recursion, since a radix tree may be 95 levels deep.
 HostTree RadixTree::spelled_out_object(uint object) const
 {
     HostTree tree;
@@ -109,7 +109,7 @@ HostTree RadixTree::spelled_out_object(uint object) const
         const RadixNode from = inner_node(index);
         node.box = {from.min_x, from.min_y, from.min_z, from.max_x, from.max_y, from.max_z};
         if (order.size() >= node_count())
-            continue;  // not a tree: leave children out rather than walk in circles
+            continue;  // not a tree; stops instead of following a cycle
         node.child = {static_cast<int>(order.size()), static_cast<int>(order.size() + 1)};
         order.push_back(from.left);
         order.push_back(from.right);
@@ -204,7 +204,7 @@ void RadixBuilder::prepare(const cl::CommandQueue& queue)
 
 void RadixBuilder::enqueue_hierarchy(Queue& queue)
 {
-    if (tree_.leaves > 1)  // one leaf is its own root
+    if (tree_.leaves > 1)  // a single leaf is the root
         build_nodes(queue);
     if (tree_.objects.size() > 1 && !numbers_by_range_)
         find_roots(queue);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What the builders of radix trees share: leaf order before the hierarchy, a tree after it.
+// Base of the builders of radix trees: the leaf order before the hierarchy, and the tree after it.
 #pragma once
 
 #include "baselines/radix/node.h"
@@ -8,26 +8,26 @@
 
 namespace bvhbench {
 
-/// A radix tree over the leaves of all objects, of whose trees it consists.
+/// A radix tree over the leaves of all objects. Each object's tree is a subtree of it.
 class RadixTree final : public DeviceTree {
 public:
     uint leaves = 0;
     bool sorted = false;
     const BoxFormat* format = &float_boxes();
     uint code_bits = 0;
-    Buffer<std::byte> leaf_boxes;  ///< in the format; in leaf order if sorted, else in mesh order
+    Buffer<std::byte> leaf_boxes;  ///< in `format`; in leaf order if sorted, else in mesh order
     Buffer<uint> ids;              ///< the triangle of each leaf
     Buffer<uint> codes;            ///< ascending
-    Buffer<SceneCells> cells;      ///< one, of formats with cells
+    Buffer<SceneCells> cells;      ///< one entry, for formats with cells only
 
-    /// Inner nodes as node_words.clh stores them; or their boxes alone, and beside them `children`, left and right, and
-    /// `root`, one: where the root is.
+    /// Inner nodes as node_words.clh stores them. If `in_arrays`, `nodes` holds only their boxes, `children` the left and right
+    /// child of each, and `root` the root's index.
     Buffer<std::byte> nodes;
     Buffer<uint> children, root;
     bool in_arrays = false;
 
-    std::size_t inner() const { return std::size_t{leaves} - 1; }  ///< nodes over the leaves
-    std::size_t inner_bytes() const;                               ///< of one of them
+    std::size_t inner() const { return std::size_t{leaves} - 1; }  ///< number of inner nodes
+    std::size_t inner_bytes() const;  ///< bytes of one entry of `nodes`
 
     uint leaf_count() const override { return leaves; }
     const BoxFormat& box_format() const override { return *format; }
@@ -40,43 +40,42 @@ public:
     HostTree spelled_out_object(uint object) const override;
 };
 
-/// All but the hierarchy, which is left to who derives from it.
+/// Everything of a radix tree builder but the hierarchy, which derived classes add.
 class RadixBuilder : public OrderedBuilder {
 public:
-    /// `make` makes another one like this. Throws BadUsage for a group that the device does not have.
+    /// `make` creates another builder of the same kind. Throws BadUsage for a group size that the device does not support.
     RadixBuilder(Programs& programs, std::string_view name, std::string_view method,
                  MakeBuilder make, const BuildOptions& options);
 
 protected:
     cl::Kernel kernel(std::string_view path, const char* name) const;
 
-    /// Enqueue a kernel over `count` leaves or nodes: a work-item each in groups, or a run of them a work-item where no more
-    /// than `most_items_` work-items are to share the work; 0 is no such bound. The kernels are the same: own_chunk gives
-    /// a work-item its one or its run.
+    /// Enqueues a kernel over `count` leaves or nodes with one work-item for each, but at most `most_items_` work-items unless
+    /// that is 0. own_chunk gives each work-item its share, so the kernels are the same in both cases.
     void launch(Queue& queue, const cl::Kernel& kernel, uint count, std::size_t moved_bytes) const;
 
-    /// Memory for inner nodes as node_words.clh stores them.
+    /// Takes memory for the entries of RadixTree::nodes.
     Buffer<std::byte> take_nodes(Arena& arena) const;
 
-    /// Take all memory besides the leaves', the tree's nodes among it.
+    /// Takes all memory besides that of the leaves, including the tree's nodes.
     virtual void plan_nodes(Arena& arena) = 0;
 
-    /// Fill what `build_nodes` expects and leaves as it was. Waits.
+    /// Uploads the initial values that `build_nodes` expects and restores. Waits.
     virtual void prepare_nodes(const cl::CommandQueue& queue);
 
-    /// Enqueue topology and boxes, for two leaves at least; or boxes only, over the topology that stands. Does not wait.
+    /// Enqueue topology and boxes, or only boxes over the current topology, for at least two leaves. Do not wait.
     virtual void build_nodes(Queue& queue) = 0;
     virtual void refit_nodes(Queue& queue) = 0;
 
-    /// The least that reading all leaves' boxes, or all children's indices, moves.
+    /// Return the bytes that reading all leaf boxes, or the indices of all children, moves at least.
     std::size_t box_bytes() const;
     std::size_t child_bytes() const { return tree_.inner() * 2 * sizeof(uint); }
 
-    std::size_t most_items_ = 0;
+    std::size_t most_items_ = 0;  ///< most work-items of a launch; 0: no limit
     RadixTree tree_;
-    Buffer<uint> arrivals_;  ///< one a meeting of two children, zero before and after a build
+    Buffer<uint> arrivals_;  ///< one per inner node; zero before and after a build
 
-    /// Whether inner nodes have the numbers that node.h says, which tell where each object's root is.
+    /// True if inner nodes are numbered as in node.h, so that the numbers of the objects' roots are known in advance.
     bool numbers_by_range_ = true;
 
 private:

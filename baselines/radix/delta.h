@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// How much two leaves have in common: delta of [Karras2012] and [Apetrei2014].
+// Length of the common prefix of two leaves' keys: delta of [Karras2012] and [Apetrei2014].
 //
-// A leaf's key is its code followed by its place in leaf order. So no two keys are equal, and a run of m equal
-// codes becomes a balanced tree of its places instead of a ladder m levels deep. [Karras2012, Sec. 4] does so
-// where codes are equal; [Apetrei2014] is silent. Both must take the same keys everywhere they compare.
+// A leaf's key is its code followed by its place in leaf order. So no two keys are equal, and m equal codes become a balanced
+// tree over their places instead of a chain m levels deep. [Karras2012, Sec. 4] does so for equal codes; [Apetrei2014] does not
+// mention them. All comparisons of both algorithms must use the same keys.
 //
 //     key = | code, 64 bits | place, 32 bits |      shorter codes are widened: common zeros change no comparison
 //
-// Along the line of leaves, no two gaps next to a node are equally wide: if the node's first and last leaf
-// differed from their outer neighbours in the same highest bit, that bit would be 1 and 0 inside the node.
+// A node's first and last leaf never share equally long prefixes with their outer neighbours. Otherwise both would first differ
+// in the same bit from them. Keys ascend, so it would be 1 in the first leaf and 0 in the last, but a node's leaves share it.
 #ifndef BVHBENCH_BASELINES_RADIX_DELTA_H
 #define BVHBENCH_BASELINES_RADIX_DELTA_H
 
@@ -17,8 +17,8 @@
 
 SHARED_BEGIN
 
-/// Bits that the keys of two different leaves share from the top, and one more: 1 to 96.
-/// 0 is left for "there is no such leaf", which is farther than any.
+/// Returns one plus the number of leading bits that the keys of two different leaves share: 1 to 96. 0, less than for any leaf,
+/// is reserved for "no such leaf".
 SHARED_FN uint radix_common(ulong code_a, uint place_a, ulong code_b, uint place_b)
 {
     const ulong difference = code_a ^ code_b;

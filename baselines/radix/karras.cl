@@ -5,14 +5,13 @@
 // check: -DCODE_WORDS=1 -DSORTED_LEAVES=1 -DBOX_FORMAT=3u
 // check: -DCODE_WORDS=1 -DSORTED_LEAVES=1 -DBOX_FORMAT=4u
 //
-// [Karras2012]. Section 4: all inner nodes at once, each from the codes alone. Names in the paper: common_of is delta,
-// `farthest_other` is delta_min, `reach` is l, `to_split` is s, `split` is gamma. Section 5: boxes from the leaves up along
-// parent pointers; the second of two children to arrive goes on. It keeps its own box in registers and reads its sibling's.
+// [Karras2012]. Section 4: builds all inner nodes in parallel from the codes. The paper's names: delta is common_of, delta_min
+// is `farthest_other`, l is `reach`, s is `to_split`, gamma is `split`. Section 5: computes boxes from the leaves up along
+// parent pointers. The second of two children to arrive continues; it keeps its own box in registers and reads its sibling's.
 #include "baselines/radix/leaves.clh"
 #include "device/handoff.clh"
 
-/// The largest reach below `bound`, a power of two, for which leaf i and the leaf that far away in `step` have
-/// more than `least` in common.
+/// Returns the largest reach < `bound`, a power of two, for which common_of leaves i and i + reach * step exceeds `least`.
 static inline uint farthest_with(global const Code* codes, const uint leaves, const uint i,
                                  const uint step, const uint bound, const uint least)
 {
@@ -23,7 +22,8 @@ static inline uint farthest_with(global const Code* codes, const uint leaves, co
     return reach;
 }
 
-/// Inner node i covers leaf i and those on the side it has more in common with, as far as that lasts.
+/// Builds inner node i, which covers leaf i and, on the side of its nearer neighbour, all leaves that have more in common with
+/// leaf i than its other neighbour has.
 static inline void make_node(global const Code* codes, global RadixWord* nodes,
                              global uint* parents, const uint leaves, const uint i)
 {
@@ -38,7 +38,7 @@ static inline void make_node(global const Code* codes, global RadixWord* nodes,
     const uint reach = farthest_with(codes, leaves, i, step, bound, farthest_other);
     const uint j = i + reach * step;
 
-    // The child at i's end: all leaves that have more in common with i than i has with the other end.
+    // The child that contains leaf i: all leaves that have more in common with leaf i than leaf j has.
     const uint own = common_of(codes, leaves, i, j);
     const uint to_split = farthest_with(codes, leaves, i, step, bound, own);
     const uint first = min(i, j), last = max(i, j);
@@ -51,8 +51,8 @@ static inline void make_node(global const Code* codes, global RadixWord* nodes,
     parents[radix_is_leaf(right) ? leaves + split : split + 1u] = i;
 }
 
-/// The children of every inner node, boxes left empty, and the parent of every node: inner nodes first, then
-/// leaves. The root, node 0, has none.
+/// Writes the children of every inner node, with empty boxes, and to `parents` the parent of every node: inner nodes first, then
+/// leaves. The root, node 0, has no parent.
 kernel void topology(global const Code* restrict codes, global RadixWord* restrict nodes,
                      global uint* restrict parents, const uint leaves)
 {
@@ -61,7 +61,7 @@ kernel void topology(global const Code* restrict codes, global RadixWord* restri
         make_node(codes, nodes, parents, leaves, i);
 }
 
-/// From `leaf` upwards, until the sibling has yet to come or the root has its box.
+/// Climbs from `leaf` until a sibling has not arrived yet or the root has its box.
 static inline void climb_from(global const BoxWord* leaf_boxes, global const uint* ids,
                               global RadixWord* nodes, global const uint* parents,
                               volatile global Arrivals* arrivals, const uint leaves,
@@ -84,7 +84,7 @@ static inline void climb_from(global const BoxWord* leaf_boxes, global const uin
     }
 }
 
-/// `nodes` has children and gets boxes. `arrivals` is zero, one an inner node, and is zero again afterwards.
+/// Writes the boxes of `nodes`, whose children are given. `arrivals` has one entry per inner node, zero before and after.
 kernel void boxes(global const BoxWord* restrict leaf_boxes, global const uint* restrict ids,
                   global RadixWord* nodes, global const uint* restrict parents,
                   volatile global Arrivals* arrivals, const uint leaves)

@@ -31,7 +31,6 @@ private:
         refit_nodes(queue);
     }
 
-    /// Children are read and boxes written; they share their sectors.
     void refit_nodes(Queue& queue) override
     {
         set_arguments(boxes_, tree_.leaf_boxes, tree_.ids, tree_.nodes, parents_, arrivals_,
@@ -41,7 +40,7 @@ private:
     }
 
     cl::Kernel topology_, boxes_;
-    Buffer<uint> parents_;  ///< inner nodes, then leaves
+    Buffer<uint> parents_;  ///< of the inner nodes, then of the leaves
 };
 
 }  // namespace

@@ -5,29 +5,29 @@
 // check: -DCODE_WORDS=1 -DSORTED_LEAVES=1 -DBOX_FORMAT=3u
 // check: -DCODE_WORDS=1 -DSORTED_LEAVES=1 -DBOX_FORMAT=4u
 //
-// [Lauterbach2009]: a level of the tree after the other, from the root down, then boxes from the deepest level
-// up. A launch a level, as many as there can be: how deep the tree is only the device knows, and a launch whose
-// level is empty ends at once. That is the honest price of building by levels, and what [Karras2012] does away
-// with.
+// [Lauterbach2009]: builds the tree level by level from the root down, then boxes from the deepest level up. Each level is one
+// launch. Only the device knows the depth, so the host enqueues as many launches as there can be levels; a launch whose level
+// is empty ends at once. This is the inherent cost of building by levels, which [Karras2012] avoids.
 //
-// The paper lists the splits of all levels from pairs of neighbouring codes, sorts the list by level and then
-// takes out nodes with a single child. Here a node finds its split by halving and puts the children that are
-// inner nodes into the next level, as in [Garanzha2011]: no second sort, no such nodes, the same tree.
+// The paper lists the splits of all levels from pairs of neighbouring codes, sorts the list by level and then removes nodes with
+// a single child. Here a node finds its split by binary search and appends its inner children to the next level, as in
+// [Garanzha2011]: no second sort, no nodes with a single child, the same tree.
 //
-//     nodes       level 0 | level 1 | level 2 ...        level l is nodes[begins[l]] to before begins[l + 1]
+//     nodes       level 0 | level 1 | level 2 ...        level l is nodes[begins[l]] to nodes[begins[l + 1] - 1]
 //     counts      1       | <= 2    | <= 4    ...        counts[l] grows while level l - 1 is split
 //
-// A node that has not been split holds the range of its leaves where its children will be, and for a moment its split where
-// its box will be: the tree is its own queue.
+// The nodes themselves serve as the queue: an unsplit node stores the range of its leaves in the place of its children and,
+// between find_split and put_children, its split in the place of its box.
 #include "baselines/radix/leaves.clh"
 
-/// Find the split of node i and leave it where its box will be. How many of its children are inner nodes.
+/// Finds the split of node i and stores it in the place of the node's box. Returns how many of its children are inner nodes.
 static inline uint find_split(global const Code* codes, global RadixWord* nodes, const uint leaves,
                               const uint i)
 {
     const uint first = node_left(nodes, i), last = node_right(nodes, i);
     const uint own = common_of(codes, leaves, first, last);
-    uint split = first, beyond = last;  // more in common with `first` at split, not so at beyond
+    uint split = first,
+         beyond = last;  // common_of with `first` exceeds own at split, not at beyond
     while (beyond - split > 1u) {
         const uint middle = split + (beyond - split) / 2u;
         if (common_of(codes, leaves, first, middle) > own)
@@ -39,8 +39,8 @@ static inline uint find_split(global const Code* codes, global RadixWord* nodes,
     return (split != first ? 1u : 0u) + (beyond != last ? 1u : 0u);
 }
 
-/// Node i, whose split was found, gets its children; those that are inner nodes wait from `slot` on. The slot
-/// after them.
+/// Stores the children of node i, whose split was found, and the ranges of those that are inner nodes from `slot` on. Returns
+/// the slot after them.
 static inline uint put_children(global RadixWord* nodes, const uint i, uint slot)
 {
     const uint first = node_left(nodes, i), last = node_right(nodes, i);
@@ -58,8 +58,8 @@ static inline uint put_children(global RadixWord* nodes, const uint i, uint slot
     return slot;
 }
 
-/// The nodes of `level` get their children, and the next level its nodes: counts[level + 1], zero before, and
-/// begins[level + 1]. Where a group's children go is settled by one atomic, whatever its size.
+/// Splits the nodes of `level` and so creates those of the next level. Writes begins[level + 1] and counts[level + 1], which is
+/// zero before. One global atomic per group reserves the slots of all children of the group.
 kernel void split_level(global const Code* restrict codes, global RadixWord* nodes,
                         global uint* begins, volatile global uint* counts, const uint leaves,
                         const uint level)
@@ -90,8 +90,8 @@ kernel void split_level(global const Code* restrict codes, global RadixWord* nod
         slot = put_children(nodes, begin + k, slot);
 }
 
-/// The nodes of `level` get the boxes around their children's, which the level below has. counts[level], which
-/// is done with, becomes zero for the next build, all but the root's.
+/// Computes the boxes of the nodes of `level` from those of their children, which earlier launches computed. Resets
+/// counts[level] to zero for the next build, except for level 0.
 kernel void box_level(global const BoxWord* restrict leaf_boxes, global const uint* restrict ids,
                       global RadixWord* nodes, global const uint* restrict begins,
                       global uint* counts, const uint level)

@@ -8,8 +8,8 @@
 namespace bvhbench {
 namespace {
 
-/// Work-items that fill any device we know. A launch for a deep level must allow for half as many nodes as there
-/// are leaves and mostly finds few or none: work-items that only look and leave would be most of its time.
+/// Returns a number of work-items that fills any known device. A launch for a deep level must allow for half as many nodes as
+/// there are leaves but mostly finds few or none, so one work-item per possible node would mostly cost idle work-items.
 std::size_t most_lanes(const Device& device)
 {
     return 2048 * std::size_t{device.cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()};
@@ -33,8 +33,7 @@ public:
 private:
     void plan_nodes(Arena& arena) override
     {
-        // On the way down from the root every node splits at a bit of the key that is below its parent's, and
-        // of a place only so many bits differ.
+        // Each node splits at a lower bit of the key than its parent; only ceil(log2(leaves)) bits of a place differ.
         levels_ = std::min(tree_.leaves - 1, code_bits_ + ceil_log2(tree_.leaves));
         tree_.nodes = take_nodes(arena);
         begins_ = arena.take<uint>(levels_ + 1, Use::scratch);
@@ -59,7 +58,7 @@ private:
         refit_nodes(queue);
     }
 
-    /// How many bytes a level moves the host does not know: the root's launch declares all levels'.
+    /// Declares the bytes of all levels with the root's launch, since the host does not know how many bytes each level moves.
     void refit_nodes(Queue& queue) override
     {
         for (uint level = levels_; level-- > 0;) {
@@ -69,7 +68,7 @@ private:
         }
     }
 
-    /// Every inner node has two leaves at least.
+    /// Returns an upper bound of the inner nodes on a level. Each has at least two leaves.
     uint most_nodes_on(uint level) const
     {
         return std::min(tree_.leaves / 2, 1u << std::min(level, 31u));
@@ -77,9 +76,9 @@ private:
 
     uint code_bits_;
     cl::Kernel split_, box_;
-    uint levels_ = 0;      ///< of inner nodes, at most; nodes lie level by level
-    Buffer<uint> begins_;  ///< where each level begins in the nodes, and where the last ends
-    Buffer<uint> counts_;  ///< of nodes, one a level and one more
+    uint levels_ = 0;      ///< upper bound of the levels of inner nodes
+    Buffer<uint> begins_;  ///< index of the first node of each level, and the end of the last
+    Buffer<uint> counts_;  ///< number of nodes of each level, and one entry more
 };
 
 }  // namespace

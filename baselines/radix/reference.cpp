@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The radix tree by its definition, top-down on one core: what the kernels' trees must be, bit for bit. Shares
-// nothing with them but the order of the leaves: no delta, no indices, no climbing.
+// The oracle for radix trees: builds the tree by its definition, top-down on one core. The kernels' trees must equal it bit for
+// bit. It shares nothing with them but the leaf order: no delta, no node indices, no climbing.
 #include <string>
 #include <vector>
 
@@ -12,19 +12,19 @@
 namespace bvhbench {
 namespace {
 
-/// Bit `bit` of a leaf's key, its code followed by its 32-bit place in leaf order.
+/// Returns bit `bit` of a leaf's key, which is its code followed by its 32-bit place in leaf order.
 bool key_bit(const HostLeafOrder& leaves, uint leaf, int bit)
 {
     return bit >= 32 ? (leaves.codes[leaf] >> (bit - 32) & 1) != 0 : (leaf >> bit & 1) != 0;
 }
 
-/// The first leaf of the right child: where the highest bit that first and last differ in becomes 1.
+/// Returns the first leaf of the right child: the first one in which the highest bit that differs between first and last is 1.
 uint split_of(const HostLeafOrder& leaves, uint first, uint last)
 {
     int bit = 95;
     while (key_bit(leaves, first, bit) == key_bit(leaves, last, bit))
         --bit;
-    uint split = first, beyond = last;  // 0 at split, 1 at beyond: halving finds the step
+    uint split = first, beyond = last;  // the bit is 0 at split and 1 at beyond
     while (beyond - split > 1) {
         const uint middle = split + (beyond - split) / 2;
         (key_bit(leaves, middle, bit) ? beyond : split) = middle;

@@ -4,9 +4,8 @@
 // check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DBOX_FORMAT=3u
 // check: -include baselines/radix/access_apetrei.clh -DSORTED_LEAVES=1 -DBOX_FORMAT=4u
 //
-// The roots of several objects' trees, where nodes are not numbered so that they tell: an object's root is the first
-// node, on the way down from the root of all, that has some of its leaves on either side of its split.
-// Compiled behind an access header.
+// Finds the roots of several objects' trees if nodes are not numbered by range. Going down from the root of all leaves, an
+// object's root is the first node with leaves of that object on both sides of its split. Compiled after an access header.
 
 static inline uint last_leaf_below(TREE_PARAMETERS, uint node)
 {

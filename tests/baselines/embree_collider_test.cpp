@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Embree's collider, which keeps up with the frames itself: it is reserved once, and sees points move.
+// Embree's collider, which builds its own trees: it is reserved once and then queried for frames whose points move.
 #include <thread>
 
 #include "tests/baselines/library_colliders.h"
@@ -37,7 +37,7 @@ TEST_F(EmbreeCollider, FindsTheOraclesPairsOfHardMeshes)
     }
 }
 
-/// Embree takes floats below the normal ones for zeros, and differences of normal ones that are below too.
+/// Embree treats subnormal floats as zeros, and subnormal differences of normal floats, too.
 TEST_F(EmbreeCollider, FindsTheOraclesPairsWhereFloatsEnd)
 {
     const auto embree = make_embree_collider(session().programs(), {});
@@ -64,7 +64,7 @@ TEST_F(EmbreeCollider, FindsTheOraclesPairsOfObjectsThatMove)
 {
     ManyObjects before({1, 70, 3, 2, 129, 200, 1});
     before.add({}, 0);
-    // Two objects of one surface, which share vertices.
+    // Two objects that are halves of one surface and share vertices.
     const Mesh surface = hard_meshes(64).at(12).mesh;
     before.add(surface, 0.5f);
     const FaceRange whole = before.objects.back();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// FCL's colliders, which keep up with the frames themselves: each is reserved once, and sees points move.
+// FCL's colliders, which keep their own trees: each is reserved once and then queried for frames whose points move.
 #include <algorithm>
 #include <iterator>
 #include <random>
@@ -12,8 +12,8 @@
 namespace bvhbench {
 namespace {
 
-/// Triangles of a soup, of several objects, that share few or many of its points. In general position: no three of
-/// a triangle's points are with any other's in one plane, so that doubles tell what meets.
+/// Returns a triangle soup of several objects whose triangles share few or many points. The points are in general position: no
+/// four of them lie in one plane, so doubles decide correctly which triangles intersect.
 ManyObjects soup(std::size_t point_count, std::size_t face_count, unsigned seed)
 {
     std::mt19937 random(seed);
@@ -81,7 +81,7 @@ TEST_P(FclCollider, FindsThePairsThatMeetAsPointsMove)
             const Input input = uploaded(frame.mesh.points, frame.mesh.faces, frame.objects);
             fcl->reserve(nullptr, input);
             for (unsigned seed = 1; seed <= 3; ++seed) {
-                // The input sees the points as they move.
+                // `input` refers to the frame's points, which change here.
                 const std::vector<Point> elsewhere = soup(point_count, 300, seed).mesh.points;
                 std::copy(elsewhere.begin(), elsewhere.end(), frame.mesh.points.begin());
                 const PairList expected = pairs_that_meet(frame, among);

@@ -20,7 +20,7 @@ Mesh triangles_at(const std::vector<float>& places)
     return mesh;
 }
 
-/// Centres at 1, 2, 4, ... along x: every cut between equal bins takes few triangles off.
+/// Returns triangles with centres at 1, 2, 4, ... along x, so that every cut between equal bins cuts off few triangles.
 Mesh doubling_distances(int triangles)
 {
     std::vector<float> places;

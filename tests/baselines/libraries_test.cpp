@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What we believe of the libraries we wrap. Their promises as builders are in tests/builders/contract_test.cpp.
+// Assumptions about the wrapped libraries. tests/builders/contract_test.cpp tests what all builders guarantee.
 #include <gtest/gtest.h>
 
 #include "geometry/error.h"
@@ -42,7 +42,7 @@ TEST_F(Embree, CostsLessOfMediumQualityAndBuildsHighAlikeWhenItMayNotSplitTriang
 
 TEST_F(Embree, LeavesTheSameTreeEachTimeFromManyThreads)
 {
-    // Large enough for its parallel paths; of triangles that are all the same, any half would do.
+    // Both meshes are large enough for Embree's parallel code. In the second all triangles are equal, so all splits cost as much.
     Mesh same{{{0, 0, 0}, {1, 0, 0}, {0, 1, 1}}, std::vector<Face>(50000, Face{0, 1, 2})};
     for (const Mesh& mesh : {mesh_of("torus:50000"), same})
         for (const MakeBuilder make : {make_embree_low, make_embree_medium}) {

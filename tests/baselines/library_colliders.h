@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What the tests of libraries' colliders share: frames whose points move, and what one query of them finds.
+// Shared by the tests of libraries' colliders: frames whose points move, and the pairs of one query.
 #pragma once
 
 #include "baselines/baselines.h"
@@ -16,7 +16,7 @@ inline Input uploaded(std::span<const Point> points, std::span<const Face> faces
     return upload(session().device(), session().queue(), points, faces, objects);
 }
 
-/// What one query finds, in order; each pair once.
+/// Runs one query and returns its pairs, sorted. Expects each pair to occur once.
 inline PairList found_by(Collider& collider, const Input& input)
 {
     EXPECT_EQ(find_pairs(collider, nullptr, input, session().queue()), 1);
@@ -27,7 +27,7 @@ inline PairList found_by(Collider& collider, const Input& input)
     return found;
 }
 
-/// Every point elsewhere, objects across others than before.
+/// Returns the points moved, so that other objects overlap than before.
 inline std::vector<Point> moved(std::vector<Point> points)
 {
     for (std::size_t k = 0; k < points.size(); ++k) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Libraries' colliders against what a separate program counted, and that they are listed where they were not built.
+// Libraries' colliders find as many pairs as a separate program counted, and are listed even if they were not built.
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
@@ -12,7 +12,7 @@
 namespace bvhbench {
 namespace {
 
-/// What a separate program counted on two frames each of a cloth and of 305 balls, with exact arithmetic.
+/// A separate program counted pairs with exact arithmetic on two frames each of a cloth and of 305 balls.
 class LibraryReference : public testing::TestWithParam<const char*> {};
 
 TEST_P(LibraryReference, CountedWhatTheLibraryFinds)

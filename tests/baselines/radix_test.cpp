@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Every builder of radix trees leaves the tree of the definition, bit for bit, whatever the size, the launch,
-// the place of the leaves, the bits of a code and how many codes are equal.
+// Every builder of radix trees builds the oracle's tree bit for bit, for all sizes, group sizes, leaf storage, code widths and
+// numbers of equal codes.
 #include <cmath>
 
 #include "baselines/radix/delta.h"
@@ -13,7 +13,7 @@ namespace {
 
 constexpr MakeBuilder makers[] = {make_karras, make_apetrei, make_apetrei_fused, make_lbvh_levels};
 
-/// Small triangles at random places; `places` of them only, so that codes repeat.
+/// Returns small triangles at `places` random places, or fewer if there are fewer triangles. Codes repeat if places < triangles.
 Mesh soup(uint triangles, uint places)
 {
     std::mt19937 random(triangles);
@@ -32,8 +32,8 @@ Mesh soup(uint triangles, uint places)
     return mesh;
 }
 
-/// Triangles that are points, in cells whose codes are 0, `copies` times, and every power of two: a ladder with
-/// a step a bit of the code, and at its end a tree of the copies' places.
+/// Returns point-like triangles in cells whose codes are 0 (`copies` times) and every power of two. Their radix tree is a chain
+/// with one level per bit of the code, which ends in a balanced tree over the copies.
 Mesh ladder(int bits_an_axis, uint copies)
 {
     std::vector<Point> at(copies, Point{0, 0, 0});
@@ -141,7 +141,7 @@ TEST(RadixBuilders, MakeABalancedTreeOfEqualCodes)
     }
 }
 
-/// As many levels as a key has bits: where launches are counted in advance, none may be missing.
+/// Trees as deep as their keys allow: a builder that fixes its number of launches in advance must enqueue enough.
 TEST(RadixBuilders, EqualTheReferenceOnTheDeepestTreesOfTheirCodes)
 {
     for (const uint copies : {1u, 2u, 64u, 1000u}) {

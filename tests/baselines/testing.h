@@ -20,7 +20,7 @@ inline Mesh mesh_of(const std::string& scene)
     return {std::move(loaded.frames.front()), std::move(loaded.faces)};
 }
 
-/// The tree that a builder leaves over a mesh, checked to be one.
+/// Builds a tree over a mesh and returns it. Expects it to be valid.
 inline HostTree tree_over(MakeBuilder make, const Mesh& mesh)
 {
     const auto builder = make(bench().programs, {});
@@ -32,7 +32,7 @@ inline HostTree tree_over(MakeBuilder make, const Mesh& mesh)
     return tree;
 }
 
-/// Nodes on the longest way from the root to a leaf, the root left out.
+/// Returns the number of edges on the longest path from the root to a leaf.
 inline int depth_of(const HostTree& tree)
 {
     std::vector<int> depth(tree.nodes.size(), 0);
@@ -43,8 +43,8 @@ inline int depth_of(const HostTree& tree)
     return *std::max_element(depth.begin(), depth.end());
 }
 
-/// The surfaces of all inner nodes together, the root's being 1: what differs between the costs [Aila2013]
-/// of trees over the same leaves.
+/// Returns the summed surface area of all inner nodes, relative to the root's. For trees over the same leaves, SAH costs
+/// [Aila2013] differ only in this term.
 inline double inner_surface(const HostTree& tree)
 {
     double sum = 0;

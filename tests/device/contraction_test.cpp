@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Products are rounded before they are added, on the host and on the device: a fused multiply-add, which rounds once,
-// would give other boxes, codes and signs. Held to products that were stored one by one, through the headers that
-// predicates and costs use.
+// No fused multiply-adds: products are rounded before they are added, on the host and on the device. A fused multiply-add
+// rounds once and would give other boxes, codes and signs. The functions of the headers that predicates and costs use are
+// compared with sums of products that were each stored first.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t count = 1000;
 
-/// As the compiler sees it, any number: nothing that follows from it is known before the program runs.
+/// Returns x in a way that the compiler cannot see through, so that it neither folds constants nor fuses operations.
 template <class T>
 T opaque(T x)
 {
@@ -27,7 +27,7 @@ T opaque(T x)
     return stored;
 }
 
-/// x * y, rounded.
+/// Returns x * y, rounded.
 template <class T>
 T product(T x, T y)
 {
@@ -35,8 +35,8 @@ T product(T x, T y)
 }
 
 struct Operands {
-    std::vector<double> doubles;  ///< six for each result: two vectors
-    std::vector<float> floats;    ///< three: the sides of a box at the origin
+    std::vector<double> doubles;  ///< six per result: two vectors
+    std::vector<float> floats;    ///< three per result: the sides of a box at the origin
 
     Operands()
     {
@@ -56,7 +56,7 @@ struct Results {
     std::vector<float> surfaces;
 };
 
-/// With every product stored before it is added.
+/// Computes the results with every product stored before it is added.
 Results stored_results(const Operands& of)
 {
     Results results;
@@ -128,7 +128,7 @@ kernel void predicates(global const double* restrict in, global double* restrict
 #endif
 )";
 
-/// The program's own headers, and a kernel that is compiled as all are.
+/// Fixture with the program's own headers and a kernel that is compiled with the program's usual options.
 class DeviceContraction : public OnDeviceWithKernels {
 protected:
     DeviceContraction()
@@ -140,7 +140,7 @@ protected:
         folder.write("contraction.cl", kernel_text);
     }
 
-    /// Run a kernel of the text, a work-item a result; its arguments are `in` and then what it writes.
+    /// Runs a kernel of `kernel_text` with one work-item per result. Its arguments are a buffer of `operands`, then `outs`.
     template <class T, class... Outs>
     void run(const char* name, const std::vector<T>& operands, const Outs&... outs)
     {
@@ -175,7 +175,7 @@ TEST_F(DeviceContraction, IsOffInDoubles)
     EXPECT_EQ(differing(halves.download(queue.cl()), stored_.halves), 0u);
 }
 
-/// No option that lets a compiler round otherwise: what is asked for besides the dialect and numbers is known by name.
+/// No build option permits other rounding: all options are in a list of known ones.
 TEST_F(DeviceContraction, IsNotAskedForByAnOption)
 {
     folder.write("nothing.cl", "kernel void nothing() {}\n");

@@ -114,7 +114,7 @@ TEST_F(CacheFlushed, CountsWhatItHoldsAndGivesItBack)
 
 TEST_F(CacheFlushed, TouchesEveryVector)
 {
-    constexpr std::size_t count = 1001;  // no multiple of the work-items
+    constexpr std::size_t count = 1001;  // not a multiple of the number of work-items
     Arena arena = Arena::reserved(device, {count * sizeof(cl_uint4), 0});
     const Buffer<cl_uint4> memory = arena.take<cl_uint4>(count, Use::tree);
     queue.begin("walk");

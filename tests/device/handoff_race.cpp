@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// The texts of device/handoff.clh and builders/implicit/climb.clh, compiled as C++ for threads under ThreadSanitizer: every
-// leaf is an agent that climbs, and no two may touch a box unordered. It is the branch of OpenCL C 3.0 that is tried, whose
-// atomics are C++'s; PLANT_RACE takes the order away from them, and then the sanitizer must find it.
+// Compiles device/handoff.clh and builders/implicit/climb.clh as C++ and runs them on threads under ThreadSanitizer. Threads
+// climb from the leaves, and the sanitizer reports two unordered accesses to one box. This tests the OpenCL C 3.0 branch,
+// whose atomics are those of C++. With PLANT_RACE the atomics are relaxed, and then the sanitizer must report a race.
 //
-// Not tried here: `wait_for_all`, whose fences ThreadSanitizer does not know, and OpenCL C 1.2, which has no memory model.
+// Not tested: `wait_for_all`, because ThreadSanitizer does not know its fences, and the OpenCL C 1.2 branch, because 1.2 has no
+// memory model.
 #include <atomic>
 #include <cstdio>
 #include <thread>
@@ -43,7 +44,7 @@ inline void barrier(int) {}
 constexpr uint get_local_id(int) { return 0; }
 constexpr uint get_local_size(int) { return 1; }
 
-// What climb.clh finds in a kernel: the layout's calls, and boxes in memory.
+// What climb.clh needs from the kernel that includes it: the layout's functions, and loads and stores of boxes.
 using BoxWord = Aabb;
 #define BVHBENCH_GEOMETRY_BOX_WORDS_CLH
 inline Aabb load_box(const BoxWord* boxes, uint i) { return boxes[i]; }
@@ -68,7 +69,7 @@ Aabb leaf(uint i)
     return {at, at + 1, -at, at + 2, 1 - at, 3};
 }
 
-/// One build by `threads`, each with every `threads`-th leaf, from all nodes poisoned.
+/// Builds a tree with `threads` threads. Each climbs from every `threads`-th leaf. `nodes` starts out poisoned.
 void build(uint leaves, uint threads, std::vector<Aabb>& nodes, std::vector<Arrivals>& arrivals)
 {
     const uint level = oi_shape(leaves).leaf_level;
@@ -84,7 +85,7 @@ void build(uint leaves, uint threads, std::vector<Aabb>& nodes, std::vector<Arri
         agent.join();
 }
 
-/// Two threads leave each other a word at each of many slots; the second reads what the first wrote before.
+/// Two threads exchange a word at each slot. True if at every slot the second to arrive read the payload that the first wrote.
 bool exchange(uint slots)
 {
     std::vector<Arrivals> words(slots);

@@ -8,7 +8,7 @@
 namespace bvhbench {
 namespace {
 
-/// A plan as builders write one.
+/// A plan of arena pieces, as builders write one.
 struct Pieces {
     Buffer<cl_uint> a, b;
     Buffer<cl_uchar> c;

@@ -19,7 +19,7 @@ TEST(Sources, IncludeEachFileOnceAndKeepItsLines)
     EXPECT_EQ(sources.flatten({"k.cl"}),
               "#line 1 \"k.cl\"\n#line 1 \"a.h\"\nint a;\n#line 2 \"k.cl\"\n#line 1 \"b.h\"\n"
               "#line 2 \"b.h\"\nint b;\n#line 3 \"k.cl\"\nint k;\n");
-    // A header before a file that does not name it.
+    // A header put before a file that does not include it.
     EXPECT_EQ(sources.flatten({"b.h", "k.cl"}),
               "#line 1 \"b.h\"\n#line 1 \"a.h\"\nint a;\n#line 2 \"b.h\"\nint b;\n"
               "#line 1 \"k.cl\"\n#line 2 \"k.cl\"\n#line 3 \"k.cl\"\nint k;\n");
@@ -57,7 +57,7 @@ TEST_F(Compiling, FailWithTheFileTheLineAndTheOptions)
         EXPECT_NE(message.find("k.cl did not build with -cl-std=CL1.2"), std::string::npos)
             << message;
         EXPECT_NE(message.find("GROUP_SIZE=64u"), std::string::npos) << message;
-        // NVIDIA's driver (580.159) heeds no #line, which is line 1 of what it is given.
+        // NVIDIA's driver (580.159) ignores #line directives and counts the directive itself as line 1.
         const bool has_line = message.find("k.cl:3") != std::string::npos ||
                               message.find("<kernel>:4") != std::string::npos;
         EXPECT_TRUE(has_line) << message;

@@ -15,7 +15,7 @@
 
 namespace bvhbench {
 
-/// A folder of kernel files, removed at the end.
+/// A temporary folder of kernel files, removed by the destructor.
 class KernelFolder {
 public:
     KernelFolder()
@@ -37,7 +37,6 @@ private:
     std::filesystem::path path_;
 };
 
-/// A device with its programs and queue.
 class OnDevice : public testing::Test {
 protected:
     Device device = open_device("");
@@ -45,7 +44,7 @@ protected:
     Queue queue{device};
 };
 
-/// The same, its kernels from a folder that a test writes.
+/// Fixture with a device whose kernels come from a folder that the test writes.
 class OnDeviceWithKernels : public testing::Test {
 protected:
     template <class T>
@@ -60,7 +59,7 @@ protected:
     Queue queue{device};
 };
 
-/// The sentence of the Unavailable that `action` throws; empty if there is none.
+/// Returns the message of the Unavailable that `action` throws, or an empty string if it throws none.
 std::string message_of(const auto& action)
 {
     try {
@@ -71,7 +70,7 @@ std::string message_of(const auto& action)
     return {};
 }
 
-/// All of these are in a message of one line.
+/// Expects the message to be one line that contains all `parts`.
 inline void expect_sentence(const std::string& message, std::initializer_list<std::string> parts)
 {
     for (const std::string& part : parts)

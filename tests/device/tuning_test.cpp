@@ -80,7 +80,7 @@ TEST(Device, RefusesGroupsThatItDoesNotHaveInOneSentence)
     EXPECT_EQ(refusal(most + 1, 0), "a part needs groups of " + std::to_string(most + 1) +
                                         " work-items, and " + device.name() + " has them up to " +
                                         std::to_string(most));
-    const std::size_t over = local + 9;  // some drivers say 8 more than a kernel declares
+    const std::size_t over = local + 9;  // some drivers report 8 bytes more than a kernel declares
     EXPECT_EQ(refusal(1, over), "a part needs " + std::to_string(over) +
                                     " bytes of local memory, and a group has " +
                                     std::to_string(local) + " on " + device.name());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What a caller keeps: his queue, of whatever kind, his memory, his objects and his environment.
+// The library leaves the caller's queue of any kind, memory, OpenCL objects and environment as they were.
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
@@ -18,7 +18,7 @@ constexpr cl_command_queue_properties kinds_of_queue[] = {
     0, CL_QUEUE_PROFILING_ENABLE, CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE,
     CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE | CL_QUEUE_PROFILING_ENABLE};
 
-/// Moves all points by (x, 0, 0), after some time.
+/// Kernel text: moves all points by (x, 0, 0), slowly, so that a library call that does not wait for it reads old points.
 constexpr const char* slow_move = R"(
 kernel void slow_move(global float* points, const uint count, const float x)
 {
@@ -29,7 +29,7 @@ kernel void slow_move(global float* points, const uint count, const float x)
         points[3 * k] += x;
 })";
 
-/// Enqueued on the caller's queue, without waiting.
+/// Enqueues `slow_move` on the caller's queue. Does not wait.
 void move_slowly(const Caller& caller, cl_mem points, std::size_t count, float x)
 {
     cl::Kernel kernel(cl::Program(cl::Context(caller.context, true), slow_move, true), "slow_move");
@@ -66,10 +66,10 @@ TEST(LibraryQueues, FindsCallsWhereHePutThemAmongHisCommands)
         oibvh::Tree tree(device, {.check_input = false}), other(device, {.check_input = false});
         LibraryMesh mesh = soup_mesh(500), moved = mesh;
         const oibvh::DeviceTriangles triangles = mesh.on_device(caller);
-        tree.build(triangles);  // memory is there from here on
+        tree.build(triangles);  // allocates
         move_slowly(caller, triangles.points, mesh.points.size(), 1);
-        tree.build(triangles);                                         // after it was moved
-        move_slowly(caller, triangles.points, mesh.points.size(), 1);  // and before it is again
+        tree.build(triangles);                                         // must see the first move
+        move_slowly(caller, triangles.points, mesh.points.size(), 1);  // and not this one
         for (oibvh::Point& point : moved.points)
             point.x += 1;
         other.build(moved.on_host());
@@ -125,7 +125,7 @@ TEST_F(LibraryCaller, PaysForMemoryOnceASize)
             EXPECT_EQ(tree.buffers().nodes, before.nodes);
             EXPECT_EQ(device.memory(), taken);
         }
-    tree.build(first.on_device(caller));  // copies of the host's are not wanted any more
+    tree.build(first.on_device(caller));  // frees the copies of host arrays
     EXPECT_EQ(device.memory() + 12 * (first.points.size() + first.faces.size()), taken);
     tree.build(small.on_host());
     EXPECT_LT(device.memory(), taken);
@@ -147,13 +147,13 @@ TEST_F(LibraryCaller, MayHaveManyTreesAtATime)
         if (k % 2 == 0)
             trees.emplace_back(device);
         else
-            trees.emplace_back(caller.queue);  // with kernels of its own
+            trees.emplace_back(caller.queue);  // has its own Device and kernels
         meshes.push_back(soup_mesh(100 + 50 * k, k));
         trees.back().build(meshes.back().on_host());
     }
     for (unsigned k = 0; k < 6; ++k)
         EXPECT_EQ(found_pairs(trees[k], caller), swept_pairs(meshes[k]));
-    trees.erase(trees.begin());  // moved, and one gone
+    trees.erase(trees.begin());  // moves the others
     EXPECT_EQ(found_pairs(trees[0], caller), swept_pairs(meshes[1]));
 
     const double compiled = device.compile_seconds();
@@ -161,12 +161,12 @@ TEST_F(LibraryCaller, MayHaveManyTreesAtATime)
     oibvh::Tree another(device);
     another.build(meshes[0].on_host());
     another.find_pairs();
-    EXPECT_EQ(device.compile_seconds(), compiled);  // for all of a Device once
+    EXPECT_EQ(device.compile_seconds(), compiled);  // once per Device
 }
 
 TEST(LibraryQueues, MayUseTreesOfADeviceFromSeveralThreads)
 {
-    Caller caller(CL_QUEUE_PROFILING_ENABLE);  // whose stages all threads' calls write down
+    Caller caller(CL_QUEUE_PROFILING_ENABLE);  // so that all threads record stages
     const oibvh::Device device(caller.queue);
     const auto work = [&](unsigned seed, bool& is_right) {
         const LibraryMesh mesh = soup_mesh(20 + seed, seed);
@@ -190,8 +190,8 @@ TEST(LibraryQueues, MayUseTreesOfADeviceFromSeveralThreads)
     EXPECT_EQ(device.memory(), 0u);
 }
 
-/// Once commands of his own were the last on every buffer: PoCL keeps a queue for the last event of each, and lets go of
-/// others a moment after they are finished.
+/// Returns the caller's reference counts once they equal `expected`, or after two seconds. First reads every buffer, because
+/// PoCL keeps a queue alive for the last event of each buffer, and releases other events shortly after they finish.
 cl_uint references_after(const Caller& caller, cl_uint expected)
 {
     for (const cl_mem buffer : caller.buffers())
@@ -219,7 +219,7 @@ TEST_F(LibraryCaller, GetsEveryReferenceBack)
         EXPECT_THROW(tree.build(oibvh::DeviceTriangles{first.points, 1, first.faces, 300}),
                      oibvh::BadInput);
         tree.build(third);
-        besides.build(first);  // destroyed before it has run
+        besides.build(first);  // destroyed before the build has run
     }
     EXPECT_EQ(references_after(caller, before), before);
 }
@@ -232,7 +232,7 @@ TEST_F(LibraryCaller, KeepsHisEnvironment)
             all.emplace_back(*word);
         return all;
     };
-    setenv("BVHBENCH_KERNELS", "/nowhere", 1);  // what the program would read its kernels from
+    setenv("BVHBENCH_KERNELS", "/nowhere", 1);  // the program reads kernels from here
     setenv("BVHBENCH_TUNING", "/nowhere", 1);
     const std::vector<std::string> before = variables();
     {
@@ -245,7 +245,7 @@ TEST_F(LibraryCaller, KeepsHisEnvironment)
     unsetenv("BVHBENCH_TUNING");
 }
 
-/// Run once more with two devices of PoCL's, CMakeLists.txt says how.
+/// CMakeLists.txt runs this test a second time with two PoCL devices.
 TEST(LibraryQueues, MayHaveAContextOfTwoDevices)
 {
     std::vector<cl::Device> devices;
@@ -255,7 +255,7 @@ TEST(LibraryQueues, MayHaveAContextOfTwoDevices)
         GTEST_SKIP() << "there is one device";
     for (const std::vector<cl_device_id>& order :
          {std::vector{devices[0](), devices[1]()}, std::vector{devices[1](), devices[0]()}}) {
-        Caller caller(0, order);  // a queue of the last
+        Caller caller(0, order);  // its queue is on the last device
         const LibraryMesh mesh = soup_mesh(700);
         oibvh::Tree tree(caller.queue);
         tree.build(mesh.on_device(caller));

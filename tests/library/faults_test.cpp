@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Whichever OpenCL call fails inside the library: the caller gets an Error, the same trees then do what they were asked if
-// nothing fails any more, and nothing of the caller's or the library's is left or released twice. The shim is linked in
-// before the loader, so every call goes through it.
+// Makes OpenCL calls inside the library fail, one at a time. Each failure must give the caller an Error; the same trees must
+// work again once no call fails; and no OpenCL object may leak or be released twice. A shim that is linked before the
+// OpenCL loader intercepts every call.
 //
-// BVHBENCH_FAULTS=calls: every call, alone and with all that follow. By default every eightieth way in which calls are reached.
+// BVHBENCH_FAULTS=calls fails every call, alone and with all calls after it. The default tries every eightieth call path.
 #include <optional>
 #include <set>
 
@@ -14,12 +14,12 @@
 namespace bvhbench {
 namespace {
 
-/// What a caller does: all kinds of calls once.
+/// A caller's work, which makes every kind of library call.
 class Work {
 public:
     explicit Work(Caller& caller) : caller_(caller) {}
 
-    /// All of it; a Device and trees that were there before are used again. The pairs found.
+    /// Makes all calls and returns the pairs of each query. A second call reuses the Device and trees of the first.
     std::vector<PairList> once()
     {
         if (!tree_) {
@@ -51,7 +51,7 @@ private:
         return pair_list(tree_->read_pairs());
     }
 
-    /// b counted from behind the first tree's, so that the list may sort them.
+    /// Returns the pairs between the two trees, with 100, the first tree's size, added to b, so that a < b as PairList needs.
     std::vector<Pair> between() const
     {
         std::vector<Pair> pairs;
@@ -70,10 +70,10 @@ private:
 
 struct Outcome {
     int errors = 0;
-    long callers = 0;  ///< calls of the caller before the library's
+    long callers = 0;  ///< OpenCL calls that the caller made before any library call
 };
 
-/// One caller's life. With one call that fails his second try has to go well.
+/// Creates a caller and runs its work, again if the first run throws. If only one call fails, the second run must succeed.
 Outcome live(cl_command_queue_properties kind, cl_device_id device, shim::Plan plan,
              const std::vector<PairList>& right)
 {
@@ -121,7 +121,7 @@ TEST_P(LibraryFaults, EndInAnErrorAndLeaveNothing)
             EXPECT_EQ(shim::misused(), std::vector<std::string>()) << nth << shim::failed_call();
             errors += outcome.errors;
             if (HasFailure())
-                return;  // one is enough to look at
+                return;  // the first failing plan is enough
         }
     EXPECT_GT(errors, 0);
 }

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Installs the library and builds the examples against it as an outside project that knows nothing of the source tree.
+"""Installs the library and builds the examples against it as a separate project without access to the source tree.
 
 Usage: install_test.py <cmake> <build folder> <source root> <compiler> <library file> [<compiler flags>]
 
-The build folder has built the library; flags are those that whoever links it needs too, as a sanitizer's. What is installed is
-moved before it is used: a package knows no absolute path.
+The build folder must contain the built library. The flags are compiler flags that users of the library need as well, such as a
+sanitizer's. The installed files are moved before use, to show that the package contains no absolute paths.
 """
 import os
 import pathlib
@@ -19,7 +19,7 @@ FLAGS = sys.argv[6] if len(sys.argv) > 6 else ""
 
 
 def run(*words, fails: bool = False, **environment: str) -> str:
-    """What a command says, after it went well, or did not where it must not."""
+    """Runs a command and returns its output. Asserts that it succeeds or, with `fails`, that it fails."""
     done = subprocess.run([str(word) for word in words], capture_output=True, text=True, timeout=300, check=False,
                           env={**os.environ, **environment})
     said = done.stdout + done.stderr
@@ -32,7 +32,7 @@ def installed(prefix: pathlib.Path) -> list[str]:
 
 
 def check_files(prefix: pathlib.Path) -> None:
-    """One header, one library, the package's files and the licence; none of them names this machine's folders or its CPU."""
+    """Asserts that one header, one library, the package files and the licence are installed, free of local paths and -march."""
     names = [pathlib.PurePath(name).name for name in installed(prefix)]
     headers = [name for name in installed(prefix) if name.endswith((".h", ".hpp", ".clh", ".cl"))]
     assert headers == ["include/bvhbench/oibvh.h"], headers
@@ -61,7 +61,7 @@ def check_version(folder: pathlib.Path, prefix: pathlib.Path) -> None:
     assert "bvhbenchConfig.cmake, version:" in said, said
 
 
-# What the documents' examples leave to the reader.
+# Parameters that declare the names which the documents' examples use but do not define.
 GIVEN = ("cl_command_queue queue, cl_mem points, std::size_t point_count, cl_mem faces, std::size_t face_count, "
          "std::uint32_t cloth_faces, std::uint32_t ball_faces, const bvhbench::oibvh::Input& input, "
          "const bvhbench::oibvh::Input& moved, const bvhbench::oibvh::Input& scene, "
@@ -69,7 +69,7 @@ GIVEN = ("cl_command_queue queue, cl_mem points, std::size_t point_count, cl_mem
 
 
 def check_documents(folder: pathlib.Path, prefix: pathlib.Path) -> None:
-    """The C++ of the guide and of the README compiles as it stands there."""
+    """Asserts that the C++ examples of the guide and of the README compile unchanged."""
     text, count = "", 0
     for document in ("docs/library.md", "README.md"):
         blocks = re.findall(r"```cpp\n(.*?)```", (pathlib.Path(ROOT) / document).read_text(), re.DOTALL)
@@ -104,7 +104,7 @@ def main() -> int:
         assert "-march" not in commands and ROOT not in commands, commands
         run(CMAKE, "--build", build, "--parallel", "2")
 
-        # Nothing but the program: no source tree, no prefix.
+        # The programs must run without the source tree and without the installed headers.
         shutil.rmtree(prefix / "include")
         nowhere = {"BVHBENCH_KERNELS": str(folder / "nowhere")}
         shared = {"LD_LIBRARY_PATH": str(next(prefix.rglob(pathlib.Path(LIBRARY).name)).parent)}

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The library's pairs are the sweep's: of every kind of input, collider and set of objects, and after every way for a tree
-// to follow its triangles.
+// The library finds the sweep oracle's pairs for all kinds of input, colliders and objects, after build, refit and update.
 #include "tests/library/testing.h"
 
 namespace bvhbench {
@@ -57,7 +56,7 @@ TEST_F(LibraryPairs, OfBoxesAreThoseOfTheirTriangles)
     }
 }
 
-/// Every triangle overlaps every other: 499,500 pairs, and room for 8,000 at first.
+/// Every triangle overlaps every other: 499,500 pairs, while the pair buffer holds 8,000 at first.
 TEST_F(LibraryPairs, GetRoomWhenTheyAreMore)
 {
     LibraryMesh mesh = soup_mesh(1);
@@ -72,7 +71,7 @@ TEST_F(LibraryPairs, GetRoomWhenTheyAreMore)
     }
 }
 
-/// Three soups in one another's way, of one, 300 and 77 triangles.
+/// Three overlapping triangle soups of 1, 300 and 77 triangles.
 struct ThreeObjects {
     std::vector<std::uint32_t> sizes = {1, 300, 77};
     LibraryMesh mesh;
@@ -122,7 +121,7 @@ TEST_F(LibraryPairs, OfObjectsAreToldApart)
         expect_right(tree, caller, objects, collider);
         tree.build(objects.mesh.on_device(caller), objects.sizes);
         expect_right(tree, caller, objects, collider);
-        tree.build(objects.mesh.on_host());  // one again
+        tree.build(objects.mesh.on_host());  // one object again
         EXPECT_EQ(found_pairs(tree, caller), objects.right(Among::all));
         EXPECT_EQ(found_pairs(tree, caller, oibvh::Among::between_objects).size(), 0u);
     }
@@ -171,7 +170,7 @@ TEST_F(LibraryPairs, OfOneObjectFollowItToo)
     EXPECT_EQ(found_pairs(tree, caller), swept_pairs(mesh));
 }
 
-/// Pairs of one of `a` with one of `b`, by holding each against each.
+/// Returns the overlapping pairs of a triangle of `a` and one of `b`, by brute force.
 std::vector<oibvh::Pair> each_with_each(const LibraryMesh& a, const LibraryMesh& b)
 {
     std::vector<oibvh::Pair> pairs;
@@ -195,7 +194,7 @@ TEST_F(LibraryPairs, BetweenTreesBuiltApartAreThoseOfEachWithEach)
                 const LibraryMesh mesh = soup_mesh(first, 3), other = soup_mesh(second, 4);
                 a.build(mesh.on_host());
                 b.build(other.on_host());
-                for (int time = 0; time < 2; ++time) {  // the second takes no memory
+                for (int time = 0; time < 2; ++time) {  // the second reuses memory
                     const oibvh::Pairs found = a.find_pairs(b);
                     std::vector<oibvh::Pair> pairs = a.read_pairs();
                     EXPECT_EQ(pairs, caller.values_of<oibvh::Pair>(found.pairs, pairs.size()));
@@ -203,7 +202,8 @@ TEST_F(LibraryPairs, BetweenTreesBuiltApartAreThoseOfEachWithEach)
                     std::sort(pairs.begin(), pairs.end());
                     EXPECT_EQ(pairs, each_with_each(mesh, other)) << collider << ' ' << first;
                 }
-                EXPECT_EQ(found_pairs(a, caller), swept_pairs(mesh));  // its own are as they were
+                EXPECT_EQ(found_pairs(a, caller),
+                          swept_pairs(mesh));  // its own pairs are unchanged
                 a.find_pairs(a);
                 std::vector<oibvh::Pair> with_itself = a.read_pairs();
                 std::sort(with_itself.begin(), with_itself.end());

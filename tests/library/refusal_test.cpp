@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What cannot be is refused in one sentence that says what was asked and what there is, and the tree is as good as before.
+// Invalid arguments are refused with one sentence that names the argument and what is allowed, and the tree stays usable.
 #include <cmath>
 #include <limits>
 
@@ -18,7 +18,7 @@ protected:
     oibvh::Tree tree{device};
     LibraryMesh mesh = soup_mesh(300);
 
-    /// What a build over the input throws; and that the next one, over what can be, goes well.
+    /// Returns the message of the BadInput that a build over `input` throws. Expects the next build, over valid input, to work.
     std::string refusal(const oibvh::Input& input, const Sizes& objects = {})
     {
         std::string why = sentence<BadInput>([&] { tree.build(input, objects); });
@@ -72,7 +72,7 @@ TEST_F(LibraryRefuses, APointThatIsNotThere)
         EXPECT_EQ(refusal(bad.on_host()), why);
         EXPECT_EQ(refusal(bad.on_device(caller)), why);
     }
-    bad.faces[16].a = 4000000000u;  // the first is told
+    bad.faces[16].a = 4000000000u;  // the error names the first
     EXPECT_EQ(refusal(bad.on_host()), "triangle 16 names point 4000000000, and there are 900");
 }
 
@@ -91,7 +91,7 @@ TEST_F(LibraryRefuses, CoordinatesThatAreNotFinite)
             EXPECT_NE(refusal(oibvh::HostBoxes{boxes}).find("box 1 has a corner"),
                       std::string::npos);
         }
-    LibraryMesh unused = mesh;  // what no triangle names does not matter
+    LibraryMesh unused = mesh;  // a point of no triangle is not checked
     unused.points.push_back({std::nanf(""), 0, 0});
     tree.build(unused.on_host());
     EXPECT_EQ(found_pairs(tree, caller), swept_pairs(mesh));
@@ -238,7 +238,7 @@ TEST_F(LibraryRefuses, WhatMemoryDoesNotHold)
     EXPECT_NE(why.find("gives 100000"), std::string::npos) << why;
     expect_built();
 
-    LibraryMesh crowded = soup_mesh(1);  // a tree that fits, and pairs that do not
+    LibraryMesh crowded = soup_mesh(1);  // the tree fits, its pairs do not
     crowded.faces.resize(300, crowded.faces.front());
     tree.build(crowded.on_host());
     EXPECT_THROW(tree.find_pairs(), oibvh::Unavailable);

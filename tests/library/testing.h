@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What the tests of the library share: a caller with OpenCL objects of his own, and what is true of his scenes.
+// Shared by the tests of the library: a caller with its own OpenCL objects, test meshes, and their pairs by the sweep oracle.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@
 
 namespace bvhbench {
 
-/// A caller's device, context and queue, made and released by OpenCL's own calls.
+/// A caller's device, context and queue, created and released with OpenCL's C functions.
 struct Caller {
     cl_device_id device = nullptr;
     cl_context context = nullptr;
@@ -46,7 +46,7 @@ struct Caller {
         clReleaseContext(context);
     }
 
-    /// A buffer of this caller's, for as long as he is there.
+    /// Returns a buffer that holds `values`. The caller owns it and releases it in its destructor.
     template <class T>
     cl_mem buffer_of(const std::vector<T>& values)
     {
@@ -67,7 +67,7 @@ struct Caller {
 
     const std::vector<cl_mem>& buffers() const { return buffers_; }
 
-    /// To all that he has made.
+    /// Returns the sum of the reference counts of the queue, the context and all buffers.
     cl_uint references() const
     {
         cl_uint of_queue = 0, of_context = 0, of_buffers = 0;
@@ -91,7 +91,7 @@ inline Aabb aabb_of(const oibvh::Box& box)
     return {box.min_x, box.min_y, box.min_z, box.max_x, box.max_y, box.max_z};
 }
 
-/// A mesh in the library's words.
+/// A mesh in the library's types.
 struct LibraryMesh {
     std::vector<oibvh::Point> points;
     std::vector<oibvh::Face> faces;
@@ -102,7 +102,7 @@ struct LibraryMesh {
         return {caller.buffer_of(points), points.size(), caller.buffer_of(faces), faces.size()};
     }
 
-    /// The same in the rooms' words.
+    /// Returns the mesh in the internal types.
     Mesh mesh() const
     {
         Mesh mesh;
@@ -134,7 +134,7 @@ inline LibraryMesh scene_mesh(const std::string& name)
     return mesh;
 }
 
-/// Triangles anywhere, each about as large as the way to its neighbours.
+/// Returns `count` random triangles in the unit cube, each about as large as the distance to its neighbours.
 inline LibraryMesh soup_mesh(std::size_t count, unsigned seed = 1)
 {
     std::mt19937 random(seed);
@@ -151,7 +151,7 @@ inline LibraryMesh soup_mesh(std::size_t count, unsigned seed = 1)
     return mesh;
 }
 
-/// Pairs in the sweep's form; no pair may have been found twice.
+/// Returns the pairs as a PairList, the sweep oracle's type. Expects no pair to occur twice.
 inline PairList pair_list(const std::vector<oibvh::Pair>& pairs)
 {
     std::vector<Pair> own;
@@ -168,7 +168,7 @@ inline PairList swept_pairs(const LibraryMesh& mesh, bool keep_adjacent = true)
     return touching_pairs(own.points, own.faces, keep_adjacent);
 }
 
-/// The pairs of a query, which the tree's own count and the device's agree on.
+/// Runs a query and returns its pairs. Expects the host's count, the device's count and both lists of pairs to agree.
 inline PairList found_pairs(oibvh::Tree& tree, const Caller& caller,
                             oibvh::Among among = oibvh::Among::all)
 {
@@ -181,14 +181,13 @@ inline PairList found_pairs(oibvh::Tree& tree, const Caller& caller,
     return pair_list(pairs);
 }
 
-/// A test with a caller of its own.
 class OfACaller : public testing::Test {
 protected:
     Caller caller;
     oibvh::Device device{caller.queue};
 };
 
-/// The sentence of the `E` that `work` throws.
+/// Returns the message of the `E` that `work` throws. Adds a test failure if `work` throws another exception or none.
 template <class E, class Work>
 std::string sentence(Work&& work)
 {

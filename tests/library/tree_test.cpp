@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The library's trees are those of the builders that the program measures, bit for bit, and its buffers are what it says.
+// The library's trees equal those of bvhbench's builders bit for bit, and its buffers have the documented layout.
 #include <cstring>
 
 #include "builders/implicit/tree.h"
@@ -21,7 +21,7 @@ bool same_bytes(const std::vector<T>& a, const std::vector<U>& b)
            (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
-/// The tree that `make` leaves over the mesh.
+/// A mesh and the tree that the builder of `make` builds over it.
 struct Built {
     Mesh mesh;
     Input input;
@@ -74,7 +74,7 @@ TEST_P(LibraryBuilder, IsTheProgramsTreeBitForBit)
 INSTANTIATE_TEST_SUITE_P(Named, LibraryBuilder, testing::Values("oibvh-single", "oibvh-multi"),
                          [](const auto& builder) { return std::string(builder.param).substr(6); });
 
-/// The tree that levels, nodes, leaf boxes and ids say, in the rooms' one form.
+/// Returns the tree that levels, nodes, leaf boxes and ids describe, as an internal HostTree.
 HostTree told(const oibvh::HostTree& read, const std::vector<oibvh::Level>& levels,
               const oibvh::Object& object)
 {
@@ -133,7 +133,7 @@ TEST_F(Library, TellsWhereItsTreeIs)
         EXPECT_EQ(buffers.object_count, 1u);
         EXPECT_EQ(buffers.leaf_boxes == nullptr, sorted);
         EXPECT_EQ(buffers.node_count, read.nodes.size());
-        // 37 leaves, 27 virtual: 2 * 37 - 1 + popcount(27) nodes, Eq. (7).
+        // 37 leaves and 27 virtual leaves give 2 * 37 - 1 + popcount(27) nodes, Eq. (7).
         EXPECT_EQ(buffers.node_count + (sorted ? 0 : 37), 77u);
         EXPECT_TRUE(same_bytes(caller.values_of<oibvh::Box>(buffers.nodes, buffers.node_count),
                                read.nodes));

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// Oi-BVH as a library: a tree over triangles or boxes, and the pairs that overlap, on a caller's OpenCL queue.
+// Oi-BVH as a library: builds a BVH over triangles or boxes and finds overlapping pairs, on the caller's OpenCL queue.
 //
-//     bvhbench::oibvh::Tree tree(queue);                          // the kernels are compiled here
+//     bvhbench::oibvh::Tree tree(queue);                          // compiles kernels
 //     tree.build(bvhbench::oibvh::DeviceTriangles{points, point_count, faces, face_count});
 //     const bvhbench::oibvh::Pairs found = tree.find_pairs();     // found.pairs is a cl_mem of found.count pairs
 //
-// docs/library.md has the guide. Coordinates are floats in any unit; the same unit everywhere. Boxes are closed: touching
-// counts. Where a call fails it throws an Error of one sentence, and nothing else but std::bad_alloc.
+// docs/library.md is the guide. Coordinates are floats, all in one unit of the caller's choice. Boxes are closed: boxes that
+// touch overlap. A call that fails throws an Error whose message is one sentence; the only other exception is std::bad_alloc.
 #pragma once
 
 #include <CL/cl.h>
@@ -31,22 +31,22 @@
 
 namespace bvhbench::oibvh {
 
-/// What every failed call throws, in one sentence.
+/// Base class of all exceptions of the library. The message is one sentence.
 class BVHBENCH_API Error : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// The caller's: an option, a count, a buffer, an index or a coordinate that cannot be; a call out of turn.
+/// The caller passed an invalid option, count, buffer, index or coordinate, or made a call that needs a tree before a build.
 class BVHBENCH_API BadInput : public Error {
     using Error::Error;
 };
 
-/// The machine's: memory that is not there, or what the device does not have.
+/// The device or the host has too little memory, or the device lacks a feature that the library needs.
 class BVHBENCH_API Unavailable : public Error {
     using Error::Error;
 };
 
-/// An OpenCL call that failed, or a kernel that did not compile (CL_BUILD_PROGRAM_FAILURE, with the compiler's log).
+/// An OpenCL call failed, or a kernel did not compile (code CL_BUILD_PROGRAM_FAILURE; the message holds the compiler's log).
 class BVHBENCH_API OpenClFailure : public Error {
 public:
     OpenClFailure(const std::string& sentence, cl_int code) : Error(sentence), code_(code) {}
@@ -56,31 +56,32 @@ private:
     cl_int code_;
 };
 
-/// 12 bytes.
+/// A vertex position. 12 bytes.
 struct Point {
     float x, y, z;
 };
 
-/// A triangle of an indexed mesh: three positions in the points. 12 bytes.
+/// A triangle: the indices of its three corners in the array of points. 12 bytes.
 struct Face {
     std::uint32_t a, b, c;
 };
 
-/// Axis-aligned, closed on all sides. 24 bytes.
+/// An axis-aligned box that includes its boundary. 24 bytes.
 struct Box {
     float min_x, min_y, min_z;
     float max_x, max_y, max_z;
 };
 
-/// Two of what the tree was built over, by their positions there, the smaller first. 8 bytes: a uint2.
+/// Two triangles or boxes, as indices into the input, the smaller index first. Of a query between two trees, `a` is an index
+/// into the first tree's input and `b` one into the second's. 8 bytes, a uint2 in kernels.
 struct Pair {
     std::uint32_t a, b;
     auto operator<=>(const Pair&) const = default;
 };
 
-// What a tree is built over, 1 to 2^31 triangles or boxes, one after the other without gaps. Buffers are the caller's, of
-// the queue's context, and may be longer; they are kept, retained, until the next build. Host arrays are copied before the
-// call returns.
+// Input of a build: 1 to 2^31 triangles or boxes, packed without gaps. Host arrays are copied before the call returns. Device
+// buffers must belong to the queue's context and may be longer than needed. The tree retains them until its next build, refit
+// or update, because queries read them.
 
 struct HostTriangles {
     std::span<const Point> points;
@@ -90,48 +91,49 @@ struct HostBoxes {
     std::span<const Box> boxes;
 };
 struct DeviceTriangles {
-    cl_mem points = nullptr;  ///< of Point
+    cl_mem points = nullptr;  ///< array of Point
     std::size_t point_count = 0;
-    cl_mem faces = nullptr;  ///< of Face
+    cl_mem faces = nullptr;  ///< array of Face
     std::size_t face_count = 0;
 };
 struct DeviceBoxes {
-    cl_mem boxes = nullptr;  ///< of Box
+    cl_mem boxes = nullptr;  ///< array of Box
     std::size_t box_count = 0;
 };
 using Input = std::variant<HostTriangles, HostBoxes, DeviceTriangles, DeviceBoxes>;
 
 struct DeviceOptions {
-    /// Bytes of device memory that all trees of the Device may take together, if less than there is.
+    /// Upper bound, in bytes, on the device memory of all trees of the Device together.
     std::size_t memory_limit = std::numeric_limits<std::size_t>::max();
-    /// Numbers by which kernels are cut up, by name, as `bvhbench tune` finds them. They change no result.
+    /// Values of tuning parameters by name, as `bvhbench tune` finds them. They affect speed only, never results.
     std::vector<std::pair<std::string, unsigned>> tuning = {};
 };
 
-/// What one call enqueued, in its order.
+/// Times of one stage of a call, from the device's clock.
 struct Stage {
     /// input, check, bounds, codes, sort, order, gather, hierarchy, refit, join or broad.
     std::string name;
-    int launches = 0;
-    std::int64_t busy_ns = 0;  ///< device clock, sum of the commands' run times
-    std::int64_t span_ns = 0;  ///< device clock, first start to last end
+    int launches = 0;          ///< number of commands enqueued
+    std::int64_t busy_ns = 0;  ///< sum of the commands' run times
+    std::int64_t span_ns = 0;  ///< from the first command's start to the last command's end
 };
 
-/// A caller's queue, its device and context, and the kernels compiled for them. A handle: copies are the same Device, and
-/// trees keep it alive. Retains the queue. Reads and sets no environment variable.
+/// The caller's queue with its device and context, and the kernels compiled for them. Copies share one state, which lives as
+/// long as any copy or tree that uses it. Retains the queue. Reads and sets no environment variable.
 class BVHBENCH_API Device {
 public:
-    /// In order or out of order, with or without profiling. Throws BadInput for no queue, a queue on the device, or
-    /// tuning that cannot be; Unavailable below OpenCL 1.2 or without a compiler.
+    /// Accepts in-order and out-of-order queues, with or without profiling. Throws BadInput for a null queue, a device-side
+    /// queue or an invalid tuning value, and Unavailable if the device lacks OpenCL 1.2 or a compiler.
     explicit Device(cl_command_queue queue, const DeviceOptions& options = {});
 
-    /// Bytes of device memory that all its trees have taken.
+    /// Returns the bytes of device memory that all trees of this Device hold.
     std::size_t memory() const;
 
-    /// Host time that compiling took so far.
+    /// Returns the host time spent compiling kernels so far, in seconds.
     double compile_seconds() const;
 
-    /// Of the last call of any of its trees that enqueued something, and once. Waits. Empty if the queue has no profiling.
+    /// Returns the stages, in order, of the last call on any tree of this Device that enqueued commands. Waits. Returns an
+    /// empty list if the queue has no profiling, or if these stages were returned before.
     std::vector<Stage> times();
 
     struct Impl;
@@ -142,120 +144,131 @@ private:
 };
 
 struct Options {
-    /// oibvh-single: one launch builds all levels. oibvh-multi: some levels a launch. Empty: as the device likes.
+    /// Builder: oibvh-single builds all levels in one launch, oibvh-multi builds some levels per launch. If empty, the
+    /// library chooses by device.
     std::string builder = {};
-    /// How leaves are lined up: a name of `bvhbench list orders`, as morton30, hilbert30, or kd, which takes longer and
-    /// makes better trees.
+    /// Order of the leaves: a name from `bvhbench list orders`, such as morton30, hilbert30 or kd. kd takes longer to build,
+    /// gives better trees, and takes one object only.
     std::string order = "hilbert30";
-    /// Whether leaves' boxes are kept in the order of the leaves, behind the other nodes, or in that of the input.
+    /// True: leaf boxes follow their tree's inner nodes, in leaf order. False: they are in their own buffer, in input order.
     bool sorted_leaves = true;
-    /// leaf, group, block or bvtt: how pairs are found. Empty: as the device likes.
+    /// Collider: leaf, group, block or bvtt. If empty, the library chooses by device.
     std::string collider = {};
-    /// Whether pairs of triangles that share a point's index are wanted too.
+    /// Whether queries also report pairs of triangles that share a point index. Queries between two trees always do.
     bool adjacent_pairs = true;
-    /// Look for indices that are out of range, coordinates that are not finite, boxes that end before they begin. That
-    /// waits. Without it a build waits for nothing, and such input is undefined behaviour.
+    /// Whether build, refit and update check that indices are in range, coordinates finite and no box's minimum above its
+    /// maximum. The check waits for the device. Without it such input is undefined behaviour.
     bool check_input = true;
 };
 
-/// What becomes of an object's tree: all anew, new boxes in the same tree, or nothing.
+/// What an update does with an object's tree: builds it anew, recomputes its boxes in the same topology, or leaves it as is.
 enum class Update { rebuild, refit, keep };
 
-/// Which pairs are wanted, by the objects that the two are of.
+/// Which pairs a query reports: all, only those of two different objects, or only those within one object.
 enum class Among { all, between_objects, within_objects };
 
-/// Where a tree is on the device. Handles are the tree's: valid until it is built over other sizes or destroyed, and
-/// rewritten by each build. Reading them from another queue is the caller's to order.
+/// Device buffers of a tree. The tree owns the handles; they are valid until it is built over other sizes or destroyed, and
+/// every build rewrites their contents. To read them from another queue, the caller must synchronize the queues.
 struct Buffers {
-    cl_mem nodes = nullptr;  ///< of Box, by slot: levels() says which is which
+    cl_mem nodes = nullptr;  ///< array of Box, by slot; levels() gives the slots
     std::size_t node_count = 0;
-    /// Of Box, in the input's order; null if leaves are sorted: they are the last level's nodes then.
+    /// Array of Box, in input order. Null if leaves are sorted: then the last level of `nodes` holds the leaf boxes.
     cl_mem leaf_boxes = nullptr;
-    cl_mem ids = nullptr;  ///< of uint, one a leaf: its position in the input
+    cl_mem ids = nullptr;  ///< array of uint: the input index of each leaf
     std::uint32_t leaf_count = 0;
-    cl_mem objects = nullptr;  ///< of Object
+    cl_mem objects = nullptr;  ///< array of Object
     std::uint32_t object_count = 0;
 };
 
-/// Where an object's tree is in those buffers. 16 bytes, a uint4.
+/// The part of the buffers that holds one object's tree. 16 bytes, a uint4 in kernels.
 struct Object {
-    std::uint32_t first;  ///< its first leaf's place among ids
-    std::uint32_t leaves;
-    std::uint32_t nodes;  ///< slot of its root
+    std::uint32_t first;   ///< position of its first leaf in `ids`
+    std::uint32_t leaves;  ///< number of its leaves
+    std::uint32_t nodes;   ///< slot of its root
     std::uint32_t unused;
 };
 
-/// A level of a tree, the root's first: its nodes lie side by side. The children of the one at position p are at 2p and
-/// 2p + 1 of the next level, the second only if there is one. Those of the last level are the leaves, in the order of ids.
+/// One level of a tree; its nodes occupy consecutive slots. The node at position p of a level has children at positions 2p
+/// and 2p + 1 of the next level, the second only if it exists. The last level's nodes are the leaves, in the order of `ids`.
 struct Level {
-    std::uint32_t first_slot;  ///< of its leftmost node, counted from the object's root
+    std::uint32_t first_slot;  ///< slot of its leftmost node, relative to the object's root
     std::uint32_t node_count;
 };
 
-/// A tree, read back.
+/// A copy of a tree's buffers in host memory.
 struct HostTree {
     std::vector<Box> nodes;       ///< by slot
-    std::vector<Box> leaf_boxes;  ///< empty if leaves are sorted
+    std::vector<Box> leaf_boxes;  ///< in input order; empty if leaves are sorted
     std::vector<std::uint32_t> ids;
     std::vector<Object> objects;
 };
 
-/// What a query found: each pair once, in no order. Valid until the next query or build of the tree.
+/// Result of a query: each pair once, in no order. The handles are valid until the tree's next query or build.
 struct Pairs {
-    cl_mem pairs = nullptr;         ///< of Pair, at least `count` of them
-    cl_mem device_count = nullptr;  ///< of uint: the first two are the count, low word first
+    cl_mem pairs = nullptr;         ///< array of Pair; the first `count` entries are valid
+    cl_mem device_count = nullptr;  ///< array of uint: entries 0 and 1 are `count`, low word first
     std::uint64_t count = 0;
 };
 
-/// A tree over triangles or boxes, or a tree for each of several objects. Takes device memory when built over other sizes
-/// than before, and otherwise none. All calls enqueue on the Device's queue: they run after what was enqueued there
-/// before, and what is enqueued there afterwards runs after them.
+/// A tree over triangles or boxes, or one tree for each of several objects. Device memory is allocated when the sizes or the
+/// kind of the input change and when a query or an update needs more, and is reused otherwise. All calls enqueue on the Device's
+/// queue: after everything enqueued there before the call, and before everything enqueued there after it.
 class BVHBENCH_API Tree {
 public:
-    /// Throws BadInput for options that there are not, Unavailable, OpenClFailure.
+    /// Throws BadInput for an unknown builder, order or collider, Unavailable, or OpenClFailure.
     explicit Tree(Device device, Options options = {});
     explicit Tree(cl_command_queue queue, Options options = {});
     Tree(Tree&& other) noexcept;
     Tree& operator=(Tree&& other) noexcept;
     ~Tree();
 
-    /// Build over `input`: one tree, or one for each run of neighbours of the given sizes, which cover it. Waits if input
-    /// is checked, copied, or of another size than before. Throws any Error; there is no tree then until the next build.
+    /// Builds one tree over `input` or, if `objects` is not empty, one tree over each consecutive run of objects[k] triangles or
+    /// boxes; the sizes must sum to the size of the input. Waits if the input is checked, copied from the host, or of other
+    /// sizes than before. Throws any Error; afterwards there is no tree until a build succeeds.
     void build(const Input& input, std::span<const std::uint32_t> objects = {});
 
-    /// New boxes for the tree that stands, of as many triangles or boxes that have moved: sooner than a build, and worse
-    /// the further they moved. Throws as build does.
+    /// Recomputes the boxes of the current tree from moved input of the same sizes. This is faster than a build, but queries
+    /// get slower the further things have moved. Waits and throws as `build` does.
     void refit(const Input& input);
 
-    /// The same for each object in its own way, in one set of launches. Input is for all; of objects that are kept it is
-    /// checked and not otherwise read. Waits. Throws BadInput for an Update that there is not; the tree stays as it is then.
+    /// Rebuilds, refits or keeps the tree of each object, updates[k] for object k, in one set of launches. `input` covers all
+    /// objects; that of kept objects is only checked. Waits. Throws BadInput, and leaves the tree as it is, if `updates` has
+    /// a wrong length or an unknown value. Any other Error leaves no tree, as in `build`.
     void update(const Input& input, std::span<const Update> updates);
 
     bool is_built() const;
 
-    /// All of these throw BadInput where there is no tree.
-    Buffers buffers() const;
-    std::vector<Level> levels(std::uint32_t object = 0) const;
-    HostTree read() const;  ///< waits
+    // The calls from here to `read_pairs` throw BadInput if there is no tree.
 
-    /// All pairs whose boxes overlap, none dropped: room for them grows and the query is repeated. Waits. Throws BadInput
-    /// for an Among that there is not; the pairs of the last query are still there then.
+    Buffers buffers() const;
+
+    /// Returns the levels of one object's tree, the root's level first. Throws BadInput if there is no such object.
+    std::vector<Level> levels(std::uint32_t object = 0) const;
+
+    HostTree read() const;  ///< Copies the tree to the host. Waits.
+
+    /// Finds all pairs whose boxes overlap. If the pair buffer is too small, it is enlarged and the query repeated, so no
+    /// pair is dropped. Waits. Throws BadInput for an unknown Among, after which the pairs of the last query can still be
+    /// read, and Unavailable for more than 2^32 - 1 pairs or too little memory.
     Pairs find_pairs(Among among = Among::all);
 
-    /// The pairs of one of this tree's (a) with one of the other's (b), both numbers as in their own input. Both trees are
-    /// of one object each, of one Device and with leaves kept alike. Copies both trees. Waits.
+    /// Finds the overlapping pairs of one element of this tree (Pair::a) and one of `other` (Pair::b), each an index into its
+    /// own tree's input. Copies both trees. Waits. Throws BadInput unless both trees belong to one Device, have one object
+    /// each and the same `sorted_leaves`.
     Pairs find_pairs(const Tree& other);
 
-    std::vector<Pair> read_pairs() const;  ///< of the last query; waits
+    /// Copies the pairs of the last query to the host. Waits. Throws BadInput if there was no query since the last build,
+    /// refit or update.
+    std::vector<Pair> read_pairs() const;
 
-    /// Bytes of device memory that it has taken; one tree's buffers and what building and queries need.
+    /// Returns the bytes of device memory that this tree holds: its buffers, and scratch memory of builds and queries.
     std::size_t memory() const;
 
-    /// OpenCL C 1.2 for the caller's own kernels: functions that walk this tree. docs/library.md has an example.
+    /// Returns OpenCL C 1.2 functions that traverse this tree, for the caller's own kernels. docs/library.md lists them.
     std::string kernel_text() const;
 
-    std::string_view builder() const;   ///< the name of what builds
-    std::string_view collider() const;  ///< of what queries
+    std::string_view builder() const;   ///< Name of the builder in use.
+    std::string_view collider() const;  ///< Name of the collider in use.
 
     struct Impl;
 
@@ -263,7 +276,7 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-/// The library's version, "0.1.0".
+/// Returns the library's version, "0.1.0".
 BVHBENCH_API std::string_view version();
 
 }  // namespace bvhbench::oibvh
