@@ -90,8 +90,7 @@ def scatter(axes: plt.Axes, points: list[tuple], best: list[tuple], look_of: Cal
 
 
 def panels(count: int, columns: int, inches: tuple[float, float], **shared: object) -> tuple[plt.Figure, list[plt.Axes], int]:
-    """Creates `count` panels in at most `columns` columns, and returns the figure, the panels and the number of columns. `inches`
-    holds the height of the page and of each row."""
+    """Creates `count` panels in at most `columns` columns; returns figure, panels and columns. `inches`: page and row heights."""
     columns = min(columns, count)
     rows = math.ceil(count / columns)
     drawing, grid = plt.subplots(rows, columns, figsize=(style.PAGE_WIDTH, inches[0] + inches[1] * rows), squeeze=False,

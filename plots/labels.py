@@ -13,8 +13,7 @@ RADII = (6, 8.5, 11.5, 15, 19, 24, 30, 37, 45, 55)
 DIRECTIONS = 24
 LEADER_FROM = 9  # a label farther from its point is joined to it by a line
 
-# Penalties of a place: COVERED for each square point that is covered, SEEMS_ANOTHERS if another point is nearer to the label. A
-# line through a label adds 1.
+# Penalties: COVERED for each square point that is covered, SEEMS_ANOTHERS if another point is nearer, 1 for each crossing line.
 COVERED = 10
 SEEMS_ANOTHERS = 0.3
 
@@ -102,8 +101,7 @@ def offsets(points: list[Place], texts: list[str], frame: Box, lines: list[Line]
 
 
 def draw(axes: plt.Axes, labels: list[Label], path: list[Place] = ()) -> None:
-    """Draws labels beside their points and off the path, in data coordinates. Places depend on the layout, which must be
-    final."""
+    """Draws labels beside their points and off the path, in data coordinates. The layout must be final: places depend on it."""
     to_points = 72 / axes.figure.dpi
 
     def placed(places: list[Place]) -> list[Place]:

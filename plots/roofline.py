@@ -24,8 +24,7 @@ BUILD_STAGES = ("bounds", "codes", "sort", "order", "gather", "hierarchy")
 QUERY_STAGES = ("ropes", "broad", "narrow")
 COLUMNS = 4
 
-# Colliders over one tree would all have its builder's colour, so they have looks here: colours of Okabe and Ito, with markers
-# that no builder has in the same colour.
+# Colliders over one tree share its builder's colour, so these have their own: Okabe and Ito's, with other markers.
 COLLIDERS = {"leaf": style.Look("#000000", "*"), "group": style.Look("#E69F00", "P"),
              "bvtt": style.Look("#009E73", "X"), "front": style.Look("#CC79A7", "H"), "block": style.Look("#56B4E9", "P"),
              "grid": style.Look(pipelines.COLOURS["grid"], "d")}

@@ -23,7 +23,7 @@ WITH_VALUE = ("-o", "-MF", "-MT", "-MQ", "-include")
 
 
 def arguments(command: dict[str, str]) -> list[str]:
-    """Of a compilation: the compiler and its options, without what is read and written."""
+    """Returns the compiler and its options, without input and output files."""
     words = shlex.split(command["command"])
     while pathlib.Path(words[0]).name == "ccache":
         words = words[1:]
@@ -46,7 +46,7 @@ def compiled_alone(root: pathlib.Path, sources: list[str]) -> set[str]:
 
 
 def failure(root: pathlib.Path, header: str, command: dict[str, str], folder: pathlib.Path) -> str:
-    """What the compiler says to a file of nothing but this header, twice: its guard is tried as well."""
+    """Returns the compiler's errors for a file that includes only this header, twice, so that its guard is tested too."""
     alone = folder / (header.replace("/", "_") + ".cpp")
     alone.write_text(2 * f'#include "{header}"\n')
     result = subprocess.run([*arguments(command), "-fsyntax-only", str(alone)], cwd=command["directory"],
@@ -64,7 +64,7 @@ def main() -> int:
     headers = [path.relative_to(root).as_posix() for room in ROOMS for path in sorted((root / room).rglob("*.h"))]
     alone = compiled_alone(root, [path for path in commands if path.startswith(ROOMS)])
     rest = [header for header in headers if header not in alone]
-    # Those of a room are compiled as its sources are; a room without any, as those of the room that needs all.
+    # Headers of a room are compiled with the options of its sources, or of harness sources if the room has none.
     of_room = {room: next((command for path, command in commands.items() if path.startswith(room + "/")), None)
                for room in ROOMS}
     if of_room["harness"] is None or len(headers) < 100:

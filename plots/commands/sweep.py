@@ -1,5 +1,4 @@
-"""bvhbench sweep: measures a product of scenes, builders, colliders and options, one process for each cell, and can be
-resumed."""
+"""bvhbench sweep: measures a product of scenes, builders, colliders and options, one process for each cell; can be resumed."""
 import argparse
 import contextlib
 import json

@@ -1,5 +1,4 @@
-"""What a baseline keeps of a run of the experiment `smoke`: each cell's verdict, its fastest time, and all machine-independent
-numbers."""
+"""What a baseline keeps of a run of `smoke`: each cell's verdict, its fastest time, and all machine-independent numbers."""
 import os
 from typing import Any
 

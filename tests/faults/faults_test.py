@@ -1,10 +1,9 @@
 #!/usr/bin/env python3
-"""Take away from the program what it needs while it runs, and hold it to what docs/reliability.md promises.
+"""Tests that the program keeps the promises of docs/reliability.md when it is killed or resources fail.
 
 Usage: faults_test.py <bvhbench> <result schema> <opencl_shim.so>
 
-FAULT_KILLS is how often it is killed in a test (10), FAULT_SEED when (1).
-"""
+FAULT_KILLS is the number of kills in a test (10); FAULT_SEED seeds their times (1)."""
 import contextlib
 import json
 import os
@@ -24,7 +23,7 @@ BUILD = ("build", "--builder", "oibvh-multi", "--scene", "soup:300", "--samples"
 
 
 def whole(path: pathlib.Path) -> bool:
-    """Whether a file is in one piece, by how its kind ends."""
+    """True if a file is complete, judged by the end that its type requires."""
     content = path.read_bytes()
     if path.suffix == ".json":
         json.loads(content)
@@ -32,7 +31,7 @@ def whole(path: pathlib.Path) -> bool:
 
 
 def test_killed_at_any_time_every_file_that_was_there_is_old_or_new():
-    """A fifth of the kills each of run, sweep, tune, accuracy and merge, in a folder that holds what was left before."""
+    """Kills each of run, sweep, tune, accuracy and merge with a fifth of the kills, in a folder that keeps earlier files."""
     kills, draw = KILLS // 5, random.Random(SEED)
     plan = experiment("replaced.json", scenes=["soup:9", "soup:99", "soup:999"], builders=["perfect", "median-split"])
     product = ("--scenes", "soup:9,soup:99", "--builders", "perfect,median-split", "--samples", "1")
@@ -48,7 +47,7 @@ def test_killed_at_any_time_every_file_that_was_there_is_old_or_new():
         expect(0, *words)
         seconds, old, new = time.time() - began, 0, 0
         for _ in range(kills):
-            if name == "sweep":  # some of its cells are to be measured again
+            if name == "sweep":  # makes some of its cells run again
                 for cell in sorted(folder.glob("cells/*.json"))[::2]:
                     cell.unlink()
             before = {path: (path.read_bytes(), path.stat().st_ino) for path in folder.rglob("*")
@@ -56,14 +55,14 @@ def test_killed_at_any_time_every_file_that_was_there_is_old_or_new():
             with at_work(*words) as process:
                 time.sleep(draw.uniform(0, 1.1 * seconds))
                 process.kill()
-                process.communicate(timeout=60)  # what it had begun to have drawn ends, too
+                process.communicate(timeout=60)  # drawing processes that it started end, too
             for path, (content, _) in before.items():
                 assert path.read_bytes() == content or whole(path), (name, path)
             replaced = any(path.stat().st_ino != inode for path, (_, inode) in before.items())
             old, new = old + (not replaced), new + replaced
         if kills > 10:
             print(f"{name}: {kills} kills, {old} left all as it was, {new} replaced something", flush=True)
-        expect(0, *words)  # what kills have left beside it does not disturb the next one
+        expect(0, *words)  # leftovers of kills do not disturb the next command
 
 
 def test_a_device_that_is_lost_is_one_sentence():
@@ -85,7 +84,7 @@ def test_killed_at_any_time_it_leaves_a_whole_result_file():
     for number in range(kills):
         path = pathlib.Path(f"killed-{number}.json")
         with at_work("run", plan, "--out", str(path)) as process:
-            # A quarter of them at any time from the start on, the others while cells are written.
+            # A quarter of the kills come at any time after the start, the others while cells are written.
             if draw.random() < 0.25:
                 time.sleep(draw.uniform(0, 0.6))
             else:
@@ -101,13 +100,13 @@ def test_killed_at_any_time_it_leaves_a_whole_result_file():
         oldest = max(oldest, killed - path.stat().st_mtime)
         result = valid(path)
         assert result["cells"] and "finished_at" not in result["run"]
-        for place, cell in enumerate(result["cells"]):  # none is missing in between, and each is whole
+        for place, cell in enumerate(result["cells"]):  # no cell is missing, and each is complete
             assert cell["scene"]["triangles"] == place // 2 + 1 and cell["status"] == "measured", (place, cell)
             assert cell["builder"]["name"] == ("perfect", "median-split")[place % 2], (place, cell)
         if number % 10 == 0 or kills > 10:
             expect(0, "show", str(path))
     assert written > kills / 2, f"only {written} of {kills} were killed after the first cell"
-    assert oldest < 3, f"a file was {oldest:.1f} s old"  # half a second, and a busy machine's share
+    assert oldest < 3, f"a file was {oldest:.1f} s old"  # half a second, with a margin for a busy machine
     print(f"  killed {kills} times, {written} with cells; the oldest file was {oldest:.2f} s old")
 
 
@@ -117,7 +116,7 @@ def test_a_build_that_hangs_is_given_up_and_the_rest_is_done():
     common = ("--time-limit", "2", "--kernels", kernels)
     plan = experiment("hangs.json", scenes=["soup:1", "soup:200", "soup:300"], builders=["perfect", "karras", "apetrei"],
                       samples=2)
-    # What PoCL has not compiled yet takes longer, and a busy machine is no hang.
+    # Kernels that PoCL has not compiled yet take longer, and a busy machine must not count as a hang.
     expect(0, "run", plan, "--out", "warm.json", "--kernels", kernels, "--filter", "perfect|apetrei")
     started = time.time()
     expect(0, "run", plan, "--out", "hangs-out.json", *common, says="9 cells, ")
@@ -141,7 +140,7 @@ def test_a_build_that_hangs_is_given_up_and_the_rest_is_done():
 
 @contextlib.contextmanager
 def small_disk(kib: int):
-    """A folder with so much room; nothing where this user may not mount one."""
+    """Yields a file system of `kib` KiB, or None if this user may not mount one."""
     disk = pathlib.Path(f"disk-{kib}")
     disk.mkdir()
     mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={kib}k", "tmpfs", disk], capture_output=True)
@@ -155,12 +154,12 @@ def small_disk(kib: int):
 
 
 def test_a_crash_costs_the_cell_that_it_was_in():
-    # In a folder that somebody else has chosen: nobody looks there for kernels that are broken, and PoCL ends the process.
+    # In a user-chosen cache folder the program does not look for broken kernels, and PoCL ends the process.
     cache = pathlib.Path("cache").resolve()
     cache.mkdir()
     plan = experiment("crash.json", scenes=["soup:300"], builders=["oibvh-multi", "median-split"])
     crash = ("run", plan, "--out", "crashed.json")
-    # What a run begins with stays sound: only the builder's own programs are broken.
+    # The programs that each run starts with stay intact. Only the builder's own programs are broken.
     expect(0, *crash, "--filter", "median-split", says="verdict: agrees", POCL_CACHE_DIR=str(cache))
     sound = set(cache.rglob("program.bc"))
     os.remove("crashed.json")
@@ -175,7 +174,7 @@ def test_a_crash_costs_the_cell_that_it_was_in():
     assert failed["reason"].startswith("crashed (signal 6)") and "OpenCL driver's cache" in failed["reason"], failed
     assert other["status"] == "measured", other
     done = run(*BUILD, POCL_CACHE_DIR=str(cache))
-    last = done.stderr.splitlines()[-1]  # PoCL's own words come before
+    last = done.stderr.splitlines()[-1]  # PoCL's messages come before
     assert done.returncode == 4 and last.startswith("bvhbench: nothing was measured: crashed (signal 6)"), done
 
 
@@ -208,7 +207,7 @@ def test_a_disk_that_fills_up_keeps_the_cells_that_found_room():
 
 
 def test_a_folder_that_may_not_be_written_is_one_sentence():
-    if os.geteuid() == 0:  # who may write everywhere but where nobody may
+    if os.geteuid() == 0:  # root may write everywhere else
         expect(3, *BUILD, "--json", "/proc/r.json", says="/proc/r.json cannot be written")
         expect(3, *BUILD, "--json", "/sys/r.json", says="/sys/r.json cannot be written")
     else:

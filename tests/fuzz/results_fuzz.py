@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
-"""Malformed result files, of which `report` and `plot` make something or say in one sentence why not.
+"""Fuzzes `report` and `plot` with malformed result files: each must give a result or a one-sentence error.
 
 Usage: results_fuzz.py <source root> [--cases N] [--seconds S] [--seed N]
 
-Each case is a small result file with some of its cells, changed in its tree of values or in its bytes. A page is made of each
-and figures of every tenth: what ends with another code than 0, 3, or 1 for a wrong answer, or says anything but one sentence, is
-a find. Finds lie in build/fuzz/results; make one a test, and then a seed in tests/fuzz/results.
-"""
+Each case is a small result file with some of its cells, changed in its tree of values or in its bytes. Each gives a page, and
+every tenth figures. A case fails if the exit code is not 0, 3, or 1 for a wrong answer, or if more than one sentence is printed.
+Failing cases are kept in build/fuzz/results; make each a test, then a seed in tests/fuzz/results."""
 import argparse
 import collections
 import contextlib
@@ -36,7 +35,7 @@ NUMBERS = (0, 1, -1, 2, 2**31, 2**53 + 1, 2**63, 2**64, 10**30, 10**400, 0.0, -0
 TEXTS = ("", " ", "\ud800", "\0", "\n", "\x1b[31m", "$a$", "$\\frac$", "<script>", "</script>", "=1+1", "1.0", "2.0", "a" * 5000, "𝕊", "none",
          "build", "collide", "accuracy", "measured", "failed", "skipped", "differs", "counted", "karras", "leaf", "table1", "fig8")
 OTHERS = (None, True, False, [], {}, [[]], {"": {}}, [None], [1, "a"])
-KEPT = 4  # cells
+KEPT = 4  # cells in a case
 FIGURES_EVERY = 10
 
 
@@ -48,7 +47,7 @@ def deep() -> Any:
 
 
 def nodes(value: Any) -> list[tuple[Any, Any]]:
-    """The container and key of every value in a tree."""
+    """Returns the container and key of every value in a tree."""
     found = []
     waiting = [value]
     while waiting:
@@ -62,7 +61,7 @@ def nodes(value: Any) -> list[tuple[Any, Any]]:
 
 
 def of_its_kind(value: Any, chance: random.Random) -> Any:
-    """Another value that a reader may take."""
+    """Returns another value of the same type."""
     if isinstance(value, str):
         return chance.choice(TEXTS)
     if isinstance(value, (int, float)) and not isinstance(value, bool):
@@ -71,7 +70,7 @@ def of_its_kind(value: Any, chance: random.Random) -> Any:
 
 
 def changed(document: Any, chance: random.Random) -> Any:
-    """One thing in it: a value, a key, or where something is."""
+    """Makes one change: to a value, to a key, or to a place."""
     container, key = chance.choice(nodes(document) or [({"": document}, "")])
     way = chance.randrange(8)
     if way < 4:
@@ -110,7 +109,7 @@ def case(seeds: list[dict[str, Any]], chance: random.Random) -> bytes:
 
 
 def ended(main: Callable[[], int], words: list[str]) -> tuple[object, str]:
-    """As from a shell: the exit code, or what was thrown, and standard error."""
+    """Runs `main` as a shell would. Returns the exit code, or the exception that was raised, and standard error."""
     errors = io.TextIOWrapper(io.BytesIO(), encoding="utf-8", errors="surrogateescape")
     sys.argv = words
     with contextlib.redirect_stdout(io.TextIOWrapper(io.BytesIO(), encoding="utf-8")), contextlib.redirect_stderr(errors):
@@ -139,11 +138,11 @@ def main() -> int:
     codes: collections.Counter[str] = collections.Counter()
     finds = 0
     end = time.monotonic() + arguments.seconds
-    memory = "/dev/shm" if os.access("/dev/shm", os.W_OK) else None  # where fsync takes no time
+    memory = "/dev/shm" if os.access("/dev/shm", os.W_OK) else None  # fsync takes no time there
     with tempfile.TemporaryDirectory(dir=memory) as name:
         folder = pathlib.Path(name)
         (folder / "plotly.js").write_text("", encoding="utf-8")
-        report_page.plotly_file = lambda: folder / "plotly.js"  # of a page's time it would be the most
+        report_page.plotly_file = lambda: folder / "plotly.js"  # avoids packing plotly, which would take most of a page's time
         file, page, pictures = folder / "case.json", folder / "r.html", folder / "pictures"
         for number in range(arguments.cases):
             if time.monotonic() > end:

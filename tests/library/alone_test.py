@@ -17,13 +17,14 @@ import tempfile
 CMAKE, NINJA, BUILD, ROOT, COMPILER = sys.argv[1:6]
 OTHERS = ("assimp", "benchmark", "nlohmann_json", "CLI11", "embree", "fcl", "CGAL", "GTest", "Boost", "TBB", "Eigen3")
 ROOMS = ("geometry", "device", "builders", "oibvh", "collide", "library")
-# In /usr/include, a header is in reach whether or not its package was asked for.
+# Headers in /usr/include can be found even if their package was not requested.
 SYSTEM = re.compile(r"^/usr/(?:include/(?:c\+\+/|x86_64-linux-gnu/|\w+-linux-gnu/|CL/|linux/|asm-generic/|[\w-]+\.h$|"
                     r"(?:bits|sys|gnu|rpc)/)|lib/|local/lib/)")
 
 
 def sources_of(commands: pathlib.Path) -> dict[str, str]:
-    """Of the rooms, by path from the source root, and how each is compiled; generated ones by their name."""
+    """Returns the sources of the rooms, by path from the source root, with their compile commands. Generated sources go by
+    name."""
     found = {}
     for command in json.loads(commands.read_text()):
         path = pathlib.Path(command["file"])
@@ -33,13 +34,13 @@ def sources_of(commands: pathlib.Path) -> dict[str, str]:
 
 
 def strange_headers() -> list[str]:
-    """What objects of the rooms were made from that is neither the project's, nor the system's, nor OpenCL's."""
+    """Returns the headers of the rooms' objects that belong neither to the project, nor to the system, nor to OpenCL."""
     said = subprocess.run([NINJA, "-C", BUILD, "-t", "deps"], capture_output=True, text=True, check=True).stdout
     strange, objects, ours = set(), 0, False
     for line in said.splitlines():
         if line and not line.startswith(" "):
             name = line.split(":")[0]
-            # exact_reference has a target of its own, which the library is not made of.
+            # exact_reference has its own target, which is not part of the library.
             ours = name.split("/")[0] in ROOMS and "exact_reference.dir" not in name
             objects += ours
         elif ours and line.strip():
@@ -60,11 +61,11 @@ def main() -> int:
              *(f"-DCMAKE_DISABLE_FIND_PACKAGE_{package}=ON" for package in OTHERS)],
             capture_output=True, text=True, check=False)
         assert done.returncode == 0, done.stderr
-        # CMake tells of variables that nobody has looked at: nothing has even asked for those packages.
+        # CMake reports unused variables: those packages were not even searched for.
         unasked = set(re.findall(r"^ +CMAKE_DISABLE_FIND_PACKAGE_(\w+)$", done.stderr, re.MULTILINE))
         assert unasked == set(OTHERS), set(OTHERS) - unasked
         here, whole = sources_of(alone / "compile_commands.json"), sources_of(pathlib.Path(BUILD) / "compile_commands.json")
-        # CGAL's file is there where CGAL is, and its stand-in where it is not.
+        # CGAL's file is there if CGAL is, otherwise its stand-in.
         only_one = {"collide/oracles/exact_reference.cpp", "collide/oracles/no_exact_reference.cpp"}
         assert set(here) - only_one == set(whole) - only_one, set(here) ^ set(whole)
         march = [path for path, command in here.items() if "-march" in command]

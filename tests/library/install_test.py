@@ -19,7 +19,7 @@ FLAGS = sys.argv[6] if len(sys.argv) > 6 else ""
 
 
 def run(*words, fails: bool = False, **environment: str) -> str:
-    """What a command says, after it went well, or did not where it must not."""
+    """Runs a command and returns its output. Tests that it succeeds, or fails if `fails` is true."""
     done = subprocess.run([str(word) for word in words], capture_output=True, text=True, timeout=300, check=False,
                           env={**os.environ, **environment})
     said = done.stdout + done.stderr
@@ -32,7 +32,8 @@ def installed(prefix: pathlib.Path) -> list[str]:
 
 
 def check_files(prefix: pathlib.Path) -> None:
-    """One header, one library, the package's files and the licence; none of them names this machine's folders or its CPU."""
+    """Tests that there is one header, one library, the package's files and the licence, and that none names this machine's
+    folders or CPU."""
     names = [pathlib.PurePath(name).name for name in installed(prefix)]
     headers = [name for name in installed(prefix) if name.endswith((".h", ".hpp", ".clh", ".cl"))]
     assert headers == ["include/bvhbench/oibvh.h"], headers
@@ -61,7 +62,7 @@ def check_version(folder: pathlib.Path, prefix: pathlib.Path) -> None:
     assert "bvhbenchConfig.cmake, version:" in said, said
 
 
-# What the documents' examples leave to the reader.
+# Declarations that the documents' examples assume.
 GIVEN = ("cl_command_queue queue, cl_mem points, std::size_t point_count, cl_mem faces, std::size_t face_count, "
          "std::uint32_t cloth_faces, std::uint32_t ball_faces, const bvhbench::oibvh::Input& input, "
          "const bvhbench::oibvh::Input& moved, const bvhbench::oibvh::Input& scene, "
@@ -69,7 +70,7 @@ GIVEN = ("cl_command_queue queue, cl_mem points, std::size_t point_count, cl_mem
 
 
 def check_documents(folder: pathlib.Path, prefix: pathlib.Path) -> None:
-    """The C++ of the guide and of the README compiles as it stands there."""
+    """Tests that the C++ of the guide and of the README compiles unchanged."""
     text, count = "", 0
     for document in ("docs/library.md", "README.md"):
         blocks = re.findall(r"```cpp\n(.*?)```", (pathlib.Path(ROOT) / document).read_text(), re.DOTALL)
@@ -104,7 +105,7 @@ def main() -> int:
         assert "-march" not in commands and ROOT not in commands, commands
         run(CMAKE, "--build", build, "--parallel", "2")
 
-        # Nothing but the program: no source tree, no prefix.
+        # Only the program remains: neither the source tree nor the prefix.
         shutil.rmtree(prefix / "include")
         nowhere = {"BVHBENCH_KERNELS": str(folder / "nowhere")}
         shared = {"LD_LIBRARY_PATH": str(next(prefix.rglob(pathlib.Path(LIBRARY).name)).parent)}

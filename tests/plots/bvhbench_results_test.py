@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Result files as a table of pandas."""
+"""Tests reading result files into pandas tables."""
 import importlib.util
 import lzma
 import pathlib

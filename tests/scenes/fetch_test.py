@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
-"""Test scenes/fetch.py against a server on this machine.
+"""Tests scenes/fetch.py against a local server.
 
-Usage: fetch_test.py <path of fetch.py>
-"""
+Usage: fetch_test.py <path of fetch.py>"""
 import hashlib
 import http.server
 import pathlib
@@ -19,7 +18,7 @@ COLUMNS = "name kind triangles vertices objects frames files sha256 url stand_in
 
 
 class Server(http.server.BaseHTTPRequestHandler):
-    """Serves CONTENT under every path but /missing*, half of it under /short*; sends the rest of it when asked for a range."""
+    """Serves CONTENT under every path but /missing*, and half of it under /short*. Answers range requests with the rest."""
 
     asked: list = []
 
@@ -57,7 +56,7 @@ class Fetch(unittest.TestCase):
         return done
 
     def fetch(self, code, url="-", sums=f"a.ply:{SUM}", words=None):
-        """What fetching says of a manifest of one file, and ends with."""
+        """Runs fetch with a manifest of one file, tests its exit code, and returns the process."""
         row = ["a", "mesh", "1", "3", "1", "1", "static/a.ply a.ply", sums, url, "-", "free", "ask the author", "-"]
         path = self.folder / "manifest.tsv"
         path.write_text("# a comment\n" + "\t".join(COLUMNS.split()) + "\n" + "\t".join(row) + "\n")
