@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Every header compiles alone.
+"""Tests that every header compiles alone.
 
 Usage: headers_test.py <source root> <compile_commands.json>
 
-A header that a compiled source includes before anything else has been compiled alone by the build itself, and so has the
-header that such a header includes first: 3 in 4 are, though behind the standard library's headers where those are
-precompiled (cmake/Precompiled.cmake; the presets dev and sanitize leave it off). The others are compiled here, without code
-being made, as the sources of their room are, and behind nothing.
+A header that is the first include of a compiled source, or of such a header, has been compiled alone by the build. That holds
+for 3 in 4 headers, though after the standard library's headers if those are precompiled (cmake/Precompiled.cmake; not in the
+presets dev and sanitize). The other headers are compiled here without any header before them, with the options of their
+room's sources, and without generating code.
 """
 import concurrent.futures
 import json

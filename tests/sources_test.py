@@ -1,19 +1,19 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Hold the text of sources and documents to the project's rules. Each finding is a line.
+"""Tests the text of sources and documents against the project's rules. Each finding is a line.
 
 Usage: sources_test.py rooms <source root> <rooms.json>
        sources_test.py exactness <source root> <compile_commands.json>
        sources_test.py docs <source root>
        sources_test.py format <source root> <clang-format>
 
-rooms: every #include keeps to the rules written by cmake/Rooms.cmake.
-exactness: nothing lets a compiler fuse, reorder or approximate arithmetic, in kernels or on the host. That it does not,
-tests/device/contraction_test.cpp shows by numbers.
-docs: what documents name is there: paths in backticks, unless their line says "not yet" or they hold a <placeholder>; links
-to other documents; GoogleTest names in backticks, as in `Suite.Test`. In sources, keys such as [Chitalu2020] have an entry
-in docs/references.md.
-format: every source and kernel is as clang-format leaves it.
+rooms: every #include follows the rules written by cmake/Rooms.cmake.
+exactness: nothing permits a compiler to fuse, reorder or approximate arithmetic, in kernels or on the host.
+tests/device/contraction_test.cpp tests the results themselves.
+docs: everything that documents name exists: paths in backticks, unless their line says "not yet" or they hold a <placeholder>;
+links to other documents; GoogleTest names in backticks, as in `Suite.Test`. In sources, keys such as [Chitalu2020] have an
+entry in docs/references.md.
+format: every source and kernel is formatted by clang-format.
 """
 import json
 import pathlib

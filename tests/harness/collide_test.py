@@ -112,8 +112,7 @@ def test_collide_finds_pairs_of_swept_boxes_and_holds_them_to_the_folders_ground
     assert pathlib.Path("p.csv").read_text().splitlines() == ["frame,a,b", "0,1,5", "0,1,6", "0,1,7"]
     assert [cell["swept"]["pairs"] for cell in valid("s.json")["cells"]] == ["edge-edge"]
 
-    # A pair of the ground truth that does not exist is missed, and makes the answer wrong. So does a count that differs from the
-    # author's.
+    # A listed pair that does not overlap is missed, and makes the answer wrong. So does a count other than the author's.
     (folder / "gt_vf.csv").write_text("4,0,1\n0,2,1\n")
     assert "1 pairs of the ground truth are missed" in expect(1, *swept)
     assert valid("s.json")["cells"][0]["counters"]["ground_truth_missed"] == 1

@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
-"""Tests that a cell that cannot be measured says so, that a run without measurements exits with 4, and that signals end the
-program."""
+"""Tests that an impossible cell says why, that a run without measurements exits with 4, and that signals end the program."""
 import json
 import os
 import pathlib

@@ -34,8 +34,7 @@ def run(*words: str, **environment: str) -> subprocess.CompletedProcess:
 
 
 def expect(code: int, *words: str, says: str = "", **environment: str) -> str:
-    """Runs the program and returns its standard output. Tests the exit code, and that an error is one line with `says` on
-    stderr."""
+    """Runs the program and returns its standard output. Tests the exit code; an error must be one line on stderr with `says`."""
     done = run(*words, **environment)
     assert done.returncode == code, (words, done)
     assert says in (done.stderr if code else done.stdout), (words, done)

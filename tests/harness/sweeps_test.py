@@ -161,7 +161,7 @@ def test_shards_together_are_the_whole():
              "1", "--warm-up", "0")
     cannot_be = "oibvh-wide4 keeps its boxes in its own way"
     expect(0, *words, "--out", "all", "--dry-run", says="8 cells, 2 of which cannot be")
-    parts = ("part/sweep-1of3.json", "elsewhere/sweep-2of3.json", "part/sweep-3of3.json")  # two in one folder, as on a shared file system
+    parts = ("part/sweep-1of3.json", "elsewhere/sweep-2of3.json", "part/sweep-3of3.json")  # two share a folder
     pathlib.Path("part").mkdir()
     for shard, path in zip(("1/3", "2/3", "3/3"), parts):
         out = os.path.dirname(path)

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""The library alone needs OpenCL and nothing else: configured with every other package out of reach, and held to which
-headers its objects were really made from.
+"""Tests that the library alone needs only OpenCL: configures it with all other packages hidden, and checks which headers
+its objects were compiled from.
 
 Usage: alone_test.py <cmake> <ninja> <build folder> <source root> <compiler>
 
-Building it once more takes a minute, and is left to .ci/nightly: the sources and their options are those of the whole
-build, which has told Ninja what they include.
+Building it again takes a minute and is done by .ci/nightly. Here the headers come from the whole build, which has the same
+sources and options, and whose includes Ninja has recorded.
 """
 import json
 import pathlib
@@ -23,8 +23,7 @@ SYSTEM = re.compile(r"^/usr/(?:include/(?:c\+\+/|x86_64-linux-gnu/|\w+-linux-gnu
 
 
 def sources_of(commands: pathlib.Path) -> dict[str, str]:
-    """Returns the sources of the rooms, by path from the source root, with their compile commands. Generated sources go by
-    name."""
+    """Returns the sources of the rooms, by path from the source root, with their compile commands."""
     found = {}
     for command in json.loads(commands.read_text()):
         path = pathlib.Path(command["file"])

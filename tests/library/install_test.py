@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Installs the library and builds the examples against it as an outside project that knows nothing of the source tree.
+"""Installs the library and builds the examples against it as an outside project, without access to the source tree.
 
 Usage: install_test.py <cmake> <build folder> <source root> <compiler> <library file> [<compiler flags>]
 
-The build folder has built the library; flags are those that whoever links it needs too, as a sanitizer's. What is installed is
-moved before it is used: a package knows no absolute path.
+The build folder must contain the built library. Compiler flags are those that a user of it needs too, such as a sanitizer's. The
+installed files are moved before use, which shows that the package has no absolute paths.
 """
 import os
 import pathlib
@@ -31,9 +31,8 @@ def installed(prefix: pathlib.Path) -> list[str]:
     return sorted(path.relative_to(prefix).as_posix() for path in prefix.rglob("*") if not path.is_dir())
 
 
-def check_files(prefix: pathlib.Path) -> None:
-    """Tests that there is one header, one library, the package's files and the licence, and that none names this machine's
-    folders or CPU."""
+    """Tests that one header, the library, the package files and the licence are installed, and no file names local paths or CPU."""
+    paths."""
     names = [pathlib.PurePath(name).name for name in installed(prefix)]
     headers = [name for name in installed(prefix) if name.endswith((".h", ".hpp", ".clh", ".cl"))]
     assert headers == ["include/bvhbench/oibvh.h"], headers

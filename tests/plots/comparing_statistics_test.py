@@ -23,7 +23,7 @@ def independent(count: int) -> numpy.ndarray:
 
 class Statistics(unittest.TestCase):
     def outside(self, trials: int, interval: Callable[[numpy.random.Generator], Interval], true: float) -> float:
-        """The share of intervals that the true value is not in."""
+        """Returns the share of intervals that do not contain the true value."""
         random = numpy.random.default_rng(11)
         found = [interval(random) for _ in range(trials)]
         return sum(not each.low <= true <= each.high for each in found) / trials

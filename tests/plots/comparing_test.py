@@ -163,7 +163,7 @@ class OfAScene(unittest.TestCase):
         found = compared(before, after, other_devices=True)
         self.assertEqual([each.verdict for each in found.cells], [SAME, SAME, SLOWER])
         self.assertEqual(found.cells[0].regressions, [])
-        self.assertEqual(verdicts(document(cell()), document(cell(median_ns=9e6)), other_devices=True), [UNSURE])  # it has no other cell to compare with
+        self.assertEqual(verdicts(document(cell()), document(cell(median_ns=9e6)), other_devices=True), [UNSURE])  # alone
 
 
 class Facts(unittest.TestCase):

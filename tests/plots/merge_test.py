@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
-"""Tests that `merge` keeps every cell once, unchanged, and refuses parts that differ, and that an output is reserved for one
-command."""
+"""Tests that `merge` keeps every cell once, unchanged, refuses parts that differ, and reserves its output."""
 import copy
 import json
 import unittest

@@ -31,8 +31,7 @@ class Browser:
     def __init__(self) -> None:
         options = Options()
         options.binary_location = "/usr/bin/chromium"
-        # No sandbox: in containers such as CI's, the user is root. A pipe: otherwise the driver looks for the browser at
-        # localhost.
+        # No sandbox, because the user is root in containers. A pipe, because the driver would look for the browser at localhost.
         for argument in ("--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--hide-scrollbars",
                          "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-background-networking", "--disable-extensions",
                          "--disable-component-update", "--no-first-run", "--remote-debugging-pipe", "--force-color-profile=srgb"):

@@ -77,7 +77,7 @@ class Scene(unittest.TestCase):
             levels.append(sorted(boxes))
             first += level["count"]
         self.assertEqual(len(levels), len(expected))
-        exact = [[tuple(array.array("f", box)) for box in level] for level in expected]  # JSON has the shortest digits that identify them
+        exact = [[tuple(array.array("f", box)) for box in level] for level in expected]  # rounds JSON's digits to floats
         self.assertEqual(levels, [sorted(level) for level in exact])
         self.assertEqual(sum(level["leaves"] for level in self.facts()["levels"]), len(faces) // 3)
 
