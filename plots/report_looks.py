@@ -31,7 +31,7 @@ def look_of(cell: dict[str, Any]) -> style.Look:
 
 
 def looks_of(cells: list[dict[str, Any]]) -> dict[str, dict[str, str]]:
-    """Returns a different colour, symbol and dash for each name in a file, in the order of legends."""
+    """Returns the colour, symbol and dash of each name in a file, in the order of legends; no two names look alike."""
     order = list(style.LOOKS)
     found: dict[str, style.Look] = {}
     places: dict[str, int] = {}

@@ -12,7 +12,7 @@ from comparing.times import FEWEST_SAMPLES, TimeChange, time_change, verdict_of
 FEWEST_CELLS = 4  # with fewer cells, a single changed cell would move the median of all
 # Logarithm of the largest ratio that a machine's state explains, from observations on a shared host. A cell with a larger ratio
 # has changed, however much the other cells vary.
-MOST_DRIFT = 0.47  # 1.6
+MOST_DRIFT = 0.47  # a factor of 1.6
 
 
 @dataclass(frozen=True)

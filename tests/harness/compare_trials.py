@@ -28,7 +28,7 @@ def experiment(samples: int) -> dict:
 
 
 def measure(program: pathlib.Path, folder: pathlib.Path, trial: int, slow: str) -> None:
-    """Three runs by turns."""
+    """Runs the three runs of a trial by turns."""
     runs = []
     for name in ("before", "after", "slow"):
         environment = {**os.environ, "BVHBENCH_SLOW": slow if name == "slow" else ""}
@@ -40,7 +40,7 @@ def measure(program: pathlib.Path, folder: pathlib.Path, trial: int, slow: str) 
 
 
 def verdicts(program: pathlib.Path, before: pathlib.Path, after: pathlib.Path) -> dict[str, str]:
-    """Of each cell by its builder; all rows are asked for."""
+    """Returns the verdict of each cell, by its builder."""
     done = subprocess.run([program, "compare", before, after, "--all", "--allow-dirty", "--test-hooks"],
                           capture_output=True, text=True)
     assert done.returncode in (0, 1), done

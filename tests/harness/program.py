@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What tests of the program share: run it and hold it to its exit codes, its output and the result schema.
+"""Shared by tests of the program: runs it, and tests its exit codes, its output and the result schema.
 
 A test script is called with the program and the result schema, and ends with `sys.exit(main(globals()))`.
 """

@@ -31,8 +31,8 @@ def installed(prefix: pathlib.Path) -> list[str]:
     return sorted(path.relative_to(prefix).as_posix() for path in prefix.rglob("*") if not path.is_dir())
 
 
-    """Tests that one header, the library, the package files and the licence are installed, and no file names local paths or CPU."""
-    paths."""
+def check_files(prefix: pathlib.Path) -> None:
+    """Tests that one header, the library, the package files and the licence are installed, without local paths or CPU names."""
     names = [pathlib.PurePath(name).name for name in installed(prefix)]
     headers = [name for name in installed(prefix) if name.endswith((".h", ".hpp", ".clh", ".cl"))]
     assert headers == ["include/bvhbench/oibvh.h"], headers

@@ -2,7 +2,7 @@
 """Tests that figures of accuracy show every method, mark the best ones, and refuse wrong answers."""
 import unittest
 
-from base import GOLDEN, InFolder, golden  # first: it says where plots are
+from base import GOLDEN, InFolder, golden  # first: it adds plots to sys.path
 
 import accuracy
 import results

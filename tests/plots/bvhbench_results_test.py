@@ -6,7 +6,7 @@ import pathlib
 import tempfile
 import unittest
 
-from base import GOLDEN, ROOT  # first: it says where plots are
+from base import GOLDEN, ROOT  # first: it adds plots to sys.path
 
 import bvhbench_results
 import json_files

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy
 
-import base  # noqa: F401  first: it says where plots are
+import base  # noqa: F401  first: it adds plots to sys.path
 
 from comparing.intervals import Interval, median_interval, ratio_interval, samples_per_independent_one
 from comparing.times import p_value

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy
 
-from base import Raw  # first: it says where plots are
+from base import Raw  # first: it adds plots to sys.path
 
 import counters
 from cells import Cell

@@ -4,7 +4,7 @@ import copy
 import json
 import unittest
 
-from base import ROOT  # first: it says where plots are
+from base import ROOT  # first: it adds plots to sys.path
 
 from cells import Cell
 from gate import baseline, changes

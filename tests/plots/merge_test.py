@@ -4,7 +4,7 @@ import copy
 import json
 import unittest
 
-from base import GOLDEN, InFolder  # first: it says where plots are
+from base import GOLDEN, InFolder  # first: it adds plots to sys.path
 
 import documents
 import file_lock

@@ -10,7 +10,7 @@ import tempfile
 import unittest
 from typing import Any
 
-import base  # first: it says where plots are
+import base  # first: it adds plots to sys.path
 from base import GOLDEN, ROOT, Raw, run_of
 
 import results

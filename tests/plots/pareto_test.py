@@ -6,7 +6,7 @@ import math
 import random
 import unittest
 
-from base import InFolder, golden  # first: it says where plots are
+from base import InFolder, golden  # first: it adds plots to sys.path
 
 import labels
 import pareto

@@ -6,7 +6,7 @@ import pathlib
 import re
 import unittest
 
-from base import GOLDEN, ROOT, InFolder, golden  # first: it says where plots are
+from base import GOLDEN, ROOT, InFolder, golden  # first: it adds plots to sys.path
 
 import fig8
 import frames

@@ -11,7 +11,7 @@ import tempfile
 import unittest
 from unittest import mock
 
-from base import GOLDEN, ROOT  # first: it says where plots are
+from base import GOLDEN, ROOT  # first: it adds plots to sys.path
 
 import results
 from commands import reproduce

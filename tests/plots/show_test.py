@@ -10,7 +10,7 @@ import tempfile
 import unittest
 from typing import Any
 
-from base import ROOT, Raw, cell, document, run_of, stage  # first: it says where plots are
+from base import ROOT, Raw, cell, document, run_of, stage  # first: it adds plots to sys.path
 
 import results
 from cells import Cell

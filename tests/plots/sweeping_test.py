@@ -9,7 +9,7 @@ import tempfile
 import types
 import unittest
 
-import base  # noqa: F401  first: it says where plots are
+import base  # noqa: F401  first: it adds plots to sys.path
 
 import command
 from commands import sweep

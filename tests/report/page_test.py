@@ -5,7 +5,7 @@ import pathlib
 import tempfile
 import unittest
 
-from page import FILES, Page, report  # first: it takes the command line's words, and says where figures are
+from page import FILES, Page, report  # first: it takes the arguments and adds plots to sys.path
 
 from charts import Charts  # noqa: F401
 from page_tables import Tables  # noqa: F401

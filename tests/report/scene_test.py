@@ -16,7 +16,7 @@ import unittest
 
 import matplotlib.image
 
-from page import GOLDEN, PROGRAM, ROOT, golden  # first: it takes the command line's words
+from page import GOLDEN, PROGRAM, ROOT, golden  # first: it takes the arguments
 
 from browser import Browser
 
