@@ -87,8 +87,8 @@ def called(cell: Json) -> str:
 
 
 def keyed(part: Part, kind: str) -> Iterable[tuple[str, Json]]:
-    """Yields the cells of a part, each with its run and a key that identifies it. If a file has a cell twice, the second one gets
-    a key of its own, equal to that of another file's second one."""
+    """Yields the cells of a part, each with its run and a key that identifies it. If a file has a cell twice, the second
+    one has a different key, which equals that of another file's second one."""
     times: Counter[str] = Counter()
     for raw in part.document.get(kind, []):
         cell = raw if "run" in raw else {**raw, "run": part.document["run"]["id"]}

@@ -6,7 +6,7 @@ from typing import Any
 OPTIONS = {"no_skip": ("", "without {}"), "jump": ("0", "jump {}"), "start_level": ("0", "from level {}"),
            "order": ("morton30", "{}"), "grid": ("object", "grid over the {}"), "group_size": ("0", "groups of {}"), "items": ("0", "{} items"),
            "leaves": ("mesh", "{} leaves"), "boxes": ("f32", "{} boxes")}
-# Options that change which pairs are found. Figures show them elsewhere.
+# Options that change what is found. Figures show them elsewhere.
 ANSWERS = {"pairs_of": ("all", "{} objects"), "adjacent": ("keep", "adjacent {}ped"), "narrow": ("none", "contacts {}")}
 USUAL = {key: usual for key, (usual, _) in {**ANSWERS, **OPTIONS}.items()}
 

@@ -1,7 +1,7 @@
 """Data of each cell for the report page, including wrong, skipped and failed cells, and the raw samples. Cells of a scene that
 answer the same question are comparable: the data say which are on a Pareto front, and have a bar for each builder or pipeline.
 
-Times are nanoseconds: 10th percentile, median, 90th percentile. A cell without a right answer has no times."""
+Times are nanoseconds: 10th percentile, median, 90th percentile. A cell with a wrong answer, or without one, has no times."""
 from typing import Any
 
 import accuracy

@@ -57,7 +57,7 @@ class Run:
 
     @property
     def builds(self) -> list[Cell]:
-        """Returns the builds, without refits, whose times and trees are different."""
+        """Returns the builds, for figures of builders. A refit's times and trees are not comparable."""
         return [cell for cell in self.cells if cell.operation == "build"]
 
     @property

@@ -117,7 +117,7 @@ def drawn(name: str, file: str, arguments: argparse.Namespace) -> str:
 
 
 def page(arguments: argparse.Namespace, files: list[str], out: str) -> int:
-    """Makes the page of all results. Without it the results exist, so a failure only prints how to make it elsewhere."""
+    """Makes the page of all results. On failure only prints how to make it elsewhere, because the results exist."""
     try:
         from commands import report  # needs matplotlib
 

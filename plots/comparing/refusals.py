@@ -12,7 +12,7 @@ Named = tuple[pathlib.Path, dict[str, Any]]  # a file's path and its document
 @dataclass(frozen=True)
 class Rules:
     threshold: float = 0.05  # smallest relative change of time that counts
-    error: float = 0.05  # probability that a cell of two equal programs is called faster or slower
+    error: float = 0.05  # probability that any cell of two equal runs is called faster or slower
     allow_missing: bool = False
     allow_dirty: bool = False
     other_devices: bool = False  # compare only ratios between the cells of a scene
