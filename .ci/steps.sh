@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-# What the scripts beside this one share; they source it.
+# Functions that the other scripts of this folder source.
 
 failed=()
 
-# step NAME COMMAND...: runs it, with its time; a failure is remembered and the next step still runs.
+# step NAME COMMAND...: runs the command and prints its time. A failure is recorded, and the next step still runs.
 step() {
     local name=$1 start=$SECONDS status=0
     shift
@@ -17,7 +17,7 @@ step() {
     fi
 }
 
-# beside NAME COMMAND...: a step that runs beside those after it, until `awaited` prints what it said.
+# beside NAME COMMAND...: runs a step in parallel to the steps after it, until `awaited` prints its output.
 beside() {
     beside_name=$1
     beside_log=$(mktemp)
@@ -35,7 +35,7 @@ awaited() {
     rm -f "$beside_log"
 }
 
-# A line for each step that failed; how many they are is the status.
+# Prints a line for each failed step, and returns their number.
 say_failed() {
     local name
     for name in "${failed[@]}"; do
@@ -44,8 +44,8 @@ say_failed() {
     return ${#failed[@]}
 }
 
-# Prints the folder of real meshes, or nothing: BVHBENCH_DATA, or what a data folder beside the checkout
-# (BVHBENCH_DATA_SOURCE, default ../shared/data) unpacks.
+# Prints the folder of real meshes, or nothing if there is none: BVHBENCH_DATA, or the output of `unpack` in a data folder beside
+# the checkout (BVHBENCH_DATA_SOURCE, default ../shared/data).
 find_data() {
     local unpack=${BVHBENCH_DATA_SOURCE:-../shared/data}/unpack
     if [[ -n ${BVHBENCH_DATA:-} ]]; then

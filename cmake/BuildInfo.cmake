@@ -1,5 +1,5 @@
-# add_build_info(<target>): compiles the commit, whether the tree was dirty, the compiler and the build type
-# into <target> behind harness/base/build_info.h. Looked up at every build, rewritten only when it changed.
+# add_build_info(<target>): compiles the commit, whether the tree had local changes, the compiler and the build type into <target>
+# (harness/base/build_info.h). Every build checks them, and rewrites the source only if they changed.
 function(add_build_info target)
     set(out "${CMAKE_CURRENT_BINARY_DIR}/build_info.cpp")
     add_custom_target(${target}_build_info

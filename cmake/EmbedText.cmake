@@ -1,9 +1,8 @@
 # embed_text(<target> TABLE <function> HEADER <header> FILES <path>...)
 #
-# Compiles the text of each file into <target> behind bvhbench::<function>(path), declared in <header> as
-# returning std::optional<std::string_view>, under its path from the source root. Runs at build time:
-# editing a file rebuilds one generated source and relinks. Bytes, not string literals, so neither a
-# compiler's literal limit nor a delimiter can get in the way.
+# Compiles the text of each file into <target>, as bvhbench::<function>(path), which <header> declares and which returns
+# std::optional<std::string_view>. `path` is relative to the source root. Runs at build time: editing a file rebuilds one
+# generated source and relinks. The text is stored as bytes, because string literals have length limits and delimiters.
 function(embed_text target)
     cmake_parse_arguments(PARSE_ARGV 1 arg "" "TABLE;HEADER" "FILES")
     set(out "${CMAKE_CURRENT_BINARY_DIR}/${arg_TABLE}.cpp")

@@ -1,9 +1,8 @@
-# add_kernel_checks(): one test per kernel entry point (.cl) and dialect, compiled by clang without a device; and one
-# that it uses no built-in function but those that device/builtins.clh declares.
+# add_kernel_checks(): adds tests that compile each kernel entry point (.cl) in each dialect by clang, without a device, and one
+# that it uses no built-in function missing in device/builtins.clh.
 #
-# A kernel's compile-time numbers come from the host (-D). For the check they are read from the kernel
-# itself: a line `// check: -DGROUP_SIZE=64u ...` near its top names one set of values; several lines,
-# several sets.
+# The host defines a kernel's compile-time constants (-D). The check reads them from the kernel file: each line
+# `// check: -DGROUP_SIZE=64u ...` near its top gives one set of values.
 function(add_kernel_checks)
     find_program(KERNEL_CLANG NAMES clang-14 clang REQUIRED)
     get_property(kernels GLOBAL PROPERTY BVHBENCH_KERNELS)
@@ -24,7 +23,7 @@ function(add_kernel_checks)
                             -fsyntax-only -Wall -Wextra -Werror ${defines}
                             "-I${PROJECT_SOURCE_DIR}" "${PROJECT_SOURCE_DIR}/${kernel}")
             endforeach()
-            # Behind device/builtins.clh alone, as PoCL 3.1 gets it (device/program.cpp).
+            # With device/builtins.clh alone, as in programs for PoCL 3.1 (device/program.cpp).
             add_test(NAME kernel.${name}.${variant}.builtins
                 COMMAND ${KERNEL_CLANG} -x cl -cl-std=CL1.2 -cl-no-stdinc -include opencl-c-base.h
                         -include "${PROJECT_SOURCE_DIR}/device/builtins.clh"

@@ -1,8 +1,8 @@
-# precompiled_headers(<name> [OPTIONS <option>...] [LIBRARIES <target>...] HEADERS <header>...): these headers compiled once,
-# for precompile(<target> <name>), whose sources are then compiled with these options too. A quarter of what a source
-# takes to compile is the standard library's headers and the bindings'.
+# precompiled_headers(<name> [OPTIONS <option>...] [LIBRARIES <target>...] HEADERS <header>...): precompiles these headers for
+# precompile(<target> <name>), which also gives the options to the target's sources. Standard library headers and bindings are a
+# quarter of a source's compile time.
 #
-# Sources still include what they use: the presets dev and sanitize leave this off and would not compile otherwise.
+# Sources still include what they use: the presets dev and sanitize switch precompilation off and would not compile otherwise.
 option(BVHBENCH_PRECOMPILE "Compile the headers of libraries once" ${PROJECT_IS_TOP_LEVEL})
 
 function(precompiled_headers name)
@@ -24,12 +24,12 @@ function(precompile target name)
     target_compile_options(${target} PRIVATE ${options})
     if(BVHBENCH_PRECOMPILE)
         target_precompile_headers(${target} REUSE_FROM ${name})
-        # GCC 12 then sees, in what it inlines of std::string's operator+, copies that are not there; as -Wno-restrict.
+        # GCC 12 then reports false copies in inlined parts of std::string's operator+, as for -Wno-restrict.
         target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow;-Wno-array-bounds>)
     endif()
 endfunction()
 
-# What sources of ten or more include.
+# Headers that ten or more sources include.
 set(usual_headers <algorithm> <array> <bit> <cassert> <chrono> <cmath> <cstdint> <cstring> <filesystem> <fstream> <functional>
     <iostream> <iterator> <limits> <map> <memory> <numeric> <optional> <random> <set> <span> <sstream> <stdexcept> <string>
     <string_view> <thread> <utility> <vector> "${PROJECT_SOURCE_DIR}/device/cl.h")

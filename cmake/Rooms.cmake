@@ -1,17 +1,16 @@
 # add_room(<name> [NEEDS <room>...] [OWNS <prefix>...] [LIBRARIES <target>...]
 #          [FLOORS <folder>...] [SOURCES <file>...] [HEADERS <file>...] [KERNELS <file>...])
 #
-# A room is a folder, a library and a rule. Its files may include, by path from the source root, only
-# their own headers and those of the rooms they NEED. A library's headers (<CL/...>, <assimp/...>) may be
-# included only by a room that OWNS their prefix; two do where both read or write files of that kind.
-# tests/sources_test.py reads the rules back from rooms.json, so this call is the only place where they are
-# written.
+# A room is a folder, a library and a rule. Its files include, by path from the source root, only their own headers and
+# those of the rooms in NEEDS. Headers of an external library (<CL/...>, <assimp/...>) are included only by rooms that OWN
+# their prefix; two rooms own one if both read or write files of that kind. tests/sources_test.py reads the rules from
+# rooms.json, so they are written only in these calls.
 #
-# FLOORS lists the folders of a large room, the lowest first: a file may include those of its own folder and of folders before
-# it. "." is the room's folder itself.
+# FLOORS lists the folders of a large room, the lowest first. A file may include files of its own folder and of folders
+# before it. "." is the room's folder itself.
 #
-# KERNELS lists every file that kernels are made of: .cl entry points and the headers they include.
-# Entry points (.cl) are also syntax-checked, each alone, by cmake/KernelChecks.cmake.
+# KERNELS lists all kernel files: .cl entry points and the headers that they include.
+# cmake/KernelChecks.cmake checks the syntax of each entry point.
 function(add_room name)
     cmake_parse_arguments(PARSE_ARGV 1 room "" "" "NEEDS;OWNS;LIBRARIES;FLOORS;SOURCES;HEADERS;KERNELS")
     if(room_SOURCES)
@@ -38,8 +37,8 @@ function(add_room name)
         "\"${name}\": {\"needs\": [${room_NEEDS}], \"owns\": [${room_OWNS}], \"floors\": [${room_FLOORS}]}")
 endfunction()
 
-# Write the rules down and gather the kernels of all rooms into one object library, `kernels`, which
-# every program links: no static-library linker can drop it. Call once, after the last room.
+# Writes the rules to rooms.json, and gathers the kernels of all rooms in one object library, `kernels`, for every program: the
+# linker cannot drop it, as it could drop a static library. Must be called once, after the last room.
 function(close_rooms)
     get_property(rooms GLOBAL PROPERTY BVHBENCH_ROOMS)
     list(JOIN rooms ",\n  " rooms)
@@ -50,8 +49,8 @@ function(close_rooms)
     target_link_libraries(kernels PRIVATE device project_flags)
 endfunction()
 
-# embed_rooms(<target> <room>...): compile all there is of these rooms into <target>, and no other's kernels: a library that
-# needs none of their own.
+# embed_rooms(<target> <room>...): compiles these rooms, and only their kernels, into <target>: a library that needs no other
+# library of the project.
 function(embed_rooms target)
     set(kernels "")
     foreach(room IN LISTS ARGN)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The commands that read result files; the program hands them over.
+"""Runs the commands that read result files; the program starts it for them.
 
     python3 plots COMMAND ARGUMENTS...
 """

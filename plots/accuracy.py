@@ -30,7 +30,7 @@ NARROW_COLUMNS = 6
 SCENE_COLUMNS = 4
 MOST_QUERIES = 1000
 
-# In the order of legends; colours as in style.py. To add a method, add its line here.
+# Methods of each axis, in the order of legends; colours as in style.py. To add a method, add its line here.
 METHODS = {
     "narrow": {"filter-f64+exact": Look("#0072B2", "o"), "guigue-f64": Look("#E69F00", "^"),
                "guigue-f32": Look("#D55E00", "v"), "moller-f32": Look("#CC79A7", "s")},
@@ -69,12 +69,12 @@ def median_s(cell: results.Cell, stage: str = "") -> float:
 
 
 def build_s(cell: results.Cell) -> float:
-    """The median of all stages before the query."""
+    """Returns the median time of all stages before the query, in seconds."""
     return results.median(cell.times_s() - cell.times_s("broad"))
 
 
 def wrong(cell: results.Cell) -> float:
-    """The share of pairs that were missed or false."""
+    """Returns the share of pairs that were missed or false."""
     return (cell.counters["missed_count"] + cell.counters["false_count"]) / cell.counters["pairs_count"]
 
 
@@ -91,8 +91,8 @@ def log_times(axes: plt.Axes, points: list[Point]) -> None:
 
 
 def from_zero(axes: plt.Axes, errors: list[float], least: float, most: float, text: Callable[[float], str], ticks: int) -> None:
-    """Logarithmic from the decade of the least error that is not 0, or `least` if all are 0, to `most` or beyond. Below it is one
-    step to 0."""
+    """Sets a logarithmic axis with one extra step below it for 0. It starts at the decade of the smallest nonzero error (`least`
+    if all errors are 0) and ends at `most` or above."""
     least = min((error for error in errors if error > 0), default=least)
     first, last = math.floor(math.log10(least)), math.ceil(math.log10(max(*errors, most)))
     axes.set_yscale("symlog", linthresh=10.0**first, linscale=0.5)
@@ -169,11 +169,11 @@ class Cost(NamedTuple):
 
 
 def cheapest(costs: list[Cost], most: float) -> list[tuple[float, Cost]]:
-    """From which number of queries on, 1 at the least, a build and so many queries take least by whom."""
+    """Returns (queries, cost) for each method that is cheapest from that number of queries on, starting at 1 and up to `most`."""
     best = min(costs, key=lambda cost: (cost.of(1), cost.query))
     found = [(1.0, best)]
     while True:
-        # Where those that query sooner than the best one catch up with it.
+        # Numbers of queries at which a method with faster queries becomes cheaper than the current best.
         crossings = [((cost.build - best.build) / (best.query - cost.query), cost.query, cost)
                      for cost in costs if cost.query < best.query]
         if not crossings or min(crossings)[0] > most:
@@ -183,8 +183,8 @@ def cheapest(costs: list[Cost], most: float) -> list[tuple[float, Cost]]:
 
 
 def draw_break_even(axes: plt.Axes, costs: list[Cost], most: float) -> None:
-    """How many times as long as the fastest implicit tree each takes for a build and k queries; where another one becomes
-    the fastest is marked."""
+    """Draws the time of a build plus k queries, relative to the fastest implicit tree, and marks each k at which another tree
+    becomes the fastest."""
     implicit = [cost for cost in costs if cost.method != "radix"] or costs
     best = cheapest(implicit, most)
     counts = sorted({most ** (step / 60) for step in range(61)} | {queries for queries, _ in best})
@@ -242,7 +242,7 @@ def draw_codes(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
 
 
 def distance(cell: results.Cell) -> float:
-    """The 1e3 of "SCENE at 1e3": how far the scene is from the origin, in sizes of the scene."""
+    """Returns the 1e3 of "SCENE at 1e3": the distance of the scene from the origin, in sizes of the scene."""
     return float(cell.scene.rsplit(" at ", 1)[1])
 
 
@@ -273,7 +273,7 @@ def draw_input(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
 
 
 def inflation(cell: results.Cell) -> float:
-    """How many false pairs there are for each right one."""
+    """Returns the number of false pairs for each right pair."""
     return cell.counters["false_count"] / max(1, cell.counters["right_pairs_count"])
 
 
@@ -286,7 +286,7 @@ def draw_boxes(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
         low, high = min(point.time for point in points), max(point.time for point in points)
         axes.set_xlim(low - 0.15 * (high - low) - 0.05 * high, high + 0.3 * (high - low) + 0.05 * high)
         draw_points(axes, "boxes", points)
-        for line, cell in zip(axes.lines[1:], group):  # behind the front, as points were drawn
+        for line, cell in zip(axes.lines[1:], group):  # the line of the front comes first, then one line for each point
             line.set_markersize(2.2 * math.sqrt(cell.counters["node_bytes"]))
         axes.set_title(name, loc="left")
         axes.set_xlabel("query, ms")
@@ -303,7 +303,7 @@ FIGURES = {"narrow": draw_narrow, "sums": draw_sums, "codes": draw_codes, "input
 
 
 def draws_of(run: results.Run) -> dict[str, figure.Draw]:
-    """By each axis that a file has cells of."""
+    """Returns the figure of each axis that the file has measured cells of."""
     by_axis = results.grouped((cell for cell in run.cells if cell.samples), lambda cell: cell.accuracy.get("axis"))
     return {axis: functools.partial(draw, cells=by_axis[axis]) for axis, draw in FIGURES.items() if axis in by_axis}
 

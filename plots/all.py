@@ -35,7 +35,7 @@ import table2
 import table3
 import table4
 
-# An experiment and the figure of it. To add a figure, add its line here.
+# The figure of each experiment. To add a figure, add its line here.
 FIGURES: dict[str, figure.Draw] = {
     "table1": table1.draw,
     "table4": table4.draw,
@@ -47,7 +47,7 @@ FIGURES: dict[str, figure.Draw] = {
     "roofline": roofline.draw,
 }
 
-# The same of experiments over whole frames.
+# The figures of experiments over whole frames.
 FRAME_FIGURES: dict[str, dict[str, figure.Draw]] = {
     "table2": {"table2": table2.draw, "fig9": fig9.draw, "fig10": fig10.draw},
     "table3": {"table3": table3.draw},
@@ -66,7 +66,7 @@ def files_of(given: pathlib.Path, out: pathlib.Path) -> Iterator[tuple[pathlib.P
 
 
 def pictures_of(run: results.Run) -> figure.Figures:
-    """Every figure that the file has cells for, by the name of its picture."""
+    """Returns every figure that the file has cells for, by the name of its picture."""
     draws = {name: draw for name, draw in FIGURES.items() if run.of(name)} | accuracy.draws_of(run)
     if run.stress:
         draws["stress"] = stress.draw
@@ -76,7 +76,7 @@ def pictures_of(run: results.Run) -> figure.Figures:
 
 
 def held(run: results.Run) -> str:
-    """The experiments that a file holds, for a sentence."""
+    """Returns the experiments in a file, with their numbers of cells, as text for a message."""
     counts = collections.Counter(cell.experiment for cell in run.cells)
     counts.update(cell.experiment for cell in run.without_numbers)
     named = [f"{name} ({count} cell{'' if count == 1 else 's'})" for name, count in counts.items()]
@@ -84,7 +84,7 @@ def held(run: results.Run) -> str:
 
 
 def drawn(path: pathlib.Path, folder: pathlib.Path, is_of_folder: bool, inputs: list[pathlib.Path], force: bool) -> None:
-    """Raises results.Refused and output.WrongUsage."""
+    """Draws and prints the figures of one file. Raises results.Refused or output.WrongUsage."""
     run = results.load(path)
     pictures = pictures_of(run)
     if not pictures and not is_of_folder:
@@ -94,7 +94,7 @@ def drawn(path: pathlib.Path, folder: pathlib.Path, is_of_folder: bool, inputs: 
 
 
 def draw_all(files: list[pathlib.Path], out: pathlib.Path, force: bool) -> list[str]:
-    """What could not be drawn, a sentence each; all else is. Raises output.WrongUsage."""
+    """Draws everything that can be drawn and returns one message for each file that cannot. Raises output.WrongUsage."""
     style.set_up()
     refusals = []
     for given in files:

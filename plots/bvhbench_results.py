@@ -1,4 +1,4 @@
-"""Result files as a table of pandas, for notebooks and scripts; plots must be on PYTHONPATH.
+"""Reads result files into a pandas table, for notebooks and scripts; plots must be on PYTHONPATH.
 
     import bvhbench_results
     samples = bvhbench_results.read("run.json")
@@ -20,9 +20,9 @@ SAMPLE = ("status", "verdict", "order", "drifted", "stage", "ns", "launches", "m
 
 
 def read(paths: Path | Iterable[Path], counters: bool = False) -> "pandas.DataFrame":
-    """A row for each stage of each sample of result files, packed or not, wrong answers too. The builder's options are in columns
-    option_NAME, the collider's in collider_NAME, counters in columns of their own. A cell without samples has one row, without
-    times. Raises json_files.Refused for what is no result file."""
+    """Returns one row for each stage of each sample of the result files, packed or not, wrong answers included. Columns
+    option_NAME hold the builder's options, collider_NAME the collider's; `counters` adds a column for each counter. A cell
+    without samples has one row without times. Raises json_files.Refused if a file is not a result file."""
     import pandas
 
     files = [paths] if isinstance(paths, (str, os.PathLike)) else paths
@@ -45,7 +45,7 @@ def rows(path: str, counters: bool) -> Iterator[dict[str, Any]]:
 
 
 def facts(cell: Cell) -> dict[str, Any]:
-    """What a cell is, and how it ended; what it does not have is left out."""
+    """Returns the columns that describe a cell and its outcome. Facts that a cell does not have are left out."""
     known = {"experiment": cell.experiment, "scene": cell.scene, "triangles": cell.scene_facts.get("triangles"),
              "frame": cell.frame, "builder": cell.builder, "collider": cell.collider, "operation": cell.operation,
              "status": cell.status, "verdict": cell.verdict if cell.status == "measured" else None}

@@ -1,4 +1,4 @@
-"""The program that measures, run as a child: it says on standard error what it does, and ends when this process is told to."""
+"""Runs the measuring program as a child process. It reports on standard error and ends when this process ends it."""
 import contextlib
 import json
 import os
@@ -11,15 +11,15 @@ from json_files import Refused
 
 
 def environment() -> dict[str, str]:
-    """The environment of a child that ends with this process, however that ends."""
+    """Returns the environment of a child that ends whenever this process ends, for any reason."""
     return {**os.environ, "BVHBENCH_PARENT": str(os.getpid())}
 
 
 def started(words: list[str], program: str | None = None, **streams: int) -> subprocess.Popen[bytes]:
-    """The program, in its file `program` if that has another name. Raises Refused if it cannot be run.
+    """Starts the program, from the file `program` if given. Raises Refused if it cannot be started.
 
-    It is in a group of its own: a terminal's Ctrl-C reaches it once, through this process. A second one would end it before it
-    has kept anything."""
+    The child has its own process group, so a terminal's Ctrl-C reaches it only once, forwarded by this process. A second signal
+    would end it before it has saved its results."""
     try:
         return subprocess.Popen([command.PROGRAM, *words], executable=program, env=environment(), process_group=0, **streams)
     except OSError as error:
@@ -27,9 +27,8 @@ def started(words: list[str], program: str | None = None, **streams: int) -> sub
 
 
 def run(words: list[str], is_kept: bool = False, given: bytes | None = None) -> tuple[int, bytes]:
-    """The child's exit code, 128 and more for a signal, and what it printed on standard output if that is kept. `given` is its
-    standard input. Signals that end this process are handed on, so that the child keeps what it has; then its code is 128 and
-    the signal."""
+    """Runs the program. Returns its exit code (128 + signal number if a signal ended it) and, with `is_kept`, its standard
+    output. `given` is its standard input. Signals that end this process are forwarded, so the child saves what it has."""
     with handed_on() as add:
         child = started(words, stdin=subprocess.DEVNULL if given is None else subprocess.PIPE,
                         stdout=subprocess.PIPE if is_kept else subprocess.DEVNULL)
@@ -40,7 +39,7 @@ def run(words: list[str], is_kept: bool = False, given: bytes | None = None) -> 
 
 @contextlib.contextmanager
 def handed_on() -> Iterator[Callable[[subprocess.Popen], None]]:
-    """Gives a function that says which child gets the signals that end this process, those from before it was there too."""
+    """Yields a function that registers a child. Signals that end this process, even earlier ones, are forwarded to it."""
     children: list[subprocess.Popen] = []
     early: list[int] = []
 
@@ -59,7 +58,7 @@ def handed_on() -> Iterator[Callable[[subprocess.Popen], None]]:
 
 
 def answer(words: list[str], given: bytes | None = None) -> Any:
-    """What the program says as JSON. Ends this process as the child ended, which has said why, if it could not say."""
+    """Returns the program's standard output parsed as JSON. Exits with the child's code if it fails; the child has said why."""
     code, printed = run(words, is_kept=True, given=given)
     if code != 0:
         raise SystemExit(code)
@@ -67,10 +66,10 @@ def answer(words: list[str], given: bytes | None = None) -> Any:
 
 
 def facts(words: list[str]) -> dict[str, Any]:
-    """Facts of a run that would begin now, as in result files: its device, host and program."""
+    """Returns the facts of a run that would start now, as in result files: device, host and program."""
     return answer(["facts", *words])["run"]
 
 
 def settled(experiments: list[dict[str, Any]], words: list[str]) -> list[dict[str, Any]]:
-    """What the program says of each experiment: its cells, triangles and files, or an error."""
+    """Returns the program's description of each experiment: its cells, triangles and files, or an error."""
     return answer(["settle", *words], json.dumps(experiments).encode())

@@ -1,4 +1,4 @@
-"""The command lines of the commands that read result files: their words, their help and how they end."""
+"""Command lines of the commands that read result files: parsing, help pages and exit codes."""
 import argparse
 import contextlib
 import math
@@ -14,25 +14,25 @@ from typing import Any, NoReturn
 import host_memory
 import output
 
-WIDTH, COLUMN = 100, 30  # of a page of help, and where descriptions begin
-PROGRAM = os.environ.get("BVHBENCH_PROGRAM", "bvhbench")  # what measures
+WIDTH, COLUMN = 100, 30  # of a help page: its width, and the column where descriptions begin
+PROGRAM = os.environ.get("BVHBENCH_PROGRAM", "bvhbench")  # the measuring program
 ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 SEE = "Options that all commands have, exit codes and environment: bvhbench --help"
 
-# Options of the whole program: they may stand before or behind the command, and go on to processes that measure.
+# Options of the whole program. They may come before or after the command, and are passed on to measuring processes.
 COMMON = ("--device", "--kernels", "--data", "--doubles", "--tuning", "--memory-limit", "--time-limit")
 COMMON_FLAGS = ("--force", "--verbose")
 
 
 class Parser(argparse.ArgumentParser):
-    """`more` are sentences that the help has besides the options; `examples` are command lines with what each does. A command
-    that takes several devices adds --device itself."""
+    """An argument parser. `more` holds sentences that the help prints after the options; `examples` holds command lines, each
+    with its effect. A command that takes several devices adds --device itself."""
 
     def __init__(self, command: str, description: str, more: str, examples: Sequence[tuple[str, str]], see: str,
                  several_devices: bool = False) -> None:
         super().__init__(prog=f"bvhbench {command}", description=description, allow_abbrev=False, add_help=False)
         self.more, self.examples, self.see = more, examples, see
-        self._negative_number_matcher = re.compile(r"-\.?\d")  # -1% too is a value, which its type refuses
+        self._negative_number_matcher = re.compile(r"-\.?\d")  # -1% is a value too; its type refuses it
         self.add_argument("-h", "--help", action="help", help="Print this help message and exit")
         for option in COMMON:
             if option != "--device" or not several_devices:
@@ -60,7 +60,7 @@ class Parser(argparse.ArgumentParser):
         self.add_argument("--sah-triangle", type=cost, default=1, help="what testing a triangle costs")
 
     def error(self, message: str) -> NoReturn:
-        """As the program's other commands say it."""
+        """Raises WrongUsage, in the wording of the program's other commands."""
         message = re.sub(r"^the following arguments are required: (.*)", r"\1 is required", message.removeprefix("argument "))
         message = message.replace("unrecognized arguments:", "The following argument was not expected:")
         raise output.WrongUsage(f"{message}; `bvhbench --help` lists what there is")
@@ -79,7 +79,7 @@ class Parser(argparse.ArgumentParser):
 
 
 def wrapped(text: str, margin: int = 0) -> str:
-    """In lines that end before the page does, all but the first behind a margin."""
+    """Wraps text to the page width. All lines but the first are indented by `margin`."""
     return textwrap.fill(text, WIDTH - margin, break_long_words=False, break_on_hyphens=False).replace("\n", "\n" + " " * margin)
 
 
@@ -89,7 +89,7 @@ def positional_usage(action: argparse.Action) -> str:
 
 
 def entry(action: argparse.Action) -> str:
-    """A name, what kind of value it takes and, from the column on, what it is."""
+    """Returns the help of one option: its name, the kind of its value, and its description from COLUMN on."""
     name = "  " + (",".join(action.option_strings) or action.metavar)
     if action.nargs != 0:
         name += " COUNT" if action.type is int else " NUMBER" if isinstance(action.type, Number) else " WORD"
@@ -106,7 +106,7 @@ def entry(action: argparse.Action) -> str:
 
 @dataclass(frozen=True)
 class Number:
-    """A number from 0 to `most`; of a share, 5% is 0.05."""
+    """A number from 0 to `most`. For a share, 5% is parsed as 0.05."""
 
     most: float
     what: str
@@ -124,7 +124,7 @@ class Number:
 
 
 number = Number(sys.float_info.max, "a number from 0 on")
-cost = Number(1000000, "a number from 0 to 1000000")  # of a visit; the program takes none that is larger
+cost = Number(1000000, "a number from 0 to 1000000")  # of a visit; the program accepts no larger cost
 
 
 def share(most: float) -> Number:
@@ -132,7 +132,7 @@ def share(most: float) -> Number:
 
 
 def common_words(arguments: argparse.Namespace, *without: str) -> list[str]:
-    """The common options that were said, for a process that measures."""
+    """Returns the common options that were given, as words for a measuring process."""
     words = []
     for option in COMMON:
         value = getattr(arguments, option[2:].replace("-", "_"))
@@ -142,7 +142,7 @@ def common_words(arguments: argparse.Namespace, *without: str) -> list[str]:
 
 
 class Ended(BaseException):
-    """A signal has asked this process to end."""
+    """Raised when a signal asks this process to end."""
 
 
 def end(number: int, _frame: Any) -> NoReturn:
@@ -151,7 +151,7 @@ def end(number: int, _frame: Any) -> NoReturn:
 
 @contextlib.contextmanager
 def signals_to(handler: Callable[[int, Any], None]) -> Iterator[None]:
-    """What signals that end this process do instead, unless they are ignored, as under nohup."""
+    """Installs `handler` for the signals that end this process, except those that are ignored, as under nohup."""
     before = {number: signal.getsignal(number) for number in ENDING}
     for number, earlier in before.items():
         if earlier != signal.SIG_IGN:
@@ -164,7 +164,7 @@ def signals_to(handler: Callable[[int, Any], None]) -> Iterator[None]:
 
 
 def run(main: Callable[[list[str]], int], words: list[str]) -> int:
-    """The exit code, as the program's; a sentence on standard error says why."""
+    """Runs a command and returns its exit code, which follows the program's convention. Errors are reported on standard error."""
     try:
         with signals_to(end):
             return output.to_an_end(lambda: main(words), "bvhbench: ")

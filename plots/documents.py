@@ -1,4 +1,4 @@
-"""Result files as the console's commands read them: whole, as they are, refused in a sentence that names the file."""
+"""Reads and checks result files for console commands. A refusal is a sentence that names the file."""
 import functools
 import json
 import os
@@ -14,7 +14,7 @@ SCHEMA = FOLDER / "schema" / "result-1.schema.json"
 
 
 def file_text(path: str, what: str) -> bytes:
-    """All of a file. Raises Refused, "WHAT 'path' cannot be read: REASON"."""
+    """Returns the whole file, unpacked. Raises Refused with "WHAT 'path' cannot be read: REASON"."""
     subject = f"{what} '{path}'"
     if os.path.isdir(path):
         raise Refused(f"{subject} cannot be read: it is a folder")
@@ -22,7 +22,7 @@ def file_text(path: str, what: str) -> bytes:
 
 
 def line_of(value: Any) -> str:
-    """JSON in one line, numbers as they were read."""
+    """Returns JSON in one line. Numbers keep the digits that they were read with."""
     if isinstance(value, dict):
         return "{" + ",".join([f"{line_of(key)}:{line_of(item)}" for key, item in value.items()]) + "}"
     if isinstance(value, list):
@@ -37,12 +37,12 @@ def schema() -> dict[str, Any]:
 
 @functools.cache
 def check_of(part: str) -> shape.Check:
-    """The check of a part that the schema defines, or of the whole file."""
+    """Returns the check of a part that the schema defines, or of the whole file if `part` is empty."""
     return shape.check_of(schema()["$defs"][part] if part else schema(), schema())
 
 
 def document_of(text: bytes, origin: str) -> dict[str, Any]:
-    """The result file that a text is. Raises Refused for one that is none, or is of another format."""
+    """Parses and checks a result file. Raises Refused if the text is not a result file or has another major format."""
     try:
         document = value_of(text)
         if not isinstance(document, dict):
@@ -59,5 +59,5 @@ def document_of(text: bytes, origin: str) -> dict[str, Any]:
 
 
 def read(path: str) -> dict[str, Any]:
-    """Raises Refused."""
+    """Reads and checks a result file. Raises Refused."""
     return document_of(file_text(path, "the result file"), path)

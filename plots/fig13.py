@@ -18,7 +18,7 @@ import table4
 
 SAYS = "In the paper: “the SAH cost of our method grows much faster compared to the LBVH” (Sec. 7)."
 ORDER_COLOURS = ("#222222", "#009e73", "#cc79a7", "#e69f00")  # of ratios: the paper's order first
-Costs = dict[float, tuple[tuple[str, float], tuple[str, float]]]  # by diameters: (builder, cost) of radix and Oi
+Costs = dict[float, tuple[tuple[str, float], tuple[str, float]]]  # by diameters: (builder, cost) of the radix tree and Oi-BVH
 
 
 def order_of(cell: results.Cell) -> str:
@@ -26,7 +26,7 @@ def order_of(cell: results.Cell) -> str:
 
 
 def costs_of(cells: list[results.Cell], order: str) -> Costs:
-    """The costs of the Oi-BVH in an order, beside those of the radix tree there is."""
+    """Returns the costs of the Oi-BVH in one order, paired with those of the radix tree."""
     found = {}
     for diameters, here in sorted(results.grouped(cells, lambda cell: cell.outlier["diameters"]).items()):
         radix = table4.cost_of(here, table4.RADIX)

@@ -27,10 +27,9 @@ def curve(cells: list[results.Cell]) -> Curve:
 
 
 def crossing(single: Curve, multi: Curve) -> float | None:
-    """Triangles from which on `multi` is the faster at every measured size, between sizes by interpolation.
+    """Returns the number of triangles from which `multi` is faster at all larger measured sizes, interpolated between sizes.
 
-    None if it never is at the largest size, or is at every size: then nothing crosses.
-    """
+    Returns None if `multi` is not faster at the largest size, or is faster at every size, so that there is no crossing."""
     other = {triangles: seconds.median for triangles, seconds, _ in multi}
     ahead = [(math.log2(triangles), math.log(seconds.median / other[triangles]))
              for triangles, seconds, _ in single if triangles in other]
@@ -50,7 +49,7 @@ def mark_crossing(axes: plt.Axes, triangles: float, text: str, line: str, side: 
 
 
 def crossings(curves: dict[style.Series, Curve], panels: list[plt.Axes]) -> None:
-    """Ours, for the first variant of each of the two, and the paper's if the sizes reach that far."""
+    """Marks the crossing measured here, for the first variant of each builder, and the paper's if the sizes include it."""
     printed = results.printed("fig8")
     paper = printed["crossing_triangles"]
     first = {name: points for (name, _), points in reversed(curves.items())}
@@ -63,7 +62,7 @@ def crossings(curves: dict[style.Series, Curve], panels: list[plt.Axes]) -> None
              f"here: multi ahead\nfrom $2^{{{math.log2(ours):.1f}}}$" if ours else ""]
     for axes, (paper_text, our_text) in zip(panels, (texts, ("", ""))):
         if min(sizes) <= paper <= max(sizes):
-            left = paper < ours if ours else paper > middle  # away from the other's words, or inwards
+            left = paper < ours if ours else paper > middle  # away from the other text, or towards the middle
             mark_crossing(axes, paper, paper_text, ":", "left" if left else "right")
         if ours:
             mark_crossing(axes, ours, our_text, "--", "right" if paper < ours else "left")

@@ -1,4 +1,4 @@
-"""What the command lines of all figures share: files in, pictures out, a sentence for what cannot be drawn."""
+"""Shared parts of the command lines of all figures: reading files, writing pictures, and messages for what cannot be drawn."""
 import argparse
 import functools
 import math
@@ -26,7 +26,7 @@ def listed(names: list[str]) -> str:
 
 
 def notes(run: results.Run, experiment: str) -> list[str]:
-    """What a reader must know of how cells were timed, were not checked, or are missing."""
+    """Returns remarks on how cells were timed, which were not checked, and which are missing."""
     cells = [cell for cell in run.cells if cell.experiment == experiment and cell.operation in ("build", "collide")]
     lines = []
     on_host = sorted({cell.called for cell in cells if cell.on_host})
@@ -42,7 +42,7 @@ def notes(run: results.Run, experiment: str) -> list[str]:
 
 
 def log_ticks(axis: Axis, low: float, high: float) -> None:
-    """Plain numbers, at powers of ten; between them too where there are few."""
+    """Labels a logarithmic axis with plain numbers at powers of ten, and between them if the range is small."""
     steps = (1,) if high / low > 300 else (1, 2, 5)
     axis.set_major_locator(LogLocator(subs=steps, numticks=20))
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.10g}"))
@@ -50,7 +50,7 @@ def log_ticks(axis: Axis, low: float, high: float) -> None:
 
 
 def powers_of_two(axes: plt.Axes, base: int, most: int) -> None:
-    """Of the axis of triangles: a number at powers of `base`, so many at the most."""
+    """Sets a base-2 logarithmic axis of triangles, labelled at powers of `base`, with at most `most` labels."""
     axes.set_xscale("log", base=2)
     axes.xaxis.set_major_locator(LogLocator(base=base, numticks=most))
     axes.xaxis.set_minor_locator(NullLocator())
@@ -58,19 +58,19 @@ def powers_of_two(axes: plt.Axes, base: int, most: int) -> None:
 
 
 def step_between(sizes: list[int]) -> int:
-    """The base of powers that have a number: of few sizes every other."""
+    """Returns the base whose powers are labelled: 16 for a wide range of sizes, otherwise 4."""
     return 16 if max(sizes) / min(sizes) > 2**10 else 4
 
 
 def by_size(cells: list[results.Cell], values_of: Callable[[results.Cell], Sequence[float]]) -> Curve:
-    """The quantiles of each cell that has values, in the order of triangles."""
+    """Returns the quantiles of each cell that has values, sorted by number of triangles."""
     points = [(cell.triangles, results.quantiles(values)) for cell in cells if len(values := values_of(cell))]
     return sorted(points, key=lambda point: point[0])
 
 
 def band(axes: plt.Axes, points: Curve, scaled: Callable[[numpy.ndarray], numpy.ndarray], look: style.Look, alpha: float = 0.25,
          **line: object) -> None:
-    """Medians as a line, and a band from the 10th to the 90th percentile. `scaled` turns a quantile's values into what is shown."""
+    """Draws medians as a line, and a band from the 10th to the 90th percentile. `scaled` converts the values to be drawn."""
     sizes = numpy.array([size for size, _ in points])
     first, middle, last = (scaled(numpy.array(column)) for column in zip(*(found for _, found in points)))
     axes.fill_between(sizes, numpy.minimum(first, last), numpy.maximum(first, last), color=look.colour, alpha=alpha, linewidth=0)
@@ -79,7 +79,7 @@ def band(axes: plt.Axes, points: Curve, scaled: Callable[[numpy.ndarray], numpy.
 
 def scatter(axes: plt.Axes, points: list[tuple], best: list[tuple], look_of: Callable[[tuple], style.Look],
             more: Callable[[bool], dict] = lambda is_best: {}) -> None:
-    """Of what begins with a time and a cost or error. The best of all are filled, and those that are shown joined."""
+    """Draws points, each of which begins with a time and a cost or error. Points in `best` are filled and joined by a line."""
     joined = [point[:2] for point in best if point in points]
     axes.plot([time for time, _ in joined], [cost for _, cost in joined], color="#888888", linewidth=0.8, zorder=1)
     for point in points:
@@ -90,7 +90,7 @@ def scatter(axes: plt.Axes, points: list[tuple], best: list[tuple], look_of: Cal
 
 
 def panels(count: int, columns: int, inches: tuple[float, float], **shared: object) -> tuple[plt.Figure, list[plt.Axes], int]:
-    """So many in at most so many columns, which are answered too; `inches` are those of the page and of each row."""
+    """Creates `count` panels in at most `columns` columns; returns figure, panels and columns. `inches`: page and row heights."""
     columns = min(columns, count)
     rows = math.ceil(count / columns)
     drawing, grid = plt.subplots(rows, columns, figsize=(style.PAGE_WIDTH, inches[0] + inches[1] * rows), squeeze=False,
@@ -101,14 +101,14 @@ def panels(count: int, columns: int, inches: tuple[float, float], **shared: obje
 
 
 def legend_above(figure: plt.Figure, handles: list, columns: int = 7) -> float:
-    """A legend over all panels; answers the inches it takes."""
+    """Adds a legend above all panels and returns its height in inches."""
     figure.legend(handles=handles, loc="upper center", ncols=columns, columnspacing=1.2)
     return 0.1 + 0.16 * math.ceil(len(handles) / columns)
 
 
 def footer(figure: plt.Figure, run: results.Run, experiment: str, extra: tuple[str, ...] = (),
            top_inches: float = 0) -> None:
-    """The circumstances, remarks and missing cells in small type; the panels get the room that is left."""
+    """Adds circumstances, remarks and missing cells in small type below the panels, which get the remaining height."""
     sentences = (run.circumstances(), *extra, *notes(run, experiment))
     lines = [piece for sentence in sentences for piece in textwrap.wrap(sentence, 130)]
     height = figure.get_figheight()
@@ -119,7 +119,7 @@ def footer(figure: plt.Figure, run: results.Run, experiment: str, extra: tuple[s
 
 
 def save_all(run: results.Run, figures: Figures, folder: pathlib.Path, inputs: list[pathlib.Path], force: bool) -> Iterator[pathlib.Path]:
-    """Raises what style.save does, and results.Refused where a figure cannot be made of the file's numbers."""
+    """Draws and saves each figure and yields the paths. Raises as style.save, and results.Refused if drawing fails."""
     for name, draw in figures.items():
         try:
             yield from style.save(draw(), folder, name, inputs, force)
@@ -128,7 +128,7 @@ def save_all(run: results.Run, figures: Figures, folder: pathlib.Path, inputs: l
 
 
 def named(run: results.Run, draws: dict[str, Draw], why_none: str = "") -> Figures:
-    """By the name of the picture. Raises results.Refused if there are none and `why_none` says why."""
+    """Returns the figures by the name of the picture. Raises results.Refused if there are none and `why_none` gives a reason."""
     if why_none and not draws:
         raise results.Refused(f"{run.path}: {why_none}")
     return {style.stem(run.path, name): functools.partial(draw, run) for name, draw in draws.items()}
@@ -140,7 +140,7 @@ def add_output(parser: argparse.ArgumentParser, **folder: object) -> None:
 
 
 def draw_from(description: str | None, figures_of: Callable[[results.Run], Figures]) -> int:
-    """What a command line asks for: exits as output.to_an_end."""
+    """Parses a figure script's command line and draws the figures. Returns an exit code as output.to_an_end does."""
     parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("files", nargs="+", type=pathlib.Path, metavar="FILE", help="result files")
     add_output(parser, default=pathlib.Path("."), help="where the pictures go (default: here)")
@@ -158,5 +158,5 @@ def draw_from(description: str | None, figures_of: Callable[[results.Run], Figur
 
 
 def command_line(name: str, description: str | None, draw: Draw) -> int:
-    """One picture per file, called after it."""
+    """Draws one picture for each file, named after the file."""
     return draw_from(description, lambda run: named(run, {name: draw}))

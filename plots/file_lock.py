@@ -1,4 +1,4 @@
-"""A locked file that says that a process is at work. The system releases the lock however the process ends."""
+"""A lock file that marks a running process. The system releases the lock however the process ends."""
 import contextlib
 import errno
 import fcntl
@@ -14,9 +14,9 @@ PAUSE_S = 0.05
 
 @contextlib.contextmanager
 def locked(path: str, kind: int, subject: str, patience_s: float = 1, remove: bool = False) -> Iterator[None]:
-    """Holds the lock, and with `remove` removes the file in the end, which is for exclusive locks only. Waits for a process that
-    has it, since the system takes a moment to end one that was killed, then raises Refused, as where the file cannot be made;
-    the sentence speaks of `subject`, what is locked in the user's words. Where a file system has no locks, nobody is kept out."""
+    """Holds a lock on `path`, and with `remove` (exclusive locks only) deletes the file at the end. Retries for `patience_s`
+    while another process holds the lock, since the system takes a moment to end a killed process. Raises Refused after that, or
+    if the file cannot be created; the message names `subject`. A file system without locks excludes no other process."""
     descriptor = taken(path, kind, subject, time.monotonic() + patience_s)
     try:
         yield
@@ -50,7 +50,7 @@ def taken(path: str, kind: int, subject: str, until: float) -> int:
 
 
 def names(path: str, descriptor: int) -> bool:
-    """Whether the path still names the open file: a process that ends may have removed it since it was opened."""
+    """True if the path still names the open file. A process that ended may have deleted it after it was opened."""
     try:
         return os.path.samestat(os.stat(path), os.fstat(descriptor))
     except OSError:

@@ -14,30 +14,30 @@ import pipelines
 import results
 import style
 
-# An experiment, and what a frame of it is.
+# Each experiment, and what a frame of it includes.
 EXPERIMENTS = {
     "rebuild": "A frame is all from moved vertices to exact contacts: trees built anew, or refitted and a front moved.",
     "pairs": "A frame is all from vertices to pairs of overlapping boxes, in one set of triangles.",
     "libraries": "A frame is all from moved vertices to exact contacts; FCL finds them in its broad phase.",
 }
-# The paper's words, the stages they are made of here, and a colour each.
+# The paper's name of each part of a frame, the stages that it is made of here, and its colour.
 PARTS = (("boxes", ("near", "bounds"), "#999999"), ("MC eval", ("codes",), "#56B4E9"),
          ("MC sort", ("sort", "order"), "#0072B2"), ("build", ("gather", "hierarchy", "refit", "ropes"), "#009E73"),
          ("broad phase", ("broad", "copy"), "#E69F00"), ("narrow phase", ("narrow",), "#D55E00"))
 BETWEEN = ("between stages", "#DDDDDD")
-MOST = 12  # times as long as the scene's shortest bar: a longer one is drawn as long as that
-IN_ONE_COLUMN = 3  # panels; more go into two, if all are of the same pipelines
+MOST = 12  # longest bar drawn, in multiples of the scene's shortest bar
+IN_ONE_COLUMN = 3  # panels; more are drawn in two columns if all have the same pipelines
 
 
 def parts_of(pipeline: pipelines.Pipeline) -> list[tuple[str, str, float]]:
-    """Name, colour and milliseconds of each part. With what passes between stages they are the whole frame."""
+    """Returns name, colour and milliseconds of each part. Together with the time between stages they make up the whole frame."""
     parts = [(name, colour, sum(pipeline.stage_ms(stage) for stage in stages)) for name, stages, colour in PARTS]
     between = float(pipeline.frame_ms().mean()) - sum(width for _, _, width in parts)
     return [part for part in (*parts, (*BETWEEN, between)) if part[2] > 0]
 
 
 def draw_scene(axes: plt.Axes, shown: list[pipelines.Pipeline]) -> bool:
-    """Whether a bar was shortened."""
+    """Draws the bars of one scene and returns whether a bar was shortened."""
     wholes = [float(pipeline.frame_ms().mean()) for pipeline in shown]
     limit = MOST * min(wholes)
     end = max(min(whole, limit) for whole in wholes)
@@ -55,7 +55,7 @@ def draw_scene(axes: plt.Axes, shown: list[pipelines.Pipeline]) -> bool:
 
 
 def panels_for(scenes: dict[str, list[pipelines.Pipeline]]) -> tuple[plt.Figure, list[plt.Axes], int]:
-    """The panels, and in how many columns they are."""
+    """Returns the figure, its panels, and their number of columns."""
     shown = list(scenes.values())
     same = all(pipelines.labels(one) == pipelines.labels(shown[0]) for one in shown)
     columns = 2 if same and len(shown) > IN_ONE_COLUMN else 1
@@ -94,7 +94,7 @@ def draw(run: results.Run, experiment: str, remarks: tuple[str, ...] = ()) -> pl
     return drawing
 
 
-# By name of picture.
+# Figures by the name of the picture.
 FIGURES: dict[str, figure.Draw] = {name: functools.partial(draw, experiment=name, remarks=(what,))
                                    for name, what in EXPERIMENTS.items()}
 

@@ -1,17 +1,17 @@
-"""How much memory this process may still take: what would take more is refused before it is begun."""
+"""The memory that this process may still use. An input that would need more is refused before it is read."""
 import pathlib
 import re
 import resource
 
-A_TEXT_BYTE = 12  # bytes that a byte of JSON becomes, about
+A_TEXT_BYTE = 12  # approximate bytes of host memory for each byte of JSON
 UNITS = ("", "K", "M", "G", "T")
 UNLIMITED = 1 << 62
 
-limit = 0  # bytes of this process in all, as --memory-limit says; 0: what there is
+limit = 0  # bytes that this process may use in all (--memory-limit); 0: no limit
 
 
 def bytes_of(text: str) -> int:
-    """"512M" or "2G". Raises ValueError for what is no number of bytes from 1 on."""
+    """Parses "512M" or "2G". Raises ValueError for anything but a number of bytes of at least 1."""
     found = re.fullmatch(r"(\d+)([KMGT]?)B?", text, re.IGNORECASE)
     value = int(found[1]) << 10 * UNITS.index(found[2].upper()) if found else 0
     if not 0 < value < 1 << 64:
@@ -27,7 +27,7 @@ def number_in(path: pathlib.Path) -> int | None:
 
 
 def left_in_groups() -> int:
-    """By the control groups that this process is in, of either version."""
+    """Returns the bytes left in the control groups (version 1 or 2) of this process."""
     least = UNLIMITED
     try:
         lines = pathlib.Path("/proc/self/cgroup").read_text(encoding="utf-8").splitlines()
@@ -50,7 +50,7 @@ def left_in_groups() -> int:
 
 
 def own(key: str) -> int:
-    """Bytes of this process by /proc/self/status, or of the machine by /proc/meminfo."""
+    """Returns a value of /proc/self/status (this process) or /proc/meminfo (the machine), in bytes."""
     for path in ("/proc/self/status", "/proc/meminfo"):
         found = re.search(rf"^{key}:\s+(\d+) kB", pathlib.Path(path).read_text(encoding="utf-8"), re.MULTILINE)
         if found:
@@ -69,6 +69,6 @@ def left() -> int:
 
 
 def refusal(path: str | pathlib.Path, size: int) -> str:
-    """Why a text of this size cannot be read; empty if it can."""
+    """Returns why a text of `size` bytes cannot be read, or an empty text if it can."""
     wanted, there = A_TEXT_BYTE * size, left()
     return f"out of host memory: reading '{path}' takes about {wanted} bytes, and the host gives {there}" if wanted > there else ""

@@ -1,4 +1,4 @@
-"""JSON files as they are kept, plain or packed by xz."""
+"""Reads JSON files, plain or packed by xz."""
 import json
 import lzma
 import math
@@ -9,26 +9,26 @@ from typing import Any
 
 import host_memory
 
-XZ = b"\xfd7zXZ\0"  # how a file packed by xz begins
-MOST_BYTES = 1 << 28  # of a text that was packed
+XZ = b"\xfd7zXZ\0"  # first bytes of a file packed by xz
+MOST_BYTES = 1 << 28  # largest size of an unpacked text
 
 
 class Refused(Exception):
-    """A file or cell that no figure may be made of; the text says which and why."""
+    """A file or cell that must not be used; the text says which and why."""
 
 
 def name_of(path: pathlib.Path) -> str:
-    """A result file's name without what says how it is written."""
+    """Returns a result file's name without its endings (.json, .json.xz)."""
     return pathlib.Path(path.name.removesuffix(".xz")).stem
 
 
 def files_in(folder: pathlib.Path) -> list[pathlib.Path]:
-    """Every JSON file below a folder, packed by xz or not."""
+    """Returns every JSON file below a folder, packed by xz or not."""
     return sorted(path for path in folder.rglob("*") if path.name.endswith((".json", ".json.xz")))
 
 
 class Number(float):
-    """A number that is not whole, with the digits it was written with: there is more than one way to tell it from all others."""
+    """A number that is not an integer, with the digits that it was read with, so that it can be written back unchanged."""
 
     def __new__(cls, text: str) -> "Number":
         number = super().__new__(cls, text)
@@ -39,7 +39,7 @@ class Number(float):
 
 
 def bytes_of(path: str | pathlib.Path, subject: str, unreadable: str) -> bytes:
-    """All of a file, unpacked if it is packed by xz. Raises Refused, "SUBJECT cannot be unpacked: WHY" or "UNREADABLE: WHY"."""
+    """Returns the whole file, unpacked. Raises Refused with "SUBJECT cannot be unpacked: WHY" or "UNREADABLE: WHY"."""
     try:
         if why := host_memory.refusal(path, os.path.getsize(path)):
             raise Refused(why)
@@ -52,7 +52,7 @@ def bytes_of(path: str | pathlib.Path, subject: str, unreadable: str) -> bytes:
 
 
 def parsed(path: pathlib.Path) -> Any:
-    """What a JSON file holds. Raises Refused."""
+    """Returns the value of a JSON file. Raises Refused."""
     if os.path.exists(path) and not os.path.isfile(path) and not path.is_fifo():
         raise Refused(f"{path}: it is a {'folder' if path.is_dir() else 'device'}, not a result file")
     try:
@@ -62,7 +62,7 @@ def parsed(path: pathlib.Path) -> Any:
 
 
 def unpacked(text: bytes) -> bytes:
-    """A text that may be packed by xz. Raises lzma.LZMAError, which says what is wrong with it."""
+    """Returns the text, unpacked if it is packed by xz. Raises lzma.LZMAError with the reason."""
     if not text.startswith(XZ):
         return text
     parts, room = [], MOST_BYTES
@@ -82,11 +82,11 @@ def unpacked(text: bytes) -> bytes:
 
 
 def value_of(encoded: bytes) -> Any:
-    """What a JSON text holds. Raises ValueError, which says what is wrong with it."""
+    """Returns the value of a JSON text. Raises ValueError with the reason."""
     if not encoded.strip():
         raise ValueError("it is empty")
     try:
-        text = encoded.decode("utf-8-sig")  # some editors put a mark before the text
+        text = encoded.decode("utf-8-sig")  # some editors write a byte order mark
         value = json.loads(text, parse_constant=no_number, parse_float=Number)
         if re.search(r"\\u[dD]", text):
             json.dumps(value, ensure_ascii=False).encode("utf-8")

@@ -1,4 +1,4 @@
-"""Short labels beside points of a scatter plot, none over another or over a point."""
+"""Places short labels beside points of a scatter plot so that none covers another label or a point."""
 import math
 from typing import NamedTuple
 
@@ -6,14 +6,14 @@ import matplotlib.pyplot as plt
 
 import style
 
-HEIGHT = style.SMALL  # points
-WIDTH = 0.66 * HEIGHT  # of a character, with what keeps it from its neighbours
-POINT = 3.2  # half of what a marker covers
+HEIGHT = style.SMALL  # points, 1/72 inch
+WIDTH = 0.66 * HEIGHT  # of a character, including the space around it
+POINT = 3.2  # half the width of a marker
 RADII = (6, 8.5, 11.5, 15, 19, 24, 30, 37, 45, 55)
 DIRECTIONS = 24
-LEADER_FROM = 9  # a label farther off than this is tied to its point by a line
+LEADER_FROM = 9  # a label farther from its point is joined to it by a line
 
-# How bad a place is: for each square point that is covered, and beside one line through a label.
+# Penalties: COVERED for each square point that is covered, SEEMS_ANOTHERS if another point is nearer, 1 for each crossing line.
 COVERED = 10
 SEEMS_ANOTHERS = 0.3
 
@@ -22,7 +22,7 @@ Line = tuple[Place, Place]
 
 
 class Label(NamedTuple):
-    """What stands beside a point, in the axes' data coordinates."""
+    """A label beside a point, in the axes' data coordinates."""
 
     x: float
     y: float
@@ -53,7 +53,7 @@ def shared(one: Box, other: Box) -> float:
 
 
 def meets(box: Box, start: Place, end: Place) -> bool:
-    """Whether a line from one to the other goes through the box: the part of it within both pairs of sides."""
+    """True if the line from `start` to `end` crosses the box. Clips the line to the box along each axis."""
     first, last = 0.0, 1.0
     for axis, (low, high) in enumerate(((box.left, box.right), (box.foot, box.top))):
         step = end[axis] - start[axis]
@@ -67,15 +67,14 @@ def meets(box: Box, start: Place, end: Place) -> bool:
 
 
 def places_around(x: float, y: float) -> list[tuple[float, Place]]:
-    """Near ones first, to the upper right first of those that are as near."""
+    """Returns places around a point with their distances: nearest first, and the upper right first at equal distance."""
     angles = [math.pi / 4 + 2 * math.pi * step / DIRECTIONS for step in range(DIRECTIONS)]
     return [(radius, (x + radius * math.cos(angle), y + radius * math.sin(angle)))
             for radius in RADII for angle in angles]
 
 
 def offsets(points: list[Place], texts: list[str], frame: Box, lines: list[Line]) -> list[Place]:
-    """Where each label goes from its point, all in typographical points: the nearest place that is free, or else
-    that is least in the way."""
+    """Returns each label's offset from its point, in typographical points: the nearest place with the least penalty."""
     taken = [Box(x - POINT, y - POINT, x + POINT, y + POINT) for x, y in points]
     placed: list[Box] = []
     lines = list(lines)
@@ -102,7 +101,7 @@ def offsets(points: list[Place], texts: list[str], frame: Box, lines: list[Line]
 
 
 def draw(axes: plt.Axes, labels: list[Label], path: list[Place] = ()) -> None:
-    """Beside points and off a path, in data coordinates. The layout must be settled: places depend on it."""
+    """Draws labels beside their points and off the path, in data coordinates. The layout must be final: places depend on it."""
     to_points = 72 / axes.figure.dpi
 
     def placed(places: list[Place]) -> list[Place]:

@@ -1,4 +1,4 @@
-"""One result file of several, each cell once and as it was: what a newer or older program has put into a cell stays there."""
+"""Merges several result files into one that has each cell once. Cells keep entries that this program does not know."""
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -8,15 +8,15 @@ import cells
 from documents import line_of
 from output import WrongUsage
 
-FIRST_MINOR = 8  # of the format in which `merged_from` came
+FIRST_MINOR = 8  # minor format version that introduced `merged_from`
 
 Json = dict[str, Any]
 
 
 @dataclass(frozen=True)
 class Merged:
-    """The text of a merged file. `runs` counts those that its cells are from, `repeated` the cells that were in several parts,
-    the same in each; `differs` says whether an answer is wrong."""
+    """The text of a merged file. `runs` counts the runs that its cells come from, `repeated` the cells that several parts have
+    with equal contents; `differs` is true if an answer is wrong."""
 
     text: str
     cells: int
@@ -27,7 +27,7 @@ class Merged:
 
 @dataclass(frozen=True)
 class Part:
-    """A result file that goes into a merged one, with what is kept of each of its runs, by id."""
+    """A result file to be merged. `runs` holds what is kept of each of its runs, by id."""
 
     origin: str
     document: Json
@@ -35,7 +35,7 @@ class Part:
 
 
 def document_text(run: Json, cell_lines: list[str], stress_lines: list[str], sources: list[str], format_: str) -> str:
-    """A result file with a cell a line, so that files can be compared."""
+    """Returns the text of a result file with one cell in each line, so that files can be compared."""
     lists = (("merged_from", sources), ("cells", cell_lines), ("stress", stress_lines))
     told = [f',\n"{name}": [{",".join(chr(10) + line for line in lines)}\n]' for name, lines in lists if lines or name == "cells"]
     return f'{{"format": "{format_}",\n"run": {line_of(run)}{"".join(told)}}}\n'
@@ -63,7 +63,7 @@ def commit_of(source: Json) -> str:
 
 
 def require_alike(parts: list[Part], other_devices: bool, other_commits: bool) -> None:
-    """Raises WrongUsage about the first part that differs from the first in what it must not."""
+    """Raises WrongUsage for the first part whose format, device or commit differs from the first part's."""
     first = parts[0]
     like = next(iter(first.runs.values()))
     for part in parts:
@@ -79,7 +79,7 @@ def require_alike(parts: list[Part], other_devices: bool, other_commits: bool) -
 
 
 def called(cell: Json) -> str:
-    """A cell in a sentence about it."""
+    """Returns the name of a cell in messages."""
     scene = cell["scene"]
     names = [scene if isinstance(scene, str) else scene["name"]]
     names += [cell[who]["name"] for who in ("builder", "collider") if who in cell]
@@ -87,8 +87,8 @@ def called(cell: Json) -> str:
 
 
 def keyed(part: Part, kind: str) -> Iterable[tuple[str, Json]]:
-    """The cells of a part, each with the run that it is from and with what tells it from all others. A file may have a cell
-    twice: the second is another file's second."""
+    """Yields the cells of a part, each with its run and a key that identifies it. If a file has a cell twice, the second
+    one has a different key, which equals that of another file's second one."""
     times: Counter[str] = Counter()
     for raw in part.document.get(kind, []):
         cell = raw if "run" in raw else {**raw, "run": part.document["run"]["id"]}
@@ -98,8 +98,8 @@ def keyed(part: Part, kind: str) -> Iterable[tuple[str, Json]]:
 
 
 def collected(parts: list[Part], kind: str) -> tuple[list[Json], int]:
-    """The cells of all parts, each once, and how many were there again. Raises WrongUsage if two that are the same cell have
-    other contents."""
+    """Returns the cells of all parts, each once, and the number of repeated cells. Raises WrongUsage if two cells with the same
+    key have different contents."""
     seen: dict[str, tuple[Part, Json]] = {}
     repeated = 0
     for part in parts:
@@ -116,12 +116,11 @@ def collected(parts: list[Part], kind: str) -> tuple[list[Json], int]:
 
 
 def merge(parts: Iterable[tuple[str, Json]], other_devices: bool = False, other_commits: bool = False) -> Merged:
-    """One result file of all cells of the parts, in their order. Its `run` is the first part's; `merged_from` tells of each run,
-    and a cell's `run` which of them it is from. A part is a name for sentences and a checked result file.
+    """Merges the cells of all parts, in their order, into one result file. `run` is the first part's; `merged_from` describes
+    each run, and a cell's `run` names its run. A part is a name for messages and a checked result file.
 
-    Cells are the same if they are about the same builder or pipeline, with the same options, on the same frame and device.
-    Raises WrongUsage if two that are the same have other contents, or parts differ in what they must not.
-    """
+    Cells are equal if builder or pipeline, options, frame and device are equal. Raises WrongUsage if equal cells have different
+    contents, or if format, device or commit of the parts differ and no option permits it."""
     files = [part_of(origin, document) for origin, document in parts]
     require_alike(files, other_devices, other_commits)
     (measured, repeated), (stress, repeated_stress) = collected(files, "cells"), collected(files, "stress")

@@ -1,4 +1,5 @@
-"""Every file that plots write: checked before it is made, and replaced as a whole. As harness/record/output.h does it in C++."""
+"""Writes every file that the plots make: checks the target first, then replaces it as a whole. harness/record/output.h is the C++
+counterpart."""
 import errno
 import os
 import pathlib
@@ -26,12 +27,12 @@ def is_page(head: bytes) -> bool:
 
 
 def is_picture(head: bytes) -> bool:
-    """Whether it may be a picture by style.save: those of older versions say no more of who made them."""
+    """True if the file may be a picture by style.save. Pictures of older versions carry no further mark."""
     return (head.startswith(b"\x89PNG") and OF_200_DPI in head[:128]) or (b"<svg " in head and b"<g id=\"figure_1\">" in head)
 
 
 def check(path: pathlib.Path, inputs: Iterable[pathlib.Path], force: bool, is_ours: Callable[[bytes], bool]) -> None:
-    """Raises WrongUsage for a folder, for a file that is read too, and, without `force`, for one that somebody else made."""
+    """Raises WrongUsage for a folder, for an input file, and, without `force`, for a file that this program did not write."""
     if path.is_dir():
         raise WrongUsage(f"{path} is a folder; name a file in it")
     if not path.is_file() or standard_stream(path.stat()):
@@ -45,8 +46,7 @@ def check(path: pathlib.Path, inputs: Iterable[pathlib.Path], force: bool, is_ou
 
 
 def check_pictures(folder: pathlib.Path, inputs: Iterable[pathlib.Path], force: bool) -> None:
-    """Raises WrongUsage, before anything is drawn into the folder, if a file there is called like a picture and is none of ours,
-    or is an input."""
+    """Raises WrongUsage, before anything is drawn, if a file in the folder has a picture's name and is an input or no picture."""
     files = [path for path in inputs if not path.is_dir()]
     for path in sorted(folder.iterdir()):
         if path.suffix in (".png", ".svg"):
@@ -61,8 +61,8 @@ def make_folder(folder: pathlib.Path) -> None:
 
 
 def write(path: pathlib.Path | str, content: bytes) -> bool:
-    """Links are followed; devices, pipes and this process's standard output are written to as they are, and False is returned.
-    Raises Refused with the system's reason; then an earlier file stays."""
+    """Replaces the file and returns True. Follows links. Writes to devices, pipes and this process's standard output in place and
+    returns False. Raises Refused with the system's reason; an earlier file is then kept."""
     path = pathlib.Path(path)
     try:
         about = path.stat() if path.exists() else None
@@ -84,7 +84,7 @@ def standard_stream(about: os.stat_result) -> TextIO | None:
 
 
 def replace(target: pathlib.Path, content: bytes, about: os.stat_result | None) -> None:
-    """Through a file beside it, which gets its mode and owner, or those of a new file."""
+    """Writes a temporary file next to the target and renames it. It gets the target's mode and owner, or those of a new file."""
     if about and not os.access(target, os.W_OK):
         raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
     descriptor, name = tempfile.mkstemp(prefix=f"{target.name}.tmp", dir=target.parent)
@@ -102,7 +102,7 @@ def replace(target: pathlib.Path, content: bytes, about: os.stat_result | None) 
     try:
         os.fsync(folder)
     except OSError:
-        pass  # a file system that cannot sync a folder has renamed the file all the same
+        pass  # a file system that cannot sync a folder has still renamed the file
     finally:
         os.close(folder)
 
@@ -116,13 +116,13 @@ def take_mode(descriptor: int, about: os.stat_result | None) -> None:
     try:
         os.fchown(descriptor, about.st_uid, about.st_gid)
     except PermissionError:
-        pass  # only root may give a file away; for others it is theirs already, or becomes theirs
+        pass  # only root can change a file's owner; otherwise the file belongs, or will belong, to this user
     os.fchmod(descriptor, stat.S_IMODE(about.st_mode))
 
 
 def to_an_end(main: Callable[[], int], prefix: str = "") -> int:
-    """What a script exits with: that of `main`, or, with a sentence, 2 for wrong usage and 3 for what cannot be read, drawn or
-    written."""
+    """Runs `main` and returns its exit code, or 2 for wrong usage and 3 for what cannot be read, drawn or written, with a
+    message."""
     prepare_streams()
     try:
         status = main()
@@ -135,37 +135,37 @@ def to_an_end(main: Callable[[], int], prefix: str = "") -> int:
         say(f"{prefix}{refusal}")
     except MemoryError:
         say(f"{prefix}there is too little memory")
-    except BrokenPipeError:  # nobody reads what is printed any more
+    except BrokenPipeError:  # the reader of standard output has closed it
         signal.signal(signal.SIGPIPE, signal.SIG_DFL)
         os.kill(os.getpid(), signal.SIGPIPE)
     except OSError as error:
         say(f"{prefix}standard output cannot be written: {error.strerror}")
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # what is left in its buffer
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # discards the rest of its buffer
     return 3
 
 
 def prepare_streams() -> None:
-    """One that was closed is there again: standard output then cannot be written. Control characters are spelled out."""
+    """Replaces closed standard streams, so that writing to standard output fails, and spells out control characters."""
     sys.stdout = sys.stdout or os.fdopen(os.open(os.devnull, os.O_RDONLY), "w")
     sys.stderr = sys.stderr or os.fdopen(os.open(os.devnull, os.O_WRONLY), "w")
     for stream in (sys.stdout, sys.stderr):
-        stream.reconfigure(encoding="utf-8", errors="surrogateescape")  # in any locale; names of files are bytes
+        stream.reconfigure(encoding="utf-8", errors="surrogateescape")  # in any locale; file names may be any bytes
     write = sys.stdout.write
     sys.stdout.write = lambda text: write(printable(text))
 
 
 def described(error: Exception) -> str:
-    """What an error says, for a sentence."""
+    """Returns an error's text for use in a message."""
     if isinstance(error, KeyError):
         return f"it has no {error}"
     return f"{error}" or type(error).__name__
 
 
 def printable(text: str) -> str:
-    """With control characters but the ends of lines and tabs spelled out: a terminal obeys them."""
+    """Spells out control characters except newlines and tabs, because a terminal would obey them."""
     return re.sub(r"[\x00-\x08\x0b-\x1f\x7f]", lambda letter: f"\\x{ord(letter[0]):02x}", text)
 
 
 def say(sentence: str) -> None:
-    """On standard error, in one line, control characters spelled out: a terminal obeys them."""
+    """Prints a message to standard error in one line. Control characters are spelled out, because a terminal would obey them."""
     print("".join(repr(letter)[1:-1] if unicodedata.category(letter) == "Cc" else letter for letter in sentence), file=sys.stderr)

@@ -2,11 +2,11 @@
 from collections.abc import Sequence
 from typing import TypeVar
 
-Point = TypeVar("Point", bound=Sequence)  # a time, a cost or error, and whatever else
+Point = TypeVar("Point", bound=Sequence)  # time, cost or error, and anything else
 
 
 def front(points: Sequence[Point]) -> list[Point]:
-    """Those that no other is as fast as and as good as, one of them more so; by time. Of equal ones the first."""
+    """Returns the Pareto front, sorted by time. Of equal points the first is kept."""
     kept: list[Point] = []
     for point in sorted(points, key=lambda point: (point[0], point[1])):
         if not kept or point[1] < kept[-1][1]:

@@ -26,7 +26,7 @@ COLUMNS = 2
 MEASURES = {"sah_cost": "surface area cost", "box_tests_count": "box tests of a query"}
 ALONG_A_CURVE = ("oibvh", "perfect", "apetrei", "karras", "lbvh", "radix")
 PANEL_HEIGHT = 2.2  # inches
-HOST_WIDTH = 0.42  # of the panel beside
+HOST_WIDTH = 0.42  # width of a host panel, relative to the panel beside it
 Point = tuple[float, float, results.Cell]  # milliseconds, measure
 
 
@@ -36,14 +36,14 @@ def points_of(cells: list[results.Cell], measure: str = "sah_cost") -> list[Poin
 
 
 def order_of(cell: results.Cell) -> str | None:
-    """None of builders that sort along no curve: they ignore the option."""
+    """Returns the order of a cell, or None for builders that do not sort along a curve and ignore the option."""
     if not cell.builder.startswith(ALONG_A_CURVE):
         return None
     return dict(cell.options).get("order", "morton30")
 
 
 def ticks_between(low: float, high: float, most: int) -> list[float]:
-    """Round numbers for a logarithmic axis, as many as may be."""
+    """Returns round numbers for a logarithmic axis, as many as possible but at most `most`."""
     found: list[float] = []
     for steps in ((1,), (1, 3), (1, 2, 5), (1, 1.5, 2, 3, 5, 7), (1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8)):
         decades = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
@@ -55,7 +55,7 @@ def ticks_between(low: float, high: float, most: int) -> list[float]:
 
 
 def scale(axis: Axis, values: list[float], most: int) -> None:
-    """Logarithmic, with room for markers and numbers."""
+    """Sets a logarithmic axis with room for markers and numbers."""
     low, high = min(values), max(values)
     low, high = low / 1.15 / (high / low) ** 0.1, high * 1.15 * (high / low) ** 0.1
     axis.axes.set(**{f"{axis.axis_name}scale": "log", f"{axis.axis_name}lim": (low, high)})
@@ -70,7 +70,7 @@ def draw_points(axes: plt.Axes, points: list[Point], best: list[Point]) -> None:
 
 
 class Panels:
-    """A grid of scenes, for each one row a measure, and in it one panel a clock."""
+    """A grid of scenes: for each scene one row of panels for each measure, and in each row one panel for each clock."""
 
     def __init__(self, by_scene: dict[str, list[results.Cell]], measures: list[str]):
         self.has_host = any(cell.on_host for cells in by_scene.values() for cell in cells)
@@ -92,7 +92,7 @@ class Panels:
             axes.remove()
 
     def draw(self, pair: list[plt.Axes], cells: list[results.Cell], measure: str, is_first: bool) -> list[plt.Axes]:
-        """One scene and measure; answers the axes that show something."""
+        """Draws one scene and measure; returns the axes that show something."""
         points = points_of(cells, measure)
         best = pareto.front(points)
         used = []

@@ -1,4 +1,4 @@
-"""Whole frames by scene and pipeline: a builder and a collider with their options, over the frames of a scene."""
+"""Whole frames by scene and pipeline. A pipeline is a builder and a collider with their options."""
 from dataclasses import dataclass
 
 import matplotlib.pyplot as plt
@@ -8,9 +8,9 @@ from matplotlib.colors import to_rgb
 import results
 import style
 
-ROW = 0.2  # inches a bar
+ROW = 0.2  # inches for each bar
 
-# A collider tells the pipelines of a builder apart by hatch; one without a tree has a colour of its own.
+# The hatch of each collider, for pipelines that share a builder's colour. A collider without a tree has its own colour.
 HATCHES = {"leaf": "", "group": "////", "block": "\\\\\\\\", "bvtt": "....", "front": "xxxx", "fcl-refit": "////"}
 COLOURS = {"grid": "#8C510A", "embree": "#009E73", "fcl": "#F0E442", "fcl-refit": "#F0E442", "brute": "#000000"}
 
@@ -18,7 +18,7 @@ COLOURS = {"grid": "#8C510A", "embree": "#009E73", "fcl": "#F0E442", "fcl-refit"
 @dataclass(frozen=True)
 class Pipeline:
     scene: str
-    cells: list[results.Cell]  # a frame each
+    cells: list[results.Cell]  # one for each frame
 
     @property
     def first(self) -> results.Cell:
@@ -37,11 +37,11 @@ class Pipeline:
         return HATCHES.get(self.first.collider or "", "")
 
     def frame_ms(self) -> numpy.ndarray:
-        """The median of each frame."""
+        """Returns the median time of each frame, in milliseconds."""
         return numpy.array([results.median(cell.times_s()) for cell in self.cells]) * 1e3
 
     def stage_ms(self, stage: str) -> float:
-        """The mean over frames of their medians; 0 if it has no such stage."""
+        """Returns the mean over frames of the stage's medians in milliseconds; a frame without the stage counts as 0."""
         times = [results.median(cell.times_s(stage)) for cell in self.cells if stage in cell.samples[0]]
         return sum(times) / len(self.cells) * 1e3
 
@@ -51,18 +51,18 @@ class Pipeline:
 
 
 def grouped_by_pipeline(cells: list[results.Cell], without: str = "") -> list[list[results.Cell]]:
-    """Those of one pipeline together, whatever its collider's option `without` is."""
+    """Groups cells by pipeline, ignoring the collider's option `without`."""
     return list(results.grouped(cells, lambda cell: cell.key("collider", "builder", without=without)).values())
 
 
 def of(run: results.Run, experiment: str) -> dict[str, list[Pipeline]]:
-    """The pipelines of each scene, both in the file's order."""
+    """Returns the pipelines of each scene, both in the file's order."""
     scenes = results.grouped(run.frames(experiment), lambda cell: cell.scene)
     return {scene: [Pipeline(scene, frames) for frames in grouped_by_pipeline(cells)] for scene, cells in scenes.items()}
 
 
 def panels(scenes: dict[str, list[Pipeline]], more: float) -> tuple[plt.Figure, list[plt.Axes]]:
-    """One below the other, each with room for its bars and `more` of them."""
+    """Creates one panel below the other, each with height for its bars and `more` additional bars."""
     rows = [len(shown) + more for shown in scenes.values()]
     drawing, grid = plt.subplots(len(scenes), 1, figsize=(style.PAGE_WIDTH, ROW * sum(rows) + 0.7), squeeze=False,
                                  height_ratios=rows, layout="constrained", sharex=True)
@@ -90,20 +90,20 @@ def stands_in(cell: results.Cell) -> bool:
 
 
 def remarks(scenes: dict[str, list[Pipeline]]) -> tuple[str, ...]:
-    """What a star means, if there is one."""
+    """Returns the explanation of the star if a scene is a stand-in."""
     starred = any(stands_in(shown[0].first) for shown in scenes.values())
     star = "* was not there: the scene in brackets stands in, with its own numbers of triangles and frames."
     return (star,) if starred else ()
 
 
 def labels(shown: list[Pipeline]) -> list[str]:
-    """One that lacks some of the scene's frames says so."""
+    """Returns the label of each pipeline, with the number of its frames if it lacks some of the scene's."""
     frames = frames_of(shown)
     return [one.label + ("" if len(one.cells) == frames else f", {len(one.cells)} of {frames} frames") for one in shown]
 
 
 def dress(axes: plt.Axes, shown: list[Pipeline], room: float = 0) -> None:
-    """A panel of horizontal bars, a row a pipeline, with some room below them."""
+    """Sets up a panel of horizontal bars, one row for each pipeline, with some room below them."""
     dress_rows(axes, labels(shown), room)
     axes.set_title(scene_title(shown), loc="left")
 
@@ -117,7 +117,7 @@ def dress_rows(axes: plt.Axes, rows: list[str], room: float = 0) -> None:
 
 
 def bar(axes: plt.Axes, row: int, width: float, pipeline: Pipeline) -> None:
-    """In its look; hatches are lighter or darker than its colour."""
+    """Draws a bar in the pipeline's colour and hatch. The hatch is lighter or darker than the colour."""
     ink = "white" if sum(to_rgb(pipeline.colour)) < 1.6 else "#555555"
     axes.barh(row, width, 0.72, color=pipeline.colour, hatch=pipeline.hatch, edgecolor=ink, linewidth=0)
 

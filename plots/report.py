@@ -41,18 +41,18 @@ def file_data(path: pathlib.Path, document: dict[str, Any], all_cells: list[Cell
 
 
 def text_of(name: str) -> str:
-    """A file's name as text: it may be any bytes."""
+    """Returns a file's name as text, although it may contain any bytes."""
     return os.fsencode(name).decode("utf-8", "replace")
 
 
 def titles_of(files: list[pathlib.Path]) -> list[str]:
-    """A file's name, with its folder where another file has that name too."""
+    """Returns each file's name, preceded by its folder if another file has the same name."""
     names = [json_files.name_of(path) for path in files]
     return [text_of(name if names.count(name) == 1 else f"{path.resolve().parent.name}/{name}") for path, name in zip(files, names)]
 
 
 def make(files: list[pathlib.Path], views: list[pathlib.Path]) -> tuple[str, bool]:
-    """The page, and whether an answer was wrong. Raises results.Refused."""
+    """Returns the page and whether an answer was wrong. Raises results.Refused."""
     blobs, sections, is_wrong, summary = [], [], False, []
     for number, (path, title) in enumerate(zip(files, titles_of(files))):
         document = results.document_of(path)
@@ -82,7 +82,7 @@ def make(files: list[pathlib.Path], views: list[pathlib.Path]) -> tuple[str, boo
 
 
 def write(files: list[pathlib.Path], views: list[pathlib.Path], out: pathlib.Path, force: bool) -> int:
-    """The exit code: 1 if an answer was wrong. Raises output.WrongUsage and results.Refused."""
+    """Writes the page and returns the exit code: 1 if an answer was wrong. Raises output.WrongUsage or results.Refused."""
     output.check(out, [*files, *views], force, output.is_page)
     text, is_wrong = make(files, views)
     content = text.encode("utf-8")

@@ -1,9 +1,7 @@
-"""What a page says of each cell of a result file, wrong, skipped and failed ones too, and its raw samples beside it. Of cells
-that may be compared, those of a scene that were asked the same, it says which are on a front, and has a bar for each builder
-or pipeline.
+"""Data of each cell for the report page, including wrong, skipped and failed cells, and the raw samples. Cells of a scene that
+answer the same question are comparable: the data say which are on a Pareto front, and have a bar for each builder or pipeline.
 
-Times are nanoseconds: 10th percentile, median, 90th percentile. A cell whose answer was wrong, or that has none, has no times.
-"""
+Times are nanoseconds: 10th percentile, median, 90th percentile. A cell with a wrong answer, or without one, has no times."""
 from typing import Any
 
 import accuracy
@@ -13,22 +11,22 @@ from cells import Cell, by_stage, grouped, quantiles, whole_ns
 
 WITHOUT_TIMES = ("differs", "skipped", "failed")
 WHOLE = "whole"
-MEDIAN = 1  # its place among quantiles
+MEDIAN = 1  # index of the median among quantiles
 QUESTION = ("experiment", "axis", "scene", "asked")
-# What tells how good a tree is, by counter, and what the page calls it.
+# Counters that tell how good a tree is, and their names on the page.
 GOODNESS = {"sah_cost": "surface area cost", "epo": "end-point overlap", "sibling_overlap": "overlap of siblings",
             "box_tests_count": "box tests of a query", "tree_bytes": "bytes of the tree"}
-FINDS_CONTACTS = ("fcl", "fcl-refit")  # in their broad phase, and are held to the exact ones
-Data = dict[str, Any]  # of a cell, as cell_data makes it
+FINDS_CONTACTS = ("fcl", "fcl-refit")  # colliders that find exact contacts in their broad phase
+Data = dict[str, Any]  # of a cell, as returned by cell_data
 
 
 def state_of(cell: Cell) -> str:
-    """The verdict of what was measured, else why it was not."""
+    """Returns the verdict of a measured cell, otherwise its status."""
     return cell.check["verdict"] if cell.status == "measured" else cell.status
 
 
 def who(cell: Cell) -> str:
-    """A builder or pipeline with the options that are not the usual ones; along an axis of accuracy, the method."""
+    """Returns the builder or pipeline with the options that are not the defaults, or the method along an axis of accuracy."""
     if cell.accuracy:
         return cell.accuracy["method"]
     if cell.collider:
@@ -38,7 +36,7 @@ def who(cell: Cell) -> str:
 
 
 def asked(cell: Cell) -> str:
-    """What a frame was asked for: cells that were asked something else are not to be compared."""
+    """Returns what a frame's query was asked for. Cells that were asked for different things must not be compared."""
     if not cell.collider or cell.accuracy:
         return ""
     options = dict(cell.collider_options)
@@ -54,7 +52,7 @@ def asked(cell: Cell) -> str:
 
 
 def scene_name(cell: Cell) -> str:
-    """A stand-in says for what it stands."""
+    """Returns the scene's name; for a stand-in, with the scene that it replaces."""
     if not (other := cell.stand_in_for):
         return cell.scene
     name = cell.scene_facts["name"]
@@ -62,7 +60,7 @@ def scene_name(cell: Cell) -> str:
 
 
 def times_of(cell: Cell) -> dict[str, list[float]]:
-    """By stage, and of the whole, from first start to last end."""
+    """Returns the quantiles of each stage and of the whole sample, from first start to last end."""
     if not cell.samples:
         return {}
     stages = {WHOLE: ""} | {stage: stage for sample in cell.samples for stage in sample}
@@ -70,7 +68,7 @@ def times_of(cell: Cell) -> dict[str, list[float]]:
 
 
 def copy_share(cell: Cell, times: dict[str, list[float]], copy_rate: float | None) -> float | None:
-    """The bytes that all stages must move, in the whole time, as a share of what a plain copy moves; of no host stages."""
+    """Returns the rate of the bytes that all stages must move as a share of the copy rate; None if a stage ran on the host."""
     moved = [cell.moved_bytes(stage) for stage in times if stage != WHOLE]
     if not copy_rate or not moved or None in moved or times[WHOLE][MEDIAN] <= 0:
         return None
@@ -78,7 +76,7 @@ def copy_share(cell: Cell, times: dict[str, list[float]], copy_rate: float | Non
 
 
 def errors_of(cell: Cell) -> dict[str, float]:
-    """By how much a method of an axis is wrong."""
+    """Returns the errors of a method, by name."""
     counters, errors = cell.counters, {}
     if {"missed_count", "false_count", "pairs_count"} <= counters.keys():
         if "right_pairs_count" in counters:
@@ -91,7 +89,7 @@ def errors_of(cell: Cell) -> dict[str, float]:
 
 
 def measures_of(cell: Cell) -> dict[str, float]:
-    """What its time may be weighed against: errors, and how good a tree is."""
+    """Returns the quantities that time can be plotted against: errors and measures of tree quality."""
     goodness = GOODNESS if cell.operation != "collide" else {}
     return errors_of(cell) | {text: cell.counters[key] for key, text in goodness.items() if key in cell.counters}
 
@@ -111,18 +109,18 @@ def cell_data(cell: Cell, copy_rate: float | None) -> Data:
 
 
 def column(values: list[Any]) -> Any:
-    """One value in place of a list of equal ones."""
+    """Returns the common value if all values are equal, otherwise the list."""
     return values[0] if values and all(value == values[0] for value in values) else values
 
 
 def columns(rows: list[dict[str, Any]], left_out: str) -> dict[str, Any]:
-    """By key, in the rows' order: nothing where a row lacks it."""
+    """Returns the rows' values by key, in the order of the rows. A value that a row lacks is None."""
     keys = dict.fromkeys(key for row in rows for key in row if key != left_out)
     return {key: column([row.get(key) for row in rows]) for key in keys}
 
 
 def samples_data(cell: Cell) -> Data:
-    """All that a cell's samples say, column by column, a list being in the samples' order and one value being that of all."""
+    """Returns the cell's samples by columns: a list in the order of the samples, or one value that all samples share."""
     samples = [by_stage(sample) for sample in cell.all_samples]
     return {"count": len(samples), "own": columns(cell.all_samples, "stages"),
             "whole": column([whole_ns(sample) for sample in samples]),
@@ -136,7 +134,7 @@ def grouped_by(cells: list[Data], *keys: str) -> list[list[Data]]:
 
 
 def mark_fronts(cells: list[Data]) -> None:
-    """Each timed cell gets by which measures nothing else is as fast as and as good as it."""
+    """Adds to each timed cell the measures for which it is on the Pareto front."""
     for group in grouped_by([cell for cell in cells if cell["times"]], *QUESTION):
         for cell in group:
             cell["front"] = []
@@ -148,7 +146,7 @@ def mark_fronts(cells: list[Data]) -> None:
 
 
 def bars_of(cells: list[Data]) -> list[Data]:
-    """Where the time of each goes: medians by stage, of several frames their means; or why it has none."""
+    """Returns for each builder or pipeline the median time of each stage, averaged over frames, or why there are no times."""
     places = {id(cell): place for place, cell in enumerate(cells)}
     return [{key: group[0][key] for key in (*QUESTION, "who")} | {"cell": places[id(group[0])] if len(group) == 1 else None}
             | bar_of(group) for group in grouped_by(cells, *QUESTION, "who")]
@@ -168,5 +166,5 @@ def bar_of(group: list[Data]) -> Data:
 
 
 def mean_median(group: list[Data], stage: str) -> float:
-    """Of cells that lack the stage it is 0."""
+    """Returns the mean of the stage's medians. A cell without the stage counts as 0."""
     return round(sum(cell["times"].get(stage, (0, 0, 0))[MEDIAN] for cell in group) / len(group), 1)

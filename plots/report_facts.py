@@ -1,5 +1,4 @@
-"""What was run on what: the circumstances of a result file, in words. A scene in three dimensions, as `bvhbench report --scene`
-wrote it, packed for a page."""
+"""Circumstances of a result file in words, and a 3D scene, as written by `bvhbench report --scene`, packed for a page."""
 import array
 import pathlib
 from typing import Any
@@ -67,12 +66,12 @@ def warnings_of(document: dict[str, Any]) -> list[str]:
 
 
 def packed(kind: str, values: list) -> bytes:
-    """Little-endian numbers of 32 bits: 'f' or 'I'."""
+    """Returns little-endian 32-bit numbers; `kind` is 'f' or 'I'."""
     return array.array(kind, values).tobytes()
 
 
 def view_of(path: pathlib.Path) -> tuple[dict[str, Any], dict[str, bytes]]:
-    """What is said of a scene, and its arrays by name. Raises results.Refused for a file that is none."""
+    """Returns the facts of a scene, and its arrays by name. Raises results.Refused if the file is not a scene."""
     view = results.parsed(path)
     try:
         results.check(path, view["cell"], "cell")

@@ -1,4 +1,4 @@
-"""The look of each line and point on a page: style.py's colours, in the words of Plotly."""
+"""Colours and markers of lines and points on a page: those of style.py in Plotly's terms."""
 from typing import Any
 
 import accuracy
@@ -10,7 +10,7 @@ import style
 SYMBOLS = {"s": "square", "^": "triangle-up", "v": "triangle-down", "D": "diamond", "o": "circle", "d": "diamond-tall",
            "p": "pentagon", "*": "star", "P": "cross", "h": "hexagon", "H": "hexagon2", "x": "x", "+": "x",
            "<": "triangle-left", ">": "triangle-right"}
-# What tells variants of one colour apart, in order; the first keeps the builder's marker.
+# Symbols that distinguish variants of one colour, in order. The first variant keeps the builder's marker.
 MORE_SYMBOLS = ("circle", "square", "diamond", "triangle-up", "triangle-down", "star", "hexagon", "cross", "x", "pentagon",
                 "triangle-left", "triangle-right", "diamond-tall", "hexagon2")
 DASHES = ("solid", "dash", "dot", "dashdot", "longdash", "longdashdot")
@@ -19,7 +19,7 @@ UNKNOWN = style.Look("#666666", "o")
 
 
 def look_of(cell: dict[str, Any]) -> style.Look:
-    """Of a cell's data (report_cells). One that no figure knows is grey."""
+    """Returns the look of a cell's data (report_cells). A cell without a known look is grey."""
     try:
         if cell["axis"] in accuracy.METHODS:
             return accuracy.look(cell["axis"], cell["who"])
@@ -31,7 +31,7 @@ def look_of(cell: dict[str, Any]) -> style.Look:
 
 
 def looks_of(cells: list[dict[str, Any]]) -> dict[str, dict[str, str]]:
-    """Of everybody in a file, by name, in the order of legends: colour, symbol and dash, no two the same."""
+    """Returns the colour, symbol and dash of each name in a file, in the order of legends; no two names look alike."""
     order = list(style.LOOKS)
     found: dict[str, style.Look] = {}
     places: dict[str, int] = {}
@@ -39,7 +39,7 @@ def looks_of(cells: list[dict[str, Any]]) -> dict[str, dict[str, str]]:
         found.setdefault(cell["who"], look_of(cell))
         places.setdefault(cell["who"], order.index(cell["builder"]) if cell["builder"] in order else len(order))
     looks, taken = {}, {}
-    for name in sorted(found, key=lambda name: places[name]):  # stable: else as in the file
+    for name in sorted(found, key=lambda name: places[name]):  # the sort is stable, so equal places keep the file's order
         colour, symbol = found[name].colour, SYMBOLS[found[name].marker]
         used = taken.setdefault(colour, [])
         if symbol in used:
@@ -50,7 +50,7 @@ def looks_of(cells: list[dict[str, Any]]) -> dict[str, dict[str, str]]:
 
 
 def stage_looks() -> dict[str, dict[str, str]]:
-    """The colours of frames.py; of stages that share one, all but the usual one are hatched."""
+    """Returns the colours of frames.py. Of stages that share a colour, all but the main one are hatched."""
     looks = {stage: {"colour": colour, "pattern": HATCHED.get(stage, "")}
              for _, stages, colour in frames.PARTS for stage in stages}
     return looks | {"between": {"colour": frames.BETWEEN[1], "pattern": ""},

@@ -1,8 +1,7 @@
-"""Puts a page together: one HTML file that needs nothing else, and no network.
+"""Assembles a page: one HTML file that needs no other file and no network.
 
-Text that people may want to read in the page's source, markup, style and scripts of plots/report/, stands in it as it is.
-Libraries, data and samples are gzip in base64, unpacked by plots/report/unpack.js: samples only when somebody asks for them.
-"""
+Markup, style and scripts from plots/report/ are embedded as plain text, so they can be read in the page's source. Libraries, data
+and samples are gzip in base64; plots/report/unpack.js unpacks them, samples only on request."""
 import base64
 import gzip
 import html
@@ -21,7 +20,7 @@ DEBIAN = pathlib.Path("/usr/share")
 
 
 def plotly_file() -> pathlib.Path:
-    """Debian's, else that of the Python package. Raises results.Refused if there is none."""
+    """Returns Debian's plotly.js, or that of the Python package. Raises results.Refused if there is none."""
     debian = DEBIAN / "python3-plotly" / "plotly.js"
     if debian.exists():
         return debian
@@ -44,7 +43,7 @@ def three_files() -> list[pathlib.Path]:
 
 
 def blob(name: str, content: bytes) -> str:
-    """Bytes for unpack.js. The same bytes give the same text: gzip would write the time."""
+    """Returns bytes packed for unpack.js. Equal bytes give equal text, since no time is stored."""
     text = base64.b64encode(gzip.compress(content, 9, mtime=0)).decode("ascii")
     return f'<script type="text/plain" id="blob-{name}">{text}</script>'
 
@@ -59,7 +58,7 @@ def inlined(names: tuple[str, ...]) -> str:
 
 
 def section(number: int, title: str, sentence: str, warnings: list[str], facts: list[tuple[str, str]]) -> str:
-    """What a reader sees of a file even where no script runs."""
+    """Returns the part of a file's section that is visible without scripts."""
     said = "".join(f'<p class="warning">{html.escape(warning)}</p>' for warning in warnings)
     listed = "".join(f"<div><dt>{html.escape(term)}</dt><dd>{html.escape(fact)}</dd></div>" for term, fact in facts)
     return (f'<section id="file-{number}" class="file" hidden><h2>{html.escape(title)}</h2>'

@@ -1,8 +1,7 @@
-"""The tables of a page: columns and rows as data, which plots/report/table.js shows, sorts and filters.
+"""Tables of a page: columns and rows as data, which plots/report/table.js shows, sorts and filters.
 
-A column's kind is text, state, count (every digit), number (four digits) or time. A row's values stand in its columns' order;
-times are of the table's unit. A value that is not there is null and never 0.
-"""
+A column's kind is text, state, count (all digits), number (four digits), share or time. A row has one value for each column;
+times are in the column's unit. A missing value is null, never 0."""
 import statistics
 from collections.abc import Callable
 from typing import Any
@@ -14,18 +13,18 @@ STAGES = ("near", "bounds", "codes", "sort", "order", "gather", "hierarchy", "re
           "sum")
 UNITS = (("ns", 1.0), ("µs", 1e3), ("ms", 1e6), ("s", 1e9))
 FINDINGS = ("ends", "leaves", "boxes", "layout", "pairs", "contacts", "agree", "moved", "room", "same")
-Cells = list[tuple[int, dict[str, Any]]]  # places in the file and their data
+Cells = list[tuple[int, dict[str, Any]]]  # places in the file and the cells' data
 Value = Callable[[dict[str, Any]], Any]
 
 
 def unit_of(cells: Cells) -> tuple[str, float]:
-    """The largest unit in which the median of their times is at least 1."""
+    """Returns the largest unit in which the median of the cells' times is at least 1."""
     middle = median([data["times"][WHOLE][MEDIAN] for _, data in cells if WHOLE in data["times"]])
     return next((unit for unit in reversed(UNITS) if middle >= unit[1]), UNITS[0])
 
 
 class Table:
-    """Columns that no row has a value for are left out, and those that `varies` asks for where all rows are alike."""
+    """A table of cells. Columns without values are left out; those added with `varies` also if all rows are equal."""
 
     def __init__(self, title: str, cells: Cells, note: str = ""):
         self.title, self.cells, self.note = title, cells, note
@@ -55,7 +54,7 @@ class Table:
 
 
 def begin(title: str, cells: Cells, called: str, note: str = "") -> Table:
-    """The columns that all tables of cells begin with: of what, whose, and whether it was right."""
+    """Creates a table with the columns that all tables of cells start with: scene, name, verdict and, if they vary, others."""
     table = Table(title, cells, note)
     for label, kind, key, varies in (("scene", "text", "scene", False), ("frame", "count", "frame", True),
                                      (called, "text", "who", False), ("verdict", "state", "state", False),
@@ -79,7 +78,7 @@ def times_table(title: str, cells: Cells, called: str, counters: list[str], note
 
 
 def summary_table(cells: Cells) -> dict[str, Any]:
-    """A row a scene and pipeline: means over frames of their medians, as in the paper's tables."""
+    """Returns a table with one row for each scene and pipeline: means over frames of their medians, as in the paper's tables."""
     groups = grouped(cells, lambda placed: tuple(placed[1][key] for key in ("experiment", "scene", "asked", "who")))
     unit, scale = unit_of(cells)
     columns = [("scene", "text"), ("pipeline", "text"), ("verdict", "state"), ("asked for", "text"), ("frames", "count"),
@@ -91,7 +90,7 @@ def summary_table(cells: Cells) -> dict[str, Any]:
         slowest.append(max(placed, key=lambda one: one[1]["times"].get(WHOLE, [0, 0])[1])[0])
         bad = next((data["state"] for state in WITHOUT_TIMES for data in group if data["state"] == state), None)
         medians = [data["times"][WHOLE][1] / scale for data in group if WHOLE in data["times"]]
-        # A mean over frames of which some are missing is a mean of something else.
+        # If frames are missing, a mean would be over other frames and could not be compared, so there is none.
         is_whole = bad is None and medians
 
         def mean(counter: str) -> float | None:
@@ -132,7 +131,7 @@ FOUND = ["pairs_count", "contacts_count", "box_tests_count", "memory_bytes"]
 
 
 def tables_of(cells: list[dict[str, Any]], stress: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    """In the order in which a reader needs them. Those that end with `folded` are opened when asked for."""
+    """Returns the tables in the order in which a reader needs them. A table with `folded` is opened on request."""
     placed = list(enumerate(cells))
     builds, frames, others = ([(place, data) for place, data in placed if data["operation"] in operations]
                               for operations in (("build", "refit"), ("collide",), ("accuracy",)))

@@ -1,4 +1,4 @@
-"""Files that a command writes, named by an option: checked before anything is done, and held until the command ends."""
+"""Checks and reserves the output files of a command before it does anything, until the command ends."""
 import contextlib
 import os
 import stat
@@ -9,20 +9,20 @@ import file_lock
 from json_files import Refused
 from output import WrongUsage, standard_stream
 
-MOST_LINKS = 40  # as Linux has it
+MOST_LINKS = 40  # Linux's limit
 
 
 def never(_text: bytes) -> bool:
-    """What lets go no earlier file: results are replaced with --force only."""
+    """The default of `may_replace`: an earlier file is replaced with --force only."""
     return False
 
 
 @contextlib.contextmanager
 def reserved(path: str, option: str, force: bool, inputs: Iterable[str] = (),
              may_replace: Callable[[bytes], bool] = never) -> Iterator[None]:
-    """Keeps other processes from writing the file. Raises WrongUsage if it is a folder, packed, one of the inputs, or an earlier
-    file that neither `force` nor `may_replace`, which is asked with its text, lets go; Refused if it cannot be written or
-    another process has reserved it. No folder is made. Devices, pipes and the standard output are nobody's."""
+    """Prevents other processes from writing the file. Raises WrongUsage if it is a folder, a packed file, one of the inputs, or
+    an earlier file, unless `force` is true or `may_replace` returns true for its text. Raises Refused if it cannot be written or
+    another process has reserved it. Creates no folder. Devices, pipes and standard output are not reserved."""
     if os.path.isdir(path):
         raise WrongUsage(f"{option}: {path} is a folder; name a file in it")
     if os.path.splitext(path)[1] == ".xz":
@@ -35,13 +35,13 @@ def reserved(path: str, option: str, force: bool, inputs: Iterable[str] = (),
     require_writable(path, target, folder)
     lock = os.path.join(folder, f".{os.path.basename(target)}.lock")
     with file_lock.locked(lock, file_lock.EXCLUSIVE, path, remove=True):
-        if os.path.exists(target) and os.path.getsize(target) > 0:  # looked at now: who had the lock may have written it
+        if os.path.exists(target) and os.path.getsize(target) > 0:  # the last lock holder may have written it
             check_earlier(path, target, option, inputs, force, may_replace)
         yield
 
 
 def is_replaced(path: str) -> bool:
-    """Whether the file is replaced as a whole, unlike a device or pipe, which is written to."""
+    """True if the file is replaced as a whole. False for a device or pipe, which is written in place."""
     try:
         about = os.stat(path)
     except OSError:
@@ -50,7 +50,7 @@ def is_replaced(path: str) -> bool:
 
 
 def without_links(path: str) -> str:
-    """The file that a path names after all links, which need not be there."""
+    """Returns the file that a path names after all links. The file need not exist."""
     for _ in range(MOST_LINKS):
         if not os.path.islink(path):
             return path
@@ -77,7 +77,7 @@ def check_earlier(path: str, target: str, option: str, inputs: Iterable[str], fo
 
 
 def is_input(target: str, other: str) -> bool:
-    """Whether the file, which is there, is the other one or lies in that folder."""
+    """True if the existing file is `other`, or lies in the folder `other`."""
     if not os.path.exists(other):
         return False
     inside, folder = os.path.realpath(target), os.path.realpath(other)
@@ -85,7 +85,7 @@ def is_input(target: str, other: str) -> bool:
 
 
 def contents_of(text: bytes, path: str) -> str:
-    """"is a result of 3 cells" or what else it is."""
+    """Returns "is a result of 3 cells", or another description."""
     try:
         document = documents.document_of(text, path)
     except Refused:

@@ -1,4 +1,4 @@
-"""The only reader of result files (results/schema): refuses what must not be plotted."""
+"""Reads result files (results/schema), and refuses what must not be plotted."""
 import functools
 import json
 import os
@@ -15,12 +15,12 @@ from documents import FOLDER, MAJOR, check_of
 from json_files import Refused, parsed
 
 PAPER = FOLDER / "paper"
-USUAL_COSTS = (1.2, 1.0)  # Aila, Karras and Laine 2013: of an inner node and of a triangle
+USUAL_COSTS = (1.2, 1.0)  # of an inner node and of a triangle (Aila, Karras and Laine 2013)
 
 
 @dataclass
 class Run:
-    """A result file, `document`; of one that figures are made of, its cells, with those that have no numbers apart."""
+    """A result file, `document`. If read for figures, it also has its cells; those without numbers are kept separately."""
 
     path: pathlib.Path
     document: dict[str, Any]
@@ -33,16 +33,16 @@ class Run:
 
     @property
     def stress(self) -> list[dict[str, Any]]:
-        """What `bvhbench stress` found, as in the file; empty before format 1.6."""
+        """Returns the results of `bvhbench stress`, as in the file; empty before format 1.6."""
         return self.document.get("stress", [])
 
     @functools.cached_property
     def all_cells(self) -> list[Cell]:
-        """In the file's order, skipped, failed and wrong ones too."""
+        """Returns all cells in the file's order, including skipped, failed and wrong ones."""
         return [Cell(cell) for cell in self.document["cells"]]
 
     def copy_rate_of(self, cell: Cell) -> float:
-        """The copy rate of the run that the cell is from; 0 if it was not measured."""
+        """Returns the copy rate of the run that measured the cell; 0 if it was not measured."""
         rates = {source["id"]: source.get("copy_rate_bytes_per_s", 0) for source in self.document.get("merged_from", [])}
         return rates.get(cell.raw.get("run"), 0) or self.copy_rate or 0
 
@@ -52,41 +52,41 @@ class Run:
 
     @property
     def launch_cost_s(self) -> float:
-        """Of a launch that has nothing to do; before format 1.5 it was not measured, and counts as nothing."""
+        """Returns the cost of a launch without work, in seconds; 0 before format 1.5, which did not measure it."""
         return self.facts.get("launch_cost_ns", 0) * 1e-9
 
     @property
     def builds(self) -> list[Cell]:
-        """What figures of builders are made of: a refit's times and trees are no build's."""
+        """Returns the builds, for figures of builders. A refit's times and trees are not comparable."""
         return [cell for cell in self.cells if cell.operation == "build"]
 
     @property
     def costs(self) -> tuple[float, float]:
-        """What an inner node and a triangle cost in sah_cost and epo."""
+        """Returns the costs of an inner node and a triangle in sah_cost and epo."""
         return costs_of(self.facts)
 
     def of(self, experiment: str) -> list[Cell]:
         return [cell for cell in self.builds if cell.experiment == experiment]
 
     def all_frames(self, experiment: str) -> list[Cell]:
-        """Whole frames, from vertices to pairs or contacts."""
+        """Returns the measured whole frames, from vertices to pairs or contacts."""
         return [cell for cell in self.cells if cell.experiment == experiment and cell.operation == "collide" and cell.samples]
 
     def frames(self, experiment: str) -> list[Cell]:
-        """As all_frames. Raises Refused if there are none."""
+        """Returns all_frames. Raises Refused if there are none."""
         if not (cells := self.all_frames(experiment)):
             raise Refused(f"{self.path}: no measured frame of {experiment}")
         return cells
 
     def timed(self, experiment: str, stage: str) -> list[Cell]:
-        """Those that a figure of this stage can show. Raises Refused if there are none."""
+        """Returns the cells that have times of this stage. Raises Refused if there are none."""
         cells = [cell for cell in self.of(experiment) if len(cell.times_s(stage))]
         if not cells:
             raise Refused(f"{self.path}: no measured cell of {experiment} has a stage '{stage}'")
         return cells
 
     def left_out(self, experiment: str) -> list[str]:
-        """Who has no numbers where and why, a sentence for each group of builders or pipelines and scenes."""
+        """Returns which builders or pipelines have no numbers, and why: one sentence for each group of them and of scenes."""
         builders: dict[tuple[str, str, str], list[str]] = defaultdict(list)
         missing = [cell for cell in self.without_numbers if cell.experiment == experiment]
         for (builder, status, reason), cells in grouped(missing, lambda cell: (cell.called, cell.status, cell.reason)).items():
@@ -100,7 +100,7 @@ class Run:
         return "An inner node costs {}, a triangle {}, in shares of the root's area.".format(*self.costs)
 
     def circumstances(self) -> str:
-        """One line for under a figure: what it ran on and which program it was."""
+        """Returns one line for a figure's footer: device, program and number of samples."""
         program, device = self.facts["program"], self.facts["device"]
         state = " with local changes" if program["dirty"] else ""
         build = "" if program["build_type"] == "Release" else f", {program['build_type']} build"
@@ -112,7 +112,7 @@ class Run:
 
 
 def costs_of(facts: dict[str, Any]) -> tuple[float, float]:
-    """The costs of an inner node and a triangle. Files before format 1.2 have the usual ones."""
+    """Returns the costs of an inner node and a triangle. Files before format 1.2 have the default costs."""
     costs = facts.get("node_costs", {})
     return tuple(float(costs.get(key, usual)) for key, usual in zip(("inner", "triangle"), USUAL_COSTS))
 
@@ -122,7 +122,7 @@ def costs_text(costs: tuple[float, float]) -> str:
 
 
 def is_result(path: pathlib.Path) -> bool:
-    """Whether a JSON file means to be a result file, of any format. One that cannot be read may be one."""
+    """True if a JSON file has the keys of a result file, of any format, or cannot be read and so may be one."""
     try:
         document = parsed(path)
     except Refused:
@@ -131,7 +131,7 @@ def is_result(path: pathlib.Path) -> bool:
 
 
 def check(path: pathlib.Path, value: Any, part: str = "") -> None:
-    """Raises Refused if it is not as results/schema says."""
+    """Raises Refused if the value does not match results/schema."""
     try:
         check_of(part)(value)
     except shape.Wrong as wrong:
@@ -139,7 +139,7 @@ def check(path: pathlib.Path, value: Any, part: str = "") -> None:
 
 
 def document_of(path: pathlib.Path) -> dict[str, Any]:
-    """A result file as it is, wrong answers and all. Raises Refused for another format and for what the schema does not allow."""
+    """Returns a result file, wrong answers included. Raises Refused for another format and for what the schema does not allow."""
     document = parsed(path)
     if not isinstance(document, dict) or not isinstance(document.get("format"), str):
         raise Refused(f"{path}: not a result file")
@@ -150,7 +150,7 @@ def document_of(path: pathlib.Path) -> dict[str, Any]:
 
 
 def load(path: pathlib.Path) -> Run:
-    """Read a result file. Raises Refused for another format and for a cell whose answer was wrong."""
+    """Reads a result file. Raises Refused for another format and for a cell with a wrong answer."""
     document = document_of(path)
     devices = sorted({f"{source['device']}, driver {source['driver']}" for source in document.get("merged_from", [])})
     if len(devices) > 1:
@@ -162,8 +162,8 @@ def load(path: pathlib.Path) -> Run:
 
 
 def everything(path: str | os.PathLike[str]) -> Run:
-    """Read a result file with what no figure may be made of: wrong answers, merged devices, runs under test hooks. Raises Refused
-    for what is no result file."""
+    """Reads a result file, including what must not be plotted: wrong answers, merged devices, runs under test hooks. Raises
+    Refused if the file is not a result file."""
     return Run(pathlib.Path(path), documents.read(os.fspath(path)))
 
 
@@ -177,7 +177,7 @@ def cell_of(path: pathlib.Path, raw: dict[str, Any]) -> Cell:
 
 
 def printed(name: str) -> dict[str, Any]:
-    """Numbers printed in the paper: 'table1' to 'table4', 'fig8'."""
+    """Returns numbers printed in the paper: 'table1' to 'table4', 'fig8'."""
     return json.loads((PAPER / f"{name}.json").read_text(encoding="utf-8"))
 
 

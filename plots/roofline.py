@@ -24,7 +24,7 @@ BUILD_STAGES = ("bounds", "codes", "sort", "order", "gather", "hierarchy")
 QUERY_STAGES = ("ropes", "broad", "narrow")
 COLUMNS = 4
 
-# Colliders over one tree would all have its builder's colour. Okabe and Ito's here too, and no builder's marker with it.
+# Colliders over one tree share its builder's colour, so these have their own: Okabe and Ito's, with other markers.
 COLLIDERS = {"leaf": style.Look("#000000", "*"), "group": style.Look("#E69F00", "P"),
              "bvtt": style.Look("#009E73", "X"), "front": style.Look("#CC79A7", "H"), "block": style.Look("#56B4E9", "P"),
              "grid": style.Look(pipelines.COLOURS["grid"], "d")}
@@ -38,7 +38,7 @@ class Line(NamedTuple):
 
 
 def floor_s(run: results.Run, cell: results.Cell, stage: str) -> float | None:
-    """Seconds; none for a stage on the host, or one whose launches declare no bytes."""
+    """Returns the floor in seconds, or None for a stage on the host or without declared bytes."""
     numbers = cell.samples[0].get(stage, {})
     if run.copy_rate is None or not numbers.get("launches") or not numbers.get("moved_bytes"):
         return None
@@ -46,7 +46,7 @@ def floor_s(run: results.Run, cell: results.Cell, stage: str) -> float | None:
 
 
 def points(run: results.Run, cells: list[results.Cell], stage: str) -> figure.Curve:
-    """The ratios of the stage's times to its floor."""
+    """Returns the ratios of the stage's times to its floor."""
     def ratios(cell: results.Cell) -> numpy.ndarray:
         floor = floor_s(run, cell, stage) if cell.samples else None
         return cell.times_s(stage) / floor if floor else numpy.empty(0)
@@ -63,7 +63,7 @@ def build_lines(run: results.Run, stage: str) -> list[Line]:
 
 
 def query_lines(run: results.Run, stage: str) -> list[Line]:
-    """By collider; lines of one collider over several trees differ in their dashes."""
+    """Returns one line for each collider. Lines of one collider over several trees differ in their dashes."""
     groups = pipelines.grouped_by_pipeline(run.all_frames("roofline"))
     trees = list(dict.fromkeys(style.series_of(cells[0]) for cells in groups if cells[0].builder != "none"))
     lines = []
@@ -89,7 +89,7 @@ def draw_panel(axes: plt.Axes, stage: str, lines: list[Line], sizes: list[int]) 
 
 
 def scale(panels: list[plt.Axes]) -> None:
-    """One scale for all, from a little under the floor, or under what is below it, on."""
+    """Gives all panels one scale. It starts a little below the floor, or below the smallest value if that is lower."""
     drawn = numpy.concatenate([line.get_ydata() for axes in panels for line in axes.lines])
     low, high = 0.8 * min(1.0, drawn.min()), 1.25 * drawn.max()
     for axes in panels:

@@ -18,12 +18,12 @@ import results
 import style
 
 WHOLE = "whole build"
-COLUMNS, LINE = 4, 120  # of the legend: columns, and letters that they have room for together
+COLUMNS, LINE = 4, 120  # of the legend: most columns, and characters that fit in one row
 Times = Callable[[results.Cell], numpy.ndarray]  # seconds, one per sample
 
 
 def stages_of(cells: list[results.Cell]) -> list[str]:
-    """Every stage that took time somewhere, in the order of the list in docs/measuring.md."""
+    """Returns every stage that took time in some cell, in the order of docs/measuring.md."""
     there = {stage for cell in cells for sample in cell.samples for stage in sample}
     return [stage for stage in ("bounds", "codes", "sort", "order", "gather", "hierarchy", "refit") if stage in there]
 
@@ -41,7 +41,7 @@ def dress(upper: list[plt.Axes], lower: list[plt.Axes], sizes: list[int]) -> Non
 
 
 def draw(run: results.Run, experiment: str = "scaling", cells: list[results.Cell] | None = None) -> plt.Figure:
-    """Draws all the experiment's cells, unless `cells` are given."""
+    """Draws `cells`, or all of the experiment's cells if none are given."""
     cells = [cell for cell in (run.of(experiment) if cells is None else cells) if cell.samples]
     stages = stages_of(cells)
     if not stages:

@@ -1,15 +1,14 @@
-"""Whether a value has the shape that a JSON Schema asks for: those keywords that results/schema uses.
+"""Checks whether a value matches a JSON Schema, for the keywords that results/schema uses.
 
-Checks are made of the schema once, and a place in the value is put into words only where it is wrong: a result file of 5.7 MB
-takes 0.3 s, where Debian's fastjsonschema takes 2.5 s. Keys that the schema does not know may hold anything, since a newer
-minor format may have them.
-"""
+Checks are created from the schema once, and a place in the value is put into words only if it is wrong: a result file of 5.7 MB
+takes 0.3 s, where Debian's fastjsonschema takes 2.5 s. Keys that the schema does not know may hold anything, since a newer minor
+format may have them."""
 import math
 import re
 from collections.abc import Callable, Iterable
 from typing import Any
 
-MOST_LEVELS = 20  # of lists and objects in what may be anything
+MOST_LEVELS = 20  # nested lists and objects in a value that may be anything
 LARGEST = 1e100  # so that sums and products of numbers are still numbers
 KINDS = {"object": dict, "array": list, "string": str, "boolean": bool}
 
@@ -26,13 +25,13 @@ class Wrong(Exception):
         return f"{self.place.lstrip('.')} {self.what}".lstrip()
 
     def inside(self, key: str | int) -> "Wrong":
-        """The same, seen from the object or list around it."""
+        """Prefixes the place of the error with the key of the object or list around it."""
         self.place = (f"[{key}]" if isinstance(key, int) else f".{key}") + self.place
         return self
 
 
 def check_of(schema: Json, root: Json) -> Check:
-    """Raises Wrong for a value of another shape. Of a schema with a keyword that is not in MAKERS, raises KeyError."""
+    """Returns a check that raises Wrong for a value that does not match. Raises KeyError for a keyword missing in MAKERS."""
     silent = SILENT | ({"additionalProperties"} if "properties" in schema else set())
     return all_of([MAKERS[keyword](asked, schema, root) for keyword, asked in schema.items() if keyword not in silent])
 
@@ -78,7 +77,7 @@ def of_type(name: str, schema: Json) -> Check:
 
 def of_parts(kind: type, parts: Callable[[Any], Iterable[tuple[str | int, Any]]],
              check_for: Callable[[str | int], Check]) -> Check:
-    """Checks each part of an object or list by the check for its key or place."""
+    """Checks each part of an object or list with the check for its key or index."""
     def check(value: Any) -> None:
         for key, item in parts(value) if type(value) is kind else ():
             try:
@@ -116,7 +115,7 @@ def among(values: list[Any]) -> Check:
 
 
 def wrongs(checks: list[Check], value: Any) -> list[Wrong]:
-    """What the checks raise that do not hold."""
+    """Returns the errors of the checks that fail."""
     found = []
     for check in checks:
         try:
@@ -127,7 +126,7 @@ def wrongs(checks: list[Check], value: Any) -> list[Wrong]:
 
 
 def fitting(schemas: list[Json], root: Json, most: int) -> Check:
-    """A value that fits at least one of the schemas and at most `most` of them."""
+    """Checks that a value fits at least one of the schemas and at most `most` of them."""
     checks = [check_of(schema, root) for schema in schemas]
 
     def check(value: Any) -> None:
@@ -151,7 +150,7 @@ def length(least: int, most: float) -> Check:
 
 
 SILENT = {"$schema", "$id", "$defs", "title", "description", "format", "then"}
-# By keyword: what the schema asks, the schema around it, the whole schema.
+# Makes the check of each keyword from the keyword's value, the schema around it and the whole schema.
 MAKERS: dict[str, Callable[[Any, Json, Json], Check]] = {
     "$ref": lambda asked, _, root: check_of(root["$defs"][asked.removeprefix("#/$defs/")], root),
     "type": lambda asked, schema, root: of_type(asked, schema),

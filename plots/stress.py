@@ -32,7 +32,7 @@ WORDS = {State.HOLDS: "0 wrong", State.REFUSED: "refused, with a reason", State.
 
 
 class Entry(NamedTuple):
-    """What is shown of a cell; the larger one of two that share a place."""
+    """What a cell of the map shows. Of two entries for one place the larger is shown."""
 
     state: State
     missed: int = 0
@@ -49,7 +49,7 @@ class Entry(NamedTuple):
 
 
 def short(count: int) -> str:
-    """1234 as 1.2k: columns are narrow."""
+    """Returns 1234 as 1.2k, because columns are narrow."""
     for unit, letter in ((10**6, "M"), (10**3, "k")):
         if count >= unit:
             return f"{count / unit:.{0 if count >= 10 * unit else 1}f}{letter}"
@@ -68,7 +68,7 @@ def entry_of(cell: dict[str, Any]) -> Entry:
 
 
 def column_of(cell: dict[str, Any]) -> str:
-    """Builders are one column for ours and one a library; a collider is one, whatever its trees."""
+    """Returns the column of a cell: our builders, a library's builders, or a collider, whatever its trees."""
     if cell["kind"] == "builder":
         return f"{cell['library']} builders" if "library" in cell else "builders"
     if cell["kind"] == "collider":
@@ -77,7 +77,7 @@ def column_of(cell: dict[str, Any]) -> str:
 
 
 def columns_of(cells: list[dict[str, Any]]) -> list[str]:
-    """Ours, then libraries that ours wrap, then those alone."""
+    """Returns our columns, then libraries that our code wraps, then libraries on their own."""
     def rank(cell: dict[str, Any]) -> int:
         return 2 if cell["kind"] == "library" else 1 if "library" in cell else 0
 

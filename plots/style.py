@@ -1,4 +1,4 @@
-"""How every figure looks: one colour, marker and hatch per builder, type sizes, and how pictures are written."""
+"""The look of every figure: one colour, marker and hatch for each builder, type sizes, and how pictures are written."""
 import io
 import pathlib
 import warnings
@@ -26,8 +26,8 @@ class Look:
     hatch: str = ""
 
 
-# In the order of legends. Colours are Okabe and Ito's, told apart with every kind of colour vision, and
-# grey and brown; builders that share one differ in marker and hatch. To add a builder, add its line here.
+# In the order of legends. Colours are Okabe and Ito's, which are distinct for all kinds of colour vision, plus grey and brown.
+# Builders that share a colour differ in marker and hatch. To add a builder, add its line here.
 LOOKS = {
     "perfect": Look("#999999", "s"),
     "apetrei": Look("#E69F00", "^"),
@@ -52,7 +52,7 @@ LOOKS = {
     "fcl-obbrss": Look("#F0E442", "H", "////"),
 }
 
-# A builder measured with several options keeps its colour; these tell its variants apart, in order.
+# A builder measured with several options keeps its colour. These distinguish its variants, in order.
 VARIANT_LINES = ("-", "--", ":", "-.")
 VARIANT_HATCHES = ("", "\\\\\\\\", "xxxx", "oooo")
 
@@ -69,7 +69,7 @@ def look(builder: str) -> Look:
 
 
 def ink_on(colour: str) -> str:
-    """Black or white, whichever is read more easily on a colour."""
+    """Returns black or white, whichever is easier to read on the colour."""
     red, green, blue = (value**2.2 for value in to_rgb(colour))
     return "black" if 0.2126 * red + 0.7152 * green + 0.0722 * blue > 0.2 else "white"
 
@@ -79,18 +79,18 @@ def series_of(cell: Cell) -> Series:
 
 
 def in_order(cells: Iterable[Cell]) -> list[Series]:
-    """What the cells compare, each once, in the order of LOOKS."""
+    """Returns each series of the cells once, in the order of LOOKS."""
     names = list(LOOKS)
     return sorted({series_of(cell) for cell in cells}, key=lambda s: (names.index(look(s[0]) and s[0]), s[1]))
 
 
 def variant(series: Series, among: list[Series]) -> int:
-    """Which of its builder's variants a series is, from 0."""
+    """Returns the index of a series among its builder's variants, from 0."""
     return [other for other in among if other[0] == series[0]].index(series) % len(VARIANT_LINES)
 
 
 def label(series: Series, among: list[Series]) -> str:
-    """The builder's name, with the options in which it differs from its other variants."""
+    """Returns the builder's name, with the options in which it differs from its other variants."""
     others = [set(options) for name, options in among if name == series[0]]
     differing = [f"{key} {value}" for key, value in series[1]
                  if any((key, value) not in options for options in others)]
@@ -106,8 +106,8 @@ def line(series: Series, among: list[Series]) -> dict[str, str]:
 
 
 def set_up() -> None:
-    warnings.simplefilter("error", UserWarning)  # as of panels that have no room: no figure is made
-    warnings.filterwarnings("ignore", "Glyph")  # a letter that the font lacks is a box
+    warnings.simplefilter("error", UserWarning)  # a warning, such as one about panels without room, prevents the figure
+    warnings.filterwarnings("ignore", "Glyph")  # a letter that the font lacks is drawn as a box
     plt.rcParams.update({
         "font.family": "DejaVu Sans", "font.size": 8, "axes.titlesize": 8, "axes.labelsize": 8,
         "xtick.labelsize": 7, "ytick.labelsize": 7, "legend.fontsize": 7, "legend.frameon": False,
@@ -119,13 +119,13 @@ def set_up() -> None:
 
 
 def stem(path: pathlib.Path, figure: str) -> str:
-    """A picture is called like its result file, with the figure's name unless it is in there already."""
+    """Returns the picture's name: the result file's name, followed by the figure's unless it contains that already."""
     name = json_files.name_of(path)
     return name if figure in name else f"{name}-{figure}"
 
 
 def settle(figure: plt.Figure) -> None:
-    """Fix the layout, rounded: its last digits depend on what was drawn before, and clip paths are named after them."""
+    """Fixes the layout, rounded: the last digits depend on earlier drawings, and clip paths are named after them."""
     figure.draw_without_rendering()
     figure.set_layout_engine("none")
     for axes in figure.axes:
@@ -133,7 +133,7 @@ def settle(figure: plt.Figure) -> None:
 
 
 def save(figure: plt.Figure, folder: pathlib.Path, name: str, inputs: list[pathlib.Path], force: bool) -> list[pathlib.Path]:
-    """Write PNG and SVG. The same numbers give the same bytes: no dates, no random names. Raises what output does."""
+    """Writes PNG and SVG. Equal numbers give equal bytes: no dates, no random names. Raises what output raises."""
     pictures = {folder / f"{name}.png": {"dpi": 200, "metadata": {"Software": None}},
                 folder / f"{name}.svg": {"metadata": {"Date": None, "Creator": None}}}
     for path in pictures:

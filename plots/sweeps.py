@@ -20,12 +20,12 @@ import results
 import scaling
 import style
 
-# Experiments of the program have figures of their own, or none.
+# Experiments of the program have their own figures, or none.
 OWN = {path.stem for path in (pathlib.Path(__file__).resolve().parent.parent / "harness" / "experiments").glob("*.json")}
-MOST_SERIES = len(style.VARIANT_LINES)  # of a builder: more would look alike
+MOST_SERIES = len(style.VARIANT_LINES)  # of one builder: more would look alike
 MOST_PANELS = 8
 MOST_BARS = 150
-ANSWERS = {"narrow": "none", "adjacent": "keep", "pairs_of": "all"}  # options that decide what is found; the usual ones
+ANSWERS = {"narrow": "none", "adjacent": "keep", "pairs_of": "all"}  # defaults of the options that change what is found
 FRAME = "A frame is all from moved vertices to pairs, or to contacts where a narrow phase follows."
 
 
@@ -34,7 +34,7 @@ def plain(name: str) -> str:
 
 
 def scalings(run: results.Run, experiment: str, cells: list[results.Cell]) -> Iterator[tuple[str, figure.Draw]]:
-    # A kind is what is left of a scene's name without its number of triangles.
+    # A kind is the name of a scene without its number of triangles.
     kinds = results.grouped(cells, lambda cell: re.sub(rf":{cell.triangles}(?=:|$)", "", cell.scene))
     several = {kind: sized for kind, sized in kinds.items() if len({cell.triangles for cell in sized}) > 1}
     for kind, sized in several.items():
@@ -46,7 +46,7 @@ def scalings(run: results.Run, experiment: str, cells: list[results.Cell]) -> It
 
 
 def frame_figures(run: results.Run, experiment: str) -> Iterator[tuple[str, figure.Draw]]:
-    """A figure for each answer that frames were asked for: one takes longer than another."""
+    """Returns one figure for each set of requested answers, because they take different times."""
     def asked_of(cell: results.Cell) -> tuple[str, ...]:
         options = dict(cell.collider_options)
         return *(options.get(key, usual) for key, usual in ANSWERS.items()), cell.swept.get("pairs", "")
@@ -63,7 +63,7 @@ def frame_figures(run: results.Run, experiment: str) -> Iterator[tuple[str, figu
 
 
 def figures_of(run: results.Run) -> dict[str, figure.Draw]:
-    """By the name of the picture, without the file's."""
+    """Returns the figures by the name of the picture, without the file's name."""
     found: dict[str, figure.Draw] = {}
     for experiment in dict.fromkeys(cell.experiment for cell in run.cells if cell.experiment not in OWN):
         builds = [cell for cell in run.of(experiment) if cell.samples]

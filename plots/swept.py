@@ -22,7 +22,7 @@ QUERY = ("ropes", "broad")
 
 
 class Step:
-    """One pipeline over the steps of one scene: its cells of either kind."""
+    """One pipeline over the steps of one scene: its cells of both kinds of query."""
 
     def __init__(self, cells: list[results.Cell]) -> None:
         self.cells = cells
@@ -50,7 +50,7 @@ def steps_of(cells: list[results.Cell]) -> dict[str, list[Step]]:
 
 
 def title(steps: list[Step]) -> str:
-    """What is asked and answered: the same for all pipelines that have both queries."""
+    """Returns scene, steps and numbers of pairs, which are the same for all pipelines that have both queries."""
     first = max(steps, key=lambda step: len(step.kinds))
     name, frames = pipelines.scene_name(first.first), len({one.frame for one in first.cells})
     text = f"{name}, {frames} step{'' if frames == 1 else 's'}: {first.total('pairs_count') * 1e-6:,.1f} M pairs"

@@ -18,9 +18,9 @@ import results
 import style
 
 STAGE = "hierarchy"
-GROUP_WIDTH = 0.88  # of the distance between two meshes, at most
-BAR_WIDTH = 0.16  # of that distance, at most, so that few builders do not make walls
-FOOT = 0.15  # of the panel's height, below the lowest value: where the numbers stand
+GROUP_WIDTH = 0.88  # most width of a mesh's bars, relative to the distance between two meshes
+BAR_WIDTH = 0.16  # most width of one bar, relative to that distance, so that few builders do not give wide blocks
+FOOT = 0.15  # height below the lowest value for the numbers, relative to the panel's height
 
 
 def scene_title(cell: results.Cell) -> str:
@@ -29,7 +29,7 @@ def scene_title(cell: results.Cell) -> str:
 
 
 def paper_time_ms(cell: results.Cell, rows: list[dict]) -> float | None:
-    """The printed time of this builder on this mesh, or on the mesh this one stands in for."""
+    """Returns the printed time of this builder on this mesh, or on the mesh that this one stands in for."""
     for row in rows:
         same = row["scene"] in (cell.scene, cell.stand_in_for) or row["triangles"] == cell.triangles
         if same and row["builder"] == cell.builder:
@@ -38,13 +38,13 @@ def paper_time_ms(cell: results.Cell, rows: list[dict]) -> float | None:
 
 
 def million_per_s(per_s: float) -> str:
-    """Three digits that count, and no exponent."""
+    """Returns a number with three significant digits and no exponent."""
     million = per_s / 1e6
     return f"{million:,.0f}" if million >= 100 else f"{million:.3g}"
 
 
 class Bars:
-    """Two panels over the same bars: time and share of the copy rate."""
+    """Two panels over the same bars: time, and share of the copy rate."""
 
     def __init__(self, run: results.Run, cells: list[results.Cell]):
         self.series = style.in_order(cells)
@@ -79,7 +79,7 @@ class Bars:
             self.rate.bar(x, 100 * moved / seconds.median / self.copy_rate, **dress)
 
     def scale(self, cells: list[results.Cell]) -> None:
-        """A logarithmic axis that holds every value, ours and printed, above the foot."""
+        """Sets a logarithmic axis that holds all values, measured and printed, above the numbers at the bottom."""
         values = [1e3 * value for cell in cells for value in results.quantiles(cell.times_s(STAGE))]
         values += [printed for cell in cells if (printed := paper_time_ms(cell, self.rows)) is not None]
         low, high = min(values) / 1.2, max(values) * 1.3

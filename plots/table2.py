@@ -32,7 +32,7 @@ def draw_scene(axes: plt.Axes, shown: list[pipelines.Pipeline], printed: list[di
 
 
 def draw(run: results.Run, table: str = "table2") -> plt.Figure:
-    """Table 2 or 3, the paper's numbers beside ours."""
+    """Draws Table 2 or 3, with the paper's numbers beside the measured ones."""
     scenes = pipelines.of(run, table)
     drawing, panels = pipelines.panels(scenes, 2.2)
     values: list[float] = []

@@ -17,9 +17,9 @@ import figure
 import results
 import style
 
-RADIX = ("apetrei", "apetrei-fused", "karras", "lbvh-levels", "radix-reference")  # one tree, whichever builds it
+RADIX = ("apetrei", "apetrei-fused", "karras", "lbvh-levels", "radix-reference")  # all build the same tree
 OIBVH = ("oibvh-multi", "oibvh-single", "oibvh-reference")
-KINDS = (("apetrei", RADIX), ("oibvh-multi", OIBVH))  # the paper's word for a kind of tree, and ours
+KINDS = (("apetrei", RADIX), ("oibvh-multi", OIBVH))  # the paper's builder for each kind of tree, and ours
 WIDTH = 0.36
 
 
@@ -38,7 +38,7 @@ def title(cell: results.Cell, printed: dict) -> str:
 
 
 def draw_mesh(axes: plt.Axes, x: int, cells: list[results.Cell], printed: dict) -> set[str]:
-    """The bars of one mesh; answers the builders shown."""
+    """Draws the bars of one mesh and returns the builders shown."""
     scene = cells[0].stand_in_for or cells[0].scene
     model = printed["other_editions"].get(scene, scene)
     paper = {row["builder"]: row["sah_cost"] for row in printed["rows"] if row["scene"] == model}
@@ -64,7 +64,7 @@ def draw_mesh(axes: plt.Axes, x: int, cells: list[results.Cell], printed: dict) 
 
 
 def scale(axes: plt.Axes, cells: list[results.Cell], printed: dict) -> None:
-    """A logarithmic axis with room for the numbers at the foot and those over the bars."""
+    """Sets a logarithmic axis with room for the numbers below and above the bars."""
     values = [cell.counters["sah_cost"] for cell in cells] + [row["sah_cost"] for row in printed["rows"]]
     low, high = min(values), max(values)
     axes.set_yscale("log")

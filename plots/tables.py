@@ -1,4 +1,4 @@
-"""Tables and numbers for the console."""
+"""Formats tables and numbers for the console."""
 import math
 from collections.abc import Sequence
 
@@ -6,7 +6,7 @@ LEFT, RIGHT = "<", ">"
 
 
 class Table:
-    """Columns as wide as their widest entry. A title that begins with "<" aligns its column to the left."""
+    """A table whose columns are as wide as their widest entry. A title that starts with "<" aligns its column to the left."""
 
     def __init__(self, *titles: str) -> None:
         self.titles = [title.removeprefix(LEFT) for title in titles]
@@ -14,11 +14,11 @@ class Table:
         self.rows: list[list[str]] = []
 
     def row(self, *entries: str) -> None:
-        """One entry a column; missing ones at the end are blank."""
+        """Adds a row with one entry for each column; missing entries at the end are blank."""
         self.rows.append([*entries, *[""] * (len(self.titles) - len(entries))])
 
     def text(self) -> str:
-        """A line of titles if any column has one, then the rows, each ended by a newline."""
+        """Returns the titles, if any column has one, then the rows, each ended by a newline."""
         lines = [self.titles, *self.rows] if any(self.titles) else self.rows
         widths = [max(map(len, column)) for column in zip(self.titles, *self.rows)]
         return "".join("  ".join(f"{entry:{align}{width}}" for entry, align, width in zip(line, self.aligns, widths)).rstrip(" ") + "\n"
@@ -26,7 +26,7 @@ class Table:
 
 
 def with_unit(value: float, units: Sequence[str]) -> str:
-    """Three digits that count, in the largest of the units that leaves at least 1."""
+    """Returns three significant digits, in the largest of the units in which the value is at least 1."""
     unit = 0
     while unit + 1 < len(units) and value >= 999.5:
         value /= 1000
@@ -36,30 +36,30 @@ def with_unit(value: float, units: Sequence[str]) -> str:
 
 
 def duration(ns: float) -> str:
-    """Nanoseconds in the unit that suits: "950 ns", "71.2 us", "1.30 ms"."""
+    """Returns nanoseconds in a suitable unit: "950 ns", "71.2 us", "1.30 ms"."""
     return with_unit(ns, ("ns", "us", "ms", "s"))
 
 
 def size(count: float) -> str:
-    """Bytes in the unit that suits: "512 B", "6.91 MB"."""
+    """Returns bytes in a suitable unit: "512 B", "6.91 MB"."""
     return with_unit(count, ("B", "kB", "MB", "GB", "TB"))
 
 
 def counted(count: int, what: str) -> str:
-    """"1 cell", "1,200 cells"."""
+    """Returns "1 cell", "1,200 cells"."""
     return f"{count:,} {what}{'' if count == 1 else 's'}"
 
 
 def whole(value: float | None) -> str:
-    """"1,200"; blank of what is not known, which is None or NaN."""
+    """Returns "1,200", or blank for an unknown value (None or NaN)."""
     return "" if value is None or math.isnan(value) else f"{int(value):,}"
 
 
 def fixed(value: float | None, digits: int = 2) -> str:
-    """So many digits after the point; blank of what is not known."""
+    """Returns `digits` digits after the point, or blank for an unknown value."""
     return "" if value is None or math.isnan(value) else f"{value:.{digits}f}"
 
 
 def exact(value: float) -> str:
-    """With as many digits as tell a number from all others."""
-    return repr(float(value) + 0.0).removesuffix(".0")  # of -0.0 it is 0
+    """Returns as many digits as distinguish the number from all others."""
+    return repr(float(value) + 0.0).removesuffix(".0")  # + 0.0 turns -0.0 into 0

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Every header compiles alone.
+"""Tests that every header compiles alone.
 
 Usage: headers_test.py <source root> <compile_commands.json>
 
-A header that a compiled source includes before anything else has been compiled alone by the build itself, and so has the
-header that such a header includes first: 3 in 4 are, though behind the standard library's headers where those are
-precompiled (cmake/Precompiled.cmake; the presets dev and sanitize leave it off). The others are compiled here, without code
-being made, as the sources of their room are, and behind nothing.
+A header that is the first include of a compiled source, or of such a header, has been compiled alone by the build. That holds
+for 3 in 4 headers, though after the standard library's headers if those are precompiled (cmake/Precompiled.cmake; not in the
+presets dev and sanitize). The other headers are compiled here without any header before them, with the options of their
+room's sources, and without generating code.
 """
 import concurrent.futures
 import json
@@ -23,7 +23,7 @@ WITH_VALUE = ("-o", "-MF", "-MT", "-MQ", "-include")
 
 
 def arguments(command: dict[str, str]) -> list[str]:
-    """Of a compilation: the compiler and its options, without what is read and written."""
+    """Returns the compiler and its options, without input and output files."""
     words = shlex.split(command["command"])
     while pathlib.Path(words[0]).name == "ccache":
         words = words[1:]
@@ -46,7 +46,7 @@ def compiled_alone(root: pathlib.Path, sources: list[str]) -> set[str]:
 
 
 def failure(root: pathlib.Path, header: str, command: dict[str, str], folder: pathlib.Path) -> str:
-    """What the compiler says to a file of nothing but this header, twice: its guard is tried as well."""
+    """Returns the compiler's errors for a file that includes only this header, twice, so that its guard is tested too."""
     alone = folder / (header.replace("/", "_") + ".cpp")
     alone.write_text(2 * f'#include "{header}"\n')
     result = subprocess.run([*arguments(command), "-fsyntax-only", str(alone)], cwd=command["directory"],
@@ -64,7 +64,7 @@ def main() -> int:
     headers = [path.relative_to(root).as_posix() for room in ROOMS for path in sorted((root / room).rglob("*.h"))]
     alone = compiled_alone(root, [path for path in commands if path.startswith(ROOMS)])
     rest = [header for header in headers if header not in alone]
-    # Those of a room are compiled as its sources are; a room without any, as those of the room that needs all.
+    # Headers of a room are compiled with the options of its sources, or of harness sources if the room has none.
     of_room = {room: next((command for path, command in commands.items() if path.startswith(room + "/")), None)
                for room in ROOMS}
     if of_room["harness"] is None or len(headers) < 100:

@@ -1,11 +1,10 @@
 #!/usr/bin/env python3
-"""Committed result files obey their schema, and the schema refuses what it must. Those of the experiment `agreement` say that
-every collider is right over every tree, and what they found is what the data sets' references list.
+"""Tests that committed result files match their schema, and that the schema refuses invalid ones. Those of the experiment
+`agreement` must show that every collider is right over every tree, and match the data sets' references.
 
 Usage: results_test.py <source root>
 
-The comparison with the references needs the data sets (BVHBENCH_DATA); without, it is skipped, saying so.
-"""
+The comparison with the references needs the data sets (BVHBENCH_DATA). Without them it is skipped with a message."""
 import copy
 import json
 import lzma
@@ -40,14 +39,14 @@ class Schema(unittest.TestCase):
         self.assertIn(words, " ".join(errors))
 
     def test_every_result_file_obeys(self) -> None:
-        """Of every format, so that an older one that is still committed is found out."""
+        """Covers every format, so that an older committed file is noticed."""
         count = 0
         for folder in (ROOT / "tests" / "golden", ROOT / "results"):
             for path in sorted([*folder.rglob("*.json"), *folder.rglob("*.json.xz")]):
                 document = read(path)
                 if {"format", "run", "cells"} <= document.keys():
                     count += 1
-                    for cell in document["cells"]:  # all samples of a cell are written alike: the first and the last will do
+                    for cell in document["cells"]:  # all samples of a cell have the same form: the first and last suffice
                         if len(cell.get("samples", [])) > 2:
                             del cell["samples"][1:-1]
                     for error in self.validator.iter_errors(document):
@@ -104,7 +103,7 @@ def frame_of(cell: dict) -> tuple[str, int]:
 
 
 def references(data: pathlib.Path) -> dict[tuple[str, int], dict]:
-    """By scene and frame, what a separate program counted."""
+    """Returns the counts of a separate program, by scene and frame."""
     found = {(pathlib.Path(name).stem, 0): reference for name, reference in read(data / "static" / "reference.json").items()}
     for meta in sorted((data / "dynamic").glob("*/meta.json")):
         found |= {(meta.parent.name, reference["index"]): reference for reference in read(meta)["reference"]}

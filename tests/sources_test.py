@@ -1,19 +1,19 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Hold the text of sources and documents to the project's rules. Each finding is a line.
+"""Tests the text of sources and documents against the project's rules. Each finding is a line.
 
 Usage: sources_test.py rooms <source root> <rooms.json>
        sources_test.py exactness <source root> <compile_commands.json>
        sources_test.py docs <source root>
        sources_test.py format <source root> <clang-format>
 
-rooms: every #include keeps to the rules written by cmake/Rooms.cmake.
-exactness: nothing lets a compiler fuse, reorder or approximate arithmetic, in kernels or on the host. That it does not,
-tests/device/contraction_test.cpp shows by numbers.
-docs: what documents name is there: paths in backticks, unless their line says "not yet" or they hold a <placeholder>; links
-to other documents; GoogleTest names in backticks, as in `Suite.Test`. In sources, keys such as [Chitalu2020] have an entry
-in docs/references.md.
-format: every source and kernel is as clang-format leaves it.
+rooms: every #include follows the rules written by cmake/Rooms.cmake.
+exactness: nothing permits a compiler to fuse, reorder or approximate arithmetic, in kernels or on the host.
+tests/device/contraction_test.cpp tests the results themselves.
+docs: everything that documents name exists: paths in backticks, unless their line says "not yet" or they hold a <placeholder>;
+links to other documents; GoogleTest names in backticks, as in `Suite.Test`. In sources, keys such as [Chitalu2020] have an
+entry in docs/references.md.
+format: every source and kernel is formatted by clang-format.
 """
 import json
 import pathlib
@@ -33,7 +33,7 @@ HOME = "geometry/dialect.h"
 CHECKED_BEHIND = re.compile(r"^// check:.*-include (\S+)", re.MULTILINE)
 COMMENT = re.compile(r"//[^\n]*")
 FLOATING = re.compile(r"\b(?:float|double)(?:2|3|4|8|16)?\b")
-# Built-in functions of OpenCL C whose results are left to the device, or that fuse.
+# Built-in functions of OpenCL C whose results depend on the device, or that fuse operations.
 INEXACT = re.compile(r"\b(?:fma|mad|native_\w+|half_(?:cos|divide|exp2?|exp10|log2?|log10|powr|recip|r?sqrt|sin|tan))\s*\(")
 LOOSE_OPTIONS = re.compile(r"-cl-(?:fast-relaxed-math|mad-enable|unsafe-math\S*|finite-math-only|no-signed-zeros|"
                            r"denorms-are-zero|single-precision-constant)|-ffast-math|-Ofast|-funsafe-math\S*|"
@@ -52,12 +52,12 @@ def files(*folders: str, kinds: tuple[str, ...] = SOURCES) -> list[pathlib.Path]
 
 
 def floor(path: pathlib.PurePath) -> str:
-    """The folder of the room that a file is in; "." for the room's own."""
+    """Returns the folder of the room that a file is in; "." for the room itself."""
     return path.parts[1] if len(path.parts) > 2 else "."
 
 
 def goes_up(floors: list[str], of: str, to: str) -> str:
-    """What is wrong with an include from one folder of a room to another."""
+    """Returns what is wrong with an include from one folder of a room to another; empty if nothing is."""
     if not floors or of == to:
         return ""
     for name in (of, to):
@@ -90,7 +90,7 @@ def rooms() -> Iterator[str]:
 
 
 def reached(path: str, seen: set[str]) -> set[str]:
-    """A kernel file and all that it includes."""
+    """Returns a kernel file and all files that it includes."""
     if path not in seen:
         seen.add(path)
         text = (ROOT / path).read_text()

@@ -23,7 +23,7 @@ COMMANDS = [("build", "--builder", "oibvh-multi"), ("build", "--builder", "oibvh
 
 
 def start(program: str, words: tuple[str, ...], cache: str) -> tuple[float, float]:
-    """Seconds to the first sample, and to the end."""
+    """Returns the seconds to the first sample, and to the end."""
     terminal, theirs = pty.openpty()
     began = time.monotonic()
     with subprocess.Popen([program, *words], stdout=subprocess.DEVNULL, stderr=theirs,

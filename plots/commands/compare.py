@@ -1,4 +1,4 @@
-"""bvhbench compare: holds a result file to an earlier one."""
+"""bvhbench compare: compares a result file with an earlier one."""
 import pathlib
 
 import command

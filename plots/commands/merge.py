@@ -1,4 +1,4 @@
-"""bvhbench merge: makes one result file of several."""
+"""bvhbench merge: merges several result files into one."""
 import command
 import documents
 import output
@@ -20,7 +20,7 @@ def parser() -> command.Parser:
 
 
 def main(words: list[str]) -> int:
-    """1 if an answer in the merged file is wrong."""
+    """Returns the exit code: 1 if an answer in the merged file is wrong."""
     arguments = parser().parse_args(words)
     with reserved(arguments.out, "--out", arguments.force, arguments.files):
         parts = [(path, documents.read(path)) for path in arguments.files]

@@ -19,7 +19,7 @@ def parser() -> command.Parser:
 
 def main(words: list[str]) -> int:
     arguments = parser().parse_args(words)
-    import all  # what draws: only now, so that help needs no matplotlib
+    import all  # imported here, so that help does not need matplotlib
 
     folder, files = pathlib.Path(arguments.out), [pathlib.Path(file) for file in arguments.files]
     output.make_folder(folder)

@@ -1,4 +1,4 @@
-"""bvhbench report: makes one page of result files, and of small scenes in three dimensions."""
+"""bvhbench report: makes one page of result files and of small 3D scenes."""
 import argparse
 import pathlib
 import tempfile
@@ -48,7 +48,7 @@ def main(words: list[str]) -> int:
 
 
 def scene_files(arguments: argparse.Namespace, options: dict[str, str]) -> list[str]:
-    """The files that the scenes are read from. Wrong words are found here, before anything is opened."""
+    """Returns the files that the scenes are read from. Raises WrongUsage for wrong arguments, before any file is opened."""
     scenes = arguments.scene or ["soup:1"]
     experiments = [{"experiment": "view", "scenes": [scene],
                     "pipelines": [{"builder": {"name": arguments.builder, **options}, "collider": arguments.collider,
@@ -62,7 +62,7 @@ def scene_files(arguments: argparse.Namespace, options: dict[str, str]) -> list[
 
 
 def view(arguments: argparse.Namespace, scene: str, options: dict[str, str], file: pathlib.Path) -> pathlib.Path:
-    """A file of what the program shows of the scene. Ends this process as the program ended if it shows nothing."""
+    """Writes the program's description of the scene to `file`. Exits with the program's code if it fails."""
     said = {"scene": scene, "frame": str(arguments.frame), "builder": arguments.builder, "collider": arguments.collider, **options}
     words = ["view", *(word for key, value in said.items() for word in (f"--{key}", value))]
     code, text = child.run([*words, *command.common_words(arguments)], is_kept=True)

@@ -1,4 +1,4 @@
-"""bvhbench reproduce: measures, prints and draws what the paper shows."""
+"""bvhbench reproduce: measures, prints and draws the paper's tables and figures."""
 import argparse
 import contextlib
 import os
@@ -17,9 +17,9 @@ from reserved import reserved
 
 HERE = pathlib.Path(__file__).resolve().parent.parent
 PAGE_SCENE = ("--scene", "cloth-funnel:2000:4", "--frame", "3")  # small, and with contacts
-CANNOT, NOTHING = 3, 4  # exit codes: something cannot be had, and nothing was measured
+CANNOT, NOTHING = 3, 4  # exit codes: something required is missing; nothing was measured
 
-# A table or figure of the paper, the experiment that measures it, and how it is printed.
+# For each table or figure of the paper: the experiment that measures it, and the function that prints it.
 SHOWN: dict[str, tuple[str, Callable[[results.Run], str]]] = {
     "table1": ("table1", paper.table1),
     "fig8": ("fig8", paper.fig8),
@@ -54,10 +54,10 @@ def main(words: list[str]) -> int:
         raise output.WrongUsage(f"WHAT: there is no '{arguments.what}'; there are: {', '.join(SHOWN)}, all; "
                                 "`bvhbench --help` lists what there is")
     is_all = arguments.what == "all"
-    # A run is called after its experiment where figures share it, else after what was asked for.
+    # A run is named after its experiment if several figures share it, otherwise after the requested figure.
     runs = {experiment: [name for name, (other, _) in SHOWN.items() if other == experiment]
             for experiment, _ in SHOWN.values()} if is_all else {arguments.what: [arguments.what]}
-    child.facts(command.common_words(arguments))  # ends here if there is no such device: no folder is made for nothing
+    child.facts(command.common_words(arguments))  # exits if there is no such device, before a folder is created
     folder = pathlib.Path(arguments.out)
     output.make_folder(folder)
     output.check_pictures(folder, [], arguments.force)
@@ -66,18 +66,18 @@ def main(words: list[str]) -> int:
     with contextlib.ExitStack() as kept:
         if is_all:
             kept.enter_context(reserved(report_file, "--out", arguments.force, may_replace=output.is_page))
-        for file in files.values():  # all before anything is measured
+        for file in files.values():  # checks all files before anything is measured
             with reserved(file, "--out", arguments.force):
                 pass
         codes = [reproduced(arguments, files[name], shown) for name, shown in runs.items()]
-    worst = max((code for code in codes if code != NOTHING), default=NOTHING)  # of the runs that measured something
+    worst = max((code for code in codes if code != NOTHING), default=NOTHING)  # among the runs that measured something
     if worst == NOTHING or not is_all:
         return worst
     return page(arguments, list(files.values()), report_file) or worst
 
 
 def reproduced(arguments: argparse.Namespace, file: str, shown: list[str]) -> int:
-    """Measures what is shown, prints its table and draws its figures. Ends this process as the program did if it was stopped."""
+    """Runs the experiment, prints its table and draws its figures. Exits with the program's code if it was stopped."""
     experiment, table = SHOWN[shown[0]]
     words = ["run", experiment, "--out", file, "--quiet", "--sah-inner", str(arguments.sah_inner),
              "--sah-triangle", str(arguments.sah_triangle)]
@@ -94,7 +94,7 @@ def reproduced(arguments: argparse.Namespace, file: str, shown: list[str]) -> in
 
 
 def drawn(name: str, file: str, arguments: argparse.Namespace) -> str:
-    """Draws a figure, and says what became of it. What was measured counts without it."""
+    """Draws a figure and returns a message about the outcome. A failed drawing does not invalidate the measurement."""
     script = HERE / f"{name}.py"
     words = [sys.executable, str(script), file, "--out", arguments.out, *["--force"] * arguments.force]
     with child.handed_on() as children:
@@ -117,9 +117,9 @@ def drawn(name: str, file: str, arguments: argparse.Namespace) -> str:
 
 
 def page(arguments: argparse.Namespace, files: list[str], out: str) -> int:
-    """The page of everything. Without it what was measured is there, and can be shown elsewhere."""
+    """Makes the page of all results. On failure only prints how to make it elsewhere, because the results exist."""
     try:
-        from commands import report  # which needs matplotlib
+        from commands import report  # needs matplotlib
 
         return report.main([*files, "-o", out, *PAGE_SCENE, *command.common_words(arguments)])
     except ModuleNotFoundError as error:

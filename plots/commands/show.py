@@ -23,7 +23,7 @@ def main(words: list[str]) -> int:
 
 
 def pages(run: results.Run) -> str:
-    """By what the file holds: axes of accuracy, stress, frames of `collide`, one cell, or cells of an experiment."""
+    """Returns the tables for the file's contents: axes of accuracy, stress, frames of `collide`, one cell, or an experiment."""
     if axes := accuracy.text(run):
         return axes
     if run.stress:

@@ -1,4 +1,4 @@
-"""bvhbench smoke: runs every builder and collider over small scenes and holds all to a baseline."""
+"""bvhbench smoke: runs every builder and collider over small scenes and compares the results with a baseline."""
 import argparse
 import contextlib
 import os
@@ -35,7 +35,7 @@ def parser() -> command.Parser:
 
 
 def checked(words: list[str]) -> argparse.Namespace:
-    """The command line. What is compared must not depend on which device is known, so no tuning file is looked for."""
+    """Parses the command line. Uses no tuning file by default, so that the comparison does not depend on tuned devices."""
     arguments = parser().parse_args(words)
     if not TOLERANCE[0] <= arguments.tolerance <= TOLERANCE[1]:
         raise WrongUsage(f"--tolerance must be a ratio from {TOLERANCE[0]:g} to {TOLERANCE[1]:g}, not {arguments.tolerance:g}")
@@ -56,7 +56,7 @@ def main(words: list[str]) -> int:
     if arguments.update:
         with reserved(path, "--baseline", arguments.force, may_replace=baseline.is_baseline):
             return update(arguments, path, kind)
-    before = baseline.read(path, kind)  # better to know now than after a minute
+    before = baseline.read(path, kind)  # fails before the minute of measuring
     run, code = measured(arguments, path)
     found = changes.compare(before, baseline.of_run(run), arguments.tolerance, bool(arguments.filter))
     print(changes.report(found, arguments.tolerance), end="")
@@ -64,7 +64,7 @@ def main(words: list[str]) -> int:
 
 
 def update(arguments: argparse.Namespace, path: str, kind: str) -> int:
-    """Makes a baseline of cells that are not wrong in themselves."""
+    """Writes a baseline. Raises Refused if a cell failed or is wrong."""
     run, _ = measured(arguments, path)
     for cell in run.all_cells:
         if cell.verdict in ("failed", "differs"):
@@ -76,8 +76,8 @@ def update(arguments: argparse.Namespace, path: str, kind: str) -> int:
 
 
 def measured(arguments: argparse.Namespace, kept_from: str) -> tuple[results.Run, int]:
-    """The experiment's result file, and the exit code of the child that wrote it: 0, 1 if a check differs, or 4 if nothing was
-    measured. Ends this process as the child ended if it left no file; the child has said why."""
+    """Runs the experiment. Returns its result file and the child's exit code: 0, 1 if a check differs, or 4 if nothing was
+    measured. Exits with the child's code if it wrote no file; the child has reported why."""
     out = arguments.out
     if out and os.path.exists(out) and is_input(out, kept_from):
         raise WrongUsage(f"--out: {out} is read by this command; it is not replaced, choose another file")
@@ -97,7 +97,7 @@ def measured(arguments: argparse.Namespace, kept_from: str) -> tuple[results.Run
 
 
 def identity(file: str) -> tuple[int, int] | None:
-    """Of the file that has this name now: one that is replaced has another."""
+    """Returns the inode and time of the file that has this name now. They change when the file is replaced."""
     with contextlib.suppress(OSError):
         about = os.stat(file)
         return about.st_ino, about.st_mtime_ns

@@ -1,4 +1,4 @@
-"""bvhbench sweep: measures a product of scenes, builders, colliders and options, a process a cell, and goes on where it was."""
+"""bvhbench sweep: measures a product of scenes, builders, colliders and options, one process for each cell; can be resumed."""
 import argparse
 import contextlib
 import json
@@ -24,9 +24,9 @@ from sweeping.planned import Json, Sweep
 from sweeping.product import swept_of
 from sweeping.units import Shard, Unit, shard_called, shards_of, units_of
 
-LISTS = ("scenes", "builders", "orders", "colliders")  # options that take values with commas between
+LISTS = ("scenes", "builders", "orders", "colliders")  # options that take comma-separated values
 USUAL_DOUBLES = "recentred"
-OPENING_S = 600  # compiling two kernels has taken a driver a minute
+OPENING_S = 600  # some drivers took a minute to compile two kernels
 
 
 def parser() -> command.Parser:
@@ -71,7 +71,7 @@ def parser() -> command.Parser:
 
 
 def described(arguments: argparse.Namespace) -> Json:
-    """The file with what the command line says in place of its keys."""
+    """Returns the sweep's file, with its keys overridden by the command line."""
     description: Any = {}
     if arguments.file:
         try:
@@ -93,7 +93,7 @@ def described(arguments: argparse.Namespace) -> Json:
         if not equals or not key:
             raise WrongUsage(f"--set is KEY=V1,V2, not '{words}'")
         chosen = description.setdefault("set", {})
-        if isinstance(chosen, dict):  # else it is refused with the file
+        if isinstance(chosen, dict):  # otherwise it is refused with the file
             chosen[key] = values.split(",")
     return description
 
@@ -139,7 +139,7 @@ def cells_table(sweep: Sweep, units: list[Unit], shards: list[int], shard: Shard
 
 
 def facts_of(arguments: argparse.Namespace, program: str, device: str | None) -> Json:
-    """The facts of a run on the device. Raises Refused."""
+    """Returns the facts of a run on the device. Raises Refused."""
     words = ["facts", *command.common_words(arguments, "--device"), *processes.device_words(device)]
     try:
         done = subprocess.run([command.PROGRAM, *words], executable=program, env=child.environment(),
@@ -154,13 +154,13 @@ def facts_of(arguments: argparse.Namespace, program: str, device: str | None) ->
 
 
 def devices_of(arguments: argparse.Namespace) -> list[str | None]:
-    """The device of each process at a time; None leaves the choice to the program."""
+    """Returns the device of each concurrent process; None leaves the choice to the program."""
     named = arguments.device or [None]
     return [named[place % len(named)] for place in range(arguments.jobs or len(named))]
 
 
 def facts_of_all(arguments: argparse.Namespace, program: str, devices: list[str | None]) -> Json:
-    """The facts of the first device, which the others must be like."""
+    """Returns the facts of the first device. Raises WrongUsage if another device differs."""
     known = {device: facts_of(arguments, program, device) for device in dict.fromkeys(devices)}
     first = known[devices[0]]
     for other in known.values():
@@ -195,7 +195,7 @@ def measured(arguments: argparse.Namespace, words: list[str], sweep: Sweep, ever
             try:
                 processes.Runner(units, folder, task, stop).run()
             except (Refused, OSError):
-                written(sweep, units, shard, folder, facts)  # what is done, before the reason why not all of it is
+                written(sweep, units, shard, folder, facts)  # keeps finished cells before the error is reported
                 raise
             cells = written(sweep, units, shard, folder, facts)
     if stop.number:
@@ -206,7 +206,7 @@ def measured(arguments: argparse.Namespace, words: list[str], sweep: Sweep, ever
 
 
 def is_of_sweep(text: bytes, name: str) -> bool:
-    """Whether it is the text of a result file of this sweep's cells, which it wrote before."""
+    """True if the text is a result file of this sweep, written earlier."""
     try:
         return all(cell["experiment"] == name for cell in documents.document_of(text, "the result file")["cells"])
     except Refused:
@@ -214,7 +214,7 @@ def is_of_sweep(text: bytes, name: str) -> bool:
 
 
 def written(sweep: Sweep, units: list[Unit], shard: Shard, folder: Folder, facts: Json) -> list[Cell]:
-    """Writes all that is done of the units as one file, whose run is the sweep's. Returns its cells."""
+    """Merges all finished units into one file, whose run is the sweep's. Returns its cells."""
     there = [folder.done(unit) for unit in units]
     run = facts | ({"finished_at": processes.now()} if all(there) else {})
     skipped = [one.raw | {"status": "skipped", "reason": one.why_not} for one in sweep.cells if one.why_not and shard.number == 1]

@@ -1,4 +1,4 @@
-"""Two result files, cell by cell: what became faster, slower, larger or wrong."""
+"""Compares two result files cell by cell: what became faster, slower, larger or wrong."""
 import functools
 from dataclasses import dataclass, field
 from typing import Any
@@ -15,9 +15,9 @@ from comparing.scenes import SceneChange
 class ComparedCell:
     first: Cell
     second: Cell
-    regressions: list[str]  # of the verdict, the answer and counters
-    changes: list[str]  # of the same, where they are no reason to fail
-    time: times.TimeChange = times.TimeChange()  # of all stages together, which decides
+    regressions: list[str]  # changes of the verdict, the answer and counters that fail
+    changes: list[str]  # changes of these that do not fail
+    time: times.TimeChange = times.TimeChange()  # of all stages together, which decides the verdict
     stages: dict[str, times.TimeChange] = field(default_factory=dict)
 
     @property
@@ -26,7 +26,7 @@ class ComparedCell:
 
     @property
     def verdict(self) -> str:
-        """Of a cell without samples there are facts, which are compared."""
+        """Returns the verdict on times. Cells without samples are SAME, because only their facts are compared."""
         return self.time.verdict if self.first.all_samples or self.second.all_samples else times.SAME
 
 
@@ -37,14 +37,14 @@ class Comparison:
     cells: list[ComparedCell]  # in the first file's order
     only_first: list[Cell]
     only_second: list[Cell]
-    remarks: list[str]  # what else the two runs do not have in common
-    by_turns: bool  # whether the runs sampled by turns: nothing has drifted between them
-    scenes: list[SceneChange] = field(default_factory=list)  # those with cells enough to tell what they have in common
+    remarks: list[str]  # other differences of the two runs
+    by_turns: bool  # true if the runs took samples in turns, so that drift affects both alike
+    scenes: list[SceneChange] = field(default_factory=list)  # of scenes with enough cells for a common change
 
     @functools.cached_property
     def error_of_each(self) -> float:
-        """What a single cell's error must be under, after Bonferroni: a gate that goes off once in twenty comparisons of hundreds
-        of cells is one that nobody looks at."""
+        """Returns the error allowed for one cell, after Bonferroni, so that comparisons of hundreds of cells of equal programs
+        rarely fail."""
         return self.rules.error / max(1, sum(cell.has_times for cell in self.cells))
 
     @property
@@ -55,7 +55,7 @@ class Comparison:
 
 
 def compare(first: dict[str, Any], second: dict[str, Any], rules: Rules) -> Comparison:
-    """Two documents that may be compared."""
+    """Compares two documents that require_comparable accepts."""
     both, only_first, only_second = matched_cells(*([Cell(raw) for raw in document["cells"]] for document in (first, second)))
     cells = [ComparedCell(*pair, *fact_changes(*pair, rules.other_devices, rules.allow_missing)) for pair in both]
     runs = first["run"], second["run"]
@@ -86,12 +86,12 @@ def compare_scene(cells: list[ComparedCell], comparison: Comparison) -> None:
 
 
 def matched_cells(first: list[Cell], second: list[Cell]) -> tuple[list[CellPair], list[Cell], list[Cell]]:
-    """Cells of one identity, the first with the first, and those of one file only."""
+    """Pairs cells of equal identity in order, and returns the pairs and the cells that only one file has."""
     there = grouped(second, lambda cell: cell.identity)
     both, only_first = [], []
     for cell in first:
         candidates = there.get(cell.identity, [])
-        # A cell without samples does not tell what they would have begun with.
+        # A cell without samples does not show whether it would have started from sorted leaves.
         place = next((place for place, other in enumerate(candidates) if not cell.all_samples or not other.all_samples
                       or cell.starts_from_leaves == other.starts_from_leaves), None)
         if place is None:
@@ -103,7 +103,6 @@ def matched_cells(first: list[Cell], second: list[Cell]) -> tuple[list[CellPair]
 
 
 def group_of(cell: Cell) -> tuple[str, ...]:
-    """Cells whose times may be held against each other have the same: those of one scene and frame, by other builders or
-    colliders."""
+    """Returns a key that is equal for cells whose times are comparable: other builders or colliders on one scene and frame."""
     return (cell.experiment, cell.scene_facts["name"], str(cell.frame), cell.operation, cell.swept.get("pairs", ""),
             cell.accuracy.get("axis", ""), "leaves" if cell.starts_from_leaves else "")

@@ -1,4 +1,4 @@
-"""What two runs of one program differ in though nothing was changed: how fast the device was, and how that wavered."""
+"""Differences between two runs of the same program: the speed of the device, and its variation during each run."""
 import functools
 import math
 from dataclasses import dataclass
@@ -9,20 +9,20 @@ from cells import Cell, Sample, by_stage, counted, median, times_ns
 
 LIKENESS = 0.05  # of logarithms of speeds
 PARTS = 8
-OF_MOST = 4.5  # standard errors from the least of so many parts to the most, by chance
-BESIDE = 2  # samples before and after
-NORMAL = 1.4826  # standard deviations of a normal distribution per median distance from the median
-OF_MEDIAN = 1.2533  # standard errors of the median per that of the mean
+OF_MOST = 4.5  # largest range of the parts' medians that chance gives, in standard errors
+BESIDE = 2  # neighbouring samples on each side
+NORMAL = 1.4826  # standard deviation of a normal distribution over its median distance from the median
+OF_MEDIAN = 1.2533  # standard error of the median over that of the mean
 
 
 @dataclass(frozen=True)
 class Series:
-    """A cell's samples in the order taken: a value a sample, and of a stage one for each sample that has it."""
+    """A cell's samples in the order taken. Times are one value for each sample, or for each sample that has the stage."""
 
     samples: list[dict]  # as in the file
 
     def times_ns(self, stage: str = "") -> numpy.ndarray:
-        """Whole times, or those of a stage."""
+        """Returns whole times, or those of a stage."""
         return times_ns(self.stages, stage)
 
     @functools.cached_property
@@ -46,9 +46,9 @@ def counted_pairs(cells: list[CellPair]) -> list[Pair]:
 
 
 def at_like_speed(cells: list[CellPair]) -> list[Pair]:
-    """The samples beside which the calibration took about as long in both files, within 5 % of the time at which the most of both
-    did. A machine has states, and which of them a run meets is chance. Where the files have no calibration, the samples that
-    statistics are made of. Each series may be empty."""
+    """Selects samples taken at the same speed of the device in both files: those whose calibration time is within 5 % of the
+    value that the most samples of both files are near. A machine has several speed states, and each run meets them by chance.
+    Files without calibration get the samples that statistics use. A series may be empty."""
     pairs = all_pairs(cells)
     if any(sample.get("calibration_ns", 0) <= 0 for pair in pairs for series in pair for sample in series.samples):
         return counted_pairs(cells)
@@ -59,7 +59,7 @@ def at_like_speed(cells: list[CellPair]) -> list[Pair]:
 
 
 def shared_speed(first: numpy.ndarray, second: numpy.ndarray) -> float:
-    """Of both, each ascending, the one that both have the most samples near of."""
+    """Returns the logarithm of calibration time that has the most samples of both files near it. Both arrays are ascending."""
     candidates = numpy.concatenate((first, second))
     near = [numpy.searchsorted(speeds, candidates + LIKENESS, "right") - numpy.searchsorted(speeds, candidates - LIKENESS, "left")
             for speeds in (first, second)]
@@ -68,14 +68,14 @@ def shared_speed(first: numpy.ndarray, second: numpy.ndarray) -> float:
 
 
 def wavering(cells: list[Series]) -> float:
-    """The logarithm of the ratio of a run's slowest eighth to its fastest, minus what chance alone gives; 0 for too few samples.
-    Samples are cut into eighths by their order; the speed of one is the median over its cells of their time in it, relative to
-    their median over the whole run."""
+    """Returns the logarithm of the ratio of a run's slowest to its fastest eighth, minus the largest range that chance gives; 0
+    for too few samples. Eighths are cut by sample order. The speed of an eighth is the median over cells of the cell's median
+    time in it, relative to the cell's median over the whole run."""
     orders = [[sample["order"] for sample in series.samples] for series in cells]
     begin = min((order[0] for order in orders if order), default=0)
     end = max((order[-1] for order in orders if order), default=0) + 1
-    slower: list[list[float]] = [[] for _ in range(PARTS)]  # of each part, a value a cell
-    errors = []  # of a part's median, a value a cell
+    slower: list[list[float]] = [[] for _ in range(PARTS)]  # of each part, one value for each cell
+    errors = []  # standard error of a part's median, one value for each cell
     for series, order in zip(cells, orders):
         times = numpy.maximum(series.times_ns(), 1)
         parts = (numpy.array(order, dtype=int) - begin) * PARTS // (end - begin)
@@ -92,7 +92,7 @@ def wavering(cells: list[Series]) -> float:
 
 
 def median_error(in_parts: list[numpy.ndarray]) -> float:
-    """The standard error of the logarithm of a part's median, from how samples lie about the medians of their parts."""
+    """Returns the standard error of the logarithm of a part's median, from the samples' distances to their parts' medians."""
     distances = numpy.concatenate([numpy.abs(numpy.log(part / median(part))) for part in in_parts if len(part)] or [[]])
     if not len(distances):
         return 0.0
@@ -100,8 +100,8 @@ def median_error(in_parts: list[numpy.ndarray]) -> float:
 
 
 def common_trend(cells: list[Pair]) -> numpy.ndarray:
-    """What two runs that took turns had in common: of the cells of a scene, by how much the n-th samples in both files and those
-    beside them are slower than their cells' medians, the median of all of these, as the logarithm of a ratio."""
+    """Returns the trend that two runs with alternating samples share. For the n-th samples it is the median, over all cells of
+    the scene in both files and over neighbouring samples, of the logarithm of the time relative to the cell's median."""
     rows = [times for pair in cells for series in pair if median(times := series.times_ns()) > 0]
     slower = numpy.full((len(rows), max(map(len, rows), default=0)), math.nan)
     for row, times in zip(slower, rows):

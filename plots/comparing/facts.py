@@ -1,4 +1,4 @@
-"""What of two cells and of two runs is no time."""
+"""Compares everything about two cells and two runs that is not a time."""
 from typing import Any
 
 from cells import Cell
@@ -9,16 +9,16 @@ from tables import exact
 WORST_FIRST = ("failed", "skipped", "differs", "not checked", "counted", "agrees")  # verdicts
 OF_ANSWERS = {"pairs_hash": "pairs", "contacts_hash": "contacts"}
 NO_HASH = "0" * 16
-# What a remark calls a circumstance, and where it is in the facts of a run.
+# Names of circumstances in remarks, and their places in the facts of a run.
 CIRCUMSTANCES = {"device": ("device", "name"), "driver": ("device", "driver"), "host": ("host", "name"),
                  "operating system": ("host", "os"), "compiler": ("program", "compiler"), "build": ("program", "build_type"),
                  "architecture": ("program", "arch"), "kernels": ("program", "kernels")}
 
-Found = tuple[list[str], list[str]]  # sentences: those to fail for, and others
+Found = tuple[list[str], list[str]]  # messages: regressions, and other changes
 
 
 def fact_changes(first: Cell, second: Cell, other_devices: bool, allow_missing: bool) -> Found:
-    """Of two cells of one identity: verdicts, hashes of answers, counters that are exact. Of other devices verdicts only."""
+    """Compares verdicts, hashes of answers and exact counters of two cells of one identity. For other devices, only verdicts."""
     found: Found = [], []
     compare_verdicts(first, second, found)
     if first.status != "measured" or second.status != "measured":

@@ -1,4 +1,4 @@
-"""The median of times that were taken one after the other, and between which two values the true one is."""
+"""Medians of times taken in sequence, with confidence intervals."""
 import functools
 import math
 from typing import NamedTuple
@@ -9,8 +9,7 @@ from cells import median
 
 
 class Interval(NamedTuple):
-    """A value, and between which two the true one is at the confidence asked for. Without enough samples the ends are 0 and
-    infinity."""
+    """A value with the ends of its confidence interval. With too few samples the ends are 0 and infinity."""
 
     low: float
     value: float
@@ -25,15 +24,15 @@ NOTHING_KNOWN = Interval(0, 0, math.inf)
 
 
 def samples_per_independent_one(in_order: numpy.ndarray) -> float:
-    """By how much more than independent ones values that were taken in this order vary together, about their median: the
-    integrated autocorrelation time of being above it, at least 1. A machine that is slow for a while gives many samples that
-    say one thing."""
+    """Returns the integrated autocorrelation time (at least 1) of being above the median: the number of values in this order
+    that carry as much information as one independent value. A machine that is slow for a while gives many samples that say the
+    same."""
     side = numpy.sign(in_order - median(in_order))
     variance = side @ side
     time = 1.0
     if variance > 0:
-        noise = math.sqrt(2 / len(side))  # of two lags of independent ones
-        # Two lags at a time, while there is more than noise (after Geyer's initial positive sequence).
+        noise = math.sqrt(2 / len(side))  # of two lags of independent values
+        # Adds two lags at a time, while they exceed the noise (after Geyer's initial positive sequence).
         for lag in range(1, len(side) // 4, 2):
             pair = (side[:-lag] @ side[lag:] + side[:-lag - 1] @ side[lag + 1:]) / variance
             if pair <= noise:
@@ -44,16 +43,16 @@ def samples_per_independent_one(in_order: numpy.ndarray) -> float:
 
 @functools.cache
 def rank_below(count: int, error: float) -> int:
-    """The largest k for which as many independent values have fewer than k below their median with a chance of `error` / 2 at
-    most; 0 if they are too few for that."""
+    """Returns the largest k for which fewer than k of `count` independent values are below their median with a probability of at
+    most `error` / 2; 0 if `count` is too small."""
     from scipy.stats import binom
 
     return int(binom.ppf(error / 2, count, 0.5)) if count > 0 else 0
 
 
 def median_interval(in_order: numpy.ndarray, error: float) -> Interval:
-    """The median, and the order statistics that it is between with at most `error` of being outside. How far apart they must be
-    is the binomial distribution's, of as many samples as are independent."""
+    """Returns the median and the order statistics around it that contain the true median with an error of at most `error`. Their
+    distance follows the binomial distribution for the number of independent samples."""
     count = len(in_order)
     if count == 0:
         return NOTHING_KNOWN
@@ -63,13 +62,13 @@ def median_interval(in_order: numpy.ndarray, error: float) -> Interval:
     if rank == 0:
         return Interval(0, middle, math.inf)
     ascending = numpy.sort(in_order)
-    place = rank * count // independent  # from 1, from either end
+    place = rank * count // independent  # from 1, counted from each end
     return Interval(float(ascending[place - 1]), middle, float(ascending[count - place]))
 
 
 def ratio_interval(numerator: Interval, denominator: Interval) -> Interval:
-    """The ratio of two quantities that are above 0, from the interval of each, at the error of each: differences of logarithms,
-    whose margins are added as squares (MOVER: Zou and Donner, 2008)."""
+    """Returns the ratio of two positive quantities with its interval, at the error of the given intervals. Differences of
+    logarithms have margins that are added in quadrature (MOVER: Zou and Donner, 2008)."""
     if not (numerator.value > 0 and denominator.value > 0):
         return NOTHING_KNOWN
     with numpy.errstate(divide="ignore", over="ignore"):

@@ -1,4 +1,4 @@
-"""How strictly two result files are compared, and what they must have in common before anything is."""
+"""Rules of a comparison, and what two result files must have in common to be compared."""
 import pathlib
 from dataclasses import dataclass
 from typing import Any
@@ -6,13 +6,13 @@ from typing import Any
 import results
 from output import WrongUsage
 
-Named = tuple[pathlib.Path, dict[str, Any]]  # a file's name and what it holds
+Named = tuple[pathlib.Path, dict[str, Any]]  # a file's path and its document
 
 
 @dataclass(frozen=True)
 class Rules:
-    threshold: float = 0.05  # the smallest change of time that counts, as a share
-    error: float = 0.05  # chance that any cell of two runs of one program is called faster or slower
+    threshold: float = 0.05  # smallest relative change of time that counts
+    error: float = 0.05  # probability that any cell of two equal runs is called faster or slower
     allow_missing: bool = False
     allow_dirty: bool = False
     other_devices: bool = False  # compare only ratios between the cells of a scene
@@ -20,7 +20,7 @@ class Rules:
 
 
 def require_comparable(first: Named, second: Named, rules: Rules) -> None:
-    """Raises WrongUsage, in a sentence with the files' names, if they cannot be compared so."""
+    """Raises WrongUsage, naming the files, if they cannot be compared under these rules."""
     for name, document in (first, second):
         require_file(name, document, rules)
     (name, one), (other_name, other) = first, second

@@ -1,5 +1,5 @@
-"""A comparison as text: cells whose time changed or may have, worst first, with their stages; all other changes a line each; and
-how many cells came out how."""
+"""Formats a comparison as text: cells whose time changed or may have changed, worst first, with their stages; one line for each
+other change; and the number of cells of each verdict."""
 from comparing.comparison import ComparedCell, Comparison
 from comparing.intervals import Interval
 from comparing.scenes import SceneChange
@@ -36,7 +36,7 @@ def is_timed(cell: ComparedCell) -> bool:
 
 
 def is_notable(change: TimeChange, threshold: float) -> bool:
-    """Of an unsure cell, whether its median has moved so far that somebody would want to know."""
+    """True if the time changed, or if an unsure cell's median moved by more than the threshold."""
     within = 1 / (1 + threshold) < change.ratio.value < 1 + threshold
     return change.verdict in (FASTER, SLOWER) or (change.verdict == UNSURE and not within)
 

@@ -1,4 +1,4 @@
-"""The cells of a scene together: what they have in common, which is no change of one of them."""
+"""Times of all cells of a scene together. A change that they have in common is not a change of one of them."""
 import math
 from dataclasses import dataclass, field
 
@@ -9,28 +9,28 @@ from comparing import drift
 from comparing.intervals import Interval
 from comparing.times import FEWEST_SAMPLES, TimeChange, time_change, verdict_of
 
-FEWEST_CELLS = 4  # of fewer, one that was changed moves the median of all
-# Logarithm of a ratio that no state of a machine makes, by what was seen on a shared host: beyond it a cell has changed, however
-# little the others agree.
-MOST_DRIFT = 0.47  # 1.6
+FEWEST_CELLS = 4  # with fewer cells, a single changed cell would move the median of all
+# Logarithm of the largest ratio that a machine's state explains, from observations on a shared host. A cell with a larger ratio
+# has changed, however much the other cells vary.
+MOST_DRIFT = 0.47  # a factor of 1.6
 
 
 @dataclass(frozen=True)
 class SceneChange:
-    """The cells of a scene together: the device, or what all of them share, became slower or faster."""
+    """A common change of a scene's cells: the device, or code that all of them share, became slower or faster."""
 
     scene: Cell  # one of its cells
-    cells: int  # with samples enough
-    ratio: Interval  # median of the cells'; between what the runs wavered by
-    spread: float  # how far off that a cell's ratio may be by chance, as a ratio
+    cells: int  # cells with enough samples
+    ratio: Interval  # median of the cells' ratios, with ends from the variation within the runs
+    spread: float  # how far a cell's ratio may differ from it by chance, as a ratio
     verdict: str
 
 
 @dataclass(frozen=True)
 class Against:
-    pairs: list[drift.Pair]  # the samples of each cell
-    trend: numpy.ndarray = field(default_factory=lambda: numpy.empty(0))  # of samples by their place, where runs took turns
-    common: Interval = Interval(1, 1, 1)  # ratio that is not a cell's own
+    pairs: list[drift.Pair]  # one pair of sample series for each cell
+    trend: numpy.ndarray = field(default_factory=lambda: numpy.empty(0))  # by sample index, if runs took turns
+    common: Interval = Interval(1, 1, 1)  # ratio common to all cells
 
 
 def by_turns(cells: list[drift.CellPair]) -> Against:
@@ -39,8 +39,8 @@ def by_turns(cells: list[drift.CellPair]) -> Against:
 
 
 def beside_the_others(cells: list[drift.CellPair], threshold: float) -> tuple[Against, SceneChange | None]:
-    """Of two runs that were apart. What cells of a scene have in common is told where they are enough; else it is nothing but how
-    sure anything is."""
+    """Compares two runs made at different times. With enough cells, removes their common ratio and reports it; otherwise the
+    common ratio stays 1 and only widens the intervals."""
     pairs = drift.at_like_speed(cells)
     ratios = log_ratios(pairs)
     if not len(ratios):
@@ -55,7 +55,7 @@ def beside_the_others(cells: list[drift.CellPair], threshold: float) -> tuple[Ag
 
 
 def of_other_devices(cells: list[drift.CellPair]) -> Against | None:
-    """None of a cell that is alone on its scene: there is nothing to hold it against."""
+    """Returns None for a scene with one cell, which has no other to be compared with."""
     pairs = drift.counted_pairs(cells)
     ratios = log_ratios(pairs)
     middle = math.exp(median(ratios))
@@ -63,15 +63,15 @@ def of_other_devices(cells: list[drift.CellPair]) -> Against | None:
 
 
 def log_ratios(pairs: list[drift.Pair]) -> numpy.ndarray:
-    """Logarithms of the ratios of medians, of cells with samples enough."""
+    """Returns the logarithms of the ratios of medians, for cells with enough samples."""
     medians = [[max(median(series.times_ns()), 1) for series in pair] for pair in pairs
                if min(map(len, pair)) >= FEWEST_SAMPLES]
     return numpy.log([second / first for first, second in medians])
 
 
 def spread_of(ratios: numpy.ndarray) -> float:
-    """By how much one may be off their median by chance: three standard deviations, as the median of their distances tells them
-    where a few of them are changed."""
+    """Returns how far a ratio may differ from the median by chance: three standard deviations, estimated from the median
+    distance, so that a few changed cells do not matter."""
     return min(3 * drift.NORMAL * median(numpy.abs(ratios - median(ratios))), MOST_DRIFT)
 
 
@@ -81,7 +81,7 @@ def margin_of(pairs: list[drift.Pair], ratios: numpy.ndarray, spread: float) -> 
 
 
 def change_of(pair: drift.Pair, stage: str, against: Against, threshold: float, error: float) -> TimeChange:
-    """How a stage's time changed, or the whole time of a cell if `stage` is empty."""
+    """Returns the change of a stage's time, or of a cell's whole time if `stage` is empty."""
     first, second = (without_trend(series.times_ns(stage), against.trend) for series in pair)
     return time_change(first, second, threshold, error, against.common)
 

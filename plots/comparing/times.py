@@ -1,4 +1,4 @@
-"""How times of the second of two files relate to the first's."""
+"""Compares the times of one cell or stage in two files."""
 from dataclasses import dataclass
 
 import numpy
@@ -6,28 +6,28 @@ import numpy
 from comparing.intervals import NOTHING_KNOWN, Interval, median_interval, ratio_interval
 
 SAME, FASTER, SLOWER, UNSURE = "SAME", "FASTER", "SLOWER", "UNSURE"
-FEWEST_SAMPLES = 9  # of each file that times are judged by
-MOST_COUNTED = 20  # values of each sample of which the test of Mann and Whitney counts all orders
+FEWEST_SAMPLES = 9  # in each file, for a verdict on times
+MOST_COUNTED = 20  # samples of each file up to which the Mann-Whitney test is exact
 
 
 @dataclass(frozen=True)
 class TimeChange:
-    """Of one cell or stage. Medians are in nanoseconds; the ratio is the second's over the first's, over what the scene's have in
-    common."""
+    """The change of one cell or stage. Medians are in nanoseconds. The ratio is the second median over the first, divided by the
+    scene's common ratio."""
 
     first: Interval = NOTHING_KNOWN
     second: Interval = NOTHING_KNOWN
     ratio: Interval = NOTHING_KNOWN
-    p: float = 1.0  # of Mann and Whitney
-    counts: tuple[int, int] = (0, 0)  # samples
+    p: float = 1.0  # of the Mann-Whitney test
+    counts: tuple[int, int] = (0, 0)  # numbers of samples
     verdict: str = UNSURE
 
 
 def time_change(first: numpy.ndarray, second: numpy.ndarray, threshold: float, error: float,
                 common: Interval = Interval(1, 1, 1)) -> TimeChange:
-    """Judge times in the order taken; `common` is a ratio that has nothing to do with the cell. Faster and slower need all of: 9
-    samples of each; a median that is off by the threshold; an interval of the ratio without 1; and a p of Mann and Whitney below
-    `error`. Same is an interval within the threshold. The rest is unsure."""
+    """Compares times in the order taken; `common` is the ratio shared by the scene's cells. FASTER and SLOWER require all of: 9
+    samples in each file, a median ratio beyond the threshold, an interval of the ratio without 1, and a Mann-Whitney p below
+    `error`. SAME requires an interval within the threshold. Everything else is UNSURE."""
     medians = median_interval(first, error), median_interval(second, error)
     ratio = ratio_interval(ratio_interval(medians[1], medians[0]), common)
     p, counts = p_value(first, second / common.value), (len(first), len(second))
@@ -36,9 +36,9 @@ def time_change(first: numpy.ndarray, second: numpy.ndarray, threshold: float, e
 
 
 def p_value(first: numpy.ndarray, second: numpy.ndarray) -> float:
-    """The chance of ranks as uneven or more so, either way, if both samples were of one distribution (Mann and Whitney). Without
-    ties, and with at most 20 of each, it is exact; else it is the normal approximation's, with the corrections for ties and
-    continuity. Where a sample is empty it is 1."""
+    """Returns the two-sided p of the Mann-Whitney test: the probability of ranks at least this uneven if both samples had one
+    distribution. It is exact without ties and with at most 20 values each, otherwise the normal approximation with corrections
+    for ties and continuity. It is 1 if a sample is empty."""
     from scipy.stats import mannwhitneyu
 
     if not len(first) or not len(second):

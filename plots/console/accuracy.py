@@ -1,4 +1,4 @@
-"""Run time against error, a table for each axis of accuracy."""
+"""Prints run time against error, one table for each axis of accuracy."""
 from collections.abc import Callable
 
 import results
@@ -11,7 +11,7 @@ NARROW = ("filter-f64+exact", YARDSTICK, "guigue-f32", "moller-f32")
 
 
 def text(run: results.Run) -> str:
-    """Empty if the file has no cells of an axis."""
+    """Returns the tables; empty if the file has no cells of an axis."""
     by_axis = grouped((cell for cell in run.all_cells if cell.operation == "accuracy"), lambda cell: cell.accuracy["axis"])
     return "".join(table(by_axis[axis]) for axis, table in AXES.items() if axis in by_axis) + swept.text(run, "accuracy")
 
@@ -21,13 +21,13 @@ def counts(cell: Cell, *keys: str) -> list[str]:
 
 
 def must(cell: Cell, *keys: str) -> list[str]:
-    """Counters without which the line says nothing. Raises KeyError for one that is missing."""
+    """Returns required counters as text. Raises KeyError if one is missing."""
     return [whole(cell.counters[key]) for key in keys]
 
 
 def lines(cells: list[Cell], titles: tuple[str, ...], row: Callable[[Cell], list[str]],
           has_numbers: Callable[[Cell], bool] = lambda cell: cell.has_times) -> str:
-    """A line a cell: scene, method, what `row` says, and the verdict; or why there are no numbers."""
+    """Returns one line for each cell: scene, method, the entries of `row`, and the verdict; or why there are no numbers."""
     table = Table(*titles, "<verdict")
     for cell in cells:
         numbers = [*row(cell), cell.verdict] if has_numbers(cell) else [*[""] * (len(titles) - 2), spread.why(cell)]
@@ -51,7 +51,7 @@ def codes(cells: list[Cell]) -> str:
 
 
 def build_ns(cell: Cell) -> float:
-    """All stages but the query."""
+    """Returns the median time of all stages but the query."""
     return median([whole_ns(sample) - elapsed_ns(sample["broad"]) for sample in cell.samples if "broad" in sample])
 
 
@@ -69,7 +69,7 @@ def boxes(cells: list[Cell]) -> str:
 
 
 def inflation(cell: Cell) -> str:
-    """Pairs found for each right one."""
+    """Returns the number of pairs found for each right pair."""
     right = cell.counters.get("right_pairs_count", 0)
     return f"{cell.counters['pairs_count'] / right:.3f}" if right > 0 else ""
 

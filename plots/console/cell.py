@@ -1,4 +1,4 @@
-"""One cell in full: its stages as a table, its counters and its verdict."""
+"""Prints one cell in full: its stages as a table, its counters and its verdict."""
 import itertools
 
 import results
@@ -7,7 +7,7 @@ from console import spread
 from tables import Table, duration, size
 
 HASHES = (("tree_hash", "tree"), ("pairs_hash", "pairs"), ("contacts_hash", "contacts"))
-# Why there are no more samples, said between how far the quartiles are apart and the target.
+# Why sampling ended; the fields are the interquartile range and its target.
 STOPPED = {"steady": "; quartiles {} apart, within {}", "noisy": "; quartiles {} apart and staying so, above {}",
            "most": "; no more are allowed, quartiles {} apart, above {}",
            "budget": "; the time is over, quartiles {} apart, above {}"}
@@ -36,7 +36,7 @@ def number(value: float) -> str:
 
 
 def stages(cell: Cell, copy_rate: float) -> str:
-    """A line a stage, and one of all together."""
+    """Returns one line for each stage, and one for all together."""
     table = Table("<stage", *spread.TITLES, "launches", "bytes", "GB/s", "% of copy", "queued", "submitted")
     first = {entry["stage"]: entry for entry in cell.all_samples[0]["stages"]}
     first |= {"": {key: spread.of_stages(cell, key) for key in ("launches", "moved_bytes")}} if len(first) > 1 else {}
@@ -49,7 +49,7 @@ def stages(cell: Cell, copy_rate: float) -> str:
 
 
 def waited(cell: Cell, stage: str, state: str) -> str:
-    """The median of what a stage's launches, or all, waited in that state; blank before format 1.8."""
+    """Returns the median time that a stage's launches, or all launches, spent in that state; blank before format 1.8."""
     middle = median([sum(entry.get(state, 0) for name, entry in sample.items() if stage in ("", name))
                      for sample in cell.samples])
     return duration(middle) if middle > 0 else ""
@@ -73,7 +73,7 @@ def verdict(cell: Cell) -> str:
 
 
 def depths(leaves_by_depth: list[int]) -> str:
-    """Where the leaves are: "14–38, half by 19"; "17" if all are on one level."""
+    """Returns the levels of the leaves: "14–38, half by 19"; "17" if all are on one level."""
     first = next((depth for depth, leaves in enumerate(leaves_by_depth) if leaves > 0), None)
     if first is None:
         return ""

@@ -1,4 +1,4 @@
-"""The cells of a run, a line each."""
+"""Prints the cells of a run, one line each."""
 from collections.abc import Callable
 
 import results
@@ -6,17 +6,17 @@ from cells import Cell
 from console import spread
 from tables import Table, whole
 
-MOST_LINES = 100  # with more cells than this, only those that need a look have a line
+MOST_LINES = 100  # with more cells, only those that do not agree have a line
 
 
 def wanted_of(run: results.Run) -> Callable[[Cell], bool]:
-    """Which of the cells that agree have a line: frames have a table of their own."""
+    """Returns a filter for the cells that agree: true if they have a line. Frames have a separate table."""
     others = sum(cell.operation != "collide" for cell in run.all_cells)
     return lambda cell: others <= MOST_LINES and (others == len(run.all_cells) or cell.operation != "collide")
 
 
 def text(run: results.Run, wanted: Callable[[Cell], bool] | None = None) -> str:
-    """A line for each cell that does not agree, and for those that are wanted; all are counted."""
+    """Returns a line for each cell that does not agree or for which `wanted` is true, and the number of all cells."""
     wanted = wanted or wanted_of(run)
     table = Table("<scene", "triangles", "<builder", *spread.TITLES, "n", "Mtris/s", "ns/tri", "GB/s", "% of copy", "<verdict")
     shown = [cell for cell in run.all_cells if cell.verdict != "agrees" or wanted(cell)]

@@ -1,4 +1,4 @@
-"""Frames of collision: each in a line, or the mean over those of a scene by a pipeline, beside what the paper prints."""
+"""Prints collision frames: one line each, or the mean over a scene's frames by pipeline, beside the paper's numbers."""
 import numpy
 
 import results
@@ -18,7 +18,7 @@ def each(run: results.Run) -> str:
 
 
 def text(run: results.Run, printed: str = "") -> str:
-    """A line for the frames of a scene by a pipeline; `printed` is the paper's table that has rows to stand below them. Empty if
+    """Returns one line for the frames of a scene by a pipeline, followed by the rows of the paper's table `printed`. Empty if
     there are no frames."""
     groups = list(grouped((cell for cell in run.all_cells if cell.operation == "collide" and not cell.swept),
                           lambda cell: cell.key("scene", "builder", "collider", "experiment")).values())
@@ -48,15 +48,15 @@ def table3(run: results.Run) -> str:
 
 
 def mean(cells: list[Cell], counter: str, scale: float, more: float = 0) -> float | None:
-    """The mean of a counter; None if a frame does not have it."""
+    """Returns the mean of a counter, or None if a frame lacks it."""
     if any(counter not in cell.counters for cell in cells):
         return None
     return sum(cell.counters[counter] for cell in cells) / len(cells) * scale + more
 
 
 def times_of(cells: list[Cell]) -> list[str]:
-    """Mean and deviation over frames of their medians, and the mean of the stage broad, in ms; blank unless every frame was
-    right."""
+    """Returns mean and standard deviation over frames of their medians, and the mean of the stage broad, in ms; blank unless
+    every frame agrees."""
     if any(cell.verdict != "agrees" or not cell.samples for cell in cells):
         return ["", "", ""]
     medians = [cell.median_ns() * 1e-6 for cell in cells]
@@ -65,6 +65,6 @@ def times_of(cells: list[Cell]) -> list[str]:
 
 
 def verdict(cells: list[Cell]) -> str:
-    """One word for all, or the first that is not "agrees"."""
+    """Returns "agrees" if all agree, otherwise the first other verdict and its reason."""
     bad = next((cell for cell in cells if cell.verdict != "agrees"), None)
     return "agrees" if bad is None else bad.verdict + (f": {bad.reason}" if bad.reason else "")

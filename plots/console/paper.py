@@ -1,4 +1,4 @@
-"""Times of the hierarchy beside those that the paper prints: Table 1 and Fig. 8."""
+"""Prints times of the hierarchy beside those of the paper: Table 1 and Fig. 8."""
 import math
 
 import results
@@ -37,12 +37,12 @@ def fig8(run: results.Run) -> str:
 
 
 def hierarchy_ns(cell: Cell) -> float:
-    """The median of the stage; 0 of a cell that has no time to be shown."""
+    """Returns the median of the stage, or 0 for a cell whose time must not be shown."""
     return cell.median_ns(STAGE) if cell.verdict == "agrees" else 0.0
 
 
 def time_columns(cell: Cell, copy_rate: float | None) -> list[str]:
-    """Time, rate and memory traffic of the stage; or the word why there is none."""
+    """Returns time, rate and memory traffic of the stage, or the verdict if there is no time."""
     if not (median := hierarchy_ns(cell)):
         return [cell.verdict, "", "", "", ""]
     low, _, high = quantiles(cell.times_ns(STAGE) * 1e-6)
@@ -52,15 +52,15 @@ def time_columns(cell: Cell, copy_rate: float | None) -> list[str]:
 
 
 def perfect_padding(triangles: int, nodes: float) -> float:
-    """The nodes of an implicit tree that are not real are those of the perfect tree that it leaves out: for each level, the
-    virtual ones (paper, Section 4.1)."""
+    """Returns the share of virtual nodes in a perfect tree, in percent: those that an implicit tree leaves out on each level
+    (paper, Section 4.1)."""
     virtual = (1 << max(triangles - 1, 0).bit_length()) - triangles
     real = nodes - sum(virtual >> level for level in range(virtual.bit_length()))
     return 100 * (nodes - real) / nodes
 
 
 def padding_percent(cell: Cell) -> float:
-    """The share of nodes that hold no box: of the perfect tree's, or beyond the 2n - 1 that there must be."""
+    """Returns the padding in percent: of the perfect tree's nodes, or beyond the 2n - 1 nodes that every tree has."""
     nodes = cell.counters["nodes_count"]
     if cell.builder == "perfect":
         return perfect_padding(cell.triangles, nodes)
@@ -69,7 +69,7 @@ def padding_percent(cell: Cell) -> float:
 
 
 def padding_text(percent: float) -> str:
-    """As Table 1 prints it: two digits after the point, or two that count, the rest cut off."""
+    """Returns the percentage as Table 1 prints it: two digits after the point, or two significant digits, truncated."""
     if percent == 0:
         return "0"
     if percent >= 0.1:
@@ -79,7 +79,7 @@ def padding_text(percent: float) -> str:
 
 
 def crossing_triangles(cells: list[Cell]) -> int | None:
-    """From which size on oibvh-multi is no slower than oibvh-single, having been slower before."""
+    """Returns the size from which oibvh-multi is no slower than oibvh-single, if it was slower at a smaller size."""
     times: dict[int, dict[str, float]] = {}
     for cell in cells:
         if ns := hierarchy_ns(cell):

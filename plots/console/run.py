@@ -1,4 +1,4 @@
-"""Where and with what a run was made."""
+"""Prints the circumstances of a run."""
 import results
 from tables import counted, duration
 
@@ -27,7 +27,7 @@ def text(run: results.Run) -> str:
 
 
 def merged(run: results.Run) -> str:
-    """Of a merged file: how many runs its cells are from, on which hosts and devices, by which commits. Else empty."""
+    """Returns the number of runs of a merged file, its hosts, and its devices and commits if several; empty for other files."""
     sources = run.document.get("merged_from", [])
     if not sources:
         return ""

@@ -1,4 +1,4 @@
-"""What each rule that leaves work out saves: frames with the rule beside the same frames without it."""
+"""Prints what each rule that skips work saves: frames with the rule beside the same frames without it."""
 from collections.abc import Iterable
 
 import results
@@ -8,7 +8,7 @@ from tables import Table, duration
 
 TITLES = ("<scene", "frame", "<rule", "triangles left out", "launches", "rebuilds", "updates", "sorts", "tasks", "box tests",
           "with", "without", "times", "<pairs")
-FEW = 1000  # a group takes nodes in the order in which they turn up: of so many box tests one may come and go
+FEW = 1000  # a group's box tests vary from run to run: smaller relative differences, 1 in FEW, are ignored
 
 
 def text(run: results.Run) -> str:
@@ -28,7 +28,7 @@ def rules_of(cell: Cell) -> list[str]:
 
 
 def key_of(cell: Cell, rules: Iterable[str]) -> tuple[object, ...]:
-    """What a cell is but for the rules that it does without, and those."""
+    """Returns the identity of a cell without the option no_skip, and the set of rules that are off."""
     return (*cell.key("scene", "frame", "experiment", "builder", "collider", without="no_skip"), frozenset(rules))
 
 
@@ -52,5 +52,5 @@ def row_of(with_rule: Cell, without: Cell, rule: str) -> list[str]:
 
 
 def entered(cell: Cell) -> float:
-    """Triangles that the frame's work began with."""
+    """Returns the number of triangles that the frame's work started with."""
     return cell.counters.get("entered_count", cell.triangles)

@@ -1,4 +1,4 @@
-"""What stress found: scenes with who was right over them, systems with their invariants, and whatever of ours is wrong."""
+"""Prints the results of stress: verdicts by scene, invariants by system, and our cells that are wrong or refused."""
 from collections import Counter
 from typing import Any
 
@@ -21,7 +21,7 @@ def text(run: results.Run) -> str:
         if any(finding["verdict"] == "broken" for finding in cell["findings"].values()):
             said += told("WRONG", cell, "broken")
             wrong += 1
-        elif cell["kind"] != "host" and verdict_of(cell) == "refused":  # of the host, that is what was to be done
+        elif cell["kind"] != "host" and verdict_of(cell) == "refused":  # the host is expected to refuse
             said += told("refused", cell, "refused")
             refused += 1
     end = f"{wrong} wrong" if wrong else "none wrong" if refused else "all right"
@@ -35,7 +35,7 @@ def told(word: str, cell: dict[str, Any], verdict: str) -> str:
 
 
 def text_of(invariant: str, finding: Found) -> str:
-    """"right", "-12 +3" for pairs that were missed or are false, "12 wrong", "wrong", "refused"."""
+    """Returns "right", "refused", "failed", "-12 +3" (missed and false pairs), "12 wrong" or "wrong"."""
     if finding["verdict"] != "broken":
         return "right" if finding["verdict"] == "holds" else "refused"
     if invariant == "ends":
@@ -47,7 +47,7 @@ def text_of(invariant: str, finding: Found) -> str:
 
 
 def verdict_of(cell: dict[str, Any]) -> str:
-    """Of one system over a scene."""
+    """Returns the verdict of one system on a scene."""
     for verdict in ("broken", "refused"):
         for invariant, finding in cell["findings"].items():
             if finding["verdict"] == verdict:
@@ -56,7 +56,7 @@ def verdict_of(cell: dict[str, Any]) -> str:
 
 
 def tally(cells: list[dict[str, Any]]) -> str:
-    """"21 right", "20 right, 1 wrong"."""
+    """Returns "21 right", "20 right, 1 wrong"."""
     counts = Counter(word if (word := verdict_of(cell)) in ("right", "refused") else "wrong" for cell in cells)
     return ", ".join(f"{counts[word]} {word}" for word in ("right", "refused", "wrong") if counts[word])
 
@@ -85,6 +85,6 @@ def systems(cells: list[dict[str, Any]], versions: dict[str, str]) -> str:
 
 
 def joined(findings: list[Found]) -> Found:
-    """Numbers are added up; the worst verdict stays."""
+    """Adds up the findings' numbers and keeps the worst verdict."""
     worst = max(findings, key=lambda one: WORSE[one["verdict"]])
     return {"verdict": worst["verdict"], **{key: sum(one[key] for one in findings) for key in ("wrong", "missed")}}

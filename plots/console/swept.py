@@ -1,4 +1,4 @@
-"""Queries of swept boxes: a line each, and one for both of a step by the same pipeline."""
+"""Prints queries of swept boxes: one line each, and one for both queries of a step by the same pipeline."""
 import math
 
 import names
@@ -13,8 +13,7 @@ COUNTERS = ("pairs_count", "ground_truth_pairs", "ground_truth_missed")
 def text(run: results.Run, operation: str = "collide") -> str:
     table = Table("<scene", "step", "<pairs of", "<pipeline", "boxes", "pairs", "broad, ms", "ms", "Mpairs/s", "ground truth",
                   "missed", "inflation", "<verdict")
-    # A scene that was not there has no steps; on the axis it is named all the same. Both queries of a step by one pipeline are
-    # a group.
+    # A group holds both queries of a step by one pipeline. A missing scene has no steps, but is listed along the axis.
     steps = grouped((cell for cell in run.all_cells
                      if cell.operation == operation and (cell.swept or cell.accuracy.get("axis") == "swept")),
                     lambda cell: cell.key("scene", "frame", "experiment", "builder", "collider", without="pairs_of"))
@@ -36,7 +35,7 @@ def method_of(cell: Cell) -> str:
 
 
 def numbers_of(cell: Cell) -> list[float]:
-    """What `columns` shows. What is not known is NaN, so that its sum with others is not known."""
+    """Returns the arguments of `columns`. Unknown values are NaN, so that their sums are unknown too."""
     times = [cell.median_ns("broad"), cell.median_ns()] if cell.has_times else [math.nan, math.nan]
     return [cell.swept.get("primitives", 0), *times, *(cell.counters.get(key, math.nan) for key in COUNTERS)]
 

@@ -1,4 +1,4 @@
-"""Surface area costs of Oi-BVHs beside those of radix trees, as the paper prints them: Table 4 and Fig. 13."""
+"""Prints surface area costs of Oi-BVHs and radix trees beside the paper's: Table 4 and Fig. 13."""
 from dataclasses import dataclass
 
 import results
@@ -11,7 +11,7 @@ RADIX = ("apetrei", "karras", "lbvh", "radix")
 
 @dataclass
 class Pair:
-    """Both kinds of tree over a scene in an order; None where there is none."""
+    """Both kinds of tree over a scene in one order; None for a missing tree."""
 
     either: Cell
     radix: Cell | None = None
@@ -23,7 +23,7 @@ class Pair:
 
     @property
     def why(self) -> str:
-        """Why there is no ratio; empty if there is one."""
+        """Returns why there is no ratio; empty if there is one."""
         if self.ratio:
             return ""
         if self.radix is None or self.oi is None:
@@ -33,18 +33,18 @@ class Pair:
 
 
 def sah_cost(cell: Cell | None) -> float:
-    """The cost; 0 if the tree is not there or is wrong."""
+    """Returns the cost, or 0 if the tree is missing or wrong."""
     if cell is None or cell.status != "measured" or cell.verdict == "differs":
         return 0.0
     return cell.counters.get("sah_cost", 0.0)
 
 
 def pairs_of(run: results.Run) -> list[Pair]:
-    """In the order of the cells. An order without a radix tree of its own is paired with the scene's first."""
+    """Returns the pairs in the order of the cells. An order without its own radix tree is paired with the scene's first one."""
     pairs, radix = [], {}
     for (scene, _), cells in grouped(run.all_cells, lambda cell: (cell.scene_facts["name"], order_of(cell))).items():
         kinds = grouped(cells, lambda cell: cell.builder.startswith(RADIX))
-        # Of several builders of one tree, the first that has a cost.
+        # If several builders build the same tree, the first one with a cost is used.
         own, oi = (next(filter(sah_cost, kinds.get(is_radix, [])), kinds.get(is_radix, [None])[-1]) for is_radix in (True, False))
         if own:
             radix.setdefault(scene, own)

@@ -1,5 +1,5 @@
-"""Builds: how good their trees are, refits beside rebuilds, kernels beside threads of the host, stages beside the device's
-limit. Each page is empty where a file has nothing for it."""
+"""Prints builds: tree quality, refits beside rebuilds, kernels beside host threads, and stages beside the device's limit. Each
+page is empty if the file has no cells for it."""
 import names
 import results
 from cells import Cell
@@ -8,7 +8,7 @@ from console.cell import depths
 from tables import Table, duration, fixed, size
 
 YARDSTICK = "oibvh-host"
-OF_QUERIES = ("ropes", "broad", "narrow")  # a frame's tree is built as in the cells that build
+OF_QUERIES = ("ropes", "broad", "narrow")  # the tree of a frame is built as in the cells that build
 
 
 def may_be_shown(cell: Cell) -> bool:
@@ -20,7 +20,7 @@ def head(cell: Cell) -> list[str]:
 
 
 def quality(run: results.Run) -> str:
-    """Surface area cost, overlaps, and where leaves are; empty unless end-point overlap was asked for."""
+    """Returns surface area cost, overlaps and levels of leaves; empty unless the run computed end-point overlap."""
     table = Table("<scene", "<builder", "SAH", "EPO", "sibling overlap", "<levels of leaves")
     shown = [cell for cell in run.all_cells if cell.leaves_by_depth]
     for cell in shown:
@@ -31,7 +31,7 @@ def quality(run: results.Run) -> str:
 
 
 def refits(run: results.Run) -> str:
-    """Each beside the rebuild by the same builder on the same scene."""
+    """Returns each refit beside the rebuild by the same builder on the same scene."""
     table = Table("<scene", "triangles", "<builder", "rebuild", "refit", "times", "hierarchy", "refit stage", "times",
                   "SAH rebuilt", "refitted")
     rebuilds: dict[tuple[object, ...], Cell] = {}
@@ -53,7 +53,7 @@ def refits(run: results.Run) -> str:
 
 
 def yardstick(run: results.Run) -> str:
-    """The stage hierarchy beside that of plain threads of the host, of trees that are equal."""
+    """Returns the times of the stage hierarchy beside those of plain host threads, for equal trees."""
     def key_of(cell: Cell) -> tuple[object, ...]:
         return (*cell.key("experiment", "scene"), dict(cell.options).get("leaves", "mesh"), cell.check.get("tree_hash"))
 
@@ -74,7 +74,7 @@ def yardstick(run: results.Run) -> str:
 
 
 def roofline(run: results.Run) -> str:
-    """How far stages are from the least time that the device allows: their bytes at the copy rate and their launches."""
+    """Returns each stage's time over the least time that the device allows: bytes at the copy rate plus launches."""
     if not any(cell.experiment == "roofline" for cell in run.all_cells):
         return ""
     table = Table("<scene", "<of", "<stage", "launches", "bytes", "a triangle", "floor", "reached", "ratio")

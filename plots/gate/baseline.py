@@ -1,4 +1,4 @@
-"""What is kept of a run of the experiment `smoke`: each cell's verdict, its fastest time, and all that no machine changes."""
+"""What a baseline keeps of a run of `smoke`: each cell's verdict, its fastest time, and all machine-independent numbers."""
 import os
 from typing import Any
 
@@ -12,7 +12,7 @@ from json_files import Refused, value_of
 from output import WrongUsage
 
 FORMAT = "smoke-1"
-FOUND = ("pairs_count", "contacts_count")  # by whatever version of a library
+FOUND = ("pairs_count", "contacts_count")  # equal for all versions of a library
 TEXT, NUMBER = {"type": "string"}, {"type": "number"}
 CELL = {"cell": TEXT, "scene": TEXT, "verdict": TEXT, "counters": {"type": "object", "additionalProperties": NUMBER},
         "hashes": {"type": "object", "additionalProperties": TEXT}}
@@ -20,11 +20,11 @@ SCHEMA = {"type": "object", "required": ["device_kind", "cells"], "properties": 
     "device_kind": TEXT, "cells": {"type": "array", "items": {
         "type": "object", "required": list(CELL), "properties": {**CELL, "fastest_ns": NUMBER}}}}}
 
-Kept = dict[str, Any]  # what is kept of a cell, as in the file; "fastest_ns" only if its time may be compared
+Kept = dict[str, Any]  # what is kept of a cell, as in the file; "fastest_ns" only if its time is comparable
 
 
 def of_run(run: results.Run) -> list[Kept]:
-    """Builders and colliders that are a library's are called after it."""
+    """Returns what is kept of each cell. Builders and colliders that wrap a library have its name as prefix."""
     libraries = tuple(name.lower() for name in run.facts["libraries"])
     return [kept_of(cell, libraries) for cell in run.all_cells]
 
@@ -40,29 +40,29 @@ def kept_of(cell: Cell, libraries: tuple[str, ...]) -> Kept:
 
 
 def same_everywhere(cell: Cell, is_library: bool) -> dict[str, float]:
-    """Exact counters but for bytes that depend on how many compute units there are; of libraries, whose versions differ, only
-    what they found."""
+    """Returns the exact counters, without bytes that depend on the number of compute units. For libraries, whose versions differ,
+    returns only counts of pairs and contacts."""
     return {counter: value for counter, value in sorted(cell.counters.items())
             if counters.is_exact(counter, cell) and counter not in counters.SIZED_BY_DEVICE
             and (counter in FOUND or not is_library)}
 
 
 def fastest_ns(cell: Cell) -> int:
-    """Of all samples that count: a machine that does other work makes none faster, and many slower. 0 where none is on the
-    device's clock, since host stages scale with other things."""
+    """Returns the fastest time of the samples that statistics use, since other work on the machine slows many samples but speeds
+    up none. 0 for host stages, which scale differently."""
     if not cell.has_times or any("wall_ns" in stage for stage in cell.samples[0].values()):
         return 0
     return min(whole_ns(sample) for sample in cell.samples)
 
 
 def text_of(device_kind: str, kept: list[Kept]) -> str:
-    """A cell a line, so that changes can be read."""
+    """Returns the baseline's text with one cell in each line, so that changes are readable."""
     lines = ",".join(f"\n{line_of(cell)}" for cell in kept)
     return f'{{"format": "{FORMAT}", "device_kind": "{device_kind}", "cells": [{lines}\n]}}\n'
 
 
 def parsed(text: bytes, origin: str) -> dict[str, Any]:
-    """The baseline that a text is. Raises Refused, naming `origin`, for one that is none."""
+    """Parses and checks a baseline. Raises Refused, naming `origin`, if the text is not one."""
     try:
         baseline = value_of(text)
         if not isinstance(baseline, dict) or "format" not in baseline:
@@ -76,7 +76,7 @@ def parsed(text: bytes, origin: str) -> dict[str, Any]:
 
 
 def is_baseline(text: bytes) -> bool:
-    """Whether it is the text of an earlier baseline, which a new one replaces."""
+    """True if the text is an earlier baseline, which a new one replaces."""
     try:
         parsed(text, "the baseline")
     except Refused:
@@ -85,7 +85,7 @@ def is_baseline(text: bytes) -> bool:
 
 
 def read(path: str, device_kind: str) -> list[Kept]:
-    """Raises Refused if there is no baseline, WrongUsage for one of another kind of device."""
+    """Reads the baseline. Raises Refused if there is none, and WrongUsage if it is for another kind of device."""
     if not os.path.exists(path):
         raise Refused(f"there is no baseline '{path}' to hold this run to; smoke --update makes it")
     baseline = parsed(documents.file_text(path, "the baseline"), path)

@@ -1,4 +1,4 @@
-"""How a run of the experiment `smoke` departs from its baseline."""
+"""Compares a run of the experiment `smoke` with its baseline."""
 import math
 from dataclasses import dataclass, field
 
@@ -6,14 +6,14 @@ from cells import grouped, median
 from gate.baseline import Kept
 from tables import exact
 
-FROM_WORST = ("failed", "differs", "skipped", "not checked", "counted", "agrees")  # how well an answer is known to be right
+FROM_WORST = ("failed", "differs", "skipped", "not checked", "counted", "agrees")  # from the worst verdict to the best
 HAS_FACTS = FROM_WORST.index("skipped") + 1
-LEAST_EXCESS_NS = 50_000  # below which a ratio says nothing: some launches
+LEAST_EXCESS_NS = 50_000  # smaller excess times are ignored: they are a few launches
 
 
 @dataclass
 class Changes:
-    """Regressions and remarks, for which nothing fails, are a sentence each; some of the cells compared have a ratio of times."""
+    """Regressions, and remarks that do not fail, one sentence each. `timed` of the `compared` cells have a ratio of times."""
 
     regressions: list[str] = field(default_factory=list)
     remarks: list[str] = field(default_factory=list)
@@ -22,8 +22,8 @@ class Changes:
 
 
 def compare(before: list[Kept], now: list[Kept], tolerance: float, some: bool) -> Changes:
-    """Holds verdicts, counters and hashes exactly, and times as ratios to the median ratio of their scene. With `some`, cells
-    that `now` lacks are no regression."""
+    """Compares verdicts, counters and hashes exactly, and times as ratios to the median ratio of their scene. With `some`, cells
+    missing in `now` are not regressions."""
     changes = Changes()
     old = {cell["cell"]: cell for cell in reversed(before)}
     for cell in now:

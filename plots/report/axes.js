@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Axes and paper of all charts.
+// Axes and background of all charts.
 const INK = "#222222";
 const FAINT = "#dddddd";
 
-/** Logarithmic if there are values that its labels are for. */
+/** Returns an axis, logarithmic if `logValues` holds the values for its labels. */
 function axis(title, logValues, more) {
   return {
     title: {text: title, standoff: 8},
@@ -19,7 +19,7 @@ function axis(title, logValues, more) {
   };
 }
 
-/** A line or marks of cells in somebody's look, each mark leading to the samples of a stage. */
+/** Returns a line or marks of cells in the given look. Each mark links to the samples of a stage. */
 function scatter(name, look, cells, stage, {marker, ...more}) {
   return {
     type: "scatter",
@@ -31,14 +31,14 @@ function scatter(name, look, cells, stage, {marker, ...more}) {
   };
 }
 
-/** Labels of a logarithmic axis: powers of ten, 2 and 5 of each where these are few, all digits where those are. */
+/** Labels of a logarithmic axis: powers of ten; with few of those 2 and 5 of each too; with very few all digits. */
 function logTicks(values) {
   const there = values.filter((value) => value > 0);
   const ratio = Math.max(...there) / Math.min(...there);
   return {dtick: ratio < 8 ? "D1" : ratio < 300 ? "D2" : 1};
 }
 
-/** Whether values are so far apart that a logarithmic axis is needed, and may be had. */
+/** True if values differ so much that a logarithmic axis is needed, and all are positive. */
 function isWide(values) {
   return Math.min(...values) > 0 && Math.max(...values) / Math.min(...values) >= 8;
 }

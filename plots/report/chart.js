@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What charts share: a card with choices, a legend of buttons, a drawing by Plotly that waits until it is seen.
+// Shared by all charts: a card with menus, a legend of buttons, and a Plotly drawing that is made when it comes into view.
 const seen = new IntersectionObserver(
   (entries) => {
     for (const entry of entries.filter((one) => one.isIntersecting)) {
@@ -10,14 +10,14 @@ const seen = new IntersectionObserver(
   {rootMargin: "300px"}
 );
 
-// Where room is short names are broken: drawn anew when a window becomes narrow, or no longer is.
+// Narrow windows break long names, so charts are redrawn when a window becomes narrow or wide.
 const narrow = matchMedia("(max-width: 600px)");
 narrow.addEventListener("change", () =>
   document.querySelectorAll(".drawing.drawn").forEach((drawing) => drawing.chart && drawing.chart.draw())
 );
 
 class Chart {
-  /** `choices`: options by label, as for menu; `draw` makes {traces, layout, legend, notes} of what is chosen. */
+  /** `choices`: options by label, as for menu; `draw` returns {traces, layout, legend, notes} for the chosen options. */
   constructor(title, choices, draw) {
     this.drawing = draw;
     this.selects = Object.values(choices).map((options) => menu(options, () => this.draw()));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Time a frame: a line a pipeline, over the frames of a scene.
+// Time for each frame: one line for each pipeline, over the frames of a scene.
 const COUNTED = {pairs_count: "pairs found", contacts_count: "contacts found", box_tests_count: "box tests"};
 
 function framesChart(file) {

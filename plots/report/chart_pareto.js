@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Time against how good or how wrong: what no other is as good as in both is filled and joined.
-/** A logarithmic axis has no 0: it is drawn a step below the least that is none, and called 0. */
+// Time against quality or error. Points of the Pareto front are filled and joined.
+/** A logarithmic axis has no 0, so 0 is drawn one step below the smallest positive value and labelled 0. */
 function withZero(values) {
   const least = Math.min(...values.filter((value) => value > 0));
   const most = Math.max(...values);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Time against size: a line a builder along sizes of one generator, points where each size is another mesh.
+// Time against size: one line for each builder along the sizes of a generator, and points where each size is another mesh.
 const QUANTITIES = {
   time: {text: "time", axis: (unit) => `time, ${unit[0]}`, of: (ns, triangles, unit) => ns / unit[1]},
   each: {text: "time a triangle", axis: () => "time a triangle, ns", of: (ns, triangles) => ns / triangles},
@@ -10,7 +10,7 @@ const QUANTITIES = {
   },
 };
 
-/** "torus" of "torus:1000"; a mesh is a family of its own. */
+/** Returns "torus" for "torus:1000", and "" for a mesh. */
 function familyOf(scene) {
   const found = /^(.*):\d+$/.exec(scene);
   return found ? found[1] : "";
@@ -56,7 +56,7 @@ function sizeChart(file) {
     return null;
   }
   const stages = [...new Set(experiments.flatMap(([, cells]) => cells.flatMap((cell) => Object.keys(cell.times))))];
-  const wanted = stages.length === 2 ? ["whole"] : stages; // one stage is the whole
+  const wanted = stages.length === 2 ? ["whole"] : stages; // a single stage is the whole
   return new Chart(
     "Time against size",
     {

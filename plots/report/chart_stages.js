@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Where the time goes: a bar a builder or pipeline, its stages stacked, as plots/report_cells.py has made them.
-const LONGEST = 12; // times the shortest bar: the axis ends there at first
+// Time by stage: one bar for each builder or pipeline, its stages stacked, as prepared by plots/report_cells.py.
+const LONGEST = 12; // in multiples of the shortest bar: the initial end of the axis
 const ROW = 38;
 
 function shortened(text, most) {
   return text.length > most ? text.slice(0, most - 1) + "…" : text;
 }
 
-/** A name in lines that are short enough for what room there is. */
+/** Returns a name broken into lines of at most `most` characters where possible. */
 function broken(name, most) {
   const lines = [""];
   for (const word of name.split(" ")) {

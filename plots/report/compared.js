@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Cells that a chart puts side by side: which may be, which have nothing to show, and where each one's samples are.
+// Cells that a chart compares: which are comparable, which have no times, and links to their samples.
 function grouped(cells, keyOf) {
   const groups = new Map();
   for (const cell of cells) {
@@ -12,7 +12,7 @@ function grouped(cells, keyOf) {
   return groups;
 }
 
-/** What cells of a file may be compared over: a scene, asked the same. Says as much as is needed to tell them apart. */
+/** Returns a function that names a cell's question: its scene, and its experiment, axis and request where these vary. */
 function questionOf(cells) {
   const ofScene = [...grouped(cells, (cell) => cell.scene).values()];
   const parts = ["experiment", "axis", "scene", "asked"].filter(
@@ -25,7 +25,7 @@ function questionOf(cells) {
       .join(" · ");
 }
 
-/** What is not drawn, and why, in a few sentences. */
+/** Returns sentences about the cells that are not drawn, and why. */
 function missingNotes(cells) {
   const groups = grouped(
     cells.filter((cell) => WITHOUT_TIMES.includes(cell.state)),
@@ -40,7 +40,7 @@ function missingNotes(cells) {
   return sentences.length > 4 ? [...told, `And ${sentences.length - 4} more, in the table of what has no time.`] : told;
 }
 
-/** A mark leads to the samples behind it: traces say of which cell each of theirs is, and of which stage. */
+/** Returns the links of marks to their samples: the cell and stage of each mark. */
 function samplesOf(cells, stage) {
   return {leads: cells.map((cell) => (cell ? `#cell=${cell.file}.${cell.place}.${stage}` : null))};
 }

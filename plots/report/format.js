@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Numbers as text, and elements of the page.
+// Formats numbers as text, and creates elements of the page.
 const WITHOUT_TIMES = ["differs", "failed", "skipped"];
 const UNITS = [
   ["s", 1e9],
@@ -8,7 +8,7 @@ const UNITS = [
   ["ns", 1],
 ];
 
-/** Four digits that count; an exponent only where there is no room. */
+/** Returns four significant digits, with an exponent only for very large or small numbers. */
 function four(value) {
   const size = Math.abs(value);
   if (value === 0) {
@@ -33,14 +33,14 @@ function shown(value, kind) {
   return typeof value === "number" ? four(value) : value;
 }
 
-/** In which the middle one of these nanoseconds is a number from 1 on: [name, nanoseconds]. */
+/** Returns the unit [name, nanoseconds] in which the median of the times is at least 1. */
 function unitFor(times) {
   const sorted = [...times].sort((a, b) => a - b);
   const middle = sorted[sorted.length >> 1] || 1;
   return UNITS.find((unit) => middle >= unit[1]) || UNITS[3];
 }
 
-/** element("a", {href: "#"}, "text", child): attributes that are functions are handlers. */
+/** element("a", {href: "#"}, "text", child): creates an element. Attributes that are functions become event handlers. */
 function element(tag, attributes, ...children) {
   const made = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes || {})) {
@@ -54,7 +54,7 @@ function element(tag, attributes, ...children) {
   return made;
 }
 
-/** A choice of options, each a value or [value, text]; `change` is called with the value that is chosen. */
+/** Creates a menu of options, each a value or [value, text]. `change` is called with the chosen value. */
 function menu(options, change) {
   const pairs = options.map((option) => (Array.isArray(option) ? option : [option, option]));
   const texts = pairs.map(([value, text]) => element("option", {value}, text));
@@ -62,7 +62,7 @@ function menu(options, change) {
   return made;
 }
 
-/** A verdict, told by its word and its border, not by colour alone. */
+/** Shows a verdict by word and border, not by colour alone. */
 function badge(state) {
   return element("span", {class: "state state-" + String(state).split(/[ :]/)[0]}, String(state).replace("_", " "));
 }
@@ -76,7 +76,7 @@ function download(name, lines) {
   setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }
 
-/** A text that a spreadsheet would take for a formula begins with an apostrophe; numbers are left as they are. */
+/** Formats a CSV value. A text that a spreadsheet would take for a formula gets an apostrophe in front. */
 function csvCell(value) {
   const text = String(value ?? "");
   const harmless = typeof value === "string" && /^[=+\-@\t\r]/.test(text) ? "'" + text : text;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Names in a chart's legend: a shape in its colour, as Plotly draws it, and who is in it.
+// Entries of a chart's legend: a name, and a shape in its colour, as Plotly draws it.
 const SHAPES = {
-  // of legends, around 0, for Plotly's symbols
+  // SVG paths around 0 for Plotly's symbols
   circle: "M4,0A4,4 0 1 1 -4,0A4,4 0 1 1 4,0Z",
   square: "M-3.6,-3.6H3.6V3.6H-3.6Z",
   diamond: "M0,-5L5,0L0,5L-5,0Z",
@@ -31,7 +31,7 @@ function drawn(tag, attributes, ...children) {
   return made;
 }
 
-/** A look as a legend shows it; hatched, as some bars are, with a stroke. */
+/** Draws a look for a legend; a hatched one has a stroke. */
 function swatch(look) {
   const shape = drawn("path", {
     d: SHAPES[look.symbol] || SHAPES.square,
@@ -45,7 +45,7 @@ function swatch(look) {
   return drawn("svg", {viewBox: "-8 -7 16 14", "aria-hidden": "true"}, shape, ...hatch);
 }
 
-/** Of these cells, in the order of the file's looks. */
+/** Returns the legend entries of these cells, in the order of the file's looks. */
 function legendOf(cells, looks) {
   const there = new Set(cells.map((cell) => cell.who));
   return Object.keys(looks)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The page itself: what is in it, which part is shown, and where a link leads. Parts are made when they are first shown.
+// The page itself: its contents, the part that is shown, and the targets of links. Parts are created when first shown.
 const made = new Set();
 const STATES = ["agrees", "counted", "not_checked", "holds", "refused", "differs", "broken", "failed", "skipped"];
 
@@ -33,7 +33,7 @@ function runsTable(files) {
   return tableSection(data, 0);
 }
 
-/** A file's tables and charts, the first time it is shown. */
+/** Creates a file's tables and charts the first time it is shown. */
 async function makeFile(number, head) {
   if (made.has(number)) {
     return;
@@ -65,7 +65,7 @@ async function show(name, head) {
   }
 }
 
-/** #overview, #file-0, or #cell=0.17.sort: the samples of cell 17 of file 0, of the stage sort. */
+/** Follows the location: #overview, #file-0, or #cell=0.17.sort (samples of cell 17 of file 0, stage sort). */
 async function follow(head) {
   const target = decodeURIComponent(location.hash.slice(1));
   const cell = /^cell=(\d+)\.(\d+)\.(\w+)$/.exec(target);
@@ -90,7 +90,7 @@ async function start() {
     document.getElementById("runs").append(runsTable(head.files));
   }
   document.getElementById("views").append(...head.views.map((facts, k) => new View(facts, k).element));
-  // A closed dialog leaves the part it was opened over, and the way back.
+  // Closing the dialog returns to the part that it was opened over, and keeps the history intact.
   document.getElementById("samples").addEventListener("close", () => {
     if (location.hash.startsWith("#cell=")) {
       history.replaceState(null, "", "#file-" + location.hash.slice(6).split(".")[0]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The raw samples behind a number: a dialog with what was measured, every sample, and how they went through the run.
+// The raw samples behind a number: a dialog with the facts of the cell, every sample, and a plot over the run.
 const QUANTITY = {
   span_ns: "first start to last end, ns (device clock)",
   wall_ns: "ns on the host's clock",
@@ -13,13 +13,13 @@ function at(column, place) {
   return Array.isArray(column) ? column[place] : column;
 }
 
-/** Nanoseconds of a stage in a sample, by whichever clock it has. */
+/** Returns the nanoseconds of a stage in a sample, by the device's clock, or else the host's. */
 function nanosecondsOf(stage, place) {
   const span = at(stage.span_ns, place);
   return span !== undefined && span !== null ? span : at(stage.wall_ns, place);
 }
 
-/** Facts of a cell, nested ones spelled out: [name, text]. */
+/** Returns the facts of a cell as [name, text], with nested ones flattened. */
 function factsOf(value, prefix) {
   return Object.entries(value).flatMap(([key, entry]) => {
     const name = prefix ? `${prefix} ${key}` : key;

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-// A table that is sorted by its headers and filtered by words and choices.
+// A table that is sorted by its headers and filtered by words and menus.
 const ROWS_AT_FIRST = 100;
 const MOST_CHOICES = 60;
-const SHORT = 24; // characters: a column of texts no longer than that breaks none
+const SHORT = 24; // characters: a column without longer texts does not wrap
 const words = new Intl.Collator("en", {numeric: true});
 
 class SortedTable {
-  /** `data` as plots/report_tables.py makes it; `file` is the number in links to samples. */
+  /** `data` as returned by plots/report_tables.py; `file` is the file's number in links to samples. */
   constructor(data, file) {
     this.data = data;
     this.file = file;
-    this.order = null; // a column and 1 or -1
+    this.order = null; // [column, 1 or -1], or null
     this.all = false;
     this.choices = new Map();
     const texts = data.rows.map((row) => row.map((value, k) => shown(value, data.columns[k].kind)));
@@ -63,7 +63,7 @@ class SortedTable {
     return element("label", {}, column.label + " ", menu([["", "all"], ...there.sort(words.compare)], choose));
   }
 
-  /** First up, then down, then as it was. Numbers are more often wanted from the least on. */
+  /** Sorts by column k: ascending first, then descending, then in the original order. */
   sort(k) {
     const [column, direction] = this.order || [-1, 0];
     this.order = column !== k ? [k, 1] : direction === 1 ? [k, -1] : null;
@@ -72,7 +72,7 @@ class SortedTable {
     this.fill();
   }
 
-  /** Places of the rows that are wanted, in their order. What has no value is last, whichever way. */
+  /** Returns the indices of the matching rows, in sorted order. Rows without a value are last in both directions. */
   wanted() {
     const needles = this.query.value.toLowerCase().split(/\s+/).filter(Boolean);
     const found = [];
@@ -143,7 +143,7 @@ class SortedTable {
   }
 }
 
-/** A table under its title. One that is folded is made when it is opened. */
+/** Creates a table below its title. A folded table is created when it is opened. */
 function tableSection(data, file) {
   const note = data.note ? element("p", {class: "note"}, data.note) : null;
   if (!data.folded) {

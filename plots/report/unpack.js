@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The page's blobs, gzip in base64: unpacked when first asked for, and once.
+// Unpacks the page's blobs (gzip in base64) on first use, and keeps the result.
 const unpacked = new Map();
 
 function once(key, make) {
@@ -23,17 +23,17 @@ async function textOf(name) {
   return new TextDecoder().decode(await bytesOf(name));
 }
 
-/** A value of the page's data. */
+/** Returns a value of the page's data. */
 function jsonOf(name) {
   return once(name, async () => JSON.parse(await textOf(name)));
 }
 
-/** An array of a scene: Float32Array or Uint32Array. */
+/** Returns an array of a scene: Float32Array or Uint32Array. */
 async function arrayOf(name, Type) {
   return new Type((await bytesOf(name)).buffer);
 }
 
-/** Run a library's text, as a script in the page would be. */
+/** Runs a library's text as a script of the page. */
 function libraryOf(name) {
   return once(name, async () => {
     const script = document.createElement("script");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A scene in three dimensions: its triangles, those that collide in colour, and the boxes of a chosen level of a tree.
+// A scene in three dimensions: its triangles, colliding ones in colour, and the boxes of a chosen level of a tree.
 const SCENE = {
   plain: "#b9bec4",
   pair: "#F0C060",
@@ -9,12 +9,12 @@ const SCENE = {
   paper: "#ffffff",
 };
 const SEEN_FROM = [0.55, 0.5, 1];
-const FIELD = 25; // degrees: a small one bends little
-const DISTANCE = 3.9; // in radii of the scene, where it is as wide as high
+const FIELD = 25; // degrees: a small field of view distorts little
+const DISTANCE = 3.9; // in radii of the scene, for a canvas that is as wide as high
 
-const EDGES = [0, 1, 1, 3, 3, 2, 2, 0, 4, 5, 5, 7, 7, 6, 6, 4, 0, 4, 1, 5, 2, 6, 3, 7]; // corners by bits: x 1, y 2, z 4
+const EDGES = [0, 1, 1, 3, 3, 2, 2, 0, 4, 5, 5, 7, 7, 6, 6, 4, 0, 4, 1, 5, 2, 6, 3, 7]; // corners by bits: x 1; y 2; z 4
 
-/** Three corners a triangle, none shared, so that each has a normal and a colour of its own. */
+/** Returns triangles without shared corners, so that each has its own normal and colour. */
 function trianglesGeometry(points, faces, colourOf) {
   const positions = new Float32Array(faces.length * 3);
   const colours = new Float32Array(faces.length * 3);
@@ -30,7 +30,7 @@ function trianglesGeometry(points, faces, colourOf) {
   return geometry;
 }
 
-/** Boxes first to before end, six sides each: min x, y, z, max x, y, z. */
+/** Returns the edges of boxes `first` to `end` - 1; a box is min x, y, z, max x, y, z. */
 function boxesGeometry(sides, first, end) {
   const positions = new Float32Array((end - first) * EDGES.length * 3);
   let place = 0;
@@ -46,7 +46,7 @@ function boxesGeometry(sides, first, end) {
   return geometry;
 }
 
-/** Which triangles are in a pair: 1 for each that is. */
+/** Returns 1 for each triangle that is in a pair, otherwise 0. */
 function marks(pairs, count) {
   const found = new Uint8Array(count);
   pairs.forEach((triangle) => {
@@ -56,7 +56,7 @@ function marks(pairs, count) {
 }
 
 class View {
-  /** `facts` as plots/report_facts.py makes them; arrays are unpacked when it is seen. */
+  /** `facts` as returned by plots/report_facts.py; arrays are unpacked when the view comes into sight. */
   constructor(facts, number) {
     this.facts = facts;
     this.number = number;
@@ -120,7 +120,7 @@ class View {
     return element("p", {class: "legend plain"}, ...shown);
   }
 
-  /** Once it is seen. Where there is no WebGL it says so. */
+  /** Draws the scene when it comes into view. Shows a warning if there is no WebGL. */
   async draw() {
     await libraryOf("three");
     try {
@@ -177,7 +177,7 @@ class View {
     this.place();
   }
 
-  /** The camera, so that all is in sight whatever the scene's size. */
+  /** Places the camera so that the whole scene is visible, whatever its size. */
   place() {
     this.mesh.geometry.computeBoundingSphere();
     const {center, radius} = this.mesh.geometry.boundingSphere;

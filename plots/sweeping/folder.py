@@ -1,11 +1,11 @@
-"""What a sweep leaves behind, and knows itself again by when it goes on:
+"""The files of a sweep, from which it can be resumed:
 
-    plan.json            of which units it is, by which programs, on which device
-    experiments/ID.json  what the process of a unit runs
-    cells/ID.json        what came of it, a result file; there in full or not finished
-    NAME.json            all of them, merged; of a shard NAME-IofN.json
+    plan.json            its units, programs and device
+    experiments/ID.json  the experiment that the process of a unit runs
+    cells/ID.json        the result file of a unit, complete or unfinished
+    NAME.json            all results merged; NAME-IofN.json for a shard
 
-A unit's ID is the hash of what is measured, by which program and on which device.
+The ID of a unit is a hash of what is measured, by which program and on which device.
 """
 import contextlib
 import hashlib
@@ -23,12 +23,12 @@ from output import WrongUsage
 from sweeping.planned import Sweep, hash_of
 from sweeping.units import Shard, Unit
 
-PLAN_FORMAT = 2  # 1 named cells in another way
-PATIENCE_S = 5  # longer than a shard looks at the plan, and than the system takes to end a process that was killed
+PLAN_FORMAT = 2  # format 1 named cells differently
+PATIENCE_S = 5  # longer than a shard holds the plan's lock, and than a killed process takes to end
 
 
 def program_words(facts: dict[str, Any]) -> str:
-    """Which program it is, in words that another one does not have: with changes that are in no commit, by its own bytes too."""
+    """Returns words that identify the program. With uncommitted changes they include a hash of its file."""
     program = facts["program"]
     words = f"commit {program['commit'][:10]}"
     if program["dirty"] or program["commit"] == "unknown":
@@ -38,14 +38,14 @@ def program_words(facts: dict[str, Any]) -> str:
 
 
 def device_words(facts: dict[str, Any]) -> str:
-    """The same of the device, with what it is tuned to."""
+    """Returns words that identify the device, with its tuned values."""
     device = facts["device"]
     tuned = "".join(f", {name}={value}" for name, value in sorted(facts["tuning"]["values"].items()))
     return f"{device['platform']}/{device['name']}, driver {device['driver']}{tuned}"
 
 
 def finished(path: pathlib.Path) -> dict[str, Any] | None:
-    """What is in a unit's file, if its process has written the end of its run. Raises Refused for what is no result file."""
+    """Returns a unit's result file if its run has finished, otherwise None. Raises Refused if it is not a result file."""
     if not path.exists():
         return None
     document = documents.read(str(path))
@@ -53,13 +53,13 @@ def finished(path: pathlib.Path) -> dict[str, Any] | None:
 
 
 class Folder:
-    """Held by one sweep, or by shards beside each other, until `locks` are closed."""
+    """The folder of a sweep, locked by one sweep or by several shards until `locks` are closed."""
 
     def __init__(self, folder: str, sweep: Sweep, together: bool, units: list[Unit], shard: Shard, facts: dict[str, Any],
                  format_: str, keeps_other_commit: bool, locks: contextlib.ExitStack) -> None:
         self.path, self.format = pathlib.Path(folder), format_
         self.device, self.programs = device_words(facts), [program_words(facts)]
-        self.note = ""  # what is said of an earlier program, whose cells count too
+        self.note = ""  # message about cells of an earlier program, which are kept
         part = f"{shard.number}of{shard.of}"
         self.result_file = self.path / (f"{sweep.name}.json" if shard.is_all else f"{sweep.name}-{part}.json")
         for inside in ("cells", "experiments"):
@@ -70,7 +70,7 @@ class Folder:
         subject = f"the sweep in {folder}"
         kind = file_lock.EXCLUSIVE if shard.is_all else file_lock.SHARED
         locks.enter_context(file_lock.locked(str(self.path / "lock"), kind, subject, PATIENCE_S))
-        # Whoever looks at the plan and writes it does so alone.
+        # Only one process at a time reads and writes the plan.
         with file_lock.locked(str(self.path / "lock-plan"), file_lock.EXCLUSIVE, subject, PATIENCE_S):
             if not shard.is_all:
                 locks.enter_context(file_lock.locked(str(self.path / f"lock-{part}"), file_lock.EXCLUSIVE, subject, PATIENCE_S))
@@ -83,7 +83,7 @@ class Folder:
                     "together": "scene" if together else "cell"}
             output.write(self.path / "plan.json", (json.dumps(plan, indent=1) + "\n").encode())
         if shard.is_all:
-            for left in (self.path / "cells").glob("*.json.tmp*"):  # of processes that were killed while they wrote
+            for left in (self.path / "cells").glob("*.json.tmp*"):  # left by processes that were killed while writing
                 left.unlink(missing_ok=True)
 
     def check_plan(self, plan: dict[str, Any], units: list[Unit], keeps_other_commit: bool) -> None:
@@ -120,7 +120,7 @@ class Folder:
         return self.path / "experiments" / self.cell_file(unit).name
 
     def done(self, unit: Unit) -> tuple[pathlib.Path, dict[str, Any]] | None:
-        """The result file of the unit, whichever program measured it."""
+        """Returns the result file of a finished unit, whichever program measured it, or None."""
         for program in self.programs:
             path = self.cell_file(unit, program)
             if document := finished(path):
@@ -128,7 +128,7 @@ class Folder:
         return None
 
     def begin(self, unit: Unit) -> None:
-        """Removes what is left of a unit that is not done, and writes its experiment."""
+        """Removes an unfinished result of the unit and writes its experiment."""
         self.cell_file(unit).unlink(missing_ok=True)
         output.write(self.experiment_file(unit), (json.dumps(unit.experiment, indent=1) + "\n").encode())
 

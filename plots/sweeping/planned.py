@@ -1,4 +1,4 @@
-"""A cell of a sweep: what its process is told, and what the program says of it: what it is in full, or why there is none."""
+"""A cell of a sweep: the experiment of its process, and the program's description of it or the reason why it is impossible."""
 import hashlib
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -7,10 +7,10 @@ from typing import Any
 import cells
 
 Json = dict[str, Any]
-Settle = Callable[[list[Json]], list[Json]]  # the program's answers to experiments
+Settle = Callable[[list[Json]], list[Json]]  # returns the program's answers to experiments
 
-NO_BUILDER = "none"  # of a collider that wants no tree
-# Options that a sweep goes through values of, in the order in which they are applied: whose each is, and its key there.
+NO_BUILDER = "none"  # for colliders without a tree
+# Options that a sweep varies, in the order in which they are applied: the part that each belongs to, and its key there.
 OPTIONS = {"grid": ("builder", "grid"), "builder.group_size": ("builder", "group_size"), "items": ("builder", "items"),
            "boxes": ("builder", "boxes"), "leaves": ("builder", "leaves"), "pairs_of": ("query", "pairs_of"),
            "adjacent": ("query", "adjacent"), "narrow": ("query", "narrow"), "no_skip": ("query", "no_skip"),
@@ -21,15 +21,15 @@ OPTIONS = {"grid": ("builder", "grid"), "builder.group_size": ("builder", "group
 
 @dataclass
 class Planned:
-    """A cell that is to be measured, or `why_not`."""
+    """A cell to be measured, or one with `why_not`."""
 
-    scene: Json  # as an experiment has it, and so all four
-    builder: Json | None  # None: the collider wants no tree
+    scene: Json  # as in an experiment; so are builder, collider and query
+    builder: Json | None  # None: the collider needs no tree
     collider: Json | None  # None: a build
     query: Json
-    triangles: int = 0  # as far as the scene's name tells; else 0
-    files: list[str] = field(default_factory=list)  # that the scene is read from
-    raw: Json = field(default_factory=dict)  # as the result file will have it, without samples
+    triangles: int = 0  # 0 unless the scene's name tells it
+    files: list[str] = field(default_factory=list)  # input files of the scene
+    raw: Json = field(default_factory=dict)  # the cell as in the result file, without samples
     why_not: str = ""
 
     @property
@@ -48,7 +48,7 @@ class Sweep:
     cells: list[Planned]
 
     def experiment(self, those: list[Planned]) -> Json:
-        """What the process of some cells of one scene runs."""
+        """Returns the experiment that the process of these cells, all of one scene, runs."""
         collides = those[0].collider is not None
         described: Json = {"experiment": self.name} | ({"question": self.question} if self.question else {})
         described["scenes"] = [those[0].scene if collides else those[0].scene["scene"]]
@@ -69,19 +69,19 @@ def settled(planned: list[Planned], sweep: Sweep, settle: Settle) -> list[Planne
 
 
 def say_all_options(one: Planned) -> None:
-    """However a cell was described, it is the same experiment, also for a program whose usual options are others."""
+    """Spells out all options, so that the experiment does not depend on the description or on a program's defaults."""
     if one.builder is not None:
         one.builder = {"name": one.raw["builder"]["name"], **one.raw["builder"]["options"]}
     if one.collider is not None:
         options, said = dict(one.raw["collider"]["options"]), one.query
         one.query = {key: options.pop(key) for key, (whose, _) in OPTIONS.items() if whose == "query" and key in options}
-        if one.query.pop("no_skip"):  # a list of rules there, which experiments name one by one, or all
+        if one.query.pop("no_skip"):  # the answer has a list of rules; experiments name one rule or all
             one.query["no_skip"] = said["no_skip"]
         one.collider = {"name": one.raw["collider"]["name"], **options}
 
 
 def unsettled(one: Planned, sweep: Sweep) -> Json:
-    """What can be said of a cell that there is not."""
+    """Returns a skipped cell's JSON, from its description."""
     def choice(described: Json) -> Json:
         options = {key: int(value) if str(value).isdecimal() else value for key, value in described.items() if key != "name"}
         return {"name": described["name"], "options": options}
@@ -101,5 +101,5 @@ def unsettled(one: Planned, sweep: Sweep) -> Json:
 
 
 def hash_of(*parts: str) -> str:
-    """16 hexadecimal digits, of all parts and of where each ends."""
+    """Returns 16 hexadecimal digits: a hash of all parts and of their boundaries."""
     return hashlib.sha256(b"".join(part.encode(errors="surrogateescape") + b"\0" for part in parts)).hexdigest()[:16]

@@ -1,4 +1,4 @@
-"""A process for each unit of a sweep, several at a time: a crash costs one unit."""
+"""Runs one process for each unit of a sweep, several at a time. A crash costs one unit."""
 import collections
 import contextlib
 import datetime
@@ -21,25 +21,25 @@ from json_files import Refused
 from sweeping.folder import Folder, finished
 from sweeping.units import TimeLeft, Unit, rough
 
-LOOK_S = 0.1  # how often signals and time limits are looked for
-PATIENCE_S = 5  # for processes that were asked to end
-MOST_ERRORS = 1 << 16  # bytes kept of what a process says
+LOOK_S = 0.1  # interval at which signals and time limits are checked
+PATIENCE_S = 5  # time for processes to end after a request
+MOST_ERRORS = 1 << 16  # bytes kept of a process's standard error
 
 
 class Stop:
-    """Remembers the signal that asked this process to end, so that what is done is assembled before; 0: none."""
+    """Remembers the signal (0: none) that asked this process to end, so that finished cells are assembled first."""
 
     number = 0
 
     def remember(self, number: int, _frame: Any) -> None:
-        if self.number:  # asked twice: at once, and its processes with it
+        if self.number:  # the second signal ends this process and its children at once
             os._exit(128 + number)
         self.number = number
 
 
 @contextlib.contextmanager
 def kept_program() -> Iterator[str]:
-    """A name that the file of this very program has until the end, also when another one takes its place."""
+    """Yields a path of this program's file that stays valid until the end, even if the file is replaced."""
     try:
         file = open(command.PROGRAM, "rb")
     except OSError as error:
@@ -50,13 +50,13 @@ def kept_program() -> Iterator[str]:
 
 @dataclass(frozen=True)
 class Task:
-    devices: list[str | None]  # of each process at a time; None: the program's choice
-    program: str  # its file
-    words: list[str]  # options that all processes get
-    cell_limit_s: float  # 0: none
+    devices: list[str | None]  # of each concurrent process; None: the program's choice
+    program: str  # path of its file
+    words: list[str]  # options of all processes
+    cell_limit_s: float  # 0: no limit
     retry_failed: bool
-    facts: Callable[[str | None], dict[str, Any]]  # of a device that is there; raises Refused
-    run: dict[str, Any]  # facts of the sweep's own run
+    facts: Callable[[str | None], dict[str, Any]]  # of a device; raises Refused if it is gone
+    run: dict[str, Any]  # facts of the sweep's run
 
 
 class Process:
@@ -75,7 +75,7 @@ class Process:
         return time.monotonic() - self.began
 
     def take(self) -> bool:
-        """Keeps the last of what it says, which must be there. Whether it is over."""
+        """Reads the available standard error and keeps its end. True if the process has ended."""
         piece = os.read(self.errors, MOST_ERRORS)
         self.said = (self.said + piece)[-MOST_ERRORS:]
         if not piece:
@@ -90,13 +90,13 @@ class Process:
             self.child.kill()
 
     def sentence(self) -> str:
-        """The last of what it said as the program says what went wrong; drivers may have had words before and after."""
+        """Returns the last line in the program's format for errors. A driver may print other lines before and after it."""
         said = [line for line in self.said.decode(errors="replace").splitlines() if line.startswith("bvhbench: ")]
         return said[-1].removeprefix("bvhbench: ") if said else ""
 
 
 def readable(files: list[int]) -> set[int]:
-    """Those with something to read, or at their end, after LOOK_S at the latest."""
+    """Returns the files with something to read or at their end, after at most LOOK_S."""
     waiting = select.poll()
     for file in files:
         waiting.register(file, select.POLLIN)
@@ -140,17 +140,17 @@ class Runner:
         there = self.folder.done(unit)
         if there is None or (self.task.retry_failed and any(cell["status"] == "failed" for cell in there[1]["cells"])):
             return False
-        self.count(unit, there[1], max(0.5, seconds_of(there[1]["run"])))  # files tell whole seconds
+        self.count(unit, there[1], max(0.5, seconds_of(there[1]["run"])))  # files have whole seconds
         return True
 
     def count(self, unit: Unit, document: dict[str, Any], seconds: float) -> None:
-        """What a cell took that was not measured says nothing of others."""
+        """Counts a finished unit. Only measured cells are used to estimate the remaining time."""
         self.done += 1
         if document["cells"][0]["status"] == "measured":
             self.left.add(unit.kind, unit.triangles, seconds)
 
     def run(self) -> None:
-        """Raises Refused where the device is gone."""
+        """Runs all units. Raises Refused if the device is gone."""
         try:
             while not self.stop.number and (self.waiting or any(self.slots)):
                 for place, slot in enumerate(self.slots):
@@ -170,7 +170,7 @@ class Runner:
     def conclude(self, process: Process) -> None:
         unit = process.unit
         if finished(process.file) is None:
-            if process.file.exists():  # what it had measured before stays there, out of the way
+            if process.file.exists():  # its partial results are kept under another name
                 process.file.rename(process.file.with_suffix(".part"))
             loss = loss_of(process)
             if loss.was_stopped and self.was_interrupted():
@@ -185,14 +185,14 @@ class Runner:
         self.tell(unit, document, process.seconds)
 
     def was_interrupted(self) -> bool:
-        """Ctrl-C may reach a process first."""
+        """True if this process gets a signal too, since Ctrl-C may reach the child first."""
         until = time.monotonic() + 1
         while not self.stop.number and time.monotonic() < until:
             time.sleep(LOOK_S)
         return bool(self.stop.number)
 
     def has_device(self, device: str | None, why: str) -> bool:
-        """Else every cell that is left would fail in its turn, so it raises Refused. False: a signal ended who was asked."""
+        """Raises Refused if the device is gone, since all remaining cells would fail. False if a signal ended the check."""
         try:
             self.task.facts(device)
             return True
@@ -216,7 +216,7 @@ class Runner:
         line = f"[{self.done}/{self.total}] {unit.label}: {what}, {seconds:.1f} s"
         if self.done < self.total and self.left.all:
             line += f"; about {rough(self.seconds_left())} left"
-        print(line, flush=True)  # cluster logs are read while they grow
+        print(line, flush=True)  # so that logs can be followed
 
     def seconds_left(self) -> float:
         def takes(unit: Unit) -> float:
@@ -227,7 +227,7 @@ class Runner:
         return seconds / len(self.slots)
 
     def end_all(self) -> None:
-        """Asked first, so that they may leave a driver in order; their cells will be measured anew."""
+        """Asks all processes to end, so that drivers can clean up, then kills the rest. Their cells will be measured again."""
         running = [slot.child for slot in self.slots if slot]
         for one in running:
             one.terminate()

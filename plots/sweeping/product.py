@@ -1,5 +1,5 @@
-"""The product that a sweep measures: scenes, sizes, builders, orders, colliders and values of options. docs/sweeps.md tells how
-it is written. The program itself says what each cell is, or why there is none."""
+"""The product that a sweep measures: scenes, sizes, builders, orders, colliders and values of options (docs/sweeps.md). The
+program describes each cell, or says why it is impossible."""
 import itertools
 import json
 import re
@@ -14,7 +14,7 @@ KEYS = ("sweep", "question", "scenes", "sizes", "builders", "orders", "colliders
 HOLE = "{size}"
 MOST_CELLS = 1_000_000
 USUAL_BUILDER, USUAL_COLLIDER = "oibvh-multi", "leaf"
-UNTOLD = ("frames", "swept")  # result files do not tell cells of several values apart
+UNTOLD = ("frames", "swept")  # result files do not distinguish cells by these
 
 
 def listed(described: Json, key: str) -> list[Any]:
@@ -24,7 +24,7 @@ def listed(described: Json, key: str) -> list[Any]:
 
 
 def word(value: Any) -> str:
-    """A value as the command line says it."""
+    """Returns a value in command-line syntax."""
     return value if isinstance(value, str) else json.dumps(value)
 
 
@@ -36,7 +36,7 @@ def whole(described: Json, key: str, least: int, usual: int) -> int:
 
 
 def all_named(described: Json, key: str) -> list[Json]:
-    """Builders or colliders as objects."""
+    """Returns builders or colliders as objects."""
     items = [{"name": item} if isinstance(item, str) else item for item in listed(described, key)]
     for item in items:
         if not isinstance(item, dict) or not isinstance(item.get("name"), str):
@@ -45,8 +45,7 @@ def all_named(described: Json, key: str) -> list[Json]:
 
 
 def swept_of(described: Json, settle: Settle) -> Sweep:
-    """Raises WrongUsage, in a sentence that names the key, for what makes no sense. A combination that cannot be, of things that
-    can, is a cell that says why not."""
+    """Returns the sweep. Raises WrongUsage, naming the key. An impossible combination of valid parts is a cell with a reason."""
     for key in described:
         if key not in KEYS:
             raise WrongUsage(f"'{key}' is no key of a sweep; there are: {', '.join(KEYS)}")
@@ -85,7 +84,7 @@ def swept_of(described: Json, settle: Settle) -> Sweep:
 
 
 def scenes_of(described: Json, sweep: Sweep, settle: Settle) -> list[Json]:
-    """Each scene once, or once a size where it leaves room for one."""
+    """Returns each scene once, or once for each size if its name has a place for one."""
     given = described.get("sizes", [])
     of_sizes = [] if "sizes" not in described else sizes.called(
         given if isinstance(given, str) else ",".join(map(word, listed(described, "sizes"))))
@@ -123,7 +122,7 @@ def builders_of(described: Json) -> list[Json]:
 
 
 def options_of(described: Json) -> list[tuple[str, list[str]]]:
-    """The options of `set` and their values, in the order of OPTIONS."""
+    """Returns the options of `set` and their values, in the order of OPTIONS."""
     chosen = described.get("set", {})
     if not isinstance(chosen, dict):
         raise WrongUsage("'set' must be an object of options, each with a list of values")
@@ -151,7 +150,7 @@ def with_options(one: Planned, options: list[tuple[str, list[str]]], chosen: tup
 
 def experiment_over(scene: Json, sweep: Sweep, builder: Json | None = None, collider: Json | None = None,
                     query: Json | None = None) -> Json:
-    """An experiment over a scene, of usual parts where none are given."""
+    """Returns an experiment over a scene, with default parts where none are given."""
     if collider is None and len(scene) == 1:
         return {"experiment": sweep.name, "scenes": [scene["scene"]], "builders": [builder or USUAL_BUILDER]}
     return {"experiment": sweep.name, "scenes": [scene], "pipelines": [
@@ -160,8 +159,7 @@ def experiment_over(scene: Json, sweep: Sweep, builder: Json | None = None, coll
 
 def check_each(described: Json, sweep: Sweep, scenes: list[Json], builders: list[Json], colliders: list[Json | None],
                options: list[tuple[str, list[str]]], settle: Settle) -> tuple[list[Json], list[Json]]:
-    """What the program says of each collider and of each scene. Raises WrongUsage for what is wrong by itself, whatever it is
-    combined with."""
+    """Returns the program's answers for each collider and each scene. Raises WrongUsage for a part that is always invalid."""
     usual = {"scene": "soup:1"}
     asked = [("", experiment_over(usual, sweep, builder)) for builder in builders]
     asked += [("", experiment_over(usual, sweep, None, collider)) for collider in colliders if collider]
@@ -190,8 +188,8 @@ def check_each(described: Json, sweep: Sweep, scenes: list[Json], builders: list
 
 
 def each_once(planned: list[Planned]) -> list[Planned]:
-    """A builder that a collider does not ask for makes no difference. Scenes that differ only in what result files do not tell
-    would be taken for each other."""
+    """Removes duplicate cells, such as those that differ in a builder that the collider does not use. Raises WrongUsage for
+    scenes that differ only in what result files do not contain."""
     seen: dict[str, Json] = {}
     once = []
     for one in planned:

@@ -42,7 +42,7 @@ def of_range(text: str, words: str) -> set[int]:
 
 
 def called(text: str) -> list[int]:
-    """Ascending, each once. Raises WrongUsage."""
+    """Returns the sizes in ascending order, each once. Raises WrongUsage."""
     sizes: set[int] = set()
     for item in text.split(","):
         sizes |= of_range(text, item) if ":" in item else {int(number(text, item, int))}

@@ -1,5 +1,5 @@
-"""What a process measures: a cell, or all cells of a scene. Units are dealt to shards; those that are done tell how long the others
-will take."""
+"""Units of a sweep: what one process measures, a cell or all cells of a scene. Distributes units to shards and estimates the
+remaining time."""
 import json
 import math
 import re
@@ -11,15 +11,15 @@ from cells import grouped
 from output import WrongUsage
 from sweeping.planned import Json, Planned, Sweep, hash_of
 
-START_TRIANGLES = 100_000  # what a process costs before it measures anything, in triangles: a guess where nothing is known yet
-Done = list[tuple[float, float]]  # triangles, 0 where they are not known, and seconds
+START_TRIANGLES = 100_000  # estimated cost of starting a process, in triangles
+Done = list[tuple[float, float]]  # (triangles, or 0 if unknown; seconds)
 
 
 @dataclass(frozen=True)
 class Unit:
     cells: list[Planned]
     experiment: Json
-    what: str  # the hash of what is measured
+    what: str  # hash of what is measured
     label: str  # "soup:70, karras"
 
     @property
@@ -28,13 +28,13 @@ class Unit:
 
     @property
     def kind(self) -> str:
-        """What sets its time apart, but for its scene."""
+        """Returns what its time depends on apart from the scene."""
         return self.label.removeprefix(self.cells[0].cell.scene)
 
 
 @dataclass(frozen=True)
 class Shard:
-    """The number-th of so many parts."""
+    """Part `number` of `of`."""
 
     number: int = 1
     of: int = 1
@@ -52,7 +52,7 @@ def shard_called(text: str) -> Shard:
 
 
 def units_of(sweep: Sweep, together: bool, settings: str) -> list[Unit]:
-    """Of the cells that can be. `settings` is what decides what is measured besides."""
+    """Returns the units of the possible cells. `settings` holds everything else that affects what is measured."""
     groups = grouped((one for one in sweep.cells if not one.why_not),
                      lambda one: json.dumps(one.scene, sort_keys=True) if together else id(one))
     return [unit_of(sweep, cells, settings) for cells in groups.values()]
@@ -65,7 +65,7 @@ def unit_of(sweep: Sweep, cells: list[Planned], settings: str) -> Unit:
 
 
 def shards_of(units: list[Unit], count: int) -> list[int]:
-    """The shard of each unit: the heaviest first, each to the shard that has least."""
+    """Returns the shard of each unit, from 1: the heaviest unit first, each to the shard with the smallest load."""
     weights = [unit.triangles * len(unit.cells) + START_TRIANGLES for unit in units]
     load, chosen = [0] * count, [0] * len(units)
     for place in sorted(range(len(units)), key=lambda one: -weights[one]):
@@ -76,7 +76,7 @@ def shards_of(units: list[Unit], count: int) -> list[int]:
 
 
 class TimeLeft:
-    """A time to start and one for each triangle: of the same builder or pipeline if it is done in several sizes, else of all."""
+    """Estimates times from finished units: those of the same builder or pipeline if they have several sizes, otherwise all."""
 
     def __init__(self) -> None:
         self.all: Done = []
@@ -87,7 +87,7 @@ class TimeLeft:
         self.of_kind.setdefault(kind, []).append((triangles, seconds))
 
     def seconds_of(self, kind: str, triangles: int) -> float:
-        """At least one cell must have been added."""
+        """Returns the expected seconds of a unit. At least one unit must have been added."""
         own = self.of_kind.get(kind, [])
         return estimate(own if own and (has_sizes(own) or not has_sizes(self.all)) else self.all, triangles)
 
@@ -97,7 +97,7 @@ def has_sizes(done: Done) -> bool:
 
 
 def estimate(done: Done, triangles: int) -> float:
-    """A line by least squares, neither of whose numbers is negative."""
+    """Fits a line by least squares, with neither a negative start nor a negative slope, and returns its value."""
     sizes, seconds = (numpy.array(column, dtype=float) for column in zip(*done))
     if triangles <= 0:
         return float(seconds.mean())
@@ -109,7 +109,7 @@ def estimate(done: Done, triangles: int) -> float:
 
 
 def rough(seconds: float) -> str:
-    """"12 s", "3 min", "5 h 20 min", "2 d 3 h"."""
+    """Returns "12 s", "3 min", "5 h 20 min", "2 d 3 h"."""
     whole = math.ceil(max(seconds, 1))
     if whole < 90:
         return f"{whole} s"

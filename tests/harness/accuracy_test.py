@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
-"""Hold `accuracy`, and `collide` by narrow phases that round, to their counts of errors.
+"""Tests the error counts of `accuracy`, and of `collide` with narrow phases that round.
 
-Usage: accuracy_test.py <bvhbench> <result schema>
-"""
+Usage: accuracy_test.py <bvhbench> <result schema>"""
 import pathlib
 import shutil
 import sys
@@ -53,7 +52,8 @@ def test_accuracy_of_swept_boxes_has_both_queries_of_each_method():
 
 
 def plant(folder, rooms, *faults):
-    """A copy of the kernels of some rooms with faults in their headers: of each its header, the text it replaces, itself."""
+    """Copies the kernels of some rooms and plants faults in their headers. A fault is a header, the text to replace, and its
+    replacement."""
     for room in rooms:
         shutil.copytree(SCHEMA.parents[2] / room, f"{folder}/{room}", ignore=shutil.ignore_patterns("*.cpp"))
     for header, text, fault in faults:
@@ -74,7 +74,7 @@ def test_accuracy_counts_what_formats_of_boxes_add_and_finds_what_they_lose():
     for method, cell in cells.items():
         assert cell["check"]["verdict"] == ("counted" if false[method] else "agrees"), cell
         assert cell["check"]["contacts_hash"] == cells["f32"]["check"]["contacts_hash"], cell
-    # A side is rounded alone or three at a time, as the device likes it: inward in both.
+    # A device rounds sides one at a time or three at once, so both functions are made to round inward.
     plant("inward", ("geometry", "device", "builders", "oibvh", "collide"),
           ("geometry/box_cells.h", "(is_upper ? whole_above(product)", "(!is_upper ? whole_above(product)"),
           ("builders/stages/stored_box.clh", "is_upper ? (near < product", "!is_upper ? (near < product"))
@@ -108,7 +108,7 @@ def test_accuracy_finds_a_fault_planted_in_the_exact_narrow_phase():
     out = expect(1, *faulty, "--out", "planted")
     cell, = valid("planted/accuracy-narrow.json")["cells"]
     assert cell["check"]["verdict"] == "differs" and cell["counters"]["missed_count"] > 100, cell
-    assert "nothing was drawn" in out, out  # no figure of what is wrong, and no time:
+    assert "nothing was drawn" in out, out  # a wrong answer has no figure and no time
     line, = (line.split() for line in out.splitlines() if line.startswith("same_place"))
     assert line[-2:] == ["%", "differs"], line
 

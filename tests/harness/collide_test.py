@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Hold `collide` to its pairs, contacts, files and words."""
+"""Tests the pairs, contacts, files and messages of `collide`."""
 import array
 import json
 import pathlib
@@ -13,7 +13,7 @@ def test_collide_writes_a_valid_result_and_the_pairs():
     hashes = set()
     listed = expect(0, "list", "colliders").splitlines()
     present = [line.split()[0] for line in listed if "built without" not in line]
-    for collider in [name for name in present if not name.startswith("fcl")]:  # which finds contacts instead
+    for collider in [name for name in present if not name.startswith("fcl")]:  # fcl finds contacts instead
         for builder in ("oibvh-multi", "karras"):
             words = ("collide", "--builder", builder, "--collider", collider, *common, "--json", "c.json", "--pairs", "p.csv")
             if (builder, collider) == ("karras", "block"):
@@ -105,14 +105,14 @@ def test_collide_finds_pairs_of_swept_boxes_and_holds_them_to_the_folders_ground
     (folder / "gt_vf.csv").write_text("4,0,1\n6,1,0\n")
     (folder / "gt_ee.csv").write_text("0,2,5,4,1\r\n")
     shown = expect(0, *swept, says="agrees with brute, ground truth, pairs ")
-    assert " 2 " in shown and "4.0" in shown, shown  # eight pairs for two
+    assert " 2 " in shown and "4.0" in shown, shown  # eight pairs, two of the ground truth
     for cell, listed in zip(cells(), (2, 1)):
         assert (cell["counters"]["ground_truth_pairs"], cell["counters"]["ground_truth_missed"]) == (listed, 0), cell
     expect(0, *swept, "--pairs-of", "within", "--pairs", "p.csv")
     assert pathlib.Path("p.csv").read_text().splitlines() == ["frame,a,b", "0,1,5", "0,1,6", "0,1,7"]
     assert [cell["swept"]["pairs"] for cell in valid("s.json")["cells"]] == ["edge-edge"]
 
-    # A pair that there is not is missed, and makes the answer wrong; so does another count than the author's.
+    # A listed pair that does not overlap is missed, and makes the answer wrong. So does a count other than the author's.
     (folder / "gt_vf.csv").write_text("4,0,1\n0,2,1\n")
     assert "1 pairs of the ground truth are missed" in expect(1, *swept)
     assert valid("s.json")["cells"][0]["counters"]["ground_truth_missed"] == 1

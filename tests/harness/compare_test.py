@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""What `compare` says, and ends with, of files that the program wrote: a run and itself, a slowed builder, changed facts.
-How times and facts are judged is in tests/plots/comparing_test.py."""
+"""Tests the output and exit codes of `compare` for files that the program wrote: a run and itself, a slowed builder, changed
+facts. How times and facts are judged is tested in tests/plots/comparing_test.py."""
 import json
 import pathlib
 import statistics
@@ -10,7 +10,7 @@ from program import expect, experiment, main, run, valid
 
 
 def written(name: str, document: dict) -> str:
-    document["run"]["program"]["dirty"] = False  # the working tree may be
+    document["run"]["program"]["dirty"] = False  # the working tree may have changes
     pathlib.Path(name).write_text(json.dumps(document))
     return name
 

@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""How often `compare` is right, on real runs: of two runs of one build, and of a builder that was slowed by 10 %.
+"""Measures how often `compare` is right, for two runs of one build, and for a builder that is slowed by 10 %.
 
 Usage: compare_trials.py <bvhbench> [--trials N] [--samples N] [--keep FOLDER] [--slow FACTOR]
 
-Takes some three minutes and wants a machine with nothing else on it, so no test runs it: CI's nightly does. In each trial
-three runs sample by turns (`run --turns`): two as they are, and one with a builder slowed through the test hook
-BVHBENCH_SLOW, another builder each time. The first is held to the second and to the slowed one, and to the second of the
-trial before, which ran at another time. Exits with 1 unless
+Takes about three minutes and needs an idle machine, so it is run by .ci/nightly instead of a test. In each trial three runs
+sample by turns (`run --turns`): two unchanged ones, and one in which the test hook BVHBENCH_SLOW slows a builder, another
+one in each trial. The first run is compared with the second, with the slowed one, and with the second run of the previous
+trial, which ran at another time. Exits with 1 unless
 
-- at least 95 % of the cells of runs of one build are SAME or UNSURE, by turns and one after the other,
+- at least 95 % of the cells of unchanged runs are SAME or UNSURE, both by turns and at different times,
 - the slowed cell is SLOWER in at least 90 % of the trials.
 """
 import argparse
@@ -28,7 +28,7 @@ def experiment(samples: int) -> dict:
 
 
 def measure(program: pathlib.Path, folder: pathlib.Path, trial: int, slow: str) -> None:
-    """Three runs by turns."""
+    """Runs the three runs of a trial by turns."""
     runs = []
     for name in ("before", "after", "slow"):
         environment = {**os.environ, "BVHBENCH_SLOW": slow if name == "slow" else ""}
@@ -40,7 +40,7 @@ def measure(program: pathlib.Path, folder: pathlib.Path, trial: int, slow: str) 
 
 
 def verdicts(program: pathlib.Path, before: pathlib.Path, after: pathlib.Path) -> dict[str, str]:
-    """Of each cell by its builder; all rows are asked for."""
+    """Returns the verdict of each cell, by its builder."""
     done = subprocess.run([program, "compare", before, after, "--all", "--allow-dirty", "--test-hooks"],
                           capture_output=True, text=True)
     assert done.returncode in (0, 1), done

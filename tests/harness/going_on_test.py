@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What cannot be measured is a cell that says so, what measured nothing ends with 4, and a signal ends what is at work."""
+"""Tests that an impossible cell says why, that a run without measurements exits with 4, and that signals end the program."""
 import json
 import os
 import pathlib
@@ -11,12 +11,12 @@ import time
 
 from program import KEPT, PROGRAM, SOURCE, at_work, ended, expect, experiment, main, ours, valid, wait_until
 
-AT_ONCE_S = 2  # 0.05 where nothing else runs; generous, for machines that are busy
+AT_ONCE_S = 2  # 0.05 on an idle machine; larger for busy machines
 LEAF = ("collide", "--collider", "leaf")
 
 
 def cells_of(path: str) -> list[tuple[str, str, str]]:
-    """Scene, status and reason of the cells of a run that came to its end."""
+    """Returns scene, status and reason of the cells of a finished run."""
     result = valid(path)
     assert "finished_at" in result["run"], path
     return [(cell["scene"]["name"], cell["status"], cell.get("reason", "")) for cell in result["cells"]]
@@ -100,7 +100,7 @@ def test_what_cannot_even_begin_ends_with_2_or_3_and_writes_nothing():
 
 
 def ends_at_once(process: subprocess.Popen, sent: signal.Signals = signal.SIGTERM) -> str:
-    """What it says. It is at work, and nothing of it is left."""
+    """Sends a signal to a working process and returns its standard error. No child process may remain."""
     began = time.time()
     _, error = ended(process, sent)
     took = time.time() - began
@@ -112,7 +112,7 @@ def ends_at_once(process: subprocess.Popen, sent: signal.Signals = signal.SIGTER
 
 
 def begun(*scenes: str, **keys) -> tuple[str, ...]:
-    """Words of a run whose first cell is over soon, and whose second is not."""
+    """Returns the words of a run whose first cell finishes soon and whose second does not."""
     pathlib.Path("signals.json").unlink(missing_ok=True)
     return ("run", experiment("signals-plan.json", scenes=["soup:10", *scenes], **{"builders": ["perfect"], **keys}), "--out",
             "signals.json")
@@ -145,7 +145,7 @@ def test_a_signal_ends_what_compiles_samples_checks_and_draws():
         with at_work(*words, BVHBENCH_HOME=os.path.abspath("home"), **cold) as process:
             time.sleep(seconds)
             error = ends_at_once(process)
-            assert words[0] != "build" or error == "bvhbench: stopped\n"  # there is no file to keep anything in
+            assert words[0] != "build" or error == "bvhbench: stopped\n"  # there is no file to keep cells in
 
 
 def test_a_stopped_search_keeps_what_it_has_found():

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Hold the program to one sentence, soon, for what a user gives it: patterns, folders of frames, JSON, and lists of nothing."""
+"""Tests that bad input gives one error sentence quickly: patterns, folders of frames, JSON and empty lists."""
 import lzma
 import os
 import pathlib
@@ -42,7 +42,7 @@ def frames(name: str, *numbers: object) -> pathlib.Path:
 
 def test_a_file_that_is_no_frame_does_not_spoil_a_folder_and_one_that_is_is_named():
     folder = frames("links", 1, 2)
-    (folder / "other.txt").symlink_to("other.txt")  # to themselves
+    (folder / "other.txt").symlink_to("other.txt")  # a link to itself
     (folder / "other.obj").symlink_to("other.obj")
     (folder / "f3.obj").mkdir()
     assert frames_measured("links/") == 2
@@ -92,7 +92,7 @@ def one_sentence(path: str, *words: str, codes: tuple[int, ...]) -> None:
     assert len(done.stderr) < 500 and done.stderr.strip().isprintable(), done.stderr
 
 
-# Who reads a file, and the exit code for what cannot be read.
+# Commands that read a file, with the exit code for an unreadable one.
 READERS = ((("run", "FILE", "--out", "o.json"), 2), (("show", "FILE"), 3),
            (("build", "--builder", "perfect", "--scene", "soup:9", "--tuning", "FILE"), 3))
 MORE_READERS = ((("sweep", "FILE", "--out", "o"), 2), (("compare", "FILE", "FILE"), 3), (("merge", "FILE", "-o", "m.json"), 3),

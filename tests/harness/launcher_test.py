@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""The launcher where a user may not write, and in folders whose paths have what builds do not take. Nothing is built here:
-the checkout is a copy of the launcher with a program that prints its words."""
+"""Tests the launcher in read-only folders and in folders with unusual paths. Nothing is built here: the checkout is a copy of the
+launcher with a program that prints its words."""
 import os
 import pathlib
 import shutil
@@ -30,7 +30,7 @@ def checkout(name: str, built: bool = True) -> pathlib.Path:
 
 
 def call(root: pathlib.Path, *words: str) -> subprocess.CompletedProcess:
-    """As a user who may not write there."""
+    """Runs the launcher as a user without write permission."""
     os.chmod(".", 0o755)
     other = {"user": NOBODY, "group": NOBODY, "extra_groups": []} if os.geteuid() == 0 else {}
     paths = [root, *root.rglob("*")]

@@ -1,9 +1,8 @@
 #!/usr/bin/env python3
-"""Give the program too little memory, and hold it to what docs/measuring.md promises: a sentence or a cell that says so, the
-scenes behind it measured, the limit kept, and no process ended by the kernel.
+"""Tests that too little memory gives an error sentence or a failed cell as in docs/measuring.md, that later scenes are measured,
+that the limit is kept, and that the kernel ends no process.
 
-MEMORY_SIZES=full runs the sizes that take minutes, too.
-"""
+MEMORY_SIZES=full includes sizes that take minutes."""
 import contextlib
 import os
 import pathlib
@@ -18,13 +17,13 @@ from program import PROGRAM, expect, experiment, main, only, valid
 FULL = os.environ.get("MEMORY_SIZES") == "full"
 MIB = 1 << 20
 LIMIT = 500 * MIB
-# What may be in memory beyond a limit: parts of the program's own files, which the kernel maps and drops as it likes.
+# Memory allowed above a limit: parts of the program's own files, which the kernel maps and drops freely.
 BEYOND = 70 * MIB
 peaks: list[tuple[str, int, int]] = []
 
 
 def copies(count: int) -> str:
-    """A binary PLY file of `count` triangles in one place that share no vertex: all of them meet."""
+    """Writes a binary PLY file of `count` equal triangles without shared vertices, all of which intersect."""
     path = f"copies-{count}.ply"
     if not os.path.exists(path):
         header = (f"ply\nformat binary_little_endian 1.0\nelement vertex {3 * count}\nproperty float x\nproperty float y\n"
@@ -35,7 +34,7 @@ def copies(count: int) -> str:
 
 
 def own_limit() -> pathlib.Path | None:
-    """The file with the memory limit of this process's control group."""
+    """Returns the file with the memory limit of this process's control group."""
     for line in pathlib.Path("/proc/self/cgroup").read_text().splitlines():
         _, controllers, path = line.split(":", 2)
         file = {"memory": f"/sys/fs/cgroup/memory{path}/memory.limit_in_bytes", "": f"/sys/fs/cgroup{path}/memory.max"}.get(controllers)
@@ -46,7 +45,7 @@ def own_limit() -> pathlib.Path | None:
 
 @contextlib.contextmanager
 def group_of(limit: int):
-    """A control group of so much memory; None where none can be made."""
+    """Yields a control group with `limit` bytes of memory, or None if none can be created."""
     file = own_limit()
     group = file.parent / f"bvhbench-test-{os.getpid()}" if file else None
     with contextlib.ExitStack() as stack:
@@ -61,7 +60,7 @@ def group_of(limit: int):
 
 
 def removed(group: pathlib.Path) -> None:
-    for _ in range(50):  # processes leave a group a moment after they have ended
+    for _ in range(50):  # processes leave a group shortly after they end
         with contextlib.suppress(OSError):
             group.rmdir()
             return
@@ -69,7 +68,7 @@ def removed(group: pathlib.Path) -> None:
 
 
 def measured(*words: str, limit: int = 0, group: pathlib.Path | None = None, ulimit: int = 0):
-    """What the program says, and the most memory that it had, which must be within `limit`."""
+    """Runs the program, and returns its result and its peak memory, which must be within `limit`."""
     def enter():
         if group:
             (group / "cgroup.procs").write_text(str(os.getpid()))
@@ -110,7 +109,7 @@ def test_what_the_program_takes_itself_is_within_its_limit():
     done = measured("build", "--builder", "perfect", "--scene", "soup:5", "--memory-limit", "1000")
     refused(done, "out of host memory: the program itself takes ")
     assert done.stderr.endswith(" bytes, and the limit is 1000\n"), done
-    for limit in (60, 100, 150, 200):  # too little for some of a run, and for PoCL, which would end the process
+    for limit in (60, 100, 150, 200):  # too little for part of a run, and for PoCL, which would end the process
         done = measured("build", "--builder", "karras", "--scene", "soup:5", "--samples", "1", "--memory-limit", f"{limit}M",
                         limit=limit * MIB)
         if done.returncode:
@@ -131,7 +130,7 @@ def test_pairs_are_counted_before_they_are_listed():
         done = limited(*collide, copies(10000), "--collider", collider)
         if "built without" not in done.stderr:
             refused(done, "out of host memory", too_many)
-    # Where there is room they are listed.
+    # With enough memory the pairs are listed.
     done = limited(*collide, copies(2000), "--collider", "leaf", "--json", "room.json")
     assert done.returncode == 0 and "agrees" in done.stdout, done
     assert only("room.json")["counters"]["pairs_count"] == 2000 * 1999 / 2
@@ -141,7 +140,7 @@ def test_pairs_are_counted_before_they_are_listed():
 
 
 def around_one_too_large(*words: str, **limits) -> dict:
-    """The result of a run over three scenes, of which that in the middle is too large."""
+    """Returns the result of a run over three scenes, the second of which is too large."""
     plan = experiment("three.json", scenes=["torus:1000", copies(10000), "torus:1200"],
                       pipelines=[{"builder": "karras", "collider": collider} for collider in ("leaf", "grid")])
     done = measured("run", plan, "--out", "three-out.json", "--force", *words, **limits)
@@ -186,7 +185,7 @@ def test_files_are_refused_by_their_size():
 
 
 def test_files_of_numbers_that_are_short_meet_the_limit():
-    # 150 MB of text in which a vertex takes 8 bytes, and 36 in memory and more while arrays grow.
+    # 150 MB of text, in which a vertex takes 8 bytes; in memory it takes 36, and more while arrays grow.
     with open("short.obj", "w") as file:
         for _ in range(20):
             file.write("v 1 2 3\n" * 400000)
@@ -200,7 +199,7 @@ def test_a_group_of_processes_limits_without_being_asked():
     for limit, words in ((limit, ("build", "--builder", "karras", "--scene", scene, "--samples", "1")),
                          (600, ("collide", "--collider", "leaf", "--scene", copies(10000), "--samples", "1"))):
         with group_of(limit * MIB) as group:
-            # Address space is more than memory: what drivers map they hardly use.
+            # Address space exceeds memory, because drivers map much that they hardly use.
             done = measured(*words, group=group, ulimit=0 if group else (limit + 600) * MIB)
             refused(done, "out of host memory: ", "out of device memory: ")
     with group_of(700 * MIB) as group:

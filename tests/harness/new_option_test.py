@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
-"""An option of a cell costs three files at most, and result files are read with it.
+"""Tests that a new cell option changes at most three files, and that result files can be read with it.
 
-Usage: new_option_test.py <source root> <folder with the changed files>
-"""
+Usage: new_option_test.py <source root> <folder with the changed files>"""
 import pathlib
 import shutil
 import subprocess

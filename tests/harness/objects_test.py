@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Objects whose triangles take turns in their file: pairs, contacts, hashes, trees and ground truth have the file's numbers."""
+"""Tests that interleaved objects keep the file's triangle numbers: in pairs, contacts, hashes, trees and ground truth."""
 import array
 import csv
 import json
@@ -16,7 +16,7 @@ chance = random.Random(5)
 POINTS = [[tuple(chance.uniform(0, 4) for _ in range(3)) for _ in range(COUNT)]]  # a corner of each triangle
 POINTS.append([tuple(c + chance.uniform(-.2, .2) for c in point) for point in POINTS[0]])
 CORNERS = [tuple(chance.uniform(-.7, .7) for _ in range(6)) for _ in range(COUNT)]
-MIXED = chance.sample(range(COUNT), COUNT)  # which triangle is where in the file
+MIXED = chance.sample(range(COUNT), COUNT)  # the triangle at each place in the file
 
 
 def vertices(frame: int) -> list[tuple[float, ...]]:
@@ -37,7 +37,7 @@ def ply(order: list[int], with_objects: bool = True) -> str:
 
 
 def sequence(name: str, order: list[int]) -> str:
-    """A folder of both frames, with a table of objects and one vertex that hits a face."""
+    """Writes a folder with both frames, a table of objects and one vertex that hits a face."""
     folder = pathlib.Path(name)
     folder.mkdir()
     (folder / "mesh.ply").write_text(ply(order))
@@ -56,7 +56,7 @@ def rows(path: str) -> list[dict[str, int]]:
 
 
 def by_triangle(found: list[dict[str, int]], order: list[int]) -> list[tuple]:
-    """The rows with triangles, and their objects, by the numbers of the scene that is not mixed."""
+    """Returns the rows' triangles and objects, numbered as in the unmixed scene."""
     mapped = []
     for row in found:
         ends = sorted([(order[row["a"]], row["object_a"]), (order[row["b"]], row["object_b"])])
@@ -139,7 +139,7 @@ def test_ground_truth_and_swept_pairs_have_the_numbers_of_the_file():
     found = rows("v.csv")
     assert list(found[0]) == ["frame", "a", "b"] and len(found) == valid("s.json")["cells"][0]["counters"]["pairs_count"]
     hits = {(row["a"], MIXED[row["b"] - 3 * COUNT]) for row in found}
-    for vertex, k in hits:  # the boxes of the way do overlap
+    for vertex, k in hits:  # the swept boxes do overlap
         ways = [list(zip(*(vertices(frame)[at] for frame in (0, 1) for at in places))) for places in ([vertex], range(3 * k, 3 * k + 3))]
         assert all(min(a) <= max(b) and min(b) <= max(a) for a, b in zip(*ways)), (vertex, k)
     vertex, face = found[0]["a"], found[0]["b"] - 3 * COUNT

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What stood in a file before a command stands there after it, unless the command was told to replace it."""
+"""Tests that a command leaves existing files unchanged, unless it was told to replace them."""
 import contextlib
 import json
 import os
@@ -21,7 +21,7 @@ MESH = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 
 
 def begin() -> None:
-    """What stands in the folder of each test."""
+    """Prepares the folder of each test."""
     if not pathlib.Path("../good.json").exists():
         expect(0, *BUILD, "--json", "../good.json")
     shutil.copy("../good.json", "good.json")
@@ -29,14 +29,14 @@ def begin() -> None:
 
 
 def state() -> dict:
-    """All files under the working folder: their contents, modes, and where links lead."""
+    """Returns all files below the working folder: their contents and modes, and the targets of links."""
     return {str(path): (path.lstat().st_mode, path.lstat().st_ino,
                         os.readlink(path) if path.is_symlink() else path.read_bytes() if path.is_file() else b"")
             for path in pathlib.Path().rglob("*")}
 
 
 def refused(*words: str, codes: tuple = (2,), says: str = "") -> None:
-    """The command ends with one of the codes and one sentence, and has changed nothing."""
+    """Tests that the command exits with one of the codes and one sentence, and changes nothing."""
     before = state()
     done = run(*words)
     assert done.returncode in codes, (words, done)
@@ -104,7 +104,7 @@ def test_a_sweep_replaces_no_result_of_others():
         assert pathlib.Path("s.json").read_bytes() == pathlib.Path("good.json").read_bytes()
         os.remove("s.json")
         expect(0, *sweep)
-        expect(0, *sweep)  # which goes on with its own
+        expect(0, *sweep)  # resumes its own sweep
 
 
 def test_an_experiment_file_is_not_its_own_result():
@@ -170,7 +170,7 @@ def test_devices_and_pipes_are_written_to():
     text = pathlib.Path("all.txt").read_text()
     assert text.startswith('{"format"') and "agrees" in text
     assert os.path.islink("stdout")
-    with contextlib.suppress(PermissionError):  # a private /dev/null; only root may make one
+    with contextlib.suppress(PermissionError):  # a private /dev/null, which only root may create
         os.mknod("null", stat.S_IFCHR | 0o666, os.makedev(1, 3))
         with contextlib.suppress(OSError):
             open("null", "w").close()
@@ -206,7 +206,7 @@ def test_two_commands_do_not_write_one_file():
             expect(3, *words, "--force", says=f"{words[-1]} is being written by another process")
             assert time.monotonic() - began < 10
     assert valid("r.json")["cells"]
-    expect(0, *BUILD, "--json", "r.json", "--force")  # who was killed does not hold it
+    expect(0, *BUILD, "--json", "r.json", "--force")  # a killed process does not hold the lock
     assert len(valid("r.json")["cells"]) == 1
     expect(3, *BUILD, "--json", "new.json", "--dump", "new.json")
     left = [name for name in sorted(os.listdir()) if not name.startswith("r.json.tmp")]  # a kill may leave one
@@ -252,7 +252,7 @@ def test_names_cannot_command_a_terminal():
                           stderr=theirs) as process:
         os.close(theirs)
         shown = b""
-        with contextlib.suppress(OSError):  # what a terminal says when its other side is closed
+        with contextlib.suppress(OSError):  # a terminal reports this when its other side is closed
             while part := os.read(ours, 4096):
                 shown += part
     os.close(ours)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Hold the program to what it promises of a device that is neither PoCL's nor NVIDIA's: Mesa's llvmpipe, through Rusticl."""
+"""Tests the program on a device that is neither PoCL's nor NVIDIA's: Mesa's llvmpipe, through Rusticl."""
 import os
 import sys
 

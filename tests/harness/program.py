@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What tests of the program share: run it and hold it to its exit codes, its output and the result schema.
+"""Shared by tests of the program: runs it, and tests its exit codes, its output and the result schema.
 
 A test script is called with the program and the result schema, and ends with `sys.exit(main(globals()))`.
 """
@@ -34,7 +34,7 @@ def run(*words: str, **environment: str) -> subprocess.CompletedProcess:
 
 
 def expect(code: int, *words: str, says: str = "", **environment: str) -> str:
-    """The program's standard output; an error is one line on stderr that contains `says`."""
+    """Runs the program and returns its standard output. Tests the exit code; an error must be one line on stderr with `says`."""
     done = run(*words, **environment)
     assert done.returncode == code, (words, done)
     assert says in (done.stderr if code else done.stdout), (words, done)
@@ -53,19 +53,19 @@ def valid(path: str | pathlib.Path) -> dict:
 
 
 def only(path: str) -> dict:
-    """The one cell of a result file."""
+    """Returns the only cell of a result file."""
     cell, = valid(path)["cells"]
     return cell
 
 
 def experiment(path: str, **keys) -> str:
-    """The path, where now is an experiment: one sample, not warmed up, where the keys say nothing else."""
+    """Writes an experiment and returns its path. The defaults are one sample and no warm-up."""
     pathlib.Path(path).write_text(json.dumps({"experiment": "test", "question": "?", "samples": 1, "warm_up": 0, **keys}))
     return path
 
 
 def copied_kernels(folder: str, file: str = "", pattern: str = "", replacement: str = "") -> str:
-    """A folder of all kernels' text, for --kernels; in one file each match of a pattern is replaced."""
+    """Copies all kernels into a folder for --kernels. In `file`, each match of `pattern` is replaced."""
     for room in ROOMS_OF_KERNELS:
         shutil.copytree(SOURCE / room, pathlib.Path(folder, room), ignore=shutil.ignore_patterns("*.cpp", "*.txt"), dirs_exist_ok=True)
     if file:
@@ -82,7 +82,7 @@ def planted_karras(folder: str, pattern: str, replacement: str) -> str:
 
 @contextlib.contextmanager
 def at_work(*words: str, **environment: str) -> Iterator[subprocess.Popen]:
-    """The program as it runs, in a process group of its own; it is killed if it has not ended."""
+    """Yields the running program in its own process group, and kills it at the end if it has not ended."""
     with subprocess.Popen([PROGRAM, *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True,
                           env={**os.environ, **environment}) as process:
         try:
@@ -92,7 +92,7 @@ def at_work(*words: str, **environment: str) -> Iterator[subprocess.Popen]:
 
 
 def ended(process: subprocess.Popen, sent: signal.Signals) -> tuple[str, str]:
-    """What a process has printed when it was ended by a signal: output and errors."""
+    """Sends a signal to a running process and returns its output and errors."""
     assert process.poll() is None, process.communicate()
     process.send_signal(sent)
     return process.communicate(timeout=60)
@@ -106,7 +106,7 @@ def wait_until(happens: Callable[[], object], seconds: float = 60) -> None:
 
 
 def ours() -> list[str]:
-    """Command lines of other processes that were started in this folder."""
+    """Returns the command lines of other processes that were started in this folder."""
     found = []
     for entry in pathlib.Path("/proc").iterdir():
         with contextlib.suppress(OSError):
@@ -116,8 +116,8 @@ def ours() -> list[str]:
 
 
 def main(names: dict, begin: Callable[[], None] | None = None) -> int:
-    """Run every test of a script, or those with TESTS in their names, in a folder that is removed in the end; each in a folder
-    of its own if there is something to begin with."""
+    """Runs every test of a script, or those with TESTS in their names, in a temporary folder. With `begin`, each test has its own
+    folder, prepared by `begin`."""
     wanted = os.environ.get("TESTS", "")
     tests = {name.removeprefix("test_"): value for name, value in names.items() if name.startswith("test_") and wanted in name}
     with tempfile.TemporaryDirectory() as folder:

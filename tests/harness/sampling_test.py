@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""How samples are taken, as the program and its result files tell it."""
+"""Tests how samples are taken, according to the program's output and its result files."""
 import pathlib
 import statistics
 import subprocess
@@ -51,14 +51,14 @@ def test_what_makes_no_sense_is_refused() -> None:
 
 
 def test_cold_caches_are_emptied_before_each_sample() -> None:
-    """Counted by a line that the kernel prints then; what it gains in time depends on the machine."""
+    """Counts lines that the cache-emptying kernel is made to print, because the effect on times depends on the machine."""
     copied_kernels("kernels", "device/limits.cl", r"(kernel void walk\([^)]*\)\s*\{)",
                    r'\1 if (get_global_id(0) == 0) printf("walked\\n");')
     for words, times in (((), 0), (("--cold",), 1)):
         said = expect(0, *BUILD, "--samples", "5", "--kernels", "kernels", "--json", "a.json", "--force", *words)
         cell = only("a.json")
         assert cell["sampling"]["caches"] == ("cold" if words else "hot") and len(cell["samples"]) == 5
-        # Before each sample and each of the 3 builds that warm up, and once when the buffer is made.
+        # Before each sample and each of the 3 warm-up builds, and once when the buffer is created.
         assert said.count("walked\n") == times * (5 + 3 + 1), said
 
 
@@ -69,7 +69,7 @@ def test_runs_by_turns_know_each_other_and_are_of_one_time() -> None:
     assert [run.wait(timeout=200) for run in runs] == [0, 0]
     a, b = valid("a.json"), valid("b.json")
     assert a["run"]["turns_with"] == [b["run"]["id"]] and b["run"]["turns_with"] == [a["run"]["id"]]
-    assert len(pathlib.Path("turns").read_text().splitlines()) == 8  # two runs, two scenes, a meeting and a parting each
+    assert len(pathlib.Path("turns").read_text().splitlines()) == 8  # two runs, two scenes, each with a line at its start and end
     for document in (a, b):
         assert all(len(cell["samples"]) == 20 for cell in document["cells"])
         assert statistics.median(sample["order"] for cell in document["cells"] for sample in cell["samples"]) > 20

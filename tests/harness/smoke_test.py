@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""`smoke` gates: a wrong tree, a worse tree and a slower kernel are planted in kernels, and each is found. What is right is held
-to the baseline in the repository by CI itself; here a baseline is made first, with the kernels as they are."""
+"""Tests that `smoke` finds a wrong tree, a worse tree and a slower kernel, planted in kernels. CI itself runs `smoke` against the
+repository's baseline. These tests write a baseline with unchanged kernels first."""
 import json
 import os
 import pathlib

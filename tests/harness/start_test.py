@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What a start compiles, what a later one finds, and what becomes of it when that is broken, too large or cannot be kept."""
+"""Tests what a start compiles, what a later start reuses, and how it handles caches that are broken, too large or read-only."""
 import contextlib
 import fcntl
 import os
@@ -9,12 +9,12 @@ import sys
 
 from program import at_work, expect, main, run
 
-QUICK = ("build", "--builder", "median-split", "--scene", "soup:30", "--samples", "1")  # two kernels of one text
+QUICK = ("build", "--builder", "median-split", "--scene", "soup:30", "--samples", "1")  # two kernels of one program
 
 
 def test_a_build_compiles_the_kernels_that_it_launches_and_no_others():
-    # The copy rate 1, an empty launch 1, bounds 2, codes 1, the sort 3; and then the tree's own. Each takes PoCL a tenth of a second or so.
-    # Their texts are as many programs, of which each costs as much again.
+    # Copy rate 1, empty launch 1, bounds 2, codes 1, sort 3, then the tree's kernels. PoCL takes about 0.1 s for each. The number
+    # of programs is checked too, because each costs about as much again.
     for most, texts, *words in ((10, 5, "--builder", "oibvh-multi"), (10, 6, "--builder", "oibvh-multi", "--leaves", "sorted"),
                                 (8, 4, "--builder", "oibvh-host"), (9, 5, "--builder", "apetrei-fused"),
                                 (9, 6, "--builder", "oibvh-multi", "--order", "kd"),
@@ -22,7 +22,7 @@ def test_a_build_compiles_the_kernels_that_it_launches_and_no_others():
         folder = pathlib.Path("pocl-" + "-".join(words[1:]))
         folder.mkdir()
         compiled = []
-        for _ in range(2):  # the second one finds all in the cache
+        for _ in range(2):  # the second start finds everything in the cache
             expect(0, "build", "--scene", "torus:2000", "--samples", "2", *words, says="agrees", POCL_CACHE_DIR=str(folder))
             compiled.append({path.name for path in folder.rglob("*.so")})
         assert compiled[0] == compiled[1] and 1 <= len(compiled[0]) <= most, (words, compiled)
@@ -36,7 +36,7 @@ def test_pocl_keeps_its_cache_with_us():
 
 
 def kept_in(folder: str) -> dict[pathlib.Path, tuple[bytes, int]]:
-    """A start that keeps its kernels there, and then each file with its content and when it was made."""
+    """Runs a start that keeps its kernels in the folder, and returns the content and time of each file."""
     expect(0, *QUICK, says="agrees", XDG_CACHE_HOME=os.path.abspath(folder), POCL_CACHE_DIR="")
     root = pathlib.Path(folder, "bvhbench/pocl")
     files = {path: (path.read_bytes(), path.stat().st_mtime_ns) for path in root.glob("??/**/*") if path.is_file()}

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Sweeps: killed and resumed, crashed, cut into shards, merged and drawn. SWEEP_SEED is when they are killed (1)."""
+"""Tests sweeps: killed and resumed, crashed, sharded, merged and drawn. SWEEP_SEED seeds the times of kills (1)."""
 import collections
 import fcntl
 import hashlib
@@ -21,14 +21,14 @@ PRODUCT = ("--scenes", "soup:70,torus:500", "--builders", "perfect,karras", "--o
 
 
 def about(cell: dict) -> str:
-    """What a cell is about, whatever came of it."""
+    """Returns what identifies a cell, independent of its outcome."""
     scene = cell["scene"]
     key = [cell["experiment"], scene["name"], scene.get("frame", 0), cell["builder"], cell.get("collider"), cell["operation"]]
     return json.dumps(key, sort_keys=True)
 
 
 def cells_of(path: str) -> collections.Counter:
-    """How often each cell is in a result file."""
+    """Returns how often each cell is in a result file."""
     document = valid(path)
     known = {source["id"] for source in document.get("merged_from", [])}
     assert all(cell["run"] in known for cell in document["cells"]) or not known, path
@@ -40,10 +40,10 @@ def statuses(path: str) -> collections.Counter:
 
 
 def finished(folder: str) -> dict[str, str]:
-    """The cells in a folder that are whole, by file, as they are."""
+    """Returns the text of each finished cell's file in a sweep's folder."""
     found = {}
     for path in sorted(pathlib.Path(folder, "cells").glob("*.json")):
-        text = path.read_text()  # whole whenever it is there
+        text = path.read_text()  # a file is complete whenever it exists
         if "finished_at" in json.loads(text)["run"]:
             found[path.name] = text
     return found
@@ -60,14 +60,14 @@ def test_killed_three_times_it_has_the_cells_of_one_that_was_not():
     progress = []
     for kill in range(3):
         with at_work("sweep", *PRODUCT, "--out", "killed") as process:
-            # Once it has begun with cells, so that there is something to go on with; the last time only the sweep itself.
+            # Kills after a new cell has finished, so that there is something to resume. The last kill hits only the sweep itself.
             wait_until(lambda: finished("killed").keys() - before.keys() or process.poll() is not None)
             time.sleep(draw.uniform(0, 0.8))
             if kill < 2:
                 os.killpg(process.pid, signal.SIGKILL)
             else:
                 process.kill()
-        wait_until(lambda: not ours(), 10)  # what was killed is gone in a moment
+        wait_until(lambda: not ours(), 10)  # killed processes are gone after a moment
         now = finished("killed")
         assert all(now[name] == text for name, text in before.items()), "a finished cell was measured again"
         before = now
@@ -82,7 +82,7 @@ def test_killed_three_times_it_has_the_cells_of_one_that_was_not():
     assert not list(pathlib.Path("killed").rglob("*.tmp*"))
     done = expect(0, "sweep", *PRODUCT, "--out", "killed", says="8 cells: 8 measured")
     assert "[" not in done and cells_of("killed/sweep.json") == wanted, done
-    # As a process leaves it that is killed between its last cell and the end of its run.
+    # The state that a process leaves if it is killed between its last cell and the end of its run.
     cut = pathlib.Path("killed/cells", min(now))
     cut.write_text(re.sub(r',"finished_at":"[^"]*"', "", now[cut.name]))
     done = expect(0, "sweep", *PRODUCT, "--out", "killed", says="8 cells: 8 measured")
@@ -93,7 +93,7 @@ def test_no_process_outlives_a_sweep_that_is_killed():
     words = ("sweep", "--scenes", "soup:70", "--builders", "perfect", "--samples", "1000000", "--out", "outlived")
     with at_work(*words) as process:
         wait_until(lambda: any(" run outlived/" in line for line in ours()))
-        time.sleep(0.5)  # it is at work by now, and would be for minutes
+        time.sleep(0.5)  # it is running by now, and would run for minutes
         process.kill()
     wait_until(lambda: not ours(), 5)
 
@@ -103,7 +103,7 @@ def test_an_interrupt_ends_it_and_keeps_what_is_done():
         for line in process.stdout:
             if line.startswith("[2/8]"):
                 break
-        os.killpg(process.pid, signal.SIGINT)  # as a terminal does: to the cell's process too
+        os.killpg(process.pid, signal.SIGINT)  # like a terminal, which also signals the cell's process
         output, errors = process.communicate(timeout=60)
     assert process.returncode == 130 and errors == KEPT, (process.returncode, errors)
     kept = cells_of("stopped/sweep.json")
@@ -113,8 +113,8 @@ def test_an_interrupt_ends_it_and_keeps_what_is_done():
 
 
 def test_a_crash_costs_one_cell():
-    # Without a watchdog, which would catch it in the process: a crash is a crash, and the sweep sees the process end.
-    crash = r"\1\n    *(volatile global uint*)(ulong)(get_global_size(0) & 0) = 1;\n"  # writes where nothing is
+    # Without a watchdog, which would catch the crash inside the process. The sweep sees the process end.
+    crash = r"\1\n    *(volatile global uint*)(ulong)(get_global_size(0) & 0) = 1;\n"  # writes to an invalid address
     kernels = planted_karras("crashing", r"(kernel void \w+\([^{]*\{)", crash)
     words = ("sweep", "--scenes", "soup:70", "--builders", "perfect,karras,median-split", "--samples", "2", "--out", "crash",
              "--kernels", kernels, "--time-limit", "0")
@@ -123,11 +123,11 @@ def test_a_crash_costs_one_cell():
     assert cells["karras"]["status"] == "failed", cells["karras"]
     assert re.match(r"its process crashed \(signal (6|11)\)", cells["karras"]["reason"]), cells["karras"]
     assert cells["perfect"]["check"]["verdict"] == cells["median-split"]["check"]["verdict"] == "agrees"
-    assert "[" not in expect(0, *words, says="1 failed")  # a cell that failed is done
+    assert "[" not in expect(0, *words, says="1 failed")  # a failed cell is finished
     good = next(path for path in pathlib.Path("crash/cells").glob("*.json") if '"name":"perfect"' in path.read_text())
     text = good.read_text()
     good.write_text(text.replace('"verdict":"agrees"', '"verdict":"differs"'))
-    expect(1, *words)  # an answer that is wrong is told to who asks, however long ago it was found
+    expect(1, *words)  # a wrong answer sets the exit code, however long ago it was found
     good.write_text(text)
     assert "[3/3] soup:70, karras: failed" in expect(0, *words, "--retry-failed", says="1 failed")
 
@@ -161,12 +161,12 @@ def test_shards_together_are_the_whole():
              "1", "--warm-up", "0")
     cannot_be = "oibvh-wide4 keeps its boxes in its own way"
     expect(0, *words, "--out", "all", "--dry-run", says="8 cells, 2 of which cannot be")
-    parts = ("part/sweep-1of3.json", "elsewhere/sweep-2of3.json", "part/sweep-3of3.json")  # two in one folder, as on a shared file system
+    parts = ("part/sweep-1of3.json", "elsewhere/sweep-2of3.json", "part/sweep-3of3.json")  # two share a folder
     pathlib.Path("part").mkdir()
     for shard, path in zip(("1/3", "2/3", "3/3"), parts):
         out = os.path.dirname(path)
         with open("part/lock", "w", encoding="utf-8") as lock:
-            fcntl.flock(lock, fcntl.LOCK_SH)  # as another shard has it while it measures
+            fcntl.flock(lock, fcntl.LOCK_SH)  # held as by another shard that is measuring
             expect(0, *words, "--out", out, "--shard", shard, says="written: ")
             if shard == "3/3":
                 expect(3, *words, "--out", "part", says="part is being written by another process")
@@ -176,7 +176,7 @@ def test_shards_together_are_the_whole():
     skipped = [cell for cell in valid("merged.json")["cells"] if cell["status"] == "skipped"]
     assert len(skipped) == 2 and all(cell["reason"].startswith(cannot_be) for cell in skipped), skipped
     expect(0, "show", "merged.json", says="merged from 7 runs on ")
-    # Merged again, with a part of itself: each cell once, as it was.
+    # Merges again with one of the parts: each cell appears once, unchanged.
     expect(0, "merge", "merged.json", parts[0], "-o", "again.json", says="8 cells of 7 runs; in more than one file, the same in each: 4\n")
     assert cells_of("again.json") == cells_of("merged.json")
 
@@ -194,7 +194,7 @@ def test_cells_from_warm_and_empty_caches_are_two():
 
 
 def test_two_processes_over_two_devices():
-    # PoCL makes as many devices as it is told to.
+    # PoCL creates as many devices as POCL_DEVICES names.
     words = ("sweep", *PRODUCT, "--out", "jobs")
     done = expect(0, *words, "--device", "0", "--device", "1", says="8 cells: 8 measured", POCL_DEVICES="pthread pthread")
     assert "note: processes share a device" in done, done
@@ -293,7 +293,7 @@ def name_of(*parts: str) -> str:
 
 
 def of_another_commit(folder: str) -> str:
-    """Make a finished sweep look as if an earlier program had measured its first cell, and nobody the others."""
+    """Makes a finished sweep look as if an earlier program had measured its first cell, and none of the others were measured."""
     path = pathlib.Path(folder, "plan.json")
     plan = json.loads(path.read_text())
     program, = plan["programs"]

@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
-"""Hold `tune`, and files of tuned values, to what they promise.
+"""Tests `tune`, and files of tuned values.
 
-Usage: tune_test.py <bvhbench> <result schema>
-"""
+Usage: tune_test.py <bvhbench> <result schema>"""
 import json
 import pathlib
 import sys
@@ -11,7 +10,7 @@ from program import expect, main, valid
 
 
 def tuned_file(folder: str, **values: int) -> pathlib.Path:
-    """A tuning file of the device there is, in a folder."""
+    """Writes a tuning file for the present device into a folder."""
     device = expect(0, "list", "devices").splitlines()[0].split("  ")[0].split("/", 1)[1]
     slug = "-".join(filter(None, "".join(c if c.isascii() and c.isalnum() else " " for c in device.lower()).split(" ")))
     path = pathlib.Path(folder, f"{slug}.json")

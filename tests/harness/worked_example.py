@@ -1,10 +1,9 @@
 #!/usr/bin/env python3
-"""Write the files of an example in a document, new and changed, into a folder.
+"""Writes the new and changed files of an example in a document into a folder.
 
 Usage: worked_example.py <source root> <document> <folder>
 
-A block of the page that is no diff is the file whose name is the last in backticks before it; a diff changes that file.
-"""
+A block of the page that is not a diff is a file, whose name is the last one in backticks before it. A diff changes that file."""
 import pathlib
 import re
 import sys
@@ -14,7 +13,7 @@ FILE = re.compile(r"`(\w+/[\w./]+\.\w+)`")
 
 
 def changed(text: str, diff: str, path: str) -> str:
-    """The text with the lines of a diff in it, which must be there once."""
+    """Applies a diff to a text, in which the replaced lines must occur exactly once."""
     lines = diff.splitlines()
     before = "\n".join(line[1:] for line in lines if not line.startswith("+"))
     after = "\n".join(line[1:] for line in lines if not line.startswith("-"))

@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
-"""The program as docs/adding-a-builder.md changes it has the builder, and all holds that the page says of it.
+"""Tests that the program with the changes of docs/adding-a-builder.md has the builder, and that the page's claims hold.
 
-Usage: worked_example_test.py <bvhbench with the builder> <result schema> <folder of worked_example.py>
-"""
+Usage: worked_example_test.py <bvhbench with the builder> <result schema> <folder of worked_example.py>"""
 import pathlib
 import shutil
 import sys
@@ -16,7 +15,7 @@ FOLDER = pathlib.Path(sys.argv[3]).resolve()
 
 
 def bvhbench(*words: str, says: str = "", code: int = 0) -> str:
-    """Its kernels are those of the source, and the page's beside them."""
+    """Runs the program with the source's kernels and the page's kernel."""
     if not pathlib.Path("kernels").exists():
         shutil.copytree(FOLDER, copied_kernels("kernels"), dirs_exist_ok=True)
     return expect(code, *words, "--kernels", "kernels", says=says)

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""The figures of accuracy show every method, mark the best, and refuse what is wrong."""
+"""Tests that figures of accuracy show every method, mark the best ones, and refuse wrong answers."""
 import unittest
 
-from base import GOLDEN, InFolder, golden  # first: it says where plots are
+from base import GOLDEN, InFolder, golden  # first: it adds plots to sys.path
 
 import accuracy
 import results
@@ -46,12 +46,12 @@ class Figures(InFolder):
         drawing = self.drawn("narrow")
         self.assertEqual([axes.get_title(loc="left") for axes in drawing.axes], ["generic", "same place", "scaled 1e-16"])
         for axes in drawing.axes:
-            self.assertEqual(len(axes.lines), 1 + 4)  # the front, and a point a method
+            self.assertEqual(len(axes.lines), 1 + 4)  # the front, and one for each method
             low, high = axes.get_ylim()
             for line in axes.lines:
                 self.assertTrue(all(low <= y <= high for y in line.get_ydata()))
         filled = [line.get_color() for line in drawing.axes[0].lines[1:] if line.get_markerfacecolor() != "white"]
-        self.assertEqual(len(filled), 1)  # where none errs, the fastest
+        self.assertEqual(len(filled), 1)  # if no method has errors, the fastest
         self.assertIn("150,000 pairs of triangles, seed 1", drawing.texts[0].get_text())
         self.assertIn("guigue-f64 needs doubles", drawing.texts[0].get_text())
 

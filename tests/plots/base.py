@@ -1,5 +1,5 @@
-"""What tests of plots share: the source root, which is each test's one word; result files and runs that are made; and a way to
-run scripts."""
+"""Shared by tests of plots: the source root (each test's only argument), generated result files and runs, and ways to run
+scripts."""
 import copy
 import json
 import os
@@ -27,7 +27,7 @@ def stage(name: str, span_ns: int, moved_bytes: int = 0, **more: int) -> Raw:
 
 
 def cell(builder: str = "oibvh-multi", ns: int = 100000, **more: Any) -> Raw:
-    """The hierarchy of a tree over 144,046 triangles, in three samples."""
+    """Returns a cell: the hierarchy of a tree over 144,046 triangles, in three samples."""
     return {"experiment": "table1", "scene": {"name": "bunny", "triangles": 144046}, "builder": {"name": builder},
             "status": "measured",
             "samples": [{"order": 7 + place, "stages": [stage("hierarchy", ns + off, 50000000)]}
@@ -37,7 +37,7 @@ def cell(builder: str = "oibvh-multi", ns: int = 100000, **more: Any) -> Raw:
 
 
 def document(*all_cells: Raw, **facts: Any) -> Raw:
-    """1e12 bytes a second."""
+    """Returns a result file with a copy rate of 1e12 bytes per second."""
     table1 = golden("table1")
     return {"format": table1["format"], "run": {**table1["run"], "copy_rate_bytes_per_s": 1e12, **facts},
             "cells": copy.deepcopy(list(all_cells))}
@@ -50,7 +50,7 @@ def run_of(*all_cells: Raw, **facts: Any) -> Any:
 
 
 def code_of_script() -> int:
-    """Runs what sys.argv names as the main program: what the interpreter would have ended with."""
+    """Runs the script in sys.argv as the main program, and returns the exit code that the interpreter would give."""
     code = 1
     try:
         runpy.run_path(sys.argv[0], run_name="__main__")
@@ -66,7 +66,7 @@ def code_of_script() -> int:
 
 
 class InFolder(unittest.TestCase):
-    """Has a folder of its own, and the golden file of Table 1."""
+    """A test with a temporary folder and the golden file of Table 1."""
 
     def setUp(self) -> None:
         holder = tempfile.TemporaryDirectory()
@@ -80,7 +80,7 @@ class InFolder(unittest.TestCase):
         return path
 
     def run_script(self, name: str, *arguments: object) -> subprocess.CompletedProcess:
-        """As from a shell, but split off from this process, where matplotlib is loaded already."""
+        """Runs a script as from a shell, but in a fork of this process, which has already loaded matplotlib."""
         command = [str(ROOT / "plots" / name), *map(str, arguments)]
         with tempfile.TemporaryFile("w+") as out, tempfile.TemporaryFile("w+") as errors:
             sys.stdout.flush(), sys.stderr.flush()
@@ -94,7 +94,7 @@ class InFolder(unittest.TestCase):
             return subprocess.CompletedProcess(command, status, out.read(), errors.read())
 
     def made(self, name: str, *arguments: object, code: int = 0) -> subprocess.CompletedProcess:
-        """Of a script that ends with this code, and says nothing on standard error where that is 0."""
+        """Runs a script. Tests its exit code, and that it prints no errors if the code is 0."""
         done = self.run_script(name, *arguments)
         self.assertEqual((done.returncode, done.stderr if code == 0 else ""), (code, ""), done)
         return done

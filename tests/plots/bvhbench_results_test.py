@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Result files as a table of pandas."""
+"""Tests reading result files into pandas tables."""
 import importlib.util
 import lzma
 import pathlib
 import tempfile
 import unittest
 
-from base import GOLDEN, ROOT  # first: it says where plots are
+from base import GOLDEN, ROOT  # first: it adds plots to sys.path
 
 import bvhbench_results
 import json_files

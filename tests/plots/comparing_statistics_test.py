@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""The statistics of `compare` against tables, SciPy's manual and chance."""
+"""Tests the statistics of `compare` against tables, SciPy's manual and simulations."""
 import math
 import unittest
 from collections.abc import Callable
 
 import numpy
 
-import base  # noqa: F401  first: it says where plots are
+import base  # noqa: F401  first: it adds plots to sys.path
 
 from comparing.intervals import Interval, median_interval, ratio_interval, samples_per_independent_one
 from comparing.times import p_value
@@ -17,25 +17,25 @@ def shuffled(count: int, seed: int = 3) -> numpy.ndarray:
 
 
 def independent(count: int) -> numpy.ndarray:
-    """1 to `count`, larger and smaller by turns at random: no two neighbours say the same."""
+    """Returns 1 to `count` in a random order without autocorrelation about the median."""
     return next(values for seed in range(1000) if samples_per_independent_one(values := shuffled(count, seed)) == 1)
 
 
 class Statistics(unittest.TestCase):
     def outside(self, trials: int, interval: Callable[[numpy.random.Generator], Interval], true: float) -> float:
-        """The share of intervals that the true value is not in."""
+        """Returns the share of intervals that do not contain the true value."""
         random = numpy.random.default_rng(11)
         found = [interval(random) for _ in range(trials)]
         return sum(not each.low <= true <= each.high for each in found) / trials
 
     def test_p_is_counted_for_few_and_approximated_for_many_or_ties(self) -> None:
-        men, women = numpy.array([19, 22, 16, 29, 24]), numpy.array([20, 11, 17, 12])  # of SciPy's manual
+        men, women = numpy.array([19, 22, 16, 29, 24]), numpy.array([20, 11, 17, 12])  # from SciPy's manual
         self.assertAlmostEqual(p_value(men, women), 14 / 126)
         self.assertAlmostEqual(p_value(women, men), 14 / 126)
-        # By hand: ranks 1, 3, 3, 3, 5.5, 5.5, 7, 8; ties 24 + 6; variance 16/12 (9 - 30/56).
+        # Calculated by hand: ranks 1, 3, 3, 3, 5.5, 5.5, 7, 8; ties 24 + 6; variance 16/12 (9 - 30/56).
         self.assertAlmostEqual(p_value(numpy.array([1, 2, 2, 3]), numpy.array([2, 3, 4, 5])),
                                math.erfc(5 / math.sqrt(2 * 16 / 12 * (9 - 30 / 56))))
-        for count, p in ((20, 0.0304), (21, 0.0346)):  # counted, and not
+        for count, p in ((20, 0.0304), (21, 0.0346)):  # exact, and approximated
             self.assertAlmostEqual(p_value(numpy.arange(count), numpy.arange(count) + 4.5), p, places=4)
         self.assertEqual(p_value(numpy.ones(3), numpy.ones(2)), 1)
         self.assertEqual(p_value(numpy.ones(0), numpy.ones(2)), 1)

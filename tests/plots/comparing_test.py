@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What `compare` says of times, counters, verdicts and cells of two result files."""
+"""Tests what `compare` reports about times, counters, verdicts and cells of two result files."""
 import copy
 import math
 import pathlib
@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy
 
-from base import Raw  # first: it says where plots are
+from base import Raw  # first: it adds plots to sys.path
 
 import counters
 from cells import Cell
@@ -28,8 +28,8 @@ def steady(_: float) -> float:
 
 def cell(builder: str = "karras", median_ns: float = 1e6, seed: int = 1, noise: float = 0.02, samples: int = 40,
          drift: Callable[[float], float] = steady, frame: int = 0, first: int = 0, every: int = 1) -> Raw:
-    """Its whole times are spread about the median, the same for the same seed; `drift` says by what a sample at that share of the
-    run is longer."""
+    """Returns a cell whose whole times scatter about the median, equal for equal seeds. `drift` returns the factor on the time of
+    a sample at a given share of the run."""
     spread = numpy.random.default_rng(seed).normal(0, noise, samples)
     return {"experiment": "trial", "status": "measured", "scene": {"name": "bunny", "frame": frame, "content_hash": "0" * 16},
             "builder": {"name": builder}, "check": {"verdict": "agrees", "pairs_hash": "1" * 16, "tree_hash": "2" * 16},
@@ -48,7 +48,7 @@ def document(*cells: Raw, name: str = "run") -> Raw:
 
 
 def builders(seed: int, drift: Callable[[float], float] = steady, karras: float = 1, samples: int = 100) -> Raw:
-    """Six of one scene, their samples interleaved; the n-th takes n milliseconds."""
+    """Returns cells of six builders on one scene, with interleaved samples. The n-th builder takes n milliseconds."""
     return document(*(cell(name, 1e6 * (place + 1) * (karras if name == "karras" else 1), 10 * seed + place, 0.02, samples, drift,
                            first=place, every=len(BUILDERS)) for place, name in enumerate(BUILDERS)), name=f"run {seed}")
 
@@ -62,7 +62,7 @@ def verdicts(first: Raw, second: Raw, **rules: Any) -> list[str]:
 
 
 def with_sentences(change: Callable[[Raw], Any], **rules: Any) -> tuple[list[str], list[str]]:
-    """What is told of a cell that was changed: regressions, and others."""
+    """Returns the sentences about a changed cell: regressions, and others."""
     before = document(cell())
     after = copy.deepcopy(before)
     change(after["cells"][0])
@@ -90,7 +90,7 @@ class Times(unittest.TestCase):
         self.assertAlmostEqual(compared(many, many).error_of_each, 0.0005)
         for each in many["cells"]:
             del each["samples"][9:]
-        self.assertEqual(verdicts(many, many), [UNSURE] * 100)  # no nine can be that sure
+        self.assertEqual(verdicts(many, many), [UNSURE] * 100)  # nine samples cannot give enough certainty
 
     def test_of_all_stages_together_decide_and_each_is_shown(self) -> None:
         after = document(cell(seed=2))
@@ -132,13 +132,13 @@ class OfAScene(unittest.TestCase):
         before, after, slower = builders(1, drift), builders(2, drift, karras=1.08), builders(2, lambda at: 1.1 * drift(at))
         self.assertEqual(verdicts(before, after)[1], UNSURE)
         before["run"]["turns_with"] = ["run 2"]
-        self.assertFalse(compared(before, after).by_turns)  # only one of them says so
+        self.assertFalse(compared(before, after).by_turns)  # only one of them lists the other
         for other in (after, slower):
             other["run"]["turns_with"] = ["run 1"]
         found = compared(before, after)
         self.assertEqual([each.verdict for each in found.cells], [SAME, SLOWER, SAME, SAME, SAME, SAME])
         self.assertAlmostEqual(found.cells[1].time.ratio.value, 1.08, delta=0.01)
-        self.assertEqual(verdicts(before, slower), [SLOWER] * 6)  # nothing else can have made it
+        self.assertEqual(verdicts(before, slower), [SLOWER] * 6)  # nothing else can explain it
 
     def test_samples_are_compared_that_were_taken_at_like_speed(self) -> None:
         def at_speeds(seed: int, fast_of_ten: int) -> Raw:
@@ -163,7 +163,7 @@ class OfAScene(unittest.TestCase):
         found = compared(before, after, other_devices=True)
         self.assertEqual([each.verdict for each in found.cells], [SAME, SAME, SLOWER])
         self.assertEqual(found.cells[0].regressions, [])
-        self.assertEqual(verdicts(document(cell()), document(cell(median_ns=9e6)), other_devices=True), [UNSURE])  # it is alone
+        self.assertEqual(verdicts(document(cell()), document(cell(median_ns=9e6)), other_devices=True), [UNSURE])  # alone
 
 
 class Facts(unittest.TestCase):
@@ -248,7 +248,7 @@ class Cells(unittest.TestCase):
         self.assertIn("REGRESSION bunny: karras: not in B\nnew bunny: perfect: only in B\n", report.text(found))
 
     def test_are_shown_worst_first(self) -> None:
-        first, second = (document(*(cell(name, median, seed=seed + place, frame=place)  # each by itself
+        first, second = (document(*(cell(name, median, seed=seed + place, frame=place)  # each on a frame of its own
                                     for place, (name, median) in enumerate(zip(FOUR, medians))))
                          for seed, medians in ((0, [1e6] * 4), (9, [1e6, 1.2e6, 2e6, 5e5])))
         text = report.text(compared(first, second))

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""What `smoke` keeps of a run, and what of another run it calls a regression."""
+"""Tests what `smoke` keeps of a run, and which differences it reports as regressions."""
 import copy
 import json
 import unittest
 
-from base import ROOT  # first: it says where plots are
+from base import ROOT  # first: it adds plots to sys.path
 
 from cells import Cell
 from gate import baseline, changes
@@ -15,7 +15,7 @@ LIBRARIES = ("embree", "fcl")
 
 
 def times(*fastest: float) -> list[dict]:
-    """Cells of one scene, which differ in their times."""
+    """Returns cells of one scene that differ in their times."""
     return [{"cell": f"soup: {number}", "scene": "soup build", "verdict": "agrees",
              "counters": {"nodes_count": 7, "depth_mean": 1.25}, "hashes": {"tree": "0" * 16},
              "fastest_ns": ns} for number, ns in enumerate(fastest)]

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""`merge` keeps every cell once and as it was, and refuses what is not alike; an output is reserved for one command."""
+"""Tests that `merge` keeps every cell once, unchanged, refuses parts that differ, and reserves its output."""
 import copy
 import json
 import unittest
 
-from base import GOLDEN, InFolder  # first: it says where plots are
+from base import GOLDEN, InFolder  # first: it adds plots to sys.path
 
 import documents
 import file_lock
@@ -19,7 +19,7 @@ def golden(name: str = "table1") -> dict:
 
 
 def of_run(document: dict, name: str) -> dict:
-    """The same, as if another run had made it."""
+    """Returns a copy of the document that looks like another run."""
     other = copy.deepcopy(document)
     other["run"]["id"] = name
     return other
@@ -39,7 +39,7 @@ class Merging(unittest.TestCase):
 
     def test_numbers_keep_their_digits(self) -> None:
         document = golden()
-        digits = "150.48477172851563"  # Python tells it by 150.48477172851562
+        digits = "150.48477172851563"  # Python would print 150.48477172851562
         new = f'"counters": {{"new_count": 18446744073709551615, "new": {digits}, '
         text = json.dumps(document).replace('"counters": {', new)
         merged = merging.merge([("a", documents.document_of(text.encode(), "a"))]).text
@@ -65,7 +65,7 @@ class Merging(unittest.TestCase):
         self.assertEqual((again.runs, again.repeated), (2, len(parts[1]["cells"])))
         self.assertEqual(json.loads(again.text)["cells"], document["cells"])
         sources = json.loads(again.text)["merged_from"]
-        self.assertEqual([source["id"] for source in sources], ["a", "z"])  # those of one part by their names
+        self.assertEqual([source["id"] for source in sources], ["a", "z"])  # sources of one part are sorted by id
 
     def test_a_run_without_a_cell_is_not_told(self) -> None:
         document = golden()
@@ -116,7 +116,7 @@ class Merging(unittest.TestCase):
         document["cells"][-1]["check"]["verdict"] = "differs"
         merged = merging.merge([("a", document)])
         self.assertTrue(merged.differs)
-        self.assertEqual(json.loads(merged.text)["format"], "1.8")  # the first that knows merged files
+        self.assertEqual(json.loads(merged.text)["format"], "1.8")  # the first format with merged files
         documents.document_of(merged.text.encode(), "merged")
 
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What becomes of files that pages and pictures are written to, and of files that are no results."""
+"""Tests the handling of files that pages and pictures are written to, and of files that are not results."""
 import json
 import os
 import pathlib
@@ -78,7 +78,7 @@ class Malformed(InFolder):
 
 
 class Outputs(InFolder):
-    """A page and a picture, each over what stood there."""
+    """Tests a page and a picture, each written over an existing file."""
 
     def setUp(self) -> None:
         super().setUp()
@@ -86,7 +86,7 @@ class Outputs(InFolder):
         self.made = (("report.py", self.page, self.page), ("table1.py", self.picture, self.folder))
 
     def make(self, code: int, script: str, out: pathlib.Path, *more: str) -> str:
-        """What is said of it on standard error."""
+        """Runs a script and returns its standard error."""
         done = self.run_script(script, TABLE1, "--out", out, *more)
         self.assertEqual((done.returncode, done.stderr.count("\n")), (code, 1 if code else 0), done)
         return done.stderr

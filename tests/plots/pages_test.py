@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tables and numbers of the console; what `show` prints of axes of accuracy and of stress, what `reproduce` prints beside the
+"""Tests console tables and numbers, what `show` prints for axes of accuracy and for stress, what `reproduce` prints beside the
 paper's numbers, and how `show` reads and writes."""
 import os
 import pathlib
@@ -10,7 +10,7 @@ import tempfile
 import unittest
 from typing import Any
 
-import base  # first: it says where plots are
+import base  # first: it adds plots to sys.path
 from base import GOLDEN, ROOT, Raw, run_of
 
 import results
@@ -45,12 +45,12 @@ class OfNumbers(unittest.TestCase):
 
 
 def page(*cells: Raw) -> list[list[str]]:
-    """The words of each line."""
+    """Returns the words of each line."""
     return [line.split() for line in accuracy.text(run_of(*cells)).splitlines()]
 
 
 def on_axis(axis: str, method: str, counters: dict[str, float], *samples: dict[str, int]) -> Raw:
-    """A sample is stage to nanoseconds on the host, one stage after the other."""
+    """Returns a cell of an axis. A sample maps stages to nanoseconds on the host; stages run one after the other."""
     return {"experiment": "accuracy", "operation": "accuracy", "scene": {"name": "slivers"}, "builder": {"name": "none"},
             "accuracy": {"axis": axis, "method": method, "seed": 5}, "status": "measured", "check": {"verdict": "counted"},
             "counters": counters,

@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
-"""Hold results/paper/*.json to the paper's own arithmetic, so that a typing error in them is found.
+"""Tests results/paper/*.json against the paper's own arithmetic, which finds typing errors.
 
-Usage: paper_test.py <source root>
-"""
+Usage: paper_test.py <source root>"""
 import json
 import pathlib
 import sys
@@ -16,20 +15,20 @@ def load(name: str) -> dict:
 
 
 def oi_nodes(triangles: int) -> int:
-    """Eq. (7): 2t - 1 + popcount(L_v)."""
+    """Returns the number of nodes by Eq. (7): 2t - 1 + popcount(L_v)."""
     virtual = (1 << (triangles - 1).bit_length()) - triangles
     return 2 * triangles - 1 + virtual.bit_count()
 
 
 def last_digit(printed: str) -> float:
-    """What one unit of the last printed digit is worth: the paper cuts digits off as often as it rounds."""
+    """Returns the value of one unit in the last printed digit. The paper truncates as often as it rounds."""
     mantissa, _, exponent = printed.partition("e")
     decimals = len(mantissa.partition(".")[2])
     return 10.0 ** (int(exponent or 0) - decimals)
 
 
 def column(table: dict, key: str, value: str) -> dict[tuple[str, str], float]:
-    """(scene, what the row is about) to a number."""
+    """Returns a column of the table by (scene, value of `key`)."""
     return {(row["scene"], row[key]): row[value] for row in table["rows"]}
 
 

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""The figure of orders shows every point, marks the best, and keeps its numbers apart."""
+"""Tests that the figure of orders shows every point, marks the best ones, and keeps its numbers apart."""
 import copy
 import itertools
 import math
 import random
 import unittest
 
-from base import InFolder, golden  # first: it says where plots are
+from base import InFolder, golden  # first: it adds plots to sys.path
 
 import labels
 import pareto
@@ -59,7 +59,7 @@ class Figure(InFolder):
         self.document = golden("quality")
 
     def many(self, with_tests: bool) -> results.Run:
-        """Fourteen orders of two builders on two scenes, one order much worse than all others, and a host builder."""
+        """Returns fourteen orders of two builders on two scenes, one order much worse than all others, and a host builder."""
         noise = random.Random(6)
         scenes = list(dict.fromkeys(cell["scene"]["name"] for cell in self.document["cells"]))[:2]
         cells = []
@@ -84,7 +84,7 @@ class Figure(InFolder):
         drawing = pareto_orders.draw(self.many(with_tests=False))
         device, host = drawing.axes[:2]
         self.assertEqual(len(drawing.axes), 4)
-        self.assertEqual(len(device.lines) - 1, 28)  # and the front
+        self.assertEqual(len(device.lines) - 1, 28)  # without the front
         self.assertEqual(sorted(int(text.get_text()) for text in device.texts), sorted(2 * list(range(1, 15))))
         self.assertEqual((len(host.lines) - 1, len(host.texts)), (1, 0))
         low, high = device.get_ylim()
@@ -95,7 +95,7 @@ class Figure(InFolder):
         drawing = pareto_orders.draw(self.many(with_tests=True))
         drawing.draw_without_rendering()
         for axes in drawing.axes:
-            # Of the words without the line to their point; digits need less than their line's height.
+            # Boxes of the texts without leader lines. Digits are lower than their line height.
             boxes = [labels.Box(*Text.get_window_extent(text).padded(-1).extents) for text in axes.texts]
             for one, other in itertools.combinations(boxes, 2):
                 self.assertEqual(labels.shared(one, other), 0)
@@ -104,7 +104,7 @@ class Figure(InFolder):
         drawing = pareto_orders.draw(self.many(with_tests=True))
         names = [axes.get_ylabel() for axes in drawing.axes if axes.get_ylabel()]
         self.assertEqual(sorted(names), 2 * ["box tests of a query"] + 2 * ["surface area cost"])
-        self.assertEqual(len(drawing.axes), 6)  # no query over a host builder's tree
+        self.assertEqual(len(drawing.axes), 6)  # no query uses a host builder's tree
 
     def test_fills_what_no_other_is_as_good_as(self) -> None:
         run = self.many(with_tests=False)

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Every figure can be drawn from the golden results, and the reader refuses what must not be plotted."""
+"""Tests that every figure can be drawn from the golden results, and that the reader refuses what must not be plotted."""
 import copy
 import json
 import pathlib
 import re
 import unittest
 
-from base import GOLDEN, ROOT, InFolder, golden  # first: it says where plots are
+from base import GOLDEN, ROOT, InFolder, golden  # first: it adds plots to sys.path
 
 import fig8
 import frames
@@ -31,7 +31,7 @@ class Scripts(InFolder):
         scripts |= {f"table2-{name}": (f"{name}.py", "table2") for name in ("fig9", "fig10")}
         scripts |= {name: ("frames.py", name) for name in ("rebuild", "pairs", "libraries")}
         scripts |= {f"accuracy-{axis}": ("accuracy.py", "accuracy") for axis in ("narrow", "sums", "codes", "input", "boxes", "swept")}
-        for script, file in dict.fromkeys(scripts.values()):  # one may draw several pictures
+        for script, file in dict.fromkeys(scripts.values()):  # a script may draw several pictures
             self.made(script, GOLDEN / f"{file}.json", "--out", self.folder / "out")
         for picture in scripts:
             self.assert_pictures(picture)
@@ -107,7 +107,7 @@ class Scripts(InFolder):
 
 class Frames(InFolder):
     def drawn(self, script: str, name: str, document: dict | None = None) -> str:
-        """The text of the SVG."""
+        """Returns the text of the SVG."""
         self.made(script, self.written(document or golden(name), f"{name}.json"), "--out", self.folder)
         svg, = self.folder.glob("*.svg")
         return svg.read_text(encoding="utf-8")
@@ -267,7 +267,7 @@ class Crossing(unittest.TestCase):
 
     def test_lies_where_the_multi_kernel_construction_stays_ahead(self) -> None:
         found = fig8.crossing(self.curve([1, 3, 1, 2, 4]), self.curve([2, 2, 2, 1, 1]))
-        self.assertAlmostEqual(found, 2**12.5)  # not at the first lead, which is lost again
+        self.assertAlmostEqual(found, 2**12.5)  # not where it first leads, since it falls behind again
 
     def test_is_none_when_nothing_crosses(self) -> None:
         slow, fast = self.curve([2, 2, 2]), self.curve([1, 1, 1])
@@ -306,7 +306,7 @@ class Roofline(InFolder):
     def test_has_a_panel_a_stage_with_a_line_a_builder_or_collider(self) -> None:
         panels = {axes.get_title("left"): axes for axes in self.drawn().axes}
         self.assertEqual(list(panels), ["bounds", "codes", "sort", "hierarchy", "broad", "narrow"])
-        self.assertEqual([len(axes.lines) for axes in panels.values()], 6 * [5])  # and the floor itself
+        self.assertEqual([len(axes.lines) for axes in panels.values()], 6 * [5])  # and the floor
         labels = {line.get_label() for line in panels["broad"].lines[1:]}
         self.assertEqual(labels, {"leaf over oibvh-multi", "group over oibvh-multi (hilbert30, sorted leaves)",
                                   "bvtt (jump 2) over oibvh-multi", "grid"})
@@ -316,7 +316,7 @@ class Roofline(InFolder):
             for sample in cell["samples"]:
                 for stage in sample["stages"]:
                     stage |= {"launches": 3, "moved_bytes": 24_000_000, "span_ns": 64_200}
-        for axes in self.drawn().axes:  # 24 MB at 2.4 TB/s are 10 microseconds, 3 launches 11.4
+        for axes in self.drawn().axes:  # 24 MB at 2.4 TB/s take 10 microseconds, 3 launches 11.4
             for line in axes.lines[1:]:
                 for value in line.get_ydata():
                     self.assertAlmostEqual(value, 64.2 / 21.4)

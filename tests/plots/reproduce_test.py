@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What `reproduce` runs, prints and ends with, beside a program that measures nothing but hands out finished files."""
+"""Tests what `reproduce` runs and prints, and its exit codes, with a stand-in program that returns prepared files."""
 import io
 import os
 import pathlib
@@ -11,12 +11,12 @@ import tempfile
 import unittest
 from unittest import mock
 
-from base import GOLDEN, ROOT  # first: it says where plots are
+from base import GOLDEN, ROOT  # first: it adds plots to sys.path
 
 import results
 from commands import reproduce
 
-# Its exit codes are in CODES, as "table1=1 view=3"; each call is a line of the file "calls".
+# Its exit codes are in CODES, such as "table1=1 view=3". It appends each call to the file "calls".
 PROGRAM = f"""#!{sys.executable}
 import json, os, shutil, signal, sys
 words = sys.argv[1:]

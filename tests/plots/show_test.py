@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What `show` prints of result files."""
+"""Tests what `show` prints for result files."""
 import copy
 import json
 import os
@@ -10,7 +10,7 @@ import tempfile
 import unittest
 from typing import Any
 
-from base import ROOT, Raw, cell, document, run_of, stage  # first: it says where plots are
+from base import ROOT, Raw, cell, document, run_of, stage  # first: it adds plots to sys.path
 
 import results
 from cells import Cell
@@ -20,7 +20,7 @@ from console import run as run_page
 
 
 def frame(number: int = 0, builder: str = "oibvh-multi", ns: int = 1000000, **collider: Any) -> Raw:
-    """Of a collision, half of it the query."""
+    """Returns a frame of a collision; the query takes half of its time."""
     made = cell(builder, ns // 2, operation="collide", collider={"name": "group", "options": collider},
                 counters={"pairs_count": 1000, "box_tests_count": 50000})
     made["scene"]["frame"] = number
@@ -75,9 +75,9 @@ class OfACell(unittest.TestCase):
                       "quartiles 5.3 % apart and staying so, above 2.0 %\n"
                       "first run 3.00 ms on the host's clock, kernels compiled in 2.00 us\n", shown(raw))
         self.assertRegex(shown(raw), r"hierarchy  95\.0 us .* 5\.00 us +700 ns\n")
-        raw["samples"][1]["stages"][0]["moved_bytes"] = 7  # bytes are those of the first sample, though it is left out
+        raw["samples"][1]["stages"][0]["moved_bytes"] = 7  # bytes come from the first sample, even if it is left out
         self.assertRegex(cells.text(run_of(raw)), r" 95\.0 us .* 526\.3 +52\.6 %  agrees\n")
-        raw["samples"][1]["drifted"] = True  # most: then none is left out
+        raw["samples"][1]["drifted"] = True  # most have drift: then none is left out
         self.assertIn("hierarchy  100 us", shown(raw))
         self.assertNotIn("left out", shown(raw))
         raw["samples"][1:] = [{"order": 8, "stages": []}] * 2
@@ -120,7 +120,7 @@ class OfCells(unittest.TestCase):
 
 class OfFrames(unittest.TestCase):
     def test_those_of_a_pipeline_are_a_line_with_the_mean_and_deviation_of_their_medians(self) -> None:
-        absent = frame(1, ns=3000000, jump=0)  # an option's usual value may be absent in a file
+        absent = frame(1, ns=3000000, jump=0)  # a file may omit an option with its default value
         titles, line = frames.text(run_of(frame(0), absent)).splitlines()
         self.assertEqual(titles.split(), "scene pipeline frames ms ± broad MB pairs contacts peak BVTT verdict".split())
         self.assertEqual(line.split(), "bunny group over oibvh-multi 2 2.000 1.000 1.000 1,000 agrees".split())
@@ -195,7 +195,7 @@ class OfTrees(unittest.TestCase):
             sample["stages"].append(stage("sort", 100000))
         for sample in again["samples"]:
             sample["stages"][0]["stage"] = "refit"
-        other = {**again, "builder": {"name": "karras", "options": {"order": "morton63"}}}  # has no rebuild beside it
+        other = {**again, "builder": {"name": "karras", "options": {"order": "morton63"}}}  # has no rebuild to be compared with
         _, line, *note = trees.refits(run_of(rebuild, other, wrong(again), again)).splitlines()
         self.assertEqual(line.split(), "bunny 144,046 karras 400 us 200 us 2.00 300 us 200 us 1.50 50.00 51.50".split())
         self.assertEqual(note[1], "rebuilding takes longer than refitting in 1 of 1 cases")
@@ -228,7 +228,7 @@ class OfFloors(unittest.TestCase):
 
 class OfAFile(unittest.TestCase):
     def show(self, made: Raw, code: int = 0) -> str:
-        with tempfile.TemporaryFile() as file:  # has no name, as those that the program hands over
+        with tempfile.TemporaryFile() as file:  # without a name, like those that the program passes
             file.write(json.dumps(made).encode())
             file.flush()
             done = subprocess.run([sys.executable, ROOT / "plots", "show", f"/proc/{os.getpid()}/fd/{file.fileno()}"], text=True,

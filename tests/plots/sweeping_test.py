@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A sweep's product, its units, shards and plan, how it guesses the time left, and what it makes of a process that ends."""
+"""Tests a sweep's product, units, shards and plan, its estimate of the time left, and its handling of processes that end."""
 import collections
 import json
 import os
@@ -9,7 +9,7 @@ import tempfile
 import types
 import unittest
 
-import base  # noqa: F401  first: it says where plots are
+import base  # noqa: F401  first: it adds plots to sys.path
 
 import command
 from commands import sweep
@@ -22,7 +22,7 @@ USUAL = {"order": "morton30", "group_size": 0, "items": 0, "boxes": "f32", "leav
 
 
 def builder_in_full(described: object) -> dict:
-    """As the program has it, or ValueError for what it refuses."""
+    """Returns a builder with all options, as the program does. Raises ValueError for what the program refuses."""
     given = {"name": described} if isinstance(described, str) else described
     if given["name"] not in BUILDERS:
         raise ValueError(f"no builder is called '{given['name']}'")
@@ -50,7 +50,7 @@ def collider_in_full(pipeline: dict) -> dict:
 
 
 def answer_to(experiment: dict) -> dict:
-    """What the program says of an experiment, in little."""
+    """Returns a simplified version of the program's answer to an experiment."""
     scene, = experiment["scenes"]
     scene = {"scene": scene} if isinstance(scene, str) else scene
     name = scene["scene"]
@@ -66,7 +66,7 @@ def answer_to(experiment: dict) -> dict:
         if pipeline:
             cell |= {"operation": "collide", "collider": collider_in_full(pipeline)}
         described = pipeline.get("builder", "perfect") if pipeline else experiment["builders"][0]
-        cell["builder"] = builder_in_full(described)  # a builder that nobody wants is refused all the same
+        cell["builder"] = builder_in_full(described)  # an invalid builder is refused even if the collider does not use it
         if cell.get("collider", {}).get("name") == "grid":
             cell["builder"] = {"name": "none", "options": USUAL}
     except ValueError as error:
@@ -137,7 +137,7 @@ class Product(unittest.TestCase):
         first, second, third, _ = (sweep.experiment([one])["pipelines"][0] for one in sweep.cells)
         self.assertEqual(first["builder"], {"name": "karras", **USUAL})
         self.assertEqual(first, {"builder": first["builder"], "collider": {"name": "bvtt", "jump": "2"}, "adjacent": "drop"})
-        self.assertEqual(second, first | {"no_skip": "all"})  # as experiments name rules, not as result files list them
+        self.assertEqual(second, first | {"no_skip": "all"})  # in experiments' notation of rules, not result files'
         self.assertNotIn("builder", third)
 
     def test_what_is_no_sweep(self) -> None:
@@ -202,17 +202,17 @@ class TimeLeft(unittest.TestCase):
 
         left.add("a", 100000, 2)
         expect("a", 100000, 2)
-        expect("b", 300000, 4)  # to start counts as 100000 triangles
+        expect("b", 300000, 4)  # starting counts as 100000 triangles
         expect("b", 0, 2)
         left.add("a", 1100000, 12)
         expect("a", 2100000, 22)
         left.add("b", 100000, 20)
         expect("a", 2100000, 22)
         left.add("b", 200000, 40)
-        expect("b", 400000, 80)  # no time to start is less than none
+        expect("b", 400000, 80)  # the start time is never negative
         left.add("c", 1000, 3)
         left.add("c", 2000, 1)
-        expect("c", 50000, 2)  # no triangle takes less than none
+        expect("c", 50000, 2)  # the time per triangle is never negative
 
     def test_it_is_told_roughly(self) -> None:
         for seconds, told in ((0.2, "1 s"), (89, "89 s"), (89.5, "2 min"), (3600, "60 min"), (3600 * 5 + 1200, "5 h 20 min"),
@@ -236,7 +236,7 @@ class Folder(unittest.TestCase):
 
 
 class Ends(unittest.TestCase):
-    """What is said of a process that left no result."""
+    """Tests the reasons that are given for processes without a result."""
 
     def loss(self, code: int, said: str = "", given_up: str = "") -> processes.Loss:
         process = types.SimpleNamespace(child=types.SimpleNamespace(returncode=code), given_up=given_up, sentence=lambda: said)

@@ -1,4 +1,4 @@
-"""A page in headless Chromium, as a reader has it: opened from disk, without a network, at a width."""
+"""A page in headless Chromium, as a reader sees it: opened from disk, without a network, at a given width."""
 import json
 import pathlib
 import time
@@ -15,7 +15,7 @@ ADDRESS = "127.0.0.1"
 
 
 class ServiceByAddress(Service):
-    """Selenium asks for its driver at localhost, a name that a container may not know."""
+    """Uses an address, because Selenium looks for its driver at localhost, a name that a container may not know."""
 
     @property
     def service_url(self) -> str:
@@ -26,12 +26,12 @@ class ServiceByAddress(Service):
 
 
 class Browser:
-    """One window. Threads of its renderer draw three dimensions without a GPU."""
+    """One browser window. Its renderer's threads draw 3D scenes without a GPU."""
 
     def __init__(self) -> None:
         options = Options()
         options.binary_location = "/usr/bin/chromium"
-        # Without a sandbox: in containers, as CI's, the user is root. By a pipe: else the driver asks for the browser at localhost.
+        # No sandbox, because the user is root in containers. A pipe, because the driver would look for the browser at localhost.
         for argument in ("--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--hide-scrollbars",
                          "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-background-networking", "--disable-extensions",
                          "--disable-component-update", "--no-first-run", "--remote-debugging-pipe", "--force-color-profile=srgb"):
@@ -51,7 +51,7 @@ class Browser:
                                     {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False})
 
     def open(self, page: pathlib.Path, fragment: str = "") -> None:
-        self.driver.get("about:blank")  # another fragment alone would be the same page
+        self.driver.get("about:blank")  # changing only the fragment would not reload the page
         self.driver.get(page.resolve().as_uri() + fragment)
         self.wait_for("document.body.classList.contains('ready')")
 
@@ -60,7 +60,7 @@ class Browser:
         self.wait_for("[null, false].includes(document.getElementById(arguments[0])?.hidden ?? null)", fragment.lstrip("#"))
 
     def click(self, x: float, y: float) -> None:
-        """As a hand does: the mouse goes there, rests, and presses."""
+        """Clicks like a user: moves the mouse, waits, and presses."""
         for kind, more in (("mouseMoved", {}), ("mousePressed", {"button": "left", "clickCount": 1}),
                            ("mouseReleased", {"button": "left", "clickCount": 1})):
             self.driver.execute_cdp_cmd("Input.dispatchMouseEvent", {"type": kind, "x": x, "y": y} | more)
@@ -77,7 +77,7 @@ class Browser:
             time.sleep(0.05)
 
     def all_drawn(self) -> None:
-        """Every chart and scene of the part that is shown, scrolled to as a reader would."""
+        """Scrolls to every chart and scene of the visible part, and waits until it is drawn."""
         here = "document.querySelectorAll('section:not([hidden]) .drawing, section:not([hidden]) canvas[role=img]')"
         for place in range(self.run(f"return {here}.length")):
             self.run(f"{here}[arguments[0]].scrollIntoView({{block: 'center'}})", place)
@@ -85,12 +85,12 @@ class Browser:
         self.run("scrollTo(0, 0)")
 
     def complaints(self) -> list[str]:
-        """What the console has said since the last call, but for what a driver without a GPU says of its speed."""
+        """Returns console messages since the last call, except a driver's remarks on its speed without a GPU."""
         said = [entry["message"] for entry in self.driver.get_log("browser")]
         return [message for message in said if "GPU stall due to ReadPixels" not in message]
 
     def requests(self) -> list[str]:
-        """What was asked of the network since the last call: all that is not the page itself or in it."""
+        """Returns the network requests since the last call, except for the page itself and its contents."""
         messages = (json.loads(entry["message"])["message"] for entry in self.driver.get_log("performance"))
         urls = [message["params"]["request"]["url"] for message in messages if message["method"] == "Network.requestWillBeSent"]
         return [url for url in urls if not url.startswith(SCHEMES_OF_THE_PAGE)]

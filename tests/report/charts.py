@@ -1,4 +1,4 @@
-"""Charts draw what the reader of result files says, a mark a cell, in the colours of figures."""
+"""Tests that charts draw the values of the reader of result files, one mark for each cell, in the colours of figures."""
 import pareto
 import pareto_orders
 import pipelines
@@ -40,7 +40,7 @@ class Charts(Page):
     def test_frames_are_the_medians_of_the_reader(self) -> None:
         run = self.show("table2")
         scene, shown = next((scene, shown) for scene, shown in pipelines.of(run, "table2").items() if len(shown[0].cells) > 1)
-        self.choose("Time a frame", "Show", "whole")  # of the one scene that has several frames
+        self.choose("Time a frame", "Show", "whole")  # of the only scene that has several frames
         unit = {"s": 1e3, "ms": 1.0, "µs": 1e-3}
         drawn = self.chart("Time a frame", """const lines = drawing.data.map((trace) => [trace.name, trace.y]);
             return [drawing.layout.yaxis.title.text, Object.fromEntries(lines)];""")

@@ -1,7 +1,6 @@
-"""What tests of a page share: a report of golden files, one of them with faults, open in a browser, and ways to ask it.
+"""Shared by tests of a page: a report of golden files, one with faults, open in a browser, and ways to query it.
 
-Called as `<test> <source root> <bvhbench>`: the test takes both words off the command line through this module.
-"""
+Tests run as `<test> <source root> <bvhbench>`; this module takes both arguments off the command line."""
 import atexit
 import copy
 import functools
@@ -23,11 +22,11 @@ import results  # noqa: E402
 from browser import Browser  # noqa: E402
 
 FILES = ("table1", "quality", "table2", "accuracy", "stress")
-DETAIL = "=7 is not its children's box"  # as a formula begins
+DETAIL = "=7 is not its children's box"  # begins like a formula
 
 
 def with_faults(document: dict) -> dict:
-    """One cell wrong, one failed; one is skipped in the golden file already."""
+    """Makes one cell wrong and one failed. One is already skipped in the golden file."""
     document = copy.deepcopy(document)
     measured = [cell for cell in document["cells"] if cell["status"] == "measured"]
     measured[0]["check"] = {"verdict": "differs", "against": "contract", "detail": DETAIL}
@@ -48,7 +47,7 @@ def report(out: pathlib.Path, *files: pathlib.Path) -> subprocess.CompletedProce
 
 
 def by_address(host: str, *arguments: object, **more: object) -> list:
-    """socket.getaddrinfo where no name is known, as in a container without /etc/hosts."""
+    """Replaces socket.getaddrinfo where no names are known, as in a container without /etc/hosts."""
     return look_up(host, *arguments, **more | {"flags": socket.AI_NUMERICHOST})
 
 
@@ -57,7 +56,7 @@ unittest.mock.patch("socket.getaddrinfo", by_address).start()
 
 
 class Opened:
-    """A report and a browser, made when first asked for."""
+    """A report and a browser, created on first use."""
 
     def __init__(self) -> None:
         self.holder = tempfile.TemporaryDirectory()
@@ -80,7 +79,7 @@ def opened() -> Opened:
 
 
 class Page(unittest.TestCase):
-    """Ends with an error if the console has said anything, or the network was asked for anything."""
+    """A test that fails if the console printed anything, or if there was a network request."""
 
     def setUp(self) -> None:
         self.report = opened()
@@ -92,14 +91,14 @@ class Page(unittest.TestCase):
         self.assertEqual(self.browser.requests(), [])
 
     def show(self, name: str) -> results.Run | None:
-        """A file's part, all drawn; the golden file as figures read it."""
+        """Shows and draws a file's part. Returns the golden file as figures read it."""
         place = len(FILES) if name == "faulty" else FILES.index(name)
         self.browser.open(self.report.page, f"#file-{place}")
         self.browser.all_drawn()
         return results.load(GOLDEN / f"{name}.json") if name in FILES else None
 
     def chart(self, title: str, script: str, *arguments: object) -> object:
-        """`script` of the chart's element, `chart`, and Plotly's `drawing` in it."""
+        """Runs `script` with the element `chart` and its Plotly `drawing`."""
         return self.browser.run(f"""const chart = [...document.querySelectorAll("section:not([hidden]) .chart")].find(
             (one) => one.querySelector("h3").textContent === {json.dumps(title)});
             const drawing = chart.querySelector(".drawing"); {script}""", *arguments)
@@ -119,7 +118,7 @@ class Page(unittest.TestCase):
         return self.table(title, "return [...titled.querySelectorAll('tbody tr')].map(cells);")
 
     def per_second(self, title: str) -> float:
-        """How many of a table's unit of time a second has."""
+        """Returns the number of a table's time units in a second."""
         unit = self.table(title, "return titled.querySelector('thead .unit').textContent;")
         return {"ns": 1e9, "µs": 1e6, "ms": 1e3, "s": 1.0}[unit]
 

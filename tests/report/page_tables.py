@@ -1,4 +1,4 @@
-"""Tables sort and filter, say the reader's numbers and what has none, and lead to raw samples."""
+"""Tests that tables sort and filter, show the reader's numbers and missing ones, and link to raw samples."""
 import re
 
 import results

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""A report in a browser: charts draw what the files say, tables sort and filter, a number leads to its samples, and what has
-no time is shown as that. Nothing is asked of the network."""
+"""Tests a report in a browser: charts draw the files' values, tables sort and filter, numbers link to their samples, and missing
+times are marked. The page sends no network requests."""
 import pathlib
 import tempfile
 import unittest
 
-from page import FILES, Page, report  # first: it takes the command line's words, and says where figures are
+from page import FILES, Page, report  # first: it takes the arguments and adds plots to sys.path
 
 from charts import Charts  # noqa: F401
 from page_tables import Tables  # noqa: F401

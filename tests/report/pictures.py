@@ -25,7 +25,7 @@ SCENE = ("--scene", "cloth-ball:6000", "--frame", "15")
 
 
 def save(browser: Browser, path: pathlib.Path, height: int, top: str) -> None:
-    """The part of the page that is shown, from an element on."""
+    """Saves the visible part of the page, from an element on."""
     browser.all_drawn()
     width = browser.run("return innerWidth")
     y = browser.run("return document.querySelector(arguments[0]).getBoundingClientRect().top + scrollY", top)

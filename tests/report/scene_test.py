@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""A scene in three dimensions is what the program built and found: the boxes of `build --dump`, the pairs of `collide --pairs`. A
-browser draws it."""
+"""Tests that a 3D scene shows what the program built and found: the boxes of `build --dump` and the pairs of `collide --pairs`,
+drawn by a browser."""
 import array
 import base64
 import gzip
@@ -16,7 +16,7 @@ import unittest
 
 import matplotlib.image
 
-from page import GOLDEN, PROGRAM, ROOT, golden  # first: it takes the command line's words
+from page import GOLDEN, PROGRAM, ROOT, golden  # first: it takes the arguments
 
 from browser import Browser
 
@@ -58,7 +58,7 @@ class Scene(unittest.TestCase):
         self.assertEqual([path.name for path in self.folder.iterdir() if path.name.startswith("scene")], ["scene.html"])
 
     def test_boxes_are_those_of_the_tree_level_by_level(self) -> None:
-        # `build` builds over a scene's first frame: the same scene, one frame, is a mesh here.
+        # `build` uses a scene's first frame, so the shown frame is written as a mesh.
         mesh = self.folder / "mesh.obj"
         points, faces = self.numbers("points", "f"), self.numbers("faces", "I")
         lines = [f"v {' '.join(map(repr, points[k:k + 3]))}" for k in range(0, len(points), 3)]
@@ -77,7 +77,7 @@ class Scene(unittest.TestCase):
             levels.append(sorted(boxes))
             first += level["count"]
         self.assertEqual(len(levels), len(expected))
-        exact = [[tuple(array.array("f", box)) for box in level] for level in expected]  # JSON has their shortest digits
+        exact = [[tuple(array.array("f", box)) for box in level] for level in expected]  # rounds JSON's digits to floats
         self.assertEqual(levels, [sorted(level) for level in exact])
         self.assertEqual(sum(level["leaves"] for level in self.facts()["levels"]), len(faces) // 3)
 
@@ -108,7 +108,7 @@ class Scene(unittest.TestCase):
             return matplotlib.image.imread(io.BytesIO(base64.b64decode(url.split(",")[1])))[..., :3]
 
         def share(image, red, green, blue) -> float:
-            """Of pixels in which one channel is clearly above another, as three flags say: 1 above, -1 below, 0 either."""
+            """Returns the share of pixels whose channels match the flags: 1 above, -1 below, 0 either."""
             mask = sum((image[..., k] * flag for k, flag in enumerate((red, green, blue)) if flag)) > 0.25
             return float(mask.mean())
 
