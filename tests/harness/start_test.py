@@ -15,7 +15,7 @@ QUICK = ("build", "--builder", "median-split", "--scene", "soup:30", "--samples"
 def test_a_build_compiles_the_kernels_that_it_launches_and_no_others():
     # Copy rate 1, empty launch 1, bounds 2, codes 1, sort 3, then the tree's kernels. PoCL takes about 0.1 s for each. The number
     # of programs is checked too, because each costs about as much again.
-    for most, texts, *words in ((10, 5, "--builder", "oibvh-multi"), (10, 6, "--builder", "oibvh-multi", "--leaves", "sorted"),
+    for most, texts, *words in ((10, 6, "--builder", "oibvh-multi"), (10, 6, "--builder", "oibvh-multi", "--leaves", "sorted"),
                                 (8, 4, "--builder", "oibvh-host"), (9, 5, "--builder", "apetrei-fused"),
                                 (9, 6, "--builder", "oibvh-multi", "--order", "kd"),
                                 (2, 1, "--builder", "median-split")):
