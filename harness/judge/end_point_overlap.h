@@ -37,8 +37,6 @@ struct Polygon {
 
 Polygon polygon_of(std::span<const Point> points, Face face);
 
-Polygon polygon_of(std::span<const Point> points, Face face);
-
 /// Writes to `left`, a different polygon, the part of `polygon` in the closed box. A triangle in a face of the box is inside.
 void clip(const Polygon& polygon, const Aabb& box, Polygon& left);
 
