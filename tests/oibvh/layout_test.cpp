@@ -137,12 +137,14 @@ TEST_P(LayoutOf, SaysOfEveryTreeWhatTheLiteralConstructionSays)
             const auto last_real = static_cast<uint>(first + real - 1);
             for (uint i = first; i < end; ++i)
                 if (leaves <= 600 || i <= first + 1 || i == last_real || i == last_real + 1 ||
-                    i + 1 == end)
+                    i + 1 == end) {
                     ASSERT_NO_FATAL_FAILURE(expect_node(literal, leaves, i, real)) << i;
+                }
         }
         // Eq. (7) is 2t - 1 for a tree without support nodes, plus one for each support node.
-        if (arity == 2)
+        if (arity == 2) {
             ASSERT_EQ(all_support, popcount(oi_shape(leaves).virtual_leaves));
+        }
     }
 }
 

@@ -150,7 +150,7 @@ bool stands_on(const Three& a, const Three& b)
         if (heights[c] != 0)
             continue;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const auto seen = [&](Vector p) { return seen_along(axis, p); };
+            const auto seen = [&](Vector point) { return seen_along(axis, point); };
             if (is_strictly_within({seen(a[0]), seen(a[1]), seen(a[2])}, seen(b[c])))
                 return true;
         }
@@ -171,7 +171,7 @@ bool cross(const Three& a, std::size_t i, const Three& b, std::size_t j)
     if (volume(p, q, r, s) != 0)
         return false;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const auto seen = [&](Vector p) { return seen_along(axis, p); };
+        const auto seen = [&](Vector point) { return seen_along(axis, point); };
         const auto opposite = [&](Vector from, Vector to, Vector one, Vector other) {
             return turn(seen(from), seen(to), seen(one)) * turn(seen(from), seen(to), seen(other)) <
                    0;
