@@ -47,7 +47,7 @@ public:
     /// Finds and gathers the near triangles in the stage `near`; returns their number per object. Blocks on the final read.
     std::vector<uint> find(const Input& input, Queue& queue);
 
-    /// Returns the frame of the near triangles, of which there may be at most most_of, with the objects that have any. Its
+    /// Returns the frame of the near triangles (at most most_of), with the objects that have any. Its
     /// buffers belong to this object, and the next `find` overwrites them; the points are those of `whole`, which must not be
     /// swept. `faces` receives the host copy of the faces. Blocks.
     Input frame(const Input& whole, const std::vector<uint>& counts, std::vector<Face>& faces,

@@ -121,7 +121,7 @@ SHARED_FN_INLINED Point chosen(bool first, Point a, Point b)
     return p;
 }
 
-/// As led_by_lone, from heights none of which is in doubt.
+/// As led_by_lone, from heights whose signs are all certain.
 SHARED_FN_INLINED Corners turned_to_lone(Corners a, Heights h)
 {
     const bool last = (h.of[0] > 0.0) == (h.of[1] > 0.0);

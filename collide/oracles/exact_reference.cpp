@@ -114,7 +114,7 @@ bool more_than(const Constructions::Segment_3& segment, const Other& other,
            *line != Constructions::Segment_3(ends[1], ends[0]);
 }
 
-/// For two triangles of which at least one has no area: true if they have more in common than `shared`. A triangle that is a
+/// For two triangles, at least one without area: true if they have more in common than `shared`. A triangle that is a
 /// point is the shared corner itself and has no more.
 bool more_in_common(std::span<const Point> points, Face a, Face b, const std::vector<uint>& shared)
 {

@@ -32,7 +32,7 @@ Device open_device_of(const CommonOptions& common)
     Device device =
         open_device(common.device,
                     common.kernels.empty() ? Sources::preferred() : Sources::tree(common.kernels));
-    // Sets the limit again, so that it allows for the stacks of the driver's threads, of which only little becomes resident.
+    // Sets the limit again, so that it allows for the stacks of the driver's threads. Only little of these becomes resident.
     limit_host_memory(common.memory_limit);
     if (common.memory_limit > 0)
         device.memory_limit = common.memory_limit;

@@ -44,7 +44,7 @@ static inline void read_tiles(local uint* const totals, local uint* const before
 }
 
 /// Sorts the `count` pairs of codes_a, whose ids are their positions, by `passes` digits, alternating between buffers a and b.
-/// Launched with one group per tile, all of which must be resident. `states` has a row of digits per tile, then a word per
+/// Launched with one group per tile. All groups must be resident. `states` has a row of digits per tile, then a word per
 /// tile. No earlier pass may have used the epochs `epoch` to `epoch` + `passes` - 1.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void sort_at_once(
     global Code* codes_a, global uint* ids_a, global Code* codes_b, global uint* ids_b,
