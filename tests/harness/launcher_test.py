@@ -7,7 +7,7 @@ import shutil
 import subprocess
 import sys
 
-from program import SOURCE, main
+from program import PROGRAM, SOURCE, main
 
 LAUNCHER = SOURCE / "bvhbench"
 NOBODY = 65534
@@ -74,6 +74,18 @@ def test_a_path_that_builds_do_not_take_is_refused_at_once_but_run_if_it_is_buil
         assert not (root / "build").exists()
     done = call(checkout("it's ä (built) already"), "list")
     assert (done.returncode, done.stdout) == (0, "ran: list\n"), done
+
+
+def test_help_and_version_are_answered_before_anything_is_built():
+    root = checkout("nothing", built=False)
+    (root / "docs").mkdir()
+    for path in ("docs/help.txt", "CMakeLists.txt"):
+        shutil.copy(SOURCE / path, root / path)
+    for word in ("--help", "-h", "--version"):
+        at_once, built = (subprocess.run([program, word], capture_output=True, text=True, timeout=60)
+                          for program in (root / "bvhbench", PROGRAM))
+        assert (at_once.returncode, at_once.stdout, at_once.stderr) == (0, built.stdout, ""), (word, at_once, built)
+    assert not (root / "build").exists()
 
 
 sys.exit(main(globals()))
