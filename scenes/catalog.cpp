@@ -2,6 +2,7 @@
 #include "scenes/catalog.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <new>
 
@@ -24,11 +25,28 @@ void require_memory(std::string_view scene, std::uint64_t bytes)
     require_host_memory("scene " + in_quotes(scene), bytes);
 }
 
-/// Returns the whole number that `number`, a part of the name `scene`, spells. Throws BadUsage unless it is from 1 to `most`.
+/// Returns the whole number that `number` spells in digits, or as "100k", "2.88M" or "1e5"; none if it spells no whole number.
+std::optional<std::int64_t> count_of(std::string_view number)
+{
+    if (number.empty() || number.find_first_not_of("0123456789.ekM") != number.npos)
+        return std::nullopt;
+    if (number.find_first_of(".ekM") == number.npos)
+        return parse_integer(number);
+    const char unit = number.back();
+    const double factor = unit == 'k' ? 1e3 : unit == 'M' ? 1e6 : 1;
+    double value = 0;
+    const char* const end = number.data() + number.size() - (factor > 1 ? 1 : 0);
+    const auto [stop, error] = std::from_chars(number.data(), end, value);
+    value = std::round(value * factor * 1e6) / 1e6;  // 2.88 and 1e6 give a product beside the whole
+    if (error != std::errc{} || stop != end || value > 1e15 || value != std::floor(value))
+        return std::nullopt;
+    return static_cast<std::int64_t>(value);
+}
+
+/// Returns the count that `number`, a part of the name `scene`, spells. Throws BadUsage unless it is from 1 to `most`.
 uint count_in(std::string_view scene, std::string_view number, const char* what, uint most)
 {
-    const bool digits = !number.empty() && number.find_first_not_of("0123456789") == number.npos;
-    const auto value = digits ? parse_integer(number) : std::nullopt;
+    const auto value = count_of(number);
     if (!value || *value < 1 || *value > std::int64_t{most})
         throw BadUsage("scene " + in_quotes(scene) + " ends in " + in_quotes(number) + " where a " +
                        what + " from 1 to " + std::to_string(most) + " goes");
@@ -213,7 +231,7 @@ Scene unfinished(std::string_view text, const SceneLibrary& library)
 Scene load_any(std::string_view text, const SceneLibrary& library)
 {
     Scene scene = unfinished(text, library);
-    scene.name = text;
+    scene.name = scene_name(text);
     return finished(std::move(scene));
 }
 
@@ -265,6 +283,30 @@ std::size_t triangles_said(std::string_view text)
     if (!looks_like_path(text))
         unknown(text);
     return 0;
+}
+
+std::string scene_name(std::string_view text)
+{
+    const auto in_digits = [](std::string_view word) {
+        const auto count = count_of(word);
+        return ':' + (count ? std::to_string(*count) : std::string(word));
+    };
+    if (const auto derived = taken_apart(text)) {
+        std::string name = std::string(derived->how->name) + ':' + scene_name(derived->base);
+        for (std::size_t k = 0; k < derived->how->words; ++k)
+            name += k == 0 ? in_digits(derived->words[k]) : ':' + std::string(derived->words[k]);
+        return name;
+    }
+    const Parts parts(text);
+    if (manifest_entry(text) != nullptr || generator_called(parts.head) == nullptr)
+        return std::string(text);
+    std::string name(parts.head);
+    for (std::string_view rest = parts.rest; !rest.empty();) {
+        const Parts next(rest);
+        name += in_digits(next.head);
+        rest = next.rest;
+    }
+    return name;
 }
 
 bool is_sized_generator(std::string_view text) { return generator_called(text) != nullptr; }

@@ -23,11 +23,16 @@ struct SceneLibrary {
 };
 
 /// Loads the scene called `text`: a generator with its size ("torus:2880000"), a moving generator with its size and optionally
-/// its number of frames ("cloth-ball:92000:94"), a data set by name ("bunny"), a path to a mesh file, or "refine:SCENE:N".
+/// its number of frames ("cloth-ball:92000:94"), a data set by name ("bunny"), a path to a mesh file, or "refine:SCENE:N". Counts
+/// may also be written as "100k", "2.88M" or "1e5".
 ///
 /// Throws BadUsage, listing the known scenes, if no scene has this name. Throws Unavailable, with one sentence that gives the
 /// reason, if a file is missing, malformed, or holds something that is not a valid scene.
 Scene load_scene(std::string_view text, const SceneLibrary& library);
+
+/// Returns the name of the scene `text` with counts in digits, the same for every way to write them: "torus:100000" for
+/// "torus:100k". What is no count stays as it is.
+std::string scene_name(std::string_view text);
 
 /// Returns the files and folders that loading the scene `text` may read; some of them need not exist.
 std::vector<std::string> scene_files(std::string_view text, const SceneLibrary& library);

@@ -1,4 +1,4 @@
-"""Sizes of a sweep: 1000,30000 or 1000:1000000:x10 or 1000:5000:+1000."""
+"""Sizes of a sweep: 1000,30k or 1000:1M:x10 or 1000:5000:+1000."""
 import math
 from typing import NoReturn
 
@@ -6,6 +6,7 @@ from output import WrongUsage
 
 MOST = 2**31
 MOST_SIZES = 10000
+UNITS = {"k": 1e3, "M": 1e6}
 
 
 def refuse(text: str, why: str) -> NoReturn:
@@ -13,13 +14,15 @@ def refuse(text: str, why: str) -> NoReturn:
 
 
 def number(text: str, digits: str, kind: type) -> float:
+    unit = UNITS.get(digits[-1:], 1)
     try:
-        value = kind(digits) if digits.strip() == digits and "_" not in digits else math.nan
+        spelled = digits[:-1] if unit > 1 else digits
+        value = round(float(spelled) * unit, 6) if digits.strip() == digits and "_" not in digits else math.nan
     except ValueError:
         value = math.nan
-    if not 0 < value <= MOST:
+    if not 0 < value <= MOST or kind(value) != value:
         refuse(text, f"'{digits}' is no number from 1 to {MOST}")
-    return value
+    return kind(value)
 
 
 def of_range(text: str, words: str) -> set[int]:

@@ -89,9 +89,10 @@ class Sizes(unittest.TestCase):
         self.assertEqual(sizes.called("8:20:x1.5"), [8, 12, 18])
         self.assertEqual(sizes.called("1:10:x1.0001"), list(range(1, 11)))  # each once
         self.assertEqual(sizes.called("500,70,500,60:70:+10"), [60, 70, 500])
+        self.assertEqual(sizes.called("1e3,0.5k,2.88M,1k:100k:x10"), [500, 1000, 10000, 100000, 2880000])
 
     def test_what_are_no_sizes(self) -> None:
-        for text in ("", ",", "a", "0", "-5", "1:2", "1:2:3", "1:2:x", "1:2:x0.5", "1:2:+0.5", "1:2:x2:3", "2:1:x2", "1e3",
+        for text in ("", ",", "a", "0", "-5", "1:2", "1:2:3", "1:2:x", "1:2:x0.5", "1:2:+0.5", "1:2:x2:3", "2:1:x2", "1.5", "k", "1.0005k",
                      "99999999999", "1:2:xnan", "1:2:xinf", "1_000", " 7", "1:20000:+1"):
             with self.subTest(text), self.assertRaises(WrongUsage):
                 sizes.called(text)

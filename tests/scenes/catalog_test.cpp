@@ -22,10 +22,27 @@ TEST(Catalog, NamesWhatIsKnownWhenAskedForSomethingElse)
 TEST(Catalog, TakesOnlyAPlainTriangleCount)
 {
     for (const std::string bad :
-         {"torus", "torus:", "torus:0", "torus:-5", "torus:1e6", "torus: 7", "torus:7x",
+         {"torus", "torus:", "torus:0", "torus:-5", "torus:1.5", "torus: 7", "torus:7x", "torus:k",
+          "torus:e5", "torus:1e", "torus:0.1k5", "torus:1.0005k", "torus:1e400", "torus:3000M",
           "torus:2147483649", "torus:99999999999999999999", "soup:1431655766"})
         EXPECT_TRUE(contains(refusal(bad), "BadUsage: scene '" + bad + "' ends in '")) << bad;
     EXPECT_TRUE(contains(refusal("torus:0"), "a triangle count from 1 to 2147483648"));
+}
+
+TEST(Catalog, TakesCountsWithUnitsAndNamesTheSceneInDigits)
+{
+    for (const char* same : {"torus:1200", "torus:1.2k", "torus:1.2e3", "torus:0.0012M"}) {
+        const Scene scene = load_scene(same, {});
+        EXPECT_EQ(scene.name, "torus:1200") << same;
+        EXPECT_EQ(scene.triangle_count(), 1200u) << same;
+        EXPECT_EQ(triangles_said(same), 1200u) << same;
+    }
+    EXPECT_EQ(scene_name("torus:2.88M"), "torus:2880000");
+    EXPECT_EQ(scene_name("cloth-ball:100k:3"), "cloth-ball:100000:3");
+    EXPECT_EQ(scene_name("refine:bend:sphere:1k:2k"), "refine:bend:sphere:1000:2000");
+    EXPECT_EQ(scene_name("outlier:torus:1k:1e1:1e2"), "outlier:torus:1000:10:1e2");
+    for (const char* other : {"bunny", "a/torus:1k.obj", "torus:1kk", "nothing:1k"})
+        EXPECT_EQ(scene_name(other), other);
 }
 
 TEST(Catalog, ListsEveryGeneratorAndDataSetByTheNameTyped)
