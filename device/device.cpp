@@ -2,9 +2,9 @@
 #include "device/device.h"
 
 #include <algorithm>
-#include <cctype>
-#include <sstream>
+#include <cstdlib>
 
+#include "device/device_choice.h"
 #include "device/lifted_limit.h"
 #include "geometry/error.h"
 #include "geometry/host_memory.h"
@@ -14,7 +14,7 @@ namespace {
 
 struct Found {
     cl::Device device;
-    std::string name;
+    NamedDevice named;
 };
 
 std::vector<Found> all_devices()
@@ -33,43 +33,12 @@ std::vector<Found> all_devices()
         } catch (const cl::Error&) {  // a platform without devices reports an error, too
         }
         for (const cl::Device& device : devices)
-            found.push_back({device, platform.getInfo<CL_PLATFORM_NAME>() + '/' +
-                                         device.getInfo<CL_DEVICE_NAME>()});
+            found.push_back(
+                {device,
+                 {platform.getInfo<CL_PLATFORM_NAME>() + '/' + device.getInfo<CL_DEVICE_NAME>(),
+                  device.getInfo<CL_DEVICE_TYPE>()}});
     }
     return found;
-}
-
-std::string lower(std::string_view text)
-{
-    std::string out(text);
-    for (char& c : out)
-        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return out;
-}
-
-bool has_all_words(const std::string& name, const std::string& words)
-{
-    std::istringstream stream(words);
-    for (std::string word; stream >> word;)
-        if (name.find(word) == std::string::npos)
-            return false;
-    return true;
-}
-
-const Found* choose(const std::vector<Found>& devices, std::string_view words)
-{
-    const auto is_digit = [](unsigned char c) { return std::isdigit(c) != 0; };
-    if (!words.empty() && words.size() < 4 && std::ranges::all_of(words, is_digit)) {
-        const std::size_t index = std::stoul(std::string(words));
-        return index < devices.size() ? &devices[index] : nullptr;
-    }
-    const auto chosen = std::ranges::find_if(devices, [&](const Found& found) {
-        return words.empty() ? (found.device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU) != 0
-                             : has_all_words(lower(found.name), lower(words));
-    });
-    if (chosen != devices.end())
-        return &*chosen;
-    return words.empty() && !devices.empty() ? &devices.front() : nullptr;
 }
 
 /// True if a loop of 100,000 iterations ends early on the device. Compiles and runs a kernel to find out.
@@ -149,17 +118,27 @@ std::vector<std::string> device_names()
 {
     std::vector<std::string> names;
     for (Found& found : all_devices())
-        names.push_back(std::move(found.name));
+        names.push_back(std::move(found.named.name));
     return names;
+}
+
+std::string device_words(std::string_view words)
+{
+    const char* variable = std::getenv("BVHBENCH_DEVICE");
+    return words.empty() && variable != nullptr ? variable : std::string(words);
 }
 
 Device open_device(std::string_view words, Sources sources)
 {
+    const std::string wanted = device_words(words);
     const std::vector<Found> devices = all_devices();
-    if (const Found* found = choose(devices, words)) {
-        Device device{.cl = found->device,
-                      .context = cl::Context(found->device),
-                      .sources = std::move(sources)};
+    std::vector<NamedDevice> named;
+    for (const Found& found : devices)
+        named.push_back(found.named);
+    const std::size_t chosen = chosen_device(named, wanted);
+    if (chosen < devices.size()) {
+        const cl::Device& found = devices[chosen].device;
+        Device device{.cl = found, .context = cl::Context(found), .sources = std::move(sources)};
         // CPU kernels have long loops. PoCL is not probed, because one more program costs it 40 ms at every start.
         if (device.is_cpu() && device.platform() != "Portable Computing Language")
             device.ends_loops = ends_loops_early(device);
@@ -167,9 +146,10 @@ Device open_device(std::string_view words, Sources sources)
     }
 
     std::string known;
-    for (std::size_t i = 0; i < devices.size(); ++i)
-        known += (i == 0 ? "" : ", ") + std::to_string(i) + " = " + devices[i].name;
-    throw Unavailable("no OpenCL device matches '" + std::string(words) + "'; there " +
+    for (std::size_t i = 0; i < named.size(); ++i)
+        known += (i == 0 ? "" : ", ") + std::to_string(i) + " = " + named[i].name;
+    throw Unavailable("no OpenCL device matches '" + wanted + "'" +
+                      (words.empty() && !wanted.empty() ? " of BVHBENCH_DEVICE" : "") + "; there " +
                       (devices.empty()       ? "is none"
                        : devices.size() == 1 ? "is "
                                              : "are ") +

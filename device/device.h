@@ -99,9 +99,11 @@ private:
 /// Returns "Platform/device" of every OpenCL device; `open_device` accepts an index into this list.
 std::vector<std::string> device_names();
 
-/// Opens the device that `words` selects: an index of up to three digits into device_names(), or words that the name must all
-/// contain, in any case. If `words` is empty, opens the first CPU device or, without one, the first device. Throws Unavailable,
-/// with the list of devices, if none matches.
+/// Returns `words`, or if they are empty the value of BVHBENCH_DEVICE, or nothing.
+std::string device_words(std::string_view words);
+
+/// Opens the device that device_words(words) select among device_names(), as chosen_device does. Throws Unavailable, with the list
+/// of devices, if none matches.
 Device open_device(std::string_view words, Sources sources = Sources::preferred());
 
 }  // namespace bvhbench

@@ -27,6 +27,7 @@ struct Named {
 
 constexpr Named environment[] = {
     {"BVHBENCH_DATA", "the folder of data sets, where --data names none"},
+    {"BVHBENCH_DEVICE", "the device, where --device names none"},
     {"BVHBENCH_TUNING", "a folder of tuned values, where --tuning names none"},
     {"BVHBENCH_KERNELS", "a source tree to read kernels from, where --kernels names none"},
     {"BVHBENCH_HOME",

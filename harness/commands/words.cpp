@@ -80,7 +80,9 @@ CLI::Validator a_share(double most)
 
 void add_common(CLI::App& app, CommonOptions& common)
 {
-    app.add_option("--device", common.device, "words of its name, or its index in `list devices`");
+    app.add_option("--device", common.device,
+                   "gpu, cpu, words of its name, or its index in `list devices`; default: "
+                   "BVHBENCH_DEVICE, else the first GPU, else the processor");
     app.add_option("--kernels", common.kernels, "a source tree to read kernels from");
     app.add_option("--data", common.data, "the folder of data sets; default: BVHBENCH_DATA");
     app.add_option(

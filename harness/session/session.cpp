@@ -32,6 +32,9 @@ Device open_device_of(const CommonOptions& common)
     Device device =
         open_device(common.device,
                     common.kernels.empty() ? Sources::preferred() : Sources::tree(common.kernels));
+    if (device_words(common.device).empty() && !device.is_cpu())
+        std::cerr << "bvhbench: device " << device.name()
+                  << ", because none was named; --device cpu takes the processor\n";
     // Sets the limit again, so that it allows for the stacks of the driver's threads. Only little of these becomes resident.
     limit_host_memory(common.memory_limit);
     if (common.memory_limit > 0)

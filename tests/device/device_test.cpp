@@ -2,6 +2,7 @@
 #include "device/device.h"
 
 #include "device/arena.h"
+#include "device/device_choice.h"
 #include "device/yardsticks.h"
 #include "tests/device/testing.h"
 
@@ -27,9 +28,35 @@ TEST(OpenDevice, TakesAnIndexOrWordsInAnyCaseAndOrder)
 
 TEST(OpenDevice, SaysWhatWasAskedAndWhatThereIs)
 {
-    for (const std::string words : {"no such device", "77"})
+    for (const std::string words : {"no such device", "77"}) {
         expect_sentence(message_of([&] { open_device(words); }),
                         {"'" + words + "'", device_names()[0]});
+        setenv("BVHBENCH_DEVICE", words.c_str(), 1);
+        expect_sentence(message_of([&] { open_device(""); }),
+                        {"'" + words + "' of BVHBENCH_DEVICE", device_names()[0]});
+        EXPECT_NO_THROW(open_device("0")) << "words come before the variable";
+        unsetenv("BVHBENCH_DEVICE");
+    }
+}
+
+TEST(OpenDevice, TakesTheFirstGpuUnlessAnotherIsNamed)
+{
+    const NamedDevice devices[] = {{"PoCL/Some CPU", CL_DEVICE_TYPE_CPU},
+                                   {"Big/GPU of CPUs", CL_DEVICE_TYPE_GPU},
+                                   {"Big/Second", CL_DEVICE_TYPE_GPU},
+                                   {"Odd/Board", CL_DEVICE_TYPE_ACCELERATOR}};
+    const auto chosen = [&](std::string_view words) { return chosen_device(devices, words); };
+    EXPECT_EQ(chosen(""), 1u);
+    EXPECT_EQ(chosen("GPU"), 1u);
+    EXPECT_EQ(chosen("cpu"), 0u);
+    EXPECT_EQ(chosen("second big"), 2u);
+    EXPECT_EQ(chosen("3"), 3u);
+    for (const char* none : {"4", "999", "third", "big board"})
+        EXPECT_EQ(chosen(none), std::size(devices)) << none;
+    EXPECT_EQ(chosen_device(std::span(devices).first(1), ""), 0u);
+    EXPECT_EQ(chosen_device(std::span(devices).first(1), "gpu"), 1u);
+    EXPECT_EQ(chosen_device(std::span(devices).last(1), ""), 0u);
+    EXPECT_EQ(chosen_device({}, ""), 0u);
 }
 
 TEST(Device, CountsWhatIsTakenUntilItIsGivenBack)
