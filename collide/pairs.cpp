@@ -52,20 +52,32 @@ bool is_among(Pair pair, std::span<const FaceRange> objects, Among among)
     return (object_of(pair.a) != object_of(pair.b)) == (among == Among::between_objects);
 }
 
+PairList chosen(const PairList& pairs, const std::function<bool(Pair)>& is_wanted)
+{
+    std::vector<Pair> wanted;
+    std::ranges::copy_if(pairs.pairs(), std::back_inserter(wanted), is_wanted);
+    return PairList(std::move(wanted));
+}
+
 PairList among_objects(const PairList& pairs, std::span<const FaceRange> objects, Among among)
 {
-    std::vector<Pair> chosen;
-    std::copy_if(pairs.pairs().begin(), pairs.pairs().end(), std::back_inserter(chosen),
-                 [&](Pair pair) { return is_among(pair, objects, among); });
-    return PairList(std::move(chosen));
+    return chosen(pairs, [&](Pair pair) { return is_among(pair, objects, among); });
 }
 
 PairList selected(const PairList& pairs, const Family& family, Relation relation)
 {
-    std::vector<Pair> chosen;
-    std::copy_if(pairs.pairs().begin(), pairs.pairs().end(), std::back_inserter(chosen),
-                 [&](Pair pair) { return relation_of(pair, family) == relation; });
-    return PairList(std::move(chosen));
+    return chosen(pairs, [&](Pair pair) { return relation_of(pair, family) == relation; });
+}
+
+PairList renumbered(PairList pairs, std::span<const uint> numbers)
+{
+    if (numbers.empty())
+        return pairs;
+    std::vector<Pair> numbered;
+    numbered.reserve(pairs.size());
+    for (const Pair pair : pairs.pairs())
+        numbered.push_back({numbers[pair.a], numbers[pair.b]});
+    return PairList(std::move(numbered));
 }
 
 }  // namespace bvhbench

@@ -4,6 +4,7 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -66,10 +67,16 @@ enum class Among { all, between_objects, within_objects };
 /// True if `pair` is among the wanted ones; `objects` are the face ranges of all objects.
 bool is_among(Pair pair, std::span<const FaceRange> objects, Among among);
 
+/// Returns the pairs that `is_wanted` accepts.
+PairList chosen(const PairList& pairs, const std::function<bool(Pair)>& is_wanted);
+
 /// Returns the pairs that `is_among` accepts.
 PairList among_objects(const PairList& pairs, std::span<const FaceRange> objects, Among among);
 
 /// Returns the pairs with the given relation.
 PairList selected(const PairList& pairs, const Family& family, Relation relation);
+
+/// Returns the pairs with numbers[k] for triangle k. Empty `numbers`: with the same numbers.
+PairList renumbered(PairList pairs, std::span<const uint> numbers);
 
 }  // namespace bvhbench

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "geometry/error.h"
 #include "harness/accuracy/axis.h"
 #include "harness/base/failure.h"
+#include "harness/base/json_keys.h"
+#include "harness/judge/pair_counts.h"
 #include "harness/measure/frames.h"
 
 namespace bvhbench {
@@ -36,21 +37,7 @@ constexpr Axis catalog[] = {
 
 std::span<const Axis> accuracy_axes() { return catalog; }
 
-const Axis& find_axis(std::string_view name)
-{
-    std::string known;
-    for (const Axis& axis : catalog) {
-        if (axis.name == name)
-            return axis;
-        known += (known.empty() ? " " : ", ") + std::string(axis.name);
-    }
-    throw BadUsage("no axis is called '" + std::string(name) + "'; there are:" + known);
-}
-
-bool AxisTask::wants(std::string_view input, std::string_view method) const
-{
-    return !filter || filter->is_in(std::string(input) + '/' + std::string(method));
-}
+const Axis& find_axis(std::string_view name) { return find_called(accuracy_axes(), name, "axis"); }
 
 void Axis::measure(const AxisRun& run) const
 {
@@ -89,6 +76,24 @@ Cell accuracy_cell(std::string_view axis, std::string_view method, SceneFacts in
     cell.accuracy = {.axis = std::string(axis), .method = std::string(method)};
     cell.operation = Operation::accuracy;
     return cell;
+}
+
+void judge(Cell& cell, std::string_view reference, bool promises, const std::string& wrong)
+{
+    cell.check.against = reference;
+    cell.check.detail = promises ? wrong : "";
+    cell.check.verdict = !promises       ? Check::Verdict::counted
+                         : wrong.empty() ? Check::Verdict::agrees
+                                         : Check::Verdict::differs;
+}
+
+void judge_errors(Cell& cell, std::string_view reference, bool promises)
+{
+    const auto count = [&](const char* name) {
+        return static_cast<std::uint64_t>(cell.counters.at(name));
+    };
+    const Differences wrong{count("missed_count"), count("false_count")};
+    judge(cell, reference, promises, wrong == Differences{} ? "" : wrong.text());
 }
 
 void measure_methods(const AxisRun& run, std::string_view axis, const SceneFacts& input,

@@ -10,11 +10,15 @@
 #include <string_view>
 #include <vector>
 
+#include "builders/orders.h"
+#include "collide/pairs.h"
+#include "geometry/mesh.h"
 #include "harness/base/terminal.h"
 #include "harness/measure/engine.h"
 #include "harness/measure/run.h"
 #include "harness/record/record.h"
 #include "harness/session/session.h"
+#include "scenes/doubles.h"
 
 namespace bvhbench {
 
@@ -28,7 +32,10 @@ struct AxisTask {
     int samples = 5;
     CellFilter filter;  ///< on "input/method"
 
-    bool wants(std::string_view input, std::string_view method) const;
+    bool wants(const std::string& input, std::string_view method) const
+    {
+        return !filter || filter->is_in(input + '/' + std::string(method));
+    }
 };
 
 /// Context of an axis: where it runs and where its cells go. There is one cell for each input and method, in the tables' order.
@@ -81,11 +88,41 @@ struct AxisMethod {
 void measure_methods(const AxisRun& run, std::string_view axis, const SceneFacts& input,
                      std::span<const AxisMethod> methods);
 
+/// Writes the verdict of a comparison with `reference`: `counted` if the method promises no right answer, else by `wrong`, which
+/// says what is wrong and is empty if nothing is.
+void judge(Cell& cell, std::string_view reference, bool promises, const std::string& wrong);
+
+/// As above, by the cell's counters missed_count and false_count.
+void judge_errors(Cell& cell, std::string_view reference, bool promises);
+
+/// Counts of triangles with equal codes.
+struct CodeCounts {
+    std::size_t duplicates = 0;   ///< triangles whose code an earlier triangle has
+    std::size_t longest_run = 0;  ///< most triangles with one code
+};
+
+/// Counts equal codes of an order that has codes. `objects` cover all faces; each has its own grid, or all share one. Codes are
+/// compared within an object, by the bits that remain beside the object's number.
+CodeCounts code_counts(const OrderEntry& order, std::span<const Point> points,
+                       std::span<const Face> faces, std::span<const FaceRange> objects,
+                       GridOver grid = GridOver::object);
+
+/// Returns a scene in doubles, like those of simulations: `points` rotated, then moved along all axes by `sizes` times the
+/// longest side of their bounding box, computed in double.
+std::vector<WidePoint> turned_and_moved(std::span<const Point> points, double sizes);
+
+/// Returns the points rounded to floats, as a file of floats stores them.
+std::vector<Point> rounded(const std::vector<WidePoint>& points, Doubles how);
+
+/// Returns the reference: the pairs of triangles whose boxes in double overlap. Throws Unavailable for 2^24 points or more.
+PairList overlapping_pairs_in_doubles(std::span<const WidePoint> points,
+                                      std::span<const Face> faces);
+
 /// A method of the axis sums: a way to add up the surface area cost (SAH) of a tree.
 struct SumMethod {
     std::string_view name;
     /// Returns the cost with the default node costs. The root must have an area.
-    double (*cost)(const HostTree& tree);
+    long double (*cost)(const HostTree& tree);
     bool is_ours = false;  ///< the method that the counter sah_cost uses
 };
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "harness/accuracy/inputs.h"
-
+//
+// Host-side properties and references of the axes' inputs.
 #include <algorithm>
 #include <cmath>
 
 #include "builders/stages/codes.h"
 #include "collide/oracles/sweep.h"
 #include "geometry/error.h"
+#include "harness/accuracy/axis.h"
 
 namespace bvhbench {
 namespace {
@@ -14,35 +15,12 @@ namespace {
 constexpr std::pair<double WidePoint::*, float Point::*> axes[] = {
     {&WidePoint::x, &Point::x}, {&WidePoint::y, &Point::y}, {&WidePoint::z, &Point::z}};
 
-std::vector<double> sorted_along(double WidePoint::*axis, std::span<const WidePoint> points)
-{
-    std::vector<double> values;
-    values.reserve(points.size());
-    for (const WidePoint& p : points)
-        values.push_back(p.*axis);
-    std::sort(values.begin(), values.end());
-    return values;
-}
-
 Bounds bounds_of(std::span<const Point> points, std::span<const Face> faces)
 {
     Bounds bounds = empty_bounds();
     for (const Face& face : faces)
         bounds = grown(bounds, face_box(points, face));
     return bounds;
-}
-
-/// Adds the equal codes among `codes` to `counts`.
-void count_equal(std::vector<ulong>& codes, CodeCounts& counts)
-{
-    std::sort(codes.begin(), codes.end());
-    for (auto run = codes.begin(); run != codes.end();) {
-        const auto next = std::upper_bound(run, codes.end(), *run);
-        const auto length = static_cast<std::size_t>(next - run);
-        counts.duplicates += length - 1;
-        counts.longest_run = std::max(counts.longest_run, length);
-        run = next;
-    }
 }
 
 }  // namespace
@@ -61,7 +39,13 @@ CodeCounts code_counts(const OrderEntry& order, std::span<const Point> points,
         codes.reserve(own.size());
         for (const Face& face : own)
             codes.push_back(order.code(face_box(points, face), bounds) >> dropped);
-        count_equal(codes, counts);
+        std::ranges::sort(codes);
+        for (auto run = codes.begin(), next = run; run != codes.end(); run = next) {
+            next = std::upper_bound(run, codes.end(), *run);
+            const auto length = static_cast<std::size_t>(next - run);
+            counts.duplicates += length - 1;
+            counts.longest_run = std::max(counts.longest_run, length);
+        }
     }
     return counts;
 }
@@ -76,8 +60,6 @@ std::vector<WidePoint> turned_and_moved(std::span<const Point> points, double si
         const double x = c * double{p.x} - s * double{p.y}, y = s * double{p.x} + c * double{p.y};
         turned.push_back({x, c * y - s * double{p.z}, s * y + c * double{p.z}});
     }
-    if (turned.empty())
-        return turned;
     double longest = 0;
     for (const auto& [wide, narrow] : axes) {
         const auto [low, high] = std::ranges::minmax(turned, {}, wide);
@@ -108,7 +90,9 @@ PairList overlapping_pairs_in_doubles(std::span<const WidePoint> points,
     // axis, an integer that a float holds exactly.
     std::vector<Point> places(points.size());
     for (const auto& [wide, narrow] : axes) {
-        const std::vector<double> sorted = sorted_along(wide, points);
+        std::vector<double> sorted(points.size());
+        std::ranges::transform(points, sorted.begin(), wide);
+        std::ranges::sort(sorted);
         for (std::size_t k = 0; k < points.size(); ++k)
             places[k].*narrow = static_cast<float>(
                 std::lower_bound(sorted.begin(), sorted.end(), points[k].*wide) - sorted.begin());

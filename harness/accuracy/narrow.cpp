@@ -22,15 +22,6 @@ namespace {
 /// Bytes of host memory per pair: six corners, two faces, and several copies of the pair.
 constexpr std::size_t host_bytes_a_pair = 240;
 
-/// A narrow phase and its results over the current class.
-struct Phase {
-    std::unique_ptr<NarrowPhase> narrow;  ///< null if it could not be made
-    std::vector<Sample> samples;          ///< each sample is the sum over the pieces
-    Differences wrong;
-    NarrowCounts counts;
-    std::uint64_t hash = 0;  ///< of the contacts of the current piece
-};
-
 /// Returns the pairs of a mesh made of pairs: triangles 0 and 1, 2 and 3, and so on.
 std::vector<Pair> pairs_of_neighbours(const Mesh& mesh)
 {
@@ -80,44 +71,92 @@ struct Piece {
     }
 };
 
-std::vector<StageTime> query_once(NarrowPhase& narrow, const Piece& piece, Session& session)
-{
-    session.give_head_start();
-    narrow.query(piece.input, piece.candidates.pairs, piece.candidates.counters, session.queue());
-    return session.queue().finish();
-}
-
 PairList contacts_of(NarrowPhase& narrow, const Piece& piece, Session& session)
 {
-    do
-        query_once(narrow, piece, session);
-    while (!narrow.complete(session.queue()));
+    find_contacts(narrow, piece.input, piece.candidates.pairs, piece.candidates.counters,
+                  session.queue());
+    session.queue().finish();
     return PairList(narrow.contacts(session.queue()));
 }
 
-void judge(Phase& phase, const Piece& piece, Session& session)
+/// Returns the narrow phase. Throws BadUsage (skipped) without doubles; other errors of the compiler mean failure.
+std::shared_ptr<NarrowPhase> compiled(Session& session, const NarrowMethod& method)
 {
-    const PairList found = contacts_of(*phase.narrow, piece, session);
-    phase.hash = found.hash();
-    phase.wrong += differences(found, piece.meeting);
-    const NarrowCounts counts = phase.narrow->counts(session.queue());
-    phase.counts.by_floats += counts.by_floats;
-    phase.counts.by_doubles += counts.by_doubles;
-    phase.counts.exactly += counts.exactly;
+    try {
+        return std::make_shared<NarrowPhase>(session.programs(),
+                                             NarrowOptions{.method = method.name});
+    } catch (const Unavailable& error) {
+        throw BadUsage(error.what());
+    }
 }
 
-/// Adds the samples of a piece to those of the pieces before it, sample by sample.
-void add_samples(std::vector<Sample>& to, std::vector<Sample>&& more, std::int64_t moved_bytes)
+/// Writes what a method found in a piece to its cell, and the bytes moved to its samples.
+void count_piece(const NarrowPhase& narrow, const PairList& found, const Piece& piece,
+                 const Queue& queue, Cell& cell)
 {
-    for (Sample& sample : more)
-        add_moved_bytes(sample.stages, "narrow", moved_bytes);
-    if (to.empty()) {
-        to = std::move(more);
+    const Differences wrong = differences(found, piece.meeting);
+    const NarrowCounts counts = narrow.counts(queue);
+    const auto put = [&](const char* name, auto value) {
+        cell.counters[name] = static_cast<double>(value);
+    };
+    put("pairs_count", piece.pairs.size());
+    put("meeting_count", piece.meeting.size());
+    put("missed_count", wrong.missed);
+    put("false_count", wrong.false_ones);
+    put("narrow_float_count", counts.by_floats);
+    put("narrow_double_count", counts.by_doubles);
+    put("narrow_exact_count", counts.exactly);
+    const auto pairs = static_cast<std::int64_t>(piece.pairs.size() + found.size());
+    const std::int64_t corners = corner_bytes(piece.pairs, piece.input);
+    for (Sample& sample : cell.samples)
+        add_moved_bytes(sample.stages, "narrow",
+                        corners + pairs * static_cast<std::int64_t>(sizeof(Pair)));
+}
+
+/// Adds a cell for each method. Looks at the contacts before and after timing, because a race may strike in some runs only.
+void measure_piece(const AxisRun& run, const std::string& name, const Piece& piece)
+{
+    Session& session = run.session;
+    std::vector<AxisMethod> methods;
+    for (const NarrowMethod& method : narrow_methods()) {
+        const auto settle = [&](Subject& one) {
+            const std::shared_ptr<NarrowPhase> narrow = compiled(session, method);
+            narrow->reserve(piece.mesh.faces.size());
+            const std::uint64_t hash = contacts_of(*narrow, piece, session).hash();
+            one.once = [&, narrow] {
+                session.give_head_start();
+                narrow->query(piece.input, piece.candidates.pairs, piece.candidates.counters,
+                              session.queue());
+                return session.queue().finish();
+            };
+            one.judge_again = [&, narrow, hash] {
+                const PairList found = contacts_of(*narrow, piece, session);
+                if (found.hash() != hash)
+                    throw Unavailable("it found other contacts after the samples than before");
+                count_piece(*narrow, found, piece, session.queue(), one.cell);
+            };
+        };
+        methods.push_back({.name = std::string(method.name), .settle = settle});
+    }
+    SceneFacts facts;
+    facts.name = name;
+    measure_methods(run, "narrow", facts, methods);
+}
+
+/// Adds the counters of a piece's cell to those of the pieces before it, and the samples one by one. The first failure stays.
+void add_piece(Cell& all, Cell&& piece)
+{
+    if (all.status != Cell::Status::measured)
+        return;
+    if (all.samples.empty() || piece.status != Cell::Status::measured) {
+        all = std::move(piece);
         return;
     }
-    for (std::size_t k = 0; k < std::min(to.size(), more.size()); ++k) {
-        StageTime& sum = to[k].stages.front();
-        const StageTime& time = more[k].stages.front();
+    for (const auto& [name, count] : piece.counters)
+        all.counters[name] += count;
+    for (std::size_t k = 0; k < std::min(all.samples.size(), piece.samples.size()); ++k) {
+        StageTime& sum = all.samples[k].stages.front();
+        const StageTime& time = piece.samples[k].stages.front();
         sum.busy_ns += time.busy_ns;
         sum.span_ns += time.span_ns;
         sum.launches += time.launches;
@@ -125,111 +164,46 @@ void add_samples(std::vector<Sample>& to, std::vector<Sample>&& more, std::int64
     }
 }
 
-/// Checks each phase's answer before timing, and for equality with it after, because a race may strike in some runs only.
-void measure_piece(Session& session, Engine& engine, std::span<Subject> cells,
-                   std::span<Phase> phases, const Piece& piece)
-{
-    const std::int64_t corners = corner_bytes(piece.pairs, piece.input);
-    for (std::size_t k = 0; k < cells.size(); ++k) {
-        Subject& one = cells[k];
-        Phase& phase = phases[k];
-        if (one.cell.status != Cell::Status::measured)
-            continue;
-        engine.settle(one, [&] {
-            phase.narrow->reserve(piece.mesh.faces.size());
-            judge(phase, piece, session);
-        });
-        one.once = [&] { return query_once(*phase.narrow, piece, session); };
-        one.judge_again = [&, corners] {
-            const PairList found = contacts_of(*phase.narrow, piece, session);
-            if (found.hash() != phase.hash)
-                throw Unavailable("it found other contacts after the samples than before");
-            const std::size_t pairs = piece.pairs.size() + found.size();
-            add_samples(phase.samples, std::move(one.cell.samples),
-                        corners + static_cast<std::int64_t>(pairs * sizeof(Pair)));
-        };
-    }
-    engine.sample(cells);
-}
-
-void conclude(Cell& cell, Phase& phase, std::size_t pairs, std::size_t meeting)
-{
-    if (cell.status != Cell::Status::measured)
-        return;
-    cell.samples = std::move(phase.samples);
-    const auto put = [&](const char* name, auto value) {
-        cell.counters[name] = static_cast<double>(value);
-    };
-    put("pairs_count", pairs);
-    put("meeting_count", meeting);
-    put("missed_count", phase.wrong.missed);
-    put("false_count", phase.wrong.false_ones);
-    put("narrow_float_count", phase.counts.by_floats);
-    put("narrow_double_count", phase.counts.by_doubles);
-    put("narrow_exact_count", phase.counts.exactly);
-    const bool promises = find_narrow_method(cell.accuracy.method).is_exact;
-    cell.check.against = "CGAL";
-    cell.check.verdict = !promises                      ? Check::Verdict::counted
-                         : phase.wrong == Differences{} ? Check::Verdict::agrees
-                                                        : Check::Verdict::differs;
-    if (cell.check.verdict == Check::Verdict::differs)
-        cell.check.detail = phase.wrong.text();
-}
-
-/// Returns the narrow phase. Throws BadUsage (skipped) without CGAL or doubles; other errors of the compiler mean failure.
-std::unique_ptr<NarrowPhase> compiled(Session& session, const NarrowMethod& method)
-{
-    if (!has_exact_reference)
-        throw BadUsage("built without CGAL, which errors are counted against");
-    try {
-        return std::make_unique<NarrowPhase>(session.programs(),
-                                             NarrowOptions{.method = method.name});
-    } catch (const Unavailable& error) {
-        throw BadUsage(error.what());
-    }
-}
-
 void measure_class(const AxisRun& run, const PairClass& of, std::size_t pairs)
 {
-    Engine engine = run.engine();
-    std::vector<Subject> cells;
-    std::vector<Phase> phases;
-    for (const NarrowMethod& method : narrow_methods()) {
-        if (!run.task.wants(of.name, method.name))
-            continue;
-        Subject& one = cells.emplace_back();
-        one.cell = accuracy_cell("narrow", method.name, {});
-        one.cell.accuracy.seed = run.task.seed;
-        Phase& phase = phases.emplace_back();
-        engine.settle(one, [&] { phase.narrow = compiled(run.session, method); });
-    }
+    std::vector<Cell> cells;  // each the sum over the pieces
+    for (const NarrowMethod& method : narrow_methods())
+        if (run.task.wants(of.name, method.name))
+            cells.push_back(accuracy_cell("narrow", method.name, {}));
+    std::size_t next = 0;
+    const AxisRun of_pieces{run.session, run.task, run.order, run.progress, [&](Cell&& cell) {
+                                add_piece(cells[next++ % cells.size()], std::move(cell));
+                            }};
     Hash hash;
-    std::size_t meeting = 0;
     uint seed = run.task.seed;
-    const std::string no_piece = reason_of_failure([&] {
-        for (std::size_t done = 0; has_exact_reference && done < pairs;
-             done += run.task.pairs_at_once) {
+    bool cannot_be = false;
+    const std::string failure = reason_of_failure(cannot_be, [&] {
+        if (!has_exact_reference)
+            throw BadUsage("built without CGAL, which errors are counted against");
+        for (std::size_t done = 0; done < pairs; done += run.task.pairs_at_once) {
             const std::size_t count = std::min(run.task.pairs_at_once, pairs - done);
             require_host_memory("a class of pairs", host_bytes_a_pair * count);
             const Piece piece(run.session, of, static_cast<uint>(count), seed++);
             hash.values(std::span<const Point>(piece.mesh.points));
-            meeting += piece.meeting.size();
-            measure_piece(run.session, engine, cells, phases, piece);
+            measure_piece(of_pieces, of.name, piece);
         }
     });
     const auto many = static_cast<std::int64_t>(pairs);
-    for (std::size_t k = 0; k < cells.size(); ++k) {
-        Cell& cell = cells[k].cell;
+    for (Cell& cell : cells) {
         cell.scene.name = of.name;
         cell.scene.triangles = 2 * many;
         cell.scene.vertices = 6 * many;
         cell.scene.objects = 1;
         cell.scene.source = "pairs: " + of.summary;
         cell.scene.content_hash = hash.get();
-        if (!no_piece.empty())
-            engine.refuse(cells[k], Cell::Status::failed, no_piece);
-        conclude(cell, phases[k], pairs, meeting);
-        run.add(std::move(cell));
+        cell.accuracy.seed = run.task.seed;
+        Subject all{std::move(cell)};
+        if (!failure.empty())
+            run.engine().refuse(all, cannot_be ? Cell::Status::skipped : Cell::Status::failed,
+                                failure);
+        else if (all.cell.status == Cell::Status::measured)
+            judge_errors(all.cell, "CGAL", find_narrow_method(all.cell.accuracy.method).is_exact);
+        run.add(std::move(all.cell));
     }
 }
 

@@ -8,7 +8,6 @@
 #include "collide/oracles/exact_reference.h"
 #include "collide/oracles/sweep.h"
 #include "harness/accuracy/axis.h"
-#include "harness/accuracy/inputs.h"
 #include "harness/judge/metrics.h"
 #include "harness/judge/pair_counts.h"
 #include "harness/measure/pipeline.h"
@@ -30,29 +29,15 @@ void settle_pipeline(Session& session, const Input& input, Subject& one, const J
     one.judge_again = [&one, pipeline, judge] { judge(*pipeline, one.cell); };
 }
 
-/// Compares the last pairs with the correct ones and writes the verdict and the counters of missed and false pairs.
-void judge_pairs(const Pipeline& pipeline, const PairList& right, const char* against, Cell& cell)
+/// Compares the last pairs with the correct ones. Writes the counters of missed and false pairs, and returns both.
+Differences count_pairs(const Pipeline& pipeline, const PairList& right, Cell& cell)
 {
     const PairList found = pipeline.pairs();
     const Differences wrong = differences(found, right);
     cell.counters["missed_count"] = static_cast<double>(wrong.missed);
     cell.counters["false_count"] = static_cast<double>(wrong.false_ones);
-    const bool is_right = wrong == Differences{};
-    cell.check = {.verdict = is_right ? Check::Verdict::agrees : Check::Verdict::differs,
-                  .against = against,
-                  .detail = is_right ? "" : wrong.text(),
-                  .pairs_hash = found.hash()};
-}
-
-/// Changes the verdict to `counted` if rounded boxes added false pairs; missed pairs remain an error.
-void allow_more(const PairList& right, bool is_counted_anyway, Cell& cell)
-{
-    cell.counters["right_pairs_count"] = static_cast<double>(right.size());
-    if (cell.counters["missed_count"] > 0 ||
-        (cell.check.verdict == Check::Verdict::agrees && !is_counted_anyway))
-        return;
-    cell.check.verdict = Check::Verdict::counted;
-    cell.check.detail.clear();
+    cell.check.pairs_hash = found.hash();
+    return wrong;
 }
 
 /// Writes the surface area cost of the trees over an input, one for each object: the sum of their nodes' costs divided by the
@@ -91,7 +76,8 @@ void measure_codes(const AxisRun& run, const SceneFacts& scene, const Input& inp
     const auto add = [&](std::string name, const BuilderChoice& builder, const OrderEntry* codes) {
         const auto settle = [&, codes](Subject& one) {
             settle_pipeline(session, input, one, [&](const Pipeline& pipeline, Cell& cell) {
-                judge_pairs(pipeline, right, "brute", cell);
+                count_pairs(pipeline, right, cell);
+                judge_errors(cell, "brute", true);
             });
             add_forest_cost(session, input, one.cell);
             if (codes == nullptr)
@@ -131,18 +117,19 @@ void measure_input(const AxisRun& run, const SceneFacts& scene, const Input& inp
         const std::vector<WidePoint> wide = turned_and_moved(input.points, sizes);
         const PairList right = overlapping_pairs_in_doubles(wide, input.faces);
         std::vector<AxisMethod> methods;
-        std::vector<std::shared_ptr<Rounded>> all;  // must live until all samples are taken
         const auto add = [&](const char* name, Doubles how) {
             const auto settle = [&, how](Subject& one) {
-                const auto& floats = all.emplace_back(std::make_shared<Rounded>());
+                const auto floats = std::make_shared<Rounded>();
                 floats->points = rounded(wide, how);
                 floats->input =
                     upload(run.session.device(), run.session.queue(), floats->points, input.faces);
-                settle_pipeline(run.session, floats->input, one,
-                                [&](const Pipeline& pipeline, Cell& cell) {
-                                    judge_pairs(pipeline, right, "boxes of doubles", cell);
-                                    allow_more(right, true, cell);
-                                });
+                // The judge keeps the input until all samples are taken.
+                const auto judge = [&, floats](const Pipeline& pipeline, Cell& cell) {
+                    const Differences wrong = count_pairs(pipeline, right, cell);
+                    cell.counters["right_pairs_count"] = static_cast<double>(right.size());
+                    judge_errors(cell, "boxes of doubles", wrong.missed > 0);
+                };
+                settle_pipeline(run.session, floats->input, one, judge);
             };
             methods.push_back({name, {.name = "oibvh-multi"}, {.name = "leaf"}, settle});
         };
@@ -164,8 +151,11 @@ void measure_boxes(const AxisRun& run, const SceneFacts& scene, const Input& inp
                                   ? intersecting_pairs(input.points, input.faces, right, false)
                                   : PairList();
     const auto judge = [&](const Pipeline& pipeline, Cell& cell) {
-        judge_pairs(pipeline, right, has_exact_reference ? "brute, CGAL" : "brute", cell);
-        allow_more(right, false, cell);
+        const Differences wrong = count_pairs(pipeline, right, cell);
+        cell.counters["right_pairs_count"] = static_cast<double>(right.size());
+        // False pairs are counted, and missed pairs are an error.
+        judge_errors(cell, has_exact_reference ? "brute, CGAL" : "brute",
+                     wrong.missed > 0 || wrong == Differences{});
         const PairList found = pipeline.contacts();
         Check& check = cell.check;
         check.contacts_hash = found.hash();

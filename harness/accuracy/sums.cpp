@@ -3,6 +3,8 @@
 // The axis sums: the surface area cost of a tree, added up in several ways, against long double.
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "geometry/error.h"
@@ -33,36 +35,32 @@ class PairwiseSum {
 public:
     void add(Real value)
     {
-        std::size_t place = 0;
-        for (; place < waiting_.size() && is_waiting_[place]; ++place) {
-            value += waiting_[place];
-            is_waiting_[place] = false;
+        for (std::optional<Real>& place : waiting_) {
+            if (!place) {
+                place = value;
+                return;
+            }
+            value += *std::exchange(place, std::nullopt);
         }
-        if (place == waiting_.size()) {
-            waiting_.push_back(0);
-            is_waiting_.push_back(false);
-        }
-        waiting_[place] = value;
-        is_waiting_[place] = true;
+        waiting_.emplace_back(value);
     }
     Real value() const
     {
         Real sum = 0;
-        for (std::size_t place = 0; place < waiting_.size(); ++place)
-            if (is_waiting_[place])
-                sum += waiting_[place];
+        for (const std::optional<Real>& place : waiting_)
+            sum += place.value_or(0);
         return sum;
     }
 
 private:
-    std::vector<Real> waiting_;
-    std::vector<char> is_waiting_;
+    std::vector<std::optional<Real>> waiting_;
 };
 
-template <class Real, class Sum>
-Real cost_by(const HostTree& tree)
+/// Returns the cost, computed in Real and added up by Sum.
+template <class Real, template <class> class Sum>
+long double cost_by(const HostTree& tree)
 {
-    Sum inner, leaf;
+    Sum<Real> inner, leaf;
     for (const HostTree::Node& node : tree.nodes)
         (node.primitive != HostTree::none ? leaf : inner).add(surface_area<Real>(node.box));
     const NodeCosts costs;
@@ -71,20 +69,15 @@ Real cost_by(const HostTree& tree)
            surface_area<Real>(tree.nodes.front().box);
 }
 
-template <class Real, class Sum>
-double cost_as_double(const HostTree& tree)
-{
-    return static_cast<double>(cost_by<Real, Sum>(tree));
-}
-
 // Plain, pairwise and compensated sums, in float and in double. To add a method, add its line here.
 constexpr SumMethod catalog[] = {
-    {"f32", cost_as_double<float, PlainSum<float>>},
-    {"f32-pairwise", cost_as_double<float, PairwiseSum<float>>},
-    {"f32-compensated", cost_as_double<float, CompensatedSum<float>>},
-    {"f64", cost_as_double<double, PlainSum<double>>},
-    {"f64-pairwise", cost_as_double<double, PairwiseSum<double>>},
-    {"f64-compensated", [](const HostTree& tree) { return area_sums(tree)->cost(); }, true},
+    {"f32", cost_by<float, PlainSum>},
+    {"f32-pairwise", cost_by<float, PairwiseSum>},
+    {"f32-compensated", cost_by<float, CompensatedSum>},
+    {"f64", cost_by<double, PlainSum>},
+    {"f64-pairwise", cost_by<double, PairwiseSum>},
+    {"f64-compensated", [](const HostTree& tree) -> long double { return area_sums(tree)->cost(); },
+     true},
 };
 
 /// Bound on the relative error of the method in use: a few roundings of doubles for any number of nodes.
@@ -93,18 +86,13 @@ constexpr double most_of_ours = 1e-14;
 void settle(const SumMethod& method, const HostTree& tree, long double right, Queue& queue,
             Subject& one)
 {
-    const double cost = method.cost(tree);
+    const long double cost = method.cost(tree);
     const double error = static_cast<double>(std::fabs((cost - right) / right));
     one.cell.counters["nodes_count"] = static_cast<double>(tree.nodes.size());
-    one.cell.counters["sah_cost"] = cost;
+    one.cell.counters["sah_cost"] = static_cast<double>(cost);
     one.cell.counters["relative_error"] = error;
-    Check& check = one.cell.check;
-    check.against = "long double";
-    check.verdict = !method.is_ours         ? Check::Verdict::counted
-                    : error <= most_of_ours ? Check::Verdict::agrees
-                                            : Check::Verdict::differs;
-    if (check.verdict == Check::Verdict::differs)
-        check.detail = "off by more than a few roundings";
+    judge(one.cell, "long double", method.is_ours,
+          error <= most_of_ours ? "" : "off by more than a few roundings");
     one.once = [&queue, &method, &tree, cost] {
         queue.on_host("sum", [&] {
             if (method.cost(tree) != cost)
@@ -120,7 +108,7 @@ std::span<const SumMethod> sum_methods() { return catalog; }
 
 long double cost_in_long_double(const HostTree& tree)
 {
-    return cost_by<long double, CompensatedSum<long double>>(tree);
+    return cost_by<long double, CompensatedSum>(tree);
 }
 
 void measure_sums(const AxisRun& run, const SceneFacts& scene, const Input& input)

@@ -12,12 +12,10 @@ namespace bvhbench {
 namespace {
 
 /// Sequences with a ground truth, and the generated scene used if a sequence is missing.
-constexpr struct {
-    const char* name;
-    const char* generated;
-} own_scenes[] = {{"unc_cloth_ball", "cloth-ball:20000:20"},
-                  {"ipc_armadillo_rollers", "cloth-funnel:10000:20"},
-                  {"unc_nbody", "n-body:20000:20"}};
+constexpr std::pair<const char*, const char*> own_scenes[] = {
+    {"unc_cloth_ball", "cloth-ball:20000:20"},
+    {"ipc_armadillo_rollers", "cloth-funnel:10000:20"},
+    {"unc_nbody", "n-body:20000:20"}};
 
 /// A scene's name, and the name of the scene it replaces; empty if none.
 using NamedScene = std::pair<std::string, std::string>;

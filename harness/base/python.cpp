@@ -2,7 +2,6 @@
 #include "harness/base/python.h"
 
 #include <re2/re2.h>
-#include <sys/mman.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -101,13 +100,8 @@ void become_python(const std::vector<std::string>& words)
 void print_tables(const std::string& document)
 {
     const std::filesystem::path script = script_called("__main__.py");
-    const int file = memfd_create("results", MFD_CLOEXEC);
-    if (file < 0 || !write_all(file, document))
-        throw Unavailable(std::string("the results cannot be handed to Python: ") +
-                          std::strerror(errno));
-    const std::string path = "/proc/" + std::to_string(getpid()) + "/fd/" + std::to_string(file);
-    const ProcessEnd end = run_command({python(), plots().string(), "show", path});
-    close(file);
+    const MemoryFile file(document);
+    const ProcessEnd end = run_command({python(), plots().string(), "show", file.path()});
     if (!is_done(end))
         throw Unavailable("no tables were printed, " + how_it_ended(script, end));
     std::cerr << end.output;

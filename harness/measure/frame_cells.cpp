@@ -90,18 +90,6 @@ private:
         entries_;  ///< by the kind of pairs, and whether adjacent ones are kept
 };
 
-/// Returns the pairs with triangles numbered as in the scene's file. `file_faces` is empty if the order is the same.
-PairList numbered_as_in_file(PairList pairs, std::span<const uint> file_faces)
-{
-    if (file_faces.empty())
-        return pairs;
-    std::vector<Pair> numbered;
-    numbered.reserve(pairs.size());
-    for (const Pair pair : pairs.pairs())
-        numbered.push_back({file_faces[pair.a], file_faces[pair.b]});
-    return PairList(std::move(numbered));
-}
-
 /// Compares a list to the oracle's and adds differences to the check.
 void hold(const PairList& found, const PairList& expected, const std::string& what,
           std::span<const uint> file_faces, Check& check)
@@ -110,8 +98,7 @@ void hold(const PairList& found, const PairList& expected, const std::string& wh
         find_wrong(check, std::to_string(found.surplus()) + ' ' + what + " were found twice");
     else if (found != expected)
         find_wrong(check, "the oracle has " + std::to_string(expected.size()) + ' ' + what +
-                              " of the hash " +
-                              hex(numbered_as_in_file(expected, file_faces).hash()));
+                              " of the hash " + hex(renumbered(expected, file_faces).hash()));
 }
 
 /// Counts missed and false pairs, and writes both to the cell's counters.
@@ -168,7 +155,7 @@ void judge(const Pipeline& pipeline, Cell& cell, FrameOracle& oracle, const Fram
             hold(pairs, oracle.pairs(choice), "pairs", frame.file_faces, check);
         if (!cell.swept.pairs.empty())
             counted_errors(pairs, oracle.pairs(choice), cell);
-        found.pairs = numbered_as_in_file(std::move(pairs), frame.file_faces);
+        found.pairs = renumbered(std::move(pairs), frame.file_faces);
         check.pairs_hash = found.pairs.hash();
     }
     if (pipeline.has_contacts()) {
@@ -184,7 +171,7 @@ void judge(const Pipeline& pipeline, Cell& cell, FrameOracle& oracle, const Fram
             check.verdict = Check::Verdict::not_checked;
             check.detail = "contacts: built without CGAL";
         }
-        found.contacts = numbered_as_in_file(std::move(contacts), frame.file_faces);
+        found.contacts = renumbered(std::move(contacts), frame.file_faces);
         check.contacts_hash = found.contacts.hash();
     }
     if (frame.judge_more)

@@ -3,7 +3,6 @@
 #include <future>
 
 #include "builders/spell_out.h"
-#include "collide/oracles/sweep.h"
 #include "geometry/bits.h"
 #include "harness/base/failure.h"
 #include "harness/measure/engine.h"
@@ -50,14 +49,9 @@ bool is_any_broken(const Findings& findings)
                        [](const auto& one) { return one.second.verdict == broken; });
 }
 
-/// Result of one build: findings about launches and layout, and the tree, whose leaves and boxes are not judged yet.
-struct BuiltOnce {
-    Findings findings;
-    HostTree tree;
-};
-
-BuiltOnce built_once(Session& session, Builder& builder, const BuilderEntry& entry,
-                     const Input& input)
+/// Builds once. Returns findings about launches and layout, and the tree, whose leaves and boxes are not judged yet.
+std::pair<Findings, HostTree> built_once(Session& session, Builder& builder,
+                                         const BuilderEntry& entry, const Input& input)
 {
     const uint triangles = input.triangle_count();
     builder.reserve(triangles);
@@ -68,42 +62,26 @@ BuiltOnce built_once(Session& session, Builder& builder, const BuilderEntry& ent
             tree->spelled_out()};
 }
 
-/// Builds `repeats` + 1 times and returns the findings.
-Findings judge_builds(Session& session, const BuilderChoice& choice, SceneUnderStress& scene,
-                      int repeats)
+/// Builds once, then repeatedly, and returns the findings.
+Findings judge_builds(SceneUnderStress& scene, const BuilderChoice& choice)
 {
     const Input& input = scene.input();
-    Builder& builder = session.builder(choice);
-    BuiltOnce built = built_once(session, builder, find_builder(choice.name), input);
-    Findings findings = judge_tree(built.tree, input.points, input.faces);
-    const Check check = check_tree(built.tree, input, choice, scene.oracle());
+    Builder& builder = scene.session.builder(choice);
+    auto [built, tree] = built_once(scene.session, builder, find_builder(choice.name), input);
+    Findings findings = judge_tree(tree, input.points, input.faces);
+    const Check check = check_tree(tree, input, choice, scene.oracle());
     if (check.verdict == Check::Verdict::differs && !is_any_broken(findings))
-        built.findings[Invariant::layout] = {broken, built.findings[Invariant::layout].checked, 0,
-                                             0, check.detail};
-    findings.merge(built.findings);
-    std::vector<std::uint64_t> hashes = {*check.tree_hash};
-    for (int repeat = 0; repeat < repeats; ++repeat) {
-        const Tree* tree = nullptr;
-        session.build_once(builder, input, Start::from_triangles, &tree);
-        hashes.push_back(tree_hash(tree->spelled_out()));
-    }
-    findings[Invariant::same] = judge_repeats(hashes);
+        built[Invariant::layout] = {broken, built[Invariant::layout].checked, 0, 0, check.detail};
+    findings.merge(built);
+    findings[Invariant::same] = judge_repeats(scene.repeats, [&] {
+        const Tree* again = nullptr;
+        scene.session.build_once(builder, input, Start::from_triangles, &again);
+        return tree_hash(again->spelled_out()) == check.tree_hash;
+    });
     return findings;
 }
 
 }  // namespace
-
-SceneUnderStress::SceneUnderStress(Session& session, std::function<StressScene()> make,
-                                   std::uint64_t seed)
-    : scene(std::move(make))
-    , pairs([this] { return touching_pairs(scene().mesh.points, scene().mesh.faces, true); })
-    , input([this, &session] {
-        return upload(session.device(), session.queue(), scene().mesh.points, scene().mesh.faces);
-    })
-    , oracle([this, &session] { return Oracle(session, input()); })
-    , question([this, seed] { return question_of(scene(), seed); })
-    , question_apart([this] { return without_adjacent(question()); })
-{}
 
 Findings settled(Session& session, bool may_refuse, const std::function<Findings()>& judge)
 {
@@ -121,43 +99,28 @@ Findings settled(Session& session, bool may_refuse, const std::function<Findings
     return findings;
 }
 
-StressSystem stress_system(std::string name, StressCell::Kind kind, std::string library,
-                           std::function<std::optional<Findings>(SceneUnderStress&)> judge)
+std::vector<PipelineChoice> device_builders(Session& session)
 {
-    StressSystem system{{}, std::move(judge)};
-    system.cell.system = std::move(name);
-    system.cell.kind = kind;
-    system.cell.library = std::move(library);
-    return system;
-}
-
-std::string system_name(const BuilderChoice& builder)
-{
-    return builder.name + (builder.boxes == "f32" ? "" : " in " + builder.boxes);
-}
-
-std::vector<BuilderChoice> device_builders(Session& session)
-{
-    std::vector<BuilderChoice> builders;
+    std::vector<PipelineChoice> builders;
     for (const BuilderEntry& entry : builder_catalog())
         reason_of_failure([&] {  // judge_builder reports why a builder cannot be made
             if (entry.make != nullptr &&
                 entry.make(session.programs(), {})->card().runs == BuilderCard::Runs::on_device)
-                builders.push_back({.name = std::string(entry.name)});
+                builders.push_back({{.name = std::string(entry.name)}, {}});
         });
     return builders;
 }
 
-Findings judge_builder(Session& session, const BuilderChoice& choice, SceneUnderStress& scene,
-                       int repeats)
+Findings judge_builder(SceneUnderStress& scene, const PipelineChoice& alone)
 {
+    const BuilderChoice& choice = alone.builder;
     const Input& input = scene.input();
     std::string wrong;
-    Findings findings = settled(session, false, [&]() -> Findings {
+    Findings findings = settled(scene.session, false, [&]() -> Findings {
         bool is_refused = false;
-        wrong = broken_contract(session, choice, input, scene.oracle(), &is_refused);
+        wrong = broken_contract(scene.session, choice, input, scene.oracle(), &is_refused);
         if (!is_refused)
-            return judge_builds(session, choice, scene, repeats);
+            return judge_builds(scene, choice);
         const std::string why(find_builder(choice.name).may_refuse);
         return {{Invariant::ends, {refused, 1, 0, 0, why}}};
     });
@@ -166,13 +129,13 @@ Findings judge_builder(Session& session, const BuilderChoice& choice, SceneUnder
     return findings;
 }
 
-Findings judge_large_build(Session& session, const BuilderChoice& choice, SceneUnderStress& scene)
+Findings judge_large_build(SceneUnderStress& scene, const PipelineChoice& alone)
 {
     const Input& input = scene.input();
-    return settled(session, false, [&] {
-        const BuilderEntry& entry = find_builder(choice.name);
-        const auto builder = make_builder(choice, session.programs());
-        auto [findings, tree] = built_once(session, *builder, entry, input);
+    return settled(scene.session, false, [&] {
+        const BuilderEntry& entry = find_builder(alone.builder.name);
+        const auto builder = make_builder(alone.builder, scene.session.programs());
+        auto [findings, tree] = built_once(scene.session, *builder, entry, input);
         const auto hash =
             std::async(std::launch::async, [&tree] { return tree_hash(tree); }).share();
         join(findings, judge_tree(tree, input.points, input.faces));
@@ -189,13 +152,8 @@ Findings judge_layout_formulas(const StressSize& size)
 {
     Finding finding;
     const auto look_at = [&](uint leaves) {
-        ++finding.checked;
         const std::string wrong = broken_layout(leaves);
-        if (wrong.empty())
-            return;
-        if (finding.wrong++ == 0)
-            finding.detail = wrong;
-        finding.verdict = broken;
+        join(finding, wrong.empty() ? Finding{holds, 1} : Finding{broken, 1, 1, 0, wrong});
     };
     const uint count = size.quick ? 10000 : 1000000;
     for (uint leaves = 1; leaves <= count; ++leaves)

@@ -2,21 +2,12 @@
 #include "harness/stress/judge.h"
 
 #include "builders/spell_out.h"
-#include "geometry/hash.h"
 #include "harness/judge/pair_counts.h"
 
 namespace bvhbench {
 namespace {
 
 using enum Finding::Verdict;
-
-FoundPairs in_original_numbers(FoundPairs found, const StressVariant& variant)
-{
-    for (auto* list : {&found.pairs, &found.contacts})
-        if (*list)
-            *list = in_original_numbers(**list, variant);
-    return found;
-}
 
 /// Compares those lists that the system computes and whose answer is known.
 Findings compared(const FoundPairs& found, const FoundPairs& expected)
@@ -30,15 +21,6 @@ Findings compared(const FoundPairs& found, const FoundPairs& expected)
 }
 
 }  // namespace
-
-std::uint64_t hash_of(const FoundPairs& found)
-{
-    Hash hash;
-    for (const auto* list : {&found.pairs, &found.contacts})
-        if (*list)
-            hash.value((*list)->hash());
-    return hash.get();
-}
 
 Findings judge_tree(const HostTree& tree, std::span<const Point> points,
                     std::span<const Face> faces)
@@ -70,14 +52,14 @@ Finding judge_pairs(const PairList& found, const PairList& expected, bool may_ad
     return finding;
 }
 
-Finding judge_repeats(std::span<const std::uint64_t> hashes)
+Finding judge_repeats(int repeats, const std::function<bool()>& run)
 {
-    Finding finding{holds, hashes.size()};
-    for (const std::uint64_t hash : hashes)
-        finding.wrong += hash != hashes.front() ? 1 : 0;
+    Finding finding{holds, static_cast<std::uint64_t>(repeats) + 1};
+    for (int repeat = 0; repeat < repeats; ++repeat)
+        finding.wrong += run() ? 0 : 1;
     if (finding.wrong > 0) {
         finding.verdict = broken;
-        finding.detail = std::to_string(finding.wrong) + " of " + std::to_string(hashes.size()) +
+        finding.detail = std::to_string(finding.wrong) + " of " + std::to_string(finding.checked) +
                          " runs left something else than the first";
     }
     return finding;
@@ -91,9 +73,13 @@ Findings judge_finder(const PairFinder& finder, const StressQuestion& question)
         for (const auto& [of, finding] : compared(found, expected))
             join(findings, with_words(words, {{invariant, finding}}));
     };
-    for (const auto& [variant, expected] : question.variants)
-        add(variant.of, variant.name, in_original_numbers(finder(variant.scene, 0), variant),
-            expected);
+    for (const auto& [of, name, moved, expected] : question.variants) {
+        FoundPairs found = finder(moved.scene, 0);
+        for (auto* list : {&found.pairs, &found.contacts})
+            if (*list)
+                *list = renumbered(**list, moved.original);
+        add(of, name, found, expected);
+    }
     add(Invariant::room, "with room for one entry", finder(question.scene, 1), question.expected);
     return findings;
 }

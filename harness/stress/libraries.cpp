@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "harness/stress/libraries.h"
 
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstring>
-#include <fstream>
 
 #include "collide/oracles/exact_reference.h"
 #include "collide/oracles/sweep.h"
 #include "geometry/error.h"
 #include "harness/base/failure.h"
+#include "harness/base/json_keys.h"
 #include "scenes/mesh_file.h"
 #include "scenes/mesh_worker.h"
 #include "scenes/worker/process.h"
@@ -27,30 +21,6 @@ constexpr std::string_view argument = "--plain-library";
 constexpr std::size_t memory_limit = std::size_t{12} << 30;  ///< bytes, of a worker
 constexpr std::string_view answer_mark = "PAIRS 1\n", refusal_mark = "ERROR 1\n";
 
-/// A scene in memory that a worker process reads as a file while this object exists.
-class SceneFile {
-public:
-    explicit SceneFile(const StressScene& scene) : file_(memfd_create("scene", MFD_CLOEXEC))
-    {
-        FileMesh file{scene.mesh, {}};
-        for (const FaceRange& range : scene.objects)
-            file.objects.push_back({{}, range.first, range.count});
-        if (file_ < 0 || !write_all(file_, mesh_message(file)))
-            throw Unavailable("there is no room for a scene that a library is to read");
-    }
-    ~SceneFile() { close(file_); }
-    SceneFile(const SceneFile&) = delete;
-    SceneFile& operator=(const SceneFile&) = delete;
-
-    std::string path() const
-    {
-        return "/proc/" + std::to_string(getpid()) + "/fd/" + std::to_string(file_);
-    }
-
-private:
-    int file_;
-};
-
 /// Returns the pairs that the library `name` finds in the scene of a file.
 std::vector<Pair> found_in(std::string_view name, const std::string& path)
 {
@@ -61,16 +31,17 @@ std::vector<Pair> found_in(std::string_view name, const std::string& path)
     std::vector<FaceRange> objects;
     for (const SceneObject& object : file.objects)
         objects.push_back({object.first_face, object.face_count});
-    for (const PlainLibrary& library : plain_libraries())
-        if (library.name == name)
-            return library.find(file.mesh.points, file.mesh.faces, objects);
-    throw BadUsage("no library is called '" + std::string(name) + "'");
+    const PlainLibrary& library = find_called(plain_libraries(), name, "library");
+    return library.find(file.mesh.points, file.mesh.faces, objects);
 }
 
 /// Returns what found_in returns, computed in another process. Throws Unavailable, with a sentence, if there is no answer.
 PairList found_by_worker(std::string_view library, const StressScene& scene, double time_limit_s)
 {
-    const SceneFile file(scene);
+    FileMesh mesh{scene.mesh, {}};
+    for (const FaceRange& range : scene.objects)
+        mesh.objects.push_back({{}, range.first, range.count});
+    const MemoryFile file(mesh_message(mesh));
     const ProcessEnd end =
         run_process({"/proc/self/exe", std::string(argument), std::string(library), file.path()},
                     time_limit_s, "BVHBENCH_LIBRARY_WORKER=1");
@@ -84,28 +55,7 @@ PairList found_by_worker(std::string_view library, const StressScene& scene, dou
         throw Unavailable("it ended without an answer");
     answer.remove_prefix(answer_mark.size());
     std::vector<Pair> pairs(answer.size() / sizeof(Pair));
-    if (!pairs.empty())
-        std::memcpy(pairs.data(), answer.data(), answer.size());
-    return PairList(std::move(pairs));
-}
-
-bool is_finite(const Mesh& mesh, const Face& face)
-{
-    return std::ranges::all_of(std::array{face.a, face.b, face.c}, [&](uint corner) {
-        const Point& p = mesh.points[corner];
-        return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-    });
-}
-
-/// Returns the pairs whose triangles are both in `triangles`, in ascending order. Triangles with vertices that are not finite
-/// have no correct answer, so only the others count.
-PairList among_these(const PairList& found, const std::vector<uint>& triangles)
-{
-    std::vector<Pair> pairs(found.pairs().begin(), found.pairs().end());
-    std::erase_if(pairs, [&](const Pair pair) {
-        return !std::ranges::binary_search(triangles, pair.a) ||
-               !std::ranges::binary_search(triangles, pair.b);
-    });
+    answer.copy(reinterpret_cast<char*>(pairs.data()), answer.size());
     return PairList(std::move(pairs));
 }
 
@@ -125,33 +75,16 @@ bool is_library_worker(int argc, char** argv) { return argc == 4 && argv[1] == a
 
 int library_worker_main(int, char** argv)
 {
-    std::ofstream answer("/dev/fd/" + std::to_string(take_standard_output()), std::ios::binary);
+    const int answer = take_standard_output();
+    std::string text(answer_mark);
     const std::string failure = reason_of_failure([&] {
         limit_worker(memory_limit);
         const std::vector<Pair> found = found_in(argv[2], argv[3]);
-        answer << answer_mark;
-        answer.write(reinterpret_cast<const char*>(found.data()),
-                     static_cast<std::streamsize>(found.size() * sizeof(Pair)));
+        text.append(reinterpret_cast<const char*>(found.data()), found.size() * sizeof(Pair));
     });
     if (!failure.empty())
-        answer << refusal_mark << failure;
-    return answer.flush() ? 0 : 1;
-}
-
-StressVariant finite_part(const StressScene& scene)
-{
-    StressVariant part{Invariant::pairs, "finite", {}, {}};
-    part.scene.mesh.points = scene.mesh.points;
-    for (const FaceRange& range : scene.objects) {
-        const auto first = static_cast<uint>(part.original.size());
-        for (uint k = range.first; k < range.first + range.count; ++k)
-            if (is_finite(scene.mesh, scene.mesh.faces[k])) {
-                part.scene.mesh.faces.push_back(scene.mesh.faces[k]);
-                part.original.push_back(k);
-            }
-        part.scene.objects.push_back({first, static_cast<uint>(part.original.size()) - first});
-    }
-    return part;
+        text = std::string(refusal_mark) + failure;
+    return write_all(answer, text) ? 0 : 1;
 }
 
 Findings judge_library(const PlainLibrary& library, const StressScene& scene, double time_limit_s)
@@ -160,10 +93,14 @@ Findings judge_library(const PlainLibrary& library, const StressScene& scene, do
         return {};
     Findings findings;
     const std::string failure = reason_of_failure([&] {
-        const StressVariant finite = finite_part(scene);
-        const PairList found =
-            among_these(found_by_worker(library.name, scene, time_limit_s), finite.original);
-        const PairList expected = in_original_numbers(expected_of(library, finite.scene), finite);
+        // Triangles with vertices that are not finite have no correct answer, so only the others count.
+        const auto& [finite, original] = finite_part(scene);
+        const auto has = [&](uint triangle) {
+            return std::ranges::binary_search(original, triangle);
+        };
+        const PairList found = chosen(found_by_worker(library.name, scene, time_limit_s),
+                                      [&](Pair pair) { return has(pair.a) && has(pair.b); });
+        const PairList expected = renumbered(expected_of(library, finite), original);
         findings[library.finds_contacts ? Invariant::contacts : Invariant::pairs] =
             judge_pairs(found, expected);
     });

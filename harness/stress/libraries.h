@@ -19,7 +19,4 @@ int library_worker_main(int argc, char** argv);
 /// is ignored. A crash, a refusal, or no answer after `time_limit_s` seconds is a finding.
 Findings judge_library(const PlainLibrary& library, const StressScene& scene, double time_limit_s);
 
-/// Returns the triangles whose vertices are finite as a scene, with their numbers in the original scene.
-StressVariant finite_part(const StressScene& scene);
-
 }  // namespace bvhbench

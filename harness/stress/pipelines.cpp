@@ -54,9 +54,9 @@ std::vector<std::string> tree_builders(Session& session, bool few)
     };
     for (const std::string& name : names)
         is_new(name);
-    for (const BuilderChoice& builder : device_builders(session))
-        if (is_new(builder.name))
-            names.push_back(builder.name);
+    for (const PipelineChoice& one : device_builders(session))
+        if (is_new(one.builder.name))
+            names.push_back(one.builder.name);
     return names;
 }
 
@@ -67,7 +67,7 @@ Input uploaded(Session& session, const StressScene& scene)
 }
 
 /// Returns what the pipeline finds in one more frame over the same points.
-FoundPairs found_next(Pipeline& pipeline, const StressPipeline& chosen, const Input& input)
+FoundPairs found_next(Pipeline& pipeline, const PipelineChoice& chosen, const Input& input)
 {
     pipeline.begin_frame({});
     pipeline.settle(input);
@@ -88,21 +88,30 @@ BuilderChoice in_format(std::string_view name, std::string_view boxes)
         .name = std::string(name), .sorted_leaves = boxes != "f32", .boxes = std::string(boxes)};
 }
 
-std::string system_name(const BuilderChoice& builder, const ColliderChoice& collider)
+bool is_library(const PipelineChoice& choice)
 {
+    return is_builder(choice) ? find_builder(choice.builder.name).is_library
+                              : find_collider(choice.collider.name).is_library;
+}
+
+std::string system_name(const PipelineChoice& choice)
+{
+    const auto& [builder, collider] = choice;
     std::string name = collider.name;
     if (!builder.name.empty())
-        name += " over " + system_name(builder);
+        name += (name.empty() ? "" : " over ") + builder.name;
+    if (builder.boxes != "f32")
+        name += " in " + builder.boxes;
     if (collider.form != KernelForm::of_device)
         name += collider.form == KernelForm::groups ? ", groups" : ", chunks";
     return name;
 }
 
-std::vector<StressPipeline> stress_pipelines(Session& session, bool few, bool other_forms)
+std::vector<PipelineChoice> stress_pipelines(Session& session, bool few, bool other_forms)
 {
     const KernelForm other = session.device().is_cpu() ? KernelForm::groups : KernelForm::chunks;
     const std::vector<std::string> builders = tree_builders(session, few);
-    std::vector<StressPipeline> pipelines;
+    std::vector<PipelineChoice> pipelines;
     for (const ColliderEntry& entry : collider_catalog()) {
         if (entry.make == nullptr)
             continue;
@@ -115,10 +124,10 @@ std::vector<StressPipeline> stress_pipelines(Session& session, bool few, bool ot
         choice.keep_adjacent = collider != nullptr && !collider->finds_contacts();
         // A collider that cannot be made is judged as well, to report the reason.
         if (collider == nullptr || !collider->needs_tree()) {
-            pipelines.push_back({{.name = ""}, choice, entry.is_library});
+            pipelines.push_back({{.name = ""}, choice});
             continue;
         }
-        std::vector<StressPipeline> over;
+        std::vector<PipelineChoice> over;
         for (const std::string& name : builders)
             // If the tree cannot be built, judge_builder reports the reason.
             reason_of_failure([&] {
@@ -127,7 +136,7 @@ std::vector<StressPipeline> stress_pipelines(Session& session, bool few, bool ot
             });
         pipelines.insert(pipelines.end(), over.begin(), over.end());
         over.resize(other_forms ? std::min(over.size(), few ? 1 : std::size(some_builders)) : 0);
-        for (StressPipeline& one : over) {
+        for (PipelineChoice& one : over) {
             one.collider.form = other;
             pipelines.push_back(one);
         }
@@ -138,7 +147,7 @@ std::vector<StressPipeline> stress_pipelines(Session& session, bool few, bool ot
     return pipelines;
 }
 
-PairFinder finder_of(Session& session, const StressPipeline& chosen)
+PairFinder finder_of(Session& session, const PipelineChoice& chosen)
 {
     return [&session, chosen](const StressScene& scene, std::size_t capacity) {
         const Input input = uploaded(session, scene);
@@ -152,25 +161,38 @@ PairFinder finder_of(Session& session, const StressPipeline& chosen)
     };
 }
 
-Findings judge_frames(Session& session, const StressPipeline& chosen, const StressScene& scene,
-                      int repeats)
+Findings judge_pipeline(SceneUnderStress& scene, const PipelineChoice& chosen)
 {
-    return settled(session, chosen.is_library, [&] {
-        const Input input = uploaded(session, scene);
+    Session& session = scene.session;
+    const StressQuestion& question =
+        chosen.collider.keep_adjacent ? scene.question() : scene.question_apart();
+    // A library's collider may refuse a scene with any error; this project's may do so with BadUsage only.
+    return settled(session, is_library(chosen), [&]() -> Findings {
+        if (scene.repeats == 0)
+            return judge_finder(finder_of(session, chosen), question);
+        const Input input = uploaded(session, scene.scene());
         Pipeline pipeline(session, chosen.builder, chosen.collider, input);
-        std::vector<std::uint64_t> hashes;
-        for (int frame = 0; frame <= repeats; ++frame)
-            hashes.push_back(hash_of(found_next(pipeline, chosen, input)));
-        return Findings{{Invariant::same, judge_repeats(hashes)}};
+        const FoundPairs first = found_next(pipeline, chosen, input);
+        return {{Invariant::same, judge_repeats(scene.repeats, [&] {
+                     return found_next(pipeline, chosen, input) == first;
+                 })}};
     });
 }
 
-Findings judge_pipeline(Session& session, const StressPipeline& chosen,
-                        const StressQuestion& question)
+Findings judge_large_query(SceneUnderStress& scene, const PipelineChoice& chosen)
 {
-    // A library's collider may refuse a scene with any error; this project's may do so with BadUsage only.
-    return settled(session, chosen.is_library,
-                   [&] { return judge_finder(finder_of(session, chosen), question); });
+    PipelineChoice pipeline = chosen;
+    pipeline.collider.narrow = "none";
+    const PairList& expected = scene.pairs();
+    scene.input.value.reset();  // frees memory: the pipeline uploads its own input
+    Findings findings = settled(scene.session, false, [&]() -> Findings {
+        const FoundPairs found = finder_of(scene.session, pipeline)(scene.scene(), 0);
+        return {{Invariant::pairs, judge_pairs(*found.pairs, expected)}};
+    });
+    // A device may lack memory at this size; refusing with one sentence is then accepted.
+    if (Finding& ends = findings[Invariant::ends]; ends.detail.starts_with("out of device memory"))
+        ends = {Finding::Verdict::refused, 1, 0, 0, ends.detail};
+    return findings;
 }
 
 }  // namespace bvhbench

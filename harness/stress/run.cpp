@@ -31,37 +31,38 @@ bool guarded(Session& session, StressCell cell, const AddCell& add,
 void judge_part(Session& session, const StressTask& task, const StressPart& part,
                 const AddCell& add)
 {
-    std::vector<StressSystem> here, beside;
-    for (StressSystem one : part.systems) {
-        one.cell.family = part.family, one.cell.scene = part.scene.name;
-        if (task.wants(one.cell))
-            (one.cell.kind == Kind::library ? beside : here).push_back(std::move(one));
-    }
+    std::vector<const StressSystem*> here, beside;
+    for (const StressSystem& one : part.systems)
+        if (!task.filter ||
+            task.filter->is_in(part.family + '/' + part.scene.name + '/' + one.name))
+            (one.kind == Kind::library ? beside : here).push_back(&one);
     if (here.empty() && beside.empty())
         return;
-    SceneUnderStress scene(session, part.scene.make, task.size.seed);
-    for (std::vector<StressSystem>* systems : {&here, &beside})
-        for (StressSystem& one : *systems)
-            one.cell.triangles = static_cast<std::int64_t>(scene.scene().mesh.faces.size());
-    const auto libraries = std::async(std::launch::async, [&] {  // libraries need no device
-        for (auto& [cell, judge] : beside)
-            cell.findings = judge(scene).value();
+    SceneUnderStress scene{
+        session, part.scene.name, task.size.seed, part.repeats, {part.scene.make}};
+    const auto triangles = static_cast<std::int64_t>(scene.scene().mesh.faces.size());
+    const auto cell_of = [&](const StressSystem& one, Findings findings) {
+        return StressCell{part.family, part.scene.name, triangles,          one.name,
+                          one.kind,    one.library,     std::move(findings)};
+    };
+    auto libraries = std::async(std::launch::async, [&] {  // libraries need no device
+        std::vector<StressCell> cells;
+        for (const StressSystem* one : beside)
+            cells.push_back(cell_of(*one, one->judge(scene).value()));
+        return cells;
     });
     std::set<Kind> stopped;
-    for (auto& [cell, judge] : here) {
-        if (stopped.contains(cell.kind))
+    for (const StressSystem* one : here) {
+        if (stopped.contains(one->kind))
             continue;
         std::optional<Findings> findings;
-        if (!guarded(session, cell, add, [&] { findings = judge(scene); }))
-            stopped.insert(cell.kind);
-        if (!findings)
-            continue;
-        cell.findings = std::move(*findings);
-        add(std::move(cell));
+        if (!guarded(session, cell_of(*one, {}), add, [&] { findings = one->judge(scene); }))
+            stopped.insert(one->kind);
+        if (findings)
+            add(cell_of(*one, std::move(*findings)));
     }
-    libraries.wait();
-    for (StressSystem& one : beside)
-        add(std::move(one.cell));
+    for (StressCell& cell : libraries.get())
+        add(std::move(cell));
 }
 
 }  // namespace

@@ -10,7 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "collide/oracles/sweep.h"
 #include "harness/base/pattern.h"
+#include "harness/choice/scene_choice.h"
 #include "harness/judge/check.h"
 #include "harness/session/session.h"
 #include "harness/stress/judge.h"
@@ -21,11 +23,6 @@ namespace bvhbench {
 struct StressTask {
     StressSize size;
     std::optional<Pattern> filter;
-
-    bool wants(const StressCell& cell) const
-    {
-        return !filter || filter->is_in(cell.family + '/' + cell.scene + '/' + cell.system);
-    }
 };
 
 /// Runs every system over every scene that it is meant for, family by family, and passes each cell to `add` when it is done. A
@@ -33,52 +30,54 @@ struct StressTask {
 void stress_all(Session& session, const StressTask& task,
                 const std::function<void(StressCell&&)>& add);
 
-/// A value that is computed on first use.
+/// A value that is computed on first use, and again after it was reset.
 template <class T>
-class Lazy {
-public:
-    explicit Lazy(std::function<T()> make) : make_(std::move(make)) {}
+struct Lazy {
+    std::function<T()> make;
+    std::optional<T> value = {};
 
-    T& operator()()
-    {
-        if (!value_)
-            value_.emplace(make_());
-        return *value_;
-    }
-    void forget() { value_.reset(); }
-
-private:
-    std::function<T()> make_;
-    std::optional<T> value_;
+    T& operator()() { return value ? *value : value.emplace(make()); }
 };
 
 /// A scene and the data that the systems judged over it share.
 struct SceneUnderStress {
-    SceneUnderStress(Session& session, std::function<StressScene()> make, std::uint64_t seed);
-
+    Session& session;
+    std::string name;
+    std::uint64_t seed;
+    int repeats;  ///< as in StressPart
     Lazy<StressScene> scene;
-    Lazy<PairList> pairs;  ///< pairs of overlapping boxes
-    Lazy<Input> input;     ///< all triangles as one object
-    Lazy<Oracle> oracle;   ///< oracle of that input
-    Lazy<StressQuestion> question, question_apart;
+    Lazy<PairList> pairs = {[this] {  ///< pairs of overlapping boxes
+        return touching_pairs(scene().mesh.points, scene().mesh.faces, true);
+    }};
+    Lazy<Input> input = {[this] {  ///< all triangles as one object
+        return upload(session.device(), session.queue(), scene().mesh.points, scene().mesh.faces);
+    }};
+    Lazy<Oracle> oracle = {[this] { return Oracle(session, input()); }};
+    Lazy<StressQuestion> question = {[this] { return question_of(scene(), seed); }};
+    Lazy<StressQuestion> question_apart = {[this] { return without_adjacent(question()); }};
     std::map<std::string_view, std::uint64_t> hashes = {};  ///< of large trees, by reference name
 };
 
 /// A system and the function that judges it over a scene. It returns nothing if the system does not apply to this device.
 struct StressSystem {
-    StressCell cell;  ///< the cell to be filled in, with system, kind and library set
+    std::string name;
+    StressCell::Kind kind;
+    std::string library;  ///< library that the system belongs to; empty: this project
     std::function<std::optional<Findings>(SceneUnderStress&)> judge;
 };
-StressSystem stress_system(std::string name, StressCell::Kind kind, std::string library,
-                           std::function<std::optional<Findings>(SceneUnderStress&)> judge);
 
 /// Runs `judge` through the engine like every measured cell (harness/measure/engine.h) and turns a failure into a finding:
 /// `refused` if the system may refuse or does not support its options, else `broken`.
 Findings settled(Session& session, bool may_refuse, const std::function<Findings()>& judge);
 
-/// Returns the name of a builder's system, such as "oibvh-multi in u16", or of a pipeline's.
-std::string system_name(const BuilderChoice& builder);
-std::string system_name(const BuilderChoice& builder, const ColliderChoice& collider);
+/// True if the choice is a builder alone, without a collider. A collider without a tree has an empty builder name.
+inline bool is_builder(const PipelineChoice& choice) { return choice.collider.name.empty(); }
+
+/// True if a library does the work of the builder or, if there is one, of the collider.
+bool is_library(const PipelineChoice& choice);
+
+/// Returns the name of a system, such as "leaf over oibvh-multi in u16, groups".
+std::string system_name(const PipelineChoice& choice);
 
 /// Returns the builder `name` with boxes in the format `boxes`, from sorted leaves if the format needs them.
 BuilderChoice in_format(std::string_view name, std::string_view boxes);
@@ -87,39 +86,29 @@ BuilderChoice in_format(std::string_view name, std::string_view boxes);
 inline constexpr std::string_view builder_in_formats = "oibvh-multi";
 
 /// Returns the available builders whose kernels run on the device.
-std::vector<BuilderChoice> device_builders(Session& session);
-
-/// Judges a builder over all triangles as one object: every check of harness/judge/check.h and the layout. `repeats` more builds
-/// must leave the same tree.
-Findings judge_builder(Session& session, const BuilderChoice& builder, SceneUnderStress& scene,
-                       int repeats);
-
-/// Judges one build past 2^24 leaves: launches, layout, leaves, boxes. Builders with one reference must leave equal trees.
-Findings judge_large_build(Session& session, const BuilderChoice& builder, SceneUnderStress& scene);
-
-/// A builder and a collider over its trees, or a collider without a tree.
-struct StressPipeline {
-    BuilderChoice builder;
-    ColliderChoice collider;
-    bool is_library = false;
-};
+std::vector<PipelineChoice> device_builders(Session& session);
 
 /// Returns the possible pipelines: every collider over one tree of each traversal header that it accepts (trees themselves are
 /// judged with the builders); with `other_forms`, some with kernels in the form that is not the device's own; some with every
 /// other box format. With `few`, over fewer trees.
-std::vector<StressPipeline> stress_pipelines(Session& session, bool few, bool other_forms);
+std::vector<PipelineChoice> stress_pipelines(Session& session, bool few, bool other_forms);
 
 /// Returns a finder that runs one frame of the pipeline and, if the collider keeps its tree, a second frame, which must find the
 /// same. The finder throws what pipelines throw.
-PairFinder finder_of(Session& session, const StressPipeline& pipeline);
+PairFinder finder_of(Session& session, const PipelineChoice& pipeline);
 
-/// Judges whether a pipeline finds the same in `repeats` more frames as in the first.
-Findings judge_frames(Session& session, const StressPipeline& pipeline, const StressScene& scene,
-                      int repeats);
+/// Judges a builder over all triangles as one object: every check of harness/judge/check.h and the layout. The repeated builds
+/// must leave the same tree.
+Findings judge_builder(SceneUnderStress& scene, const PipelineChoice& builder);
 
-/// Judges a pipeline with a question.
-Findings judge_pipeline(Session& session, const StressPipeline& pipeline,
-                        const StressQuestion& question);
+/// Judges a pipeline over the scene and its variants, or only whether the repeated frames find the same as the first.
+Findings judge_pipeline(SceneUnderStress& scene, const PipelineChoice& pipeline);
+
+/// Judges one build past 2^24 leaves: launches, layout, leaves, boxes. Builders with one reference must leave equal trees.
+Findings judge_large_build(SceneUnderStress& scene, const PipelineChoice& builder);
+
+/// Judges a query past 2^24 leaves without the narrow phase, since the triangles have no area.
+Findings judge_large_query(SceneUnderStress& scene, const PipelineChoice& pipeline);
 
 /// Returns one system for each group-size parameter and each builder's --group-size option; each tries all values.
 std::vector<StressSystem> group_size_systems(Session& session, bool few);
@@ -129,6 +118,7 @@ struct StressPart {
     std::string family;
     StressCase scene;
     std::vector<StressSystem> systems;
+    int repeats = 0;  ///< builds and frames after the first; 0: pipelines run over variants instead
 };
 
 /// Returns the scenes of each family, then the families layout, group-sizes and repeats.

@@ -12,42 +12,59 @@
 namespace bvhbench {
 namespace {
 
-/// Returns the scene with its triangles in the order of `ids`.
-StressVariant reordered(const StressScene& scene, std::string_view name, std::vector<uint> ids,
-                        std::vector<FaceRange> objects)
+/// Numbers of triangles in a scene, by the object that they are in or are to be in.
+using ByObject = std::vector<std::vector<uint>>;
+
+ByObject triangles_of(const StressScene& scene)
 {
-    StressVariant variant{Invariant::agree, name, {{scene.mesh.points, {}}, std::move(objects)}};
-    for (const uint id : ids)
-        variant.scene.mesh.faces.push_back(scene.mesh.faces[id]);
-    variant.original = std::move(ids);
-    return variant;
+    ByObject objects;
+    for (const FaceRange& range : scene.objects) {
+        objects.emplace_back(range.count);
+        std::iota(objects.back().begin(), objects.back().end(), range.first);
+    }
+    return objects;
+}
+
+/// Returns a scene of these triangles, in this order.
+Rearranged rearranged(const StressScene& scene, const ByObject& objects)
+{
+    Rearranged result{{{scene.mesh.points, {}}, {}}, {}};
+    for (const std::vector<uint>& ids : objects) {
+        result.scene.objects.push_back(
+            {static_cast<uint>(result.original.size()), static_cast<uint>(ids.size())});
+        result.original.insert(result.original.end(), ids.begin(), ids.end());
+    }
+    for (const uint id : result.original)
+        result.scene.mesh.faces.push_back(scene.mesh.faces[id]);
+    return result;
 }
 
 /// Returns the scene with the triangles of each object shuffled and the objects in their order.
-StressVariant shuffled(const StressScene& scene, std::uint64_t seed)
+Rearranged shuffled(const StressScene& scene, std::uint64_t seed)
 {
-    std::vector<uint> ids(scene.mesh.faces.size());
-    std::iota(ids.begin(), ids.end(), 0u);
+    ByObject objects = triangles_of(scene);
     Random random(seed);
-    for (const FaceRange& range : scene.objects)
-        for (uint k = range.count; k > 1; --k)
-            std::swap(ids[range.first + k - 1],
-                      ids[range.first + static_cast<uint>(random.bits() % k)]);
-    return reordered(scene, "shuffled", std::move(ids), scene.objects);
+    for (std::vector<uint>& ids : objects)
+        for (std::size_t k = ids.size(); k > 1; --k)
+            std::swap(ids[k - 1], ids[random.bits() % k]);
+    return rearranged(scene, objects);
 }
 
 /// Returns the scene with its objects in reverse order.
-StressVariant swapped(const StressScene& scene)
+Rearranged swapped(const StressScene& scene)
 {
-    std::vector<uint> ids;
-    std::vector<FaceRange> objects;
-    for (std::size_t k = scene.objects.size(); k-- > 0;) {
-        const FaceRange range = scene.objects[k];
-        objects.push_back({static_cast<uint>(ids.size()), range.count});
-        for (uint i = 0; i < range.count; ++i)
-            ids.push_back(range.first + i);
-    }
-    return reordered(scene, "objects swapped", std::move(ids), std::move(objects));
+    ByObject objects = triangles_of(scene);
+    std::ranges::reverse(objects);
+    return rearranged(scene, objects);
+}
+
+bool is_finite(const Mesh& mesh, const Face& face)
+{
+    for (const uint corner : {face.a, face.b, face.c})
+        for (const float x : {mesh.points[corner].x, mesh.points[corner].y, mesh.points[corner].z})
+            if (!std::isfinite(x))
+                return false;
+    return true;
 }
 
 /// Returns the scene with every coordinate changed in double, or nothing if a result is not a float.
@@ -80,16 +97,16 @@ FoundPairs expected_over(const StressScene& scene, PairList pairs)
 
 }  // namespace
 
-std::optional<StressVariant> scaled(const StressScene& scene, std::uint64_t seed)
+std::optional<StressScene> scaled(const StressScene& scene, std::uint64_t seed)
 {
     const int first = 1 + static_cast<int>(Random(seed).bits() % 30);
     for (const int exponent : {first, -first, 7, -7, 1, -1})
         if (auto result = changed_exactly(scene, [&](double x) { return std::ldexp(x, exponent); }))
-            return StressVariant{Invariant::moved, "scaled", std::move(*result)};
+            return result;
     return {};
 }
 
-std::optional<Translation> translated(const StressScene& scene)
+std::optional<std::pair<StressScene, StressScene>> translated(const StressScene& scene)
 {
     double largest = 0;
     for (const Point& p : scene.mesh.points)
@@ -105,59 +122,56 @@ std::optional<Translation> translated(const StressScene& scene)
         return {};
     auto snapped =
         changed_exactly(scene, [grid](double x) { return std::nearbyint(x / grid) * grid; });
-    if (!snapped)
-        return {};
-    auto moved = changed_exactly(*snapped, [by](double x) { return x + by; });
+    std::optional<StressScene> moved;
+    if (snapped)
+        moved = changed_exactly(*snapped, [by](double x) { return x + by; });
     if (!moved)
         return {};
-    return Translation{std::move(*snapped), {Invariant::moved, "translated", std::move(*moved)}};
+    return std::pair(std::move(*snapped), std::move(*moved));
 }
 
-PairList in_original_numbers(const PairList& pairs, const StressVariant& variant)
+Rearranged finite_part(const StressScene& scene)
 {
-    if (variant.original.empty())
-        return pairs;
-    std::vector<Pair> numbered;
-    numbered.reserve(pairs.size());
-    for (const Pair pair : pairs.pairs())
-        numbered.push_back({variant.original[pair.a], variant.original[pair.b]});
-    return PairList(std::move(numbered));
+    ByObject objects = triangles_of(scene);
+    for (std::vector<uint>& ids : objects)
+        std::erase_if(ids, [&](uint id) { return !is_finite(scene.mesh, scene.mesh.faces[id]); });
+    return rearranged(scene, objects);
 }
 
 StressQuestion question_of(StressScene scene, std::uint64_t seed)
 {
-    StressQuestion question{std::move(scene), {}, {}};
-    question.expected = expected_over(question.scene, pairs_of(question.scene));
-    const auto add = [&](StressVariant variant) {
-        question.variants.push_back({std::move(variant), question.expected});
-    };
-    add(shuffled(question.scene, seed));
-    if (question.scene.objects.size() > 1)
-        add(swapped(question.scene));
-    if (auto variant = scaled(question.scene, seed))
-        add(std::move(*variant));
+    FoundPairs expected = expected_over(scene, pairs_of(scene));
+    std::vector<StressVariant> variants;
+    variants.push_back({Invariant::agree, "shuffled", shuffled(scene, seed), expected});
+    if (scene.objects.size() > 1)
+        variants.push_back({Invariant::agree, "objects swapped", swapped(scene), expected});
+    if (auto moved = scaled(scene, seed))
+        variants.push_back({Invariant::moved, "scaled", {std::move(*moved), {}}, expected});
     // Snapping an outlier scene to the translation's grid may leave almost one point, which is a different scene.
-    const std::size_t most =
-        100 * (question.expected.pairs->size() + question.scene.mesh.faces.size());
-    if (auto translation = translated(question.scene))
-        if (PairList pairs = pairs_of(translation->snapped); pairs.size() <= most)
-            question.variants.push_back({std::move(translation->moved),
-                                         expected_over(translation->snapped, std::move(pairs))});
-    return question;
+    const std::size_t most = 100 * (expected.pairs->size() + scene.mesh.faces.size());
+    if (auto translation = translated(scene)) {
+        auto& [snapped, moved] = *translation;
+        if (PairList pairs = pairs_of(snapped); pairs.size() <= most)
+            variants.push_back({Invariant::moved,
+                                "translated",
+                                std::move(moved),
+                                {},
+                                expected_over(snapped, std::move(pairs))});
+    }
+    return {std::move(scene), std::move(expected), std::move(variants)};
 }
 
-StressQuestion without_adjacent(const StressQuestion& question)
+StressQuestion without_adjacent(StressQuestion question)
 {
-    StressQuestion apart = question;
     const auto leave_out = [&faces = question.scene.mesh.faces](FoundPairs& found) {
         for (auto* list : {&found.pairs, &found.contacts})
             if (*list)
                 *list = selected(**list, {faces, {}}, Relation::apart);
     };
-    leave_out(apart.expected);
-    for (StressQuestion::Variant& variant : apart.variants)
+    leave_out(question.expected);
+    for (StressVariant& variant : question.variants)
         leave_out(variant.expected);
-    return apart;
+    return question;
 }
 
 }  // namespace bvhbench

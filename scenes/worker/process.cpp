@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -16,6 +17,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <system_error>
 #include <utility>
 
@@ -194,6 +196,22 @@ int take_standard_output()
     dup2(nowhere, STDOUT_FILENO);
     dup2(nowhere, STDERR_FILENO);
     return answer;
+}
+
+MemoryFile::MemoryFile(std::string_view bytes) : file_(memfd_create("bvhbench", MFD_CLOEXEC))
+{
+    if (file_ >= 0 && write_all(file_, bytes))
+        return;
+    const std::string reason = std::strerror(errno);
+    close(file_);
+    throw Unavailable("no file can be made in memory: " + reason);
+}
+
+MemoryFile::~MemoryFile() { close(file_); }
+
+std::string MemoryFile::path() const
+{
+    return "/proc/" + std::to_string(getpid()) + "/fd/" + std::to_string(file_);
 }
 
 bool write_all(int file, std::string_view bytes)

@@ -63,6 +63,21 @@ private:
 ProcessEnd run_process(const std::vector<std::string>& command, double time_limit_s,
                        const std::string& extra_environment);
 
+/// A file in memory that child processes can read by its path while this object exists.
+class MemoryFile {
+public:
+    /// Throws Unavailable if there is no room for the bytes.
+    explicit MemoryFile(std::string_view bytes);
+    ~MemoryFile();
+    MemoryFile(const MemoryFile&) = delete;
+    MemoryFile& operator=(const MemoryFile&) = delete;
+
+    std::string path() const;
+
+private:
+    int file_;
+};
+
 /// Makes this process end with its parent, if the parent asked for it. Called at the beginning of main.
 void end_with_parent();
 

@@ -10,7 +10,6 @@
 #include "collide/oracles/sweep.h"
 #include "geometry/error.h"
 #include "harness/accuracy/axis.h"
-#include "harness/accuracy/inputs.h"
 #include "harness/judge/metrics.h"
 #include "harness/judge/pair_counts.h"
 #include "scenes/generate/pair_classes.h"
@@ -37,7 +36,8 @@ TEST(Accuracy, SumsAreThoseOfTheFormula)
     EXPECT_NEAR(static_cast<double>(right), 1.2 + 30.0 / 54, 1e-15);
     for (const SumMethod& method : sum_methods()) {
         const bool in_floats = method.name.starts_with("f32");
-        EXPECT_NEAR(method.cost(small_tree()), 1.2 + 30.0 / 54, in_floats ? 2e-7 : 1e-15)
+        EXPECT_NEAR(static_cast<double>(method.cost(small_tree())), 1.2 + 30.0 / 54,
+                    in_floats ? 2e-7 : 1e-15)
             << method.name;
     }
 }
