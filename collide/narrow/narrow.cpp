@@ -11,6 +11,7 @@
 #include "collide/narrow/sharing.h"
 #include "collide/parameters.h"
 #include "geometry/bits.h"
+#include "geometry/names.h"
 
 namespace bvhbench {
 namespace {
@@ -48,14 +49,9 @@ std::span<const NarrowMethod> narrow_methods() { return catalog; }
 
 const NarrowMethod& find_narrow_method(std::string_view name)
 {
-    std::string known;
-    for (const NarrowMethod& method : catalog) {
-        if (method.name == name || (method.is_exact && name == "exact"))
-            return method;
-        known += ", " + std::string(method.name);
-    }
-    throw BadUsage("no narrow phase is called '" + std::string(name) + "'; there are: exact" +
-                   known);
+    if (name == "exact")
+        return *std::ranges::find_if(catalog, &NarrowMethod::is_exact);
+    return find_called(catalog, name, "narrow phase", "exact");
 }
 
 void check_narrow(std::string_view name, bool keep_adjacent)

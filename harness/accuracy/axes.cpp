@@ -36,16 +36,7 @@ constexpr Axis catalog[] = {
 
 std::span<const Axis> accuracy_axes() { return catalog; }
 
-const Axis& find_axis(std::string_view name)
-{
-    std::string known;
-    for (const Axis& axis : catalog) {
-        if (axis.name == name)
-            return axis;
-        known += (known.empty() ? " " : ", ") + std::string(axis.name);
-    }
-    throw BadUsage("no axis is called '" + std::string(name) + "'; there are:" + known);
-}
+const Axis& find_axis(std::string_view name) { return find_called(catalog, name, "axis"); }
 
 bool AxisTask::wants(std::string_view input, std::string_view method) const
 {

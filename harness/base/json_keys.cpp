@@ -11,14 +11,6 @@
 
 namespace bvhbench {
 
-std::string joined(std::span<const std::string_view> words)
-{
-    std::string text;
-    for (const std::string_view word : words)
-        text += (text.empty() ? "" : ", ") + std::string(word);
-    return text;
-}
-
 void refuse_unknown_keys(const Json& json, const std::vector<std::string_view>& known,
                          const std::string& where)
 {
@@ -26,7 +18,7 @@ void refuse_unknown_keys(const Json& json, const std::vector<std::string_view>& 
         throw BadUsage(where + " must be an object");
     for (const auto& [key, value] : json.items())
         if (std::find(known.begin(), known.end(), key) == known.end())
-            throw BadUsage("'" + key + "' is no key of " + where + "; there are: " + joined(known));
+            throw BadUsage("'" + key + "' is no key of " + where + there_are(key, known));
 }
 
 std::string text_at(const Json& json, const char* key)

@@ -7,34 +7,15 @@
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "geometry/error.h"
+#include "geometry/names.h"
 
 namespace bvhbench {
 
 using Json = nlohmann::ordered_json;
-
-/// Returns the words separated by commas: "a, b, c".
-std::string joined(std::span<const std::string_view> words);
-
-/// Returns the entry of `catalog` called `name`. Throws BadUsage with the known names. `what` names the kind, as "builder".
-template <class Entry>
-const Entry& find_called(std::span<const Entry> catalog, std::string_view name,
-                         const std::string& what)
-{
-    std::vector<std::string_view> known;
-    for (const Entry& entry : catalog) {
-        if (entry.name == name)
-            return entry;
-        known.push_back(entry.name);
-    }
-    throw BadUsage("no " + what + " is called '" + std::string(name) +
-                   "'; there are: " + joined(known));
-}
 
 void refuse_unknown_keys(const Json& json, const std::vector<std::string_view>& known,
                          const std::string& where);

@@ -119,7 +119,7 @@ constexpr Choice table[] = {
      "a rule of `list skips` that is not used, or all: work is done that need not be",
      [](CellChoice& choice, const std::string& word) {
          choice.collider.rules_off =
-             word == "none" ? 0 : choice.collider.rules_off | skip_rules_called({&word, 1});
+             word == "none" ? 0 : choice.collider.rules_off | skip_rules_called(word);
          return true;
      },
      [](const CellChoice& choice) { return Json(skip_rules_text(choice.collider.rules_off)); }},

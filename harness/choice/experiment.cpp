@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "geometry/error.h"
+#include "geometry/names.h"
 #include "harness/base/json_keys.h"
 #include "harness/choice/experiment_lists.h"
 
@@ -77,7 +77,7 @@ Start start_of(const Json& stages)
     for (const Json& stage : stages)
         if (!stage.is_string() || std::find(std::begin(known), std::end(known),
                                             stage.get<std::string>()) == std::end(known))
-            throw BadUsage(stage.dump() + " is no stage; there are: " + joined(known));
+            throw BadUsage(stage.dump() + " is no stage" + there_are(stage.dump(), known));
     const bool only_hierarchy = stages.size() == 1 && stages[0] == "hierarchy";
     return only_hierarchy ? Start::from_sorted_leaves : Start::from_triangles;
 }
@@ -166,8 +166,8 @@ Experiment find_experiment(const std::string& name_or_path, bool quick)
     if (const auto text = embedded_experiment("harness/experiments/" + name_or_path + ".json"))
         return parse_experiment(*text, name_or_path, quick);
     if (!name_or_path.ends_with(".json"))
-        throw BadUsage("no experiment is called '" + name_or_path +
-                       "'; there are: " + joined(names) + ", or the path of a .json file");
+        throw BadUsage("no experiment is called '" + name_or_path + '\'' +
+                       there_are(name_or_path, names, "or the path of a .json file"));
     return parse_experiment(file_text(name_or_path, "the experiment file"), name_or_path, quick);
 }
 

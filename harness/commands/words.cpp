@@ -7,7 +7,7 @@
 #include <charconv>
 #include <cstdint>
 
-#include "geometry/error.h"
+#include "geometry/names.h"
 #include "harness/base/json_keys.h"
 
 namespace bvhbench {
@@ -57,7 +57,7 @@ CLI::Validator one_of(std::vector<std::string_view> known)
     const auto check = [known = std::move(known)](const std::string& word) {
         return std::find(known.begin(), known.end(), word) != known.end()
                    ? std::string()
-                   : "there is no '" + word + "'; there are: " + joined(known);
+                   : "there is no '" + word + '\'' + there_are(word, known);
     };
     return {check, "", "one of"};
 }

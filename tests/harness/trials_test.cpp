@@ -18,6 +18,7 @@ struct Tunable {
     const char* order = "morton30";
     bool sorted_leaves = false;
     const char* narrow = "none";
+    bool only_in_groups = false;  ///< whether all its parameters are of the form for many lanes
 };
 
 class Trials : public testing::TestWithParam<Tunable> {
