@@ -24,6 +24,9 @@ constexpr NarrowMethod catalog[] = {
     {"moller-f32", "intervals in floats, heights below 1e-6 taken for 0", false, 1, 32},
 };
 
+constexpr uint pairs_in_block = 512;         ///< that a work-item collects of a kind, on few cores
+constexpr std::size_t groups_per_unit = 32;  ///< most work-groups per compute unit
+
 bool has_doubles(const Device& device)
 {
     return device.cl.getInfo<CL_DEVICE_DOUBLE_FP_CONFIG>() != 0;
@@ -74,7 +77,7 @@ NarrowPhase::NarrowPhase(Programs& programs, const NarrowOptions& options)
     if (by_groups())
         group_size_ = device.tuned(narrow_group_size);
     else
-        block_pairs_ = device.tuned(narrow_block_pairs);
+        block_pairs_ = pairs_in_block;
     check_narrow(options.method, options.keep_adjacent);
     const NarrowMethod& method = find_narrow_method(options.method);
     options_.method = method.name;  // refers to static storage
@@ -126,8 +129,7 @@ void NarrowPhase::take_all()
 std::size_t NarrowPhase::group_count(std::size_t candidates) const
 {
     const Device& device = programs_.device();
-    const std::size_t most = device.tuned(narrow_groups_per_unit) *
-                             std::size_t{device.cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()};
+    const std::size_t most = groups_per_unit * device.cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
     return std::clamp<std::size_t>(divided_up(static_cast<uint>(candidates), group_size_), 1, most);
 }
 

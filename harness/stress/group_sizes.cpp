@@ -116,7 +116,7 @@ constexpr Parameter builder_option{.name = "--group-size",
                                    .stage = "",
                                    .least = 1,
                                    .most = 1024,
-                                   .values = ValueIs::group_size,
+                                   .is_group_size = true,
                                    .candidates = {}};
 
 }  // namespace
@@ -129,7 +129,7 @@ std::vector<StressSystem> group_size_systems(Session& session, bool few)
     };
     const auto askers = std::make_shared<Askers>(session);
     for (const Parameter* parameter : tuning_parameters()) {
-        if (parameter->values != ValueIs::group_size)
+        if (!parameter->is_group_size)
             continue;
         add(std::string(parameter->name),
             [&session, askers, parameter, few](SceneUnderStress& scene) -> std::optional<Findings> {
