@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "geometry/error.h"
+#include "geometry/names.h"
 #include "harness/accuracy/axis.h"
 #include "harness/base/failure.h"
 #include "harness/measure/frames.h"
@@ -40,7 +40,7 @@ const Axis& find_axis(std::string_view name) { return find_called(catalog, name,
 
 bool AxisTask::wants(std::string_view input, std::string_view method) const
 {
-    return !filter || filter->is_in(std::string(input) + '/' + std::string(method));
+    return passes(filter, std::string(input) + '/' + std::string(method));
 }
 
 void Axis::measure(const AxisRun& run) const

@@ -41,16 +41,6 @@ bool truth_at(const Json& json, const char* key)
     return json[key].get<bool>();
 }
 
-std::int64_t whole_number(const Json& value, const std::string& what, std::int64_t least,
-                          std::int64_t most)
-{
-    if (!value.is_number_integer() || value.get<std::int64_t>() < least ||
-        value.get<std::int64_t>() > most)
-        throw BadUsage(what + " must be a whole number from " + std::to_string(least) + " to " +
-                       std::to_string(most) + ", not " + value.dump());
-    return value.get<std::int64_t>();
-}
-
 std::string json_reason(const std::exception& error)
 {
     constexpr std::size_t longest = 200;

@@ -52,7 +52,7 @@ TunedValue value_of(const Json& json, const Parameter& parameter)
             throw BadUsage("'ratio' must be a number, not " + json["ratio"].dump());
         value.ratio = json["ratio"].get<double>();
     }
-    read_whole(json, "samples", 0, most_samples, value.samples);
+    read_number(json, "samples", 0, most_samples, value.samples);
     return value;
 }
 

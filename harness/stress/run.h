@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "harness/base/pattern.h"
 #include "harness/judge/check.h"
+#include "harness/measure/run.h"
 #include "harness/session/session.h"
 #include "harness/stress/judge.h"
 
@@ -20,11 +20,11 @@ namespace bvhbench {
 /// Options of a stress run: its size, and a filter for cells by "family/scene/system".
 struct StressTask {
     StressSize size;
-    std::optional<Pattern> filter;
+    CellFilter filter;
 
     bool wants(const StressCell& cell) const
     {
-        return !filter || filter->is_in(cell.family + '/' + cell.scene + '/' + cell.system);
+        return passes(filter, cell.family + '/' + cell.scene + '/' + cell.system);
     }
 };
 
