@@ -15,7 +15,7 @@ inline constexpr Parameter radix_group_size{
     .elsewhere = 256,
     .least = 1,
     .most = 1024,
-    .values = ValueIs::group_size,
+    .is_group_size = true,
     .candidates = {32, 64, 128, 256, 512}};
 
 inline constexpr const Parameter* baseline_parameters[] = {&radix_group_size};

@@ -8,7 +8,7 @@
 #include <limits>
 #include <string>
 
-#include "geometry/error.h"
+#include "geometry/names.h"
 
 namespace bvhbench {
 namespace {
@@ -89,13 +89,7 @@ std::span<const BoxFormat> box_formats() { return catalog; }
 
 const BoxFormat& find_box_format(std::string_view name)
 {
-    std::string known;
-    for (const BoxFormat& format : catalog) {
-        if (format.name == name)
-            return format;
-        known += (known.empty() ? " " : ", ") + std::string(format.name);
-    }
-    throw BadUsage("no format of boxes is called '" + std::string(name) + "'; there are:" + known);
+    return find_called(catalog, name, "format of boxes");
 }
 
 BoxRounding BoxRounding::of_scene(const BoxFormat& format, const Aabb& scene)

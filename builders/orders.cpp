@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "builders/orders.h"
 
-#include <string>
-
-#include "geometry/error.h"
 #include "geometry/hilbert.h"
+#include "geometry/names.h"
 
 namespace bvhbench {
 namespace {
@@ -41,15 +39,6 @@ ulong OrderEntry::code(Aabb box, Bounds bounds) const
 
 std::span<const OrderEntry> order_catalog() { return catalog; }
 
-const OrderEntry& find_order(std::string_view name)
-{
-    std::string known;
-    for (const OrderEntry& entry : catalog) {
-        if (entry.name == name)
-            return entry;
-        known += (known.empty() ? " " : ", ") + std::string(entry.name);
-    }
-    throw BadUsage("no order is called '" + std::string(name) + "'; there are:" + known);
-}
+const OrderEntry& find_order(std::string_view name) { return find_called(catalog, name, "order"); }
 
 }  // namespace bvhbench

@@ -10,20 +10,6 @@
 
 namespace bvhbench {
 
-/// Values that a parameter may have.
-struct ParameterRange {
-    uint least, most;
-    ValueIs values = ValueIs::any_number;
-};
-
-/// Returns a parameter with the default `usual` on every kind of device.
-constexpr Parameter usually(uint usual, std::string_view name, std::string_view stage,
-                            std::string_view meaning, ParameterRange range,
-                            const CandidateValues& candidates)
-{
-    return {name, meaning, stage, usual, usual, range.least, range.most, range.values, candidates};
-}
-
 /// Used by all kernels in the form `chunks`, colliders' included.
 inline constexpr Parameter chunks_per_core =
     usually(4, "chunks.per_core", "",
@@ -33,38 +19,28 @@ inline constexpr Parameter chunks_per_core =
 
 inline constexpr Parameter bounds_group_size =
     usually(256, "bounds.group_size", "bounds", "work-items in a group of the stage bounds",
-            {16, 1024, ValueIs::group_size}, {64, 128, 256, 512});
-inline constexpr Parameter bounds_groups_per_unit = usually(
-    8, "bounds.groups_per_unit", "bounds",
-    "groups a compute unit, each of which leaves bounds to be joined", {1, 64}, {2, 4, 8, 16, 32});
+            {16, 1024, true}, {64, 128, 256, 512});
 
 inline constexpr Parameter codes_group_size =
     usually(256, "codes.group_size", "codes", "work-items in a group of the stage codes",
-            {1, 1024, ValueIs::group_size}, {64, 128, 256, 512, 1024});
+            {1, 1024, true}, {64, 128, 256, 512, 1024});
 
 inline constexpr Parameter sort_chunk_digit_bits =
     usually(8, "sort.chunk_digit_bits", "sort", "bits a pass sorts by, in the form for few cores",
             {1, 12}, {6, 7, 8, 9, 10, 11});
 inline constexpr Parameter sort_group_size =
     usually(256, "sort.group_size", "sort",
-            "work-items in a group, where groups do not wait for each other",
-            {16, 256, ValueIs::group_size}, {64, 128, 256});
-inline constexpr Parameter sort_keys_per_item =
-    usually(15, "sort.keys_per_item", "sort",
-            "pairs a work-item ranks where groups do not wait; odd, against bank conflicts",
-            {1, 15, ValueIs::odd}, {7, 9, 11, 13, 15});
+            "work-items in a group, where groups do not wait for each other", {16, 256, true},
+            {64, 128, 256});
 
 inline constexpr Parameter sweep_group_size =
     usually(512, "sweep.group_size", "sort",
-            "work-items in a group of the sort, where groups wait for each other",
-            {32, 512, ValueIs::group_size}, {128, 256, 512});
+            "work-items in a group of the sort, where groups wait for each other", {32, 512, true},
+            {128, 256, 512});
 inline constexpr Parameter sweep_keys_per_item =
     usually(8, "sweep.keys_per_item", "sort",
             "pairs a work-item ranks where groups wait; of codes of two words half as many",
             {1, 32}, {4, 6, 8, 10, 12, 16});
-inline constexpr Parameter sweep_counting_groups_per_unit =
-    usually(2, "sweep.counting_groups_per_unit", "sort",
-            "groups a compute unit that count digits, where groups wait", {1, 32}, {1, 2, 4, 8});
 
 inline constexpr Parameter sort_at_once{
     .name = "sort.at_once",
@@ -78,35 +54,26 @@ inline constexpr Parameter sort_at_once{
 
 inline constexpr Parameter medians_group_size = usually(
     256, "medians.group_size", "order", "work-items in a group that orders a block of leaves",
-    {32, 1024, ValueIs::group_size}, {128, 256, 512, 1024});
+    {32, 1024, true}, {128, 256, 512, 1024});
 
 inline constexpr Parameter cells_pass_group_size =
     usually(128, "cells.pass_group_size", "order",
-            "work-items in a group of a pass that counts in global memory",
-            {32, 1024, ValueIs::group_size}, {64, 128, 256, 512});
-inline constexpr Parameter cells_pass_leaves =
-    usually(3, "cells.pass_leaves", "order", "leaves that a work-item of such a pass looks at",
-            {1, 16}, {1, 2, 3, 4, 6, 8});
-inline constexpr Parameter cells_local_leaves =
-    usually(4, "cells.local_leaves", "order",
-            "the same at a time, of a pass that counts in local memory", {1, 16}, {1, 2, 4, 8});
-inline constexpr Parameter cells_chunk_levels =
-    usually(3, "cells.chunk_levels", "order",
-            "levels halved one by one before each core takes subtrees", {0, 8}, {1, 2, 3, 4, 5, 6});
+            "work-items in a group of a pass that counts in global memory", {32, 1024, true},
+            {64, 128, 256, 512});
 
 inline constexpr Parameter gather_group_size =
     usually(256, "gather.group_size", "gather", "work-items in a group of the stage gather",
-            {16, 1024, ValueIs::group_size}, {64, 128, 256, 512});
+            {16, 1024, true}, {64, 128, 256, 512});
 
 inline constexpr Parameter implicit_group_size =
     usually(0, "implicit.group_size", "hierarchy",
             "work-items in a group that builds a subtree, twice as many nodes' levels a launch; 0: "
             "the fewest that get by with the fewest launches",
-            {0, 1024, ValueIs::group_size}, {128, 256, 512, 1024});
+            {0, 1024, true}, {128, 256, 512, 1024});
 inline constexpr Parameter implicit_handoff_group_size =
     usually(0, "implicit.handoff_group_size", "hierarchy",
             "the same where one launch builds all levels; 0: by the number of leaves",
-            {0, 1024, ValueIs::group_size}, {128, 256, 512, 1024});
+            {0, 1024, true}, {128, 256, 512, 1024});
 inline constexpr Parameter implicit_waits{.name = "implicit.waits",
                                           .meaning =
                                               "where one launch builds all levels, 1: a few groups "
@@ -118,38 +85,22 @@ inline constexpr Parameter implicit_waits{.name = "implicit.waits",
                                           .least = 0,
                                           .most = 1,
                                           .candidates = {0, 1}};
-inline constexpr Parameter implicit_items =
-    usually(1, "implicit.items", "hierarchy",
-            "nodes of the entry level that a work-item merges in registers",
-            {1, 8, ValueIs::power_of_two}, {1, 2, 4});
-inline constexpr Parameter implicit_subtrees_per_core =
-    usually(32, "implicit.subtrees_per_core", "hierarchy",
-            "subtrees a core that the first launch cuts a tree into, in the form for few cores",
-            {1, 1024, ValueIs::power_of_two}, {2, 4, 8, 16, 32, 64});
 
 inline constexpr const Parameter* builder_parameters[] = {
     &chunks_per_core,
     &bounds_group_size,
-    &bounds_groups_per_unit,
     &codes_group_size,
     &sort_chunk_digit_bits,
     &sort_group_size,
-    &sort_keys_per_item,
     &sweep_group_size,
     &sweep_keys_per_item,
-    &sweep_counting_groups_per_unit,
     &sort_at_once,
     &medians_group_size,
     &cells_pass_group_size,
-    &cells_pass_leaves,
-    &cells_local_leaves,
-    &cells_chunk_levels,
     &gather_group_size,
     &implicit_group_size,
     &implicit_handoff_group_size,
     &implicit_waits,
-    &implicit_items,
-    &implicit_subtrees_per_core,
 };
 
 }  // namespace bvhbench

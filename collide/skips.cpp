@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "collide/skips.h"
 
-#include <algorithm>
-
-#include "geometry/error.h"
+#include "geometry/names.h"
 
 namespace bvhbench {
 namespace {
@@ -27,22 +25,14 @@ constexpr SkipRuleEntry rules[] = {
 
 std::span<const SkipRuleEntry> skip_rules() { return rules; }
 
-unsigned skip_rules_called(std::span<const std::string> names)
+unsigned skip_rules_called(std::string_view name)
 {
-    unsigned called = 0;
-    for (const std::string& name : names) {
-        std::string known;
-        unsigned found = 0;
-        for (const SkipRuleEntry& entry : rules) {
-            if (name == entry.name || name == "all")
-                found |= entry.rule;
-            known += std::string(entry.name) + ", ";
-        }
-        if (found == 0)
-            throw BadUsage("no rule is called '" + name + "'; there are: " + known + "or all");
-        called |= found;
-    }
-    return called;
+    if (name != "all")
+        return find_called(rules, name, "rule", "all").rule;
+    unsigned all = 0;
+    for (const SkipRuleEntry& entry : rules)
+        all |= entry.rule;
+    return all;
 }
 
 std::string skip_rules_text(unsigned called)

@@ -27,8 +27,8 @@ struct SkipRuleEntry {
 /// All rules, in the order of tables.
 std::span<const SkipRuleEntry> skip_rules();
 
-/// Returns the rules with these names; "all" means every rule. Throws BadUsage, with the known names, for an unknown one.
-unsigned skip_rules_called(std::span<const std::string> names);
+/// Returns the rule of that name, or every rule for "all". Throws BadUsage, with the known names, for an unknown one.
+unsigned skip_rules_called(std::string_view name);
 
 /// Names of the rules, as in "rigid, apart".
 std::string skip_rules_text(unsigned rules);

@@ -39,37 +39,46 @@ private:
     uint count_ = 0;
 };
 
-/// Constraint on a parameter's values besides its range. A group size must also be a power of two.
-enum class ValueIs { any_number, odd, power_of_two, group_size };
-
 /// A number whose value depends on the device. Declared once, in its room's `parameters.h`.
 struct Parameter {
-    std::string_view name;     ///< unique and stable key in tuning files, as "sort.keys_per_item"
+    std::string_view name;     ///< unique and stable key in tuning files, as "sweep.keys_per_item"
     std::string_view meaning;  ///< one line of description; says what 0 means if 0 is allowed
     std::string_view stage;    ///< the stage whose time tuning minimizes; empty: all stages
     uint on_cpu = 0;           ///< default on CPUs
     uint elsewhere = 0;        ///< default on all other devices
     uint least = 0, most = 0;  ///< range, both ends included
-    ValueIs values = ValueIs::any_number;
+    bool is_group_size = false;  ///< a power of two that the device allows as the size of a group
     CandidateValues candidates;
 
     constexpr uint usual(bool is_cpu) const { return is_cpu ? on_cpu : elsewhere; }
 
-    /// Returns why `value` is not allowed, as the end of a sentence ("must be odd, not 4"), or an empty string if it is. A
+    /// Returns why `value` is not allowed, as the end of a sentence ("must be a power of two, not 96"), or an empty string if it is. A
     /// power of two may be 0 if `least` is 0.
     std::string refusal(uint value) const
     {
         const std::string but = ", not " + std::to_string(value);
         if (value < least || value > most)
             return "must be from " + std::to_string(least) + " to " + std::to_string(most) + but;
-        if (values == ValueIs::odd && value % 2 == 0)
-            return "must be odd" + but;
-        const bool is_power = values == ValueIs::power_of_two || values == ValueIs::group_size;
-        if (is_power && value != 0 && !std::has_single_bit(value))
+        if (is_group_size && value != 0 && !std::has_single_bit(value))
             return "must be a power of two" + but;
         return {};
     }
 };
+
+/// Values that a parameter may have.
+struct ParameterRange {
+    uint least, most;
+    bool is_group_size = false;
+};
+
+/// Returns a parameter with the default `usual` on every kind of device.
+constexpr Parameter usually(uint usual, std::string_view name, std::string_view stage,
+                            std::string_view meaning, ParameterRange range,
+                            const CandidateValues& candidates)
+{
+    return {name,      meaning, stage, usual, usual, range.least, range.most, range.is_group_size,
+            candidates};
+}
 
 /// Values that replace defaults. Also records which parameters have been read.
 class Tuning {

@@ -3,7 +3,7 @@
 
 #include <csignal>
 
-#include "harness/commands/program.h"
+#include "harness/commands/command.h"
 #include "harness/stress/libraries.h"
 #include "scenes/mesh_worker.h"
 #include "scenes/worker/process.h"

@@ -56,7 +56,7 @@ void tune(bvhbench::Device& device, const DeviceOptions& options)
         const Parameter& parameter = find_parameter(name);
         if (const std::string why = parameter.refusal(value); !why.empty())
             throw BadUsage("tuning parameter " + name + ' ' + why);
-        if (parameter.values == ValueIs::group_size && value > most_group)
+        if (parameter.is_group_size && value > most_group)
             throw BadUsage("tuning parameter " + name + " is a group size, at most " +
                            std::to_string(most_group) + " on " + device.name() + ", not " +
                            std::to_string(value));

@@ -33,7 +33,7 @@ const Named<MakeCollider>& collider_for(const bvhbench::Device& device, std::str
 {
     if (asked.empty())
         asked = device.is_cpu() ? "group" : device.lets_groups_wait() ? "block" : "leaf";
-    return find_named(colliders, asked, "collider");
+    return find_called(colliders, asked, "collider of the library");
 }
 
 Pairs Tree::Impl::found_by(Collider& from)
@@ -56,8 +56,8 @@ Pairs Tree::find_pairs(Among among)
         Impl::Query& query = own.queries[static_cast<std::size_t>(among)];
         if (query.collider == nullptr)
             query.collider =
-                own.collider.second(own.device->programs,
-                                    {.among = wanted, .keep_adjacent = own.options.adjacent_pairs});
+                own.collider.make(own.device->programs,
+                                  {.among = wanted, .keep_adjacent = own.options.adjacent_pairs});
         if (!std::exchange(query.is_ready, false))  // set again on success
             query.collider->reserve(&over, own.taker.taken());
         bvhbench::find_pairs(*query.collider, &over, own.taker.taken(), own.device->queue);

@@ -22,8 +22,8 @@ std::unique_ptr<Builder> make_builder(Device::Impl& device, const Options& optio
 {
     const std::string_view name =
         options.builder.empty() ? builder_for(device.device) : options.builder;
-    return find_named(builders, name, "builder")
-        .second(device.programs, {.order = options.order, .sorted_leaves = options.sorted_leaves});
+    return find_called(builders, name, "builder of the library")
+        .make(device.programs, {.order = options.order, .sorted_leaves = options.sorted_leaves});
 }
 
 TreeUpdate internal(Update update)
@@ -57,7 +57,7 @@ Tree::Impl::Impl(const std::shared_ptr<Device::Impl>& on, Options asked)
     , taker(*device, options.check_input)
     , builder(make_builder(*device, options))
     , collider(collider_for(device->device, options.collider))
-    , joined(*device, collider.second)
+    , joined(*device, collider.make)
 {}
 
 void Tree::Impl::begin()

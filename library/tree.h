@@ -15,28 +15,17 @@
 #include "builders/builder.h"
 #include "builders/implicit/tree.h"
 #include "collide/collider.h"
+#include "geometry/names.h"
 #include "library/input.h"
 
 namespace bvhbench::oibvh {
 
 /// A factory of builders or colliders, with the name that options select it by.
 template <class Make>
-using Named = std::pair<std::string_view, Make>;
-
-/// Returns the entry of `all` called `name`. Throws BadUsage, with `kind` and all known names, if there is none.
-template <class Make, std::size_t count>
-const Named<Make>& find_named(const Named<Make> (&all)[count], std::string_view name,
-                              const char* kind)
-{
-    std::string known;
-    for (const Named<Make>& one : all) {
-        if (one.first == name)
-            return one;
-        known += (known.empty() ? "" : ", ") + std::string(one.first);
-    }
-    throw BadUsage(std::string("no ") + kind + " of the library is called '" + std::string(name) +
-                   "'; there are: " + known);
-}
+struct Named {
+    std::string_view name;
+    Make make;
+};
 
 /// Returns the collider called `asked`, or the default for the device if `asked` is empty. Throws BadUsage for another name.
 const Named<MakeCollider>& collider_for(const bvhbench::Device& device, std::string_view asked);

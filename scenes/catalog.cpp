@@ -8,6 +8,7 @@
 
 #include "geometry/error.h"
 #include "geometry/host_memory.h"
+#include "geometry/names.h"
 #include "scenes/formats/text.h"
 #include "scenes/generate/derived.h"
 #include "scenes/generate/generators.h"
@@ -197,11 +198,9 @@ Scene from_data_set(const ManifestEntry& entry, const SceneLibrary& library)
 
 [[noreturn]] void unknown(std::string_view text)
 {
-    std::string known;
-    for (const SceneListing& line : list_scenes({}))
-        known += line.name + ", ";
-    throw BadUsage("no scene is called " + in_quotes(text) + "; there are: " + known +
-                   "or a path to a mesh file");
+    const std::vector<SceneListing> listed = list_scenes({});
+    throw BadUsage("no scene is called " + in_quotes(text) +
+                   there_are(text, names_of(listed), "or a path to a mesh file"));
 }
 
 bool looks_like_path(std::string_view text)

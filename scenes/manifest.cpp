@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "geometry/names.h"
 #include "scenes/catalog.h"
 #include "scenes/embedded.h"
 #include "scenes/formats/text.h"
@@ -87,13 +88,7 @@ std::span<const ManifestEntry> manifest()
     return entries;
 }
 
-const ManifestEntry* manifest_entry(std::string_view name)
-{
-    for (const ManifestEntry& entry : manifest())
-        if (entry.name == name)
-            return &entry;
-    return nullptr;
-}
+const ManifestEntry* manifest_entry(std::string_view name) { return find_name(manifest(), name); }
 
 std::filesystem::path located(const ManifestEntry& entry, const std::filesystem::path& data)
 {

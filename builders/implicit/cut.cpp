@@ -11,6 +11,8 @@
 namespace bvhbench {
 namespace {
 
+constexpr uint subtrees_per_core = 32;  ///< into which the first launch of `chunks` cuts a tree
+
 uint most_group_size(const Device& device, uint items, std::size_t box_bytes)
 {
     const std::size_t room = device.cl.getInfo<CL_DEVICE_LOCAL_MEM_SIZE>() /
@@ -44,7 +46,7 @@ Cut smallest_group_with_fewest_launches(uint leaf_level, uint items, uint most)
 Cut subtrees_of_items(const Device& device, uint leaf_level)
 {
     const uint cores = device.cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
-    const uint split = ceil_log2(device.tuned(implicit_subtrees_per_core) * cores);
+    const uint split = ceil_log2(subtrees_per_core * cores);
     return {KernelForm::chunks, 1, 1,
             std::clamp(leaf_level > split ? leaf_level - split : 0u, 10u, 14u)};
 }
@@ -71,12 +73,7 @@ void require_power_of_two(const char* what, uint value, uint most, const Device&
 Cut choose_cut(const Device& device, const BuildOptions& options, Meeting meeting, uint leaves,
                std::size_t box_bytes)
 {
-    // If groups wait, more nodes per work-item were never faster.
-    const bool is_tuned =
-        !device.is_cpu() && options.group_size == 0 && meeting != Meeting::by_waiting;
-    const uint items = options.items != 0 ? options.items
-                       : is_tuned         ? device.tuned(implicit_items)
-                                          : 1;
+    const uint items = std::max(1u, options.items);
     require_power_of_two("the number of items a work-item", items, 8, device);
     const uint most = most_group_size(device, items, box_bytes);
     if (options.group_size != 0) {  // explicit group sizes select the paper's groups, on a CPU too

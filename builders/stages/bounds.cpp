@@ -10,11 +10,12 @@
 namespace bvhbench {
 namespace {
 
-/// Returns the number of groups that keep every compute unit busy; more would only add partials to join.
+/// Keeps every compute unit busy; more would only add partials to join.
+constexpr std::size_t groups_per_unit = 8;
+
 std::size_t most_groups(const Device& device)
 {
-    return device.tuned(bounds_groups_per_unit) *
-           std::size_t{device.cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()};
+    return groups_per_unit * std::size_t{device.cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()};
 }
 
 }  // namespace

@@ -104,7 +104,7 @@ private:
         if (roots > most_entries)
             throw Unavailable(std::to_string(roots) + " pairs of objects: a front holds at most " +
                               std::to_string(most_entries));
-        block_pairs_ = by_groups() ? 0 : device().tuned(bvtt_block_pairs);
+        block_pairs_ = by_groups() ? 0 : node_pairs_in_block;
         queue_count_ = 3 + descents();  // front, prunes, and the output of each step
         const Define label{"LABEL_BITS", node_bits(tree())};
         advance_ =

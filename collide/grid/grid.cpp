@@ -27,6 +27,7 @@ constexpr uint sums_per_unit = 2;  // their work-groups per compute unit
 // fewest box tests where objects differ in detail; on closed surfaces 1.5 gives a tenth to a fifth fewer, but more entries.
 constexpr float cell_sides = 2.0f;
 
+constexpr uint block_pairs = 512;        // pairs that a work-item of the chunk form buffers
 constexpr std::size_t entries_each = 4;  // initial capacity: entries per triangle
 
 class HashedGrid final : public DeviceCollider {
@@ -58,9 +59,6 @@ private:
     void enqueue(const Input& input, Queue& queue) override;
     void enqueue_cells(Queue& queue);
     void enqueue_entries(Queue& queue);
-
-    /// Pairs that a work-item of the chunk form buffers.
-    uint block_pairs() const { return device().tuned(grid_block_pairs); }
 
     /// Right shift that turns a 32-bit hash into a bucket number.
     uint bucket_shift() const
@@ -106,8 +104,7 @@ void HashedGrid::compile(const Input& input)
             by_groups() ? "collide/grid/grid_groups.cl" : "collide/grid/grid_chunks.cl", name,
             {{"AMONG", among},
              {"KEEP_ADJACENT", options_.keep_adjacent ? 1u : 0u},
-             by_groups() ? Define{"GROUP_SIZE", group_size_}
-                         : Define{"SINK_BLOCK", block_pairs()}});
+             by_groups() ? Define{"GROUP_SIZE", group_size_} : Define{"SINK_BLOCK", block_pairs}});
     };
     cell_pairs_ = pairs("cell_pairs");
     level_pairs_ = pairs("level_pairs");
@@ -122,13 +119,11 @@ void HashedGrid::plan(Arena& arena)
     sides_ =
         arena.take<float>(by_groups() ? sums_per_unit * units * sum_group : chunks_, Use::scratch);
     grid_ = arena.take<HashGrid>(1, Use::scratch);
-    ends_ = arena.take<uint>(std::bit_ceil(std::max<std::size_t>(
-                                 16, std::size_t{device().tuned(grid_buckets_each)} * triangles_)),
-                             Use::scratch);
+    ends_ = arena.take<uint>(std::bit_ceil(std::max<std::size_t>(16, triangles_)), Use::scratch);
     scan_.plan(arena, ends_.size());
     entries_ = arena.take<GridEntry>(entry_room_, Use::scratch);
     if (!by_groups())
-        blocks_ = arena.take<Pair>(block_pairs() * chunks_, Use::scratch);
+        blocks_ = arena.take<Pair>(block_pairs * chunks_, Use::scratch);
 }
 
 void HashedGrid::enqueue_before(const Input& input, Queue& queue)

@@ -11,6 +11,7 @@
 #include "collide/narrow/sharing.h"
 #include "collide/parameters.h"
 #include "geometry/bits.h"
+#include "geometry/names.h"
 
 namespace bvhbench {
 namespace {
@@ -22,6 +23,9 @@ constexpr NarrowMethod catalog[] = {
     {"guigue-f32", "orientations in floats, as computed", false, 2, 32},
     {"moller-f32", "intervals in floats, heights below 1e-6 taken for 0", false, 1, 32},
 };
+
+constexpr uint pairs_in_block = 512;         ///< that a work-item collects of a kind, on few cores
+constexpr std::size_t groups_per_unit = 32;  ///< most work-groups per compute unit
 
 bool has_doubles(const Device& device)
 {
@@ -48,14 +52,9 @@ std::span<const NarrowMethod> narrow_methods() { return catalog; }
 
 const NarrowMethod& find_narrow_method(std::string_view name)
 {
-    std::string known;
-    for (const NarrowMethod& method : catalog) {
-        if (method.name == name || (method.is_exact && name == "exact"))
-            return method;
-        known += ", " + std::string(method.name);
-    }
-    throw BadUsage("no narrow phase is called '" + std::string(name) + "'; there are: exact" +
-                   known);
+    if (name == "exact")
+        return *std::ranges::find_if(catalog, &NarrowMethod::is_exact);
+    return find_called(catalog, name, "narrow phase", "exact");
 }
 
 void check_narrow(std::string_view name, bool keep_adjacent)
@@ -78,7 +77,7 @@ NarrowPhase::NarrowPhase(Programs& programs, const NarrowOptions& options)
     if (by_groups())
         group_size_ = device.tuned(narrow_group_size);
     else
-        block_pairs_ = device.tuned(narrow_block_pairs);
+        block_pairs_ = pairs_in_block;
     check_narrow(options.method, options.keep_adjacent);
     const NarrowMethod& method = find_narrow_method(options.method);
     options_.method = method.name;  // refers to static storage
@@ -130,8 +129,7 @@ void NarrowPhase::take_all()
 std::size_t NarrowPhase::group_count(std::size_t candidates) const
 {
     const Device& device = programs_.device();
-    const std::size_t most = device.tuned(narrow_groups_per_unit) *
-                             std::size_t{device.cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()};
+    const std::size_t most = groups_per_unit * device.cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
     return std::clamp<std::size_t>(divided_up(static_cast<uint>(candidates), group_size_), 1, most);
 }
 

@@ -84,7 +84,7 @@ private:
 
     void compile(const Input&) override
     {
-        block_pairs_ = by_groups() ? 0 : device().tuned(bvtt_block_pairs);
+        block_pairs_ = by_groups() ? 0 : node_pairs_in_block;
         queue_count_ = static_cast<uint>(steps().size()) + 1;  // and the output of the last step
         const Define label{"LABEL_BITS", node_bits(tree())};
         const Define one_object{"ONE_OBJECT", object_count() == 1 ? 1u : 0u};

@@ -12,6 +12,12 @@
 
 namespace bvhbench {
 
+/// Entries of a list that a work-item buffers before it writes them out, in the form for few cores.
+inline constexpr uint node_pairs_in_block = 256;
+
+/// Most work-groups per compute unit.
+inline constexpr std::size_t groups_of_pairs_per_unit = 16;
+
 /// Bits of the node in the word that encodes it (queues/nodes.clh); the remaining bits are the object.
 inline uint node_bits(const DeviceTree& tree)
 {
@@ -33,8 +39,8 @@ inline std::string naming_objection(std::string_view collider, const DeviceTree&
 inline std::size_t group_count(const Device& device, std::size_t tasks, uint group_size)
 {
     const std::size_t a_group = std::size_t{group_size} * device.tuned(bvtt_items);
-    const std::size_t most = device.tuned(bvtt_groups_per_unit) *
-                             std::size_t{device.cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>()};
+    const std::size_t most =
+        groups_of_pairs_per_unit * device.cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
     return std::clamp<std::size_t>((tasks + a_group - 1) / a_group, 1, most);
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "geometry/names.h"
 #include "harness/accuracy/axis.h"
 #include "harness/base/failure.h"
 #include "harness/base/json_keys.h"
@@ -37,7 +38,7 @@ constexpr Axis catalog[] = {
 
 std::span<const Axis> accuracy_axes() { return catalog; }
 
-const Axis& find_axis(std::string_view name) { return find_called(accuracy_axes(), name, "axis"); }
+const Axis& find_axis(std::string_view name) { return find_called(catalog, name, "axis"); }
 
 void Axis::measure(const AxisRun& run) const
 {

@@ -34,7 +34,7 @@ struct AxisTask {
 
     bool wants(const std::string& input, std::string_view method) const
     {
-        return !filter || filter->is_in(input + '/' + std::string(method));
+        return passes(filter, input + '/' + std::string(method));
     }
 };
 

@@ -21,25 +21,19 @@ std::string sentence_of(const std::exception& error)
     if (const auto* from_system = dynamic_cast<const std::system_error*>(&error);
         from_system != nullptr && from_system->code() == std::errc::resource_unavailable_try_again)
         return "out of host memory: there is no room for another thread";
-    return error.what();
+    const std::string sentence = error.what();
+    return sentence.empty() ? "failed without a word" : sentence;
 }
 
-std::string reason_of_failure(const std::function<void()>& work)
+std::string reason_of_failure(const std::function<void()>& work, bool* cannot_be)
 {
-    bool ignored = false;
-    return reason_of_failure(ignored, work);
-}
-
-std::string reason_of_failure(bool& cannot_be, const std::function<void()>& work)
-{
-    cannot_be = false;
     try {
         work();
         return {};
     } catch (const std::exception& error) {
-        cannot_be = dynamic_cast<const BadUsage*>(&error) != nullptr;
-        const std::string sentence = sentence_of(error);
-        return sentence.empty() ? "failed without a word" : sentence;
+        if (cannot_be != nullptr)
+            *cannot_be = dynamic_cast<const BadUsage*>(&error) != nullptr;
+        return sentence_of(error);
     }
 }
 

@@ -12,11 +12,8 @@ std::string sentence_of(const std::exception& error);
 
 /// Runs `work`. Returns an empty string on success, else the reason of the failure as one sentence.
 ///
-/// Used for single cells of a run, whose failure is recorded as a result.
-std::string reason_of_failure(const std::function<void()>& work);
-
-/// The same. Also sets `cannot_be`: true if `work` threw BadUsage. In a cell, BadUsage means that the builder does not
-/// support an option for this scene; it does not mean that the command line was wrong.
-std::string reason_of_failure(bool& cannot_be, const std::function<void()>& work);
+/// Used for single cells of a run, whose failure is recorded as a result. On failure, `cannot_be` is set to whether `work` threw
+/// BadUsage: in a cell, that means that the builder does not support an option for this scene, not a wrong command line.
+std::string reason_of_failure(const std::function<void()>& work, bool* cannot_be = nullptr);
 
 }  // namespace bvhbench

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "harness/base/failure.h"
+#include "harness/base/terminal.h"
 
 namespace bvhbench {
 namespace {
@@ -31,17 +32,9 @@ sem_t woken;
 std::atomic<int> received = 0;
 std::atomic<Clock::rep> received_at = 0;
 
-struct Actions {
-    std::mutex mutex;
-    std::vector<const AtSignal*> all;
-};
-
-/// Never destroyed, because the signal thread outlives main.
-Actions& actions()
-{
-    static Actions& only = *new Actions;
-    return only;
-}
+// Never destroyed, because the signal thread outlives main.
+std::mutex& mutex = *new std::mutex;
+std::vector<const AtSignal*>& actions = *new std::vector<const AtSignal*>;
 
 void remember(int signal)
 {
@@ -58,9 +51,9 @@ void remember(int signal)
 /// it blocks until the process has ended.
 [[noreturn]] void end()
 {
-    actions().mutex.lock();
+    mutex.lock();
     std::vector<std::string> clauses;
-    for (const AtSignal* one : actions().all) {
+    for (const AtSignal* one : actions) {
         const std::string failure = reason_of_failure(one->work);
         const std::string& clause = failure.empty() ? one->kept : failure;
         if (!clause.empty() && std::find(clauses.begin(), clauses.end(), clause) == clauses.end())
@@ -70,7 +63,7 @@ void remember(int signal)
     for (const std::string& clause : clauses)
         sentence += "; " + clause;
     if (isatty(STDERR_FILENO) == 1)
-        std::fputs("\r\033[K", stderr);  // clears the progress line
+        std::fputs(clear_line, stderr);
     std::cerr << sentence + '\n' << std::flush;
     _exit(128 + received);
 }
@@ -106,14 +99,14 @@ void end_on_signals()
 AtSignal::AtSignal(std::function<void()> done, std::string said)
     : work(std::move(done)), kept(std::move(said))
 {
-    const std::lock_guard lock(actions().mutex);
-    actions().all.push_back(this);
+    const std::lock_guard lock(mutex);
+    actions.push_back(this);
 }
 
 AtSignal::~AtSignal()
 {
-    const std::lock_guard lock(actions().mutex);
-    std::erase(actions().all, this);
+    const std::lock_guard lock(mutex);
+    std::erase(actions, this);
 }
 
 }  // namespace bvhbench

@@ -11,14 +11,6 @@
 
 namespace bvhbench {
 
-std::string joined(std::span<const std::string_view> words)
-{
-    std::string text;
-    for (const std::string_view word : words)
-        text += (text.empty() ? "" : ", ") + std::string(word);
-    return text;
-}
-
 void refuse_unknown_keys(const Json& json, const std::vector<std::string_view>& known,
                          const std::string& where)
 {
@@ -26,7 +18,7 @@ void refuse_unknown_keys(const Json& json, const std::vector<std::string_view>& 
         throw BadUsage(where + " must be an object");
     for (const auto& [key, value] : json.items())
         if (std::find(known.begin(), known.end(), key) == known.end())
-            throw BadUsage("'" + key + "' is no key of " + where + "; there are: " + joined(known));
+            throw BadUsage("'" + key + "' is no key of " + where + there_are(key, known));
 }
 
 std::string text_at(const Json& json, const char* key)
@@ -47,16 +39,6 @@ bool truth_at(const Json& json, const char* key)
     if (!json.at(key).is_boolean())
         throw BadUsage("'" + std::string(key) + "' is true or false, not " + json[key].dump());
     return json[key].get<bool>();
-}
-
-std::int64_t whole_number(const Json& value, const std::string& what, std::int64_t least,
-                          std::int64_t most)
-{
-    if (!value.is_number_integer() || value.get<std::int64_t>() < least ||
-        value.get<std::int64_t>() > most)
-        throw BadUsage(what + " must be a whole number from " + std::to_string(least) + " to " +
-                       std::to_string(most) + ", not " + value.dump());
-    return value.get<std::int64_t>();
 }
 
 std::string json_reason(const std::exception& error)

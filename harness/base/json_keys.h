@@ -7,50 +7,46 @@
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
-#include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
-#include "geometry/error.h"
+#include "geometry/names.h"
 
 namespace bvhbench {
 
 using Json = nlohmann::ordered_json;
 
-/// Returns the words separated by commas: "a, b, c".
-std::string joined(std::span<const std::string_view> words);
-
-/// Returns the entry of `catalog` called `name`. Throws BadUsage with the known names. `what` names the kind, as "builder".
-template <class Entry>
-const Entry& find_called(std::span<const Entry> catalog, std::string_view name,
-                         const std::string& what)
-{
-    std::vector<std::string_view> known;
-    for (const Entry& entry : catalog) {
-        if (entry.name == name)
-            return entry;
-        known.push_back(entry.name);
-    }
-    throw BadUsage("no " + what + " is called '" + std::string(name) +
-                   "'; there are: " + joined(known));
-}
+/// For lists of numbers: floats are written as the shortest text that reads back as the same bits.
+using FloatJson = nlohmann::basic_json<nlohmann::ordered_map, std::vector, std::string, bool,
+                                       std::int64_t, std::uint64_t, float>;
 
 void refuse_unknown_keys(const Json& json, const std::vector<std::string_view>& known,
                          const std::string& where);
 std::string text_at(const Json& json, const char* key);
 std::string text_in(const Json& json, const char* key);  ///< empty if the key is missing
 bool truth_at(const Json& json, const char* key);
-std::int64_t whole_number(const Json& value, const std::string& what, std::int64_t least,
-                          std::int64_t most);
+
+/// Returns the number. An integral `Number` must be a whole one. `what` names it in the sentence.
+template <class Number>
+Number number_of(const Json& value, const std::string& what, Number least, Number most)
+{
+    const bool is_whole = std::is_integral_v<Number>;
+    if (!(is_whole ? value.is_number_integer() : value.is_number()) ||
+        !(value >= least && value <= most))
+        throw BadUsage(what + " must be a " + (is_whole ? "whole number" : "number") + " from " +
+                       Json(least).dump() + " to " + Json(most).dump() + ", not " + value.dump());
+    return value.get<Number>();
+}
 
 /// Reads the number at `key` into `value` if the key is present.
 template <class Number>
-void read_whole(const Json& json, const char* key, std::int64_t least, std::int64_t most,
-                Number& value)
+void read_number(const Json& json, const char* key, std::type_identity_t<Number> least,
+                 std::type_identity_t<Number> most, Number& value)
 {
     if (json.contains(key))
-        value = static_cast<Number>(whole_number(json[key], key, least, most));
+        value = number_of<Number>(json[key], key, least, most);
 }
 
 /// Returns the JSON library's message without its error number: one printable line, cut after 200 characters.

@@ -18,17 +18,12 @@
 namespace bvhbench {
 namespace {
 
-std::filesystem::path plots()
+std::filesystem::path script_called(const std::string& name)
 {
     const char* variable = std::getenv("BVHBENCH_HOME");
     const std::filesystem::path home =
         variable != nullptr && *variable != '\0' ? variable : build_info.source_root;
-    return home / "plots";
-}
-
-std::filesystem::path script_called(const std::string& name)
-{
-    const std::filesystem::path path = plots() / name;
+    const std::filesystem::path path = home / "plots" / name;
     if (!std::filesystem::exists(path))
         throw Unavailable(path.string() +
                           " is not there (BVHBENCH_HOME names the folder with plots/)");
@@ -41,50 +36,37 @@ std::string python()
     return access("/usr/bin/python3", X_OK) == 0 ? "/usr/bin/python3" : "python3";
 }
 
-/// Runs a command to its end. Returns how it ended, with its standard error in `output`, which is empty if the command could not
-/// be started.
-ProcessEnd run_command(std::vector<std::string> words)
+/// Runs a script of plots/ to its end and prints its errors, except where a missing module explains a failure. Returns why it
+/// failed, as the end of a sentence; empty if it did not.
+std::string failure_of(const std::string& script, std::vector<std::string> words)
 {
+    words.insert(words.begin(), {python(), script_called(script)});
     std::cout.flush();
-    const std::string program = words.front();
-    Child child({.path = program,
-                 .words = std::move(words),
+    Child child({.path = python(),
+                 .words = words,
                  .output = Child::Stream::inherited,
                  .errors = Child::Stream::captured});
     const AtSignal ended([&child] { child.send(SIGKILL); });
     while (child.take()) {
     }
-    return child.wait();
-}
-
-/// Returns the module named by a ModuleNotFoundError in `errors`; empty if there is none.
-std::string missing_module(const std::string& errors)
-{
-    std::string name;
-    RE2::PartialMatch(errors, "(?s).*ModuleNotFoundError: No module named '([^']*)'", &name);
-    return name;
-}
-
-/// Returns the end of a sentence that says why a script failed. Prints the script's errors, except where a missing module
-/// explains the failure.
-std::string how_it_ended(const std::filesystem::path& script, const ProcessEnd& end)
-{
-    if (const std::string module = missing_module(end.output); !module.empty())
+    const ProcessEnd end = child.wait();
+    const bool is_done = end.how == ProcessEnd::How::exited && end.code == 0;
+    std::string module;
+    if (!is_done &&
+        RE2::PartialMatch(end.output, "(?s).*ModuleNotFoundError: No module named '([^']*)'",
+                          &module))
         return python() + " has no module " + module;
     std::cerr << end.output;
-    return python() + ' ' + script.string() +
-           (end.how == ProcessEnd::How::exited ? " ended with " + std::to_string(end.code)
-                                               : " could not be run to its end");
+    if (is_done)
+        return {};
+    return python() + ' ' + words[1] + ' ' + spelled(end, 0);
 }
-
-bool is_done(const ProcessEnd& end) { return end.how == ProcessEnd::How::exited && end.code == 0; }
 
 }  // namespace
 
 void become_python(const std::vector<std::string>& words)
 {
-    std::vector<std::string> all = {python(), plots().string()};
-    script_called("__main__.py");
+    std::vector<std::string> all = {python(), script_called("__main__.py")};
     all.insert(all.end(), words.begin(), words.end());
     std::vector<char*> argv;
     for (std::string& word : all)
@@ -97,36 +79,33 @@ void become_python(const std::vector<std::string>& words)
     throw Unavailable(all.front() + " cannot be run: " + std::strerror(errno));
 }
 
-void print_tables(const std::string& document)
+void print_tables(const std::string& document, const CommonOptions& common)
 {
-    const std::filesystem::path script = script_called("__main__.py");
+    if (common.quiet)
+        return;
     const MemoryFile file(document);
-    const ProcessEnd end = run_command({python(), plots().string(), "show", file.path()});
-    if (!is_done(end))
-        throw Unavailable("no tables were printed, " + how_it_ended(script, end));
-    std::cerr << end.output;
+    const std::string failure = failure_of("__main__.py", {"show", file.path()});
+    if (!failure.empty())
+        throw Unavailable("no tables were printed, " + failure);
 }
 
 std::string draw(const std::string& script, const std::filesystem::path& file,
                  const std::filesystem::path& folder, bool force)
 {
-    const std::string elsewhere =
-        "; where Python and matplotlib are, draw it with: python3 plots/" + script + ' ' +
-        file.string() + " --out " + folder.string();
+    std::vector<std::string> words = {file.string(), "--out", folder.string()};
+    if (force)
+        words.emplace_back("--force");
+    std::string failure;
     try {
-        const std::filesystem::path path = script_called(script);
-        std::vector<std::string> words = {python(), path.string(), file.string(), "--out",
-                                          folder.string()};
-        if (force)
-            words.push_back("--force");
-        const ProcessEnd end = run_command(std::move(words));
-        if (!is_done(end))
-            return "nothing was drawn, " + how_it_ended(path, end) + elsewhere;
-        std::cerr << end.output;
-        return "drawn into " + folder.string();
+        failure = failure_of(script, words);
     } catch (const Unavailable& error) {
-        return std::string("nothing was drawn, ") + error.what() + elsewhere;
+        failure = error.what();
     }
+    if (failure.empty())
+        return "drawn into " + folder.string();
+    return "nothing was drawn, " + failure +
+           "; where Python and matplotlib are, draw it with: python3 plots/" + script + ' ' +
+           file.string() + " --out " + folder.string();
 }
 
 }  // namespace bvhbench

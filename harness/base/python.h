@@ -7,13 +7,15 @@
 #include <string>
 #include <vector>
 
+#include "harness/base/common_options.h"
+
 namespace bvhbench {
 
 /// Replaces this process by the plots/ command `words`. Throws Unavailable on failure and otherwise does not return.
 [[noreturn]] void become_python(const std::vector<std::string>& words);
 
-/// Prints the tables of a result document. Throws Unavailable if Python cannot be run or fails.
-void print_tables(const std::string& document);
+/// Prints the tables of a result document, unless --quiet is given. Throws Unavailable if Python cannot be run or fails.
+void print_tables(const std::string& document, const CommonOptions& common);
 
 /// Runs `script` of plots/ to draw the result file into `folder`. Returns one line that says what was drawn, or why not.
 std::string draw(const std::string& script, const std::filesystem::path& file,

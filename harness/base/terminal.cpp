@@ -6,11 +6,6 @@
 #include <cstdio>
 
 namespace bvhbench {
-namespace {
-
-constexpr const char* clear_line = "\r\033[K";
-
-}  // namespace
 
 std::string printable(std::string_view text)
 {

@@ -31,6 +31,9 @@ private:
     std::streambuf* to_;
 };
 
+/// Clears the progress line.
+constexpr const char* clear_line = "\r\033[K";
+
 /// A progress line on stderr. Prints nothing unless stderr is a terminal.
 class Progress {
 public:

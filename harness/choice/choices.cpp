@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "harness/choice/choices.h"
 
+#include <re2/re2.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <charconv>
 
 #include "builders/box_format.h"
 #include "builders/orders.h"
@@ -21,11 +22,9 @@ constexpr unsigned most_levels = 32, most_group = 1 << 16, most_items = 8, most_
 bool read_number(const std::string& word, unsigned most, unsigned& value)
 {
     unsigned read = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), read);
-    if (error != std::errc() || end != word.data() + word.size() || read > most)
-        return false;
-    value = read;
-    return true;
+    const bool is_allowed = RE2::FullMatch(word, "(\\d+)", &read) && read <= most;
+    value = is_allowed ? read : value;
+    return is_allowed;
 }
 
 constexpr auto builder = &CellChoice::builder;
@@ -119,7 +118,7 @@ constexpr Choice table[] = {
      "a rule of `list skips` that is not used, or all: work is done that need not be",
      [](CellChoice& choice, const std::string& word) {
          choice.collider.rules_off =
-             word == "none" ? 0 : choice.collider.rules_off | skip_rules_called({&word, 1});
+             word == "none" ? 0 : choice.collider.rules_off | skip_rules_called(word);
          return true;
      },
      [](const CellChoice& choice) { return Json(skip_rules_text(choice.collider.rules_off)); }},
@@ -158,24 +157,10 @@ constexpr Choice table[] = {
      set_word<scene, &SceneChoice::swept, truths>, value_of<scene, &SceneChoice::swept>},
 };
 
-/// Returns a JSON value as it would be written on the command line.
-std::string as_word(const Json& value)
-{
-    return value.is_string() ? value.get<std::string>() : value.dump();
-}
-
 [[noreturn]] void refuse(const Choice& option, const std::string& word)
 {
     throw BadUsage("'" + std::string(option.key) + "' takes " + std::string(option.values) +
                    ", not '" + word + "'");
-}
-
-/// Returns the command-line option for a key: "--start-level" for "start_level".
-std::string option_of(const Choice& choice)
-{
-    std::string option = "--" + std::string(choice.key);
-    std::replace(option.begin(), option.end(), '_', '-');
-    return option;
 }
 
 }  // namespace
@@ -199,8 +184,10 @@ void check_powers(const CellChoice& choice)
 void read_choices(const Json& json, Choice::Of of, CellChoice& choice)
 {
     for (const Choice& option : table)
-        if (option.of == of && json.contains(option.key))
-            choose(option, choice, as_word(json[std::string(option.key)]));
+        if (option.of == of && json.contains(option.key)) {
+            const Json& value = json[std::string(option.key)];
+            choose(option, choice, value.is_string() ? value.get<std::string>() : value.dump());
+        }
 }
 
 std::vector<std::string_view> choice_keys(Choice::Of of,
@@ -229,7 +216,8 @@ void add_choices(CLI::App& command, CellChoice& choice,
         if (!wanted(option))
             continue;
         const Json usual = option.get(choice);
-        const std::string name = option_of(option);
+        std::string name = "--" + std::string(option.key);
+        std::ranges::replace(name, '_', '-');
         if (usual.is_boolean()) {
             command.add_flag_callback(
                 name, [&] { choose(option, choice, "true"); }, std::string(option.help));

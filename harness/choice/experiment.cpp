@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "harness/choice/experiment.h"
 
-#include <algorithm>
-#include <cctype>
+#include <re2/re2.h>
 
-#include "geometry/error.h"
+#include <algorithm>
+
+#include "geometry/names.h"
 #include "harness/base/json_keys.h"
 #include "harness/choice/experiment_lists.h"
 
@@ -33,31 +34,21 @@ void read_size(const Json& json, Experiment& experiment)
         read_list(json, "builders",
                   [&](const Json& item) { experiment.builders.push_back(builder_choice(item)); });
     }
-    read_whole(json, "samples", 1, most_samples, experiment.samples);
-    read_whole(json, "warm_up", 0, most_samples, experiment.warm_up);
-}
-
-void read_real(const Json& json, const char* key, double most, double& value)
-{
-    if (!json.contains(key))
-        return;
-    if (!json[key].is_number() || !(json[key] >= 0.0 && json[key] <= most))
-        throw BadUsage("'" + std::string(key) + "' must be a number from 0.0 to " +
-                       Json(most).dump() + ", not " + json[key].dump());
-    value = json[key].get<double>();
+    read_number(json, "samples", 1, most_samples, experiment.samples);
+    read_number(json, "warm_up", 0, most_samples, experiment.warm_up);
 }
 
 SamplingRules sampling_of(const Json& json)
 {
     SamplingRules rules;
-    read_real(json, "until", 1, rules.until);
+    read_number(json, "until", 0, 1, rules.until);
     for (const char* key : {"min_samples", "max_samples", "time_budget_s"})
         if (json.contains(key) && rules.until == 0)
             throw BadUsage("'" + std::string(key) +
                            "' bounds what 'until' begins, which is not there");
-    read_whole(json, "min_samples", 2, most_samples, rules.min_samples);
-    read_whole(json, "max_samples", 2, most_samples, rules.max_samples);
-    read_real(json, "time_budget_s", 1e6, rules.time_budget_s);
+    read_number(json, "min_samples", 2, most_samples, rules.min_samples);
+    read_number(json, "max_samples", 2, most_samples, rules.max_samples);
+    read_number(json, "time_budget_s", 0, 1e6, rules.time_budget_s);
     if (json.contains("caches")) {
         const std::string caches = text_at(json, "caches");
         if (caches != "hot" && caches != "cold")
@@ -68,18 +59,16 @@ SamplingRules sampling_of(const Json& json)
     return rules;
 }
 
-Start start_of(const Json& stages)
+Start start_of(const Json& json)
 {
     constexpr std::string_view known[] = {"bounds", "codes",  "sort",
                                           "order",  "gather", "hierarchy"};
-    if (!stages.is_array() || stages.empty())
-        throw BadUsage("'stages' must be a list of at least one");
-    for (const Json& stage : stages)
-        if (!stage.is_string() || std::find(std::begin(known), std::end(known),
-                                            stage.get<std::string>()) == std::end(known))
-            throw BadUsage(stage.dump() + " is no stage; there are: " + joined(known));
-    const bool only_hierarchy = stages.size() == 1 && stages[0] == "hierarchy";
-    return only_hierarchy ? Start::from_sorted_leaves : Start::from_triangles;
+    read_list(json, "stages", [&](const Json& stage) {
+        const std::string name = stage.is_string() ? stage.get<std::string>() : "";
+        if (std::ranges::count(known, name) == 0)
+            throw BadUsage(stage.dump() + " is no stage" + there_are(name, known));
+    });
+    return json["stages"] == Json{"hierarchy"} ? Start::from_sorted_leaves : Start::from_triangles;
 }
 
 std::vector<Operation> operations_of(const Json& json)
@@ -107,7 +96,9 @@ Experiment experiment_of(const Json& json, bool quick)
             throw BadUsage("an experiment must have the key '" + std::string(key) + "'");
     Experiment experiment;
     experiment.name = text_at(json, "experiment");
-    check_experiment_name(experiment.name, "experiment");
+    if (!RE2::FullMatch(experiment.name, "[A-Za-z0-9_-]+"))  // it is part of file names
+        throw BadUsage("'experiment' must be letters, digits, - and _, not '" + experiment.name +
+                       "'");
     experiment.question = text_in(json, "question");
     experiment.paper = text_in(json, "paper");
     if (json.contains("doubles"))
@@ -121,7 +112,7 @@ Experiment experiment_of(const Json& json, bool quick)
         return experiment;
     read_size(json, experiment);
     if (json.contains("stages"))
-        experiment.start = start_of(json["stages"]);
+        experiment.start = start_of(json);
     if (json.contains("operations"))
         experiment.operations = operations_of(json["operations"]);
     if (json.contains("quality"))
@@ -141,15 +132,6 @@ Experiment experiment_of(const Json& json, bool quick)
 
 std::span<const std::string_view> experiment_names() { return names; }
 
-void check_experiment_name(const std::string& name, const std::string& key)
-{
-    const auto is_plain = [](unsigned char c) {
-        return std::isalnum(c) != 0 || c == '-' || c == '_';
-    };
-    if (name.empty() || !std::all_of(name.begin(), name.end(), is_plain))
-        throw BadUsage('\'' + key + "' must be letters, digits, - and _, not '" + name + "'");
-}
-
 Experiment parse_experiment(std::string_view text, const std::string& origin, bool quick)
 {
     try {
@@ -166,8 +148,8 @@ Experiment find_experiment(const std::string& name_or_path, bool quick)
     if (const auto text = embedded_experiment("harness/experiments/" + name_or_path + ".json"))
         return parse_experiment(*text, name_or_path, quick);
     if (!name_or_path.ends_with(".json"))
-        throw BadUsage("no experiment is called '" + name_or_path +
-                       "'; there are: " + joined(names) + ", or the path of a .json file");
+        throw BadUsage("no experiment is called '" + name_or_path + '\'' +
+                       there_are(name_or_path, names, "or the path of a .json file"));
     return parse_experiment(file_text(name_or_path, "the experiment file"), name_or_path, quick);
 }
 

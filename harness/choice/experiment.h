@@ -14,33 +14,8 @@
 
 namespace bvhbench {
 
-/// An experiment: measures every builder on every scene. Experiments are JSON files, so that a new one needs no code:
-///
-///     {"experiment": "table1", "question": "...", "paper": "Table 1",
-///      "scenes": ["bunny", {"scene": "soup:{t}", "t": {"from": 1, "to": 600}}],
-///      "builders": ["perfect", {"name": "oibvh-multi", "group_size": 256}],
-///      "stages": ["hierarchy"], "samples": 30, "warm_up": 3, "quality": true, "quick": {"samples": 5}}
-///
-/// If this binary lacks a builder, the builder's cells are skipped.
-/// `"operations": ["build", "refit"]` makes two cells for each builder, both for the scene's second frame: one builds the tree
-/// for that frame, the other builds it for the first frame and refits it to the second. The default is to build for the first.
-/// An experiment of whole frames has `pipelines` instead of builders, and its scenes may have options (CollideTask):
-///
-///     {"experiment": "table2", "scenes": [{"scene": "unc_nbody", "frames": "0:", "pairs_of": "between"}],
-///      "pipelines": [{"builder": "oibvh-multi", "collider": {"name": "bvtt", "jump": 2}, "adjacent": "drop",
-///                     "narrow": "exact"}, ...]}
-///
-/// An experiment with both lists makes both kinds of cells for the same scenes, which must then be strings.
-///
-/// `"doubles": "as-is"` or `"recentred"` sets how coordinates that floats cannot hold are rounded (scenes/doubles.h), and
-/// overrides the command line.
-///
-/// `"until": 0.02` samples each cell until its interquartile range is 2 % of the median, instead of a fixed number of times,
-/// within `min_samples`, `max_samples` and `time_budget_s`. `"caches": "cold"` empties the caches before each sample.
-///
-/// With --quick, the object `quick` replaces `scenes`, `builders`, `pipelines`, `samples` or `warm_up`. In a scene with sizes,
-/// the key in braces has a list of numbers or an object of `from` and `to` (every number between), `powers_of_two_from` and
-/// `powers_of_two_to`, and `around_powers_of_two_to` (p - 1, p and p + 1 for each power of two p up to it).
+/// An experiment: measures every builder on every scene, and every pipeline on every scene. Experiments are JSON files, so that
+/// a new one needs no code. docs/adding.md describes their keys.
 struct Experiment {
     std::string name;
     std::string question;
@@ -76,9 +51,6 @@ Experiment parse_experiment(std::string_view text, const std::string& origin, bo
 /// Returns the embedded experiment of that name, or reads the file if `name_or_path` ends in .json. Throws BadUsage with the
 /// known names, or Unavailable if the file cannot be read.
 Experiment find_experiment(const std::string& name_or_path, bool quick);
-
-/// Throws BadUsage, naming `key`, unless `name` can be part of a file name: letters, digits, - and _ only.
-void check_experiment_name(const std::string& name, const std::string& key);
 
 /// Returns the names of the embedded experiments, in the order of `list experiments`.
 std::span<const std::string_view> experiment_names();

@@ -17,18 +17,18 @@ std::set<std::int64_t> sizes_of(const Json& json, const std::string& key)
     std::set<std::int64_t> sizes;
     if (json.is_array()) {
         for (const Json& size : json)
-            sizes.insert(whole_number(size, key, 1, most_triangles));
+            sizes.insert(number_of<std::int64_t>(size, key, 1, most_triangles));
         return sizes;
     }
     refuse_unknown_keys(
         json, {"from", "to", "powers_of_two_from", "powers_of_two_to", "around_powers_of_two_to"},
         "the sizes '" + key + "'");
     std::int64_t from = 1, to = 0, first_power = 1, last_power = 0, around = 0;
-    read_whole(json, "from", 1, most_sizes, from);
-    read_whole(json, "to", 1, most_sizes, to);
-    read_whole(json, "powers_of_two_from", 1, most_triangles, first_power);
-    read_whole(json, "powers_of_two_to", 1, most_triangles, last_power);
-    read_whole(json, "around_powers_of_two_to", 1, most_triangles / 2, around);
+    read_number(json, "from", 1, most_sizes, from);
+    read_number(json, "to", 1, most_sizes, to);
+    read_number(json, "powers_of_two_from", 1, most_triangles, first_power);
+    read_number(json, "powers_of_two_to", 1, most_triangles, last_power);
+    read_number(json, "around_powers_of_two_to", 1, most_triangles / 2, around);
     for (std::int64_t size = from; size <= to; ++size)
         sizes.insert(size);
     for (std::int64_t power = 1; power <= std::max(last_power, around); power *= 2) {
@@ -50,20 +50,23 @@ void read_each(const Json& json, const char* key, const std::function<void(const
         add(json[key]);
 }
 
-/// Returns the string itself, or the object's `name`.
-std::string name_of(const Json& json)
+/// Reads a name, or an object of `name` and the options of `of`. `what` is "a builder" or "a collider".
+void read_named(const Json& json, Choice::Of of, const std::string& what, CellChoice& choice,
+                std::string& name)
 {
-    return json.is_string() ? json.get<std::string>() : text_at(json, "name");
+    if (json.is_string()) {
+        name = json.get<std::string>();
+        return;
+    }
+    refuse_unknown_keys(json, choice_keys(of, {"name"}), what);
+    read_choices(json, of, choice);
+    name = text_at(json, "name");
 }
 
 PipelineChoice pipeline_of(const Json& json, const BuilderChoice& builder, const Json& collider)
 {
     CellChoice choice{.builder = builder};
-    if (!collider.is_string()) {
-        refuse_unknown_keys(collider, choice_keys(Choice::Of::collider, {"name"}), "a collider");
-        read_choices(collider, Choice::Of::collider, choice);
-    }
-    choice.collider.name = name_of(collider);
+    read_named(collider, Choice::Of::collider, "a collider", choice, choice.collider.name);
     read_choices(json, Choice::Of::query, choice);
     check_choice(choice);
     return {choice.builder, choice.collider};
@@ -137,11 +140,7 @@ std::vector<std::string> scene_names(const Json& json)
 BuilderChoice builder_choice(const Json& json)
 {
     CellChoice choice;
-    if (!json.is_string()) {
-        refuse_unknown_keys(json, choice_keys(Choice::Of::builder, {"name"}), "a builder");
-        read_choices(json, Choice::Of::builder, choice);
-    }
-    choice.builder.name = name_of(json);
+    read_named(json, Choice::Of::builder, "a builder", choice, choice.builder.name);
     find_builder(choice.builder.name);
     check_choice(choice);
     return choice.builder;
@@ -165,8 +164,8 @@ std::vector<CollideTask> collisions_of(const Json& json, const std::string& expe
     read_list(of("scenes"), "scenes", [&](const Json& item) {
         CollideTask task = task_of(item, pipelines);
         task.experiment = experiment;
-        read_whole(of("samples"), "samples", 1, most_samples, task.samples);
-        read_whole(of("warm_up"), "warm_up", 0, most_samples, task.warm_up);
+        read_number(of("samples"), "samples", 1, most_samples, task.samples);
+        read_number(of("warm_up"), "warm_up", 0, most_samples, task.warm_up);
         tasks.push_back(std::move(task));
     });
     return tasks;

@@ -1,18 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "harness/choice/sampling.h"
 
-#include <array>
-
 #include "geometry/error.h"
 
 namespace bvhbench {
-
-std::string_view stopped_name(Stopped stopped)
-{
-    constexpr std::array<std::string_view, 7> names = {"not_sampled", "number", "steady", "noisy",
-                                                       "most",        "budget", "failure"};
-    return names[static_cast<std::size_t>(stopped)];
-}
 
 void SamplingWords::apply(SamplingRules& rules) const
 {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <string_view>
 
 namespace bvhbench {
@@ -42,7 +41,12 @@ enum class Stopped {
 };
 
 /// Returns the reason's name in result files: "number".
-std::string_view stopped_name(Stopped stopped);
+constexpr std::string_view stopped_name(Stopped stopped)
+{
+    constexpr std::string_view names[] = {"not_sampled", "number", "steady", "noisy",
+                                          "most",        "budget", "failure"};
+    return names[static_cast<std::size_t>(stopped)];
+}
 
 /// Sampling options given on the command line. Options that are not set leave the rules unchanged.
 struct SamplingWords {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "harness/choice/scene_choice.h"
 
-#include <algorithm>
+#include <re2/re2.h>
 
 #include "builders/orders.h"
 #include "geometry/error.h"
@@ -10,19 +10,14 @@ namespace bvhbench {
 
 FrameRange frame_range(const std::string& text)
 {
-    const std::size_t colon = std::min(text.find(':'), text.size());
-    const auto number = [&](const std::string& digits) -> std::size_t {
-        if (digits.empty() || digits.size() > 9 ||
-            digits.find_first_not_of("0123456789") != digits.npos)
-            throw BadUsage("frames are given as a:b, from a to before b, not as '" + text + "'");
-        return std::stoul(digits);
-    };
-    const std::size_t first = number(text.substr(0, colon));
-    if (colon == text.size())
-        return {first, first + 1};
-    const std::string end = text.substr(colon + 1);
-    const FrameRange range{first, end.empty() ? 0 : number(end)};
-    if (!end.empty() && range.end <= first)
+    FrameRange range;
+    std::string end;
+    if (!RE2::FullMatch(text, "(\\d{1,9})((?::\\d{0,9})?)", &range.first, &end))
+        throw BadUsage("frames are given as a:b, from a to before b, not as '" + text + "'");
+    if (end.empty())
+        return {range.first, range.first + 1};
+    range.end = 0;
+    if (RE2::FullMatch(end, ":(\\d+)", &range.end) && range.end <= range.first)
         throw BadUsage("frames " + text + " are none");
     return range;
 }

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "harness/choice/catalog.h"
-#include "harness/choice/collider_catalog.h"
 #include "harness/choice/sampling.h"
 #include "scenes/face_order.h"
 

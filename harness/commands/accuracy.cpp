@@ -36,8 +36,8 @@ public:
 
     int run(const Invocation& invocation) override
     {
-        if (!axis_.empty())
-            find_axis(axis_);
+        const std::span<const Axis> axes =
+            axis_.empty() ? accuracy_axes() : std::span(&find_axis(axis_), 1);
         task_.filter = cell_filter(filter_);
         const std::filesystem::path folder = out_;
         const std::filesystem::path file =
@@ -49,11 +49,9 @@ public:
             result_rules(common.force, files_of(task_.scenes, session.scenes()));
         check_pictures(folder, "--out", rules);
         ResultFile results(Output(file, "--out", rules), measured_facts(session, invocation.words));
-        Progress progress(axis_.empty() ? accuracy_axes().size() : 1);
+        Progress progress(axes.size());
         int order = 0;
-        for (const Axis& axis : accuracy_axes()) {
-            if (!axis_.empty() && axis.name != axis_)
-                continue;
+        for (const Axis& axis : axes) {
             progress.step("accuracy, " + std::string(axis.name));
             axis.measure(
                 {session, task_, order, progress, [&](Cell&& cell) { results.add(cell); }});
@@ -61,8 +59,7 @@ public:
         if (results.size() == 0)
             throw BadUsage("--filter: no cell matches '" + filter_ + "'");
         results.finish(session.programs().compile_ns());
-        if (!common.quiet)
-            print_tables(results.text());
+        print_tables(results.text(), common);
         std::cout << results.written();
         const int code = results.exit_code();
         std::cout << draw("accuracy.py", file, folder, common.force) << '\n';

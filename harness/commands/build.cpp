@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <array>
-
-#include "harness/base/number_text.h"
 #include "harness/base/python.h"
 #include "harness/choice/choices.h"
 #include "harness/commands/command.h"
@@ -18,17 +15,13 @@ namespace {
 std::string dump_text(const HostTree& tree)
 {
     std::string text = "{\"nodes\":[";
-    for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
-        const auto& [box, child, primitive] = tree.nodes[i];
-        text += i == 0 ? "\n{\"box\":{\"min\":" : ",\n{\"box\":{\"min\":";
-        append_list(text, std::array{box.min_x, box.min_y, box.min_z});
-        text += ",\"max\":";
-        append_list(text, std::array{box.max_x, box.max_y, box.max_z});
-        text += "},\"child\":";
-        append_list(text, child);
-        text += ",\"primitive\":";
-        append_number(text, primitive);
-        text += '}';
+    for (const auto& [box, child, primitive] : tree.nodes) {
+        const FloatJson node = {{"box",
+                                 {{"min", {box.min_x, box.min_y, box.min_z}},
+                                  {"max", {box.max_x, box.max_y, box.max_z}}}},
+                                {"child", child},
+                                {"primitive", primitive}};
+        text += (text.back() == '[' ? "\n" : ",\n") + node.dump();
     }
     return text + "\n]}\n";
 }
@@ -41,10 +34,7 @@ public:
         app.add_option("--scene", scene_, "a scene, data set or mesh file")->required();
         add_choices(app, choice_,
                     [](const Choice& option) { return option.of == Choice::Of::builder; });
-        app.add_option("--samples", samples_, "timed builds")
-            ->capture_default_str()
-            ->check(CLI::Range(1, most_samples));
-        add_sampling(app, sampling_);
+        add_sampling(app, samples_, "timed builds", sampling_);
         add_quality(app, quality_, costs_);
         app.add_option("--json", json_, "write the result file");
         app.add_option("--dump", dump_, "write the tree, spelled out, as JSON");
@@ -64,8 +54,7 @@ public:
         run.experiment(experiment());
         run.finish();
         const int code = run.results().exit_code();
-        if (!common.quiet)
-            print_tables(run.results().text());
+        print_tables(run.results().text(), common);
         if (!dumped.is_nowhere())
             dump(session, dumped);
         return code;
@@ -79,10 +68,10 @@ private:
         experiment.scenes = {scene_};
         experiment.builders = {choice_.builder};
         experiment.samples = samples_;
-        sampling_.apply(experiment.sampling);
         experiment.quality = quality_;
         experiment.may_stand_in = false;  // the user named this mesh, so no other is used
         experiment.needs_scene = true;
+        sampling_.apply(experiment.sampling);
         return experiment;
     }
 

@@ -19,24 +19,29 @@ using enum Table::Align;
 
 std::vector<BuilderChoice> chosen_builders(const std::string& name)
 {
-    if (!name.empty())
-        find_builder(name);
+    if (!name.empty() && find_builder(name).make == nullptr)
+        throw Unavailable(std::string(find_builder(name).absent));
     std::vector<BuilderChoice> builders;
     for (const BuilderEntry& entry : builder_catalog())
-        if ((name.empty() || name == entry.name) && entry.make != nullptr) {
-            builders.emplace_back();
-            builders.back().name = entry.name;
-        }
-    if (builders.empty())
-        throw Unavailable(std::string(find_builder(name).absent));
+        if ((name.empty() || name == entry.name) && entry.make != nullptr)
+            builders.push_back({.name = std::string(entry.name)});
     return builders;
 }
 
-/// Results of one builder over several inputs.
+/// Results of one builder over several inputs, or of all builders.
 struct Tally {
     std::size_t checked = 0, broken = 0, refused = 0;
     std::string first;    ///< first broken invariant
     std::string refusal;  ///< reason of the first refusal
+
+    void add(const Tally& other)
+    {
+        checked += other.checked;
+        broken += other.broken;
+        refused += other.refused;
+        first = first.empty() ? other.first : first;
+        refusal = refusal.empty() ? other.refusal : refusal;
+    }
 
     std::string verdict() const
     {
@@ -49,43 +54,28 @@ struct Tally {
 class Checker {
 public:
     Checker(Session& session, std::vector<BuilderChoice> builders)
-        : session_(session), builders_(std::move(builders))
+        : session_(session), builders_(std::move(builders)), tallies_(builders_.size())
     {}
 
-    /// Checks every builder's invariants over one mesh and adds the results to `tallies`, in the order of the builders.
-    void over(std::span<const Point> points, std::span<const Face> faces,
-              std::vector<Tally>& tallies)
+    /// Checks every builder's invariants over one mesh of the current input.
+    void over(std::span<const Point> points, std::span<const Face> faces)
     {
         const Input input = upload(session_.device(), session_.queue(), points, faces);
         Oracle oracle(session_, input);
-        for (std::size_t i = 0; i < builders_.size(); ++i) {
-            Tally& tally = tallies[i];
-            const auto [wrong, refusal] = wrong_or_refused(builders_[i], input, oracle);
-            ++tally.checked;
-            tally.broken += wrong.empty() ? 0 : 1;
-            tally.refused += refusal.empty() ? 0 : 1;
-            if (tally.first.empty() && !wrong.empty())
-                tally.first = std::to_string(faces.size()) + " triangles: " + wrong;
-            if (tally.refusal.empty())
-                tally.refusal = refusal;
-        }
+        for (std::size_t i = 0; i < builders_.size(); ++i)
+            tallies_[i].add(checked(builders_[i], input, oracle));
     }
 
-    void report(const std::string& input, const std::vector<Tally>& tallies)
+    /// Adds the rows of the current input to the table. What is checked next is of another input.
+    void report(const std::string& input)
     {
         for (std::size_t i = 0; i < builders_.size(); ++i) {
-            const Tally& tally = tallies[i];
+            const Tally tally = std::exchange(tallies_[i], {});
             table_.row({builders_[i].name, input, std::to_string(tally.checked), tally.verdict(),
                         tally.broken == 0 ? tally.refusal : tally.first});
-            all_.broken += tally.broken;
-            all_.checked += tally.checked;
-            all_.refused += tally.refused;
-            if (all_.refusal.empty())
-                all_.refusal = tally.refusal;
+            all_.add(tally);
         }
     }
-
-    std::vector<Tally> none() const { return std::vector<Tally>(builders_.size()); }
 
     int verdict() const
     {
@@ -99,29 +89,32 @@ public:
     }
 
 private:
-    /// Returns the broken invariant or the failure, and the reason of a refusal; each is empty if there is none.
-    std::pair<std::string, std::string> wrong_or_refused(const BuilderChoice& builder,
-                                                         const Input& input, Oracle& oracle)
+    /// Checks one builder once. A failure counts as a broken invariant.
+    Tally checked(const BuilderChoice& builder, const Input& input, Oracle& oracle)
     {
         std::string wrong, refusal;
-        const std::string failure = reason_of_failure([&] {
-            try {
-                bool refused = false;
-                wrong = broken_contract(session_, builder, input, oracle, &refused);
-                refusal = refused ? find_builder(builder.name).may_refuse : "";
-            } catch (const BadUsage& error) {
-                refusal = error.what();
-            } catch (const Unavailable& error) {
-                refusal = error.what();
-            }
-        });
-        if (!failure.empty() || !refusal.empty())
+        try {
+            bool refused = false;
+            wrong = broken_contract(session_, builder, input, oracle, &refused);
+            if (refused)
+                refusal = find_builder(builder.name).may_refuse;
+        } catch (const BadUsage& error) {
+            refusal = error.what();
+        } catch (const Unavailable& error) {
+            refusal = error.what();
+        } catch (const std::exception& error) {
+            wrong = sentence_of(error);
+        }
+        if (!wrong.empty() || !refusal.empty())
             session_.renew_queue();
-        return {failure.empty() ? wrong : failure, refusal};
+        if (!wrong.empty())
+            wrong = std::to_string(input.triangle_count()) + " triangles: " + wrong;
+        return {1, wrong.empty() ? 0u : 1u, refusal.empty() ? 0u : 1u, wrong, refusal};
     }
 
     Session& session_;
     std::vector<BuilderChoice> builders_;
+    std::vector<Tally> tallies_;  ///< of each builder over the current input
     Table table_{{{"builder", left}, {"input", left}, {"checks"}, {"promises", left}, {"", left}}};
     Tally all_;
 };
@@ -130,13 +123,12 @@ void check_hard_inputs(Checker& checker)
 {
     Progress progress(hard_inputs().size() * telling_sizes().size());
     for (const HardInput& input : hard_inputs()) {
-        std::vector<Tally> tallies = checker.none();
         for (const std::size_t size : telling_sizes()) {
             progress.step(std::string(input.name) + ", " + std::to_string(size) + " triangles");
             const Mesh mesh = input.make(size);
-            checker.over(mesh.points, mesh.faces, tallies);
+            checker.over(mesh.points, mesh.faces);
         }
-        checker.report(std::string(input.name), tallies);
+        checker.report(std::string(input.name));
     }
 }
 
@@ -166,10 +158,9 @@ public:
             check_hard_inputs(checker);
         } else {
             const Scene scene = in_file_order(load_scene(scene_, session.scenes()));
-            std::vector<Tally> tallies = checker.none();
             for (const std::vector<Point>& points : scene.frames)
-                checker.over(points, scene.faces, tallies);
-            checker.report(scene.name, tallies);
+                checker.over(points, scene.faces);
+            checker.report(scene.name);
         }
         return checker.verdict();
     }

@@ -33,10 +33,7 @@ public:
         adjacent_ = app.get_option("--adjacent");
         app.add_flag("--skips", skips_,
                      "measure each rule switched off as well, and what it saves");
-        app.add_option("--samples", samples_, "timed builds and queries")
-            ->capture_default_str()
-            ->check(CLI::Range(1, most_samples));
-        add_sampling(app, sampling_);
+        add_sampling(app, samples_, "timed builds and queries", sampling_);
         app.add_option("--json", json_, "write the result file");
         app.add_option("--pairs", pairs_,
                        "write the pairs of every frame: .csv, or of one frame .bin of 32-bit ids");
@@ -58,8 +55,7 @@ public:
         watchdog::go_on_with(results.run_id());
         collide(session, task, results, pairs_file, contacts_file);
         results.finish(session.programs().compile_ns());
-        if (!common.quiet)
-            print_tables(results.text());
+        print_tables(results.text(), common);
         const int code = results.exit_code();
         pairs_file.finish();
         contacts_file.finish();

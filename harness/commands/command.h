@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A command: its options, its help, and its work. Each command is a file in this folder and a line in commands.cpp.
+// A command: its options, its help, and its work. Each command is a file in this folder and a line in commands.cpp. The program
+// parses a command line and runs its command.
 #pragma once
 
 #include <memory>
@@ -28,16 +29,15 @@ public:
     virtual ~Command() = default;
 
     /// Adds the command's options to `app`. Parsing sets members of this object.
-    virtual void add_options(CLI::App& app) = 0;
+    virtual void add_options(CLI::App&) {}
 
     /// Runs the command. Returns the exit code: 0 for success, 1 if a check differs. Throws on errors.
     virtual int run(const Invocation& invocation) = 0;
 };
 
-/// An example of a command line, with what it does.
-struct HelpExample {
-    std::string_view line;  ///< for a shell; words contain no quotes or blanks
-    std::string_view what;
+/// A name in the help, or an example of a command line for a shell, whose words contain no quotes or blanks; and what it does.
+struct HelpLine {
+    std::string_view name, what;
 };
 
 /// A command as shown by `bvhbench --help`.
@@ -46,7 +46,7 @@ struct CommandEntry {
     std::string_view group = {};  ///< heading in the list; empty: internal, not listed
     std::string_view summary;     ///< one line
     std::string_view more = {};   ///< more sentences for its own help
-    std::vector<HelpExample> examples = {};
+    std::vector<HelpLine> examples = {};
     std::string_view see = {};  ///< document with more information
     /// nullptr for a command in Python, plots/commands/.
     std::unique_ptr<Command> (*make)() = nullptr;
@@ -62,6 +62,14 @@ std::span<const CommandEntry> commands();
 
 /// Sets the `--help` texts of the program and of each command from commands(), with wrapped lines.
 void add_help(CLI::App& app);
+
+/// Parses `argv`, runs the command and returns the exit code: 0 success, 1 a check differs, 2 wrong usage, 3 no device, file,
+/// library or memory, 4 nothing was measured. Prints errors as one sentence on standard error. May be called repeatedly; a
+/// command in Python replaces the process.
+int run_program(int argc, const char* const* argv);
+
+/// Parses `argv` without running anything. Throws BadUsage with one sentence if it is invalid.
+void check_words(int argc, const char* const* argv);
 
 template <class Of>
 std::unique_ptr<Command> make_command()

@@ -21,11 +21,7 @@ constexpr std::string_view exit_codes =
     "  4  nothing was measured: every cell was skipped or failed, and says why\n"
     "  128 + n  stopped by signal n; what was finished is in the result file\n";
 
-struct Named {
-    std::string_view name, what;
-};
-
-constexpr Named environment[] = {
+constexpr HelpLine environment[] = {
     {"BVHBENCH_DATA", "the folder of data sets, where --data names none"},
     {"BVHBENCH_DEVICE", "the device, where --device names none"},
     {"BVHBENCH_TUNING", "a folder of tuned values, where --tuning names none"},
@@ -36,7 +32,7 @@ constexpr Named environment[] = {
     {"POCL_CACHE_DIR", "where PoCL keeps compiled kernels, in place of ~/.cache/bvhbench/pocl"},
 };
 
-constexpr Named files[] = {
+constexpr HelpLine files[] = {
     {"*.json", "results: every raw sample, with machine, commit and verdicts; docs/results.md"},
     {"results/baseline/", "what `smoke` holds this version to"},
     {"results/tuning/", "tuned values of known devices, also in the program"},
@@ -74,11 +70,10 @@ std::string entry(const std::string& name, std::string_view what)
     return out + wrapped(what, column, column) + '\n';
 }
 
-template <class List>
-std::string section(std::string_view title, const List& list)
+std::string section(std::string_view title, std::span<const HelpLine> list)
 {
     std::string out = '\n' + std::string(title) + ":\n";
-    for (const Named& each : list)
+    for (const HelpLine& each : list)
         out += entry(std::string(each.name), each.what);
     return out;
 }
@@ -121,11 +116,11 @@ public:
     }
 };
 
-std::string examples_text(std::span<const HelpExample> examples)
+std::string examples_text(std::span<const HelpLine> examples)
 {
     std::string out = "Examples:\n";
-    for (const HelpExample& example : examples)
-        out += std::string(indent, ' ') + std::string(example.line) + '\n' +
+    for (const HelpLine& example : examples)
+        out += std::string(indent, ' ') + std::string(example.name) + '\n' +
                std::string(3 * indent, ' ') + wrapped(example.what, 3 * indent, 3 * indent) + '\n';
     return out;
 }
@@ -139,7 +134,7 @@ std::string footer_of(const CommandEntry& help)
 
 std::string footer_of_program()
 {
-    static constexpr HelpExample examples[] = {
+    static constexpr HelpLine examples[] = {
         {"bvhbench smoke", "does everything run here?"},
         {"bvhbench reproduce table1 --quick", "a table of the paper"},
         {"bvhbench build --builder oibvh-multi --scene torus:100000", "one tree, stage by stage"},

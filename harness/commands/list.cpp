@@ -6,7 +6,7 @@
 #include "builders/orders.h"
 #include "collide/narrow/narrow_methods.h"
 #include "collide/skips.h"
-#include "geometry/error.h"
+#include "geometry/names.h"
 #include "harness/accuracy/axis.h"
 #include "harness/base/table.h"
 #include "harness/choice/experiment.h"
@@ -108,8 +108,12 @@ std::string devices(const CommonOptions&)
     return table.text();
 }
 
-/// Names of the lists, and functions that return their texts.
-constexpr std::pair<std::string_view, std::string (*)(const CommonOptions&)> lists[] = {
+struct ListEntry {
+    std::string_view name;
+    std::string (*text)(const CommonOptions&);
+};
+
+constexpr ListEntry lists[] = {
     {"builders",
      [](const CommonOptions&) { return lines(builder_catalog(), name, summary_or_why_not); }},
     {"colliders",
@@ -134,26 +138,21 @@ class List final : public Command {
 public:
     void add_options(CLI::App& app) override
     {
-        std::vector<std::string_view> names;
-        for (const auto& [key, text] : lists)
-            names.emplace_back(key);
-        app.add_option("WHAT", what_,
-                       "builders, colliders, narrow, orders, formats, skips, tuning, scenes, "
-                       "devices, accuracy or experiments")
-            ->required()
-            ->check(one_of(names));
+        app.add_option_function<std::string>(
+               "WHAT",
+               [this](const std::string& word) { list_ = &find_called(lists, word, "list"); },
+               joined(names_of(lists)))
+            ->required();
     }
 
     int run(const Invocation& invocation) override
     {
-        for (const auto& [key, text] : lists)
-            if (key == what_)
-                std::cout << text(invocation.common);
+        std::cout << list_->text(invocation.common);
         return 0;
     }
 
 private:
-    std::string what_;
+    const ListEntry* list_ = nullptr;
 };
 
 }  // namespace

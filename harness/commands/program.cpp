@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
-#include "harness/commands/program.h"
+#include "harness/commands/command.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <functional>
 #include <iostream>
+#include <map>
 #include <sstream>
 
-#include "geometry/error.h"
 #include "geometry/host_memory.h"
+#include "geometry/names.h"
 #include "harness/base/build_info.h"
 #include "harness/base/failure.h"
 #include "harness/base/python.h"
 #include "harness/base/terminal.h"
-#include "harness/commands/command.h"
 #include "harness/commands/words.h"
 #include "harness/session/watchdog.h"
 
@@ -40,18 +40,13 @@ int printed(int code)
 /// Runs `work` and returns its exit code. Prints an exception and returns the exit code for it.
 int exit_code_of(const std::function<int()>& work)
 {
-    const auto failed = [](const std::exception& error, int code) {
-        std::cerr << "bvhbench: " << sentence_of(error) << '\n';
-        return code;
-    };
     try {
         return work();
-    } catch (const BadUsage& error) {
-        return failed(error, 2);
-    } catch (const NothingMeasured& error) {
-        return failed(error, 4);
-    } catch (const std::exception& error) {  // Unavailable, BuildFailure, cl::Error, bad_alloc
-        return failed(error, 3);
+    } catch (const std::exception& error) {
+        std::cerr << "bvhbench: " << sentence_of(error) << '\n';
+        return dynamic_cast<const BadUsage*>(&error) != nullptr          ? 2
+               : dynamic_cast<const NothingMeasured*>(&error) != nullptr ? 4
+                                                                         : 3;
     }
 }
 
@@ -67,9 +62,8 @@ public:
         for (const CommandEntry& entry : commands()) {
             CLI::App* words =
                 app_.add_subcommand(std::string(entry.name), std::string(entry.summary));
-            made_.push_back(entry.make != nullptr ? entry.make() : nullptr);
-            if (made_.back() != nullptr)
-                made_.back()->add_options(*words);
+            if (entry.make != nullptr)
+                (made_[words] = entry.make())->add_options(*words);
         }
         add_help(app_);
         try {
@@ -82,8 +76,13 @@ public:
             to_print_ = out.str();
             return;
         }
+        std::vector<std::string_view> listed;
+        for (const CommandEntry& entry : commands())
+            if (!entry.group.empty())
+                listed.push_back(entry.name);
         if (app_.get_subcommands().empty())
-            throw BadUsage("name a command: " + names() + "; `bvhbench --help` says what they do");
+            throw BadUsage("name a command: " + joined(listed) +
+                           "; `bvhbench --help` says what they do");
         check_outputs_are_named(*app_.get_subcommands().front());
     }
 
@@ -93,37 +92,19 @@ public:
             std::cout << to_print_;
             return printed(0);
         }
+        const auto run_command = [this] {
+            limit_host_memory(invocation_.common.memory_limit);
+            return printed(made_.at(app_.get_subcommands().front())->run(invocation_));
+        };
         return supervised(invocation_.common.time_limit_s,
-                          [this] { return exit_code_of([this] { return run_command(); }); });
+                          [&] { return exit_code_of(run_command); });
     }
 
 private:
-    int run_command()
-    {
-        limit_host_memory(invocation_.common.memory_limit);
-        for (std::size_t i = 0; i < made_.size(); ++i)
-            if (commands()[i].name == app_.get_subcommands().front()->get_name())
-                return printed(made_[i]->run(invocation_));
-        return 0;
-    }
-
-    /// Returns the listed commands: "build, collide or run".
-    static std::string names()
-    {
-        std::vector<std::string> listed;
-        for (const CommandEntry& entry : commands())
-            if (!entry.group.empty())
-                listed.emplace_back(entry.name);
-        std::string text;
-        for (std::size_t k = 0; k < listed.size(); ++k)
-            text += (k == 0 ? "" : k + 1 < listed.size() ? ", " : " or ") + listed[k];
-        return text;
-    }
-
     CLI::App app_{"Compare builders of bounding volume hierarchies for collision detection.",
                   "bvhbench"};
     Invocation invocation_;
-    std::vector<std::unique_ptr<Command>> made_;
+    std::map<const CLI::App*, std::unique_ptr<Command>> made_;
     std::string to_print_;
 };
 
@@ -141,10 +122,8 @@ int python_command(int argc, const char* const* argv)
             i += option != nullptr && option->get_type_size() > 0 ? 1 : 0;
             continue;
         }
-        const auto all = commands();
-        const auto entry = std::find_if(all.begin(), all.end(),
-                                        [&](const CommandEntry& one) { return one.name == word; });
-        return entry != all.end() && entry->make == nullptr ? i : 0;
+        const CommandEntry* entry = find_name(commands(), word);
+        return entry != nullptr && entry->make == nullptr ? i : 0;
     }
     return 0;
 }

@@ -22,9 +22,7 @@ public:
                        "the result file; default: <experiment>.json, of a file's experiment "
                        "<experiment>-results.json");
         app.add_option("--filter", filter_, "only cells whose scene/builder this matches");
-        app.add_option("--samples", samples_, "timed builds a cell")
-            ->check(CLI::Range(1, most_samples));
-        add_sampling(app, sampling_);
+        add_sampling(app, samples_, "timed builds a cell", sampling_);
         app.add_option("--turns", turns_,
                        "FILE:N: sample by turns with other runs, N in all, that name the file");
         app.add_flag("--quick", quick_, "fewer scenes and samples");
@@ -57,8 +55,7 @@ public:
         session.take_turns(turns_, run.results().run_id());
         run.experiment(experiment, filter);
         run.finish();
-        if (!common.quiet)
-            print_tables(run.results().text());
+        print_tables(run.results().text(), common);
         std::cout << run.results().written();
         return run.results().exit_code();
     }

@@ -3,7 +3,6 @@
 // Internal commands for those written in Python. They return device facts, the cells of experiments, and the data for drawing
 // a scene in three dimensions.
 #include <iostream>
-#include <iterator>
 
 #include "geometry/error.h"
 #include "harness/base/failure.h"
@@ -70,8 +69,6 @@ Json settled(const Json& described, const SceneLibrary& library)
 
 class Facts final : public Command {
 public:
-    void add_options(CLI::App&) override {}
-
     int run(const Invocation& invocation) override
     {
         Session session(invocation.common);
@@ -83,13 +80,10 @@ public:
 
 class Settle final : public Command {
 public:
-    void add_options(CLI::App&) override {}
-
     int run(const Invocation& invocation) override
     {
-        const std::string text(std::istreambuf_iterator<char>(std::cin), {});
         Json answers = Json::array();
-        for (const Json& described : Json::parse(text))
+        for (const Json& described : Json::parse(std::cin))
             answers.push_back(settled(described, scene_library(invocation.common)));
         std::cout << answers.dump() << '\n';
         return 0;

@@ -40,8 +40,7 @@ public:
         if (results.size() == 0)
             throw BadUsage("--filter: no cell of stress matches '" + filter_ + "'");
         results.finish(session.programs().compile_ns());
-        if (!common.quiet)
-            print_tables(results.text());
+        print_tables(results.text(), common);
         if (!has_fault && all_refused)
             throw NothingMeasured("nothing was measured: " + why_refused);
         return has_fault ? 1 : 0;

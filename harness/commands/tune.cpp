@@ -25,7 +25,7 @@ void put(const SearchResult& result, const TuneTask& task, int samples, TuningFi
 {
     for (const Parameter* parameter : result.searched)
         file.values.erase(std::string(parameter->name));
-    for (const Kept& kept : result.kept)
+    for (const Tried& kept : result.kept)
         file.values[std::string(kept.parameter->name)] = {
             .value = kept.value,
             .target = task.target,
@@ -39,40 +39,37 @@ void put(const SearchResult& result, const TuneTask& task, int samples, TuningFi
 /// Searches one target, prints the result and writes the file. A signal writes what was found so far. Throws BadUsage if the
 /// target has no parameters, and what loading the scene and searching throw.
 void tune_target(Session& session, const TuneTask& task, const SearchOptions& options,
-                 const Output& output, TuningFile& file,
-                 const std::function<void(const std::string&)>& note)
+                 const Output& output, TuningFile& file, const Progress& progress)
 {
     TuneTarget over(session, task);
     const Tuning in_effect = tuning_of(file, session.device(), output.path().string());
-    const auto keep = [&](const SearchResult& found) {
+    SearchResult result;
+    std::mutex mutex;  // guards result
+    const auto keep = [&] {
+        const std::lock_guard lock(mutex);
         std::cout << "tuned: " << task.target << " over " << task.scene << " on "
                   << session.device().name() << '\n'
-                  << search_report(found) << std::flush;
-        put(found, task, options.samples, file);
+                  << search_report(result) << std::flush;
+        put(result, task, options.samples, file);
         output.replace(tuning_text(file));
     };
-    SearchResult result, so_far;
-    std::mutex mutex;  // guards so_far
     {
-        const AtSignal kept(
-            [&] {
-                const std::lock_guard lock(mutex);
-                keep(so_far);
-            },
-            "what was found is kept");
-        search([&](const Tuning& tuning) { return over.trial(tuning); }, in_effect,
-               [&](const Parameter& parameter) { return over.wants(parameter); }, options,
-               [&](const std::string& what) {
-                   const std::lock_guard lock(mutex);
-                   so_far = result;
-                   note(", " + what);
-               },
-               result);
+        const AtSignal kept(keep, "what was found is kept");
+        const auto tell = [&](const std::string& what, const SearchResult& found) {
+            const std::lock_guard lock(mutex);
+            result = found;
+            progress.note("tune: " + task.target + ", " + what);
+        };
+        SearchResult found = search(
+            [&](const Tuning& tuning) { return over.trial(tuning); }, in_effect,
+            [&](const Parameter& parameter) { return over.wants(parameter); }, options, tell);
+        const std::lock_guard lock(mutex);
+        result = std::move(found);
     }
     if (result.searched.empty())
         throw BadUsage(task.target + " asks " + session.device().name() +
                        " for no parameter: there is nothing to tune");
-    keep(result);
+    keep();
 }
 
 class Tune final : public Command {
@@ -80,9 +77,10 @@ public:
     void add_options(CLI::App& app) override
     {
         choice_.builder.name = "oibvh-multi";
-        app.add_option("TARGET", target_,
+        app.add_option("TARGET", targets_,
                        "sort, a name of `list builders` or of `list colliders`; default: sort, "
-                       "oibvh-multi, leaf, group and bvtt in turn");
+                       "oibvh-multi, leaf, group and bvtt in turn")
+            ->expected(1);
         app.add_option("--scene", scene_, "a scene, data set or mesh file")->required();
         app.add_option("--builder", choice_.builder.name, "whose trees a collider is tuned over")
             ->capture_default_str();
@@ -120,20 +118,13 @@ public:
     }
 
 private:
-    std::vector<std::string> targets() const
-    {
-        if (!target_.empty())
-            return {target_};
-        return {"sort", "oibvh-multi", "leaf", "group", "bvtt"};
-    }
-
     /// Throws BadUsage for wrong options, before the device is opened.
     void check_words() const
     {
         if (!test_hooks().empty())
             throw BadUsage(test_hooks().begin()->first +
                            " is set, which changes times for tests: nothing is tuned by such");
-        for (const std::string& target : targets())
+        for (const std::string& target : targets_)
             check_target(target);
         check_choice(choice_);
         check_powers(choice_);
@@ -145,12 +136,9 @@ private:
     SearchOptions search_options(const Device& device) const
     {
         SearchOptions options;
+        if (quick_)
+            options = {.samples = 5, .warm_up = 1, .rounds = 1};
         options.is_cpu = device.is_cpu();
-        if (quick_) {
-            options.samples = 5;
-            options.warm_up = 1;
-            options.rounds = 1;
-        }
         if (samples_ > 0)
             options.samples = samples_;
         return options;
@@ -170,19 +158,17 @@ private:
     /// target, its own error is thrown.
     void tune_all(Session& session, const Output& output, TuningFile& file) const
     {
-        const std::vector<std::string> all = targets();
-        Progress progress(all.size());
+        Progress progress(targets_.size());
         std::string first_reason;
         std::size_t failed = 0;
-        for (const std::string& target : all) {
+        for (const std::string& target : targets_) {
             const TuneTask task{target, scene_, choice_.builder, choice_.collider};
             progress.step("tune: " + target);
             const auto tune = [&] {
-                tune_target(
-                    session, task, search_options(session.device()), output, file,
-                    [&](const std::string& what) { progress.note("tune: " + target + what); });
+                tune_target(session, task, search_options(session.device()), output, file,
+                            progress);
             };
-            if (all.size() == 1) {
+            if (targets_.size() == 1) {
                 tune();
                 continue;
             }
@@ -194,11 +180,11 @@ private:
             if (failed++ == 0)
                 first_reason = failure;
         }
-        if (failed == all.size())
+        if (failed == targets_.size())
             throw NothingMeasured("nothing was tuned: " + first_reason);
     }
 
-    std::string target_;  ///< sort, a builder or a collider; empty: all of targets()
+    std::vector<std::string> targets_ = {"sort", "oibvh-multi", "leaf", "group", "bvtt"};
     std::string scene_;
     CellChoice choice_;  ///< options of the builder, or of the collider and its trees
     std::string out_;

@@ -3,11 +3,8 @@
 
 #include <re2/re2.h>
 
-#include <algorithm>
-#include <charconv>
 #include <cstdint>
 
-#include "geometry/error.h"
 #include "harness/base/json_keys.h"
 
 namespace bvhbench {
@@ -31,45 +28,27 @@ std::size_t bytes_of(const std::string& text)
     return number << (10 * place);
 }
 
-/// Reads all of `word` as a number and divides it by `unit`. True if the quotient is from 0 to `most`.
-bool read_number(std::string_view word, double unit, double most, double& value)
-{
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    value /= unit;
-    return error == std::errc() && end == word.data() + word.size() && value >= 0 && value <= most;
-}
-
-}  // namespace
-
+/// Accepts a number from 0 to `most`. CLI::Range would accept NaN.
 CLI::Validator a_number(int most)
 {
     const auto check = [most](const std::string& word) {
         double value = -1;
-        return read_number(word, 1, most, value)
+        return RE2::FullMatch(word, "([-+.\\deE]+)", &value) && value >= 0 && value <= most
                    ? std::string()
                    : "must be a number from 0 to " + std::to_string(most) + ", not '" + word + "'";
     };
     return {check, "", "a number"};
 }
 
-CLI::Validator one_of(std::vector<std::string_view> known)
-{
-    const auto check = [known = std::move(known)](const std::string& word) {
-        return std::find(known.begin(), known.end(), word) != known.end()
-                   ? std::string()
-                   : "there is no '" + word + "'; there are: " + joined(known);
-    };
-    return {check, "", "one of"};
-}
-
+/// Accepts a fraction from 0 to `most`, as "5%" or "0.05", and replaces it by its decimal: 0.05.
 CLI::Validator a_share(double most)
 {
     const auto read = [most](std::string& word) {
-        std::string_view digits = word;
-        const bool is_percent = digits.ends_with('%');
-        digits.remove_suffix(is_percent ? 1 : 0);
         double value = -1;
-        if (!read_number(digits, is_percent ? 100 : 1, most, value))
+        std::string percent;
+        const bool is_read = RE2::FullMatch(word, "([-+.\\deE]+)(%?)", &value, &percent);
+        value /= percent.empty() ? 1 : 100;
+        if (!is_read || value < 0 || value > most)
             return "must be a share from 0 to " + std::to_string(static_cast<int>(100 * most)) +
                    "%, as 5% or 0.05, not '" + word + "'";
         word = Json(value).dump();
@@ -77,6 +56,8 @@ CLI::Validator a_share(double most)
     };
     return {read, "", "a share"};
 }
+
+}  // namespace
 
 void add_common(CLI::App& app, CommonOptions& common)
 {
@@ -106,13 +87,17 @@ void add_common(CLI::App& app, CommonOptions& common)
     app.add_flag("--verbose", common.verbose, "say on stderr what is being used");
 }
 
-void add_sampling(CLI::App& app, SamplingWords& sampling)
+void add_sampling(CLI::App& app, int& samples, const char* help, SamplingWords& sampling)
 {
+    CLI::Option* number =
+        app.add_option("--samples", samples, help)->check(CLI::Range(1, most_samples));
+    if (samples > 0)
+        number->capture_default_str();
     app.add_option("--until", sampling.until,
                    "sample each cell until the range between its quartiles is this share of the "
                    "median, as 2%")
         ->transform(a_share(1))
-        ->excludes("--samples");
+        ->excludes(number);
     app.add_option("--min-samples", sampling.min_samples, "with --until: at least so many; 15")
         ->check(CLI::Range(2, most_samples));
     app.add_option("--max-samples", sampling.max_samples, "with --until: at most so many; 1000")

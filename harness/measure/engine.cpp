@@ -56,7 +56,7 @@ void Engine::settle(Subject& subject, const std::function<void()>& work)
     const watchdog::Hand hand(subject.number);
     const std::int64_t compiled_ns = session_.programs().compile_ns();
     bool cannot_be = false;
-    std::string failure = reason_of_failure(cannot_be, work);
+    std::string failure = reason_of_failure(work, &cannot_be);
     subject.cell.first.compile_ns = session_.programs().compile_ns() - compiled_ns;
     if (!failure.empty())
         refuse(subject, cannot_be ? Cell::Status::skipped : Cell::Status::failed,

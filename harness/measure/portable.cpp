@@ -58,7 +58,7 @@ int check_portable(Session& session, std::vector<std::string> command)
     run.experiment(portable_experiment());
     run.finish();
     std::cout << device_text(session.device()) << '\n';
-    print_tables(run.results().text());
+    print_tables(run.results().text(), {});
     return run.results().exit_code();
 }
 

@@ -23,8 +23,8 @@ std::vector<PipelineChoice> chosen(const CollideTask& task, const CellFilter& fi
 {
     std::vector<PipelineChoice> pipelines = task.pipelines;
     std::erase_if(pipelines, [&](const PipelineChoice& pipeline) {
-        return filter && !filter->is_in(task.scene + '/' + pipeline.builder.name + '/' +
-                                        pipeline.collider.name);
+        return !passes(filter,
+                       task.scene + '/' + pipeline.builder.name + '/' + pipeline.collider.name);
     });
     return pipelines;
 }
@@ -34,7 +34,7 @@ std::vector<BuilderChoice> chosen(const Experiment& experiment, const std::strin
 {
     std::vector<BuilderChoice> builders;
     for (const BuilderChoice& builder : experiment.builders)
-        if (!filter || filter->is_in(scene + '/' + builder.name))
+        if (passes(filter, scene + '/' + builder.name))
             builders.push_back(builder);
     return builders;
 }
@@ -114,7 +114,18 @@ std::vector<std::string> files_of(const std::vector<std::string>& scenes,
 
 CellFilter cell_filter(const std::string& text)
 {
-    return text.empty() ? CellFilter() : Pattern(text, "--filter");
+    if (text.empty())
+        return {};
+    auto filter = std::make_shared<const re2::RE2>(text, re2::RE2::Quiet);
+    if (!filter->ok())
+        throw BadUsage("--filter: '" + text + "' is no regular expression: " +
+                       filter->error().substr(0, filter->error().find(':')));
+    return filter;
+}
+
+bool passes(const CellFilter& filter, const std::string& cell)
+{
+    return filter == nullptr || re2::RE2::PartialMatch(cell, *filter);
 }
 
 bool has_cells(const Experiment& experiment, const CellFilter& filter)

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <optional>
+#include <re2/re2.h>
 
-#include "harness/base/pattern.h"
+#include <memory>
+
 #include "harness/base/terminal.h"
 #include "harness/choice/experiment.h"
 #include "harness/record/result_file.h"
@@ -14,15 +15,19 @@ namespace bvhbench {
 class Frames;
 class Oracle;
 
-/// Selects the cells whose "scene/builder" or "scene/builder/collider" matches; without a value, all cells.
-using CellFilter = std::optional<Pattern>;
+/// Selects the cells whose "scene/builder" or "scene/builder/collider" matches; null: all cells. RE2 takes time linear in the
+/// length of the texts, for every expression.
+using CellFilter = std::shared_ptr<const re2::RE2>;
 
 /// Returns the files and folders that loading these scenes may read.
 std::vector<std::string> files_of(const std::vector<std::string>& scenes,
                                   const SceneLibrary& library);
 
-/// Returns the filter for the option --filter; none if `text` is empty. Throws BadUsage if it is not a regular expression.
+/// Returns the filter for the option --filter; null if `text` is empty. Throws BadUsage if it is not a regular expression.
 CellFilter cell_filter(const std::string& text);
+
+/// True if any part of `cell` matches the filter, or if that is null.
+bool passes(const CellFilter& filter, const std::string& cell);
 
 /// True if the experiment has a cell that matches.
 bool has_cells(const Experiment& experiment, const CellFilter& filter);

@@ -5,7 +5,7 @@
 
 #include "builders/spell_out.h"
 #include "geometry/error.h"
-#include "harness/base/number_text.h"
+#include "harness/base/json_keys.h"
 #include "harness/measure/collide.h"
 #include "harness/record/provenance.h"
 
@@ -57,7 +57,7 @@ void append_levels(std::string& text, const HostTree& tree)
                 if (child != HostTree::none)
                     next.push_back(child);
         }
-        append_list(text, sides);
+        text += FloatJson(sides).dump();
         text += '}';
         now.swap(next);
     }
@@ -69,8 +69,7 @@ std::string text_of(const std::string& run, const Cell& cell, const Scene& scene
 {
     std::string text = "{\"run\":" + run + ",\n\"cell\":" + cell_text(cell);
     const auto put = [&](const char* name, const auto& values) {
-        text += std::string(",\n\"") + name + "\":";
-        append_list(text, values);
+        text += std::string(",\n\"") + name + "\":" + FloatJson(values).dump();
     };
     std::vector<float> coordinates;
     for (const Point& point : scene.frames[frame])

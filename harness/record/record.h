@@ -13,7 +13,6 @@
 #include "device/queue.h"
 #include "geometry/host_memory.h"
 #include "harness/choice/catalog.h"
-#include "harness/choice/collider_catalog.h"
 #include "harness/choice/sampling.h"
 #include "harness/record/finding.h"
 #include "scenes/scene.h"

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
+#include <iostream>
 #include <vector>
 
 #include "baselines/parameters.h"
@@ -18,6 +19,14 @@ namespace bvhbench {
 namespace {
 
 constexpr auto format = "tuning 1";
+
+/// Returns the parameter of that name; nullptr if there is none.
+const Parameter* parameter_called(std::string_view name)
+{
+    const auto all = tuning_parameters();
+    const auto found = std::ranges::find(all, name, &Parameter::name);
+    return found == all.end() ? nullptr : *found;
+}
 
 TunedValue value_of(const Json& json, const Parameter& parameter)
 {
@@ -43,7 +52,7 @@ TunedValue value_of(const Json& json, const Parameter& parameter)
             throw BadUsage("'ratio' must be a number, not " + json["ratio"].dump());
         value.ratio = json["ratio"].get<double>();
     }
-    read_whole(json, "samples", 0, most_samples, value.samples);
+    read_number(json, "samples", 0, most_samples, value.samples);
     return value;
 }
 
@@ -58,7 +67,12 @@ TuningFile file_of(const Json& json, const std::string& origin)
     if (!json.contains("values") || !json["values"].is_object())
         throw BadUsage("'values' must be an object of parameters");
     for (const auto& [name, value] : json["values"].items())
-        file.values[name] = value_of(value, find_parameter(name, origin));
+        if (const Parameter* parameter = parameter_called(name))
+            file.values[name] = value_of(value, *parameter);
+        else
+            std::cerr
+                << "bvhbench: " << origin << ": no parameter is called '" << name
+                << "', and its value is not used; `bvhbench list tuning` shows what there is\n";
     return file;
 }
 
@@ -74,15 +88,6 @@ std::span<const Parameter* const> tuning_parameters()
         return list;
     }();
     return all;
-}
-
-const Parameter& find_parameter(std::string_view name, const std::string& origin)
-{
-    for (const Parameter* parameter : tuning_parameters())
-        if (parameter->name == name)
-            return *parameter;
-    throw Unavailable(origin + ": no parameter is called '" + std::string(name) +
-                      "'; `bvhbench list tuning` shows them");
 }
 
 std::string device_slug(std::string_view device)
@@ -133,10 +138,10 @@ Tuning tuning_of(const TuningFile& file, const Device& device, const std::string
                           "', and the device is '" + device.name() + "'");
     Tuning tuning(origin);
     for (const auto& [name, found] : file.values) {
-        const Parameter& parameter = find_parameter(name, origin);
-        if (parameter.values == ValueIs::group_size)
+        const Parameter* parameter = parameter_called(name);
+        if (parameter->is_group_size)
             device.require_group(origin + ": " + name, found.value, 0);
-        tuning.set(parameter, found.value);
+        tuning.set(*parameter, found.value);
     }
     return tuning;
 }

@@ -17,9 +17,6 @@ namespace bvhbench {
 /// Returns every tuning parameter: those of builders, baselines, then colliders.
 std::span<const Parameter* const> tuning_parameters();
 
-/// Returns the parameter called `name`. Throws Unavailable, naming `origin`, if there is none.
-const Parameter& find_parameter(std::string_view name, const std::string& origin);
-
 /// A tuned value, and how it was found.
 struct TunedValue {
     uint value = 0;
@@ -41,8 +38,8 @@ struct TuningFile {
 /// Returns the file name without ".json" for a device: "nvidia-h200" for "NVIDIA H200".
 std::string device_slug(std::string_view device);
 
-/// Parses the text of a file. Throws Unavailable, naming `origin`, if it is not a tuning file, or for an unknown parameter or a
-/// value that is not allowed.
+/// Parses the text of a file. Values of unknown parameters, which other versions had, are left out, with a note on stderr. Throws
+/// Unavailable, naming `origin`, if it is not a tuning file, or for a value that is not allowed.
 TuningFile parse_tuning(std::string_view text, const std::string& origin);
 std::string tuning_text(const TuningFile& file);
 

@@ -104,7 +104,7 @@ std::vector<StressSystem> group_size_systems(Session& session, bool few)
     };
     const auto all = std::make_shared<std::vector<Asker>>(askers());
     for (const Parameter* parameter : tuning_parameters()) {
-        if (parameter->values != ValueIs::group_size)
+        if (!parameter->is_group_size)
             continue;
         add(std::string(parameter->name), [=](SceneUnderStress& scene) -> std::optional<Findings> {
             Findings findings;

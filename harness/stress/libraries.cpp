@@ -5,9 +5,8 @@
 
 #include "collide/oracles/exact_reference.h"
 #include "collide/oracles/sweep.h"
-#include "geometry/error.h"
+#include "geometry/names.h"
 #include "harness/base/failure.h"
-#include "harness/base/json_keys.h"
 #include "scenes/mesh_file.h"
 #include "scenes/mesh_worker.h"
 #include "scenes/worker/process.h"
@@ -31,8 +30,8 @@ std::vector<Pair> found_in(std::string_view name, const std::string& path)
     std::vector<FaceRange> objects;
     for (const SceneObject& object : file.objects)
         objects.push_back({object.first_face, object.face_count});
-    const PlainLibrary& library = find_called(plain_libraries(), name, "library");
-    return library.find(file.mesh.points, file.mesh.faces, objects);
+    return find_called(plain_libraries(), name, "library")
+        .find(file.mesh.points, file.mesh.faces, objects);
 }
 
 /// Returns what found_in returns, computed in another process. Throws Unavailable, with a sentence, if there is no answer.

@@ -33,8 +33,7 @@ void judge_part(Session& session, const StressTask& task, const StressPart& part
 {
     std::vector<const StressSystem*> here, beside;
     for (const StressSystem& one : part.systems)
-        if (!task.filter ||
-            task.filter->is_in(part.family + '/' + part.scene.name + '/' + one.name))
+        if (passes(task.filter, part.family + '/' + part.scene.name + '/' + one.name))
             (one.kind == Kind::library ? beside : here).push_back(&one);
     if (here.empty() && beside.empty())
         return;

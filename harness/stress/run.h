@@ -10,10 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "collide/oracles/sweep.h"
-#include "harness/base/pattern.h"
 #include "harness/choice/scene_choice.h"
 #include "harness/judge/check.h"
+#include "harness/measure/run.h"
 #include "harness/session/session.h"
 #include "harness/stress/judge.h"
 
@@ -22,7 +21,7 @@ namespace bvhbench {
 /// Options of a stress run: its size, and a filter for cells by "family/scene/system".
 struct StressTask {
     StressSize size;
-    std::optional<Pattern> filter;
+    CellFilter filter;
 };
 
 /// Runs every system over every scene that it is meant for, family by family, and passes each cell to `add` when it is done. A

@@ -6,7 +6,7 @@
 #include "collide/oracles/exact_reference.h"
 #include "collide/oracles/sweep.h"
 #include "collide/parameters.h"
-#include "geometry/error.h"
+#include "geometry/names.h"
 #include "harness/judge/pair_counts.h"
 #include "harness/measure/pipeline.h"
 #include "scenes/face_order.h"
@@ -15,13 +15,6 @@ namespace bvhbench {
 namespace {
 
 constexpr std::string_view sort_stage = "sort";
-
-template <class Entry>
-bool is_in(std::span<const Entry> catalog, const std::string& name)
-{
-    return std::any_of(catalog.begin(), catalog.end(),
-                       [&](const Entry& entry) { return entry.name == name; });
-}
 
 Device tuned(Device device, const Tuning& tuning)
 {
@@ -126,15 +119,12 @@ private:
 
 void check_target(const std::string& target)
 {
-    if (target == sort_stage || is_in(builder_catalog(), target) ||
-        is_in(collider_catalog(), target))
-        return;
-    std::string known(sort_stage);
-    for (const BuilderEntry& entry : builder_catalog())
-        known += ", " + std::string(entry.name);
-    for (const ColliderEntry& entry : collider_catalog())
-        known += ", " + std::string(entry.name);
-    throw BadUsage("nothing that could be tuned is called '" + target + "'; there are: " + known);
+    std::vector<std::string_view> known = {sort_stage};
+    std::ranges::copy(names_of(builder_catalog()), std::back_inserter(known));
+    std::ranges::copy(names_of(collider_catalog()), std::back_inserter(known));
+    if (std::ranges::count(known, target) == 0)
+        throw BadUsage("nothing that could be tuned is called '" + target + '\'' +
+                       there_are(target, known));
 }
 
 TuneTarget::TuneTarget(Session& session, TuneTask task) : session_(session), task_(std::move(task))
@@ -142,9 +132,9 @@ TuneTarget::TuneTarget(Session& session, TuneTask task) : session_(session), tas
     check_target(task_.target);
     scene_ = in_file_order(load_scene(task_.scene, session.scenes()));
     input_ = upload(session.device(), session.queue(), scene_.frames.front(), scene_.faces);
-    if (is_in(builder_catalog(), task_.target))
+    if (find_name(builder_catalog(), task_.target))
         task_.builder.name = task_.target;
-    if (!is_in(collider_catalog(), task_.target))
+    if (!find_name(collider_catalog(), task_.target))
         return;
     task_.collider.name = task_.target;
     const bool keep_adjacent = task_.collider.keep_adjacent;

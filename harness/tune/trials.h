@@ -7,7 +7,7 @@
 #include <string>
 
 #include "collide/pairs.h"
-#include "harness/choice/collider_catalog.h"
+#include "harness/choice/catalog.h"
 #include "harness/judge/check.h"
 #include "harness/session/session.h"
 #include "harness/tune/tuner.h"

@@ -43,21 +43,21 @@ double standard_error(const std::vector<double>& values)
 struct Contender {
     Tried tried;
     std::unique_ptr<Trial> trial;
-    std::vector<double> times;
 };
 
-class Search {
-public:
-    Search(const MakeTrial& make, const SearchOptions& options,
-           const std::function<void(const std::string&)>& note, SearchResult& result)
-        : make_(make), options_(options), note_(note), result_(result)
-    {}
+struct Search {
+    const MakeTrial& make;
+    const SearchOptions& options;
+    const SearchNote& note;
+    SearchResult result = {};
+    int order = 0;
+    std::string last_failure = {};  ///< of the last failed trial
 
     /// Searches the best value of one parameter. True if another value than the current one was kept.
     bool settle(const Parameter& parameter)
     {
         std::vector<Contender> all;
-        const uint current = result_.best.value(parameter, options_.is_cpu);
+        const uint current = result.best.value(parameter, options.is_cpu);
         all.push_back(contender(parameter, current));
         if (all.front().trial == nullptr)
             throw Unavailable(std::string(parameter.name) + ": the value it has is " +
@@ -68,38 +68,37 @@ public:
                 all.push_back(contender(parameter, value));
         const bool found = measured(all);
         for (Contender& one : all)
-            result_.tries.push_back(std::move(one.tried));
-        result_.searched.insert(&parameter);
+            result.tries.push_back(std::move(one.tried));
+        result.searched.insert(&parameter);
         return found;
     }
 
     /// Compares whole runs with the start values and with the kept ones, which are dropped if they are not faster.
     void compare_whole(const Tuning& start)
     {
-        if (result_.kept.empty())
+        if (result.kept.empty())
             return;
-        note_("comparing with what it began with");
-        const std::unique_ptr<Trial> before = make_(start), after = make_(result_.best);
+        note("comparing with what it began with", result);
+        const std::unique_ptr<Trial> before = make(start), after = make(result.best);
         const std::vector<std::vector<double>> times = sampled({before.get(), after.get()}, "");
-        result_.start_ns = median(times[0]);
-        result_.best_ns = median(times[1]);
-        if (result_.best_ns < result_.start_ns && after->wrong().empty())
+        result.start_ns = median(times[0]);
+        result.best_ns = median(times[1]);
+        if (result.best_ns < result.start_ns && after->wrong().empty())
             return;
-        result_.best = start;
-        result_.kept.clear();
+        result.best = start;
+        result.kept.clear();
     }
 
-private:
     Contender contender(const Parameter& parameter, uint value)
     {
-        note_(std::string(parameter.name) + " = " + std::to_string(value));
+        note(std::string(parameter.name) + " = " + std::to_string(value), result);
         Contender one;
         one.tried.parameter = &parameter;
         one.tried.value = value;
-        Tuning tuning = result_.best;
+        Tuning tuning = result.best;
         tuning.set(parameter, value);
         const std::string failure = reason_of_failure([&] {
-            one.trial = make_(tuning);
+            one.trial = make(tuning);
             if (const std::string why = one.trial->wrong(); !why.empty())
                 reject(one, Tried::Verdict::wrong, why);
         });
@@ -119,26 +118,22 @@ private:
     /// Samples all contenders that can run, and keeps the fastest if it is faster than the first one twice.
     bool measured(std::vector<Contender>& all)
     {
-        const Parameter& parameter = *all.front().tried.parameter;
-        std::vector<Contender*> there;
         std::vector<Trial*> trials;
-        for (Contender& one : all)
-            if (one.trial != nullptr) {
-                there.push_back(&one);
-                trials.push_back(one.trial.get());
-            }
-        std::vector<std::vector<double>> times = sampled(trials, parameter.stage);
+        for (const Contender& one : all)
+            trials.push_back(one.trial.get());
+        const auto times = sampled(trials, all.front().tried.parameter->stage);
         Contender* best = nullptr;
-        for (std::size_t k = 0; k < there.size(); ++k) {
-            Contender& one = *there[k];
+        for (std::size_t k = 0; k < all.size(); ++k) {
+            Contender& one = all[k];
+            if (one.trial == nullptr)
+                continue;
             if (times[k].empty()) {
-                reject(one, Tried::Verdict::impossible, failure_);
+                reject(one, Tried::Verdict::impossible, last_failure);
                 continue;
             }
-            one.times = std::move(times[k]);
-            one.tried.median_ns = median(one.times);
-            one.tried.ratio = one.tried.median_ns / there.front()->tried.median_ns;
-            if (k > 0 && is_faster(one.times, there.front()->times) &&
+            one.tried.median_ns = median(times[k]);
+            one.tried.ratio = one.tried.median_ns / median(times.front());
+            if (k > 0 && is_faster(times[k], times.front()) &&
                 (best == nullptr || one.tried.median_ns < best->tried.median_ns))
                 best = &one;
         }
@@ -161,36 +156,34 @@ private:
         best.tried.verdict = Tried::Verdict::better;
         best.tried.median_ns = median(times[1]);
         best.tried.ratio = best.tried.median_ns / median(times[0]);
-        result_.best.set(parameter, best.tried.value);
-        std::erase_if(result_.kept, [&](const Kept& kept) { return kept.parameter == &parameter; });
-        result_.kept.push_back({&parameter, best.tried.value, best.tried.ratio});
+        result.best.set(parameter, best.tried.value);
+        std::erase_if(result.kept, [&](const Tried& one) { return one.parameter == &parameter; });
+        result.kept.push_back(best.tried);
         return true;
     }
 
-    /// Returns the times of each trial, sampled interleaved; empty for a trial that failed.
+    /// Returns the times of each trial, sampled interleaved; empty for a null one and for one that failed.
     std::vector<std::vector<double>> sampled(const std::vector<Trial*>& trials,
                                              std::string_view stage)
     {
+        std::vector<std::vector<double>> times(trials.size());
+        std::vector<std::vector<double>*> places;
         std::vector<Timed> timed;
-        for (Trial* trial : trials)
-            timed.push_back({"trial", [trial] { return trial->once(); }});
-        const std::vector<Taken> taken =
-            take_samples(timed, options_.samples, options_.warm_up, order_);
-        std::vector<std::vector<double>> times(taken.size());
-        for (std::size_t k = 0; k < taken.size(); ++k)
-            if (taken[k].failure.empty())
-                times[k] = times_of(taken[k].samples, stage);
+        for (std::size_t k = 0; k < trials.size(); ++k)
+            if (Trial* trial = trials[k]; trial != nullptr) {
+                timed.push_back({"trial", [trial] { return trial->once(); }});
+                places.push_back(&times[k]);
+            }
+        auto place = places.begin();
+        for (const Taken& taken : take_samples(timed, options.samples, options.warm_up, order)) {
+            if (taken.failure.empty())
+                **place = times_of(taken.samples, stage);
             else
-                failure_ = taken[k].failure;
+                last_failure = taken.failure;
+            ++place;
+        }
         return times;
     }
-
-    const MakeTrial& make_;
-    const SearchOptions& options_;
-    const std::function<void(const std::string&)>& note_;
-    SearchResult& result_;
-    int order_ = 0;
-    std::string failure_;  ///< of the last failed trial
 };
 
 /// By verdict; for `wrong` and `impossible`, the detail follows.
@@ -206,12 +199,12 @@ bool is_faster(const std::vector<double>& times, const std::vector<double>& than
     return gain > 3 * noise && gain > 0.01 * median(than);
 }
 
-void search(const MakeTrial& make, const Tuning& start,
-            const std::function<bool(const Parameter&)>& wanted, const SearchOptions& options,
-            const std::function<void(const std::string&)>& note, SearchResult& result)
+SearchResult search(const MakeTrial& make, const Tuning& start,
+                    const std::function<bool(const Parameter&)>& wanted,
+                    const SearchOptions& options, const SearchNote& note)
 {
-    result = {};
-    result.best = start;
+    Search turn{make, options, note};
+    turn.result.best = start;
     std::vector<const Parameter*> parameters;
     {
         const std::unique_ptr<Trial> first = make(start);
@@ -222,9 +215,8 @@ void search(const MakeTrial& make, const Tuning& start,
     }
     std::ranges::sort(parameters, {}, [](const Parameter* one) { return one->name; });
     for (const Parameter* parameter : parameters)
-        result.best.unset(*parameter);
-    const Tuning defaults = result.best;
-    Search turn(make, options, note, result);
+        turn.result.best.unset(*parameter);
+    const Tuning defaults = turn.result.best;
     for (int round = 0; round < options.rounds; ++round) {
         int kept = 0;
         for (const Parameter* parameter : parameters)
@@ -233,6 +225,7 @@ void search(const MakeTrial& make, const Tuning& start,
             break;
     }
     turn.compare_whole(defaults);
+    return std::move(turn.result);
 }
 
 std::string search_report(const SearchResult& result)

@@ -55,24 +55,20 @@ struct Tried {
     Verdict verdict = Verdict::not_better;
     std::string detail;    ///< reason, if wrong or impossible
     double median_ns = 0;  ///< of the parameter's stage; 0: not timed
-    double ratio = 0;      ///< median relative to the current value's
-};
-
-/// A value that was kept.
-struct Kept {
-    const Parameter* parameter = nullptr;
-    uint value = 0;
-    double ratio = 1;  ///< median relative to that of the previous value
+    double ratio = 0;      ///< median relative to that of the value before
 };
 
 /// Result of a search; a partial one if the search was stopped.
 struct SearchResult {
     Tuning best;                          ///< all parameters: as given, defaults, and kept values
-    std::vector<Kept> kept;               ///< each parameter once
+    std::vector<Tried> kept;              ///< each parameter once, the last value
     std::vector<Tried> tries;             ///< in the order made
     std::set<const Parameter*> searched;  ///< parameters that are settled
     double start_ns = 0, best_ns = 0;     ///< medians of whole runs, in the end; 0: not compared
 };
+
+/// Called with what is tried next, and with what was found so far.
+using SearchNote = std::function<void(const std::string& what, const SearchResult& found)>;
 
 /// True if the median of `times` is lower than that of `than` by more than three standard errors of the difference and by at
 /// least one percent.
@@ -81,12 +77,12 @@ bool is_faster(const std::vector<double>& times, const std::vector<double>& than
 /// Coordinate descent over the parameters that the trial reads and `wanted` accepts. They start from their defaults; all others
 /// keep their value in `start`. For each parameter, all candidates are sampled interleaved with the current value. The fastest
 /// correct one is compared with the current value again, and kept if it is faster both times. At the end the kept values are
-/// compared with the defaults by whole runs, and dropped if they are not faster. `result` is consistent at each call of `note`.
+/// compared with the defaults by whole runs, and dropped if they are not faster.
 ///
 /// Throws Unavailable if the answer is wrong before anything is tuned.
-void search(const MakeTrial& make, const Tuning& start,
-            const std::function<bool(const Parameter&)>& wanted, const SearchOptions& options,
-            const std::function<void(const std::string&)>& note, SearchResult& result);
+SearchResult search(const MakeTrial& make, const Tuning& start,
+                    const std::function<bool(const Parameter&)>& wanted,
+                    const SearchOptions& options, const SearchNote& note);
 
 /// Returns a table with one line for each tried value, and the comparison of whole runs.
 std::string search_report(const SearchResult& result);

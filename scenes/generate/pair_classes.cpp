@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "geometry/error.h"
+#include "geometry/names.h"
 #include "scenes/generate/exact_pairs.h"
 #include "scenes/generate/vector.h"
 
@@ -226,13 +226,7 @@ std::span<const PairClass> pair_classes()
 
 const PairClass& find_pair_class(std::string_view name)
 {
-    std::string known;
-    for (const PairClass& one : pair_classes()) {
-        if (one.name == name)
-            return one;
-        known += (known.empty() ? " " : ", ") + one.name;
-    }
-    throw BadUsage("no class of pairs is called '" + std::string(name) + "'; there are:" + known);
+    return find_called(pair_classes(), name, "class of pairs");
 }
 
 Mesh apart_pairs(const PairClass& of, uint count, uint seed)

@@ -33,10 +33,10 @@ TEST_P(LibraryReference, CountedWhatTheLibraryFinds)
             objects.push_back({object["face_first"], object["face_count"]});
         const auto frames = read_frames(folder / "frames.f32", meta["frames"], mesh.points.size());
         const auto whole =
-            make_collider(GetParam(), session().programs(), {.keep_adjacent = false});
-        const auto between =
-            make_collider(GetParam(), session().programs(),
-                          {.among = Among::between_objects, .keep_adjacent = false});
+            make_collider({.name = GetParam(), .keep_adjacent = false}, session().programs());
+        const auto between = make_collider(
+            {.name = GetParam(), .among = Among::between_objects, .keep_adjacent = false},
+            session().programs());
         const std::string kind = whole->finds_contacts() ? "exact_" : "aabb_";
         for (std::size_t k = 0; k < frames.size(); ++k) {
             SCOPED_TRACE(std::string(name) + ", frame " + std::to_string(k));
@@ -64,15 +64,16 @@ TEST(LibraryColliders, AreListedAndRefusedWhereTheyWereNotBuilt)
     for (const char* name : {"embree", "fcl", "fcl-refit"}) {
         const ColliderEntry& entry = find_collider(name);
         if (entry.make != nullptr) {
-            EXPECT_EQ(
-                make_collider(name, session().programs(), {.keep_adjacent = false})->card().name,
-                name);
+            EXPECT_EQ(make_collider({.name = name, .keep_adjacent = false}, session().programs())
+                          ->card()
+                          .name,
+                      name);
             continue;
         }
         EXPECT_TRUE(entry.absent.starts_with("built without ")) << entry.absent;
-        EXPECT_THROW(make_collider(name, session().programs(), {}), Unavailable);
+        EXPECT_THROW(make_collider({.name = name}, session().programs()), Unavailable);
     }
-    EXPECT_THROW(make_collider("embre", session().programs(), {}), BadUsage);
+    EXPECT_THROW(make_collider({.name = "embre"}, session().programs()), BadUsage);
 }
 
 }  // namespace

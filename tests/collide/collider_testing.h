@@ -16,7 +16,6 @@
 #include "collide/oracles/sweep.h"
 #include "geometry/error.h"
 #include "harness/choice/catalog.h"
-#include "harness/choice/collider_catalog.h"
 #include "harness/judge/hard_inputs.h"
 #include "harness/session/session.h"
 #include "scenes/catalog.h"

@@ -13,7 +13,6 @@ constexpr Parameter keys{.name = "part.keys",
                          .elsewhere = 5,
                          .least = 1,
                          .most = 15,
-                         .values = ValueIs::odd,
                          .candidates = {1, 3, 5}};
 constexpr Parameter group{.name = "part.group",
                           .meaning = "work-items",
@@ -22,13 +21,12 @@ constexpr Parameter group{.name = "part.group",
                           .elsewhere = 64,
                           .least = 0,
                           .most = 1024,
-                          .values = ValueIs::group_size,
+                          .is_group_size = true,
                           .candidates = {64, 128}};
 
 TEST(Parameter, SaysWhyItCannotBeAValue)
 {
     EXPECT_EQ(keys.refusal(15), "");
-    EXPECT_EQ(keys.refusal(4), "must be odd, not 4");
     EXPECT_EQ(keys.refusal(0), "must be from 1 to 15, not 0");
     EXPECT_EQ(keys.refusal(17), "must be from 1 to 15, not 17");
     EXPECT_EQ(group.refusal(96), "must be a power of two, not 96");

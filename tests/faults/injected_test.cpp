@@ -19,7 +19,7 @@
 
 #include "device/device.h"
 #include "harness/base/json_keys.h"
-#include "harness/commands/program.h"
+#include "harness/commands/command.h"
 #include "tests/faults/opencl_shim.h"
 
 namespace bvhbench {

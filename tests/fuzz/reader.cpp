@@ -7,7 +7,7 @@
 
 #include "geometry/error.h"
 #include "harness/choice/experiment.h"
-#include "harness/commands/program.h"
+#include "harness/commands/command.h"
 #include "harness/session/tuning_file.h"
 #include "scenes/formats/formats.h"
 #include "scenes/ground_truth.h"

@@ -182,7 +182,7 @@ TEST(Accuracy, OfNarrowPhasesFindsTheErrorsThatAreThere)
 TEST(Accuracy, OfScenesMeasuresWhatIsAsked)
 {
     const AxisTask task{
-        .scenes = {"soup:700"}, .samples = 2, .filter = Pattern("f64|63|recentred", "--filter")};
+        .scenes = {"soup:700"}, .samples = 2, .filter = cell_filter("f64|63|recentred")};
     const auto sums = measured("sums", task);
     EXPECT_EQ(sums.size(), 3u);
     EXPECT_EQ(sums.at("soup:700/f64-compensated").check.verdict, Check::Verdict::agrees);

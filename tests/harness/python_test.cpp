@@ -54,12 +54,15 @@ TEST_F(Python, TablesArePrintedOfADocumentThatIsInNoFile)
     write("__main__.py", R"(import sys
 assert sys.argv[1] == 'show' and open(sys.argv[2]).read() == 'a document', sys.argv
 )");
-    EXPECT_NO_THROW(print_tables("a document"));
+    EXPECT_NO_THROW(print_tables("a document", {}));
+    CommonOptions quiet;
+    quiet.quiet = true;
+    EXPECT_NO_THROW(print_tables("another", quiet));
     testing::internal::CaptureStderr();
-    EXPECT_THROW(print_tables("another"), Unavailable);
+    EXPECT_THROW(print_tables("another", {}), Unavailable);
     EXPECT_NE(testing::internal::GetCapturedStderr().find("AssertionError"), std::string::npos);
     fs::remove(folder_ / "plots" / "__main__.py");
-    EXPECT_THROW(print_tables("a document"), Unavailable);
+    EXPECT_THROW(print_tables("a document", {}), Unavailable);
 }
 
 TEST_F(Python, APythonThatLacksAModuleIsASentenceAndOtherErrorsAreTold)
@@ -72,7 +75,7 @@ TEST_F(Python, APythonThatLacksAModuleIsASentenceAndOtherErrorsAreTold)
               std::string::npos);
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
     testing::internal::CaptureStderr();
-    EXPECT_NE(draw("broken.py", "r.json", folder_, false).find("broken.py ended with 1"),
+    EXPECT_NE(draw("broken.py", "r.json", folder_, false).find("broken.py ended with exit code 1"),
               std::string::npos);
     EXPECT_NE(testing::internal::GetCapturedStderr().find("three legs"), std::string::npos);
 }

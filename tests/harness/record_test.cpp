@@ -126,7 +126,7 @@ TEST(Record, TellsTheCircumstancesOfARun)
     run.costs = {.inner = 2, .triangle = 0.5};
     run.launch_cost_ns = 3812.5;
     run.tuning_from = "results/tuning/a-device.json";
-    run.tuning = {{"sort.keys_per_item", 7}, {"walk.task_leaves", 32}};
+    run.tuning = {{"sweep.keys_per_item", 7}, {"walk.task_leaves", 32}};
     run.conditions = {.governor = "powersave",
                       .turbo = true,
                       .on_battery = false,

@@ -65,18 +65,13 @@ private:
     int runs_ = 0;
 };
 
-using Note = std::function<void(const std::string& what, const SearchResult& so_far)>;
-
 SearchResult searched(
     const World& world, const Tuning& start = {}, int rounds = 2,
-    const Note& note = [](const std::string&, const SearchResult&) {})
+    const SearchNote& note = [](const std::string&, const SearchResult&) {})
 {
-    SearchResult result;
-    search([&](const Tuning& tuning) { return std::make_unique<FakeTrial>(world, tuning); }, start,
-           [](const Parameter&) { return true; },
-           {.samples = 7, .warm_up = 1, .rounds = rounds, .is_cpu = true},
-           [&](const std::string& what) { note(what, result); }, result);
-    return result;
+    return search([&](const Tuning& tuning) { return std::make_unique<FakeTrial>(world, tuning); },
+                  start, [](const Parameter&) { return true; },
+                  {.samples = 7, .warm_up = 1, .rounds = rounds, .is_cpu = true}, note);
 }
 
 const Tried& tried(const SearchResult& result, const Parameter& parameter, uint value)

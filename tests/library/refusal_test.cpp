@@ -222,8 +222,8 @@ TEST_F(LibraryRefuses, OptionsQueuesAndTuningThatThereAreNot)
               "a Device wants a cl_command_queue, and it is null");
     EXPECT_EQ(tuning_refusal("sort.luck", 1),
               "no tuning parameter is called 'sort.luck'; `bvhbench list tuning` has them");
-    EXPECT_EQ(tuning_refusal("sort.keys_per_item", 4),
-              "tuning parameter sort.keys_per_item must be odd, not 4");
+    EXPECT_EQ(tuning_refusal("sort.group_size", 48),
+              "tuning parameter sort.group_size must be a power of two, not 48");
     const oibvh::DeviceOptions tuned{.tuning = {{"chunks.per_core", 7}, {"walk.task_leaves", 16}}};
     tree = oibvh::Tree(oibvh::Device(caller.queue, tuned));
     expect_built();

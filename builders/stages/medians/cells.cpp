@@ -12,6 +12,11 @@ namespace {
 /// For passes that count in local memory: few large groups, so that few counts are added up in the end.
 constexpr uint local_group_size = 1024;
 constexpr uint local_groups_per_unit = 1;
+constexpr uint local_leaves = 4;  // that a work-item looks at at a time
+
+constexpr uint pass_leaves = 3;  // the same, of a pass that counts in global memory
+constexpr uint chunk_levels =
+    3;  // split one at a time in `chunks`, before each core takes subtrees
 
 constexpr uint halve_group_size = 256;
 constexpr uint halve_slabs = 4096;
@@ -35,23 +40,20 @@ CellMedians::CellMedians(Programs& programs, MedianShape shape)
     shape_.form =
         chosen_form(programs.device(), shape.form, local_slabs * sizeof(uint), local_group_size);
     if (shape_.form == KernelForm::chunks) {
-        chunk_levels_ = programs.device().tuned(cells_chunk_levels);
         halve_ = programs.kernel("builders/stages/medians/medians_chunks.cl", "halve_nodes");
         return;
     }
-    local_leaves_ = programs.device().tuned(cells_local_leaves);
     pass_group_size_ = programs.device().tuned(cells_pass_group_size);
-    pass_leaves_ = programs.device().tuned(cells_pass_leaves);
     const auto local = [&](const char* name) {
         return programs.kernel("builders/stages/medians/cells_groups.cl", name,
                                {{"GROUP_SIZE", local_group_size},
-                                {"LEAVES", local_leaves_},
+                                {"LEAVES", local_leaves},
                                 {"LOCAL_SLABS", local_slabs}});
     };
     const auto global = [&](const char* name) {
         return programs.kernel(
             "builders/stages/medians/cells_groups.cl", name,
-            {{"GROUP_SIZE", pass_group_size_}, {"LEAVES", pass_leaves_}, {"LOCAL_SLABS", 0}});
+            {{"GROUP_SIZE", pass_group_size_}, {"LEAVES", pass_leaves}, {"LOCAL_SLABS", 0}});
     };
     clear_ = global("clear_all");
     first_pass_ = local("first_pass");
@@ -117,10 +119,10 @@ void CellMedians::in_groups(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bou
 {
     const auto count = static_cast<uint>(size_);
     const std::size_t many =
-        std::size_t{divided_up(count, pass_group_size_ * pass_leaves_)} * pass_group_size_;
+        std::size_t{divided_up(count, pass_group_size_ * pass_leaves)} * pass_group_size_;
     const std::size_t few =
         std::size_t{std::min(units_ * local_groups_per_unit,
-                             divided_up(count, local_group_size * local_leaves_))} *
+                             divided_up(count, local_group_size * local_leaves))} *
         local_group_size;
 
     set_arguments(clear_, counts_, static_cast<uint>(counts_.size()), waiting_,
@@ -164,7 +166,7 @@ void CellMedians::in_chunks(const Buffer<Aabb>& boxes, const Buffer<Bounds>& bou
                             const Buffer<uint>& ids, Queue& queue)
 {
     for (uint level = 0; level < levels_; ++level) {
-        const bool is_last = level + 1 == levels_ || level >= chunk_levels_;
+        const bool is_last = level + 1 == levels_ || level >= chunk_levels;
         const uint bottom = is_last ? shape_.block_height + 1 : root_height_ - level;
         set_arguments(halve_, boxes, bounds, ids, lists_, cells_, static_cast<uint>(size_),
                       root_height_, level, bottom);

@@ -42,11 +42,7 @@ private:
 
     MedianShape shape_;
     uint units_;
-    uint local_leaves_ =
-        0;  ///< Leaves that a work-item loads at a time in a pass that counts in local memory.
     uint pass_group_size_ = 0;  ///< Of a pass that counts in global memory.
-    uint pass_leaves_ = 0;
-    uint chunk_levels_ = 0;  ///< Levels that `chunks` splits one at a time, with few nodes.
     std::size_t size_ = 0;
     uint root_height_ = 0;
     uint levels_ = 0;  ///< Number of levels above the blocks.

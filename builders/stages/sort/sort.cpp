@@ -27,7 +27,6 @@ SortShape sort_shape(const Device& device, KernelForm form)
         shape.at_once = device.tuned(sort_at_once) != 0;
     } else {
         shape.group_size = device.tuned(sort_group_size);
-        shape.keys_per_item = device.tuned(sort_keys_per_item);
     }
     return shape;
 }

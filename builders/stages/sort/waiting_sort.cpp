@@ -18,6 +18,8 @@ constexpr uint most_passes = 64 / tile_digit_bits;
 constexpr uint state_epoch_bits = 31;
 constexpr uint last_epoch = (1u << state_epoch_bits) - 1;
 
+constexpr std::size_t counting_groups_per_unit = 2;  ///< that count digits
+
 /// Fewest keys per work-item in one launch: with fewer, groups read more of each other's counts than they sort.
 constexpr uint fewest_keys = 4;
 
@@ -135,7 +137,7 @@ void WaitingSort::sweep(const std::array<Buffer<uint>, 2>& codes, const Buffer<u
     const std::int64_t code_bytes = id_bytes * code_words_;
 
     set_arguments(count_, codes[0], counters, count, code_bits_);
-    const std::size_t counting = units_ * programs_.device().tuned(sweep_counting_groups_per_unit);
+    const std::size_t counting = units_ * counting_groups_per_unit;
     queue.launch(count_, std::min<std::size_t>(tiles, counting) * group_size_, group_size_,
                  code_bytes);
     for (uint pass = 0; pass < passes_; ++pass) {

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+//
+// Looks up names that a user gives, in the catalogs of all rooms.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "geometry/error.h"
+
+namespace bvhbench {
+
+/// Returns the words separated by commas: "a, b, c".
+std::string joined(std::span<const std::string_view> words);
+
+/// Returns the end of a sentence about a `name` that is none of `known`: "; there are: a, b, c". `also` is appended as one
+/// more entry: "or all".
+std::string there_are(std::string_view name, std::span<const std::string_view> known,
+                      std::string_view also = {});
+
+/// Returns the names of the entries, in their order.
+template <class Entries>
+std::vector<std::string_view> names_of(const Entries& entries)
+{
+    std::vector<std::string_view> names;
+    for (const auto& entry : entries)
+        names.emplace_back(entry.name);
+    return names;
+}
+
+/// Returns the entry called `name`; nullptr if there is none.
+template <class Entries>
+auto* find_name(const Entries& entries, std::string_view name)
+{
+    for (const auto& entry : entries)
+        if (entry.name == name)
+            return &entry;
+    return static_cast<decltype(&*std::begin(entries))>(nullptr);
+}
+
+/// Returns the entry called `name`. `kind` is what entries are, as "builder". Throws BadUsage with the known names, followed by
+/// `also`, if there is none.
+template <class Entries>
+auto& find_called(const Entries& entries, std::string_view name, const std::string& kind,
+                  std::string_view also = {})
+{
+    if (const auto* entry = find_name(entries, name))
+        return *entry;
+    throw BadUsage("no " + kind + " is called '" + std::string(name) + '\'' +
+                   there_are(name, names_of(entries), also));
+}
+
+}  // namespace bvhbench
