@@ -18,6 +18,16 @@ namespace bvhbench {
 
 using Json = nlohmann::ordered_json;
 
+/// Defines to_json with one key for each member, named as the member.
+#define BVHBENCH_TO_JSON(Type, ...)                                              \
+    static void to_json(Json& nlohmann_json_j, const Type& nlohmann_json_t)      \
+    {                                                                            \
+        NLOHMANN_JSON_EXPAND(NLOHMANN_JSON_PASTE(NLOHMANN_JSON_TO, __VA_ARGS__)) \
+    }
+
+/// Returns the JSON on one line. Replaces invalid UTF-8, which file names and logs may contain and JSON files must not.
+std::string one_line(const Json& json);
+
 /// Returns the words separated by commas: "a, b, c".
 std::string joined(std::span<const std::string_view> words);
 

@@ -123,12 +123,10 @@ Check check_tree(const HostTree& tree, const Input& input, const BuilderChoice& 
     if (!reference.empty())
         oracle.begin(reference, builder.order, builder.boxes);
     check.tree_hash = tree_hash(tree);
-    check.detail = broken_promise(tree, input.points, input.faces);
-    if (!check.detail.empty()) {
-        check.verdict = differs;
-        return check;
-    }
-    if (reference.empty())
+    const std::string wrong = broken_promise(tree, input.points, input.faces);
+    if (!wrong.empty())
+        check.find_wrong(wrong);
+    if (!wrong.empty() || reference.empty())
         return check;
     std::uint64_t expected = 0;
     const std::string failure = reason_of_failure(
@@ -137,8 +135,7 @@ Check check_tree(const HostTree& tree, const Input& input, const BuilderChoice& 
         check.verdict = not_checked;
         check.detail = "the reference failed: " + failure;
     } else if (*check.tree_hash != expected) {
-        check.verdict = differs;
-        check.detail = "a valid tree, but the reference's has the hash " + hex(expected);
+        check.find_wrong("a valid tree, but the reference's has the hash " + hex(expected));
     }
     return check;
 }
@@ -153,10 +150,9 @@ Check check_refit(const HostTree& tree, const HostTree& built, const Input& inpu
     if (before.tree_hash == expected)
         return before;
     const std::string wrong = broken_promise(tree, input.points, input.faces);
-    before.verdict = Check::Verdict::differs;
-    before.detail = !wrong.empty()
-                        ? wrong
-                        : "a valid tree, but the refit on the host has the hash " + hex(expected);
+    before.find_wrong(!wrong.empty() ? wrong
+                                     : "a valid tree, but the refit on the host has the hash " +
+                                           hex(expected));
     return before;
 }
 
@@ -165,9 +161,8 @@ Check check_again(const Tree& tree, Check before)
     const std::uint64_t hash = tree_hash(tree.spelled_out());
     if (before.verdict == Check::Verdict::differs || hash == before.tree_hash)
         return before;
-    before.verdict = Check::Verdict::differs;
-    before.detail =
-        "it was the tree " + hex(*before.tree_hash) + " at first and " + hex(hash) + " at last";
+    before.find_wrong("it was the tree " + hex(*before.tree_hash) + " at first and " + hex(hash) +
+                      " at last");
     before.tree_hash = hash;
     return before;
 }

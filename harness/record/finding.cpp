@@ -4,19 +4,10 @@
 #include <algorithm>
 
 namespace bvhbench {
-namespace {
-
-/// Severity of a verdict: broken, then refused, then holds.
-int weight(Finding::Verdict verdict)
-{
-    return verdict == Finding::Verdict::broken ? 2 : verdict == Finding::Verdict::refused ? 1 : 0;
-}
-
-}  // namespace
 
 void join(Finding& all, const Finding& more)
 {
-    if (weight(more.verdict) > weight(all.verdict)) {
+    if (more.verdict > all.verdict) {
         all.verdict = more.verdict;
         all.detail = more.detail;
     }

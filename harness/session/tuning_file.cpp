@@ -15,6 +15,9 @@
 #include "harness/record/output.h"
 
 namespace bvhbench {
+
+BVHBENCH_TO_JSON(TunedValue, value, target, scene, ratio, samples, found_at, commit)
+
 namespace {
 
 constexpr auto format = "tuning 1";
@@ -119,10 +122,7 @@ std::string tuning_text(const TuningFile& file)
     Json json = {{"format", format}, {"device", file.device}, {"driver", file.driver}};
     json["values"] = Json::object();
     for (const auto& [name, value] : file.values)
-        json["values"][name] = {{"value", value.value},     {"target", value.target},
-                                {"scene", value.scene},     {"ratio", value.ratio},
-                                {"samples", value.samples}, {"found_at", value.found_at},
-                                {"commit", value.commit}};
+        json["values"][name] = value;
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
@@ -152,21 +152,18 @@ std::optional<std::string> tuning_folder(const std::optional<std::string>& optio
 
 NamedTuning tuning_file_for(const Device& device, const std::optional<std::string>& folder)
 {
-    const std::string name = device_slug(device.name()) + ".json";
+    const std::filesystem::path path = std::filesystem::path(folder.value_or("results/tuning")) /
+                                       (device_slug(device.name()) + ".json");
     if (!folder) {
-        const std::string path = "results/tuning/" + name;
-        if (const auto text = embedded_tuning(path))
-            return {parse_tuning(*text, path), path};
-        return {{}, "none"};
+        if (const auto text = embedded_tuning(path.string()))
+            return {parse_tuning(*text, path.string()), path.string()};
+    } else if (!folder->empty()) {
+        if (!std::filesystem::is_directory(*folder))
+            throw Unavailable("tuning: there is no folder '" + *folder + "'");
+        if (std::filesystem::exists(path))
+            return {read_tuning(path), path.string()};
     }
-    if (folder->empty())
-        return {{}, "none"};
-    if (!std::filesystem::is_directory(*folder))
-        throw Unavailable("tuning: there is no folder '" + *folder + "'");
-    const std::filesystem::path path = std::filesystem::path(*folder) / name;
-    if (!std::filesystem::exists(path))
-        return {{}, "none"};
-    return {read_tuning(path), path.string()};
+    return {{}, "none"};
 }
 
 }  // namespace bvhbench

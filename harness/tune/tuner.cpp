@@ -175,7 +175,7 @@ private:
         for (Trial* trial : trials)
             timed.push_back({"trial", [trial] { return trial->once(); }});
         const std::vector<Taken> taken =
-            take_samples(timed, options_.samples, options_.warm_up, order_);
+            take_samples(timed, {.samples = options_.samples, .warm_up = options_.warm_up}, order_);
         std::vector<std::vector<double>> times(taken.size());
         for (std::size_t k = 0; k < taken.size(); ++k)
             if (taken[k].failure.empty())
