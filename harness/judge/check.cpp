@@ -43,32 +43,6 @@ std::string broken_refit(Session& session, Builder& builder, const Input& input,
     return is_same ? "" : "a refit changed the topology";
 }
 
-std::string broken_promise_of_build(Session& session, const BuilderChoice& choice,
-                                    const Input& input, Oracle& oracle)
-{
-    const Tree* tree = &built_tree(session, choice, input);
-    Builder& builder = session.builder(choice);
-    const Check check = check_tree(tree->spelled_out(), input, choice, oracle);
-    if (check.verdict != Check::Verdict::agrees)
-        return check.detail;
-    std::string wrong = broken_footprint(builder, input.triangle_count());
-    const auto build_again = [&](Start start, const char* which) {
-        if (!wrong.empty())
-            return;
-        session.build_once(builder, input, start, &tree);
-        if (const std::uint64_t hash = tree_hash(tree->spelled_out()); hash != check.tree_hash)
-            wrong = std::string(which) + " left the tree " + hex(hash) + ", the first " +
-                    hex(*check.tree_hash);
-    };
-    build_again(Start::from_triangles, "the second build");
-    build_again(Start::from_sorted_leaves, "the build from sorted leaves");
-    if (wrong.empty() && builder.can_refit()) {
-        wrong = broken_refit(session, builder, input, *tree);
-        build_again(Start::from_triangles, "the build after a refit");
-    }
-    return wrong;
-}
-
 }  // namespace
 
 const Tree& built_tree(Session& session, const BuilderChoice& choice, const Input& input)
@@ -169,19 +143,37 @@ Check check_again(const Tree& tree, Check before)
 
 std::string broken_contract(Session& session, const BuilderChoice& choice, const Input& input,
                             Oracle& oracle, bool* refused)
-{
+try {
     if (refused != nullptr)
         *refused = false;
-    try {
-        return broken_promise_of_build(session, choice, input, oracle);
-    } catch (const Unavailable&) {
-        if (find_builder(choice.name).may_refuse.empty())
-            throw;
-        session.renew_queue();
-        if (refused != nullptr)
-            *refused = true;
-        return {};
+    const Tree* tree = &built_tree(session, choice, input);
+    Builder& builder = session.builder(choice);
+    const Check check = check_tree(tree->spelled_out(), input, choice, oracle);
+    if (check.verdict != Check::Verdict::agrees)
+        return check.detail;
+    std::string wrong = broken_footprint(builder, input.triangle_count());
+    const auto build_again = [&](Start start, const char* which) {
+        if (!wrong.empty())
+            return;
+        session.build_once(builder, input, start, &tree);
+        if (const std::uint64_t hash = tree_hash(tree->spelled_out()); hash != check.tree_hash)
+            wrong = std::string(which) + " left the tree " + hex(hash) + ", the first " +
+                    hex(*check.tree_hash);
+    };
+    build_again(Start::from_triangles, "the second build");
+    build_again(Start::from_sorted_leaves, "the build from sorted leaves");
+    if (wrong.empty() && builder.can_refit()) {
+        wrong = broken_refit(session, builder, input, *tree);
+        build_again(Start::from_triangles, "the build after a refit");
     }
+    return wrong;
+} catch (const Unavailable&) {
+    if (find_builder(choice.name).may_refuse.empty())
+        throw;
+    session.renew_queue();
+    if (refused != nullptr)
+        *refused = true;
+    return {};
 }
 
 }  // namespace bvhbench

@@ -51,15 +51,12 @@ void cut(const Polygon& polygon, std::size_t axis, double plane, double sign, Po
 /// Sets the bounds of a polygon that has corners.
 void enclose(Polygon& polygon)
 {
-    for (std::size_t k = 0; k < 3; ++k) {
-        double low = polygon.corners[0][k], high = low;
-        for (int i = 1; i < polygon.count; ++i) {
-            low = std::min(low, polygon.corners[i][k]);
-            high = std::max(high, polygon.corners[i][k]);
+    polygon.low = polygon.high = polygon.corners[0];
+    for (int i = 1; i < polygon.count; ++i)
+        for (std::size_t k = 0; k < 3; ++k) {
+            polygon.low[k] = std::min(polygon.low[k], polygon.corners[i][k]);
+            polygon.high[k] = std::max(polygon.high[k], polygon.corners[i][k]);
         }
-        polygon.low[k] = low;
-        polygon.high[k] = high;
-    }
 }
 
 /// True if the closed box and the polygon's bounding box share a point.
@@ -226,10 +223,8 @@ void clip(const Polygon& polygon, const Aabb& box, Polygon& left)
         if (now->count > 0 && polygon.high[axis] > high[axis])
             keep(axis, high[axis], -1);
     }
-    if (now != &left) {
-        left.count = now->count;
-        std::copy_n(now->corners, now->count, left.corners);
-    }
+    if (now != &left)
+        left = *now;
     if (left.count > 0)
         enclose(left);
 }

@@ -2,6 +2,7 @@
 #include "harness/judge/hard_inputs.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "scenes/generate/generators.h"
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "harness/measure/collide.h"
 
-#include <algorithm>
 #include <chrono>
 #include <future>
 #include <map>
@@ -13,7 +12,6 @@
 #include "collide/oracles/sweep.h"
 #include "geometry/hash.h"
 #include "geometry/host_memory.h"
-#include "harness/base/failure.h"
 #include "harness/judge/pair_counts.h"
 #include "harness/measure/engine.h"
 #include "harness/session/watchdog.h"
@@ -129,8 +127,7 @@ void hold_inexact(const PairList& found, const PairList& expected, Cell& cell)
     const Differences wrong = count_errors(found, expected, "", cell);
     if (cell.check.verdict == Check::Verdict::agrees)
         cell.check.verdict = Check::Verdict::counted;
-    cell.check.detail += std::to_string(wrong.missed) + " contacts missed, " +
-                         std::to_string(wrong.false_ones) + " false";
+    cell.check.detail += wrong.text("contacts");
 }
 
 /// Checks pairs of boxes that were rounded outward: none of the oracle's may be missing, more are allowed. The verdict becomes

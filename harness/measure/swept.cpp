@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "builders/box_format.h"
-#include "builders/orders.h"
 #include "geometry/error.h"
 #include "harness/measure/collide.h"
 #include "scenes/ground_truth.h"
@@ -19,19 +18,7 @@ struct Question {
     GroundTruth::Pairs GroundTruth::*listed;
     std::optional<std::uint64_t> GroundTruth::*counted;
     Input input = {};
-    std::vector<Running> running = {};
-
-    /// Adds the task's pipelines that take part in this query.
-    void ask(const CollideTask& task)
-    {
-        for (PipelineChoice pipeline : task.pipelines) {
-            if (pipeline.collider.among != Among::all && pipeline.collider.among != among)
-                continue;
-            pipeline.collider.among = among;
-            pipeline.collider.keep_adjacent = false;
-            running.push_back({std::move(pipeline)});
-        }
-    }
+    std::vector<Running> running = {};  ///< the pipelines that take part in it
 };
 
 /// Returns how many of the pairs `listed` are not in `found`.
@@ -96,7 +83,12 @@ void collide_swept(Session& session, const CollideTask& task, int& order, const 
                             {"edge-edge", Among::within_objects, unique_edges(scene),
                              &GroundTruth::edge_edge, &GroundTruth::swept_edge_edge}};
     for (Question& question : questions)
-        question.ask(task);
+        for (PipelineChoice pipeline : task.pipelines) {
+            const Among among = std::exchange(pipeline.collider.among, question.among);
+            pipeline.collider.keep_adjacent = false;
+            if (among == Among::all || among == question.among)
+                question.running.push_back({std::move(pipeline)});
+        }
     const std::size_t cells_a_step = questions[0].running.size() + questions[1].running.size();
     if (passes && passes((steps.end - steps.first) * cells_a_step))
         return;

@@ -13,15 +13,6 @@ namespace {
 /// A page with more triangles opens slowly, and its boxes hide each other.
 constexpr std::size_t most_triangles = 100'000;
 
-std::vector<uint> flat(const PairList& list)
-{
-    std::vector<uint> ids;
-    ids.reserve(2 * list.size());
-    for (const Pair pair : list.pairs())
-        ids.insert(ids.end(), {pair.a, pair.b});
-    return ids;
-}
-
 /// Appends the boxes of a valid tree, level by level. Padding nodes, which are no node's child, are on no level.
 void append_levels(std::string& text, const HostTree& tree)
 {
@@ -53,24 +44,21 @@ std::string text_of(const Json& run, const Cell& cell, const Scene& scene, std::
                     const HostTree* tree, const Found& found)
 {
     std::string text = "{\"run\":" + one_line(run) + ",\n\"cell\":" + cell_text(cell);
-    const auto put = [&](const char* name, const auto& values) {
+    const auto put = [&](const char* name, const auto& items, const auto... members) {
         text += std::string(",\n\"") + name + "\":";
-        append_list(text, values);
+        std::vector<std::common_type_t<decltype(items[0].*members)...>> flat;
+        for (const auto& item : items)
+            flat.insert(flat.end(), {item.*members...});
+        append_list(text, flat);
     };
-    std::vector<float> coordinates;
-    for (const Point& point : scene.frames[frame])
-        coordinates.insert(coordinates.end(), {point.x, point.y, point.z});
-    std::vector<uint> corners;
-    for (const Face& face : scene.faces)
-        corners.insert(corners.end(), {face.a, face.b, face.c});
-    put("points", coordinates);
-    put("faces", corners);
+    put("points", scene.frames[frame], &Point::x, &Point::y, &Point::z);
+    put("faces", scene.faces, &Face::a, &Face::b, &Face::c);
     text += ",\n\"levels\":[";
     if (tree != nullptr)
         append_levels(text, *tree);
     text += ']';
-    put("pairs", flat(found.pairs));
-    put("contacts", flat(found.contacts));
+    put("pairs", found.pairs.pairs(), &Pair::a, &Pair::b);
+    put("contacts", found.contacts.pairs(), &Pair::a, &Pair::b);
     return text + "}\n";
 }
 

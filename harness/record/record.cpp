@@ -8,6 +8,27 @@
 #include "harness/choice/choices.h"
 
 namespace bvhbench {
+
+BVHBENCH_TO_JSON(StageTime, stage, launches, busy_ns, span_ns, moved_bytes, start_ns, queued_ns,
+                 submitted_ns)
+BVHBENCH_TO_JSON(SweptFacts, pairs, to_frame, primitives)
+BVHBENCH_TO_JSON(Outlier, of, triangle, diameters)
+BVHBENCH_TO_JSON(FirstRun, compile_ns, run_ns)
+
+static void to_json(Json& json, const Sample& sample)
+{
+    json = {{"order", sample.order}, {"stages", Json::array()}};
+    for (const StageTime& time : sample.stages)
+        if (time.wall_ns > 0)  // else a device stage; a tree of one leaf has no launches
+            json["stages"].push_back({{"stage", time.stage}, {"wall_ns", time.wall_ns}});
+        else
+            json["stages"].push_back(time);
+    if (sample.calibration_ns > 0)
+        json["calibration_ns"] = sample.calibration_ns;
+    if (sample.drifted)
+        json["drifted"] = true;
+}
+
 namespace {
 
 void put_if(Json& json, const char* key, const std::string& value)
@@ -15,38 +36,6 @@ void put_if(Json& json, const char* key, const std::string& value)
     if (!value.empty())
         json[key] = value;
 }
-
-}  // namespace
-
-static void to_json(Json& json, const StageTime& time)
-{
-    if (time.wall_ns > 0)  // else a device stage; a tree of one leaf has no launches
-        json = {{"stage", time.stage}, {"wall_ns", time.wall_ns}};
-    else
-        json = {{"stage", time.stage},
-                {"launches", time.launches},
-                {"busy_ns", time.busy_ns},
-                {"span_ns", time.span_ns},
-                {"moved_bytes", time.moved_bytes},
-                {"start_ns", time.start_ns},
-                {"queued_ns", time.queued_ns},
-                {"submitted_ns", time.submitted_ns}};
-}
-
-static void to_json(Json& json, const Sample& sample)
-{
-    json = {{"order", sample.order}, {"stages", sample.stages}};
-    if (sample.calibration_ns > 0)
-        json["calibration_ns"] = sample.calibration_ns;
-    if (sample.drifted)
-        json["drifted"] = true;
-}
-
-BVHBENCH_TO_JSON(SweptFacts, pairs, to_frame, primitives)
-BVHBENCH_TO_JSON(Outlier, of, triangle, diameters)
-BVHBENCH_TO_JSON(FirstRun, compile_ns, run_ns)
-
-namespace {
 
 Json json_of(const SceneFacts& scene)
 {
@@ -76,27 +65,6 @@ Json json_of(const SceneFacts& scene)
     return json;
 }
 
-Json json_of(const BuilderChoice& builder)
-{
-    return {{"name", builder.name},
-            {"options", choices_json({.builder = builder}, Choice::Of::builder)}};
-}
-
-Json json_of(const ColliderChoice& collider)
-{
-    Json options = choices_json({.collider = collider}, Choice::Of::query);
-    options.update(choices_json({.collider = collider}, Choice::Of::collider));
-    return {{"name", collider.name}, {"options", std::move(options)}};
-}
-
-Json json_of(const AccuracyFacts& accuracy)
-{
-    Json json = {{"axis", accuracy.axis}, {"method", accuracy.method}};
-    if (accuracy.seed > 0)
-        json["seed"] = accuracy.seed;
-    return json;
-}
-
 Json json_of(const Check& check)
 {
     constexpr std::array verdicts = {"agrees", "differs", "not_checked", "counted"};
@@ -111,15 +79,6 @@ Json json_of(const Check& check)
     return json;
 }
 
-Json json_of(const SamplingFacts& sampling)
-{
-    Json json = {{"stopped", stopped_name(sampling.stopped)},
-                 {"caches", sampling.cold ? "cold" : "hot"}};
-    if (sampling.until > 0)
-        json["until"] = sampling.until;
-    return json;
-}
-
 }  // namespace
 
 std::string cell_text(const Cell& cell)
@@ -127,13 +86,20 @@ std::string cell_text(const Cell& cell)
     constexpr std::array states = {"measured", "skipped", "failed"};
     Json json = {{"experiment", cell.experiment},
                  {"scene", json_of(cell.scene)},
-                 {"builder", json_of(cell.builder)}};
-    if (!cell.collider.name.empty())
-        json["collider"] = json_of(cell.collider);
+                 {"builder",
+                  {{"name", cell.builder.name},
+                   {"options", choices_json({.builder = cell.builder}, Choice::Of::builder)}}}};
+    if (!cell.collider.name.empty()) {
+        Json options = choices_json({.collider = cell.collider}, Choice::Of::query);
+        options.update(choices_json({.collider = cell.collider}, Choice::Of::collider));
+        json["collider"] = {{"name", cell.collider.name}, {"options", std::move(options)}};
+    }
     if (!cell.swept.pairs.empty())
         json["swept"] = cell.swept;
     if (!cell.accuracy.axis.empty())
-        json["accuracy"] = json_of(cell.accuracy);
+        json["accuracy"] = {{"axis", cell.accuracy.axis}, {"method", cell.accuracy.method}};
+    if (cell.accuracy.seed > 0)
+        json["accuracy"]["seed"] = cell.accuracy.seed;
     json["operation"] = operation_name(cell.operation);
     json["status"] = states[static_cast<std::size_t>(cell.status)];
     if (cell.status != Cell::Status::measured) {
@@ -143,8 +109,12 @@ std::string cell_text(const Cell& cell)
     json["warm_up"] = cell.warm_up;
     if (cell.first.run_ns > 0)
         json["first"] = cell.first;
-    if (cell.sampling.stopped != Stopped::not_sampled)
-        json["sampling"] = json_of(cell.sampling);
+    if (cell.sampling.stopped != Stopped::not_sampled) {
+        json["sampling"] = {{"stopped", stopped_name(cell.sampling.stopped)},
+                            {"caches", cell.sampling.cold ? "cold" : "hot"}};
+        if (cell.sampling.until > 0)
+            json["sampling"]["until"] = cell.sampling.until;
+    }
     json["samples"] = cell.samples;
     Json& counters = json["counters"] = Json::object();
     for (const auto& [key, value] : cell.counters) {

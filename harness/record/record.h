@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Contents of a result file, format 1. The schema is results/schema/result-1.schema.json, which a test compares with this.
-// record.cpp writes cells, provenance.cpp the facts of a run; result_file.cpp adds what is known at its end. Readers are in plots/.
+// record.cpp writes cells, provenance.cpp the facts of a run, result_file.cpp what is known at its end. Readers are in plots/.
 #pragma once
 
 #include <cstdint>

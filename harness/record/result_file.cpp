@@ -22,15 +22,6 @@ std::optional<Json> document_of(const std::string& run_id, const std::string& te
     return is_own ? std::optional(std::move(json)) : std::nullopt;
 }
 
-int order_after(const Json& cell)
-{
-    int next = 0;
-    if (cell.contains("samples"))
-        for (const Json& sample : cell["samples"])
-            next = std::max(next, sample.value("order", 0) + 1);
-    return next;
-}
-
 /// Records the process's memory. Keeps larger values that an earlier process of the same run recorded.
 void note_memory(Json& run)
 {
@@ -77,7 +68,8 @@ void ResultFile::take_over(const std::string& run_id)
                           .is_measured = cell.value("status", "") == "measured",
                           .differs = cell.value("/check/verdict"_json_pointer, "") == "differs",
                           .reason = cell.value("reason", "")});
-        next_order_ = std::max(next_order_, order_after(cell));
+        for (const Json& sample : cell.value("samples", Json::array()))
+            next_order_ = std::max(next_order_, sample.value("order", 0) + 1);
     }
     has_measured_ = true;  // the earlier file belongs to this run
     goes_on_ = true;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "harness/session/tuning_file.h"
 
-#include <algorithm>
+#include <re2/re2.h>
+
 #include <cctype>
 #include <cstdlib>
 #include <vector>
@@ -90,14 +91,11 @@ const Parameter& find_parameter(std::string_view name, const std::string& origin
 
 std::string device_slug(std::string_view device)
 {
-    std::string slug;
-    for (const unsigned char c : device)
-        if (std::isalnum(c) != 0)
-            slug += static_cast<char>(std::tolower(c));
-        else if (!slug.empty() && slug.back() != '-')
-            slug += '-';
-    while (slug.ends_with('-'))
-        slug.pop_back();
+    std::string slug(device);
+    for (char& c : slug)
+        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    RE2::GlobalReplace(&slug, RE2("[^a-z0-9]+", RE2::Latin1), "-");
+    RE2::GlobalReplace(&slug, "^-|-$", "");
     return slug.empty() ? "device" : slug;
 }
 
@@ -143,11 +141,8 @@ Tuning tuning_of(const TuningFile& file, const Device& device, const std::string
 
 std::optional<std::string> tuning_folder(const std::optional<std::string>& option)
 {
-    if (option)
-        return option;
-    if (const char* variable = std::getenv("BVHBENCH_TUNING"))
-        return std::string(variable);
-    return std::nullopt;
+    const char* variable = std::getenv("BVHBENCH_TUNING");
+    return option || variable == nullptr ? option : std::optional<std::string>(variable);
 }
 
 NamedTuning tuning_file_for(const Device& device, const std::optional<std::string>& folder)
