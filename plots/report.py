@@ -96,7 +96,7 @@ def main() -> int:
     parser.add_argument("files", nargs="*", type=pathlib.Path, metavar="FILE", help="result files")
     parser.add_argument("-o", "--out", type=pathlib.Path, default=pathlib.Path("report.html"), help="the page")
     parser.add_argument("--force", action="store_true", help="replace a file that is no page")
-    parser.add_argument("--view", action="append", default=[], type=pathlib.Path, help="a scene, as harness/measure/view.h writes it")
+    parser.add_argument("--view", action="append", default=[], type=pathlib.Path, help="a scene, as `bvhbench view` writes it")
     arguments = parser.parse_args()
 
     return output.to_an_end(lambda: write(arguments.files, arguments.view, arguments.out, arguments.force), "bvhbench: ")

@@ -70,6 +70,15 @@ void remember(int signal)
 
 }  // namespace
 
+std::vector<int> ending_signals()
+{
+    struct sigaction hang_up = {};
+    sigaction(SIGHUP, nullptr, &hang_up);
+    if (hang_up.sa_handler == SIG_IGN)
+        return {SIGINT, SIGTERM};
+    return {SIGINT, SIGTERM, SIGHUP};
+}
+
 void end_on_signals()
 {
     static bool has_begun = false;
@@ -88,12 +97,8 @@ void end_on_signals()
     struct sigaction action = {};
     action.sa_handler = remember;
     action.sa_flags = SA_RESTART;
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-        struct sigaction before = {};
-        sigaction(signal, nullptr, &before);
-        if (signal != SIGHUP || before.sa_handler != SIG_IGN)
-            sigaction(signal, &action, nullptr);
-    }
+    for (const int signal : ending_signals())
+        sigaction(signal, &action, nullptr);
 }
 
 AtSignal::AtSignal(std::function<void()> done, std::string said)

@@ -6,12 +6,16 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace bvhbench {
 
-/// Installs handlers for SIGINT, SIGTERM and SIGHUP. On the first signal a sleeping thread wakes, runs the work of all AtSignals,
-/// prints one sentence and exits with code 128 + signal. A second signal ends the process at once. A SIGHUP that was ignored
-/// before, as under nohup, stays ignored. Further calls of this function do nothing.
+/// Returns the signals that end the program: SIGINT, SIGTERM, and SIGHUP unless it is ignored, as under nohup.
+std::vector<int> ending_signals();
+
+/// Installs handlers for ending_signals(). On the first signal a sleeping thread wakes, runs the work of all AtSignals,
+/// prints one sentence and exits with code 128 + signal. A second signal ends the process at once. Further
+/// calls of this function do nothing.
 void end_on_signals();
 
 /// Registers work to run when a signal ends the process, for the lifetime of this object.

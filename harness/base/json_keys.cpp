@@ -11,6 +11,11 @@
 
 namespace bvhbench {
 
+std::string one_line(const Json& json)
+{
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 void refuse_unknown_keys(const Json& json, const std::vector<std::string_view>& known,
                          const std::string& where)
 {

@@ -22,6 +22,16 @@ using Json = nlohmann::ordered_json;
 using FloatJson = nlohmann::basic_json<nlohmann::ordered_map, std::vector, std::string, bool,
                                        std::int64_t, std::uint64_t, float>;
 
+/// Defines to_json with one key for each member, named as the member.
+#define BVHBENCH_TO_JSON(Type, ...)                                              \
+    static void to_json(Json& nlohmann_json_j, const Type& nlohmann_json_t)      \
+    {                                                                            \
+        NLOHMANN_JSON_EXPAND(NLOHMANN_JSON_PASTE(NLOHMANN_JSON_TO, __VA_ARGS__)) \
+    }
+
+/// Returns the JSON on one line. Replaces invalid UTF-8, which file names and logs may contain and JSON files must not.
+std::string one_line(const Json& json);
+
 void refuse_unknown_keys(const Json& json, const std::vector<std::string_view>& known,
                          const std::string& where);
 std::string text_at(const Json& json, const char* key);

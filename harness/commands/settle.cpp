@@ -13,7 +13,6 @@
 #include "harness/commands/words.h"
 #include "harness/measure/collide.h"
 #include "harness/measure/run.h"
-#include "harness/measure/view.h"
 #include "harness/session/session.h"
 
 namespace bvhbench {
@@ -73,7 +72,7 @@ public:
     {
         Session session(invocation.common);
         std::cout << "{\"format\": \"" << result_format
-                  << "\", \"run\": " << run_text(measured_facts(session, {})) << "}\n";
+                  << "\", \"run\": " << one_line(measured_facts(session, {})) << "}\n";
         return 0;
     }
 };
@@ -107,8 +106,8 @@ public:
         check_choice(choice_);
         check_powers(choice_);
         Session session(invocation.common);
-        const ViewTask task{scene_, frame_, {choice_.builder, choice_.collider}};
-        std::cout << view_text(session, task, invocation.words);
+        std::cout << view_text(session, scene_, frame_, {choice_.builder, choice_.collider},
+                               invocation.words);
         return 0;
     }
 

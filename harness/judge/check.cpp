@@ -43,32 +43,6 @@ std::string broken_refit(Session& session, Builder& builder, const Input& input,
     return is_same ? "" : "a refit changed the topology";
 }
 
-std::string broken_promise_of_build(Session& session, const BuilderChoice& choice,
-                                    const Input& input, Oracle& oracle)
-{
-    const Tree* tree = &built_tree(session, choice, input);
-    Builder& builder = session.builder(choice);
-    const Check check = check_tree(tree->spelled_out(), input, choice, oracle);
-    if (check.verdict != Check::Verdict::agrees)
-        return check.detail;
-    std::string wrong = broken_footprint(builder, input.triangle_count());
-    const auto build_again = [&](Start start, const char* which) {
-        if (!wrong.empty())
-            return;
-        session.build_once(builder, input, start, &tree);
-        if (const std::uint64_t hash = tree_hash(tree->spelled_out()); hash != check.tree_hash)
-            wrong = std::string(which) + " left the tree " + hex(hash) + ", the first " +
-                    hex(*check.tree_hash);
-    };
-    build_again(Start::from_triangles, "the second build");
-    build_again(Start::from_sorted_leaves, "the build from sorted leaves");
-    if (wrong.empty() && builder.can_refit()) {
-        wrong = broken_refit(session, builder, input, *tree);
-        build_again(Start::from_triangles, "the build after a refit");
-    }
-    return wrong;
-}
-
 }  // namespace
 
 const Tree& built_tree(Session& session, const BuilderChoice& choice, const Input& input)
@@ -123,12 +97,10 @@ Check check_tree(const HostTree& tree, const Input& input, const BuilderChoice& 
     if (!reference.empty())
         oracle.begin(reference, builder.order, builder.boxes);
     check.tree_hash = tree_hash(tree);
-    check.detail = broken_promise(tree, input.points, input.faces);
-    if (!check.detail.empty()) {
-        check.verdict = differs;
-        return check;
-    }
-    if (reference.empty())
+    const std::string wrong = broken_promise(tree, input.points, input.faces);
+    if (!wrong.empty())
+        check.find_wrong(wrong);
+    if (!wrong.empty() || reference.empty())
         return check;
     std::uint64_t expected = 0;
     const std::string failure = reason_of_failure(
@@ -137,8 +109,7 @@ Check check_tree(const HostTree& tree, const Input& input, const BuilderChoice& 
         check.verdict = not_checked;
         check.detail = "the reference failed: " + failure;
     } else if (*check.tree_hash != expected) {
-        check.verdict = differs;
-        check.detail = "a valid tree, but the reference's has the hash " + hex(expected);
+        check.find_wrong("a valid tree, but the reference's has the hash " + hex(expected));
     }
     return check;
 }
@@ -153,10 +124,9 @@ Check check_refit(const HostTree& tree, const HostTree& built, const Input& inpu
     if (before.tree_hash == expected)
         return before;
     const std::string wrong = broken_promise(tree, input.points, input.faces);
-    before.verdict = Check::Verdict::differs;
-    before.detail = !wrong.empty()
-                        ? wrong
-                        : "a valid tree, but the refit on the host has the hash " + hex(expected);
+    before.find_wrong(!wrong.empty() ? wrong
+                                     : "a valid tree, but the refit on the host has the hash " +
+                                           hex(expected));
     return before;
 }
 
@@ -165,28 +135,45 @@ Check check_again(const Tree& tree, Check before)
     const std::uint64_t hash = tree_hash(tree.spelled_out());
     if (before.verdict == Check::Verdict::differs || hash == before.tree_hash)
         return before;
-    before.verdict = Check::Verdict::differs;
-    before.detail =
-        "it was the tree " + hex(*before.tree_hash) + " at first and " + hex(hash) + " at last";
+    before.find_wrong("it was the tree " + hex(*before.tree_hash) + " at first and " + hex(hash) +
+                      " at last");
     before.tree_hash = hash;
     return before;
 }
 
 std::string broken_contract(Session& session, const BuilderChoice& choice, const Input& input,
                             Oracle& oracle, bool* refused)
-{
+try {
     if (refused != nullptr)
         *refused = false;
-    try {
-        return broken_promise_of_build(session, choice, input, oracle);
-    } catch (const Unavailable&) {
-        if (find_builder(choice.name).may_refuse.empty())
-            throw;
-        session.renew_queue();
-        if (refused != nullptr)
-            *refused = true;
-        return {};
+    const Tree* tree = &built_tree(session, choice, input);
+    Builder& builder = session.builder(choice);
+    const Check check = check_tree(tree->spelled_out(), input, choice, oracle);
+    if (check.verdict != Check::Verdict::agrees)
+        return check.detail;
+    std::string wrong = broken_footprint(builder, input.triangle_count());
+    const auto build_again = [&](Start start, const char* which) {
+        if (!wrong.empty())
+            return;
+        session.build_once(builder, input, start, &tree);
+        if (const std::uint64_t hash = tree_hash(tree->spelled_out()); hash != check.tree_hash)
+            wrong = std::string(which) + " left the tree " + hex(hash) + ", the first " +
+                    hex(*check.tree_hash);
+    };
+    build_again(Start::from_triangles, "the second build");
+    build_again(Start::from_sorted_leaves, "the build from sorted leaves");
+    if (wrong.empty() && builder.can_refit()) {
+        wrong = broken_refit(session, builder, input, *tree);
+        build_again(Start::from_triangles, "the build after a refit");
     }
+    return wrong;
+} catch (const Unavailable&) {
+    if (find_builder(choice.name).may_refuse.empty())
+        throw;
+    session.renew_queue();
+    if (refused != nullptr)
+        *refused = true;
+    return {};
 }
 
 }  // namespace bvhbench

@@ -7,7 +7,6 @@
 #include <map>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include "harness/record/record.h"
 #include "harness/session/session.h"

@@ -51,15 +51,12 @@ void cut(const Polygon& polygon, std::size_t axis, double plane, double sign, Po
 /// Sets the bounds of a polygon that has corners.
 void enclose(Polygon& polygon)
 {
-    for (std::size_t k = 0; k < 3; ++k) {
-        double low = polygon.corners[0][k], high = low;
-        for (int i = 1; i < polygon.count; ++i) {
-            low = std::min(low, polygon.corners[i][k]);
-            high = std::max(high, polygon.corners[i][k]);
+    polygon.low = polygon.high = polygon.corners[0];
+    for (int i = 1; i < polygon.count; ++i)
+        for (std::size_t k = 0; k < 3; ++k) {
+            polygon.low[k] = std::min(polygon.low[k], polygon.corners[i][k]);
+            polygon.high[k] = std::max(polygon.high[k], polygon.corners[i][k]);
         }
-        polygon.low[k] = low;
-        polygon.high[k] = high;
-    }
 }
 
 /// True if the closed box and the polygon's bounding box share a point.
@@ -85,14 +82,9 @@ struct DepthFirst {
     struct Node {
         Aabb box;
         std::uint32_t end;
-        bool is_leaf;
-    };
-    struct Leaf {
-        std::uint32_t node;
-        std::uint32_t triangle;
+        int triangle;  ///< HostTree::none for inner nodes
     };
     std::vector<Node> nodes;
-    std::vector<Leaf> leaves;  ///< from left to right
 
     explicit DepthFirst(const HostTree& tree)
     {
@@ -107,10 +99,7 @@ struct DepthFirst {
                 continue;
             }
             const HostTree::Node& node = tree.nodes[static_cast<std::size_t>(index)];
-            const bool is_leaf = node.primitive != HostTree::none;
-            nodes.push_back({node.box, 0, is_leaf});
-            if (is_leaf)
-                leaves.push_back({place, static_cast<std::uint32_t>(node.primitive)});
+            nodes.push_back({node.box, 0, node.primitive});
             stack.push_back(~static_cast<int>(place));
             for (std::size_t side = HostTree::most_children; side-- > 0;)
                 if (node.child[side] != HostTree::none)
@@ -162,7 +151,7 @@ public:
                     place = node.end;
                     continue;
                 }
-                (node.is_leaf ? leaf : inner) += parts_[last_].area;
+                (node.triangle != HostTree::none ? leaf : inner) += parts_[last_].area;
             }
             ++place;
         }
@@ -191,19 +180,18 @@ private:
     std::size_t last_ = 0;
 };
 
-/// Number of consecutive leaves that one task sums: neighbours in the tree meet the same nodes.
-constexpr std::size_t chunk = 512;
+/// Number of consecutive nodes whose leaves one task sums: neighbours in the tree meet the same nodes.
+constexpr std::size_t chunk = 1024;
 
 Sums sums_of(const DepthFirst& tree, std::size_t first, std::span<const Point> points,
              std::span<const Face> faces)
 {
     Sums sums;
     Descent descent(tree);
-    const std::size_t last = std::min(first + chunk, tree.leaves.size());
-    for (std::size_t i = first; i < last; ++i) {
-        const DepthFirst::Leaf& leaf = tree.leaves[i];
-        descent.add(polygon_of(points, faces[leaf.triangle]), leaf.node, sums);
-    }
+    for (std::size_t i = first; i < std::min(first + chunk, tree.nodes.size()); ++i)
+        if (const int triangle = tree.nodes[i].triangle; triangle != HostTree::none)
+            descent.add(polygon_of(points, faces[static_cast<std::size_t>(triangle)]),
+                        static_cast<std::uint32_t>(i), sums);
     return sums;
 }
 
@@ -235,10 +223,8 @@ void clip(const Polygon& polygon, const Aabb& box, Polygon& left)
         if (now->count > 0 && polygon.high[axis] > high[axis])
             keep(axis, high[axis], -1);
     }
-    if (now != &left) {
-        left.count = now->count;
-        std::copy_n(now->corners, now->count, left.corners);
-    }
+    if (now != &left)
+        left = *now;
     if (left.count > 0)
         enclose(left);
 }
@@ -267,7 +253,7 @@ std::optional<AreaSums> end_point_overlap(const HostTree& tree, std::span<const 
         return std::nullopt;
     const DepthFirst flat(tree);
     // Threads take chunks as they become free; the chunks are added in their order, so the sum does not depend on threads.
-    std::vector<Sums> chunks((flat.leaves.size() + chunk - 1) / chunk);
+    std::vector<Sums> chunks((flat.nodes.size() + chunk - 1) / chunk);
     std::atomic<std::size_t> next = 0;
     const auto work = [&] {
         for (std::size_t i; (i = next++) < chunks.size();)

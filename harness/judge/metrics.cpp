@@ -80,10 +80,14 @@ std::vector<std::int64_t> leaves_by_depth(const HostTree& tree)
     return counts;
 }
 
-Quality quality_of(const HostTree& tree, const NodeCosts& costs)
+void count_quality(Cell& cell, const HostTree& tree, const NodeCosts& costs)
 {
-    Quality quality;
-    auto& counters = quality.counters;
+    if (cell.check.verdict == Check::Verdict::differs) {
+        for (const char* counter : {"sah_cost", "sibling_overlap", "depth_max", "epo"})
+            cell.left_out[counter] = "the tree is wrong";
+        return;
+    }
+    auto& counters = cell.counters;
     if (const auto sums = area_sums(tree)) {
         counters["sah_inner"] = sums->inner;
         counters["sah_leaf"] = sums->leaf;
@@ -91,9 +95,9 @@ Quality quality_of(const HostTree& tree, const NodeCosts& costs)
         counters["sibling_overlap"] = sibling_overlap(tree).value();
     } else {
         for (const char* counter : {"sah_cost", "sibling_overlap"})
-            quality.left_out[counter] = "the root's box has no area";
+            cell.left_out[counter] = "the root's box has no area";
     }
-    const std::vector<std::int64_t>& depths = quality.leaves_by_depth = leaves_by_depth(tree);
+    const std::vector<std::int64_t>& depths = cell.leaves_by_depth = leaves_by_depth(tree);
     double leaves = 0, sum = 0;  // integers, exact up to 2^53
     for (std::size_t depth = 0; depth < depths.size(); ++depth) {
         leaves += static_cast<double>(depths[depth]);
@@ -103,18 +107,19 @@ Quality quality_of(const HostTree& tree, const NodeCosts& costs)
         counters["depth_max"] = static_cast<double>(depths.size() - 1);
         counters["depth_mean"] = sum / leaves;
     }
-    return quality;
 }
 
-void add_end_point_overlap(Quality& quality, const HostTree& tree, std::span<const Point> points,
-                           std::span<const Face> faces, const NodeCosts& costs)
+void count_end_point_overlap(Cell& cell, const HostTree& tree, std::span<const Point> points,
+                             std::span<const Face> faces, const NodeCosts& costs)
 {
+    if (cell.check.verdict == Check::Verdict::differs)
+        return;
     if (const auto sums = end_point_overlap(tree, points, faces)) {
-        quality.counters["epo_inner"] = sums->inner;
-        quality.counters["epo_leaf"] = sums->leaf;
-        quality.counters["epo"] = sums->cost(costs);
+        cell.counters["epo_inner"] = sums->inner;
+        cell.counters["epo_leaf"] = sums->leaf;
+        cell.counters["epo"] = sums->cost(costs);
     } else {
-        quality.left_out["epo"] = "no triangle has an area";
+        cell.left_out["epo"] = "no triangle has an area";
     }
 }
 

@@ -8,15 +8,12 @@
 
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "builders/tree.h"
-#include "geometry/mesh.h"
-#include "harness/choice/sampling.h"
+#include "harness/record/record.h"
 
 namespace bvhbench {
 
@@ -70,18 +67,12 @@ std::optional<double> sibling_overlap(const HostTree& tree);
 /// Returns the number of leaves at each depth: entry d counts those on level d. The last entry is not 0.
 std::vector<std::int64_t> leaves_by_depth(const HostTree& tree);
 
-/// Quality of a tree as stored in a cell of a result file.
-struct Quality {
-    std::map<std::string, double> counters;
-    /// Reason for each counter that is missing. A missing weighted sum implies that its parts are missing as well.
-    std::map<std::string, std::string> left_out;
-    std::vector<std::int64_t> leaves_by_depth;
-};
+/// Writes the counters of a tree's quality to the cell, except the end-point overlap, which takes longer than a build. If the
+/// cell's verdict is `differs`, these counters have no value. A missing weighted sum implies that its parts are missing as well.
+void count_quality(Cell& cell, const HostTree& tree, const NodeCosts& costs = {});
 
-/// Returns all metrics but the end-point overlap, which takes longer than a build.
-Quality quality_of(const HostTree& tree, const NodeCosts& costs = {});
-
-void add_end_point_overlap(Quality& quality, const HostTree& tree, std::span<const Point> points,
-                           std::span<const Face> faces, const NodeCosts& costs = {});
+/// Writes the end-point overlap to the cell, unless its verdict is `differs`.
+void count_end_point_overlap(Cell& cell, const HostTree& tree, std::span<const Point> points,
+                             std::span<const Face> faces, const NodeCosts& costs = {});
 
 }  // namespace bvhbench

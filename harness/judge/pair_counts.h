@@ -24,9 +24,10 @@ struct Differences {
     bool operator==(const Differences&) const = default;
 
     /// Returns a text such as "2 pairs missed, 1 false".
-    std::string text() const
+    std::string text(const std::string& of = "pairs") const
     {
-        return std::to_string(missed) + " pairs missed, " + std::to_string(false_ones) + " false";
+        return std::to_string(missed) + ' ' + of + " missed, " + std::to_string(false_ones) +
+               " false";
     }
 };
 

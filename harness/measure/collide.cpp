@@ -19,6 +19,40 @@ void put_choice(const CollideTask& task, SceneFacts& facts)
     facts.between = task.between;
 }
 
+/// Throws what loading the scene throws, and BadUsage for frames that it does not have.
+void collide_scene(Session& session, const CollideTask& task, int& order, const AddFrame& add,
+                   const PassCells& passes)
+{
+    const Scene scene = scene_of(task, session.scenes());
+    const FrameRange frames = frames_of(task, scene.frames.size(), "frames");
+    const bool finds_nothing =
+        scene.objects.size() == 1 &&
+        std::ranges::all_of(task.pipelines, [](const PipelineChoice& pipeline) {
+            return pipeline.collider.among == Among::between_objects;
+        });
+    if (finds_nothing)
+        throw BadUsage("scene '" + task.scene +
+                       "' is one object, and there are no pairs between objects");
+    if (passes && passes((frames.end - frames.first) * task.pipelines.size()))
+        return;
+    Input input = upload_frame(session, scene, frames.first);
+    std::vector<Running> all;
+    for (const PipelineChoice& pipeline : task.pipelines)
+        all.push_back({pipeline});
+    for (std::size_t frame = frames.first; frame < frames.end; ++frame) {
+        input.points = scene.frames[frame];
+        input.device_points.upload(session.queue().cl(), input.points);
+        FrameOfPipelines now{.input = input,
+                             .number = task.number + '/' + std::to_string(frame),
+                             .scene = facts_of(task, scene, frame)};
+        if (frame > frames.first)
+            now.motions = object_motions(scene, frame - 1, frame);
+        now.file_faces = scene.file_faces;
+        Found found{.scene = &scene};
+        add(run_frame(session, task, all, now, order, found), found);
+    }
+}
+
 }  // namespace
 
 Scene scene_of(const CollideTask& task, const SceneLibrary& library)
@@ -57,44 +91,6 @@ SceneFacts facts_of(const CollideTask& task, const Scene& scene, std::size_t fra
     put_choice(task, facts);
     return facts;
 }
-
-namespace {
-
-/// Throws what loading the scene throws, and BadUsage for frames that it does not have.
-void collide_scene(Session& session, const CollideTask& task, int& order, const AddFrame& add,
-                   const PassCells& passes)
-{
-    const Scene scene = scene_of(task, session.scenes());
-    const FrameRange frames = frames_of(task, scene.frames.size(), "frames");
-    const bool finds_nothing =
-        scene.objects.size() == 1 &&
-        std::ranges::all_of(task.pipelines, [](const PipelineChoice& pipeline) {
-            return pipeline.collider.among == Among::between_objects;
-        });
-    if (finds_nothing)
-        throw BadUsage("scene '" + task.scene +
-                       "' is one object, and there are no pairs between objects");
-    if (passes && passes((frames.end - frames.first) * task.pipelines.size()))
-        return;
-    Input input = upload_frame(session, scene, frames.first);
-    std::vector<Running> all;
-    for (const PipelineChoice& pipeline : task.pipelines)
-        all.push_back({pipeline});
-    for (std::size_t frame = frames.first; frame < frames.end; ++frame) {
-        input.points = scene.frames[frame];
-        input.device_points.upload(session.queue().cl(), input.points);
-        FrameOfPipelines now{.input = input,
-                             .number = task.number + '/' + std::to_string(frame),
-                             .scene = facts_of(task, scene, frame)};
-        if (frame > frames.first)
-            now.motions = object_motions(scene, frame - 1, frame);
-        now.file_faces = scene.file_faces;
-        Found found{.scene = &scene};
-        add(run_frame(session, task, all, now, order, found), found);
-    }
-}
-
-}  // namespace
 
 void collide_frames(Session& session, const CollideTask& task, int& order, const AddFrame& add,
                     const PassCells& passes)

@@ -62,8 +62,8 @@ void collide_swept(Session& session, const CollideTask& task, int& order, const 
 struct Running {
     PipelineChoice choice;
     std::unique_ptr<Pipeline> pipeline = nullptr;
-    std::string failure = {};  ///< why it cannot be run; empty if it can
-    bool cannot_be = false;    ///< true if it can never run over this scene
+    Cell::Status status = Cell::Status::measured;  ///< status of its cell in the last frame
+    std::string reason = {};                       ///< why it was not measured there
 };
 
 /// A frame that several pipelines run over.
@@ -78,12 +78,22 @@ struct FrameOfPipelines {
     std::function<void(const Found& found, Cell& cell)> judge_more = {};
 };
 
-/// Sets the verdict to `differs` and appends `detail` to the reasons.
-void find_wrong(Check& check, const std::string& detail);
-
 /// Runs all pipelines over a frame, one cell each: settles and checks each, samples all interleaved, checks again. Writes the
 /// last pipeline's result to `found`. A pipeline that fails has the same reason in the cells of all later frames.
 std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span<Running> all,
                             const FrameOfPipelines& frame, int& order, Found& found);
+
+/// Returns a small scene as JSON, for a report that draws it in three dimensions. It has the tree that a builder left over the
+/// frame's triangles as one object, and the pairs and contacts that a collider found in that tree, checked against the oracles:
+///
+/// {"run": {...}, "cell": {...}, "points": [x,y,z,...], "faces": [a,b,c,...], "levels": [{"leaves": n, "boxes": [...]}],
+/// "pairs": [a,b,...], "contacts": [a,b,...]}
+///
+/// "run" and "cell" are as in a result file, without samples; the rest are flat lists. A level has the nodes of one depth: six
+/// numbers a box (min x, y, z, max x, y, z), inner nodes first, then leaves. "levels" is empty if the tree is invalid.
+///
+/// Throws BadUsage for a scene that is too large and for a collider without a tree, Unavailable if the pipeline fails.
+std::string view_text(Session& session, const std::string& scene, std::size_t frame,
+                      const PipelineChoice& pipeline, std::vector<std::string> command);
 
 }  // namespace bvhbench

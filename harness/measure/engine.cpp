@@ -54,6 +54,7 @@ void Engine::settle(Subject& subject, const std::function<void()>& work)
     if (std::string why = watchdog::given_up(subject.number); !why.empty())
         return refuse(subject, Cell::Status::failed, std::move(why));
     const watchdog::Hand hand(subject.number);
+    subject.cell.warm_up = plan_.warm_up;
     const std::int64_t compiled_ns = session_.programs().compile_ns();
     bool cannot_be = false;
     std::string failure = reason_of_failure(work, &cannot_be);
@@ -81,7 +82,6 @@ void Engine::sample(std::span<Subject> subjects)
     std::vector<Taken> taken = session_samples(session_, timed, plan_, order_);
     for (std::size_t i = 0; i < ready.size(); ++i) {
         Cell& cell = ready[i]->cell;
-        cell.warm_up = plan_.warm_up;
         cell.samples = std::move(taken[i].samples);
         cell.sampling = {
             .stopped = taken[i].stopped, .until = plan_.rules.until, .cold = plan_.rules.cold};

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "harness/measure/collide.h"
 
-#include <algorithm>
 #include <chrono>
 #include <future>
 #include <map>
@@ -13,7 +12,6 @@
 #include "collide/oracles/sweep.h"
 #include "geometry/hash.h"
 #include "geometry/host_memory.h"
-#include "harness/base/failure.h"
 #include "harness/judge/pair_counts.h"
 #include "harness/measure/engine.h"
 #include "harness/session/watchdog.h"
@@ -95,46 +93,42 @@ void hold(const PairList& found, const PairList& expected, const std::string& wh
           std::span<const uint> file_faces, Check& check)
 {
     if (found.surplus() > 0)
-        find_wrong(check, std::to_string(found.surplus()) + ' ' + what + " were found twice");
+        check.find_wrong(std::to_string(found.surplus()) + ' ' + what + " were found twice");
     else if (found != expected)
-        find_wrong(check, "the oracle has " + std::to_string(expected.size()) + ' ' + what +
-                              " of the hash " + hex(renumbered(expected, file_faces).hash()));
+        check.find_wrong("the oracle has " + std::to_string(expected.size()) + ' ' + what +
+                         " of the hash " + hex(renumbered(expected, file_faces).hash()));
 }
 
-/// Counts missed and false pairs, and writes both to the cell's counters.
-Differences counted_errors(const PairList& found, const PairList& expected, Cell& cell)
+/// Counts what is missed and what is false, and writes both to the cell's counters. `of` is part of their names.
+Differences count_errors(const PairList& found, const PairList& expected, const std::string& of,
+                         Cell& cell)
 {
     const Differences wrong = differences(found, expected);
-    cell.counters["missed_count"] = static_cast<double>(wrong.missed);
-    cell.counters["false_count"] = static_cast<double>(wrong.false_ones);
+    cell.counters["missed_" + of + "count"] = static_cast<double>(wrong.missed);
+    cell.counters["false_" + of + "count"] = static_cast<double>(wrong.false_ones);
     return wrong;
 }
 
 /// Counts the errors of a narrow phase that is not exact.
-void count_errors(const PairList& found, const PairList& expected, Cell& cell)
+void hold_inexact(const PairList& found, const PairList& expected, Cell& cell)
 {
-    const Differences wrong = counted_errors(found, expected, cell);
+    const Differences wrong = count_errors(found, expected, "", cell);
     if (cell.check.verdict == Check::Verdict::agrees)
         cell.check.verdict = Check::Verdict::counted;
-    cell.check.detail += std::to_string(wrong.missed) + " contacts missed, " +
-                         std::to_string(wrong.false_ones) + " false";
+    cell.check.detail += wrong.text("contacts");
 }
 
 /// Checks pairs of boxes that were rounded outward: none of the oracle's may be missing, more are allowed. The verdict becomes
 /// `counted` if the pairs are the answer, and stays if they are candidates for a narrow phase.
 void hold_candidates(const PairList& found, const PairList& expected, bool is_answer, Cell& cell)
 {
-    const Differences wrong = differences(found, expected);
-    cell.counters["missed_pairs_count"] = static_cast<double>(wrong.missed);
-    cell.counters["false_pairs_count"] = static_cast<double>(wrong.false_ones);
-    Check& check = cell.check;
+    const Differences wrong = count_errors(found, expected, "pairs_", cell);
     if (found.surplus() > 0 || wrong.missed > 0) {
-        check.verdict = Check::Verdict::differs;
-        check.detail = std::to_string(found.surplus()) + " pairs were found twice, " +
-                       std::to_string(wrong.missed) + " missed";
+        cell.check.find_wrong(std::to_string(found.surplus()) + " pairs were found twice, " +
+                              std::to_string(wrong.missed) + " missed");
     } else if (is_answer) {
-        check.verdict = Check::Verdict::counted;
-        check.detail = "0 pairs missed, " + std::to_string(wrong.false_ones) + " false";
+        cell.check.verdict = Check::Verdict::counted;
+        cell.check.detail = wrong.text();
     }
 }
 
@@ -154,7 +148,7 @@ void judge(const Pipeline& pipeline, Cell& cell, FrameOracle& oracle, const Fram
         else
             hold(pairs, oracle.pairs(choice), "pairs", frame.file_faces, check);
         if (!cell.swept.pairs.empty())
-            counted_errors(pairs, oracle.pairs(choice), cell);
+            count_errors(pairs, oracle.pairs(choice), "", cell);
         found.pairs = renumbered(std::move(pairs), frame.file_faces);
         check.pairs_hash = found.pairs.hash();
     }
@@ -166,7 +160,7 @@ void judge(const Pipeline& pipeline, Cell& cell, FrameOracle& oracle, const Fram
             if (by_collider || find_narrow_method(choice.narrow).is_exact)
                 hold(contacts, oracle.contacts(choice), "contacts", frame.file_faces, check);
             else
-                count_errors(contacts, oracle.contacts(choice), cell);
+                hold_inexact(contacts, oracle.contacts(choice), cell);
         } else if (check.verdict == Check::Verdict::agrees) {
             check.verdict = Check::Verdict::not_checked;
             check.detail = "contacts: built without CGAL";
@@ -204,24 +198,7 @@ void settle(Session& session, Running& one, const FrameOfPipelines& frame, Cell&
     cell.first.run_ns = host_ns([&] { one.pipeline->settle(frame.input); });
 }
 
-/// Returns a cell of the frame and pipeline without results.
-Cell empty_cell(const CollideTask& task, const PipelineChoice& pipeline,
-                const FrameOfPipelines& frame)
-{
-    Cell cell = planned_cell(task, pipeline);
-    cell.scene = frame.scene;
-    cell.swept = frame.swept;
-    cell.warm_up = task.warm_up;
-    return cell;
-}
-
 }  // namespace
-
-void find_wrong(Check& check, const std::string& detail)
-{
-    check.verdict = Check::Verdict::differs;
-    check.detail += (check.detail.empty() ? "" : "; ") + detail;
-}
 
 std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span<Running> all,
                             const FrameOfPipelines& frame, int& order, Found& found)
@@ -234,14 +211,15 @@ std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span
     for (std::size_t k = 0; k < all.size(); ++k) {
         Running& one = all[k];
         Subject& subject = subjects[k];
-        subject = {.cell = empty_cell(task, one.choice, frame),
+        subject = {.cell = planned_cell(task, one.choice),
                    .number = frame.number + '/' + std::to_string(k)};
-        if (!one.failure.empty()) {
-            engine.refuse(subject, one.cannot_be ? Cell::Status::skipped : Cell::Status::failed,
-                          one.failure);
+        Cell& cell = subject.cell;
+        cell.scene = frame.scene;
+        cell.swept = frame.swept;
+        if (one.status != Cell::Status::measured) {
+            engine.refuse(subject, one.status, one.reason);
             continue;
         }
-        Cell& cell = subject.cell;
         engine.settle(subject, [&] {
             require_memory(cell.collider, input.triangle_count(), oracle);
             settle(session, one, frame, cell);
@@ -263,8 +241,8 @@ std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span
     std::vector<Cell> cells;
     for (std::size_t k = 0; k < all.size(); ++k) {
         Cell& cell = subjects[k].cell;
-        all[k].failure = cell.status == Cell::Status::measured ? "" : cell.reason;
-        all[k].cannot_be = cell.status == Cell::Status::skipped;
+        all[k].status = cell.status;
+        all[k].reason = cell.reason;
         cells.push_back(std::move(cell));
     }
     return cells;

@@ -26,38 +26,33 @@ SceneFacts facts_of(const Scene& scene, std::string name, std::size_t frame)
             .content_hash = scene.content_hash};
 }
 
-Input upload_frame(Session& session, const Scene& scene, std::size_t frame)
+Input upload_frame(Session& session, const Scene& scene, std::size_t frame, bool by_objects)
 {
-    std::vector<FaceRange> objects;
+    std::vector<FaceRange> objects;  // empty: one object
     for (const SceneObject& object : scene.objects)
-        objects.push_back({object.first_face, object.face_count});
+        if (by_objects)
+            objects.push_back({object.first_face, object.face_count});
     return upload(session.device(), session.queue(), scene.frames[frame], scene.faces, objects);
 }
 
 void Frames::load(const Experiment& experiment, const std::string& name,
                   const SceneLibrary& library)
 {
-    name_ = name;
     scene_ = scene_called(name, experiment.may_stand_in, library);
     frame_ = experiment.has(Operation::refit) ? 1 : 0;
     if (frame_ >= scene_.frames.size())
         throw Unavailable("a refit needs a second frame, and scene '" + scene_.name +
                           "' has one; bend:" + scene_.name + " has two");
+    facts_ = facts_of(scene_, name, frame_);
 }
 
 void Frames::upload(Session& session, bool by_objects)
 {
-    if (!by_objects && !scene_.file_faces.empty())
-        faces_ = faces_in_file(scene_);
-    const std::vector<Face>& faces = faces_.empty() ? scene_.faces : faces_;
-    const auto on_device = [&](std::size_t frame) {
-        return by_objects ? upload_frame(session, scene_, frame)
-                          : bvhbench::upload(session.device(), session.queue(),
-                                             scene_.frames[frame], faces);
-    };
-    now_ = on_device(frame_);
+    if (!by_objects)
+        scene_ = in_file_order(std::move(scene_));
+    now_ = upload_frame(session, scene_, frame_, by_objects);
     if (frame_ > 0)
-        before_ = on_device(frame_ - 1);
+        before_ = upload_frame(session, scene_, frame_ - 1, by_objects);
 }
 
 }  // namespace bvhbench

@@ -13,8 +13,8 @@ Scene scene_called(const std::string& name, bool may_stand_in, const SceneLibrar
 /// Returns the facts of frame `frame` of a scene that was asked for as `name`.
 SceneFacts facts_of(const Scene& scene, std::string name, std::size_t frame);
 
-/// Uploads a frame, with the scene's objects. Blocks until done.
-Input upload_frame(Session& session, const Scene& scene, std::size_t frame);
+/// Uploads a frame, with the scene's objects or as one object. Blocks until done.
+Input upload_frame(Session& session, const Scene& scene, std::size_t frame, bool by_objects = true);
 
 /// A scene, and those of its frames that an experiment needs on the device.
 ///
@@ -25,7 +25,7 @@ public:
     /// Reads the scene. Throws what load_scene throws, and Unavailable if a refit is asked for and there is no second frame.
     void load(const Experiment& experiment, const std::string& name, const SceneLibrary& library);
 
-    SceneFacts facts() const { return facts_of(scene_, name_, frame_); }
+    const SceneFacts& facts() const { return facts_; }  ///< of the scene as it was read
 
     /// Uploads the frames as one object or, with `by_objects`, as the scene's objects. Blocks until done. The references that
     /// now() and before() return stay valid from now on.
@@ -36,8 +36,7 @@ public:
 
 private:
     Scene scene_;
-    std::vector<Face> faces_;  ///< in the file's order, if needed and not the scene's own
-    std::string name_;
+    SceneFacts facts_;
     std::size_t frame_ = 0;
     Input now_, before_;
 };

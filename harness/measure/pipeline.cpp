@@ -50,53 +50,33 @@ void Pipeline::reserve_for(const Input& input)
     collider_->reserve(tree_, input);
 }
 
-TreeUpdate Pipeline::update_after(Motion motion) const
-{
-    if (skips(skip_unchanged) && motion == Motion::unchanged)
-        return TreeUpdate::keep;
-    return skips(skip_rigid) && motion <= Motion::rigid && builder_->can_refit()
-               ? TreeUpdate::refit
-               : TreeUpdate::rebuild;
-}
-
 void Pipeline::begin_frame(std::span<const Motion> motions)
 {
     const TreeUpdate asked =
         collider_->keeps_tree() ? collider_->next_frame() : TreeUpdate::rebuild;
     if (builder_ == nullptr)
         return;
-    if (collider_->keeps_tree())
+    if (collider_->keeps_tree()) {
         updates_ = builder_->plan_update(std::vector(updates_.size(), asked), session_.queue());
-    else if (entering_)
-        updates_.assign(updates_.size(),
-                        keeps_all(motions) ? TreeUpdate::keep : TreeUpdate::rebuild);
-    else
+    } else if (entering_) {
+        const bool keeps_all =
+            skips(skip_unchanged) && queries() && !motions.empty() &&
+            std::ranges::count(motions, Motion::unchanged) == std::ssize(motions);
+        updates_.assign(updates_.size(), keeps_all ? TreeUpdate::keep : TreeUpdate::rebuild);
+    } else {
         updates_ = planned_updates(motions);
-}
-
-bool Pipeline::keeps_all(std::span<const Motion> motions) const
-{
-    return skips(skip_unchanged) && queries() && !motions.empty() &&
-           std::all_of(motions.begin(), motions.end(),
-                       [](Motion motion) { return motion == Motion::unchanged; });
+    }
 }
 
 std::vector<TreeUpdate> Pipeline::planned_updates(std::span<const Motion> motions)
 {
     std::vector<TreeUpdate> wanted(updates_.size(), TreeUpdate::rebuild);
-    if (!motions.empty())
-        std::transform(motions.begin(), motions.end(), wanted.begin(),
-                       [&](Motion motion) { return update_after(motion); });
+    for (std::size_t k = 0; k < motions.size(); ++k)
+        if (skips(skip_unchanged) && motions[k] == Motion::unchanged)
+            wanted[k] = TreeUpdate::keep;
+        else if (skips(skip_rigid) && motions[k] <= Motion::rigid && builder_->can_refit())
+            wanted[k] = TreeUpdate::refit;
     return builder_->plan_update(wanted, session_.queue());
-}
-
-std::size_t Pipeline::updated(TreeUpdate how) const
-{
-    const auto objects = std::count(updates_.begin(), updates_.end(), how);
-    const bool has_some = objects > 0 && queries();
-    return !entering_ ? static_cast<std::size_t>(objects)
-           : has_some ? entering_->input.objects.size()
-                      : 0;
 }
 
 /// Decides whether the rule `near` applies to this frame. Memory is reserved for the triangles that enter, and counting them
@@ -232,6 +212,11 @@ std::map<std::string, double> Pipeline::counters() const
         put("tasks_count", *counts.tasks);
     for (const auto& [name, value] : counts.more)
         put(std::string(name).c_str(), value);
+    const auto updated = [&](TreeUpdate how) {
+        const auto objects = static_cast<std::size_t>(std::ranges::count(updates_, how));
+        const bool has_some = objects > 0 && queries();
+        return !entering_ ? objects : has_some ? entering_->input.objects.size() : 0;
+    };
     std::size_t memory = collider_->reserved().total();
     put("query_bytes", memory);
     if (builder_ != nullptr) {

@@ -10,7 +10,7 @@
 
 #include "collide/narrow/narrow.h"
 #include "collide/near.h"
-#include "harness/record/record.h"
+#include "harness/choice/collider_catalog.h"
 #include "harness/session/session.h"
 #include "scenes/motion.h"
 
@@ -62,10 +62,7 @@ private:
     void reserve_for(const Input& input);
     void choose_entering(const Input& input);
     bool queries() const { return !entering_ || entering_->has_pairs(); }
-    TreeUpdate update_after(Motion motion) const;
-    bool keeps_all(std::span<const Motion> motions) const;
     std::vector<TreeUpdate> planned_updates(std::span<const Motion> motions);
-    std::size_t updated(TreeUpdate how) const;  ///< number of objects
     void enqueue(const Input& input);
     void enqueue_query(const Input& input);
     bool complete();

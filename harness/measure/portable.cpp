@@ -32,19 +32,12 @@ Experiment portable_experiment()
 
 std::string device_text(const Device& device)
 {
-    const DeviceFacts facts = device_facts(device);
     using enum Table::Align;
     Table table({{"", left}, {"", left}});
-    const auto number = [](std::int64_t value) { return std::to_string(value); };
-    table.row({"device", facts.name});
-    table.row({"platform", facts.platform});
-    table.row({"driver", facts.driver});
-    table.row({"OpenCL", facts.opencl + ", " + facts.opencl_c});
-    table.row({"kind", facts.kind + " of " + number(facts.compute_units) + " units"});
-    table.row({"memory", number(facts.global_memory_bytes) + " bytes, " +
-                             number(facts.max_allocation_bytes) + " in one piece, " +
-                             number(facts.local_memory_bytes) + " local"});
-    table.row({"groups", "to " + number(facts.max_group_size) + " work-items"});
+    const Json run = run_facts(device, {});
+    for (const auto& [key, value] : run["device"].items())
+        table.row({key == "name" ? "device" : key,
+                   value.is_string() ? value.get<std::string>() : value.dump()});
     table.row({"loops", device.ends_loops ? "end after 65,535 steps" : "end by themselves"});
     table.row({"extensions", device.cl.getInfo<CL_DEVICE_EXTENSIONS>()});
     return table.text();

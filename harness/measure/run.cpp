@@ -39,52 +39,74 @@ std::vector<BuilderChoice> chosen(const Experiment& experiment, const std::strin
     return builders;
 }
 
-/// Writes the quality of a tree to the cell. A wrong tree has none.
-void count_quality(Cell& cell, const HostTree& tree, const Input& input, const NodeCosts& costs,
-                   bool with_epo)
+/// A builder and its last tree.
+struct Built {
+    Builder* builder = nullptr;
+    const Tree* tree = nullptr;
+};
+
+/// Builds or refits the cell's tree for the first time, checks it and writes its quality and size to the cell. `oracle` is that
+/// of the frame that the tree is built over.
+void settle(Session& session, const Experiment& experiment, const Frames& frames, Oracle& oracle,
+            const NodeCosts& costs, Cell& cell, Built& built)
 {
-    if (cell.check.verdict == Check::Verdict::differs) {
-        for (const char* counter : {"sah_cost", "sibling_overlap", "depth_max", "epo"})
-            cell.left_out[counter] = "the tree is wrong";
-        return;
+    const bool refits = cell.operation == Operation::refit;
+    const Input& first = refits ? frames.before() : frames.now();
+    const std::size_t triangles = first.triangle_count();
+    require_host_memory("checking the tree", check_bytes(triangles));
+    // The reference builds while the builder compiles and builds for the first time.
+    if (const auto reference = find_builder(cell.builder.name).oracle; !reference.empty())
+        oracle.begin(reference, cell.builder.order, cell.builder.boxes);
+    Builder& builder = session.builder(cell.builder, cell.operation);
+    built.builder = &builder;
+    if (refits && !builder.can_refit())
+        throw BadUsage(std::string(builder.card().name) + " cannot refit");
+    if (builder.card().runs == BuilderCard::Runs::on_host)
+        require_host_memory("the tree", builder.footprint(triangles).total());
+    builder.reserve(triangles);
+    cell.first.run_ns =
+        host_ns([&] { session.build_once(builder, first, Start::from_triangles, &built.tree); });
+    HostTree tree = built.tree->spelled_out();
+    cell.check = check_tree(tree, first, cell.builder, oracle);
+    if (refits) {
+        session.refit_once(builder, first, &built.tree);  // the same points: nothing may change
+        cell.check = check_again(*built.tree, std::move(cell.check));
+        session.refit_once(builder, frames.now(), &built.tree);
+        const HostTree before = std::exchange(tree, built.tree->spelled_out());
+        cell.check = check_refit(tree, before, frames.now(), std::move(cell.check));
+    } else if (experiment.start == Start::from_sorted_leaves) {
+        session.build_once(builder, first, experiment.start, &built.tree);
+        cell.check = check_again(*built.tree, std::move(cell.check));
     }
-    Quality quality = quality_of(tree, costs);
-    if (with_epo)
-        add_end_point_overlap(quality, tree, input.points, input.faces, costs);
+    count_quality(cell, tree, costs);
+    if (experiment.quality)
+        count_end_point_overlap(cell, tree, frames.now().points, frames.now().faces, costs);
     else
-        quality.left_out["epo"] = "not asked for: --epo";
-    cell.counters.merge(quality.counters);
-    cell.left_out = std::move(quality.left_out);
-    cell.leaves_by_depth = std::move(quality.leaves_by_depth);
+        cell.left_out.try_emplace("epo", "not asked for: --epo");
+    const Footprint footprint = builder.reserved();
+    cell.counters["nodes_count"] = static_cast<double>(built.tree->node_count());
+    cell.counters["tree_bytes"] = static_cast<double>(footprint.tree_bytes);
+    cell.counters["scratch_bytes"] = static_cast<double>(footprint.scratch_bytes);
 }
 
 }  // namespace
 
-RunFacts measured_facts(Session& session, std::vector<std::string> command, const NodeCosts& costs)
+Json measured_facts(Session& session, std::vector<std::string> command, const NodeCosts& costs)
 {
-    RunFacts facts = run_facts(session.device(), std::move(command));
-    facts.costs = costs;
+    Json facts = run_facts(session.device(), std::move(command), costs);
     const std::string failure = reason_of_failure([&] {
         const CopyRate rate = measure_copy_rate(session.programs(), session.queue());
-        facts.copy_rate_bytes_per_s = rate.bytes_per_s;
-        facts.copy_rate_buffer_bytes = static_cast<std::int64_t>(rate.buffer_bytes);
-        facts.launch_cost_ns = measure_launch_cost(session.programs(), session.queue()).ns;
+        if (rate.bytes_per_s > 0) {
+            facts["copy_rate_bytes_per_s"] = rate.bytes_per_s;
+            facts["copy_rate_buffer_bytes"] = rate.buffer_bytes;
+        }
+        if (const auto cost = measure_launch_cost(session.programs(), session.queue()); cost.ns > 0)
+            facts["launch_cost_ns"] = cost.ns;
     });
     if (!failure.empty())
         session.renew_queue();  // a device without room for the copy can still build small trees
     return facts;
 }
-
-/// A builder and its last tree.
-struct Run::Built {
-    Builder* builder = nullptr;
-    const Tree* tree = nullptr;
-};
-
-/// Oracles for the frame that cells are about and for the frame that refits start from.
-struct Run::Oracles {
-    Oracle now, before;
-};
 
 Run::Run(Session& session, Output output, std::vector<std::string> command, const NodeCosts& costs)
     : session_(session)
@@ -181,7 +203,6 @@ void Run::scene(const Experiment& experiment, const std::string& name,
     Cell empty;
     empty.experiment = experiment.name;
     empty.scene.name = name;
-    empty.warm_up = experiment.warm_up;
     std::string no_scene;
     const auto load = [&] {
         frames.load(experiment, name, session_.scenes());
@@ -193,7 +214,7 @@ void Run::scene(const Experiment& experiment, const std::string& name,
     else
         no_scene = reason_of_failure(load);
 
-    Oracles oracles{{session_, frames.now()}, {session_, frames.before()}};
+    Oracle oracle(session_, frames.now()), oracle_before(session_, frames.before());
     Engine engine(session_, {experiment.samples, experiment.warm_up, experiment.sampling}, order_);
     const std::size_t count = builders.size() * experiment.operations.size();
     std::vector<Subject> subjects(count);
@@ -208,8 +229,10 @@ void Run::scene(const Experiment& experiment, const std::string& name,
             engine.refuse(subject, Cell::Status::skipped, why);
             continue;
         }
-        engine.settle(subject,
-                      [&] { settle(experiment, frames, subject.cell, built[k], oracles); });
+        engine.settle(subject, [&] {
+            Oracle& own = subject.cell.operation == Operation::refit ? oracle_before : oracle;
+            settle(session_, experiment, frames, own, costs_, subject.cell, built[k]);
+        });
         subject.once = [&, k] {
             return subject.cell.operation == Operation::refit
                        ? session_.refit_once(*built[k].builder, frames.now(), &built[k].tree)
@@ -220,71 +243,12 @@ void Run::scene(const Experiment& experiment, const std::string& name,
             subject.cell.check = check_again(*built[k].tree, std::move(subject.cell.check));
         };
     }
-    oracles.now.wait();  // builders that failed may have begun references that are still running
-    oracles.before.wait();
+    oracle.wait();  // builders that failed may have begun references that are still running
+    oracle_before.wait();
     progress.note(experiment.name + ": " + name + ", sampling");
     engine.sample(subjects);
     for (const Subject& subject : subjects)
         results_.add(subject.cell);
-}
-
-void Run::settle(const Experiment& experiment, const Frames& frames, Cell& cell, Built& built,
-                 Oracles& oracles)
-{
-    const bool refits = cell.operation == Operation::refit;
-    const std::size_t triangles = frames.now().triangle_count();
-    require_host_memory("checking the tree", check_bytes(triangles));
-    Oracle& oracle = refits ? oracles.before : oracles.now;
-    // The reference builds while the builder compiles and builds for the first time.
-    if (const auto reference = find_builder(cell.builder.name).oracle; !reference.empty())
-        oracle.begin(reference, cell.builder.order, cell.builder.boxes);
-    Builder& builder = session_.builder(cell.builder, cell.operation);
-    built.builder = &builder;
-    if (refits && !builder.can_refit())
-        throw BadUsage(std::string(builder.card().name) + " cannot refit");
-    if (builder.card().runs == BuilderCard::Runs::on_host)
-        require_host_memory("the tree", builder.footprint(triangles).total());
-    builder.reserve(triangles);
-    if (refits)
-        judge_refit(experiment, frames, cell, built, oracle);
-    else
-        judge_build(experiment, frames, cell, built, oracle);
-    const Footprint footprint = builder.reserved();
-    cell.counters["nodes_count"] = static_cast<double>(built.tree->node_count());
-    cell.counters["tree_bytes"] = static_cast<double>(footprint.tree_bytes);
-    cell.counters["scratch_bytes"] = static_cast<double>(footprint.scratch_bytes);
-}
-
-void Run::judge_build(const Experiment& experiment, const Frames& frames, Cell& cell, Built& built,
-                      Oracle& oracle)
-{
-    cell.first.run_ns = host_ns([&] {
-        session_.build_once(*built.builder, frames.now(), Start::from_triangles, &built.tree);
-    });
-    const HostTree tree = built.tree->spelled_out();
-    cell.check = check_tree(tree, frames.now(), cell.builder, oracle);
-    count_quality(cell, tree, frames.now(), costs_, experiment.quality);
-    if (experiment.start == Start::from_sorted_leaves) {
-        session_.build_once(*built.builder, frames.now(), experiment.start, &built.tree);
-        cell.check = check_again(*built.tree, std::move(cell.check));
-    }
-}
-
-/// Checks the built tree, a refit to the same points, which must not change it, and a refit to the moved points.
-void Run::judge_refit(const Experiment& experiment, const Frames& frames, Cell& cell, Built& built,
-                      Oracle& oracle)
-{
-    cell.first.run_ns = host_ns([&] {
-        session_.build_once(*built.builder, frames.before(), Start::from_triangles, &built.tree);
-    });
-    const HostTree before = built.tree->spelled_out();
-    cell.check = check_tree(before, frames.before(), cell.builder, oracle);
-    session_.refit_once(*built.builder, frames.before(), &built.tree);
-    cell.check = check_again(*built.tree, std::move(cell.check));
-    session_.refit_once(*built.builder, frames.now(), &built.tree);
-    const HostTree tree = built.tree->spelled_out();
-    cell.check = check_refit(tree, before, frames.now(), std::move(cell.check));
-    count_quality(cell, tree, frames.now(), costs_, experiment.quality);
 }
 
 }  // namespace bvhbench

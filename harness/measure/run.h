@@ -12,9 +12,6 @@
 
 namespace bvhbench {
 
-class Frames;
-class Oracle;
-
 /// Selects the cells whose "scene/builder" or "scene/builder/collider" matches; null: all cells. RE2 takes time linear in the
 /// length of the texts, for every expression.
 using CellFilter = std::shared_ptr<const re2::RE2>;
@@ -32,9 +29,9 @@ bool passes(const CellFilter& filter, const std::string& cell);
 /// True if the experiment has a cell that matches.
 bool has_cells(const Experiment& experiment, const CellFilter& filter);
 
-/// Returns the facts of a run at its start, with the device's copy rate and launch cost, which it measures.
-RunFacts measured_facts(Session& session, std::vector<std::string> command,
-                        const NodeCosts& costs = {});
+/// Returns run_facts (harness/record/provenance.h) with the device's copy rate and launch cost, which it measures.
+Json measured_facts(Session& session, std::vector<std::string> command,
+                    const NodeCosts& costs = {});
 
 /// Runs experiments scene by scene: all builders of a scene are prepared and checked, then sampled interleaved.
 ///
@@ -53,18 +50,9 @@ public:
     const ResultFile& results() const { return results_; }
 
 private:
-    struct Built;
-    struct Oracles;
-
     void collisions(CollideTask task, const CellFilter& filter, Progress& progress);
     void scene(const Experiment& experiment, const std::string& name,
                std::span<const BuilderChoice> builders, Progress& progress);
-    void settle(const Experiment& experiment, const Frames& frames, Cell& cell, Built& built,
-                Oracles& oracles);
-    void judge_build(const Experiment& experiment, const Frames& frames, Cell& cell, Built& built,
-                     Oracle& oracle);
-    void judge_refit(const Experiment& experiment, const Frames& frames, Cell& cell, Built& built,
-                     Oracle& oracle);
 
     Session& session_;
     NodeCosts costs_;

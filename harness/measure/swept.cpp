@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "builders/box_format.h"
-#include "builders/orders.h"
 #include "geometry/error.h"
 #include "harness/measure/collide.h"
 #include "scenes/ground_truth.h"
@@ -11,27 +10,15 @@
 namespace bvhbench {
 namespace {
 
-/// One of the two queries of a step: its primitives, the kind of pairs, and the known answers.
+/// One of the two queries of a step: its primitives, the kind of pairs, and where the ground truth has its answers.
 struct Question {
     const char* name;
     Among among;
     SweptParts parts;
-    GroundTruth::Pairs listed = {};
-    std::optional<std::uint64_t> counted = {};
+    GroundTruth::Pairs GroundTruth::*listed;
+    std::optional<std::uint64_t> GroundTruth::*counted;
     Input input = {};
-    std::vector<Running> running = {};
-
-    /// Adds the task's pipelines that take part in this query.
-    void ask(const CollideTask& task)
-    {
-        for (PipelineChoice pipeline : task.pipelines) {
-            if (pipeline.collider.among != Among::all && pipeline.collider.among != among)
-                continue;
-            pipeline.collider.among = among;
-            pipeline.collider.keep_adjacent = false;
-            running.push_back({std::move(pipeline)});
-        }
-    }
+    std::vector<Running> running = {};  ///< the pipelines that take part in it
 };
 
 /// Returns how many of the pairs `listed` are not in `found`.
@@ -45,24 +32,23 @@ std::uint64_t missed_of(const GroundTruth::Pairs& listed, const PairList& found)
 }
 
 /// Checks what was found against the ground truth of this step.
-void judge_step(const Question& question, const PairList& found, Cell& cell)
+void judge_step(const GroundTruth::Pairs& listed, const std::optional<std::uint64_t>& counted,
+                const PairList& found, Cell& cell)
 {
-    if (!question.listed.empty()) {
-        const std::uint64_t missed = missed_of(question.listed, found);
-        cell.counters["ground_truth_pairs"] = static_cast<double>(question.listed.size());
+    if (!listed.empty()) {
+        const std::uint64_t missed = missed_of(listed, found);
+        cell.counters["ground_truth_pairs"] = static_cast<double>(listed.size());
         cell.counters["ground_truth_missed"] = static_cast<double>(missed);
         cell.check.against += ", ground truth";
         if (missed > 0)
-            find_wrong(cell.check,
-                       std::to_string(missed) + " pairs of the ground truth are missed");
+            cell.check.find_wrong(std::to_string(missed) + " pairs of the ground truth are missed");
     }
-    if (question.counted) {
-        cell.counters["reference_pairs_count"] = static_cast<double>(*question.counted);
+    if (counted) {
+        cell.counters["reference_pairs_count"] = static_cast<double>(*counted);
         cell.check.against += ", meta.json";
         const bool may_be_more = find_box_format(cell.builder.boxes).has_cells();
-        if (may_be_more ? found.size() < *question.counted : found.size() != *question.counted)
-            find_wrong(cell.check,
-                       "meta.json counts " + std::to_string(*question.counted) + " pairs");
+        if (may_be_more ? found.size() < *counted : found.size() != *counted)
+            cell.check.find_wrong("meta.json counts " + std::to_string(*counted) + " pairs");
     }
 }
 
@@ -92,10 +78,17 @@ void collide_swept(Session& session, const CollideTask& task, int& order, const 
                           "' has one; bend:" + task.scene + " has two");
     const FrameRange steps = frames_of(task, scene.frames.size() - 1, "steps");
 
-    Question questions[] = {{"vertex-face", Among::between_objects, vertices_and_faces(scene)},
-                            {"edge-edge", Among::within_objects, unique_edges(scene)}};
+    Question questions[] = {{"vertex-face", Among::between_objects, vertices_and_faces(scene),
+                             &GroundTruth::vertex_face, &GroundTruth::swept_vertex_face},
+                            {"edge-edge", Among::within_objects, unique_edges(scene),
+                             &GroundTruth::edge_edge, &GroundTruth::swept_edge_edge}};
     for (Question& question : questions)
-        question.ask(task);
+        for (PipelineChoice pipeline : task.pipelines) {
+            const Among among = std::exchange(pipeline.collider.among, question.among);
+            pipeline.collider.keep_adjacent = false;
+            if (among == Among::all || among == question.among)
+                question.running.push_back({std::move(pipeline)});
+        }
     const std::size_t cells_a_step = questions[0].running.size() + questions[1].running.size();
     if (passes && passes((steps.end - steps.first) * cells_a_step))
         return;
@@ -110,17 +103,9 @@ void collide_swept(Session& session, const CollideTask& task, int& order, const 
     for (std::size_t step = steps.first; step < steps.end; ++step) {
         if (step > steps.first)
             go_on(questions, scene, step, session.queue());
-        const bool is_known = truth && truth->from_frame == step;
         for (Question& question : questions) {
             if (question.running.empty())
                 continue;
-            const bool of_edges = question.among == Among::within_objects;
-            question.listed = {};
-            question.counted = {};
-            if (is_known) {
-                question.listed = of_edges ? truth->edge_edge : truth->vertex_face;
-                question.counted = of_edges ? truth->swept_edge_edge : truth->swept_vertex_face;
-            }
             FrameOfPipelines now{
                 .input = question.input,
                 .number = task.number + '/' + std::to_string(step) + '/' + question.name,
@@ -128,9 +113,11 @@ void collide_swept(Session& session, const CollideTask& task, int& order, const 
             now.swept = {.pairs = question.name,
                          .to_frame = static_cast<std::int64_t>(step + 1),
                          .primitives = question.input.triangle_count()};
-            now.judge_more = [&](const Found& found, Cell& cell) {
-                judge_step(question, found.pairs, cell);
-            };
+            if (truth && truth->from_frame == step)
+                now.judge_more = [&](const Found& found, Cell& cell) {
+                    judge_step((*truth).*question.listed, (*truth).*question.counted, found.pairs,
+                               cell);
+                };
             Found found{.scene = &scene};
             add(run_frame(session, task, question.running, now, order, found), found);
         }

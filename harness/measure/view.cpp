@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "harness/measure/view.h"
-
 #include <algorithm>
 
 #include "builders/spell_out.h"
@@ -14,28 +12,6 @@ namespace {
 
 /// A page with more triangles opens slowly, and its boxes hide each other.
 constexpr std::size_t most_triangles = 100'000;
-
-std::vector<uint> flat(const PairList& list)
-{
-    std::vector<uint> ids;
-    ids.reserve(2 * list.size());
-    for (const Pair pair : list.pairs())
-        ids.insert(ids.end(), {pair.a, pair.b});
-    return ids;
-}
-
-CollideTask task_of(const ViewTask& task)
-{
-    CollideTask collide;
-    collide.experiment = "view";
-    collide.scene = task.scene;
-    collide.objects = ObjectsBy::one;
-    collide.frames = {task.frame, task.frame + 1};
-    collide.pipelines = {task.pipeline};
-    collide.samples = 1;
-    collide.warm_up = 0;
-    return collide;
-}
 
 /// Appends the boxes of a valid tree, level by level. Padding nodes, which are no node's child, are on no level.
 void append_levels(std::string& text, const HostTree& tree)
@@ -64,66 +40,70 @@ void append_levels(std::string& text, const HostTree& tree)
 }
 
 /// Returns the JSON text; "levels" is empty if `tree` is null.
-std::string text_of(const std::string& run, const Cell& cell, const Scene& scene, std::size_t frame,
+std::string text_of(const Json& run, const Cell& cell, const Scene& scene, std::size_t frame,
                     const HostTree* tree, const Found& found)
 {
-    std::string text = "{\"run\":" + run + ",\n\"cell\":" + cell_text(cell);
-    const auto put = [&](const char* name, const auto& values) {
-        text += std::string(",\n\"") + name + "\":" + FloatJson(values).dump();
+    std::string text = "{\"run\":" + one_line(run) + ",\n\"cell\":" + cell_text(cell);
+    const auto put = [&](const char* name, const auto& items, const auto... members) {
+        std::vector<std::common_type_t<decltype(items[0].*members)...>> flat;
+        for (const auto& item : items)
+            flat.insert(flat.end(), {item.*members...});
+        text += std::string(",\n\"") + name + "\":" + FloatJson(flat).dump();
     };
-    std::vector<float> coordinates;
-    for (const Point& point : scene.frames[frame])
-        coordinates.insert(coordinates.end(), {point.x, point.y, point.z});
-    std::vector<uint> corners;
-    for (const Face& face : scene.faces)
-        corners.insert(corners.end(), {face.a, face.b, face.c});
-    put("points", coordinates);
-    put("faces", corners);
+    put("points", scene.frames[frame], &Point::x, &Point::y, &Point::z);
+    put("faces", scene.faces, &Face::a, &Face::b, &Face::c);
     text += ",\n\"levels\":[";
     if (tree != nullptr)
         append_levels(text, *tree);
     text += ']';
-    put("pairs", flat(found.pairs));
-    put("contacts", flat(found.contacts));
+    put("pairs", found.pairs.pairs(), &Pair::a, &Pair::b);
+    put("contacts", found.contacts.pairs(), &Pair::a, &Pair::b);
     return text + "}\n";
 }
 
 }  // namespace
 
-std::string view_text(Session& session, const ViewTask& task, std::vector<std::string> command)
+std::string view_text(Session& session, const std::string& scene_name, std::size_t number,
+                      const PipelineChoice& pipeline, std::vector<std::string> command)
 {
-    const CollideTask collide = task_of(task);
-    const Scene scene = scene_of(collide, session.scenes());
-    frames_of(collide, scene.frames.size(), "frames");
+    CollideTask task;
+    task.experiment = "view";
+    task.scene = scene_name;
+    task.objects = ObjectsBy::one;
+    task.frames = {number, number + 1};
+    task.samples = 1;
+    task.warm_up = 0;
+    const Scene scene = scene_of(task, session.scenes());
+    frames_of(task, scene.frames.size(), "frames");
     if (scene.triangle_count() > most_triangles)
         throw BadUsage("a report shows scenes of up to " + std::to_string(most_triangles) +
-                       " triangles in three dimensions, and '" + task.scene + "' has " +
+                       " triangles in three dimensions, and '" + scene_name + "' has " +
                        std::to_string(scene.triangle_count()));
-    const std::string run = run_text(run_facts(session.device(), std::move(command)));
-    const std::vector<Point>& points = scene.frames[task.frame];
+    const Json run = run_facts(session.device(), std::move(command));
+    const std::vector<Point>& points = scene.frames[number];
     const Input input = upload(session.device(), session.queue(), points, scene.faces);
     std::vector<Running> all;
-    all.push_back({task.pipeline});
+    all.push_back({pipeline});
     const FrameOfPipelines frame{
-        .input = input, .number = "view", .scene = facts_of(collide, scene, task.frame)};
+        .input = input, .number = "view", .scene = facts_of(task, scene, number)};
     int order = 0;
     Found found;
-    Cell cell = run_frame(session, collide, all, frame, order, found).front();
+    Cell cell = run_frame(session, task, all, frame, order, found).front();
     if (cell.status != Cell::Status::measured)
         throw Unavailable(cell.reason);
     const Tree* tree = all.front().pipeline->tree();
     if (tree == nullptr)
         throw BadUsage("a report shows the boxes of a builder's tree, and the collider " +
-                       task.pipeline.collider.name + " has none");
+                       pipeline.collider.name + " has none");
     const HostTree spelled = tree->spelled_out();
     cell.samples.clear();
     cell.check.tree_hash = tree_hash(spelled);
     cell.check.against += ", contract";
     const std::string breach = broken_promise(spelled, points, scene.faces);
     if (!breach.empty())
-        find_wrong(cell.check, breach);
+        cell.check.find_wrong(breach);
 
-    return text_of(run, cell, scene, task.frame, breach.empty() ? &spelled : nullptr, found);
+    return text_of(run, cell, scene, number, breach.empty() ? &spelled : nullptr, found);
 }
 
 }  // namespace bvhbench

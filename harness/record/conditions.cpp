@@ -13,6 +13,8 @@ namespace fs = std::filesystem;
 /// Load per hardware thread above which other processes distort times.
 constexpr double much_load = 0.25;
 
+constexpr const char* usual_governor = "performance";
+
 /// Returns the first word of a file; empty if there is no such file.
 std::string word_in(const fs::path& path)
 {
@@ -33,15 +35,14 @@ std::vector<fs::path> entries(const fs::path& folder, const std::string& start)
     return found;
 }
 
-std::string governor_of(const fs::path& cpus)
+/// Returns the clock's governor of the first core that has another than the usual one, else that.
+std::optional<std::string> governor_of(const fs::path& cpus)
 {
-    std::string governor;
+    std::optional<std::string> governor;
     for (const fs::path& cpu : entries(cpus, "cpu"))
-        if (const std::string word = word_in(cpu / "cpufreq/scaling_governor"); !word.empty()) {
-            governor = word;
-            if (word != "performance")
-                break;
-        }
+        if (const std::string word = word_in(cpu / "cpufreq/scaling_governor"); !word.empty())
+            if (governor.value_or(usual_governor) == usual_governor)
+                governor = word;
     return governor;
 }
 
@@ -73,27 +74,33 @@ std::optional<double> load_of(const fs::path& path)
 
 }  // namespace
 
-HostConditions host_conditions(int threads, const std::string& build_type, const fs::path& root)
+Json host_conditions(unsigned threads, const std::string& build_type, const fs::path& root)
 {
     const fs::path cpus = root / "sys/devices/system/cpu";
-    HostConditions found{.governor = governor_of(cpus),
-                         .turbo = turbo_of(cpus),
-                         .on_battery = on_battery(root / "sys/class/power_supply"),
-                         .load = load_of(root / "proc/loadavg"),
-                         .warnings = {}};
-    const auto warn = [&](std::string text) { found.warnings.push_back(std::move(text)); };
+    Json found = Json::object(), warnings = Json::array();
+    /// Stores a value that is known, and a warning if it `distorts` times.
+    const auto put = [&](const char* key, const auto& value, bool distorts, std::string warning) {
+        if (value)
+            found[key] = *value;
+        if (distorts)
+            warnings.push_back(std::move(warning));
+    };
     if (build_type != "Release")
-        warn("this is a " + (build_type.empty() ? "untyped" : build_type) +
-             " build: times are those of Release builds only");
-    if (found.on_battery.value_or(false))
-        warn("the host is on battery, which slows it down");
-    if (!found.governor.empty() && found.governor != "performance")
-        warn("the clock's governor is " + found.governor + ", not performance");
-    if (found.turbo.value_or(false))
-        warn("turbo is on: clocks depend on temperature and on what other cores do");
-    if (found.load.value_or(0) > much_load * threads)
-        warn("other processes are running: load " + fixed(*found.load, 1) + " on " +
-             std::to_string(threads) + " threads when it began");
+        warnings.push_back("this is a " + (build_type.empty() ? "untyped" : build_type) +
+                           " build: times are those of Release builds only");
+    const auto drawn = on_battery(root / "sys/class/power_supply");
+    put("on_battery", drawn, drawn.value_or(false), "the host is on battery, which slows it down");
+    const auto governor = governor_of(cpus);
+    put("governor", governor, governor.value_or(usual_governor) != usual_governor,
+        "the clock's governor is " + governor.value_or("") + ", not performance");
+    const auto turbo = turbo_of(cpus);
+    put("turbo", turbo, turbo.value_or(false),
+        "turbo is on: clocks depend on temperature and on what other cores do");
+    const auto load = load_of(root / "proc/loadavg");
+    put("load", load, load.value_or(0) > much_load * threads,
+        "other processes are running: load " + fixed(load.value_or(0), 1) + " on " +
+            std::to_string(threads) + " threads when it began");
+    found["warnings"] = std::move(warnings);
     return found;
 }
 

@@ -2,21 +2,13 @@
 #include "harness/record/finding.h"
 
 #include <algorithm>
+#include <ranges>
 
 namespace bvhbench {
-namespace {
-
-/// Severity of a verdict: broken, then refused, then holds.
-int weight(Finding::Verdict verdict)
-{
-    return verdict == Finding::Verdict::broken ? 2 : verdict == Finding::Verdict::refused ? 1 : 0;
-}
-
-}  // namespace
 
 void join(Finding& all, const Finding& more)
 {
-    if (weight(more.verdict) > weight(all.verdict)) {
+    if (more.verdict > all.verdict) {
         all.verdict = more.verdict;
         all.detail = more.detail;
     }
@@ -43,16 +35,16 @@ Findings with_words(std::string_view words, Findings findings)
 bool is_refused(const StressCell& cell)
 {
     return cell.kind != StressCell::Kind::host && !cell.findings.empty() &&
-           std::all_of(cell.findings.begin(), cell.findings.end(), [](const auto& entry) {
-               return entry.second.verdict == Finding::Verdict::refused;
+           std::ranges::all_of(cell.findings | std::views::values, [](const Finding& one) {
+               return one.verdict == Finding::Verdict::refused;
            });
 }
 
 bool is_our_fault(const StressCell& cell)
 {
     return cell.library.empty() &&
-           std::any_of(cell.findings.begin(), cell.findings.end(), [](const auto& entry) {
-               return entry.second.verdict == Finding::Verdict::broken;
+           std::ranges::any_of(cell.findings | std::views::values, [](const Finding& one) {
+               return one.verdict == Finding::Verdict::broken;
            });
 }
 

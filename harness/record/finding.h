@@ -34,7 +34,7 @@ constexpr std::string_view name_of(Invariant invariant)
 }
 
 struct Finding {
-    enum class Verdict { holds, broken, refused } verdict = Verdict::holds;
+    enum class Verdict { holds, refused, broken } verdict = Verdict::holds;  ///< best to worst
     std::uint64_t checked = 0;  ///< number of things checked: pairs, nodes, runs
     std::uint64_t wrong = 0;    ///< how many of them are wrong; 0 for `broken` if unknown
     std::uint64_t missed = 0;   ///< how many of the wrong ones exist but were not found
@@ -68,7 +68,7 @@ struct StressCell {
 };
 
 inline constexpr std::array stress_kind_names = {"builder", "collider", "host", "library"};
-inline constexpr std::array stress_verdict_names = {"holds", "broken", "refused"};
+inline constexpr std::array stress_verdict_names = {"holds", "refused", "broken"};
 
 /// True if the system refused under every invariant. Always false for kind `host`, for which a refusal is an answer.
 bool is_refused(const StressCell& cell);

@@ -10,7 +10,6 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
-#include <fstream>
 #include <iostream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -86,11 +85,9 @@ bool is_input(const fs::path& file, const fs::path& input)
 std::string contents_of(const std::string& text)
 {
     const auto json = nlohmann::json::parse(text, nullptr, false);
-    std::size_t cells = 0;
     if (!json.is_object() || !json.contains("format") || !json.contains("cells"))
         return "is there already";
-    for (const char* list : {"cells", "stress"})
-        cells += json.contains(list) ? json[list].size() : 0;
+    const std::size_t cells = json["cells"].size() + json.value("stress", json.array()).size();
     return "is a result of " + std::to_string(cells) + (cells == 1 ? " cell" : " cells");
 }
 
@@ -172,12 +169,8 @@ Output::Output(const fs::path& path, const std::string& option, const OutputRule
     lock_ = std::make_shared<const FileLock>(lock, path.string());
     // Checked after locking: the previous holder of the lock may have written the file.
     was_there_ = stat(target_.c_str(), &about) == 0 && about.st_size > 0;
-    if (was_there_)
-        check_earlier(rules, option);
-}
-
-void Output::check_earlier(const OutputRules& rules, const std::string& option)
-{
+    if (!was_there_)
+        return;
     for (const std::string& input : rules.inputs)
         if (is_input(target_, input))
             throw BadUsage(option + ": " + path_.string() +

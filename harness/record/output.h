@@ -72,8 +72,6 @@ public:
     };
 
 private:
-    void check_earlier(const OutputRules& rules, const std::string& option);
-
     std::filesystem::path path_;
     std::filesystem::path target_;  ///< path with all links resolved
     bool is_file_ = false;

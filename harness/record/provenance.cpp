@@ -5,18 +5,23 @@
 #include <re2/re2.h>
 #include <sys/utsname.h>
 
-#include <algorithm>
 #include <array>
 #include <ctime>
-#include <filesystem>
 #include <fstream>
+#include <map>
 #include <random>
 #include <thread>
 
+#include "geometry/hash.h"
 #include "harness/base/build_info.h"
 #include "harness/base/test_hooks.h"
 
 namespace bvhbench {
+
+BVHBENCH_TO_JSON(DeviceFacts, name, platform, driver, opencl, opencl_c, kind, compute_units,
+                 global_memory_bytes, max_allocation_bytes, local_memory_bytes, max_group_size,
+                 timer_resolution_ns, correctly_rounded_division, device_scope_acq_rel_atomics)
+
 namespace {
 
 /// Returns the processor's name from /proc/cpuinfo; empty if there is none.
@@ -82,9 +87,7 @@ std::string now_as(const char* format)
 
 std::string run_id(const std::string& host)
 {
-    std::array<char, 8> digits{};
-    std::snprintf(digits.data(), digits.size(), "%04x", std::random_device{}() & 0xffffu);
-    return now_as("%Y%m%dT%H%M%SZ") + '-' + host + '-' + digits.data();
+    return now_as("%Y%m%dT%H%M%SZ") + '-' + host + '-' + hex(std::random_device{}()).substr(12);
 }
 
 }  // namespace
@@ -114,44 +117,41 @@ DeviceFacts device_facts(const Device& device)
     };
 }
 
-RunFacts run_facts(const Device& device, std::vector<std::string> command)
+Json run_facts(const Device& device, std::vector<std::string> command, const NodeCosts& costs)
 {
     utsname system{};
     uname(&system);
-    RunFacts run;
-    run.host_name = system.nodename;
-    run.host_os = std::string(system.sysname) + ' ' + system.release;
-    run.host_cpu = processor();
-    run.host_threads = static_cast<int>(std::thread::hardware_concurrency());
-    run.id = run_id(run.host_name);
-    run.started_at = utc_now();
-    run.command = std::move(command);
-    if (!run.command.empty())  // the program's folder means nothing on other machines
-        run.command.front() = std::filesystem::path(run.command.front()).filename().string();
-    run.version = build_info.version;
-    run.commit = build_info.commit;
-    run.dirty = build_info.dirty;
-    run.build_type = build_info.build_type;
-    run.compiler = build_info.compiler;
-    run.arch = build_info.arch;
-    run.kernels = device.sources.origin();
-    run.device = device_facts(device);
-    run.test_hooks = test_hooks();
-    run.conditions = host_conditions(run.host_threads, run.build_type);
-    run.tuning_from = device.tuning.origin();
-    for (const auto& [name, value] : device.tuning.values())
-        run.tuning[std::string(name)] = value;
-    run.libraries = {{"assimp", BVHBENCH_ASSIMP_VERSION},
-                     {"nlohmann_json", BVHBENCH_JSON_VERSION},
-                     {"CLI11", BVHBENCH_CLI11_VERSION},
-                     {"OpenCL loader", loader_version()}};
+    const unsigned threads = std::thread::hardware_concurrency();
+    if (!command.empty())  // the program's folder means nothing on other machines
+        command.front() = std::filesystem::path(command.front()).filename().string();
+    std::map<std::string, std::string> libraries = {{"assimp", BVHBENCH_ASSIMP_VERSION},
+                                                    {"nlohmann_json", BVHBENCH_JSON_VERSION},
+                                                    {"CLI11", BVHBENCH_CLI11_VERSION},
+                                                    {"OpenCL loader", loader_version()}};
     // Only libraries that are compiled in, because results exist only for those.
 #if BVHBENCH_HAS_EMBREE
-    run.libraries["Embree"] = BVHBENCH_EMBREE_VERSION;
+    libraries["Embree"] = BVHBENCH_EMBREE_VERSION;
 #endif
 #if BVHBENCH_HAS_FCL
-    run.libraries["FCL"] = BVHBENCH_FCL_VERSION;
+    libraries["FCL"] = BVHBENCH_FCL_VERSION;
 #endif
+    Json run = {{"id", run_id(system.nodename)}, {"started_at", utc_now()}, {"command", command}};
+    run["program"] = {{"version", build_info.version},     {"commit", build_info.commit},
+                      {"dirty", build_info.dirty},         {"build_type", build_info.build_type},
+                      {"compiler", build_info.compiler},   {"arch", build_info.arch},
+                      {"kernels", device.sources.origin()}};
+    run["host"] = {{"name", system.nodename},
+                   {"cpu", processor()},
+                   {"threads", threads},
+                   {"os", std::string(system.sysname) + ' ' + system.release}};
+    run["device"] = device_facts(device);
+    run["libraries"] = libraries;
+    run["tuning"] = {{"from", device.tuning.origin()}, {"values", device.tuning.values()}};
+    run["compile_ns"] = 0;
+    run["node_costs"] = {{"inner", costs.inner}, {"triangle", costs.triangle}};
+    run["conditions"] = host_conditions(threads, build_info.build_type);
+    if (const auto hooks = test_hooks(); !hooks.empty())
+        run["test_hooks"] = hooks;
     return run;
 }
 

@@ -6,20 +6,36 @@
 #include <vector>
 
 #include "device/device.h"
-#include "harness/record/record.h"
+#include "harness/base/json_keys.h"
+#include "harness/choice/sampling.h"
 
 namespace bvhbench {
+
+struct DeviceFacts {
+    std::string name, platform, driver, opencl, opencl_c;
+    std::string kind;  ///< cpu, gpu or other
+    std::int64_t compute_units = 0;
+    std::int64_t global_memory_bytes = 0;
+    std::int64_t max_allocation_bytes = 0;
+    std::int64_t local_memory_bytes = 0;
+    std::int64_t max_group_size = 0;
+    std::int64_t timer_resolution_ns = 0;
+    bool correctly_rounded_division = false;
+    bool device_scope_acq_rel_atomics = false;
+};
 
 /// Queries the facts of a device.
 DeviceFacts device_facts(const Device& device);
 
-/// Returns the facts of a run that are known at its start. `command` is argv.
-RunFacts run_facts(const Device& device, std::vector<std::string> command);
+/// Returns what a result file has under `run` (results/schema/result-1.schema.json) when the run starts: machine, program and
+/// settings. `command` is argv, `costs` those in the counters sah_cost and epo.
+Json run_facts(const Device& device, std::vector<std::string> command, const NodeCosts& costs = {});
 
-/// Reads /sys and /proc below `root`. `threads` is the number of hardware threads. A build type other than Release adds a
-/// warning.
-HostConditions host_conditions(int threads, const std::string& build_type,
-                               const std::filesystem::path& root = "/");
+/// Returns what a result file has under `conditions`: the settings of the host that distort times, as far as they are known, and
+/// one sentence in `warnings` for each that does, or for a build type other than Release. Reads /sys and /proc below `root`.
+/// `threads` is the number of hardware threads.
+Json host_conditions(unsigned threads, const std::string& build_type,
+                     const std::filesystem::path& root = "/");
 
 /// Returns the current time: "2025-11-30T08:15:42Z".
 std::string utc_now();

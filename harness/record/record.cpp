@@ -8,6 +8,27 @@
 #include "harness/choice/choices.h"
 
 namespace bvhbench {
+
+BVHBENCH_TO_JSON(StageTime, stage, launches, busy_ns, span_ns, moved_bytes, start_ns, queued_ns,
+                 submitted_ns)
+BVHBENCH_TO_JSON(SweptFacts, pairs, to_frame, primitives)
+BVHBENCH_TO_JSON(Outlier, of, triangle, diameters)
+BVHBENCH_TO_JSON(FirstRun, compile_ns, run_ns)
+
+static void to_json(Json& json, const Sample& sample)
+{
+    json = {{"order", sample.order}, {"stages", Json::array()}};
+    for (const StageTime& time : sample.stages)
+        if (time.wall_ns > 0)  // else a device stage; a tree of one leaf has no launches
+            json["stages"].push_back({{"stage", time.stage}, {"wall_ns", time.wall_ns}});
+        else
+            json["stages"].push_back(time);
+    if (sample.calibration_ns > 0)
+        json["calibration_ns"] = sample.calibration_ns;
+    if (sample.drifted)
+        json["drifted"] = true;
+}
+
 namespace {
 
 void put_if(Json& json, const char* key, const std::string& value)
@@ -15,49 +36,6 @@ void put_if(Json& json, const char* key, const std::string& value)
     if (!value.empty())
         json[key] = value;
 }
-
-}  // namespace
-
-static void to_json(Json& json, const StageTime& time)
-{
-    if (time.wall_ns > 0)  // else a device stage; a tree of one leaf has no launches
-        json = {{"stage", time.stage}, {"wall_ns", time.wall_ns}};
-    else
-        json = {{"stage", time.stage},
-                {"launches", time.launches},
-                {"busy_ns", time.busy_ns},
-                {"span_ns", time.span_ns},
-                {"moved_bytes", time.moved_bytes},
-                {"start_ns", time.start_ns},
-                {"queued_ns", time.queued_ns},
-                {"submitted_ns", time.submitted_ns}};
-}
-
-static void to_json(Json& json, const Sample& sample)
-{
-    json = {{"order", sample.order}, {"stages", sample.stages}};
-    if (sample.calibration_ns > 0)
-        json["calibration_ns"] = sample.calibration_ns;
-    if (sample.drifted)
-        json["drifted"] = true;
-}
-
-/// Defines to_json with one key for each member, named as the member.
-#define TO_JSON(Type, ...)                                                       \
-    static void to_json(Json& nlohmann_json_j, const Type& nlohmann_json_t)      \
-    {                                                                            \
-        NLOHMANN_JSON_EXPAND(NLOHMANN_JSON_PASTE(NLOHMANN_JSON_TO, __VA_ARGS__)) \
-    }
-TO_JSON(DeviceFacts, name, platform, driver, opencl, opencl_c, kind, compute_units,
-        global_memory_bytes, max_allocation_bytes, local_memory_bytes, max_group_size,
-        timer_resolution_ns, correctly_rounded_division, device_scope_acq_rel_atomics)
-TO_JSON(SweptFacts, pairs, to_frame, primitives)
-TO_JSON(NodeCosts, inner, triangle)
-TO_JSON(Outlier, of, triangle, diameters)
-TO_JSON(FirstRun, compile_ns, run_ns)
-#undef TO_JSON
-
-namespace {
 
 Json json_of(const SceneFacts& scene)
 {
@@ -87,125 +65,56 @@ Json json_of(const SceneFacts& scene)
     return json;
 }
 
-Json json_of(const BuilderChoice& builder)
-{
-    return {{"name", builder.name},
-            {"options", choices_json({.builder = builder}, Choice::Of::builder)}};
-}
-
-Json json_of(const ColliderChoice& collider)
-{
-    Json options = choices_json({.collider = collider}, Choice::Of::query);
-    options.update(choices_json({.collider = collider}, Choice::Of::collider));
-    return {{"name", collider.name}, {"options", std::move(options)}};
-}
-
-Json json_of(const AccuracyFacts& accuracy)
-{
-    Json json = {{"axis", accuracy.axis}, {"method", accuracy.method}};
-    if (accuracy.seed > 0)
-        json["seed"] = accuracy.seed;
-    return json;
-}
-
 Json json_of(const Check& check)
 {
     constexpr std::array verdicts = {"agrees", "differs", "not_checked", "counted"};
     Json json = {{"verdict", verdicts[static_cast<std::size_t>(check.verdict)]}};
     put_if(json, "against", check.against);
     put_if(json, "detail", check.detail);
-    if (check.tree_hash)
-        json["tree_hash"] = hex(*check.tree_hash);
-    if (check.pairs_hash)
-        json["pairs_hash"] = hex(*check.pairs_hash);
-    if (check.contacts_hash)
-        json["contacts_hash"] = hex(*check.contacts_hash);
+    for (const auto& [key, hash] :
+         {std::pair("tree_hash", check.tree_hash), std::pair("pairs_hash", check.pairs_hash),
+          std::pair("contacts_hash", check.contacts_hash)})
+        if (hash)
+            json[key] = hex(*hash);
     return json;
-}
-
-Json json_of(const SamplingFacts& sampling)
-{
-    Json json = {{"stopped", stopped_name(sampling.stopped)},
-                 {"caches", sampling.cold ? "cold" : "hot"}};
-    if (sampling.until > 0)
-        json["until"] = sampling.until;
-    return json;
-}
-
-Json json_of(const HostConditions& conditions)
-{
-    Json json = Json::object();
-    put_if(json, "governor", conditions.governor);
-    if (conditions.turbo)
-        json["turbo"] = *conditions.turbo;
-    if (conditions.on_battery)
-        json["on_battery"] = *conditions.on_battery;
-    if (conditions.load)
-        json["load"] = *conditions.load;
-    json["warnings"] = conditions.warnings;
-    return json;
-}
-
-/// Replaces invalid UTF-8, which file names and logs may contain and result files must not.
-std::string dumped(const Json& json)
-{
-    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace
-
-std::string run_text(const RunFacts& run)
-{
-    Json json = {{"id", run.id}, {"started_at", run.started_at}, {"command", run.command}};
-    json["program"] = {{"version", run.version},   {"commit", run.commit},
-                       {"dirty", run.dirty},       {"build_type", run.build_type},
-                       {"compiler", run.compiler}, {"arch", run.arch},
-                       {"kernels", run.kernels}};
-    json["host"] = {{"name", run.host_name},
-                    {"cpu", run.host_cpu},
-                    {"threads", run.host_threads},
-                    {"os", run.host_os}};
-    json["device"] = run.device;
-    json["libraries"] = run.libraries;
-    if (std::isfinite(run.copy_rate_bytes_per_s) && run.copy_rate_bytes_per_s > 0) {
-        json["copy_rate_bytes_per_s"] = run.copy_rate_bytes_per_s;
-        json["copy_rate_buffer_bytes"] = run.copy_rate_buffer_bytes;
-    }
-    if (std::isfinite(run.launch_cost_ns) && run.launch_cost_ns > 0)
-        json["launch_cost_ns"] = run.launch_cost_ns;
-    json["tuning"] = {{"from", run.tuning_from}, {"values", run.tuning}};
-    json["compile_ns"] = run.compile_ns;
-    json["node_costs"] = run.costs;
-    if (run.conditions != HostConditions{})
-        json["conditions"] = json_of(run.conditions);
-    if (!run.test_hooks.empty())
-        json["test_hooks"] = run.test_hooks;
-    return dumped(json);
-}
 
 std::string cell_text(const Cell& cell)
 {
     constexpr std::array states = {"measured", "skipped", "failed"};
     Json json = {{"experiment", cell.experiment},
                  {"scene", json_of(cell.scene)},
-                 {"builder", json_of(cell.builder)}};
-    if (!cell.collider.name.empty())
-        json["collider"] = json_of(cell.collider);
+                 {"builder",
+                  {{"name", cell.builder.name},
+                   {"options", choices_json({.builder = cell.builder}, Choice::Of::builder)}}}};
+    if (!cell.collider.name.empty()) {
+        Json options = choices_json({.collider = cell.collider}, Choice::Of::query);
+        options.update(choices_json({.collider = cell.collider}, Choice::Of::collider));
+        json["collider"] = {{"name", cell.collider.name}, {"options", std::move(options)}};
+    }
     if (!cell.swept.pairs.empty())
         json["swept"] = cell.swept;
     if (!cell.accuracy.axis.empty())
-        json["accuracy"] = json_of(cell.accuracy);
+        json["accuracy"] = {{"axis", cell.accuracy.axis}, {"method", cell.accuracy.method}};
+    if (cell.accuracy.seed > 0)
+        json["accuracy"]["seed"] = cell.accuracy.seed;
     json["operation"] = operation_name(cell.operation);
     json["status"] = states[static_cast<std::size_t>(cell.status)];
     if (cell.status != Cell::Status::measured) {
         json["reason"] = cell.reason;
-        return dumped(json);
+        return one_line(json);
     }
     json["warm_up"] = cell.warm_up;
     if (cell.first.run_ns > 0)
         json["first"] = cell.first;
-    if (cell.sampling.stopped != Stopped::not_sampled)
-        json["sampling"] = json_of(cell.sampling);
+    if (cell.sampling.stopped != Stopped::not_sampled) {
+        json["sampling"] = {{"stopped", stopped_name(cell.sampling.stopped)},
+                            {"caches", cell.sampling.cold ? "cold" : "hot"}};
+        if (cell.sampling.until > 0)
+            json["sampling"]["until"] = cell.sampling.until;
+    }
     json["samples"] = cell.samples;
     Json& counters = json["counters"] = Json::object();
     for (const auto& [key, value] : cell.counters) {
@@ -218,7 +127,7 @@ std::string cell_text(const Cell& cell)
     if (!cell.leaves_by_depth.empty())
         json["leaves_by_depth"] = cell.leaves_by_depth;
     json["check"] = json_of(cell.check);
-    return dumped(json);
+    return one_line(json);
 }
 
 std::string cell_text(const StressCell& cell)
@@ -238,23 +147,7 @@ std::string cell_text(const StressCell& cell)
                  {"missed", finding.missed}};
         put_if(entry, "detail", finding.detail);
     }
-    return dumped(json);
-}
-
-std::string document_text(const std::string& run, const std::vector<std::string>& cells,
-                          const std::vector<std::string>& stress)
-{
-    const auto lines = [](const std::vector<std::string>& all) {
-        std::string text;
-        for (std::size_t i = 0; i < all.size(); ++i)
-            text += (i == 0 ? "\n" : ",\n") + all[i];
-        return text;
-    };
-    std::string text = "{\"format\": \"" + result_format + "\",\n\"run\": " + run;
-    text += ",\n\"cells\": [" + lines(cells) + "\n]";
-    if (!stress.empty())
-        text += ",\n\"stress\": [" + lines(stress) + "\n]";
-    return text + "}\n";
+    return one_line(json);
 }
 
 }  // namespace bvhbench

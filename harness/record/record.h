@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Contents of a result file, format 1. The schema is results/schema/result-1.schema.json, which a test compares with this.
-// record.cpp writes cells and the facts of a run; result_file.cpp adds what is known at its end. Readers are in plots/.
+// record.cpp writes cells, provenance.cpp the facts of a run, result_file.cpp what is known at its end. Readers are in plots/.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "device/queue.h"
-#include "geometry/host_memory.h"
 #include "harness/choice/catalog.h"
 #include "harness/choice/sampling.h"
 #include "harness/record/finding.h"
@@ -35,6 +34,13 @@ struct Check {
     std::optional<std::uint64_t> tree_hash = {};
     std::optional<std::uint64_t> pairs_hash = {};
     std::optional<std::uint64_t> contacts_hash = {};
+
+    /// Sets the verdict to `differs` and appends `what` to the detail.
+    void find_wrong(const std::string& what)
+    {
+        verdict = Verdict::differs;
+        detail += (detail.empty() ? "" : "; ") + what;
+    }
 };
 
 /// The triangles of a cell.
@@ -104,61 +110,11 @@ struct Cell {
     Check check;
 };
 
-/// Settings of the host that distort times. Empty values are unknown.
-struct HostConditions {
-    std::string governor;       ///< of the first core without "performance", else that
-    std::optional<bool> turbo;  ///< whether cores may exceed their base clock
-    std::optional<bool> on_battery;
-    std::optional<double> load;         ///< runnable processes, mean over the last minute
-    std::vector<std::string> warnings;  ///< one sentence for each setting that distorts times
-
-    bool operator==(const HostConditions&) const = default;
-};
-
-struct DeviceFacts {
-    std::string name, platform, driver, opencl, opencl_c;
-    std::string kind;  ///< cpu, gpu or other
-    std::int64_t compute_units = 0;
-    std::int64_t global_memory_bytes = 0;
-    std::int64_t max_allocation_bytes = 0;
-    std::int64_t local_memory_bytes = 0;
-    std::int64_t max_group_size = 0;
-    std::int64_t timer_resolution_ns = 0;
-    bool correctly_rounded_division = false;
-    bool device_scope_acq_rel_atomics = false;
-};
-
-/// Machine, program and settings of a run.
-struct RunFacts {
-    std::string id, started_at;
-    std::vector<std::string> command;
-    std::string version, commit, build_type, compiler, arch, kernels;
-    bool dirty = false;
-    std::string host_name, host_cpu, host_os;
-    int host_threads = 0;
-    DeviceFacts device;
-    std::map<std::string, std::string> libraries;  ///< versions by library name
-    double copy_rate_bytes_per_s = 0;              ///< 0: not measured
-    std::int64_t copy_rate_buffer_bytes = 0;
-    double launch_cost_ns = 0;           ///< 0: not measured
-    std::string tuning_from = "none";    ///< file of the tuned values
-    std::map<std::string, uint> tuning;  ///< parameters that differ from their defaults
-    std::int64_t compile_ns = 0;
-    NodeCosts costs;  ///< costs in the counters sah_cost and epo
-    HostConditions conditions = {};
-    std::map<std::string, std::string> test_hooks = {};  ///< not empty: not a valid result
-};
-
 /// Format version of written files.
 inline const std::string result_format = "1.9";
 
-/// Returns a run or a cell as one line of JSON. Numbers that are not finite are left out.
-std::string run_text(const RunFacts& run);
+/// Returns a cell as one line of JSON. Numbers that are not finite are left out.
 std::string cell_text(const Cell& cell);
 std::string cell_text(const StressCell& cell);
-
-/// Returns the text of a result file from the texts of its parts, with one cell per line, so that files can be compared by diff.
-std::string document_text(const std::string& run, const std::vector<std::string>& cells,
-                          const std::vector<std::string>& stress = {});
 
 }  // namespace bvhbench

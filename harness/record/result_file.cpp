@@ -2,6 +2,7 @@
 #include "harness/record/result_file.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "geometry/error.h"
 #include "geometry/host_memory.h"
@@ -19,15 +20,6 @@ std::optional<Json> document_of(const std::string& run_id, const std::string& te
                         json["run"].is_object() && json["run"].value("id", "") == run_id &&
                         json.contains("cells");
     return is_own ? std::optional(std::move(json)) : std::nullopt;
-}
-
-int order_after(const Json& cell)
-{
-    int next = 0;
-    if (cell.contains("samples"))
-        for (const Json& sample : cell["samples"])
-            next = std::max(next, sample.value("order", 0) + 1);
-    return next;
 }
 
 /// Records the process's memory. Keeps larger values that an earlier process of the same run recorded.
@@ -55,8 +47,8 @@ OutputRules result_rules(bool force, std::vector<std::string> inputs, std::strin
             }};
 }
 
-ResultFile::ResultFile(Output output, const RunFacts& run, const std::string& goes_on)
-    : output_(std::move(output)), run_id_(run.id), run_(Json::parse(run_text(run)))
+ResultFile::ResultFile(Output output, Json run, const std::string& goes_on)
+    : output_(std::move(output)), run_(std::move(run))
 {
     if (!goes_on.empty() && output_.was_there())
         take_over(goes_on);
@@ -70,14 +62,14 @@ void ResultFile::take_over(const std::string& run_id)
         document_of(run_id, file_text(output_.path(), "the result file"));
     if (!json)
         return;
-    run_id_ = run_id;
     run_ = (*json)["run"];
     for (const Json& cell : (*json)["cells"]) {
         cells_.push_back({.text = cell.dump(),
                           .is_measured = cell.value("status", "") == "measured",
                           .differs = cell.value("/check/verdict"_json_pointer, "") == "differs",
                           .reason = cell.value("reason", "")});
-        next_order_ = std::max(next_order_, order_after(cell));
+        for (const Json& sample : cell.value("samples", Json::array()))
+            next_order_ = std::max(next_order_, sample.value("order", 0) + 1);
     }
     has_measured_ = true;  // the earlier file belongs to this run
     goes_on_ = true;
@@ -154,10 +146,18 @@ void ResultFile::finish(std::int64_t compile_ns)
 
 std::string ResultFile::text() const
 {
-    std::vector<std::string> texts;
-    for (const Kept& cell : cells_)
-        texts.push_back(cell.text);
-    return document_text(run_.dump(), texts, stress_);
+    const auto lines = [](const auto& cells, const auto& text_of) {
+        std::string text;
+        for (const auto& cell : cells)
+            text += (text.empty() ? "\n" : ",\n") + text_of(cell);
+        return text;
+    };
+    // One cell per line, so that files can be compared by diff.
+    std::string text = "{\"format\": \"" + result_format + "\",\n\"run\": " + one_line(run_);
+    text += ",\n\"cells\": [" + lines(cells_, std::mem_fn(&Kept::text)) + "\n]";
+    if (!stress_.empty())
+        text += ",\n\"stress\": [" + lines(stress_, std::identity()) + "\n]";
+    return text + "}\n";
 }
 
 int ResultFile::exit_code() const

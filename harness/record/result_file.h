@@ -25,11 +25,9 @@ OutputRules result_rules(bool force, std::vector<std::string> inputs, std::strin
 class ResultFile {
 public:
     /// If the existing file belongs to the run `goes_on`, continues that run and keeps its facts and cells.
-    ResultFile(Output output, const RunFacts& run, const std::string& goes_on = {});
+    ResultFile(Output output, Json run, const std::string& goes_on = {});
     /// Writes unwritten cells and ignores errors. Call finish() to see them.
     ~ResultFile();
-    ResultFile(const ResultFile&) = delete;
-    ResultFile& operator=(const ResultFile&) = delete;
 
     void add(const Cell& cell);
     void add(const StressCell& cell);
@@ -53,7 +51,7 @@ public:
     /// Returns the number of cells.
     std::size_t size() const { return cells_.size() + stress_.size(); }
 
-    const std::string& run_id() const { return run_id_; }
+    std::string run_id() const { return run_.at("id"); }
 
     /// Returns the whole document, whether or not it is written to a file.
     std::string text() const;
@@ -79,7 +77,6 @@ private:
     void write();
 
     Output output_;
-    std::string run_id_;
     Json run_;
     std::vector<Kept> cells_;
     std::vector<std::string> stress_;

@@ -73,12 +73,6 @@ std::string folder_problem(const fs::path& folder)
     return is_written ? "" : "no file can be written there";
 }
 
-void tell_pocl(const fs::path& folder)
-{
-    setenv("POCL_CACHE_DIR", folder.c_str(), 1);
-    watchdog::kernels_are_in(folder);
-}
-
 }  // namespace
 
 PoclCache::PoclCache()
@@ -86,13 +80,13 @@ PoclCache::PoclCache()
     const fs::path named = variable("POCL_CACHE_DIR"), own = own_folder();
     const fs::path folder = named.empty() ? own : named;
     std::string problem = folder.empty() ? "there is no home folder" : folder_problem(folder);
-    if (!problem.empty()) {
+    if (!problem.empty())
         take_temporary("they cannot be kept in '" + folder.string() + "': " + problem);
-        return;
-    }
-    if (folder == own)
+    else if (folder == own)
         share(folder);
-    tell_pocl(folder);  // replaces an empty POCL_CACHE_DIR, on which PoCL aborts
+    const fs::path& used = temporary_.empty() ? folder : temporary_;
+    setenv("POCL_CACHE_DIR", used.c_str(), 1);  // replaces an empty one, on which PoCL aborts
+    watchdog::kernels_are_in(used);
 }
 
 PoclCache::~PoclCache()
@@ -135,7 +129,6 @@ void PoclCache::take_temporary(const std::string& why)
         std::error_code ignored;
         fs::remove_all(temporary_, ignored);
     });
-    tell_pocl(temporary_);
     std::cerr << "bvhbench: kernels are compiled anew, for " << why << '\n';
 }
 

@@ -19,8 +19,6 @@ public:
     /// Prints one sentence on stderr if kernels cannot be kept. Throws Unavailable if there is no usable folder at all.
     PoclCache();
     ~PoclCache();
-    PoclCache(const PoclCache&) = delete;
-    PoclCache& operator=(const PoclCache&) = delete;
 
 private:
     void share(const std::filesystem::path& folder);

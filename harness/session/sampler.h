@@ -41,13 +41,6 @@ std::vector<Taken> take_samples(std::span<const Timed> cells, const SamplingPlan
                                 const std::function<std::int64_t()>& calibrate = {},
                                 Turns* turns = nullptr);
 
-/// The same with a fixed number of samples and without calibration.
-inline std::vector<Taken> take_samples(std::span<const Timed> cells, int samples, int warm_up,
-                                       int& order)
-{
-    return take_samples(cells, {.samples = samples, .warm_up = warm_up}, order);
-}
-
 /// Returns the quantile `fraction` of the values, interpolated linearly between neighbours; 0 without values.
 double quantile(std::vector<double> values, double fraction);
 

@@ -3,7 +3,6 @@
 
 #include <re2/re2.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
@@ -45,19 +44,12 @@ Device open_device_of(const CommonOptions& common)
 }
 
 Session::Session(Device device, SceneLibrary library)
-    : device_(std::move(device))
-    , programs_(device_)
-    , queue_(std::make_unique<Queue>(device_))
-    , library_(std::move(library))
+    : device_(std::move(device)), library_(std::move(library))
 {}
 
-Session::Session(const CommonOptions& common) : Session(std::make_unique<PoclCache>(), common) {}
-
-/// Makes the PoclCache first: drivers look up their cache folder when their devices are queried.
-Session::Session(std::unique_ptr<PoclCache> cache, const CommonOptions& common)
-    : Session(open_device_of(common), scene_library(common))
+Session::Session(const CommonOptions& common)
+    : cache_(std::in_place), device_(open_device_of(common)), library_(scene_library(common))
 {
-    cache_ = std::move(cache);
     if (common.verbose)
         std::cerr << "device: " << device_.platform() << '/' << device_.name()
                   << "\nkernels: " << device_.sources.origin()
@@ -76,14 +68,10 @@ Builder& Session::builder(const BuilderChoice& choice, Operation operation)
     for (const Made& made : builders_)
         if (made.choice == choice && made.operation == operation)
             return *made.builder;
-    // The choice is stored first, because the builder may refer to its strings.
-    builders_.push_back({choice, operation, nullptr});
-    try {
-        builders_.back().builder = make_builder(builders_.back().choice, programs_);
-    } catch (...) {
-        builders_.pop_back();
-        throw;
-    }
+    std::list<Made> made;
+    made.push_back({choice, operation, nullptr});  // first, as the builder may refer to its strings
+    made.back().builder = make_builder(made.back().choice, programs_);
+    builders_.splice(builders_.end(), made);
     return *builders_.back().builder;
 }
 

@@ -69,18 +69,17 @@ public:
                                       const Tree** tree = nullptr);
 
 private:
-    Session(std::unique_ptr<PoclCache> cache, const CommonOptions& common);
-
     struct Made {
         BuilderChoice choice;
         Operation operation;
         std::unique_ptr<Builder> builder;
     };
 
-    std::unique_ptr<PoclCache> cache_;  ///< outlives everything that runs kernels
+    /// Made first: drivers look up their cache folder when their devices are queried. Outlives everything that runs kernels.
+    std::optional<PoclCache> cache_;
     Device device_;
-    Programs programs_;
-    std::unique_ptr<Queue> queue_;
+    Programs programs_{device_};
+    std::unique_ptr<Queue> queue_ = std::make_unique<Queue>(device_);
     std::optional<HeadStart> head_start_;  ///< this and the next two are made at the first use
     std::optional<CacheFlush> cache_flush_;
     std::optional<Calibration> calibration_;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "harness/session/tuning_file.h"
 
-#include <algorithm>
+#include <re2/re2.h>
+
 #include <cctype>
 #include <cstdlib>
 #include <iostream>
@@ -16,6 +17,9 @@
 #include "harness/record/output.h"
 
 namespace bvhbench {
+
+BVHBENCH_TO_JSON(TunedValue, value, target, scene, ratio, samples, found_at, commit)
+
 namespace {
 
 constexpr auto format = "tuning 1";
@@ -92,14 +96,11 @@ std::span<const Parameter* const> tuning_parameters()
 
 std::string device_slug(std::string_view device)
 {
-    std::string slug;
-    for (const unsigned char c : device)
-        if (std::isalnum(c) != 0)
-            slug += static_cast<char>(std::tolower(c));
-        else if (!slug.empty() && slug.back() != '-')
-            slug += '-';
-    while (slug.ends_with('-'))
-        slug.pop_back();
+    std::string slug(device);
+    for (char& c : slug)
+        c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    RE2::GlobalReplace(&slug, RE2("[^a-z0-9]+", RE2::Latin1), "-");
+    RE2::GlobalReplace(&slug, "^-|-$", "");
     return slug.empty() ? "device" : slug;
 }
 
@@ -124,10 +125,7 @@ std::string tuning_text(const TuningFile& file)
     Json json = {{"format", format}, {"device", file.device}, {"driver", file.driver}};
     json["values"] = Json::object();
     for (const auto& [name, value] : file.values)
-        json["values"][name] = {{"value", value.value},     {"target", value.target},
-                                {"scene", value.scene},     {"ratio", value.ratio},
-                                {"samples", value.samples}, {"found_at", value.found_at},
-                                {"commit", value.commit}};
+        json["values"][name] = value;
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
@@ -148,30 +146,24 @@ Tuning tuning_of(const TuningFile& file, const Device& device, const std::string
 
 std::optional<std::string> tuning_folder(const std::optional<std::string>& option)
 {
-    if (option)
-        return option;
-    if (const char* variable = std::getenv("BVHBENCH_TUNING"))
-        return std::string(variable);
-    return std::nullopt;
+    const char* variable = std::getenv("BVHBENCH_TUNING");
+    return option || variable == nullptr ? option : std::optional<std::string>(variable);
 }
 
 NamedTuning tuning_file_for(const Device& device, const std::optional<std::string>& folder)
 {
-    const std::string name = device_slug(device.name()) + ".json";
+    const std::filesystem::path path = std::filesystem::path(folder.value_or("results/tuning")) /
+                                       (device_slug(device.name()) + ".json");
     if (!folder) {
-        const std::string path = "results/tuning/" + name;
-        if (const auto text = embedded_tuning(path))
-            return {parse_tuning(*text, path), path};
-        return {{}, "none"};
+        if (const auto text = embedded_tuning(path.string()))
+            return {parse_tuning(*text, path.string()), path.string()};
+    } else if (!folder->empty()) {
+        if (!std::filesystem::is_directory(*folder))
+            throw Unavailable("tuning: there is no folder '" + *folder + "'");
+        if (std::filesystem::exists(path))
+            return {read_tuning(path), path.string()};
     }
-    if (folder->empty())
-        return {{}, "none"};
-    if (!std::filesystem::is_directory(*folder))
-        throw Unavailable("tuning: there is no folder '" + *folder + "'");
-    const std::filesystem::path path = std::filesystem::path(*folder) / name;
-    if (!std::filesystem::exists(path))
-        return {{}, "none"};
-    return {read_tuning(path), path.string()};
+    return {{}, "none"};
 }
 
 }  // namespace bvhbench

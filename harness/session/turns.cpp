@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "geometry/error.h"
+#include "harness/base/failure.h"
 
 namespace bvhbench {
 namespace {
@@ -55,10 +56,7 @@ void Turns::meet()
 
 void Turns::part()
 {
-    try {
-        all_come();
-    } catch (const Unavailable&) {  // e.g. a full disk; the next meet() throws
-    }
+    reason_of_failure([&] { all_come(); });  // e.g. a full disk; the next meet() throws
 }
 
 bool Turns::all_come()

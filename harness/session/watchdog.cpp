@@ -126,7 +126,8 @@ int supervised(double limit_s, const std::function<int()>& work)
         throw Unavailable("out of host memory: there is no room for another process");
     sigset_t awaited, before;
     sigemptyset(&awaited);
-    for (const int signal : {SIGCHLD, SIGINT, SIGTERM, SIGHUP})
+    sigaddset(&awaited, SIGCHLD);
+    for (const int signal : ending_signals())
         sigaddset(&awaited, signal);
     std::signal(SIGCHLD, SIG_DFL);
     sigprocmask(SIG_BLOCK, &awaited, &before);

@@ -10,8 +10,9 @@
 
 namespace bvhbench {
 
-/// Runs `work` in a child process and returns its exit code. Must be called while the process has a single thread. Passes SIGINT,
-/// SIGTERM and SIGHUP on to the child. If another signal than those of a crash ends the child, it ends this process too.
+/// Runs `work` in a child process and returns its exit code. Must be called while the process has a single thread. Passes
+/// ending_signals() (harness/base/interrupt.h) on to the child. If another signal than those of a crash ends the child, it ends
+/// this process too.
 ///
 /// If a build or query exceeds `limit_s` or the child crashes during a cell of a run named by go_on_with(), another child
 /// continues the run; outside of such a cell, Unavailable is thrown, as it is if no process can be made. With a limit of 0,

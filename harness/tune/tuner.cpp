@@ -175,7 +175,8 @@ struct Search {
                 places.push_back(&times[k]);
             }
         auto place = places.begin();
-        for (const Taken& taken : take_samples(timed, options.samples, options.warm_up, order)) {
+        const SamplingPlan plan{.samples = options.samples, .warm_up = options.warm_up};
+        for (const Taken& taken : take_samples(timed, plan, order)) {
             if (taken.failure.empty())
                 **place = times_of(taken.samples, stage);
             else

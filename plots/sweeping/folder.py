@@ -62,11 +62,7 @@ class Folder:
         self.note = ""  # message about cells of an earlier program, which are kept
         part = f"{shard.number}of{shard.of}"
         self.result_file = self.path / (f"{sweep.name}.json" if shard.is_all else f"{sweep.name}-{part}.json")
-        for inside in ("cells", "experiments"):
-            try:
-                (self.path / inside).mkdir(parents=True, exist_ok=True)
-            except OSError as error:
-                raise Refused(f"{self.path / inside} cannot be made: {error.strerror}") from error
+        output.make_folder(self.path)
         subject = f"the sweep in {folder}"
         kind = file_lock.EXCLUSIVE if shard.is_all else file_lock.SHARED
         locks.enter_context(file_lock.locked(str(self.path / "lock"), kind, subject, PATIENCE_S))
@@ -78,6 +74,8 @@ class Folder:
                 self.check_plan(plan_in(self.path / "plan.json"), units, keeps_other_commit)
             elif self.result_file.exists():
                 raise WrongUsage(f"{self.result_file} is there and no sweep's: choose another --out or --name")
+            for inside in ("cells", "experiments"):
+                output.make_folder(self.path / inside)
             plan = {"format": PLAN_FORMAT, "sweep": sweep.name, "product": sweep.product, "device": self.device,
                     "programs": self.programs, "units": [unit.what for unit in units],
                     "together": "scene" if together else "cell"}

@@ -49,9 +49,9 @@ TEST(CheckRefit, FindsBoxesThatStayedAnotherTreeAndWhatWasWrongBefore)
                 wrong_before = verdict_on(tree_over(moved), differs);
     for (const Check& check : {stayed, another, wrong_before})
         EXPECT_EQ(check.verdict, differs);
-    EXPECT_EQ(stayed.detail, "the box of leaf node 1 is not that of its triangle 0");
-    EXPECT_TRUE(
-        another.detail.starts_with("a valid tree, but the refit on the host has the hash "));
+    EXPECT_EQ(stayed.detail, "as before; the box of leaf node 1 is not that of its triangle 0");
+    EXPECT_TRUE(another.detail.starts_with(
+        "as before; a valid tree, but the refit on the host has the hash "));
     EXPECT_EQ(wrong_before.detail, "as before");
 }
 

@@ -11,29 +11,13 @@
 #include <vector>
 
 #include "builders/tree.h"
+#include "geometry/aabb.h"
 #include "geometry/mesh.h"
-#include "geometry/morton.h"
-#include "geometry/scene_bounds.h"
 
 namespace bvhbench {
 
 /// Returns 30-bit Morton codes on a grid over the scene's box, 1024 cells along each side whatever its length.
-inline std::vector<std::uint32_t> per_axis_codes(const Mesh& mesh)
-{
-    Bounds bounds = empty_bounds();
-    for (const Face& face : mesh.faces)
-        bounds = grown(bounds, face_box(mesh.points, face));
-    const Aabb& scene = bounds.scene;
-    std::vector<std::uint32_t> codes;
-    for (const Face& face : mesh.faces) {
-        const Point centre = box_centre(face_box(mesh.points, face));
-        const uint x = part_of(centre.x - scene.min_x, scene.max_x - scene.min_x, 1024.0f);
-        const uint y = part_of(centre.y - scene.min_y, scene.max_y - scene.min_y, 1024.0f);
-        const uint z = part_of(centre.z - scene.min_z, scene.max_z - scene.min_z, 1024.0f);
-        codes.push_back(spread_10(x) << 2u | spread_10(y) << 1u | spread_10(z));
-    }
-    return codes;
-}
+std::vector<std::uint32_t> per_axis_codes(const Mesh& mesh);
 
 /// Returns the triangles sorted by code; equal codes keep their order.
 inline std::vector<int> sorted_ids(std::span<const std::uint32_t> codes)

@@ -36,10 +36,11 @@ HostTree halved(const Mesh& mesh, std::vector<int> ids)
 std::map<std::string, double> counters_of(const HostTree& tree, const Mesh& mesh,
                                           const NodeCosts& costs = {})
 {
-    Quality quality = quality_of(tree, costs);
-    add_end_point_overlap(quality, tree, mesh.points, mesh.faces, costs);
-    EXPECT_TRUE(quality.left_out.empty());
-    return quality.counters;
+    Cell cell;
+    count_quality(cell, tree, costs);
+    count_end_point_overlap(cell, tree, mesh.points, mesh.faces, costs);
+    EXPECT_TRUE(cell.left_out.empty());
+    return cell.counters;
 }
 
 TEST(Metrics, OfATreeByHand)
@@ -107,15 +108,22 @@ TEST(Metrics, HaveNoValueWhereThereIsNoArea)
     EXPECT_EQ(area_sums(tree), std::nullopt);
     EXPECT_EQ(sibling_overlap(tree), std::nullopt);
     EXPECT_EQ(end_point_overlap(tree, mesh.points, mesh.faces), std::nullopt);
-    Quality quality = quality_of(tree);
-    add_end_point_overlap(quality, tree, mesh.points, mesh.faces);
-    EXPECT_EQ(quality.counters,
-              (std::map<std::string, double>{{"depth_max", 1}, {"depth_mean", 1}}));
-    EXPECT_EQ(quality.left_out,
+    Cell cell;
+    count_quality(cell, tree);
+    count_end_point_overlap(cell, tree, mesh.points, mesh.faces);
+    EXPECT_EQ(cell.counters, (std::map<std::string, double>{{"depth_max", 1}, {"depth_mean", 1}}));
+    EXPECT_EQ(cell.left_out,
               (std::map<std::string, std::string>{{"sah_cost", "the root's box has no area"},
                                                   {"sibling_overlap", "the root's box has no area"},
                                                   {"epo", "no triangle has an area"}}));
-    EXPECT_TRUE(quality_of(HostTree{}).counters.empty());
+    Cell empty, wrong;
+    count_quality(empty, HostTree{});
+    EXPECT_TRUE(empty.counters.empty());
+    wrong.check.verdict = Check::Verdict::differs;
+    count_quality(wrong, tree);
+    count_end_point_overlap(wrong, tree, mesh.points, mesh.faces);
+    EXPECT_TRUE(wrong.counters.empty());
+    EXPECT_EQ(wrong.left_out.at("epo"), "the tree is wrong");
 }
 
 TEST(Metrics, DoNotDependOnAScaleThatIsAPowerOfTwo)
@@ -132,10 +140,11 @@ TEST(Metrics, TakeATreeAsDeepAsItHasLeaves)
 {
     const Mesh mesh = make_soup(100000);
     const HostTree chain = host_chain(mesh);
-    const Quality quality = quality_of(chain);
-    EXPECT_EQ(quality.counters.at("depth_max"), 99999);
-    EXPECT_EQ(quality.leaves_by_depth.size(), 100000u);
-    EXPECT_EQ(quality.leaves_by_depth.back(), 2);
+    Cell cell;
+    count_quality(cell, chain);
+    EXPECT_EQ(cell.counters.at("depth_max"), 99999);
+    EXPECT_EQ(cell.leaves_by_depth.size(), 100000u);
+    EXPECT_EQ(cell.leaves_by_depth.back(), 2);
     EXPECT_GT(area_sums(chain)->inner, 40000) << "almost every box is the whole scene's";
 }
 

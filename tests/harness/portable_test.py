@@ -37,7 +37,7 @@ def test_without_the_variable_the_device_is_pocl():
 
 def test_a_report_on_the_device_names_every_verdict():
     report = expect(0, "check", "--portable")
-    for words in ("device ", "driver ", "extensions ", "OpenCL ", "end by themselves", "oibvh-multi", "karras", "guigue",
+    for words in ("device ", "driver ", "extensions ", "OpenCL ", "local_memory_bytes ", "end by themselves", "oibvh-multi", "karras", "guigue",
                   "agrees"):
         assert words in report, (words, report)
     assert "differs" not in report and "failed" not in report, report

@@ -3,21 +3,16 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <limits>
 
 #include "harness/base/json_keys.h"
+#include "harness/record/provenance.h"
+#include "harness/session/tuning_file.h"
 #include "tests/harness/fakes.h"
 
 namespace bvhbench {
 namespace {
-
-std::string text_of(const RunFacts& run, const std::vector<Cell>& cells)
-{
-    std::vector<std::string> texts;
-    for (const Cell& cell : cells)
-        texts.push_back(cell_text(cell));
-    return document_text(run_text(run), texts);
-}
 
 TEST(Record, WritesACellOnOneLineWithKeysThatEndInTheirUnit)
 {
@@ -61,17 +56,13 @@ TEST(Record, LeavesOutWhatIsNoNumber)
     cell.counters["endless_ratio"] = std::numeric_limits<double>::infinity();
     EXPECT_EQ(cell_text(cell).find("_ratio"), std::string::npos);
     EXPECT_EQ(cell_text(cell).find("null"), std::string::npos);
-
-    RunFacts run = fake_run();
-    run.copy_rate_bytes_per_s = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_EQ(run_text(run).find("copy_rate"), std::string::npos);
 }
 
 TEST(Record, KeepsBytesThatAreNoUtf8OutOfTheFile)
 {
     Cell cell = fake_cell();
     cell.scene.source = "a\xff.ply";
-    EXPECT_FALSE(Json::parse(text_of(fake_run(), {cell}), nullptr, false).is_discarded());
+    EXPECT_FALSE(Json::parse(cell_text(cell), nullptr, false).is_discarded());
 }
 
 TEST(Record, TellsAllThatACellIsAbout)
@@ -122,24 +113,23 @@ TEST(Record, TellsAllThatACellIsAbout)
 
 TEST(Record, TellsTheCircumstancesOfARun)
 {
-    RunFacts run = fake_run();
-    run.costs = {.inner = 2, .triangle = 0.5};
-    run.launch_cost_ns = 3812.5;
-    run.tuning_from = "results/tuning/a-device.json";
-    run.tuning = {{"sweep.keys_per_item", 7}, {"walk.task_leaves", 32}};
-    run.conditions = {.governor = "powersave",
-                      .turbo = true,
-                      .on_battery = false,
-                      .load = 0.5,
-                      .warnings = {"slow"}};
-    run.test_hooks = {{"BVHBENCH_SLOW", "karras:2"}};
-    const Json json = Json::parse(run_text(run));
-    EXPECT_EQ(json["node_costs"], Json({{"inner", 2}, {"triangle", 0.5}}));
-    EXPECT_EQ(json["launch_cost_ns"], 3812.5);
-    EXPECT_EQ(json["tuning"]["values"]["walk.task_leaves"], 32);
-    EXPECT_EQ(json["conditions"]["warnings"], Json({"slow"}));
-    EXPECT_EQ(json["test_hooks"]["BVHBENCH_SLOW"], "karras:2");
-    EXPECT_EQ(Json::parse(run_text(fake_run()))["tuning"]["from"], "none");
+    Device device = open_device("");
+    device.tuning = Tuning("results/tuning/a-device.json");
+    device.tuning.set(*tuning_parameters().front(), 7);
+    setenv("BVHBENCH_SLOW", "karras:2", 1);
+    const Json run = run_facts(device, {"/somewhere/bvhbench", "a\xff"}, {2, 0.5});
+    unsetenv("BVHBENCH_SLOW");
+    EXPECT_EQ(run["command"][0], "bvhbench");
+    EXPECT_EQ(run["device"]["name"], device.name());
+    EXPECT_GT(run["device"]["compute_units"], 0);
+    EXPECT_EQ(run["node_costs"], Json({{"inner", 2.0}, {"triangle", 0.5}}));
+    EXPECT_EQ(run["tuning"]["from"], "results/tuning/a-device.json");
+    EXPECT_EQ(run["tuning"]["values"], Json({{std::string(tuning_parameters().front()->name), 7}}));
+    EXPECT_TRUE(run["conditions"]["warnings"].is_array());
+    EXPECT_EQ(run["test_hooks"]["BVHBENCH_SLOW"], "karras:2");
+    EXPECT_FALSE(Json::parse(one_line(run), nullptr, false).is_discarded());
+    EXPECT_EQ(run_facts(open_device(""), {})["tuning"],
+              Json({{"from", "none"}, {"values", Json::object()}}));
 }
 
 TEST(Record, TellsWhatStressFound)
@@ -149,13 +139,13 @@ TEST(Record, TellsWhatStressFound)
     cell.system = "rtcCollide", cell.kind = StressCell::Kind::library, cell.library = "Embree";
     cell.findings = {{Invariant::ends, {Finding::Verdict::holds, 1}},
                      {Invariant::pairs, {Finding::Verdict::broken, 747, 748, 747, "747 missed"}}};
-    const Json json = Json::parse(document_text(run_text(fake_run()), {}, {cell_text(cell)}));
-    EXPECT_EQ(json["stress"][0]["kind"], "library");
-    EXPECT_EQ(json["stress"][0]["findings"]["pairs"], Json({{"verdict", "broken"},
-                                                            {"checked", 747},
-                                                            {"wrong", 748},
-                                                            {"missed", 747},
-                                                            {"detail", "747 missed"}}));
+    const Json json = Json::parse(cell_text(cell));
+    EXPECT_EQ(json["kind"], "library");
+    EXPECT_EQ(json["findings"]["pairs"], Json({{"verdict", "broken"},
+                                               {"checked", 747},
+                                               {"wrong", 748},
+                                               {"missed", 747},
+                                               {"detail", "747 missed"}}));
 }
 
 }  // namespace

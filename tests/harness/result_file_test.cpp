@@ -59,7 +59,7 @@ TEST_F(ResultFileTest, IsCompleteAfterFinishAndWhenTheRunEndsEarly)
 TEST_F(ResultFileTest, GoesOnWithTheCellsThatAnEarlierProcessOfTheRunHasLeft)
 {
     const fs::path path = folder_ / "r.json";
-    RunFacts run = fake_run();
+    Json run = fake_run();
     {
         ResultFile file({path, "--out", {}}, run);
         Cell wrong = fake_cell();
@@ -68,8 +68,8 @@ TEST_F(ResultFileTest, GoesOnWithTheCellsThatAnEarlierProcessOfTheRunHasLeft)
         file.add(fake_cell());
         file.finish(1);
     }
-    run.started_at = "later";
-    ResultFile file({path, "--out", result_rules(false, {}, run.id)}, run, run.id);
+    run["started_at"] = "later";
+    ResultFile file({path, "--out", result_rules(false, {}, run["id"])}, run, run["id"]);
     EXPECT_EQ(file.next_order(), 10);
     EXPECT_TRUE(file.pass(1));
     EXPECT_FALSE(file.pass(2)) << "one of these is missing, so both are made anew";

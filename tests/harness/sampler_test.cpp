@@ -66,7 +66,8 @@ TEST(Sampler, KeepsEverySampleAfterTheWarmUpInOrder)
 {
     FakeBuild build;
     int order = 0;
-    const auto all = take_samples(std::vector<Timed>{{"fake", std::ref(build)}}, 5, 2, order);
+    const auto all = take_samples(std::vector<Timed>{{"fake", std::ref(build)}},
+                                  {.samples = 5, .warm_up = 2}, order);
     std::vector<std::int64_t> times;
     for (const Sample& sample : all[0].samples)
         times.push_back(sample.stages.at(0).span_ns);
@@ -80,7 +81,7 @@ TEST(Sampler, InterleavesCellsAndNumbersTheSamplesOfTheWholeRun)
     FakeBuild first, second;
     const std::vector<Timed> cells = {{"first", std::ref(first)}, {"second", std::ref(second)}};
     int order = 100;
-    const std::vector<Taken> taken = take_samples(cells, 50, 0, order);
+    const std::vector<Taken> taken = take_samples(cells, {.samples = 50, .warm_up = 0}, order);
     EXPECT_EQ(order, 200);
     std::set<int> orders;
     for (const Taken& cell : taken)
@@ -101,8 +102,8 @@ TEST(Sampler, GoesOnWithTheOthersWhenOneFailsAndPrintsNothing)
     int order = 0;
     testing::internal::CaptureStdout();
     testing::internal::CaptureStderr();
-    const std::vector<Taken> taken = take_samples(cells, 10, 0, order);
-    EXPECT_TRUE(take_samples({}, 5, 0, order).empty());
+    const std::vector<Taken> taken = take_samples(cells, {.samples = 10, .warm_up = 0}, order);
+    EXPECT_TRUE(take_samples({}, {.samples = 5, .warm_up = 0}, order).empty());
     EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
     EXPECT_EQ(taken[0].failure, "out of device memory");
@@ -118,7 +119,7 @@ TEST(Sampler, TakesEveryCellOnceInEachRound)
     for (FakeBuild& build : builds)
         cells.push_back({"fake", std::ref(build)});
     int order = 0;
-    const std::vector<Taken> taken = take_samples(cells, 40, 0, order);
+    const std::vector<Taken> taken = take_samples(cells, {.samples = 40, .warm_up = 0}, order);
     std::set<int> places;  // of the first cell in each round
     for (int round = 0; round < 40; ++round)
         for (const Taken& cell : taken) {

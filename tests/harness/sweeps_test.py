@@ -267,7 +267,7 @@ def test_what_cannot_be_is_one_sentence():
         out = () if "--out" in says + words else ("--out", "refused")
         expect(2, "sweep", *words.split(), *out, says=says)
     expect(3, "sweep", "nowhere.json", "--out", "refused", says="the sweep's file 'nowhere.json' cannot be read")
-    expect(3, "sweep", *soup.split(), "--out", "/proc/sweep", says="/proc/sweep/cells cannot be made")
+    expect(3, "sweep", *soup.split(), "--out", "/proc/sweep", says="the folder /proc/sweep cannot be made")
     assert not pathlib.Path("refused").exists()
 
 
