@@ -177,17 +177,19 @@ void measure_class(const AxisRun& run, const PairClass& of, std::size_t pairs)
     Hash hash;
     uint seed = run.task.seed;
     bool cannot_be = false;
-    const std::string failure = reason_of_failure(cannot_be, [&] {
-        if (!has_exact_reference)
-            throw BadUsage("built without CGAL, which errors are counted against");
-        for (std::size_t done = 0; done < pairs; done += run.task.pairs_at_once) {
-            const std::size_t count = std::min(run.task.pairs_at_once, pairs - done);
-            require_host_memory("a class of pairs", host_bytes_a_pair * count);
-            const Piece piece(run.session, of, static_cast<uint>(count), seed++);
-            hash.values(std::span<const Point>(piece.mesh.points));
-            measure_piece(of_pieces, of.name, piece);
-        }
-    });
+    const std::string failure = reason_of_failure(
+        [&] {
+            if (!has_exact_reference)
+                throw BadUsage("built without CGAL, which errors are counted against");
+            for (std::size_t done = 0; done < pairs; done += run.task.pairs_at_once) {
+                const std::size_t count = std::min(run.task.pairs_at_once, pairs - done);
+                require_host_memory("a class of pairs", host_bytes_a_pair * count);
+                const Piece piece(run.session, of, static_cast<uint>(count), seed++);
+                hash.values(std::span<const Point>(piece.mesh.points));
+                measure_piece(of_pieces, of.name, piece);
+            }
+        },
+        &cannot_be);
     const auto many = static_cast<std::int64_t>(pairs);
     for (Cell& cell : cells) {
         cell.scene.name = of.name;

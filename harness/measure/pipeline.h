@@ -10,7 +10,7 @@
 
 #include "collide/narrow/narrow.h"
 #include "collide/near.h"
-#include "harness/choice/collider_catalog.h"
+#include "harness/choice/catalog.h"
 #include "harness/session/session.h"
 #include "scenes/motion.h"
 
