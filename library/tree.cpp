@@ -217,6 +217,6 @@ std::string Tree::kernel_text() const
 }
 
 std::string_view Tree::builder() const { return impl_->builder->card().name; }
-std::string_view Tree::collider() const { return impl_->collider.first; }
+std::string_view Tree::collider() const { return impl_->collider.name; }
 
 }  // namespace bvhbench::oibvh
