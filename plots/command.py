@@ -1,6 +1,7 @@
 """Command lines of the commands that read result files: parsing, help pages and exit codes."""
 import argparse
 import contextlib
+import difflib
 import math
 import os
 import re
@@ -41,6 +42,7 @@ class Parser(argparse.ArgumentParser):
             self.add_argument(flag, action="store_true", help=argparse.SUPPRESS)
 
     def parse_args(self, words: Sequence[str], namespace: None = None) -> argparse.Namespace:
+        self.words = words
         arguments = super().parse_args(words, namespace)
         if arguments.memory_limit is not None:
             try:
@@ -62,6 +64,11 @@ class Parser(argparse.ArgumentParser):
     def error(self, message: str) -> NoReturn:
         """Raises WrongUsage, in the wording of the program's other commands."""
         message = re.sub(r"^the following arguments are required: (.*)", r"\1 is required", message.removeprefix("argument "))
+        for word in self.words:
+            if word.startswith("--") and (name := word.partition("=")[0]) not in self._option_string_actions:
+                meant = difflib.get_close_matches(name, self._option_string_actions, 1)
+                raise output.WrongUsage(f"there is no option {name}; "
+                                        + (f"did you mean {meant[0]}?" if meant else f"`{self.prog} --help` lists them"))
         message = message.replace("unrecognized arguments:", "The following argument was not expected:")
         raise output.WrongUsage(f"{message}; `bvhbench --help` lists what there is")
 

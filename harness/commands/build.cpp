@@ -30,43 +30,47 @@ class Build final : public Command {
 public:
     void add_options(CLI::App& app) override
     {
-        app.add_option("--builder", choice_.builder.name, "a name of `list builders`")->required();
+        names_.add_builders(app);
         app.add_option("--scene", scene_, "a scene, data set or mesh file")->required();
-        add_choices(app, choice_,
-                    [](const Choice& option) { return option.of == Choice::Of::builder; });
+        names_.add_orders(app);
+        add_choices(app, choice_, [](const Choice& option) {
+            return option.of == Choice::Of::builder && option.key != "order";
+        });
         add_sampling(app, samples_, "timed builds", sampling_);
         add_quality(app, quality_, costs_);
         app.add_option("--json", json_, "write the result file");
-        app.add_option("--dump", dump_, "write the tree, spelled out, as JSON");
+        app.add_option("--dump", dump_, "write the tree, spelled out, as JSON; of one builder");
     }
 
     int run(const Invocation& invocation) override
     {
-        find_builder(choice_.builder.name);  // reports wrong options before opening the device
-        check_choice(choice_);
-        check_powers(choice_);
+        const std::vector<CellChoice> choices = names_.combined_with(choice_);
+        if (!dump_.empty() && choices.size() > 1)
+            throw BadUsage("--dump writes one tree, and there are " +
+                           std::to_string(choices.size()) + " builders and orders");
         const CommonOptions& common = invocation.common;
         Session session(common);
         const auto rules =
             result_rules(common.force, scene_files(scene_, session.scenes()), watchdog::run_id());
         const Output dumped(dump_, "--dump", rules);
         Run run(session, Output(json_, "--json", rules), invocation.words, costs_);
-        run.experiment(experiment());
+        run.experiment(experiment(choices));
         run.finish();
         const int code = run.results().exit_code();
         print_tables(run.results().text(), common);
         if (!dumped.is_nowhere())
-            dump(session, dumped);
+            dump(session, choices.front().builder, dumped);
         return code;
     }
 
 private:
-    Experiment experiment() const
+    Experiment experiment(const std::vector<CellChoice>& choices) const
     {
         Experiment experiment;
         experiment.name = "build";
         experiment.scenes = {scene_};
-        experiment.builders = {choice_.builder};
+        for (const CellChoice& choice : choices)
+            experiment.builders.push_back(choice.builder);
         experiment.samples = samples_;
         experiment.quality = quality_;
         experiment.may_stand_in = false;  // the user named this mesh, so no other is used
@@ -76,18 +80,19 @@ private:
     }
 
     /// Builds once more and writes the tree. The scene is loaded again, because measuring has freed its own copy.
-    void dump(Session& session, const Output& output) const
+    void dump(Session& session, const BuilderChoice& choice, const Output& output) const
     {
         const Scene scene = in_file_order(load_scene(scene_, session.scenes()));
         const Input input =
             upload(session.device(), session.queue(), scene.frames.front(), scene.faces);
-        Builder& builder = session.builder(choice_.builder);
+        Builder& builder = session.builder(choice);
         builder.reserve(input.triangle_count());
         const Tree* tree = nullptr;
         session.build_once(builder, input, Start::from_triangles, &tree);
         output.replace(dump_text(tree->spelled_out()));
     }
 
+    SeveralNames names_;
     CellChoice choice_;
     std::string scene_;
     int samples_ = 20;
@@ -102,14 +107,15 @@ private:
 extern const CommandEntry build_command = {
     "build",
     measuring,
-    "Build one tree, check it and time its stages",
+    "Build a tree with each of the builders, check it and time its stages",
     "The tree is held to the builder's oracle, bit for bit, before samples count. Times are of "
     "stages on the device's clock, from first start to last end. The table has the median, "
     "percentiles, and the share of the device's copy rate that a stage reaches.",
     {{"bvhbench build --builder oibvh-multi --scene torus:100000",
       "a generated scene of 100,000 triangles"},
-     {"bvhbench build --builder karras --scene bunny.ply --json karras.json",
-      "a mesh file, samples kept"},
+     {"bvhbench build --builder karras,oibvh-single --order morton30,hilbert30 --scene bunny.ply "
+      "--json mine.json",
+      "four cells over a mesh file, sampled in turn, samples kept"},
      {"bvhbench build --builder oibvh-multi --scene bunny --until 2% --cold",
       "until steady, from empty caches"}},
     "docs/measuring.md",

@@ -20,15 +20,15 @@ class Collide final : public Command {
 public:
     void add_options(CLI::App& app) override
     {
-        choice_.builder.name = "oibvh-multi";
-        app.add_option("--builder", choice_.builder.name, "a name of `list builders`")
-            ->capture_default_str();
-        app.add_option("--collider", choice_.collider.name, "a name of `list colliders`")
-            ->required();
+        names_.builders = {"oibvh-multi"};
+        names_.add_builders(app);
+        names_.add_colliders(app);
         app.add_option("--scene", scenes_, "scenes, data sets, mesh files or folders")->required();
+        names_.add_orders(app);
         add_choices(app, choice_, [](const Choice& option) {
             return option.of != Choice::Of::builder ||
-                   option.key != "group_size";  // --group-size sets the collider's
+                   (option.key != "order" &&
+                    option.key != "group_size");  // --group-size sets the collider's
         });
         adjacent_ = app.get_option("--adjacent");
         app.add_flag("--skips", skips_,
@@ -74,12 +74,14 @@ private:
                         "--pairs and --contacts write those of one scene, and there are " +
                         std::to_string(scenes_.size()));
             }
-        const bool finds_contacts = find_collider(choice_.collider.name).finds_contacts;
-        if (!pairs_.empty() && finds_contacts)
-            throw BadUsage("collider " + choice_.collider.name +
-                           " finds contacts and no pairs of boxes: --contacts, not --pairs");
-        if (!contacts_.empty() && !finds_contacts && choice_.collider.narrow == "none")
-            throw BadUsage("--contacts needs a narrow phase: --narrow exact");
+        for (const std::string& name : names_.colliders) {
+            const bool finds_contacts = find_collider(name).finds_contacts;
+            if (!pairs_.empty() && finds_contacts)
+                throw BadUsage("collider " + name +
+                               " finds contacts and no pairs of boxes: --contacts, not --pairs");
+            if (!contacts_.empty() && !finds_contacts && choice_.collider.narrow == "none")
+                throw BadUsage("--contacts needs a narrow phase: --narrow exact");
+        }
     }
 
     /// Throws BadUsage for options that are invalid with swept boxes.
@@ -98,17 +100,18 @@ private:
 
     CollideTask task() const
     {
-        check_choice(choice_);
-        check_powers(choice_);
+        const std::vector<CellChoice> choices = names_.combined_with(choice_);
         CollideTask task;
         static_cast<SceneChoice&>(task) = choice_.scene;
         check_lists(task.frames);
-        task.pipelines = {{choice_.builder, choice_.collider}};
-        for (const SkipRuleEntry& entry : skip_rules())
-            if (skips_ && (choice_.collider.rules_off & entry.rule) == 0) {
-                task.pipelines.push_back(task.pipelines.front());
-                task.pipelines.back().collider.rules_off |= entry.rule;
-            }
+        for (const CellChoice& choice : choices) {
+            task.pipelines.push_back({choice.builder, choice.collider});
+            for (const SkipRuleEntry& entry : skip_rules())
+                if (skips_ && (choice.collider.rules_off & entry.rule) == 0) {
+                    task.pipelines.push_back({choice.builder, choice.collider});
+                    task.pipelines.back().collider.rules_off |= entry.rule;
+                }
+        }
         task.needs_scene = scenes_.size() == 1;
         task.samples = samples_;
         sampling_.apply(task.sampling);
@@ -145,6 +148,7 @@ private:
         }
     }
 
+    SeveralNames names_;
     CellChoice choice_;
     std::vector<std::string> scenes_;
     const CLI::Option* adjacent_ = nullptr;
@@ -165,6 +169,8 @@ extern const CommandEntry collide_command = {
     "intersect. Each frame's pairs are compared with an oracle's. Buffers that overflow are grown "
     "and the frame is done again; the table says so.",
     {{"bvhbench collide --collider leaf --scene bunny.obj --pairs pairs.csv", "a mesh with itself"},
+     {"bvhbench collide --builder oibvh-single,karras --collider leaf,block --scene torus:100k",
+      "four pipelines, sampled in turn"},
      {"bvhbench collide --collider group --scene cloth-ball:20000 --frames 0: --adjacent drop "
       "--narrow exact",
       "an animation, to exact contacts"},

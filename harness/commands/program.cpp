@@ -6,6 +6,7 @@
 #include <functional>
 #include <iostream>
 #include <map>
+#include <span>
 #include <sstream>
 
 #include "geometry/host_memory.h"
@@ -70,16 +71,15 @@ public:
             app_.parse(argc, argv);
         } catch (const CLI::ParseError& error) {
             std::ostringstream out;
-            if (app_.exit(error, out, out) != 0)
+            if (app_.exit(error, out, out) != 0) {
+                check_names({argv + 1, argv + argc});
                 throw BadUsage(std::string(error.what()) +
                                "; `bvhbench --help` lists what there is");
+            }
             to_print_ = out.str();
             return;
         }
-        std::vector<std::string_view> listed;
-        for (const CommandEntry& entry : commands())
-            if (!entry.group.empty())
-                listed.push_back(entry.name);
+        const std::vector<std::string_view> listed = listed_commands();
         if (app_.get_subcommands().empty())
             throw BadUsage("name a command: " + joined(listed) +
                            "; `bvhbench --help` says what they do");
@@ -101,6 +101,55 @@ public:
     }
 
 private:
+    /// Throws BadUsage if the first word that is no option is no command, or if a word is an option that the command lacks. The
+    /// parser would complain of what is missing first.
+    void check_names(std::span<const char* const> words) const
+    {
+        const CLI::App* command = nullptr;
+        for (std::size_t i = 0; i < words.size(); ++i) {
+            const std::string_view word = words[i];
+            const std::string name(word.substr(0, word.find('=')));
+            if (!word.starts_with("--")) {
+                if (command == nullptr && !word.starts_with('-')) {
+                    command = app_.get_subcommand_no_throw(name);
+                    if (command == nullptr)
+                        throw BadUsage("no command is called '" + name + '\'' +
+                                       there_are(name, listed_commands()));
+                }
+                continue;
+            }
+            const CLI::Option* option = app_.get_option_no_throw(name);
+            if (option == nullptr && command != nullptr)
+                option = command->get_option_no_throw(name);
+            if (option == nullptr && command != nullptr)
+                refuse_option(name, *command);
+            i += option != nullptr && option->get_type_size() > 0 && name == word ? 1 : 0;
+        }
+    }
+
+    [[noreturn]] void refuse_option(const std::string& name, const CLI::App& command) const
+    {
+        std::vector<std::string> known;
+        for (const CLI::App* each : {&command, &app_})
+            for (const CLI::Option* option : each->get_options())
+                for (const std::string& one : option->get_lnames())
+                    known.push_back("--" + one);
+        const std::vector<std::string_view> all(known.begin(), known.end());
+        const std::string_view meant = nearest_name(name, all);
+        throw BadUsage("there is no option " + name + "; " +
+                       (meant.empty() ? "`bvhbench " + command.get_name() + " --help` lists them"
+                                      : "did you mean " + std::string(meant) + "?"));
+    }
+
+    static std::vector<std::string_view> listed_commands()
+    {
+        std::vector<std::string_view> listed;
+        for (const CommandEntry& entry : commands())
+            if (!entry.group.empty())
+                listed.push_back(entry.name);
+        return listed;
+    }
+
     CLI::App app_{"Compare builders of bounding volume hierarchies for collision detection.",
                   "bvhbench"};
     Invocation invocation_;
@@ -134,6 +183,12 @@ int run_program(int argc, const char* const* argv)
 {
     const PrintableOutput output(std::cout), errors(std::cerr);
     return exit_code_of([&] {
+        if (argc > 1 && argv[1] == std::string_view("help")) {  // help COMMAND is COMMAND --help
+            std::vector<const char*> words(argv, argv + argc);
+            words.erase(words.begin() + 1);
+            words.push_back("--help");
+            return run_program(argc, words.data());
+        }
         if (const int place = python_command(argc, argv); place > 0) {
             std::vector<std::string> words(argv + 1, argv + argc);
             std::rotate(words.begin(), words.begin() + place - 1, words.begin() + place);

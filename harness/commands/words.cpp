@@ -3,8 +3,10 @@
 
 #include <re2/re2.h>
 
+#include <algorithm>
 #include <cstdint>
 
+#include "builders/orders.h"
 #include "harness/base/json_keys.h"
 
 namespace bvhbench {
@@ -112,6 +114,56 @@ void add_sampling(CLI::App& app, int& samples, const char* help, SamplingWords& 
     app.add_option("--drift-limit", sampling.drift_limit,
                    "mark samples beside a look that is further off its median; 25%")
         ->transform(a_share(1000));
+}
+
+void SeveralNames::add_builders(CLI::App& app)
+{
+    CLI::Option* option =
+        app.add_option("--builder", builders, "names of `list builders`")->delimiter(',');
+    if (builders.empty())
+        option->required();
+    else
+        option->default_str(builders.front());
+}
+
+void SeveralNames::add_orders(CLI::App& app)
+{
+    app.add_option("--order", orders, "names of `list orders`")
+        ->delimiter(',')
+        ->default_str(orders.front());
+}
+
+void SeveralNames::add_colliders(CLI::App& app)
+{
+    app.add_option("--collider", colliders, "names of `list colliders`")
+        ->delimiter(',')
+        ->required();
+}
+
+std::vector<CellChoice> SeveralNames::combined_with(const CellChoice& choice) const
+{
+    std::vector<CellChoice> all;
+    const auto add = [&all](const CellChoice& one) {
+        check_choice(one);
+        check_powers(one);
+        const auto is_same = [&](const CellChoice& other) {
+            return other.builder == one.builder && other.collider == one.collider;
+        };
+        if (std::ranges::none_of(all, is_same))
+            all.push_back(one);
+    };
+    for (const std::string& collider : colliders.empty() ? std::vector<std::string>{""} : colliders)
+        for (const std::string& builder : builders)
+            for (const std::string& order : orders) {
+                CellChoice one = choice;
+                one.collider.name = collider;
+                const bool needs_tree = collider.empty() || find_collider(collider).needs_tree;
+                one.builder.name = needs_tree ? builder : builders.front();
+                one.builder.order = needs_tree ? order : orders.front();
+                find_order(order);
+                add(one);
+            }
+    return all;
 }
 
 void add_quality(CLI::App& app, bool& quality, NodeCosts& costs)
