@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "device/queue.h"
@@ -37,6 +38,13 @@ struct Check {
     std::optional<std::uint64_t> pairs_hash = {};
     std::optional<std::uint64_t> contacts_hash = {};
 };
+
+/// Returns the verdict's name in result files.
+constexpr std::string_view verdict_name(Check::Verdict verdict)
+{
+    constexpr std::string_view names[] = {"agrees", "differs", "not_checked", "counted"};
+    return names[static_cast<std::size_t>(verdict)];
+}
 
 /// The triangles of a cell.
 struct SceneFacts {
