@@ -37,24 +37,6 @@ int printed(int code)
     return code;
 }
 
-/// Runs `work` and returns its exit code. Prints an exception and returns the exit code for it.
-int exit_code_of(const std::function<int()>& work)
-{
-    const auto failed = [](const std::exception& error, int code) {
-        std::cerr << "bvhbench: " << sentence_of(error) << '\n';
-        return code;
-    };
-    try {
-        return work();
-    } catch (const BadUsage& error) {
-        return failed(error, 2);
-    } catch (const NothingMeasured& error) {
-        return failed(error, 4);
-    } catch (const std::exception& error) {  // Unavailable, BuildFailure, cl::Error, bad_alloc
-        return failed(error, 3);
-    }
-}
-
 /// The parsed command line.
 class Parsed {
 public:
@@ -150,6 +132,23 @@ int python_command(int argc, const char* const* argv)
 }
 
 }  // namespace
+
+int exit_code_of(const std::function<int()>& work)
+{
+    const auto failed = [](const std::exception& error, int code) {
+        std::cerr << "bvhbench: " << sentence_of(error) << '\n';
+        return code;
+    };
+    try {
+        return work();
+    } catch (const BadUsage& error) {
+        return failed(error, 2);
+    } catch (const NothingMeasured& error) {
+        return failed(error, 4);
+    } catch (const std::exception& error) {  // Unavailable, BuildFailure, cl::Error, bad_alloc
+        return failed(error, 3);
+    }
+}
 
 int run_program(int argc, const char* const* argv)
 {
