@@ -1,9 +1,9 @@
-# optional_library(<NAME> <package> <version>): finds a library that only some builders need.
+# optional_library(<NAME> <package> <version>): finds a library that only some builders, a check or a program needs.
 #
 # BVHBENCH_WITH_<NAME> is AUTO (use it if it is found), ON (fail without it) or OFF. Sets BVHBENCH_HAS_<NAME> to 1 or 0. Without
 # the library its builders are still listed, with the reason why they are unavailable.
 macro(optional_library name package version)
-    set(BVHBENCH_WITH_${name} AUTO CACHE STRING "Builders that wrap ${package} ${version}: AUTO, ON or OFF")
+    set(BVHBENCH_WITH_${name} AUTO CACHE STRING "Parts that need ${package} ${version}: AUTO, ON or OFF")
     set_property(CACHE BVHBENCH_WITH_${name} PROPERTY STRINGS AUTO ON OFF)
     set(BVHBENCH_HAS_${name} 0)
     if(BVHBENCH_WITH_${name} STREQUAL "AUTO")

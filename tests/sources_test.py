@@ -24,7 +24,7 @@ from collections.abc import Iterator
 
 CHECK, ROOT, MORE = sys.argv[1], pathlib.Path(sys.argv[2]).resolve(), "".join(sys.argv[3:4])
 LIBRARY = ("geometry", "device", "builders", "oibvh", "baselines", "collide", "library")
-ALL = (*LIBRARY, "scenes", "harness", "examples", "tests")
+ALL = (*LIBRARY, "scenes", "harness", "benchmarks", "examples", "tests")
 SOURCES = (".h", ".cpp", ".cl", ".clh")
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]', re.MULTILINE)
 
@@ -120,7 +120,7 @@ def exactness() -> Iterator[str]:
         for option in LOOSE_OPTIONS.findall(path.read_text()):
             yield f"{path.relative_to(ROOT)}: {option}"
     own = [command for command in json.loads(pathlib.Path(MORE).read_text()) if pathlib.Path(command["file"]).is_relative_to(ROOT)
-           and pathlib.Path(command["file"]).relative_to(ROOT).parts[0] in (*LIBRARY, "scenes", "harness")]
+           and pathlib.Path(command["file"]).relative_to(ROOT).parts[0] in (*LIBRARY, "scenes", "harness", "benchmarks")]
     if not own:
         yield "no compile command of a room found"
     for command in own:

@@ -68,6 +68,9 @@ void add_help(CLI::App& app);
 /// command in Python replaces the process.
 int run_program(int argc, const char* const* argv);
 
+/// Runs `work` and returns its exit code. Prints an exception as one sentence on standard error and returns the exit code for it.
+int exit_code_of(const std::function<int()>& work);
+
 /// Parses `argv` without running anything. Throws BadUsage with one sentence if it is invalid.
 void check_words(int argc, const char* const* argv);
 

@@ -38,19 +38,6 @@ int printed(int code)
     return code;
 }
 
-/// Runs `work` and returns its exit code. Prints an exception and returns the exit code for it.
-int exit_code_of(const std::function<int()>& work)
-{
-    try {
-        return work();
-    } catch (const std::exception& error) {
-        std::cerr << "bvhbench: " << sentence_of(error) << '\n';
-        return dynamic_cast<const BadUsage*>(&error) != nullptr          ? 2
-               : dynamic_cast<const NothingMeasured*>(&error) != nullptr ? 4
-                                                                         : 3;
-    }
-}
-
 /// The parsed command line.
 class Parsed {
 public:
@@ -178,6 +165,18 @@ int python_command(int argc, const char* const* argv)
 }
 
 }  // namespace
+
+int exit_code_of(const std::function<int()>& work)
+{
+    try {
+        return work();
+    } catch (const std::exception& error) {
+        std::cerr << "bvhbench: " << sentence_of(error) << '\n';
+        return dynamic_cast<const BadUsage*>(&error) != nullptr          ? 2
+               : dynamic_cast<const NothingMeasured*>(&error) != nullptr ? 4
+                                                                         : 3;
+    }
+}
 
 int run_program(int argc, const char* const* argv)
 {

@@ -66,6 +66,8 @@ void Engine::settle(Subject& subject, const std::function<void()>& work)
 
 void Engine::sample(std::span<Subject> subjects)
 {
+    if (other_sampler)
+        return other_sampler(subjects);
     std::vector<Timed> timed;
     std::vector<Subject*> ready;
     for (Subject& one : subjects) {

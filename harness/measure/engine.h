@@ -47,6 +47,9 @@ public:
     /// Samples all subjects that are ready, interleaved, and judges each again.
     void sample(std::span<Subject> subjects);
 
+    /// If set, sample() calls this instead, for a program with a sampler of its own (benchmarks/).
+    static inline std::function<void(std::span<Subject>)> other_sampler = {};
+
     /// Marks the cell with `status` and `reason`, drops its samples, and discards its queued launches.
     void refuse(Subject& subject, Cell::Status status, std::string reason);
 

@@ -67,8 +67,7 @@ Json json_of(const SceneFacts& scene)
 
 Json json_of(const Check& check)
 {
-    constexpr std::array verdicts = {"agrees", "differs", "not_checked", "counted"};
-    Json json = {{"verdict", verdicts[static_cast<std::size_t>(check.verdict)]}};
+    Json json = {{"verdict", verdict_name(check.verdict)}};
     put_if(json, "against", check.against);
     put_if(json, "detail", check.detail);
     for (const auto& [key, hash] :

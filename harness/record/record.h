@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "device/queue.h"
@@ -42,6 +43,13 @@ struct Check {
         detail += (detail.empty() ? "" : "; ") + what;
     }
 };
+
+/// Returns the verdict's name in result files.
+constexpr std::string_view verdict_name(Check::Verdict verdict)
+{
+    constexpr std::string_view names[] = {"agrees", "differs", "not_checked", "counted"};
+    return names[static_cast<std::size_t>(verdict)];
+}
 
 /// The triangles of a cell.
 struct SceneFacts {

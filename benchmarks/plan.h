@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "harness/choice/experiment.h"
+#include "harness/record/record.h"
+
+namespace bvhbench {
+
+/// A cell as a benchmark. Its name has the experiment, scene, builder, "refit" if it is one, collider, and the stage that is
+/// timed. Options that are not the defaults follow what they belong to: "pairs/bunny/objects:one/karras/leaf/whole".
+struct PlannedCell {
+    std::string name;
+    std::size_t scene = 0;  ///< index in Plan::scenes
+    Operation operation = Operation::build;
+    BuilderChoice builder;
+    ColliderChoice collider = {};  ///< empty name: none
+
+    bool is(const Cell& cell) const
+    {
+        return cell.operation == operation && cell.builder == builder && cell.collider == collider;
+    }
+};
+
+/// An experiment, split by scene. Of a scene with several frames the first one is planned: how many there are is known only when
+/// it is loaded.
+struct Plan {
+    std::vector<Experiment> scenes;  ///< each has one task, or one scene with builders
+    std::vector<PlannedCell> cells;  ///< their names differ
+};
+
+/// Plans all cells; loads nothing. If `stage` is not empty, that stage of each sample is timed.
+Plan plan_of(const Experiment& experiment, const std::string& stage);
+
+/// Returns the experiment of a scene with only what the cells called `names` need.
+Experiment narrowed(const Plan& plan, std::size_t scene, const std::set<std::string>& names);
+
+}  // namespace bvhbench
