@@ -4,6 +4,7 @@
 // parses a command line and runs its command.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
