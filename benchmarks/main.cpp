@@ -87,10 +87,10 @@ std::set<std::string> selected(const Plan& plan)
     const bool excludes = filter.starts_with('-');
     if (filter == "all" || filter.empty())
         filter = ".";
-    const Pattern pattern(filter.substr(excludes ? 1 : 0), "--benchmark_filter");
+    const CellFilter pattern = cell_filter(filter.substr(excludes ? 1 : 0));
     std::set<std::string> names;
     for (const PlannedCell& cell : plan.cells)
-        if (pattern.is_in(cell.name + "/manual_time") != excludes)
+        if (passes(pattern, cell.name + "/manual_time") != excludes)
             names.insert(cell.name);
     return names;
 }

@@ -2,8 +2,6 @@
 #include "geometry/names.h"
 
 #include <algorithm>
-#include <numeric>
-#include <utility>
 
 namespace bvhbench {
 
@@ -17,20 +15,23 @@ std::string joined(std::span<const std::string_view> words)
 
 namespace {
 
-/// Returns the number of insertions, deletions and replacements of a character that turn `a` into `b`.
+/// Returns the number of insertions, deletions, replacements and swaps of neighbours that turn `a` into `b`: the distance of
+/// optimal string alignment.
 std::size_t edit_distance(std::string_view a, std::string_view b)
 {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        std::size_t diagonal = std::exchange(row[0], i + 1);
-        for (std::size_t j = 0; j < b.size(); ++j) {
-            const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-            diagonal = row[j + 1];
-            row[j + 1] = std::min({replaced, diagonal + 1, row[j] + 1});
+    std::vector<std::vector<std::size_t>> steps(a.size() + 1,
+                                                std::vector<std::size_t>(b.size() + 1));
+    for (std::size_t i = 0; i <= a.size(); ++i)
+        for (std::size_t j = 0; j <= b.size(); ++j) {
+            std::size_t& least = steps[i][j] = std::max(i, j);
+            if (i == 0 || j == 0)
+                continue;
+            least = std::min({steps[i - 1][j] + 1, steps[i][j - 1] + 1,
+                              steps[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                least = std::min(least, steps[i - 2][j - 2] + 1);
         }
-    }
-    return row.back();
+    return steps[a.size()][b.size()];
 }
 
 }  // namespace

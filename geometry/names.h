@@ -15,9 +15,8 @@ namespace bvhbench {
 /// Returns the words separated by commas: "a, b, c".
 std::string joined(std::span<const std::string_view> words);
 
-/// Returns the name among `known` that `name` probably means, or nothing: the one that the fewest insertions, deletions and
-/// replacements of a character lead to, if they are at most a third of the characters. What follows a colon, as in "torus:N", is
-/// not compared.
+/// Returns the name among `known` that `name` probably means, or nothing: the one that the fewest edits of a character lead
+/// to, if they are at most a third of the characters. What follows a colon, as in "torus:N", is not compared.
 std::string_view nearest_name(std::string_view name, std::span<const std::string_view> known);
 
 /// Returns the end of a sentence about a `name` that is none of `known`: "; did you mean 'a'?", or if none is near "; there are:

@@ -8,6 +8,7 @@
 #include "geometry/names.h"
 #include "harness/base/json_keys.h"
 #include "harness/choice/experiment_lists.h"
+#include "scenes/catalog.h"
 
 namespace bvhbench {
 namespace {
@@ -25,8 +26,8 @@ void read_size(const Json& json, Experiment& experiment)
     if (json.contains("scenes")) {
         experiment.scenes.clear();
         read_list(json, "scenes", [&](const Json& item) {
-            for (std::string& scene : scene_names(item))
-                experiment.scenes.push_back(std::move(scene));
+            for (const std::string& scene : scene_names(item))
+                experiment.scenes.push_back(scene_name(scene));
         });
     }
     if (json.contains("builders")) {

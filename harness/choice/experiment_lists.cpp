@@ -5,6 +5,7 @@
 
 #include "geometry/error.h"
 #include "harness/choice/choices.h"
+#include "scenes/catalog.h"
 
 namespace bvhbench {
 namespace {
@@ -99,11 +100,11 @@ CollideTask task_of(const Json& json, const std::vector<PipelineChoice>& pipelin
     task.may_stand_in = true;
     task.pipelines = pipelines;
     if (json.is_string()) {
-        task.scene = json.get<std::string>();
+        task.scene = scene_name(json.get<std::string>());
         return task;
     }
     refuse_unknown_keys(json, choice_keys(Choice::Of::scene, {"scene", "pairs_of"}), "a scene");
-    task.scene = text_at(json, "scene");
+    task.scene = scene_name(text_at(json, "scene"));
     CellChoice choice;
     read_choices(json, Choice::Of::scene, choice);
     static_cast<SceneChoice&>(task) = choice.scene;

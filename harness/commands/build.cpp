@@ -68,7 +68,7 @@ private:
     {
         Experiment experiment;
         experiment.name = "build";
-        experiment.scenes = {scene_};
+        experiment.scenes = {scene_name(scene_)};
         for (const CellChoice& choice : choices)
             experiment.builders.push_back(choice.builder);
         experiment.samples = samples_;

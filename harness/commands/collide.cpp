@@ -130,7 +130,7 @@ private:
         Progress progress(scenes_.size());
         task.note = [&](const std::string& what) { progress.note(task.scene + ", " + what); };
         for (std::size_t i = 0; i < scenes_.size(); ++i) {
-            task.scene = scenes_[i];
+            task.scene = scene_name(scenes_[i]);
             task.number = std::to_string(i);
             progress.step(task.scene);
             collide_frames(

@@ -98,10 +98,10 @@ private:
             const std::string name(word.substr(0, word.find('=')));
             if (!word.starts_with("--")) {
                 if (command == nullptr && !word.starts_with('-')) {
-                    command = app_.get_subcommand_no_throw(name);
-                    if (command == nullptr)
+                    if (find_name(commands(), name) == nullptr)
                         throw BadUsage("no command is called '" + name + '\'' +
                                        there_are(name, listed_commands()));
+                    command = app_.get_subcommand(name);
                 }
                 continue;
             }

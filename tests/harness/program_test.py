@@ -20,7 +20,13 @@ SENTENCES = (
     (2, "collide --builder perfect --collider x --scene soup:5", "there are: leaf, "),
     (2, "collide --builder perfect --collider leaf --scene soup:5 --pairs p.txt", "to .csv or .bin"),
     (4, "collide --builder median-split --collider leaf --scene soup:5", "leaf needs a tree in device memory"),
-    (2, "run tabel1", "there are: table1, table4, fig8, fig13, peers, quality"),
+    (2, "run nothing", "there are: table1, table4, fig8, fig13, peers, quality"),
+    (2, "run tabel1", "did you mean 'table1'?"),
+    (2, "biuld", "no command is called 'biuld'; did you mean 'build'?"),
+    (2, "build --bulider x", "there is no option --bulider; did you mean --builder?"),
+    (2, "build --zzz x", "there is no option --zzz; `bvhbench build --help` lists them"),
+    (2, "sweep --shcenes x", "there is no option --shcenes; did you mean --scenes?"),
+    (2, "build --builder perfect,karras --scene soup:5 --dump d.json", "--dump writes one tree, and there are 2 builders"),
     (2, "check --builder x", "there are: perfect"),
     (3, "run mine.json", "mine.json"),
     (3, "show nothing.json", "nothing.json"),
@@ -29,6 +35,8 @@ SENTENCES = (
     (3, f"{PERFECT} --json /proc/x/r.json", "cannot be written"),
     (3, "stress --quick --out /proc/no/x.json", "cannot be written"),
     (0, "--help", "reproduce"),
+    (0, "help", "reproduce"),
+    (0, "help sweep", "--dry-run"),
     (0, "build --help", "--group-size"),
     (0, "--version", "bvhbench "),
     (0, "list scenes", "\nsoup:"),
@@ -40,6 +48,17 @@ SENTENCES = (
 def test_exit_codes_and_sentences():
     for code, words, says in SENTENCES:
         expect(code, *words.split(), says=says)
+
+
+def test_combinations_of_names_are_cells_of_one_run():
+    expect(0, "build", "--builder", "karras,perfect", "--order", "kd", "morton30", "--scene", "soup:0.3k", "--samples", "1",
+           "--json", "several.json")
+    cells = [(cell["scene"]["name"], cell["builder"]["name"], cell["builder"]["options"]["order"]) for cell in valid("several.json")["cells"]]
+    assert cells == [("soup:300", builder, order) for builder in ("karras", "perfect") for order in ("kd", "morton30")], cells
+    expect(0, "collide", "--builder", "karras,perfect", "--collider", "leaf,grid", "--scene", "soup:300", "--samples", "1",
+           "--json", "frames.json")
+    cells = [(cell["collider"]["name"], cell["builder"]["name"]) for cell in valid("frames.json")["cells"]]
+    assert cells == [("leaf", "karras"), ("leaf", "perfect"), ("grid", "none")], cells
 
 
 def test_lists_put_the_name_first():
