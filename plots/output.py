@@ -28,7 +28,7 @@ def is_page(head: bytes) -> bool:
 
 def is_picture(head: bytes) -> bool:
     """True if the file may be a picture by style.save. Pictures of older versions carry no further mark."""
-    return (head.startswith(b"\x89PNG") and OF_200_DPI in head[:128]) or (b"<svg " in head and b"<g id=\"figure_1\">" in head)
+    return (head.startswith(b"\x89PNG") and OF_200_DPI in head[:1024]) or (b"<svg " in head and b"<g id=\"figure_1\">" in head)
 
 
 def check(path: pathlib.Path, inputs: Iterable[pathlib.Path], force: bool, is_ours: Callable[[bytes], bool]) -> None:

@@ -35,6 +35,11 @@ def with_unit(value: float, units: Sequence[str]) -> str:
     return f"{value:.{digits}f} {units[unit]}"
 
 
+def three_digits(value: float) -> str:
+    """Returns at least three significant digits, without an exponent for usual values: "0.200", "18.0", "1,234"."""
+    return f"{value:,.0f}" if value >= 99.95 else f"{value:#.3g}"
+
+
 def duration(ns: float) -> str:
     """Returns nanoseconds in a suitable unit: "950 ns", "71.2 us", "1.30 ms"."""
     return with_unit(ns, ("ns", "us", "ms", "s"))
