@@ -12,6 +12,7 @@ import unicodedata
 from collections.abc import Callable, Iterable
 from typing import TextIO
 
+import terminal
 from results import Refused
 
 OF_200_DPI = b"\x00\x00\x00\tpHYs\x00\x00\x1e\xc2\x00\x00\x1e\xc2\x01"  # in a PNG: 7,874 dots a metre
@@ -151,7 +152,7 @@ def prepare_streams() -> None:
     for stream in (sys.stdout, sys.stderr):
         stream.reconfigure(encoding="utf-8", errors="surrogateescape")  # in any locale; file names may be any bytes
     write = sys.stdout.write
-    sys.stdout.write = lambda text: write(printable(text))
+    sys.stdout.write = lambda text: write(terminal.with_codes(printable(text)))
 
 
 def described(error: Exception) -> str:
