@@ -1,4 +1,4 @@
-"""Narrow phases: how often each is wrong and what a pair takes, in its worst and its typical class of pairs, and in all classes."""
+"""Draws how often each narrow phase is wrong and what a pair takes: in its worst and typical class of pairs, and in all classes."""
 from collections.abc import Callable
 
 import matplotlib.pyplot as plt
@@ -53,16 +53,18 @@ def draw_spread(axes: plt.Axes, methods: dict[str, list[results.Cell]], value: V
     for row, (method, cells) in enumerate(methods.items()):
         seen, values = look("narrow", method), [value(cell) for cell in cells]
         worst, typical = max(cells, key=value), results.median(values)
-        axes.plot(values, [row] * len(values), ".", color=seen.colour, alpha=0.35, markersize=5, markeredgewidth=0, clip_on=False)
+        axes.plot(values, [row] * len(values), ".", color=seen.colour, alpha=0.35, markersize=5, markeredgewidth=0,
+                  clip_on=False)
         axes.plot(value(worst), row, "|", color=seen.colour, markersize=13, markeredgewidth=2, clip_on=False, zorder=3)
         axes.plot(typical, row, seen.marker, color=seen.colour, markeredgecolor="black", markeredgewidth=0.6, markersize=6,
                   clip_on=False, zorder=4)
         low = axes.get_xlim()[0]
         middle = axes.transData.transform((value(worst), 0))[0] > axes.transAxes.transform((0.5, 0))[0]
-        axes.annotate(f"{class_name(worst)}: {text(value(worst))}" if value(worst) > 0 else "none wrong", (value(worst), row), (0, 8), textcoords="offset points",
-                      ha="right" if middle else "left", va="bottom", fontsize=style.SMALL)
-        axes.annotate(text(typical), (typical, row), (0, -7), textcoords="offset points", ha="center" if typical > low else "left",
-                      va="top", fontsize=style.SMALL, color=INK)
+        told = f"{class_name(worst)}: {text(value(worst))}" if value(worst) > 0 else "none wrong"
+        axes.annotate(told, (value(worst), row), (0, 8), textcoords="offset points", ha="right" if middle else "left",
+                      va="bottom", fontsize=style.SMALL)
+        axes.annotate(text(typical), (typical, row), (0, -7), textcoords="offset points",
+                      ha="center" if typical > low else "left", va="top", fontsize=style.SMALL, color=INK)
     axes.set_ylim(len(methods) - 0.45, -0.65)
     axes.grid(visible=False, axis="y")
     axes.grid(axis="x")
@@ -92,10 +94,12 @@ def draw(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
     times.set_xlabel("time of a pair, ns")
     for axes in (errors, times):
         axes.tick_params(axis="y", length=0)
-    handles = [Line2D([], [], color=INK, marker=".", alpha=0.35, linestyle="none", label="a class"),
-               Line2D([], [], color=INK, marker="o", markeredgecolor="black", linestyle="none", label="typical: the median over classes"),
-               Line2D([], [], color=INK, marker="|", markersize=9, markeredgewidth=2, linestyle="none", label="worst class, with its name")]
-    figure.footer(drawing, run, "accuracy", (remark(cells), "Left is better. Times: medians."), figure.legend_above(drawing, handles))
+    marks = {"a class": {"marker": ".", "alpha": 0.35},
+             "typical: the median over classes": {"marker": "o", "markeredgecolor": "black"},
+             "worst class, with its name": {"marker": "|", "markersize": 9, "markeredgewidth": 2}}
+    handles = [Line2D([], [], color=INK, linestyle="none", label=label, **mark) for label, mark in marks.items()]
+    height = figure.legend_above(drawing, handles)
+    figure.footer(drawing, run, "accuracy", (remark(cells), "Left is better. Times: medians."), height)
     return drawing
 
 
@@ -116,5 +120,6 @@ def draw_classes(run: results.Run, cells: list[results.Cell]) -> plt.Figure:
     axes.axvline(len(methods), color="black", linewidth=0.8)
     handles = [Patch(color=colour, label=label) for colour, label in (
         (NONE, "none wrong"), (FEW, f"less than {100 * MANY_FROM:g} % wrong"), (MANY, "more wrong"))]
-    figure.footer(drawing, run, "accuracy", (remark(cells), "ns: median time of a pair."), figure.legend_above(drawing, handles))
+    height = figure.legend_above(drawing, handles)
+    figure.footer(drawing, run, "accuracy", (remark(cells), "ns: median time of a pair."), height)
     return drawing

@@ -58,7 +58,8 @@ def draw(run: results.Run) -> plt.Figure:
             cost_axes.plot(list(costs), [pair[side][1] for pair in costs.values()], color=own, marker=look.marker, linestyle=line,
                            markerfacecolor=own if model == models[0] else "white", label=label)
         ratio_axes.plot(list(costs), [oibvh[1] / radix[1] for radix, oibvh in costs.values()], color=colour,
-                        marker="o", markersize=3, markerfacecolor=colour if model == models[0] else "white", linestyle=line, label=model + (f", {order}" if several else ""))
+                        marker="o", markersize=3, markerfacecolor=colour if model == models[0] else "white", linestyle=line,
+                        label=model + (f", {order}" if several else ""))
         last = max(costs)
         ratio = costs[last][1][1] / costs[last][0][1]
         ratio_axes.annotate(f"{ratio:.2f}×", (last, ratio), (5, 0), textcoords="offset points", ha="left",

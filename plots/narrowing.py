@@ -1,8 +1,8 @@
 """Makes a table fit a width: moves columns with one value above it, wraps names, and leaves the least important columns out."""
 import textwrap
 
-LEAST = ("submitted", "queued", "p10", "p90", "q1", "q3", "p10–p90", "bytes", "moved", "GB/s", "ns/tri", "launches", "updates", "sorts",
-         "tasks", "rebuilds", "n", "padding %", "duplicates", "longest run", "inflation", "peak BVTT", "±", "Mtris/s", "MB",
+LEAST = ("submitted", "queued", "p10", "p90", "q1", "q3", "p10–p90", "bytes", "moved", "GB/s", "ns/tri", "launches", "updates",
+         "sorts", "tasks", "rebuilds", "n", "padding %", "duplicates", "longest run", "inflation", "peak BVTT", "±", "Mtris/s", "MB",
          "% of copy")  # columns that are left out, in this order
 WRAPPED, NARROWEST = 34, 14  # widths that names are wrapped to, before and after columns are left out
 GAP = 2
@@ -28,7 +28,8 @@ class Fitted:
         column stays."""
         if count < 2:
             return []
-        constant = [place for place in self.shown if self.titles[place] and len(set(self.columns[place])) == 1][:len(self.shown) - 1]
+        constant = [place for place in self.shown if self.titles[place] and len(set(self.columns[place])) == 1]
+        constant = constant[:len(self.shown) - 1]
         self.shown = [place for place in self.shown if place not in constant]
         return [f"{self.titles[place]}: {self.columns[place][0]}" for place in constant if self.columns[place][0]]
 

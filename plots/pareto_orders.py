@@ -128,7 +128,8 @@ def draw(run: results.Run) -> plt.Figure:
     orders = names.numbers(order for cell in cells if (order := order_of(cell)))
     panels = Panels(by_scene, measures)
     height = legend(panels.figure, cells, orders)
-    remark = "Numbers are orders, the same in all figures. Down and left is better. Filled, joined: no other is as good in both. Times: medians."
+    remark = ("Numbers are orders, the same in all figures. Down and left is better. Filled, joined: no other is as good in "
+              "both. Times: medians.")
     figure.footer(panels.figure, run, cells[0].experiment, (remark, run.costs_remark()), height)
     panels.number(orders)
     return panels.figure

@@ -58,8 +58,10 @@ class Table:
         padded = [f"{entry:{align}{width}}" for entry, align, width in zip(entries, aligns, widths)]
         last = max((place for place, entry in enumerate(entries) if entry), default=-1)
         padded = [text.rstrip(" ") if place == last else text for place, text in enumerate(padded[:last + 1])]
-        return "  ".join(terminal.dressed(text, (place > 0 and align == LEFT and terminal.of_verdict(text)) or (terminal.BOLD if is_best else ""))
-                         for place, (text, align) in enumerate(zip(padded, aligns))) + "\n"
+        usual = terminal.BOLD if is_best else ""
+        styles = [(terminal.of_verdict(text) if place > 0 and align == LEFT else "") or usual
+                  for place, (text, align) in enumerate(zip(padded, aligns))]
+        return "  ".join(map(terminal.dressed, padded, styles)) + "\n"
 
 
 def with_unit(value: float, units: Sequence[str]) -> str:

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 # Stand for the start of a style and for its end in text on its way to standard output, which spells out control characters.
 RED, GREEN, DIM, BOLD, PLAIN = (chr(0xF0000 + place) for place in range(5))
 CODES = {RED: "\x1b[31m", GREEN: "\x1b[32m", DIM: "\x1b[2m", BOLD: "\x1b[1m", PLAIN: "\x1b[0m"}
-STYLES = ((re.compile(r"differs|failed|NOT |wrong|-\d|.*\bwrong\b"), RED), (re.compile(r"agrees|right|the same|all right|\d+ right$"), GREEN),
+STYLES = ((re.compile(r"differs|failed|NOT |-\d|.*\bwrong\b"), RED),
+          (re.compile(r"agrees|right|the same|\d+ right$"), GREEN),
           (re.compile(r"skipped|refused|not checked|counted"), DIM))
 
 

@@ -38,7 +38,8 @@ class Scripts(InFolder):
         scripts = {name: (f"{name}.py", name) for name in alone}
         scripts |= {f"table2-{name}": (f"{name}.py", "table2") for name in ("fig9", "fig10")}
         scripts |= {name: ("frames.py", name) for name in ("rebuild", "pairs", "libraries")}
-        scripts |= {f"accuracy-{axis}": ("accuracy.py", "accuracy") for axis in ("narrow", "classes", "sums", "codes", "input", "boxes", "swept")}
+        axes = ("narrow", "classes", "sums", "codes", "input", "boxes", "swept")
+        scripts |= {f"accuracy-{axis}": ("accuracy.py", "accuracy") for axis in axes}
         for script, file in dict.fromkeys(scripts.values()):  # a script may draw several pictures
             self.made(script, GOLDEN / f"{file}.json", "--out", self.folder / "out")
         for picture in scripts:
