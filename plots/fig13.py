@@ -18,6 +18,7 @@ import table4
 
 SAYS = "In the paper: “the SAH cost of our method grows much faster compared to the LBVH” (Sec. 7)."
 ORDER_COLOURS = ("#222222", "#009e73", "#cc79a7", "#e69f00")  # of ratios: the paper's order first
+DASHES = ("-", "--", ":", "-.")  # of meshes; markers of the first are filled
 Costs = dict[float, tuple[tuple[str, float], tuple[str, float]]]  # by diameters: (builder, cost) of the radix tree and Oi-BVH
 
 
@@ -47,17 +48,18 @@ def draw(run: results.Run) -> plt.Figure:
     drawing, (cost_axes, ratio_axes) = plt.subplots(1, 2, figsize=(style.PAGE_WIDTH, 3.4), layout="constrained")
     several = len(orders) > 1
     for (model, order), costs in curves.items():
-        line = style.VARIANT_LINES[models.index(model)]
+        line = DASHES[models.index(model) % len(DASHES)]
         colour = ORDER_COLOURS[orders.index(order) % len(ORDER_COLOURS)]
         for side in (0, 1) if order == orders[0] else (1,):
             builder = next(iter(costs.values()))[side][0]
             look = style.look(builder)
             label = f"{builder}, {model}" + (f", {order}" if several and side == 1 else "")
-            cost_axes.plot(list(costs), [pair[side][1] for pair in costs.values()],
-                           color=look.colour if order == orders[0] else colour, marker=look.marker, linestyle=line,
-                           label=label)
+            own = look.colour if order == orders[0] else colour
+            cost_axes.plot(list(costs), [pair[side][1] for pair in costs.values()], color=own, marker=look.marker, linestyle=line,
+                           markerfacecolor=own if model == models[0] else "white", label=label)
         ratio_axes.plot(list(costs), [oibvh[1] / radix[1] for radix, oibvh in costs.values()], color=colour,
-                        marker=".", linestyle=line, label=model + (f", {order}" if several else ""))
+                        marker="o", markersize=3, markerfacecolor=colour if model == models[0] else "white", linestyle=line,
+                        label=model + (f", {order}" if several else ""))
         last = max(costs)
         ratio = costs[last][1][1] / costs[last][0][1]
         ratio_axes.annotate(f"{ratio:.2f}×", (last, ratio), (5, 0), textcoords="offset points", ha="left",

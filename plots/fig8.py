@@ -72,23 +72,25 @@ def draw(run: results.Run) -> plt.Figure:
     cells = run.timed("fig8", STAGE)
     among = style.in_order(cells)
     curves = {series: curve([cell for cell in cells if style.series_of(cell) == series]) for series in among}
-    drawing, (nodes, triangles) = plt.subplots(1, 2, figsize=(style.PAGE_WIDTH, 3.6), sharex=True,
+    drawing, (nodes, triangles) = plt.subplots(1, 2, figsize=(style.PAGE_WIDTH, 3.6), sharex=True, sharey=True,
                                                layout="constrained")
     for series, points in curves.items():
         times = [(size, seconds) for size, seconds, _ in points]
         for axes, place in ((nodes, 2), (triangles, 0)):
             counts = numpy.array([point[place] for point in points])
-            figure.band(axes, times, lambda seconds, counts=counts: counts / seconds / 1e9, style.look(series[0]),
-                        **style.line(series, among))
+            figure.band(axes, times, lambda seconds, counts=counts: counts / seconds / 1e9, style.look_in(series, among),
+                        label=style.label(series, among))
     for axes, what in ((nodes, "nodes"), (triangles, "triangles")):
         figure.powers_of_two(axes, 4, 20)
-        axes.set(yscale="log", xlabel="triangles", ylabel=f"billion {what} per second")
-        low, high = axes.get_ylim()
-        axes.set_ylim(low, high * (high / low) ** 0.1)  # room for the words at the top
-        figure.log_ticks(axes.yaxis, low, high)
+        axes.set(yscale="log", xlabel="triangles")
+        axes.set_title(what, loc="left")
+    nodes.set_ylabel("billion per second")
+    low, high = nodes.get_ylim()
+    nodes.set_ylim(low, high * (high / low) ** 0.1)  # room for the words at the top
+    figure.log_ticks(nodes.yaxis, low, high)
     crossings(curves, [nodes, triangles])
     legend_height = figure.legend_above(drawing, nodes.get_legend_handles_labels()[0])
-    figure.footer(drawing, run, "fig8", ("Bands: 10th to 90th percentile.",), legend_height)
+    figure.footer(drawing, run, "fig8", ("Both panels have one scale. Medians; bands: 10th to 90th percentile.",), legend_height)
     return drawing
 
 

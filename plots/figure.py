@@ -9,13 +9,15 @@ from collections.abc import Callable, Iterator, Sequence
 import matplotlib.pyplot as plt
 import numpy
 from matplotlib.axis import Axis
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter, NullLocator
+from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullFormatter, NullLocator
 
 import output
 import results
 import style
 
 MISSING_SHOWN = 4
+LEGEND, HANDLE = 130, 7  # widths of the page and of a legend's symbol, in characters of the legend
+FOOTER = 4  # lines of the footer that a figure's height includes
 Draw = Callable[[results.Run], plt.Figure]
 Curve = list[tuple[int, results.Quantiles]]  # triangles and a quantity, by size
 Figures = dict[str, Callable[[], plt.Figure]]  # by the name of the picture
@@ -77,6 +79,25 @@ def band(axes: plt.Axes, points: Curve, scaled: Callable[[numpy.ndarray], numpy.
     axes.plot(sizes, middle, color=look.colour, marker=look.marker, **line)
 
 
+def ticks_between(low: float, high: float, most: int) -> list[float]:
+    """Returns round numbers for a logarithmic axis, as many as possible but at most `most`."""
+    found: list[float] = []
+    for steps in ((1,), (1, 3), (1, 2, 5), (1, 1.5, 2, 3, 5, 7), (1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8)):
+        decades = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
+        ticks = [float(f"{step}e{decade}") for decade in decades for step in steps]
+        ticks = [tick for tick in ticks if low <= tick <= high]
+        if len(ticks) <= most:
+            found = ticks
+    return found
+
+
+def round_ticks(axis: Axis, low: float, high: float, most: int) -> None:
+    """Labels a logarithmic axis with at most `most` round numbers."""
+    axis.set_major_locator(FixedLocator(ticks_between(low, high, most)))
+    axis.set_minor_locator(NullLocator())
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value / 1e6:,g} M" if value >= 1e6 else f"{value:,g}"))
+
+
 def scatter(axes: plt.Axes, points: list[tuple], best: list[tuple], look_of: Callable[[tuple], style.Look],
             more: Callable[[bool], dict] = lambda is_best: {}) -> None:
     """Draws points, each of which begins with a time and a cost or error. Points in `best` are filled and joined by a line."""
@@ -100,8 +121,16 @@ def panels(count: int, columns: int, inches: tuple[float, float], **shared: obje
     return drawing, list(grid.flat)[:count], columns
 
 
+def columns_for(labels: list[str], most: int) -> int:
+    """Returns the most columns of a legend, up to `most`, that fit on the page."""
+    fitting = (columns for columns in range(min(most, len(labels)), 1, -1)
+               if sum(HANDLE + max(map(len, column)) for column in numpy.array_split(labels, columns)) <= LEGEND)
+    return next(fitting, 1)
+
+
 def legend_above(figure: plt.Figure, handles: list, columns: int = 7) -> float:
-    """Adds a legend above all panels and returns its height in inches."""
+    """Adds a legend above all panels, in at most `columns` columns, and returns its height in inches."""
+    columns = columns_for([str(handle.get_label()) for handle in handles], columns)
     figure.legend(handles=handles, loc="upper center", ncols=columns, columnspacing=1.2)
     return 0.1 + 0.16 * math.ceil(len(handles) / columns)
 
@@ -111,7 +140,8 @@ def footer(figure: plt.Figure, run: results.Run, experiment: str, extra: tuple[s
     """Adds circumstances, remarks and missing cells in small type below the panels, which get the remaining height."""
     sentences = (run.circumstances(), *extra, *notes(run, experiment))
     lines = [piece for sentence in sentences for piece in textwrap.wrap(sentence, 130)]
-    height = figure.get_figheight()
+    height = figure.get_figheight() + 0.128 * max(0, len(lines) - FOOTER)
+    figure.set_figheight(height)
     bottom = (0.06 + 0.128 * len(lines)) / height
     figure.get_layout_engine().set(rect=(0, bottom, 1, 1 - bottom - top_inches / height))
     figure.text(0.01, 0.03 / height, "\n".join(lines), fontsize=style.SMALL, color="#444444", va="bottom",

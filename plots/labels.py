@@ -8,6 +8,7 @@ import style
 
 HEIGHT = style.SMALL  # points, 1/72 inch
 WIDTH = 0.66 * HEIGHT  # of a character, including the space around it
+GAP = 1  # left and right of a label, so that two labels do not read as one number
 POINT = 3.2  # half the width of a marker
 RADII = (6, 8.5, 11.5, 15, 19, 24, 30, 37, 45, 55)
 DIRECTIONS = 24
@@ -42,7 +43,7 @@ class Box(NamedTuple):
 
 
 def box_at(x: float, y: float, text: str) -> Box:
-    half = WIDTH * len(text) / 2
+    half = WIDTH * len(text) / 2 + GAP
     return Box(x - half, y - HEIGHT / 2, x + half, y + HEIGHT / 2)
 
 

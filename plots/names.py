@@ -1,6 +1,19 @@
-"""Display names of scenes, builders, colliders and pipelines: the name, and each option that is not the default."""
-from collections.abc import Mapping
+"""The words of all figures and tables: stages, orders, scenes, builders, colliders and pipelines with their options."""
+from collections.abc import Collection, Iterable, Mapping
 from typing import Any
+
+# Stages in the order in which they run, by the part of a frame that they belong to (docs/measuring.md). A part is named after its
+# stages, so that a figure and a table use one word for one thing.
+PARTS = (("near", "bounds"), ("codes",), ("sort", "order"), ("gather", "hierarchy", "refit", "ropes"), ("copy", "broad"),
+         ("narrow",))
+STAGES = tuple(stage for stages in PARTS for stage in stages)
+OF_BUILDS = ("bounds", "codes", "sort", "order", "gather", "hierarchy", "refit")
+OF_QUERIES = ("ropes", "broad", "narrow")
+BETWEEN = "between stages"
+
+# Orders of leaves as in `list orders`. A figure shows an order by its place here, so that its number is the same in all figures.
+ORDERS = ("morton30", "morton48", "morton63", "hilbert30", "hilbert48", "hilbert63", "morton30-axis", "morton48-axis",
+          "morton63-axis", "hilbert30-axis", "hilbert48-axis", "hilbert63-axis", "hilbert30+kd1024", "kd")
 
 # The default of each option and the wording of another value, in the order in which names show them.
 OPTIONS = {"no_skip": ("", "without {}"), "jump": ("0", "jump {}"), "start_level": ("0", "from level {}"),
@@ -13,6 +26,23 @@ USUAL = {key: usual for key, (usual, _) in {**ANSWERS, **OPTIONS}.items()}
 
 def said(options: Mapping[str, object], table: Mapping[str, tuple[str, str]]) -> list[str]:
     return [words.format(options[key]) for key, (usual, words) in table.items() if str(options.get(key, usual)) != usual]
+
+
+def part(stages: tuple[str, ...], there: Collection[str]) -> str:
+    """Returns the name of a part of a frame: those of its stages that are there, as "gather + hierarchy"."""
+    return " + ".join(stage for stage in stages if stage in there)
+
+
+def numbers(orders: Iterable[str]) -> dict[str, int]:
+    """Returns the number of each order, smallest first. Orders that are not in ORDERS have the numbers after it."""
+    distinct = dict.fromkeys(orders)
+    places = {order: number for number, order in enumerate((*ORDERS, *(order for order in distinct if order not in ORDERS)), 1)}
+    return {order: places[order] for order in sorted(distinct, key=places.__getitem__)}
+
+
+def option(key: str, value: object) -> str:
+    """Returns the words for one option's value, default or not: "mesh leaves"."""
+    return OPTIONS[key][1].format(value) if key in OPTIONS else f"{key} {value}"
 
 
 def variant(name: str, options: Mapping[str, object]) -> str:

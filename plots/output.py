@@ -12,6 +12,7 @@ import unicodedata
 from collections.abc import Callable, Iterable
 from typing import TextIO
 
+import terminal
 from results import Refused
 
 OF_200_DPI = b"\x00\x00\x00\tpHYs\x00\x00\x1e\xc2\x00\x00\x1e\xc2\x01"  # in a PNG: 7,874 dots a metre
@@ -28,7 +29,7 @@ def is_page(head: bytes) -> bool:
 
 def is_picture(head: bytes) -> bool:
     """True if the file may be a picture by style.save. Pictures of older versions carry no further mark."""
-    return (head.startswith(b"\x89PNG") and OF_200_DPI in head[:128]) or (b"<svg " in head and b"<g id=\"figure_1\">" in head)
+    return (head.startswith(b"\x89PNG") and OF_200_DPI in head[:1024]) or (b"<svg " in head and b"<g id=\"figure_1\">" in head)
 
 
 def check(path: pathlib.Path, inputs: Iterable[pathlib.Path], force: bool, is_ours: Callable[[bytes], bool]) -> None:
@@ -151,7 +152,7 @@ def prepare_streams() -> None:
     for stream in (sys.stdout, sys.stderr):
         stream.reconfigure(encoding="utf-8", errors="surrogateescape")  # in any locale; file names may be any bytes
     write = sys.stdout.write
-    sys.stdout.write = lambda text: write(printable(text))
+    sys.stdout.write = lambda text: write(terminal.with_codes(printable(text)))
 
 
 def described(error: Exception) -> str:

@@ -4,7 +4,7 @@
     plots/pareto_orders.py FILE... --out DIR
 
 A panel a scene, beside it one for builders on the host, whose times are of another kind. Reads any file whose
-cells have several orders or builders, and shows all of them, the worse ones too. Numbers are orders; the line joins
+cells have several orders or builders, and shows all of them, the worse ones too. Numbers are orders (names.py); the line joins
 what is not beaten by another in both time and cost (the Pareto front), and those points are filled. Where cells
 count the box tests of a collision query (box_tests_count), a second row shows time against those.
 """
@@ -14,10 +14,10 @@ import sys
 import matplotlib.pyplot as plt
 from matplotlib.axis import Axis
 from matplotlib.lines import Line2D
-from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 import figure
 import labels
+import names
 import pareto
 import results
 import style
@@ -42,27 +42,12 @@ def order_of(cell: results.Cell) -> str | None:
     return dict(cell.options).get("order", "morton30")
 
 
-def ticks_between(low: float, high: float, most: int) -> list[float]:
-    """Returns round numbers for a logarithmic axis, as many as possible but at most `most`."""
-    found: list[float] = []
-    for steps in ((1,), (1, 3), (1, 2, 5), (1, 1.5, 2, 3, 5, 7), (1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8)):
-        decades = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
-        ticks = [float(f"{step}e{decade}") for decade in decades for step in steps]
-        ticks = [tick for tick in ticks if low <= tick <= high]
-        if len(ticks) <= most:
-            found = ticks
-    return found
-
-
 def scale(axis: Axis, values: list[float], most: int) -> None:
     """Sets a logarithmic axis with room for markers and numbers."""
     low, high = min(values), max(values)
     low, high = low / 1.15 / (high / low) ** 0.1, high * 1.15 * (high / low) ** 0.1
     axis.axes.set(**{f"{axis.axis_name}scale": "log", f"{axis.axis_name}lim": (low, high)})
-    axis.set_major_locator(FixedLocator(ticks_between(low, high, most)))
-    axis.set_minor_locator(NullLocator())
-    axis.set_major_formatter(FuncFormatter(
-        lambda value, _: f"{value / 1e6:,g} M" if value >= 1e6 else f"{value:,g}"))
+    figure.round_ticks(axis, low, high, most)
 
 
 def draw_points(axes: plt.Axes, points: list[Point], best: list[Point]) -> None:
@@ -128,7 +113,7 @@ def legend(drawing: plt.Figure, cells: list[results.Cell], orders: dict[str, int
     builders = [name for name in style.LOOKS if any(cell.builder == name for cell in cells)]
     handles = [Line2D([], [], color=style.look(name).colour, marker=style.look(name).marker, linestyle="none",
                       label=name) for name in builders]
-    handles += [Line2D([], [], color="#222222", marker=f"${number}$", markersize=4.2 * len(str(number)),
+    handles += [Line2D([], [], color="#222222", marker=f"${number}$", markersize=4.2 if number < 10 else 5.8,
                        markeredgewidth=0.2, linestyle="none", label=order) for order, number in orders.items()]
     return figure.legend_above(drawing, handles, columns=6)
 
@@ -140,11 +125,11 @@ def draw(run: results.Run) -> plt.Figure:
         raise results.Refused(f"{run.path}: no scene has times and surface area costs of two builders or orders")
     cells = [cell for cells in by_scene.values() for cell in cells]
     measures = [measure for measure in MEASURES if any(measure in cell.counters for cell in cells)]
-    orders = dict.fromkeys(order for cell in cells if (order := order_of(cell)))
-    orders = {order: number for number, order in enumerate(orders, 1)}
+    orders = names.numbers(order for cell in cells if (order := order_of(cell)))
     panels = Panels(by_scene, measures)
     height = legend(panels.figure, cells, orders)
-    remark = "Numbers are orders. Down and left is better. Filled, joined: no other is as good in both. Times: medians."
+    remark = ("Numbers are orders, the same in all figures. Down and left is better. Filled, joined: no other is as good in "
+              "both. Times: medians.")
     figure.footer(panels.figure, run, cells[0].experiment, (remark, run.costs_remark()), height)
     panels.number(orders)
     return panels.figure

@@ -20,8 +20,6 @@ import pipelines
 import results
 import style
 
-BUILD_STAGES = ("bounds", "codes", "sort", "order", "gather", "hierarchy")
-QUERY_STAGES = ("ropes", "broad", "narrow")
 COLUMNS = 4
 
 # Colliders over one tree share its builder's colour, so these have their own: Okabe and Ito's, with other markers.
@@ -30,10 +28,15 @@ COLLIDERS = {"leaf": style.Look("#000000", "*"), "group": style.Look("#E69F00", 
              "grid": style.Look(pipelines.COLOURS["grid"], "d")}
 
 
+def look_of_collider(name: str) -> style.Look:
+    if name not in COLLIDERS:
+        raise results.Refused(f"plots/roofline.py has no look for the collider '{name}'")
+    return COLLIDERS[name]
+
+
 class Line(NamedTuple):
     label: str
     look: style.Look
-    dash: str
     points: figure.Curve
 
 
@@ -57,31 +60,29 @@ def points(run: results.Run, cells: list[results.Cell], stage: str) -> figure.Cu
 def build_lines(run: results.Run, stage: str) -> list[Line]:
     cells = run.of("roofline")
     among = style.in_order(cells)
-    lines = [Line(style.label(series, among), style.look(series[0]), style.VARIANT_LINES[style.variant(series, among)],
+    lines = [Line(style.label(series, among), style.look_in(series, among),
                   points(run, [cell for cell in cells if style.series_of(cell) == series], stage)) for series in among]
     return [line for line in lines if line.points]
 
 
 def query_lines(run: results.Run, stage: str) -> list[Line]:
-    """Returns one line for each collider. Lines of one collider over several trees differ in their dashes."""
+    """Returns one line for each collider and tree. Over a second and further tree a collider has a look of its own."""
     groups = pipelines.grouped_by_pipeline(run.all_frames("roofline"))
-    trees = list(dict.fromkeys(style.series_of(cells[0]) for cells in groups if cells[0].builder != "none"))
+    trees = {style.series_of(cells[0]) for cells in groups if cells[0].builder != "none"}
+    among = [(cells[0].collider, cells[0].called) for cells in groups]
     lines = []
-    for cells in groups:
+    for cells, series in zip(groups, among):
         first = cells[0]
-        if first.collider not in COLLIDERS:
-            raise results.Refused(f"plots/roofline.py has no look for the collider '{first.collider}'")
         alone = len(trees) == 1 or first.builder == "none"
         label = names.variant(first.collider, dict(first.collider_options)) if alone else first.called
-        dash = 0 if alone else trees.index(style.series_of(first)) % len(style.VARIANT_LINES)
-        lines.append(Line(label, COLLIDERS[first.collider], style.VARIANT_LINES[dash], points(run, cells, stage)))
+        lines.append(Line(label, style.look_in(series, among, look_of_collider), points(run, cells, stage)))
     return [line for line in lines if line.points]
 
 
 def draw_panel(axes: plt.Axes, stage: str, lines: list[Line], sizes: list[int]) -> None:
     axes.axhline(1, color="black", linewidth=0.8)
     for line in lines:
-        figure.band(axes, line.points, lambda ratios: ratios, line.look, 0.2, markersize=3, linestyle=line.dash,
+        figure.band(axes, line.points, lambda ratios: ratios, line.look, 0.2, markersize=3,
                     label=line.label)
     axes.set_title(stage, loc="left")
     figure.powers_of_two(axes, figure.step_between(sizes), 9)
@@ -98,8 +99,8 @@ def scale(panels: list[plt.Axes]) -> None:
 
 
 def draw(run: results.Run) -> plt.Figure:
-    builds = {stage: lines for stage in BUILD_STAGES if (lines := build_lines(run, stage))}
-    queries = {stage: lines for stage in QUERY_STAGES if (lines := query_lines(run, stage))}
+    builds = {stage: lines for stage in names.OF_BUILDS if (lines := build_lines(run, stage))}
+    queries = {stage: lines for stage in names.OF_QUERIES if (lines := query_lines(run, stage))}
     if not builds and not queries:
         raise results.Refused(f"{run.path}: no measured cell of roofline has a stage with a floor")
     stages = builds | queries

@@ -14,18 +14,19 @@ import matplotlib.pyplot as plt
 import numpy
 
 import figure
+import names
 import results
 import style
 
 WHOLE = "whole build"
-COLUMNS, LINE = 4, 120  # of the legend: most columns, and characters that fit in one row
+COLUMNS = 4  # of the legend, at most
 Times = Callable[[results.Cell], numpy.ndarray]  # seconds, one per sample
 
 
 def stages_of(cells: list[results.Cell]) -> list[str]:
     """Returns every stage that took time in some cell, in the order of docs/measuring.md."""
     there = {stage for cell in cells for sample in cell.samples for stage in sample}
-    return [stage for stage in ("bounds", "codes", "sort", "order", "gather", "hierarchy", "refit") if stage in there]
+    return [stage for stage in names.OF_BUILDS if stage in there]
 
 
 def dress(upper: list[plt.Axes], lower: list[plt.Axes], sizes: list[int]) -> None:
@@ -58,12 +59,11 @@ def draw(run: results.Run, experiment: str = "scaling", cells: list[results.Cell
             points = [(size, seconds) for size, seconds in curve if seconds.p10 > 0]
             sizes = numpy.array([size for size, _ in points])
             for axes, scale in ((upper[place], 1e3), (lower[place], 1e9 / sizes)) if points else ():
-                figure.band(axes, points, lambda seconds, scale=scale: scale * seconds, style.look(series[0]), markersize=3,
-                            **style.line(series, among))
+                figure.band(axes, points, lambda seconds, scale=scale: scale * seconds, style.look_in(series, among),
+                            markersize=3, label=style.label(series, among))
     dress(list(upper), list(lower), [cell.triangles for cell in cells])
     handles = upper[-1].get_legend_handles_labels()[0]
-    longest = max((len(handle.get_label()) for handle in handles), default=0)
-    height = figure.legend_above(drawing, handles, max(1, min(COLUMNS, LINE // (longest + 6))))
+    height = figure.legend_above(drawing, handles, COLUMNS)
     figure.footer(drawing, run, experiment, ("Medians; bands: 10th to 90th percentile.",), height)
     return drawing
 

@@ -12,8 +12,9 @@ from enum import IntEnum
 from typing import Any, NamedTuple
 
 import matplotlib.pyplot as plt
-from matplotlib.patches import Patch, Rectangle
+from matplotlib.patches import Patch
 
+import cell_map
 import figure
 import results
 import style
@@ -45,7 +46,7 @@ class Entry(NamedTuple):
         if self.state != State.WRONG:
             return "–" if self.state == State.REFUSED else "failed"
         parts = [f"{sign}{short(count)}" for sign, count in (("−", self.missed), ("+", self.false)) if count]
-        return " ".join(parts) or "wrong"
+        return "\n".join(parts) or "wrong"
 
 
 def short(count: int) -> str:
@@ -95,24 +96,12 @@ def draw(run: results.Run) -> plt.Figure:
         place = (f"{cell['family']}: {cell['scene']}", column_of(cell))
         entries[place] = max(entries.get(place, Entry(State.HOLDS)), entry_of(cell))
 
-    drawing, axes = plt.subplots(figsize=(style.PAGE_WIDTH, 1.9 + 0.135 * len(rows)), layout="constrained")
-    for (row, column), entry in entries.items():
-        x, y = columns.index(column), rows.index(row)
-        axes.add_patch(Rectangle((x, y), 1, 1, facecolor=COLOURS[entry.state], edgecolor="white", linewidth=0.8))
-        axes.text(x + 0.5, y + 0.5, entry.text, ha="center", va="center", fontsize=5 if len(entry.text) < 7 else 3.6,
-                  color=style.ink_on(COLOURS[entry.state]))
+    drawn = {place: (COLOURS[entry.state], entry.text) for place, entry in entries.items()}
+    drawing, axes = plt.subplots(figsize=(style.PAGE_WIDTH, 1.9 + cell_map.inches(drawn, rows)), layout="constrained")
+    cell_map.draw(axes, drawn, rows, columns)
     plain = [column_of(cell) for cell in cells if cell["kind"] == "library"]
     if plain:
         axes.axvline(min(columns.index(column) for column in plain), color="black", linewidth=0.8)
-    axes.set_xlim(0, len(columns))
-    axes.set_ylim(len(rows), 0)
-    axes.grid(False)
-    axes.xaxis.tick_top()
-    axes.set_xticks([x + 0.5 for x in range(len(columns))], columns, rotation=60, ha="left", fontsize=6)
-    axes.set_yticks([y + 0.5 for y in range(len(rows))], rows, fontsize=6)
-    axes.tick_params(length=0)
-    for spine in axes.spines.values():
-        spine.set_visible(False)
     height = figure.legend_above(drawing, [Patch(color=COLOURS[state], label=WORDS[state]) for state in State], 4)
     versions = ", ".join(f"{name} {run.facts['libraries'][name]}"
                          for name in sorted({cell["library"] for cell in cells if "library" in cell}))

@@ -2,7 +2,7 @@
 import io
 import pathlib
 import warnings
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 import matplotlib
@@ -11,12 +11,16 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (the backend is chosen first)
 from matplotlib.colors import to_rgb  # noqa: E402
 
+from PIL import Image  # noqa: E402  (matplotlib needs it too)
+
 import json_files  # noqa: E402
+import names  # noqa: E402
 import output  # noqa: E402
 from results import Cell, Refused  # noqa: E402
 
 PAGE_WIDTH = 7.0  # inches: the text width of a two-column page
 SMALL = 6.5  # points: the smallest type in any figure
+DPI = 200
 
 
 @dataclass(frozen=True)
@@ -52,9 +56,11 @@ LOOKS = {
     "fcl-obbrss": Look("#F0E442", "H", "////"),
 }
 
-# A builder measured with several options keeps its colour. These distinguish its variants, in order.
-VARIANT_LINES = ("-", "--", ":", "-.")
-VARIANT_HATCHES = ("", "\\\\\\\\", "xxxx", "oooo")
+# A builder measured with several options: the first variant has the builder's look, all others of a figure have these, in order.
+# The colours are Tol's muted ones.
+VARIANT_LOOKS = (Look("#332288", "s", "\\\\\\\\"), Look("#44AA99", "D", "xxxx"), Look("#882255", "^", "oooo"),
+                 Look("#999933", "v", "////"), Look("#AA4499", "p", "++++"), Look("#117733", "<", "...."),
+                 Look("#DDCC77", "P", "\\\\\\\\"), Look("#CC6677", ">", "xxxx"))
 
 PAPER_MARK = {"marker": "d", "markersize": 4.5, "markerfacecolor": "white", "markeredgecolor": "black",
               "markeredgewidth": 0.8, "linestyle": "none"}
@@ -80,29 +86,29 @@ def series_of(cell: Cell) -> Series:
 
 def in_order(cells: Iterable[Cell]) -> list[Series]:
     """Returns each series of the cells once, in the order of LOOKS."""
-    names = list(LOOKS)
-    return sorted({series_of(cell) for cell in cells}, key=lambda s: (names.index(look(s[0]) and s[0]), s[1]))
+    builders = list(LOOKS)
+    return sorted({series_of(cell) for cell in cells}, key=lambda s: (builders.index(look(s[0]) and s[0]), s[1]))
 
 
-def variant(series: Series, among: list[Series]) -> int:
-    """Returns the index of a series among its builder's variants, from 0."""
-    return [other for other in among if other[0] == series[0]].index(series) % len(VARIANT_LINES)
+def extras(among: list[Series]) -> list[Series]:
+    """Returns all series but the first of each builder."""
+    firsts = {name: (name, options) for name, options in reversed(among)}
+    return [series for series in among if series != firsts[series[0]]]
+
+
+def look_in(series: Series, among: list[Series], look_of: Callable[[str], Look] = look) -> Look:
+    """Returns the look of a series in a figure that shows `among`: its builder's, or that of a further variant."""
+    more = extras(among)
+    return VARIANT_LOOKS[more.index(series) % len(VARIANT_LOOKS)] if series in more else look_of(series[0])
 
 
 def label(series: Series, among: list[Series]) -> str:
     """Returns the builder's name, with the options in which it differs from its other variants."""
     others = [set(options) for name, options in among if name == series[0]]
-    differing = [f"{key} {value}" for key, value in series[1]
-                 if any((key, value) not in options for options in others)]
-    return series[0] + (f" ({', '.join(differing)})" if differing else "")
-
-
-def hatch(series: Series, among: list[Series]) -> str:
-    return look(series[0]).hatch or VARIANT_HATCHES[variant(series, among)]
-
-
-def line(series: Series, among: list[Series]) -> dict[str, str]:
-    return {"label": label(series, among), "linestyle": VARIANT_LINES[variant(series, among)]}
+    places = list(names.OPTIONS)
+    differing = sorted((places.index(key) if key in places else len(places), names.option(key, value)) for key, value in series[1]
+                       if any((key, value) not in options for options in others))
+    return series[0] + (f" ({', '.join(words for _, words in differing)})" if differing else "")
 
 
 def set_up() -> None:
@@ -132,10 +138,16 @@ def settle(figure: plt.Figure) -> None:
         axes.set_position([round(length, 5) for length in axes.get_position().bounds])
 
 
+def with_palette(png: io.BytesIO) -> bytes:
+    """Returns the picture with at most 256 colours, which takes a third of the bytes."""
+    with Image.open(png) as picture, io.BytesIO() as smaller:
+        picture.convert("RGB").quantize(256, dither=Image.Dither.NONE).save(smaller, "PNG", optimize=True, dpi=(DPI, DPI))
+        return smaller.getvalue()
+
+
 def save(figure: plt.Figure, folder: pathlib.Path, name: str, inputs: list[pathlib.Path], force: bool) -> list[pathlib.Path]:
     """Writes PNG and SVG. Equal numbers give equal bytes: no dates, no random names. Raises what output raises."""
-    pictures = {folder / f"{name}.png": {"dpi": 200, "metadata": {"Software": None}},
-                folder / f"{name}.svg": {"metadata": {"Date": None, "Creator": None}}}
+    pictures = {folder / f"{name}.png": {"dpi": DPI}, folder / f"{name}.svg": {"metadata": {"Date": None, "Creator": None}}}
     for path in pictures:
         output.check(path, inputs, force, output.is_picture)
     if figure.get_layout_engine() is not None:
@@ -144,7 +156,7 @@ def save(figure: plt.Figure, folder: pathlib.Path, name: str, inputs: list[pathl
     for path, how in pictures.items():
         with io.BytesIO() as content:
             figure.savefig(content, format=path.suffix[1:], **how)
-            contents[path] = content.getvalue()
+            contents[path] = with_palette(content) if path.suffix == ".png" else content.getvalue()
     plt.close(figure)
     output.make_folder(folder)
     for path, content in contents.items():

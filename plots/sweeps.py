@@ -22,7 +22,6 @@ import style
 
 # Experiments of the program have their own figures, or none.
 OWN = {path.stem for path in (pathlib.Path(__file__).resolve().parent.parent / "harness" / "experiments").glob("*.json")}
-MOST_SERIES = len(style.VARIANT_LINES)  # of one builder: more would look alike
 MOST_PANELS = 8
 MOST_BARS = 150
 ANSWERS = {"narrow": "none", "adjacent": "keep", "pairs_of": "all"}  # defaults of the options that change what is found
@@ -39,7 +38,7 @@ def scalings(run: results.Run, experiment: str, cells: list[results.Cell]) -> It
     several = {kind: sized for kind, sized in kinds.items() if len({cell.triangles for cell in sized}) > 1}
     for kind, sized in several.items():
         among = style.in_order(sized)
-        if max(sum(other[0] == one[0] for other in among) for one in among) > MOST_SERIES:
+        if len(style.extras(among)) > len(style.VARIANT_LOOKS):  # some would look alike
             continue
         suffix = f"-{plain(kind)}" if len(several) > 1 else ""
         yield f"scaling{suffix}", functools.partial(scaling.draw, experiment=experiment, cells=sized)

@@ -3,22 +3,27 @@
 
     plots/swept.py FILE... --out DIR
 
-A panel a sequence, a bar a pipeline: pairs of vertices and faces and of edges, both together, over the time from two
-frames' vertices to written pairs of both. The bar's paler part is what the queries alone would make it. A pipeline that
-has one of the two queries has a bar of that one, and says so.
+A panel a sequence, two bars a pipeline: pairs of vertices and faces and of edges, both together, over the time from two
+frames' vertices to written pairs of both, and below it, paler, over the time of the queries alone. A pipeline that has
+one of the two queries has bars of that one, and says so.
 """
 import sys
 
 import matplotlib.pyplot as plt
 from matplotlib.patches import Patch
+from matplotlib.ticker import FuncFormatter
 
 import figure
 import pipelines
 import results
 import style
+import tables
 
 KINDS = ("vertex-face", "edge-edge")
 QUERY = ("ropes", "broad")
+ROW = 0.25  # inches for the two bars of a pipeline
+HEIGHT = 0.4  # of a bar, relative to the row
+PALE = 0.4
 
 
 class Step:
@@ -61,22 +66,22 @@ def title(steps: list[Step]) -> str:
 def draw_cells(run: results.Run, cells: list[results.Cell], experiment: str) -> plt.Figure:
     scenes = steps_of(cells)
     rows = [len(steps) for steps in scenes.values()]
-    drawing, grid = plt.subplots(len(scenes), 1, figsize=(style.PAGE_WIDTH, 1.2 + 0.5 * len(rows) + 0.19 * sum(rows)),
+    drawing, grid = plt.subplots(len(scenes), 1, figsize=(style.PAGE_WIDTH, 1.2 + 0.5 * len(rows) + ROW * sum(rows)),
                                  squeeze=False, layout="constrained", height_ratios=[count + 1.5 for count in rows])
     for axes, steps in zip(grid[:, 0], scenes.values()):
         for row, step in enumerate(steps):
-            bar = pipelines.Pipeline(step.first.scene, step.cells)
             pairs = step.total("pairs_count") * 1e-6
-            whole, query = pairs / step.seconds(), pairs / step.query_seconds()
-            axes.barh(row, query, height=0.72, color=bar.colour, alpha=0.35, linewidth=0)
-            pipelines.bar(axes, row, whole, bar)
-            axes.text(max(whole, query), row, f" {whole:,.{0 if whole >= 100 else 1}f}", va="center", fontsize=style.SMALL)
+            colour = pipelines.Pipeline(step.first.scene, step.cells).colour
+            for place, seconds, alpha in ((row - HEIGHT / 2, step.seconds(), 1), (row + HEIGHT / 2, step.query_seconds(), PALE)):
+                axes.barh(place, pairs / seconds, height=HEIGHT, color=colour, alpha=alpha, linewidth=0)
+                pipelines.told(axes, place, pairs / seconds, tables.three_digits(pairs / seconds), 0)
         pipelines.dress_rows(axes, [step.label for step in steps])
         axes.set_title(title(steps), loc="left", x=-0.4)
         axes.margins(x=0.08)
+        axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.10g}"))
     grid[-1, 0].set_xlabel("million pairs a second")
     handles = [Patch(color="#555555", label="from two frames' vertices to pairs"),
-               Patch(color="#555555", alpha=0.35, label="by the queries alone, trees given")]
+               Patch(color="#555555", alpha=PALE, label="by the queries alone, trees given")]
     missed = sum(cell.counters.get("ground_truth_missed", 0) for cell in cells)
     truth = any("ground_truth_pairs" in cell.counters for cell in cells)
     starred = any(pipelines.stands_in(steps[0].first) for steps in scenes.values())

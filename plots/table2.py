@@ -11,6 +11,7 @@ from matplotlib.lines import Line2D
 import figure
 import pipelines
 import results
+import tables
 
 WORDS = {"oibvh": ("d", "the paper's Oi-BVH"), "wang-2018": ("v", "Wang et al. 2018"), "i-cloth": ("v", "I-Cloth")}
 MARK = {"color": "black", "markersize": 4.5, "markerfacecolor": "none"}
@@ -24,7 +25,7 @@ def draw_scene(axes: plt.Axes, shown: list[pipelines.Pipeline], printed: list[di
         if len(times) > 1:
             axes.plot([times.min(), times.max()], [row, row], color="black", linewidth=0.8)
         memory = pipeline.mean("memory_bytes")
-        text = f"{mean:.3g} ms" + (f", {memory / 1e6:.1f} MB" if memory else "")
+        text = f"{tables.three_digits(mean)} ms" + (f", {memory / 1e6:.1f} MB" if memory else "")
         pipelines.told(axes, row, max(mean, float(times.max())), text)
     for line in printed:
         axes.plot(line["frame_ms"], len(shown) - 0.1, WORDS[line["method"]][0], clip_on=False, **MARK)

@@ -1,28 +1,67 @@
 """Formats tables and numbers for the console."""
+import itertools
 import math
+import textwrap
 from collections.abc import Sequence
+
+import narrowing
+import terminal
 
 LEFT, RIGHT = "<", ">"
 
 
 class Table:
-    """A table whose columns are as wide as their widest entry. A title that starts with "<" aligns its column to the left."""
+    """A table whose columns are as wide as their widest entry; on a terminal it fits the width (narrowing.py). A title that starts
+    with "<" aligns its column to the left."""
 
     def __init__(self, *titles: str) -> None:
         self.titles = [title.removeprefix(LEFT) for title in titles]
         self.aligns = [LEFT if title.startswith(LEFT) else RIGHT for title in titles]
         self.rows: list[list[str]] = []
+        self.values: dict[str, list[tuple[float, int]]] = {}
 
-    def row(self, *entries: str) -> None:
-        """Adds a row with one entry for each column; missing entries at the end are blank."""
-        self.rows.append([*entries, *[""] * (len(self.titles) - len(entries))])
+    def row(self, *entries: str, among: str = "", value: float = math.nan) -> None:
+        """Adds a row with one entry for each column; missing entries at the end are blank. Of several rows with the same `among`
+        the one with the least value is bold on a terminal."""
+        if among and not math.isnan(value):
+            self.values.setdefault(among, []).append((value, len(self.rows)))
+        self.rows.append([*map(terminal.cleaned, entries), *[""] * (len(self.titles) - len(entries))])
 
     def text(self) -> str:
         """Returns the titles, if any column has one, then the rows, each ended by a newline."""
-        lines = [self.titles, *self.rows] if any(self.titles) else self.rows
+        if terminal.screen.width is not None and any(self.titles) and self.rows:
+            return self.fitted(terminal.screen.width)
         widths = [max(map(len, column)) for column in zip(self.titles, *self.rows)]
-        return "".join("  ".join(f"{entry:{align}{width}}" for entry, align, width in zip(line, self.aligns, widths)).rstrip(" ") + "\n"
-                       for line in lines)
+        titles = self.line(self.titles, widths, self.aligns) if any(self.titles) else ""
+        best = self.best()
+        return titles + "".join(self.line(row, widths, self.aligns, row_number in best) for row_number, row in enumerate(self.rows))
+
+    def best(self) -> set[int]:
+        return {min(those)[1] for those in self.values.values() if len(those) > 1}
+
+    def fitted(self, width: int) -> str:
+        made, best = narrowing.Fitted(self.titles, self.aligns, self.rows, width), self.best()
+        aligns, widths = [self.aligns[place] for place in made.shown], [made.limits[place] for place in made.shown]
+        lines = [f"{line}\n" for line in textwrap.wrap("; ".join(made.above), width)]
+        lines.append(self.line([self.titles[place] for place in made.shown], widths, aligns))
+        for number in range(len(self.rows)):
+            for entries in itertools.zip_longest(*made.cells_of(number), fillvalue=""):
+                lines.append(self.line(entries, widths, aligns, number in best))
+        if made.left_out:
+            said = f"{counted(len(made.left_out), 'column')} left out: {', '.join(made.left_out)}; show --wide shows all"
+            lines += [f"{line}\n" for line in textwrap.wrap(said, width, break_on_hyphens=False)]
+        return "".join(lines)
+
+    @staticmethod
+    def line(entries: Sequence[str], widths: list[int], aligns: list[str], is_best: bool = False) -> str:
+        """Returns one line. Verdicts, in columns of text after the first, have the colour of what they say."""
+        padded = [f"{entry:{align}{width}}" for entry, align, width in zip(entries, aligns, widths)]
+        last = max((place for place, entry in enumerate(entries) if entry), default=-1)
+        padded = [text.rstrip(" ") if place == last else text for place, text in enumerate(padded[:last + 1])]
+        usual = terminal.BOLD if is_best else ""
+        styles = [(terminal.of_verdict(text) if place > 0 and align == LEFT else "") or usual
+                  for place, (text, align) in enumerate(zip(padded, aligns))]
+        return "  ".join(map(terminal.dressed, padded, styles)) + "\n"
 
 
 def with_unit(value: float, units: Sequence[str]) -> str:
@@ -33,6 +72,11 @@ def with_unit(value: float, units: Sequence[str]) -> str:
         unit += 1
     digits = 0 if unit == 0 or value >= 99.95 else 1 if value >= 9.995 else 2
     return f"{value:.{digits}f} {units[unit]}"
+
+
+def three_digits(value: float) -> str:
+    """Returns at least three significant digits, without an exponent for usual values: "0.200", "18.0", "1,234"."""
+    return f"{value:,.0f}" if value >= 99.95 else f"{value:#.3g}"
 
 
 def duration(ns: float) -> str:

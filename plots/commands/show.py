@@ -7,8 +7,10 @@ from console import run as run_page
 
 def parser() -> command.Parser:
     words = command.Parser("show", "Print a result file as tables", "Prints what the command that wrote the file did.",
-                           [("bvhbench show peers.json", "its tables")], "docs/results.md")
+                           [("bvhbench show peers.json", "its tables"),
+                            ("bvhbench show peers.json --wide | less -S", "with all columns")], "docs/results.md")
     words.add_argument("file", metavar="FILE", help="a result file")
+    words.add_wide()
     return words
 
 

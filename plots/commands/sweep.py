@@ -66,6 +66,7 @@ def parser() -> command.Parser:
     add("--continue-other-commit", action="store_true",
         help="keep cells that another commit has measured, and go on with this one")
     add("--retry-failed", action="store_true", help="measure cells that failed again")
+    words.add_wide()
     add("--dry-run", action="store_true", help="print the cells and measure none")
     return words
 

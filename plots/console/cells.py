@@ -1,4 +1,5 @@
 """Prints the cells of a run, one line each."""
+import math
 from collections.abc import Callable
 
 import results
@@ -21,7 +22,7 @@ def text(run: results.Run, wanted: Callable[[Cell], bool] | None = None) -> str:
     table = Table("<scene", "triangles", "<builder", *spread.TITLES, "n", "Mtris/s", "ns/tri", "GB/s", "% of copy", "<verdict")
     shown = [cell for cell in run.all_cells if cell.verdict != "agrees" or wanted(cell)]
     for cell in shown:
-        table.row(*line(cell, run.copy_rate_of(cell)))
+        table.row(*line(cell, run.copy_rate_of(cell)), among=cell.scene, value=cell.median_ns() if cell.has_times else math.nan)
     stand_ins = "* a stand-in: the scene itself is not there\n" if any(cell.stand_in_for for cell in shown) else ""
     agreeing = sum(cell.verdict == "agrees" for cell in run.all_cells)
     return f"{table.text() if shown else ''}{stand_ins}{len(run.all_cells):,} cells, {agreeing:,} agree\n"

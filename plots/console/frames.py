@@ -5,15 +5,24 @@ import results
 from cells import Cell, grouped
 from console import cell as one_cell
 from console import spread
-from tables import Table, fixed, whole
+from tables import Table, duration, fixed, whole
 
 
 def each(run: results.Run) -> str:
-    table = Table("<scene", "frame", "<what", *spread.TITLES, "n", "pairs", "contacts", "<verdict")
-    for cell in run.all_cells:
+    """Returns a table for each scene and pipeline: one line for each frame, and the mean over frames."""
+    groups = grouped(run.all_cells, lambda cell: (cell.scene, cell.pipeline))
+    return "".join(f"{pipeline} on {scene}\n{of_pipeline(cells)}" for (scene, pipeline), cells in groups.items())
+
+
+def of_pipeline(cells: list[Cell]) -> str:
+    table = Table("frame", *spread.TITLES, "n", "pairs", "contacts", "<verdict")
+    for cell in cells:
         times = [*spread.of(cell.times_ns()), str(len(cell.samples))] if cell.has_times else [""] * 6
         counts = [whole(cell.counters.get(key)) for key in ("pairs_count", "contacts_count")]
-        table.row(cell.scene, str(cell.frame), cell.pipeline, *times, *counts, one_cell.verdict(cell))
+        table.row(str(cell.frame), *times, *counts, one_cell.verdict(cell))
+    if len(cells) > 1 and all(cell.has_times for cell in cells):
+        counts = [whole(mean(cells, key, 1, 0.5)) for key in ("pairs_count", "contacts_count")]
+        table.row("mean", duration(sum(cell.median_ns() for cell in cells) / len(cells)), *[""] * 5, *counts)
     return table.text()
 
 
@@ -29,8 +38,10 @@ def text(run: results.Run, printed: str = "") -> str:
         first = cells[0]
         stand_in = f" for {first.stand_in_for}" if first.stand_in_for else ""
         counts = [whole(mean(cells, key, 1, 0.5)) for key in ("pairs_count", "contacts_count", "bvtt_peak_count")]
-        table.row(name + stand_in, first.pipeline, str(len(cells)), *times_of(cells),
-                  fixed(mean(cells, "memory_bytes", 1e-6), 1), *counts, verdict(cells))
+        of_frames = times_of(cells)
+        table.row(name + stand_in, first.pipeline, str(len(cells)), *of_frames,
+                  fixed(mean(cells, "memory_bytes", 1e-6), 1), *counts, verdict(cells), among=name,
+                  value=float(of_frames[0] or "nan"))
         for row in rows if name != next_name else ():
             if row["scene"] == (first.stand_in_for or name):
                 table.row("", f"paper: {row['method']}", str(row["frames"]), fixed(row["frame_ms"], 3),

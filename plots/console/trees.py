@@ -8,7 +8,6 @@ from console.cell import depths
 from tables import Table, duration, fixed, size
 
 YARDSTICK = "oibvh-host"
-OF_QUERIES = ("ropes", "broad", "narrow")  # the tree of a frame is built as in the cells that build
 
 
 def may_be_shown(cell: Cell) -> bool:
@@ -81,7 +80,7 @@ def roofline(run: results.Run) -> str:
     for cell in run.all_cells if run.copy_rate else ():
         for entry in cell.all_samples[0]["stages"] if cell.has_times else ():
             launches, moved = entry.get("launches", 0), entry.get("moved_bytes", 0)
-            is_query = cell.operation != "collide" or cell.builder == "none" or entry["stage"] in OF_QUERIES
+            is_query = cell.operation != "collide" or cell.builder == "none" or entry["stage"] in names.OF_QUERIES
             if not (launches and moved and is_query):
                 continue
             floor = 1e9 * moved / run.copy_rate + launches * run.facts.get("launch_cost_ns", 0)

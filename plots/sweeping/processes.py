@@ -16,6 +16,7 @@ import documents
 import merging
 import output
 import tables
+import terminal
 from cells import Cell
 from json_files import Refused
 from sweeping.folder import Folder, finished
@@ -132,7 +133,7 @@ class Runner:
 
     def __init__(self, units: list[Unit], folder: Folder, task: Task, stop: Stop) -> None:
         self.folder, self.task, self.stop, self.total, self.done = folder, task, stop, len(units), 0
-        self.left = TimeLeft()
+        self.left, self.line = TimeLeft(), terminal.MovingLine()
         self.waiting = collections.deque(unit for unit in units if not self.is_done(unit))
         self.slots: list[Process | None] = [None] * len(task.devices)
 
@@ -156,6 +157,7 @@ class Runner:
                 for place, slot in enumerate(self.slots):
                     if slot is None and self.waiting:
                         self.slots[place] = Process(self.waiting.popleft(), self.folder, self.task, self.task.devices[place])
+                self.show_progress()
                 ready = readable([slot.errors for slot in self.slots if slot])
                 for place, slot in enumerate(self.slots):
                     if slot is None:
@@ -165,6 +167,7 @@ class Runner:
                         self.slots[place] = None
                         self.conclude(slot)
         finally:
+            self.line.clear()
             self.end_all()
 
     def conclude(self, process: Process) -> None:
@@ -216,7 +219,13 @@ class Runner:
         line = f"[{self.done}/{self.total}] {unit.label}: {what}, {seconds:.1f} s"
         if self.done < self.total and self.left.all:
             line += f"; about {rough(self.seconds_left())} left"
+        self.line.clear()
         print(line, flush=True)  # so that logs can be followed
+
+    def show_progress(self) -> None:
+        running = ", ".join(slot.unit.label for slot in self.slots if slot)
+        left = f"; about {rough(self.seconds_left())} left" if self.left.all else ""
+        self.line.show(output.printable(f"[{self.done}/{self.total}]{left}: {running}").replace("\n", " "))
 
     def seconds_left(self) -> float:
         def takes(unit: Unit) -> float:

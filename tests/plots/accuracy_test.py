@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """Tests that figures of accuracy show every method, mark the best ones, and refuse wrong answers."""
+import statistics
 import unittest
 
 from base import GOLDEN, InFolder, golden  # first: it adds plots to sys.path
 
 import accuracy
+import accuracy_narrow
 import results
 import style
 from accuracy import Cost
@@ -35,25 +37,32 @@ class Figures(InFolder):
     def axis(self, name: str) -> list[dict]:
         return [cell for cell in self.document["cells"] if cell["accuracy"]["axis"] == name]
 
-    def drawn(self, name: str) -> accuracy.plt.Figure:
+    def drawn(self, name: str, picture: str = "") -> accuracy.plt.Figure:
         figures = accuracy.some_figures_of(self.run_of(self.axis(name)))
-        self.assertEqual(list(figures), [f"accuracy-{name}"])
-        drawing = figures[f"accuracy-{name}"]()
+        self.assertEqual(list(figures), [f"accuracy-{one}" for one in accuracy.FIGURES[name]])
+        drawing = figures[f"accuracy-{picture or name}"]()
         drawing.draw_without_rendering()
         return drawing
 
-    def test_of_narrow_phases_have_a_panel_a_class_and_a_point_a_method(self) -> None:
+    def test_of_narrow_phases_show_each_methods_worst_and_typical_class(self) -> None:
         drawing = self.drawn("narrow")
-        self.assertEqual([axes.get_title(loc="left") for axes in drawing.axes], ["generic", "same place", "scaled 1e-16"])
-        for axes in drawing.axes:
-            self.assertEqual(len(axes.lines), 1 + 4)  # the front, and one for each method
-            low, high = axes.get_ylim()
-            for line in axes.lines:
-                self.assertTrue(all(low <= y <= high for y in line.get_ydata()))
-        filled = [line.get_color() for line in drawing.axes[0].lines[1:] if line.get_markerfacecolor() != "white"]
-        self.assertEqual(len(filled), 1)  # if no method has errors, the fastest
-        self.assertIn("150,000 pairs of triangles, seed 1", drawing.texts[0].get_text())
+        errors, times = drawing.axes
+        methods = list(dict.fromkeys(cell["accuracy"]["method"] for cell in self.axis("narrow")))
+        self.assertEqual(sorted(label.get_text() for label in errors.get_yticklabels()), sorted(methods))
+        for axes, value in ((errors, accuracy_narrow.wrong), (times, accuracy_narrow.ns_a_pair)):
+            self.assertEqual(len(axes.lines), 3 * len(methods))  # all classes, the worst and the median
+            for row, (_, cells) in enumerate(accuracy_narrow.by_method(self.run_of(self.axis("narrow")).cells).items()):
+                classes, worst, typical = axes.lines[3 * row:3 * row + 3]
+                values = sorted(value(cell) for cell in cells)
+                self.assertEqual(sorted(classes.get_xdata()), values)
+                self.assertEqual((worst.get_xdata()[0], typical.get_xdata()[0]), (values[-1], statistics.median(values)))
+        self.assertIn("150,000 pairs of triangles in 3 classes, seed 1", drawing.texts[0].get_text())
         self.assertIn("guigue-f64 needs doubles", drawing.texts[0].get_text())
+
+    def test_of_narrow_phases_have_a_second_sheet_with_all_classes_in_numbers(self) -> None:
+        axes, = self.drawn("narrow", "classes").axes
+        self.assertEqual([label.get_text() for label in axes.get_yticklabels()], ["generic", "same place", "scaled 1e-16"])
+        self.assertEqual(len(axes.texts), 2 * len(self.run_of(self.axis("narrow")).cells))
 
     def test_of_sums_codes_and_input_show_all_that_was_measured(self) -> None:
         self.assertEqual([len(axes.lines) for axes in self.drawn("sums").axes], [7, 7])

@@ -4,18 +4,21 @@ import copy
 import itertools
 import math
 import random
+import re
 import unittest
 
-from base import InFolder, golden  # first: it adds plots to sys.path
+from base import ROOT, InFolder, golden  # first: it adds plots to sys.path
 
+import figure
 import labels
+import names
 import pareto
 import pareto_orders
 import results
 import style
 from matplotlib.text import Text
 
-ORDERS = [f"order{number}" for number in range(1, 15)]
+ORDERS = names.ORDERS
 
 
 class Labels(unittest.TestCase):
@@ -68,7 +71,7 @@ class Figure(InFolder):
                 continue
             cell = copy.deepcopy(next(c for c in self.document["cells"] if c["scene"]["name"] == scene))
             cell["builder"] = {"name": builder, "options": {"order": order}}
-            worse = 9 if order == "order12" else 1
+            worse = 9 if order == ORDERS[11] else 1
             cell["counters"]["sah_cost"] = worse * noise.uniform(100, 140)
             time = int(noise.uniform(2e5, 3e5))
             stage = {"stage": "hierarchy", "launches": 1, "busy_ns": time, "span_ns": time, "moved_bytes": 1}
@@ -90,6 +93,12 @@ class Figure(InFolder):
         low, high = device.get_ylim()
         for line in device.lines:
             self.assertTrue(all(low < y < high for y in line.get_ydata()))
+
+    def test_numbers_an_order_alike_in_all_files(self) -> None:
+        catalog = (ROOT / "builders" / "orders.cpp").read_text(encoding="utf-8")
+        self.assertEqual(tuple(re.findall(r'^    \{"([^"]+)", ', catalog, re.MULTILINE)), names.ORDERS)
+        self.assertEqual(names.numbers(["morton63", "mine", "morton30-axis"]), {"morton63": 3, "morton30-axis": 7, "mine": 15})
+        self.assertEqual(names.numbers(["morton30-axis", "morton63"]), {"morton63": 3, "morton30-axis": 7})
 
     def test_keeps_its_numbers_apart(self) -> None:
         drawing = pareto_orders.draw(self.many(with_tests=True))
@@ -115,9 +124,9 @@ class Figure(InFolder):
             self.assertEqual(any(cell is other for _, _, other in best), not beaten)
 
     def test_takes_few_round_numbers_for_an_axis(self) -> None:
-        self.assertEqual(pareto_orders.ticks_between(0.16, 0.42, 6), [0.2, 0.25, 0.3, 0.4])
-        self.assertEqual(pareto_orders.ticks_between(4, 600, 3), [10, 100])
-        self.assertEqual(pareto_orders.ticks_between(0.1, 2, 6), [0.1, 0.2, 0.5, 1, 2])
+        self.assertEqual(figure.ticks_between(0.16, 0.42, 6), [0.2, 0.25, 0.3, 0.4])
+        self.assertEqual(figure.ticks_between(4, 600, 3), [10, 100])
+        self.assertEqual(figure.ticks_between(0.1, 2, 6), [0.1, 0.2, 0.5, 1, 2])
 
 
 if __name__ == "__main__":

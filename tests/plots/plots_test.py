@@ -8,14 +8,22 @@ import unittest
 
 from base import GOLDEN, ROOT, InFolder, golden  # first: it adds plots to sys.path
 
+import cell_map
 import fig8
+import figure
 import frames
+import names
+import output
 import pipelines
 import results
 import roofline
 import scaling
 import style
 import swept
+import table1
+import tables
+from PIL import Image
+from style import plt
 
 
 class Scripts(InFolder):
@@ -30,7 +38,8 @@ class Scripts(InFolder):
         scripts = {name: (f"{name}.py", name) for name in alone}
         scripts |= {f"table2-{name}": (f"{name}.py", "table2") for name in ("fig9", "fig10")}
         scripts |= {name: ("frames.py", name) for name in ("rebuild", "pairs", "libraries")}
-        scripts |= {f"accuracy-{axis}": ("accuracy.py", "accuracy") for axis in ("narrow", "sums", "codes", "input", "boxes", "swept")}
+        axes = ("narrow", "classes", "sums", "codes", "input", "boxes", "swept")
+        scripts |= {f"accuracy-{axis}": ("accuracy.py", "accuracy") for axis in axes}
         for script, file in dict.fromkeys(scripts.values()):  # a script may draw several pictures
             self.made(script, GOLDEN / f"{file}.json", "--out", self.folder / "out")
         for picture in scripts:
@@ -51,7 +60,7 @@ class Scripts(InFolder):
     def assert_says_what_a_reader_must_know(self, svg: pathlib.Path) -> None:
         text = svg.read_text(encoding="utf-8")
         for words in ("hairball*", "GTX 1080, another machine", "Invented GPU", "slower than the time allowed",
-                      "On the host and its clock", "million triangles per second"):
+                      "On the host and its clock", "million triangles/s"):
             self.assertIn(words, text)
 
     def test_a_wrong_answer_makes_no_picture(self) -> None:
@@ -68,8 +77,8 @@ class Scripts(InFolder):
         self.document["cells"] = [first, second]
         self.made("table1.py", self.written(self.document), "--out", self.folder / "out")
         text = (self.folder / "out" / "table1.svg").read_text(encoding="utf-8")
-        self.assertIn("oibvh-multi (leaves mesh)", text)
-        self.assertIn("oibvh-multi (leaves sorted)", text)
+        self.assertIn("oibvh-multi (mesh leaves)", text)
+        self.assertIn("oibvh-multi (sorted leaves)", text)
 
 
     def test_experiments_of_ones_own_are_drawn_as_what_they_can_be(self) -> None:
@@ -179,12 +188,19 @@ class Frames(InFolder):
         sample = schema["$defs"]["cell"]["properties"]["samples"]["items"]["properties"]
         stages = sample["stages"]["items"]["properties"]["stage"]["enum"]
         of_frames = set(stages) - {"sum"}  # which is on an axis of accuracy
-        self.assertEqual(sorted(stage for _, those, _ in frames.PARTS for stage in those), sorted(of_frames))
+        self.assertEqual(sorted(names.STAGES), sorted(of_frames))
+        self.assertEqual([those for those, _ in frames.PARTS], list(names.PARTS))
         for name in ("table2", "libraries", "rebuild"):
             for shown in pipelines.of(results.load(GOLDEN / f"{name}.json"), name).values():
                 for one in shown:
-                    parts = sum(width for _, _, width in frames.parts_of(one))
+                    parts = sum(width for _, width in frames.parts_of(one))
                     self.assertAlmostEqual(parts, one.frame_ms().mean(), places=9)
+
+    def test_parts_are_named_after_their_stages_as_tables_name_them(self) -> None:
+        shown = [one for those in pipelines.of(results.load(GOLDEN / "rebuild.json"), "rebuild").values() for one in those]
+        stages = {stage for one in shown for cell in one.cells for sample in cell.samples for stage in sample}
+        words = [word for patch in frames.legend_of(shown) for word in patch.get_label().split(" + ")]
+        self.assertEqual(set(words) - {names.BETWEEN}, stages)
 
     def test_pipelines_of_one_scene_are_told_apart(self) -> None:
         for name in ("table2", "table3", "rebuild", "pairs", "libraries"):
@@ -276,6 +292,32 @@ class Crossing(unittest.TestCase):
         self.assertIsNone(fig8.crossing(fast, slow))
 
 
+class Throughput(InFolder):
+    def test_panels_of_figure_8_have_one_scale(self) -> None:
+        nodes, triangles = fig8.draw(results.load(GOLDEN / "fig8.json")).axes
+        self.assertEqual(nodes.get_ylim(), triangles.get_ylim())
+
+    def test_of_table_1_has_a_panel_of_its_own(self) -> None:
+        time, throughput, rate = table1.draw(results.load(GOLDEN / "table1.json")).axes
+        self.assertEqual([axes.get_ylabel() for axes in (time, throughput, rate)],
+                         ["hierarchy, ms", "million triangles/s", "% of copy rate"])
+        self.assertEqual((len(time.texts), len(throughput.texts)), (0, len(throughput.patches)))
+
+
+class Stress(unittest.TestCase):
+    def test_no_text_is_wider_than_its_cell(self) -> None:
+        style.set_up()
+        drawing = plt.figure(figsize=(7, 3))
+        axes = drawing.add_axes((0.2, 0.1, 0.75, 0.6))
+        texts = ("−1.2k\n+310k", "−999k", "+9.9M", "failed")
+        columns = [str(number) for number in range(19)]
+        cell_map.draw(axes, {("row", column): ("#E69F00", texts[place % 4]) for place, column in enumerate(columns)}, ["row"], columns)
+        drawing.draw_without_rendering()
+        width = axes.get_window_extent().width / len(columns)
+        for text in axes.texts:
+            self.assertLess(text.get_window_extent().width, width, text.get_text())
+
+
 class Scaling(InFolder):
     def test_has_a_panel_a_stage_and_one_for_the_whole_build(self) -> None:
         run = results.load(GOLDEN / "scaling.json")
@@ -362,9 +404,13 @@ class Swept(InFolder):
         both = [cell for cell in run.cells if cell.scene == "unc_cloth_ball" and cell.collider == "grid"]
         self.assertEqual([cell.swept["pairs"] for cell in both], ["vertex-face", "edge-edge"])
         seconds = sum(results.quantiles(cell.times_s()).median for cell in both)
-        queries, whole = panels[0].patches[4:6]
+        whole, queries = panels[0].patches[4:6]
         self.assertAlmostEqual(whole.get_width(), 1e-6 * 40 * 92230 / seconds)
         self.assertGreater(queries.get_width(), whole.get_width())
+        for bar, text in zip(panels[0].patches, panels[0].texts):  # each number is at the end of its own bar
+            self.assertEqual(text.xy[0], bar.get_width())
+            self.assertAlmostEqual(text.xy[1], bar.get_y() + bar.get_height() / 2)
+            self.assertEqual(text.get_text().strip(), tables.three_digits(bar.get_width()))
 
     def test_frames_that_are_not_swept_make_no_picture(self) -> None:
         for cell in self.document["cells"]:
@@ -372,12 +418,39 @@ class Swept(InFolder):
         self.assertEqual(self.run_script("swept.py", self.written(self.document), "--out", self.folder).returncode, 3)
 
 
-class Looks(unittest.TestCase):
+class Looks(InFolder):
     def test_no_two_builders_look_alike(self) -> None:
         self.assertEqual(len(set(style.LOOKS.values())), len(style.LOOKS))
         markers = {(look.colour, look.marker) for look in style.LOOKS.values()}
         bars = {(look.colour, look.hatch) for look in style.LOOKS.values()}
         self.assertEqual((len(markers), len(bars)), (len(style.LOOKS),) * 2)
+
+    def test_no_two_variants_of_builders_look_alike(self) -> None:
+        among = [(name, (("order", order),)) for name in ("karras", "oibvh-multi") for order in ("kd", "morton30", "morton63")]
+        looks = [style.look_in(series, among) for series in among]
+        self.assertEqual(looks[::3], [style.look("karras"), style.look("oibvh-multi")])
+        self.assertEqual(len({(look.colour, look.marker) for look in (*style.LOOKS.values(), *style.VARIANT_LOOKS)}),
+                         len(style.LOOKS) + len(style.VARIANT_LOOKS))
+        self.assertEqual((len({look.colour for look in looks}), len({look.marker for look in looks[3:]})), (6, 3))
+
+    def test_a_legend_has_as_many_columns_as_fit(self) -> None:
+        self.assertEqual([figure.columns_for([length * "m"] * 4, 7) for length in (5, 30, 50, 200)], [4, 3, 2, 1])
+
+    def test_a_long_footer_takes_no_height_from_panels(self) -> None:
+        style.set_up()
+        run, heights = results.load(GOLDEN / "rebuild.json"), []
+        for remarks in (2 * ("a remark",), 20 * ("a remark",)):
+            drawing = frames.draw(run, "rebuild", remarks)
+            drawing.draw_without_rendering()
+            heights.append(drawing.axes[0].get_window_extent().height)
+        self.assertAlmostEqual(heights[0], heights[1], delta=0.1 * heights[0])
+
+    def test_pictures_have_few_colours(self) -> None:
+        style.set_up()
+        png, _ = style.save(frames.draw(results.load(GOLDEN / "rebuild.json"), "rebuild"), pathlib.Path(self.folder), "one", [], False)
+        with Image.open(png) as picture:
+            self.assertEqual((picture.mode, picture.size[0]), ("P", 1400))
+        self.assertTrue(output.is_picture(png.read_bytes()[:output.HEAD_BYTES]))
 
     def test_a_builder_without_one_is_named(self) -> None:
         with self.assertRaisesRegex(results.Refused, "no look for the builder 'newcomer'"):

@@ -128,6 +128,18 @@ class OfFrames(unittest.TestCase):
         blank = frames.text(run_of(frame(0), {**frame(1), "status": "failed", "reason": "no memory"})).splitlines()[1]
         self.assertEqual(blank.split()[4:], ["2", "1,000", "failed:", "no", "memory"])
 
+    def test_of_collide_name_their_pipeline_once_and_end_with_a_mean(self) -> None:
+        one, other = frame(0), frame(1, ns=3000000)
+        other["counters"]["pairs_count"] = 2000
+        name, titles, *rows = frames.each(run_of(one, other)).splitlines()
+        self.assertEqual((name, titles.split()[:2]), ("group over oibvh-multi on bunny", ["frame", "median"]))
+        self.assertEqual([row.split()[0] for row in rows], ["0", "1", "mean"])
+        self.assertEqual(rows[-1].split(), "mean 2.00 ms 1,500".split())
+        self.assertNotIn("mean", frames.each(run_of(one)))
+        self.assertNotIn("mean", frames.each(run_of(one, wrong(other))), "a mean over some of the frames")
+        several = frames.each(run_of(one, frame(1), frame(0, jump=2), frame(1, jump=2)))
+        self.assertEqual(several.count("mean"), 2)
+
     def test_the_paper_stands_below_a_scene_that_it_has(self) -> None:
         raw = frame()
         raw["scene"] |= {"name": "cloth-funnel:18484", "stand_in_for": "funnel"}
@@ -241,7 +253,7 @@ class OfAFile(unittest.TestCase):
         other = {**frame(ns=900000), "experiment": "collide"}
         self.assertIn("verdict: agrees, pairs ", self.show(document(frame_of_collide)))
         two = self.show(document(other, frame_of_collide))
-        self.assertRegex(two, r"bunny +0  group over oibvh-multi +900 us .* agrees, pairs 00000000000000aa\n")
+        self.assertRegex(two, r"\ngroup over oibvh-multi on bunny\nframe .*\n +0 +900 us .* agrees, pairs 00000000000000aa\n")
         self.assertIn("\nskips:\n", two)
         self.assertNotIn("cells, ", two)
         mixed = self.show(document(other, {**frame_of_collide, "experiment": "table2"}))

@@ -1,0 +1,129 @@
+#!/usr/bin/env python3
+"""Tests that tables fit a terminal and have colours there, and are whole and plain elsewhere."""
+import json
+import os
+import pty
+import re
+import subprocess
+import sys
+import unittest
+
+from base import ROOT, InFolder, cell, document  # first: it adds plots to sys.path
+
+import terminal
+from tables import Table
+
+CODES = re.compile("\x1b\\[[0-9;]*m")
+
+
+class Tables(unittest.TestCase):
+    def setUp(self) -> None:
+        before = terminal.screen
+        self.addCleanup(setattr, terminal, "screen", before)
+
+    def text(self, width: int | None, has_colour: bool = False) -> str:
+        table = Table("<scene", "triangles", "<builder", "median", "p10", "p90", "n", "<verdict")
+        for builder, ns, verdict in (("oibvh-multi, hilbert30, sorted leaves", 2, "agrees"), ("karras", 1, "agrees"),
+                                     ("perfect", 3, "differs: node 3 is lost"), ("apetrei", 4, "skipped")):
+            table.row("bunny", "144,046", builder, f"{ns} us", "1 us", f"{ns + 1} us", "20", verdict, among="bunny", value=ns)
+        terminal.screen = terminal.Screen(width, has_colour)
+        return table.text()
+
+    def test_are_whole_without_a_width(self) -> None:
+        self.assertEqual(self.text(None).splitlines()[0],
+                         "scene  triangles  builder                                median   p10   p90   n  verdict")
+
+    def test_fit_any_usual_width(self) -> None:
+        for width in (40, 60, 80, 120):
+            lines = self.text(width).splitlines()
+            self.assertLessEqual(max(map(len, lines)), width, lines)
+
+    def test_say_what_all_rows_share_once_above_them(self) -> None:
+        above, titles, *rows = self.text(120).splitlines()
+        self.assertEqual(above, "scene: bunny; triangles: 144,046; p10: 1 us; n: 20")
+        self.assertEqual(titles.split(), ["builder", "median", "p90", "verdict"])
+        self.assertEqual(len(rows), 4)
+
+    def test_wrap_names_and_name_the_columns_that_are_left_out(self) -> None:
+        self.assertNotIn("left out", self.text(80))
+        narrow = self.text(40).splitlines()
+        self.assertIn("left out: p90", " ".join(narrow[-2:]))
+        self.assertIn("--wide", " ".join(narrow[-2:]))
+        self.assertGreater(len(narrow), 2 + 4 + 1)
+        words = " ".join(" ".join(narrow).split())
+        self.assertIn("median", words)
+        for word in ("oibvh-multi,", "hilbert30,", "differs:", "lost"):
+            self.assertIn(word, words)
+
+    def test_colour_verdicts_and_the_best(self) -> None:
+        plain, coloured = self.text(None), self.text(None, has_colour=True)
+        self.assertEqual(terminal.cleaned(coloured), plain)
+        right, best, wrong, skipped = coloured.splitlines()[1:]
+        self.assertIn(f"{terminal.GREEN}agrees", right)
+        self.assertNotIn(terminal.BOLD, right)
+        self.assertIn(f"{terminal.BOLD}karras", best)
+        self.assertIn(f"{terminal.RED}differs", wrong)
+        self.assertIn(f"{terminal.DIM}skipped", skipped)
+
+    def test_take_no_colour_from_names(self) -> None:
+        terminal.screen = terminal.Screen(None, True)
+        table = Table("<scene", "n")
+        table.row(f"a{terminal.RED}b", "1")
+        self.assertNotIn(terminal.RED, table.text())
+
+
+class Show(InFolder):
+    def shown(self, *words: str, columns: str = "80", **environment: str) -> str:
+        """Returns what `show` writes to a terminal."""
+        builders = ("oibvh-multi", "oibvh-single", "karras")
+        file = self.written(document(*(cell(builder, 1000 * (place + 1)) for place, builder in enumerate(builders))))
+        own, child = pty.openpty()
+        with os.fdopen(own, "rb", buffering=0) as reader:
+            process = subprocess.Popen([sys.executable, ROOT / "plots", "show", file, *words], stdout=child,
+                                       env={**os.environ, "TERM": "xterm", "COLUMNS": columns, "NO_COLOR": "", **environment})
+            os.close(child)
+            parts = []
+            try:
+                while part := reader.read(4096):
+                    parts.append(part)
+            except OSError:
+                pass  # the terminal's other end is closed
+        self.assertEqual(process.wait(), 0)
+        return b"".join(parts).decode().replace("\r\n", "\n")
+
+    def piped(self, **environment: str) -> str:
+        return subprocess.run([sys.executable, ROOT / "plots", "show", self.folder / "table1.json"], capture_output=True, text=True,
+                              check=True, env={**os.environ, **environment}).stdout
+
+    def widest(self, text: str) -> int:
+        return max(len(CODES.sub("", line)) for line in text.splitlines() if "median" in line or "karras" in line)
+
+    def test_fits_the_terminal_and_is_whole_with_wide_and_in_a_pipe(self) -> None:
+        narrow = self.shown()
+        self.assertLessEqual(self.widest(narrow), 80)
+        self.assertIn(terminal.CODES[terminal.GREEN], self.shown("--wide"))
+        whole = CODES.sub("", self.shown("--wide"))
+        self.assertGreater(self.widest(whole), 80)
+        self.assertEqual(self.piped(COLUMNS="40", TERM="xterm"), whole)
+
+    def test_has_no_colour_with_no_color(self) -> None:
+        self.assertIn("\x1b[", self.shown())
+        self.assertNotIn("\x1b[", self.shown(NO_COLOR="1"))
+        self.assertNotIn("\x1b[", self.shown(TERM="dumb"))
+
+    def test_spells_out_control_characters_of_names(self) -> None:
+        made = document(cell(), cell("karras"))
+        made["cells"][0]["scene"]["name"] = "\x1b[31mred"
+        self.written(made)
+        self.assertIn("\\x1b[31mred", self.piped())
+
+
+class Progress(unittest.TestCase):
+    def test_is_silent_where_there_is_no_terminal(self) -> None:
+        done = subprocess.run([sys.executable, "-c", "import terminal; line = terminal.MovingLine(); line.show('1/2'); line.clear()"],
+                              cwd=ROOT / "plots", capture_output=True, check=True)
+        self.assertEqual((done.stdout, done.stderr), (b"", b""))
+
+
+if __name__ == "__main__":
+    unittest.main()
