@@ -10,33 +10,41 @@ const QUANTITIES = {
   },
 };
 
-/** Returns "torus" for "torus:1000", and "" for a mesh. */
-function familyOf(scene) {
-  const found = /^(.*):\d+$/.exec(scene);
-  return found ? found[1] : "";
+const DASHES_OF_FAMILIES = ["solid", "dot", "dash", "dashdot"];
+const MOST_NAMES = 12; // of meshes, along the axis
+
+/** Returns how each family of generated scenes looks if there are several: by dash, the first with filled marks. */
+function familyLooks(cells) {
+  const families = [...new Set(cells.map((cell) => cell.family))].filter(Boolean);
+  const look = (k) => ({line: true, dash: DASHES_OF_FAMILIES[k % DASHES_OF_FAMILIES.length], isOpen: k > 0});
+  return families.length > 1 ? new Map(families.map((family, k) => [family, look(k)])) : new Map();
 }
 
 function sizeTraces(cells, stage, quantity, unit, looks) {
-  const lines = grouped(cells, (cell) => `${cell.who}\n${familyOf(cell.scene)}`);
+  const families = familyLooks(cells);
+  const lines = grouped(cells, (cell) => `${cell.who}\n${cell.family}`);
   return [...lines.values()].map((line) => {
-    const look = looks[line[0].who];
+    const {who, family} = line[0];
+    const ofFamily = families.get(family);
+    const plain = looks[who];
+    const look = ofFamily ? {...plain, dash: ofFamily.dash, symbol: plain.symbol + (ofFamily.isOpen ? "-open" : "")} : plain;
     const points = line.sort((a, b) => a.triangles - b.triangles);
     const value = (cell, place) => quantity.of(cell.times[stage][place], cell.triangles, unit);
     const middle = points.map((cell) => value(cell, 1));
     const ends = points.map((cell) => [value(cell, 0), value(cell, 2)].sort((a, b) => a - b));
-    const isLine = familyOf(line[0].scene) !== "" && points.length > 1;
-    return scatter(line[0].who, look, points, stage, {
-      mode: isLine ? "lines+markers" : "markers",
+    return scatter(who, look, points, stage, {
+      meta: family,
+      mode: family && points.length > 1 ? "lines+markers" : "markers",
       x: points.map((cell) => cell.triangles),
       y: middle,
       text: points.map((cell) => cell.scene),
-      marker: {size: points.length > 40 ? 4 : 7},
+      marker: {size: points.length > 40 ? 4 : 7, ...(ofFamily && ofFamily.isOpen ? {line: {width: 1.2}} : {})},
       error_y: {
         type: "data",
         symmetric: false,
         thickness: 1,
         width: 2,
-        color: look.colour,
+        color: themed(look).colour,
         visible: points.length <= 40,
         array: ends.map((end, k) => end[1] - middle[k]),
         arrayminus: ends.map((end, k) => middle[k] - end[0]),
@@ -44,6 +52,32 @@ function sizeTraces(cells, stage, quantity, unit, looks) {
       hovertemplate: "%{text}, %{x:,} triangles<br>%{y:.4g}<extra>%{fullData.name}</extra>",
     });
   });
+}
+
+/** Names the meshes along their sizes, in the half of the chart where they have no marks. Meshes of nearly one size share a line. */
+function meshNames(traces) {
+  const marks = traces.flatMap(({x, y, text, meta}) => (meta ? [] : x.map((size, k) => ({size, scene: text[k], y: y[k]}))));
+  const scenes = [...grouped(marks, (mark) => mark.scene).values()].sort((a, b) => a[0].size - b[0].size);
+  if (!scenes.length || scenes.length > MOST_NAMES) {
+    return [];
+  }
+  const all = traces.flatMap((trace) => trace.y).map(Math.log);
+  const middle = (Math.max(...all) + Math.min(...all)) / 2;
+  const sizes = traces.flatMap((trace) => trace.x).map(Math.log10);
+  const near = 0.03 * (Math.max(...sizes) - Math.min(...sizes));
+  const labels = [];
+  for (const group of scenes) {
+    const x = Math.log10(group[0].size);
+    const last = labels[labels.length - 1];
+    const isLow = group.reduce((sum, mark) => sum + Math.log(mark.y), 0) / group.length < middle;
+    if (last && x - last.x < near) {
+      last.text += ", " + group[0].scene;
+    } else {
+      labels.push({x, text: group[0].scene, y: isLow ? 1 : 0, yanchor: isLow ? "top" : "bottom"});
+    }
+  }
+  const font = {size: 11, color: colour("quiet")};
+  return labels.map((label) => ({...label, yref: "paper", textangle: -90, xshift: -12, showarrow: false, font}));
 }
 
 function sizeChart(file) {
@@ -70,12 +104,15 @@ function sizeChart(file) {
       const unit = unitFor(cells.map((cell) => cell.times[stage][1]));
       const quantity = QUANTITIES[key];
       const traces = sizeTraces(cells, stage, quantity, unit, file.looks);
-      const meshes = cells.some((cell) => familyOf(cell.scene) === "");
+      const meshes = cells.some((cell) => cell.family === "");
+      const ofFamily = (family, look) => ({name: family, look, isOf: (trace) => trace.meta === family});
+      const families = [...familyLooks(cells)].map(([family, look]) => ofFamily(family, look));
       return {
         traces,
-        legend: legendOf(cells, file.looks),
+        legend: [...legendOf(cells, file.looks), ...families],
         layout: {
           height: 430,
+          annotations: meshNames(traces),
           xaxis: axis("triangles", cells.map((cell) => cell.triangles), {tickformat: "~s"}),
           yaxis: axis(quantity.axis(unit), traces.flatMap((trace) => trace.y), {tickformat: ",.4~r"}),
         },
@@ -83,6 +120,7 @@ function sizeChart(file) {
           "Medians; bars from the 10th to the 90th percentile." +
             (meshes ? " Points without a line are meshes, each another shape." : ""),
           ...missingNotes(all),
+          ...starNotes(file, all),
         ],
       };
     }
