@@ -37,7 +37,7 @@ def who(cell: Cell) -> str:
     if cell.collider:
         return cell.called
     name = names.variant(cell.builder, dict(cell.options))
-    return f"{name}, refit" if cell.operation == "refit" else name
+    return f"refit of {name}" if cell.operation == "refit" else name
 
 
 def asked(cell: Cell) -> str:

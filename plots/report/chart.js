@@ -54,6 +54,7 @@ class Chart {
     this.plot.style.height = (layout.height || 400) + "px";
     await Plotly.react(this.plot, traces, layoutOf(layout), {
       displaylogo: false,
+      displayModeBar: narrow.matches ? false : "hover",
       responsive: true,
       modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d"],
     });

@@ -11,20 +11,30 @@ const QUANTITIES = {
 };
 
 const DASHES_OF_FAMILIES = ["solid", "dot", "dash", "dashdot"];
-const MOST_NAMES = 12; // of meshes, along the axis
+const MOST_NAMES = 12; // of scenes, along the axis
+const MOST_SCENES = 40; // in the menu
 
-/** Returns how each family of generated scenes looks if there are several: by dash, the first with filled marks. */
-function familyLooks(cells) {
-  const families = [...new Set(cells.map((cell) => cell.family))].filter(Boolean);
+/** Returns a function that names a cell's family: generated scenes of several sizes, drawn as a line. Empty for others. */
+function familiesOf(cells) {
+  const sizes = grouped(cells, (cell) => cell.family);
+  const isLine = (family) => family && new Set(sizes.get(family).map((cell) => cell.triangles)).size > 1;
+  const lines = new Set([...sizes.keys()].filter(isLine));
+  return (cell) => (lines.has(cell.family) ? cell.family : "");
+}
+
+/** Returns how each family looks if there are several: by dash, the first with filled marks. */
+function familyLooks(cells, familyOf) {
+  const families = [...new Set(cells.map(familyOf))].filter(Boolean);
   const look = (k) => ({line: true, dash: DASHES_OF_FAMILIES[k % DASHES_OF_FAMILIES.length], isOpen: k > 0});
   return families.length > 1 ? new Map(families.map((family, k) => [family, look(k)])) : new Map();
 }
 
-function sizeTraces(cells, stage, quantity, unit, looks) {
-  const families = familyLooks(cells);
-  const lines = grouped(cells, (cell) => `${cell.who}\n${cell.family}`);
+function sizeTraces(cells, familyOf, stage, quantity, unit, looks) {
+  const families = familyLooks(cells, familyOf);
+  const lines = grouped(cells, (cell) => `${cell.who}\n${familyOf(cell)}`);
   return [...lines.values()].map((line) => {
-    const {who, family} = line[0];
+    const {who} = line[0];
+    const family = familyOf(line[0]);
     const ofFamily = families.get(family);
     const plain = looks[who];
     const look = ofFamily ? {...plain, dash: ofFamily.dash, symbol: plain.symbol + (ofFamily.isOpen ? "-open" : "")} : plain;
@@ -54,7 +64,7 @@ function sizeTraces(cells, stage, quantity, unit, looks) {
   });
 }
 
-/** Names the meshes along their sizes, in the half of the chart where they have no marks. Meshes of nearly one size share a line. */
+/** Names scenes of one size along the axis, in the half of the chart where they have no marks. Those of nearly one size share a line. */
 function meshNames(traces) {
   const marks = traces.flatMap(({x, y, text, meta}) => (meta ? [] : x.map((size, k) => ({size, scene: text[k], y: y[k]}))));
   const scenes = [...grouped(marks, (mark) => mark.scene).values()].sort((a, b) => a[0].size - b[0].size);
@@ -64,20 +74,21 @@ function meshNames(traces) {
   const all = traces.flatMap((trace) => trace.y).map(Math.log);
   const middle = (Math.max(...all) + Math.min(...all)) / 2;
   const sizes = traces.flatMap((trace) => trace.x).map(Math.log10);
-  const near = 0.03 * (Math.max(...sizes) - Math.min(...sizes));
+  const near = (narrow.matches ? 0.08 : 0.03) * (Math.max(...sizes) - Math.min(...sizes));
   const labels = [];
   for (const group of scenes) {
     const x = Math.log10(group[0].size);
     const last = labels[labels.length - 1];
     const isLow = group.reduce((sum, mark) => sum + Math.log(mark.y), 0) / group.length < middle;
     if (last && x - last.x < near) {
-      last.text += ", " + group[0].scene;
+      last.scenes.push(group[0].scene);
     } else {
-      labels.push({x, text: group[0].scene, y: isLow ? 1 : 0, yanchor: isLow ? "top" : "bottom"});
+      labels.push({x, scenes: [group[0].scene], y: isLow ? 1 : 0, yanchor: isLow ? "top" : "bottom"});
     }
   }
   const font = {size: 11, color: colour("quiet")};
-  return labels.map((label) => ({...label, yref: "paper", textangle: -90, xshift: -12, showarrow: false, font}));
+  const text = ([first, ...others]) => (others.length > 1 ? `${first} and ${others.length} more` : [first, ...others].join(", "));
+  return labels.map(({scenes, ...label}) => ({...label, text: text(scenes), yref: "paper", textangle: -90, xshift: -12, showarrow: false, font}));
 }
 
 function sizeChart(file) {
@@ -90,23 +101,27 @@ function sizeChart(file) {
     return null;
   }
   const stages = [...new Set(experiments.flatMap(([, cells]) => cells.flatMap((cell) => Object.keys(cell.times))))];
+  const familyOf = familiesOf(builds);
+  const placeOf = (cell) => familyOf(cell) || cell.scene;
+  const places = [...new Set(experiments.flatMap(([, cells]) => cells.map(placeOf)))];
   const wanted = stages.length === 2 ? ["whole"] : stages; // a single stage is the whole
   return new Chart(
     "Time against size",
     {
       Experiment: experiments.map(([name]) => name),
       Stage: wanted.map((stage) => [stage, stage === "whole" ? "whole build" : stage]),
+      Scenes: places.length > 1 && places.length <= MOST_SCENES ? [["", "all"], ...places] : [["", places.length > 1 ? "all" : places[0]]],
       Show: Object.entries(QUANTITIES).map(([key, quantity]) => [key, quantity.text]),
     },
-    (experiment, stage, key) => {
-      const all = sizes.get(experiment);
+    (experiment, stage, scene, key) => {
+      const all = sizes.get(experiment).filter((cell) => !scene || placeOf(cell) === scene);
       const cells = all.filter((cell) => cell.times[stage] && cell.times[stage][0] > 0);
       const unit = unitFor(cells.map((cell) => cell.times[stage][1]));
       const quantity = QUANTITIES[key];
-      const traces = sizeTraces(cells, stage, quantity, unit, file.looks);
-      const meshes = cells.some((cell) => cell.family === "");
+      const traces = sizeTraces(cells, familyOf, stage, quantity, unit, file.looks);
+      const points = cells.some((cell) => !familyOf(cell));
       const ofFamily = (family, look) => ({name: family, look, isOf: (trace) => trace.meta === family});
-      const families = [...familyLooks(cells)].map(([family, look]) => ofFamily(family, look));
+      const families = [...familyLooks(cells, familyOf)].map(([family, look]) => ofFamily(family, look));
       return {
         traces,
         legend: [...legendOf(cells, file.looks), ...families],
@@ -118,7 +133,7 @@ function sizeChart(file) {
         },
         notes: [
           "Medians; bars from the 10th to the 90th percentile." +
-            (meshes ? " Points without a line are meshes, each another shape." : ""),
+            (points ? " Points without a line are scenes of one size, each another shape." : ""),
           ...missingNotes(all),
           ...starNotes(file, all),
         ],

@@ -26,7 +26,7 @@ function stagesChart(file, stageLooks) {
   const question = questionOf(file.cells);
   const scenes = grouped(file.cells, question);
   const barsOf = grouped(file.bars, question);
-  const useful = [...scenes].filter(([, cells]) => cells.some((cell) => cell.times.whole));
+  const useful = [...scenes].filter(([, cells]) => cells.some((cell) => cell.times.whole && cell.times.whole[1] > 0));
   if (!useful.length) {
     return null;
   }
@@ -56,13 +56,14 @@ function stagesChart(file, stageLooks) {
       },
       hovertemplate: `%{customdata}<br>%{x:.4g} ${unit[0]}<extra>%{fullData.name}</extra>`,
     }));
+    const isOfLibrary = (bar) => cells.some((cell) => cell.who === bar.who && cell.library);
     const frames = new Set(cells.map((cell) => cell.frame)).size;
     const row = Math.max(ROW, 15 * (Math.max(...labels.map((lines) => lines.length)) + 1) + 6); // all as high as the highest
     return {
       traces,
       legend: there.map((stage) => ({name: stage, look: {...stageLooks[stage], symbol: "square"}})),
       layout: {
-        height: Math.max(240, 80 + row * bars.length),
+        height: Math.max(150, 80 + row * bars.length),
         barmode: "stack",
         xaxis: axis(`time, ${unit[0]}`, null, {range: [0, (1.03 * Math.min(longest, limit)) / unit[1]]}),
         yaxis: {
@@ -84,7 +85,7 @@ function stagesChart(file, stageLooks) {
             xanchor: "left",
             showarrow: false,
             bgcolor: colour("card"),
-            font: {color: colour(bar.said.startsWith("skipped") ? "quiet" : "bad")},
+            font: {color: colour(bar.said.startsWith("skipped") ? "quiet" : isOfLibrary(bar) ? "theirs" : "bad")},
             text: shortened(bar.said, narrow.matches ? 24 : 90),
           })),
       },

@@ -28,7 +28,7 @@ function shown(value, kind) {
     return value.toLocaleString("en", {maximumFractionDigits: 3});
   }
   if (kind === "share") {
-    return typeof value === "string" ? value : (100 * value).toPrecision(3) + " %";
+    return typeof value === "string" ? value : (100 * value).toFixed(1) + " %";
   }
   return typeof value === "number" ? four(value) : value;
 }

@@ -65,7 +65,11 @@ async function show(name, head) {
     part.hidden = part.id !== name;
   });
   document.querySelectorAll("#files a").forEach((link) => {
-    link.toggleAttribute("aria-current", link.getAttribute("href") === "#" + name);
+    const isHere = link.getAttribute("href") === "#" + name;
+    link.toggleAttribute("aria-current", isHere);
+    if (isHere) {
+      link.parentElement.scrollLeft = link.offsetLeft - link.parentElement.offsetLeft - 20;
+    }
   });
   if (name.startsWith("file-")) {
     await makeFile(Number(name.slice(5)), head);
