@@ -117,7 +117,8 @@ def sentence(rankings: list[Ranking], objective: Objective) -> str:
                 f"{objective.has} {objective.text(second.value)}{after}{behind(compared, objective)}.")
     (winner, count), *others = Counter(ranking.entries[0].who for ranking in compared).most_common()
     what = "scenes" if len({ranking.scene for ranking in compared}) == len(compared) else "cases"
-    where = f"all {count} {what}" if not others else f"{count} of {len(compared)} {what}"
+    every = "both" if count == 2 else f"all {count}"
+    where = f"{every} {what}" if not others else f"{count} of {len(compared)} {what}"
     told = "".join(f", {who} on {number}" for who, number in others[:3])
     rest = sum(number for _, number in others[3:])
     text = f"{winner} {objective.is_best} on {where}{told}{f', others on {rest}' if rest else ''}"

@@ -64,16 +64,17 @@ function sizeTraces(cells, familyOf, stage, quantity, unit, looks) {
   });
 }
 
-/** Names scenes of one size along the axis, in the half of the chart where they have no marks. Those of nearly one size share a line. */
+/** Names stand-ins and scenes of one size along the axis, in the half of the chart where they have no marks. Those of nearly one size share a line. */
 function meshNames(traces) {
-  const marks = traces.flatMap(({x, y, text, meta}) => (meta ? [] : x.map((size, k) => ({size, scene: text[k], y: y[k]}))));
+  const all = traces.flatMap(({x, y, text, meta}) => x.map((size, k) => ({size, scene: text[k], y: y[k], family: meta})));
+  const marks = all.filter(({scene, family}) => !family || scene.includes(" *"));
   const scenes = [...grouped(marks, (mark) => mark.scene).values()].sort((a, b) => a[0].size - b[0].size);
   if (!scenes.length || scenes.length > MOST_NAMES) {
     return [];
   }
-  const all = traces.flatMap((trace) => trace.y).map(Math.log);
-  const middle = (Math.max(...all) + Math.min(...all)) / 2;
-  const sizes = traces.flatMap((trace) => trace.x).map(Math.log10);
+  const heights = all.map((mark) => Math.log(mark.y));
+  const middle = (Math.max(...heights) + Math.min(...heights)) / 2;
+  const sizes = all.map((mark) => Math.log10(mark.size));
   const near = (narrow.matches ? 0.08 : 0.03) * (Math.max(...sizes) - Math.min(...sizes));
   const labels = [];
   for (const group of scenes) {
