@@ -59,6 +59,11 @@ class Ranking(NamedTuple):
         """Returns the second value over the first; None without a second, or with a first of 0."""
         return self.entries[1].value / self.entries[0].value if len(self.entries) > 1 and self.entries[0].value > 0 else None
 
+    @property
+    def overlaps(self) -> bool:
+        """True if the second's 10th percentile is not above the first's 90th."""
+        return len(self.entries) > 1 and self.entries[1].low <= self.entries[0].high
+
 
 # Questions of the axes of accuracy.
 AXES = {"narrow": "Which test of two triangles is right, and what does it cost?",
@@ -113,6 +118,7 @@ def sentence(rankings: list[Ranking], objective: Objective) -> str:
     if len(compared) == 1:
         (scene, _, (first, second, *_)), = compared
         after = f", {times(ratios[0])} times {objective.times}" if ratios else ""
+        after += ", within the spread of samples" if objective is TIME and compared[0].overlaps else ""
         return (f"{first.who} {objective.is_best} on {scene}: {objective.text(first.value)}. The next, {second.who}, "
                 f"{objective.has} {objective.text(second.value)}{after}{behind(compared, objective)}.")
     (winner, count), *others = Counter(ranking.entries[0].who for ranking in compared).most_common()
@@ -123,6 +129,8 @@ def sentence(rankings: list[Ranking], objective: Objective) -> str:
     rest = sum(number for _, number in others[3:])
     text = f"{winner} {objective.is_best} on {where}{told}{f', others on {rest}' if rest else ''}"
     after = f"; the next {objective.has} {span(ratios)} times {objective.times}" if ratios else ""
+    close = sum(ranking.overlaps for ranking in compared) if objective is TIME else 0
+    after += f", on {close} within the spread of samples" if close else ""
     return f"{text}{after}{behind(compared, objective)}."
 
 
@@ -170,7 +178,7 @@ def verdicts(cells: list[Cell]) -> str:
 
 def rightness(cells: list[Cell]) -> str:
     counts = {who: (sum(map(is_right, own)), len(own)) for who, own in grouped(cells, report_cells.who).items()}
-    told = [f"{who} on {'all ' if right == most else f'{right} of '}{counted(most, 'scene')}"
+    told = [f"{who} on {'all ' if right == most > 1 else f'{right} of '}{counted(most, 'scene')}"
             for who, (right, most) in sorted(counts.items(), key=lambda one: -one[1][0])]
     return f"Right: {', '.join(told)}. Of those that are right:"
 
@@ -191,7 +199,7 @@ def findings_of(cells: list[Cell]) -> list[dict[str, Any]]:
 
 def row(ranking: Ranking, objective: Objective) -> list[Any]:
     first, *others = ranking.entries
-    spreads = ("apart" if others[0].low > first.high else "overlap") if others and objective is TIME else None
+    spreads = ("overlap" if ranking.overlaps else "apart") if others and objective is TIME else None
     return [ranking.scene, ranking.asked, first.who, first.value / 1e3 if objective is TIME else None,
             None if objective is TIME else first.value, others[0].who if others else None, ranking.ratio, spreads, first.place]
 
