@@ -12,7 +12,6 @@ from matplotlib.patches import Patch
 import figure
 import pipelines
 import results
-import stages
 import style
 
 # Each experiment, and what a frame of it includes.
@@ -21,26 +20,20 @@ EXPERIMENTS = {
     "pairs": "A frame is all from vertices to pairs of overlapping boxes, in one set of triangles.",
     "libraries": "A frame is all from moved vertices to exact contacts; FCL finds them in its broad phase.",
 }
-# The parts of a bar: the stages of one colour.
-PARTS = results.grouped(stages.OF_FRAMES, lambda stage: stages.STAGES[stage].colour)
+# The paper's name of each part of a frame, the stages that it is made of here, and its colour.
+PARTS = (("boxes", ("near", "bounds"), "#999999"), ("MC eval", ("codes",), "#56B4E9"),
+         ("MC sort", ("sort", "order"), "#0072B2"), ("build", ("gather", "hierarchy", "refit", "ropes"), "#009E73"),
+         ("broad phase", ("broad", "copy"), "#E69F00"), ("narrow phase", ("narrow",), "#D55E00"))
+BETWEEN = ("between stages", "#DDDDDD")
 MOST = 12  # longest bar drawn, in multiples of the scene's shortest bar
 IN_ONE_COLUMN = 3  # panels; more are drawn in two columns if all have the same pipelines
 
 
-def parts_of(pipeline: pipelines.Pipeline) -> list[tuple[str, float]]:
-    """Returns colour and milliseconds of each part. Together with the time between stages they make up the whole frame."""
-    parts = [(colour, sum(pipeline.stage_ms(stage) for stage in those)) for colour, those in PARTS.items()]
-    between = float(pipeline.frame_ms().mean()) - sum(width for _, width in parts)
-    return [part for part in (*parts, (stages.BETWEEN_COLOUR, between)) if part[1] > 0]
-
-
-def legend_of(shown: list[pipelines.Pipeline]) -> list[Patch]:
-    """Returns an entry for each colour that is drawn, with the names of its stages."""
-    there = {stage for pipeline in shown for cell in pipeline.cells for stage in cell.samples[0]}
-    drawn = {colour for pipeline in shown for colour, _ in parts_of(pipeline)}
-    names = {colour: ", ".join(stage for stage in those if stage in there) for colour, those in PARTS.items()}
-    return [Patch(facecolor=colour, label=name)
-            for colour, name in (names | {stages.BETWEEN_COLOUR: stages.BETWEEN}).items() if colour in drawn]
+def parts_of(pipeline: pipelines.Pipeline) -> list[tuple[str, str, float]]:
+    """Returns name, colour and milliseconds of each part. Together with the time between stages they make up the whole frame."""
+    parts = [(name, colour, sum(pipeline.stage_ms(stage) for stage in stages)) for name, stages, colour in PARTS]
+    between = float(pipeline.frame_ms().mean()) - sum(width for _, _, width in parts)
+    return [part for part in (*parts, (*BETWEEN, between)) if part[2] > 0]
 
 
 def draw_scene(axes: plt.Axes, shown: list[pipelines.Pipeline]) -> bool:
@@ -50,7 +43,7 @@ def draw_scene(axes: plt.Axes, shown: list[pipelines.Pipeline]) -> bool:
     end = max(min(whole, limit) for whole in wholes)
     for row, (pipeline, whole) in enumerate(zip(shown, wholes)):
         left, scale = 0.0, min(1.0, limit / whole)
-        for colour, width in parts_of(pipeline):
+        for _, colour, width in parts_of(pipeline):
             axes.barh(row, scale * width, 0.72, left=left, color=colour, linewidth=0)
             left += scale * width
         if whole > limit:
@@ -88,7 +81,10 @@ def draw(run: results.Run, experiment: str, remarks: tuple[str, ...] = ()) -> pl
             axes.set_yticklabels([])
         if place // columns == (len(panels) - 1) // columns:
             axes.set_xlabel("milliseconds a frame")
-    height = figure.legend_above(drawing, legend_of([pipeline for one in shown for pipeline in one]))
+    there = {name for one in shown for pipeline in one for name, _, _ in parts_of(pipeline)}
+    named = [(name, colour) for name, _, colour in PARTS] + [BETWEEN]
+    handles = [Patch(facecolor=colour, label=name) for name, colour in named if name in there]
+    height = figure.legend_above(drawing, handles)
     lines = (*remarks, "Means over frames: of their medians at the end of a bar, of their stages' medians in it. "
              "Each scene has a scale of its own.", *pipelines.remarks(scenes))
     if any(shortened):

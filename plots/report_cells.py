@@ -10,10 +10,10 @@ import names
 import pareto
 import tables
 from cells import Cell, by_stage, grouped, quantiles, whole_ns
-from stages import BETWEEN
 
 WITHOUT_TIMES = ("differs", "skipped", "failed")
 WHOLE = "whole"
+BETWEEN = "between stages"
 MEDIAN = 1  # index of the median among quantiles
 QUESTION = ("experiment", "axis", "scene", "asked")
 # Counters that tell how good a tree is, and their names on the page.

@@ -7,9 +7,10 @@ from collections.abc import Callable
 from typing import Any
 
 from cells import grouped, median
-from report_cells import MEDIAN, STAR, WHOLE, WITHOUT_TIMES
-from stages import STAGES
+from report_cells import BETWEEN, MEDIAN, STAR, WHOLE, WITHOUT_TIMES
+from report_looks import stage_looks
 
+STAGES = [stage for stage in stage_looks() if stage != BETWEEN]
 UNITS = (("ns", 1.0), ("µs", 1e3), ("ms", 1e6), ("s", 1e9))
 Cells = list[tuple[int, dict[str, Any]]]  # places in the file and the cells' data
 Value = Callable[[dict[str, Any]], Any]

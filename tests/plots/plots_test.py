@@ -179,11 +179,11 @@ class Frames(InFolder):
         sample = schema["$defs"]["cell"]["properties"]["samples"]["items"]["properties"]
         stages = sample["stages"]["items"]["properties"]["stage"]["enum"]
         of_frames = set(stages) - {"sum"}  # which is on an axis of accuracy
-        self.assertEqual(sorted(stage for those in frames.PARTS.values() for stage in those), sorted(of_frames))
+        self.assertEqual(sorted(stage for _, those, _ in frames.PARTS for stage in those), sorted(of_frames))
         for name in ("table2", "libraries", "rebuild"):
             for shown in pipelines.of(results.load(GOLDEN / f"{name}.json"), name).values():
                 for one in shown:
-                    parts = sum(width for _, width in frames.parts_of(one))
+                    parts = sum(width for _, _, width in frames.parts_of(one))
                     self.assertAlmostEqual(parts, one.frame_ms().mean(), places=9)
 
     def test_pipelines_of_one_scene_are_told_apart(self) -> None:
