@@ -41,9 +41,11 @@ def who(cell: Cell) -> str:
 
 
 def asked(cell: Cell) -> str:
-    """Returns what a frame's query was asked for. Cells that were asked for different things must not be compared."""
+    """Returns what a frame's query was asked for, and whether caches were emptied. Cells that were asked for different things must
+    not be compared."""
+    cold = ["caches emptied before each sample"] if cell.raw.get("sampling", {}).get("caches") == "cold" else []
     if not cell.collider or cell.accuracy:
-        return ""
+        return ", ".join(cold)
     options = dict(cell.collider_options)
     words = [f"pairs {options['pairs_of']} objects" if options.get("pairs_of", "all") != "all" else "all pairs"]
     if cell.swept:
@@ -53,7 +55,7 @@ def asked(cell: Cell) -> str:
     narrow = "exact" if cell.collider in FINDS_CONTACTS else options.get("narrow", "none")
     if narrow != "none":
         words.append(f"contacts ({narrow})")
-    return ", ".join(words)
+    return ", ".join(words + cold)
 
 
 def scene_name(cell: Cell) -> str:

@@ -31,7 +31,7 @@ function familyLooks(cells, familyOf) {
 
 function sizeTraces(cells, familyOf, stage, quantity, unit, looks) {
   const families = familyLooks(cells, familyOf);
-  const lines = grouped(cells, (cell) => `${cell.who}\n${familyOf(cell)}`);
+  const lines = grouped(cells, (cell) => [cell.who, familyOf(cell), cell.asked].join("\n"));
   return [...lines.values()].map((line) => {
     const {who} = line[0];
     const family = familyOf(line[0]);
@@ -59,7 +59,7 @@ function sizeTraces(cells, familyOf, stage, quantity, unit, looks) {
         array: ends.map((end, k) => end[1] - middle[k]),
         arrayminus: ends.map((end, k) => middle[k] - end[0]),
       },
-      hovertemplate: "%{text}, %{x:,} triangles<br>%{y:.4g}<extra>%{fullData.name}</extra>",
+      hovertemplate: `%{text}, %{x:,} triangles<br>%{y:.4g}${line[0].asked && "<br>" + line[0].asked}<extra>%{fullData.name}</extra>`,
     });
   });
 }

@@ -169,8 +169,21 @@ class OfTheReport(unittest.TestCase):
         made = [{**cell(builder, ns), "scene": {"name": "cloth", "triangles": 8, "frame": frame}}
                 for builder, times in (("karras", (100000, 500000)), ("perfect", (200000, 300000)), ("apetrei", (1000,)))
                 for frame, ns in enumerate(times)]
+        answer = "perfect is soonest on cloth: 250 µs. The next, karras, takes 300 µs"
+        self.assertTrue(answer_of(*made).startswith(answer))
         made[-1] |= {"status": "failed", "reason": "why", "samples": []}
-        self.assertTrue(answer_of(*made).startswith("perfect is soonest on cloth: 250 µs. The next, karras, takes 300 µs"))
+        self.assertTrue(answer_of(*made).startswith(answer))
+
+    def test_cells_with_and_without_cold_caches_are_not_compared(self) -> None:
+        made = [cell("karras", 100000), {**cell("karras", 900000), "sampling": {"caches": "cold"}}]
+        self.assertEqual([row[3] for row in data_of(*made)["findings"][0]["rows"]], [100, 900])
+
+    def test_a_narrow_phase_is_judged_before_it_is_ranked(self) -> None:
+        made = [narrow("guigue-f64", 10, 1000), narrow("guigue-f32", 10, 250, missed=2), narrow("moller-f32", 10, 3000)]
+        self.assertEqual(answer_of(*made), "Right: guigue-f64 on 1 of 1 scene, moller-f32 on 1 of 1 scene, guigue-f32 on 0 of 1 scene. Of "
+                         "those that are right: guigue-f64 is soonest on slivers: 1.00 µs. The next, moller-f32, takes 3.00 µs, 3.00 "
+                         "times as long.")
+        self.assertEqual(answer_of(made[1]), "Right: guigue-f32 on 0 of 1 scene.")
 
 
 class OfTable1(unittest.TestCase):
