@@ -26,6 +26,9 @@ import results
 from cells import Cell
 
 
+OF_A_FILE = ("cells", "bars", "looks", "tables", "findings")  # what the overview does not need of a file's data
+
+
 def file_data(path: pathlib.Path, document: dict[str, Any], all_cells: list[Cell]) -> dict[str, Any]:
     run, reader = document["run"], results.Run(path, document)
     cells = [report_cells.cell_data(cell, reader.copy_rate_of(cell)) for cell in all_cells]
@@ -77,11 +80,11 @@ def make(files: list[pathlib.Path], views: list[pathlib.Path]) -> tuple[str, boo
         except (ArithmeticError, ValueError) as error:
             raise results.Refused(f"{path}: no page can be made of its numbers: {error}") from error
         is_wrong |= "differs" in data["states"]
-        summary.append({key: value for key, value in data.items() if key not in ("cells", "bars", "looks", "tables", "findings")}
+        summary.append({key: value for key, value in data.items() if key not in OF_A_FILE}
                        | {"count": len(data["cells"]) or len(document.get("stress", []))})
         found.append((title, data["findings"]))
-        sections.append(report_page.section(number, title, report_facts.sentence_of(document), report_facts.warnings_of(document),
-                                            report_facts.facts_of(document), data["findings"]))
+        sections.append(report_page.section(number, title, report_facts.sentence_of(document),
+                                            report_facts.warnings_of(document), report_facts.facts_of(document), data["findings"]))
         blobs.append(report_page.json_blob(f"samples-{number}", [report_cells.samples_data(cell) for cell in cells]))
     shown = []
     for number, path in enumerate(views):
@@ -93,7 +96,8 @@ def make(files: list[pathlib.Path], views: list[pathlib.Path]) -> tuple[str, boo
             "best": report_findings.best_table(found)}
     title = "bvhbench report" + (f": {', '.join(titles_of(files)[:4])}" if files else "")
     title += f" and {len(files) - 4} more" if len(files) > 4 else ""
-    return report_page.page(title, report_page.findings(found), sections, [report_page.json_blob("head", head), *blobs], bool(shown)), is_wrong
+    blobs.insert(0, report_page.json_blob("head", head))
+    return report_page.page(title, report_page.findings(found), sections, blobs, bool(shown)), is_wrong
 
 
 def write(files: list[pathlib.Path], views: list[pathlib.Path], out: pathlib.Path, force: bool) -> int:

@@ -41,8 +41,8 @@ def who(cell: Cell) -> str:
 
 
 def asked(cell: Cell) -> str:
-    """Returns what a frame's query was asked for, and whether caches were emptied. Cells that were asked for different things must
-    not be compared."""
+    """Returns what a frame's query was asked for, and whether caches were emptied. Cells that were asked for different things
+    must not be compared."""
     cold = ["caches emptied before each sample"] if cell.raw.get("sampling", {}).get("caches") == "cold" else []
     if not cell.collider or cell.accuracy:
         return ", ".join(cold)

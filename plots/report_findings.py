@@ -39,7 +39,8 @@ def verdicts(cells: list[Cell]) -> str:
     agreeing = sum(count for (_, state), count in found.items() if state == "agrees")
     told = []
     if agreeing and not cells[0].accuracy:  # of methods, that they err is no fault
-        told.append(f"{'all ' if agreeing == len(cells) > 1 else ''}{counted(agreeing, 'answer')} {'is' if agreeing == 1 else 'are'} right")
+        every = "all " if agreeing == len(cells) > 1 else ""
+        told.append(f"{every}{counted(agreeing, 'answer')} {'is' if agreeing == 1 else 'are'} right")
     said = {"differs": "gave a wrong answer", "failed": "failed", "skipped": "skipped"}
     told += [f"{counted(count, 'cell')}{f' of {library}' if library else ''} {said[state]}"
              for (library, state), count in found.items() if state in said]
@@ -77,8 +78,9 @@ def row(ranking: Ranking, objective: Objective) -> list[Any]:
             None if objective is TIME else first.value, others[0].who if others else None, ranking.ratio, spreads, first.place]
 
 
-COLUMNS = (("file", "text"), ("experiment", "text"), ("scene", "text"), ("asked for", "text"), ("best", "text"), ("time", "time"),
-           ("cost or error", "number"), ("next", "text"), ("ratio", "number"), ("p10 to p90", "text"))
+COLUMNS = (("file", "text"), ("experiment", "text"), ("scene", "text"), ("asked for", "text"), ("best", "text"),
+           ("time", "time"), ("cost or error", "number"), ("next", "text"), ("ratio", "number"), ("p10 to p90", "text"))
+FACETS = ("file", "experiment", "best", "next")
 
 
 def best_table(files: list[tuple[str, list[dict[str, Any]]]]) -> dict[str, Any] | None:
@@ -96,9 +98,9 @@ def best_table(files: list[tuple[str, list[dict[str, Any]]]]) -> dict[str, Any] 
     kept = [k for k, _ in enumerate(COLUMNS) if is_needed.get(k, True) and any(row[k] not in (None, "") for row in rows)]
     more = {"file": {"links": names}, "time": {"links": links, "unit": "µs"}}
     starred = any(row[2] and " *" in row[2] for row in rows)
-    note = ("Time: the lowest, a mean over frames of medians. Ratio: the next over it. Last: whether their 10th to 90th percentiles overlap. "
-            "What was wrong, or lacks a frame, has no place.")
+    note = ("Time: the lowest, a mean over frames of medians. Ratio: the next over it. Last: whether their 10th to 90th "
+            "percentiles overlap. What was wrong, or lacks a frame, has no place.")
     return {"title": "The best of each scene", "cells": None, "note": note + (f" {report_cells.STAR}." if starred else ""),
             "rows": [[row[k] for k in kept] for row in rows],
-            "columns": [{"label": label, "kind": kind, "facet": label in ("file", "experiment", "best", "next"), **more.get(label, {})}
+            "columns": [{"label": label, "kind": kind, "facet": label in FACETS, **more.get(label, {})}
                         for k, (label, kind) in enumerate(COLUMNS) if k in kept]}

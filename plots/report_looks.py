@@ -53,7 +53,8 @@ def looks_of(cells: list[dict[str, Any]]) -> dict[str, dict[str, str]]:
 
 
 def stage_looks() -> dict[str, dict[str, str]]:
-    """Returns the colours of frames.py, by the words of `show`. Of stages that share a colour, all but the main one are hatched."""
+    """Returns the colours of frames.py, by the words of `show`. Of stages that share a colour, all but the main one are
+    hatched."""
     looks = {stage: {"colour": colour, "pattern": HATCHED.get(stage, "")}
              for *_, stages, colour in frames.PARTS for stage in stages}
     return looks | {BETWEEN: {"colour": "#DDDDDD", "pattern": ""}, "sum": {"colour": "#CC79A7", "pattern": ""}}

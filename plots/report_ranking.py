@@ -1,5 +1,5 @@
-"""Ranks builders or pipelines for a report: the lowest mean over frames of median times, or another objective where an experiment asks
-about something else. `ranked` and `sentence` are all that the report asks for."""
+"""Ranks builders or pipelines for a report: the lowest mean over frames of median times, or another objective where an
+experiment asks about something else. `ranked` and `sentence` are all that the report asks for."""
 from collections import Counter
 from collections.abc import Callable
 from typing import NamedTuple
@@ -24,8 +24,8 @@ def of_counter(name: str) -> Callable[[Cell], tuple[float, float, float]]:
     return lambda cell: (cell.counters[name],) * 3
 
 
-TIME = Objective(lambda cell: tuple(report_cells.times_of(cell)[report_cells.WHOLE]), lambda ns: duration(ns).replace("us", "µs"),
-                 "is soonest", "takes", "as long")
+TIME = Objective(lambda cell: tuple(report_cells.times_of(cell)[report_cells.WHOLE]),
+                 lambda ns: duration(ns).replace("us", "µs"), "is soonest", "takes", "as long")
 COST = Objective(of_counter("sah_cost"), "{:.4g}".format, "has the lowest surface area cost", "costs", "as much")
 ERROR = Objective(of_counter("relative_error"), "{:.2g}".format, "errs least", "errs by", "as much")
 
@@ -77,8 +77,11 @@ def entry(who: str, placed: list[tuple[int, Cell]], objective: Objective) -> Ent
 
 def ranked(placed: list[tuple[int, Cell]], objective: Objective) -> list[Ranking]:
     """Ranks the cells, each with its place in the file, of one experiment or axis: once for each scene and request."""
+    def question(one: tuple[int, Cell]) -> tuple[str, str]:
+        return report_cells.scene_name(one[1]), report_cells.asked(one[1])
+
     rankings = []
-    for (scene, asked), group in grouped(placed, lambda one: (report_cells.scene_name(one[1]), report_cells.asked(one[1]))).items():
+    for (scene, asked), group in grouped(placed, question).items():
         frames = {cell.frame for _, cell in group}
         entries = [entry(who, own, objective) for who, own in grouped(group, lambda one: report_cells.who(one[1])).items()
                    if {cell.frame for _, cell in own} == frames]

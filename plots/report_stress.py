@@ -1,5 +1,5 @@
-"""What `stress` found, for the page: a sentence, and tables of systems, of what broke, and of everything. What a library got wrong
-is named and counted apart from what is ours."""
+"""What `stress` found, for the page: a sentence, and tables of systems, of what broke, and of everything. What a library got
+wrong is named and counted apart from what is ours."""
 from collections import Counter
 from collections.abc import Callable
 from typing import Any
@@ -9,6 +9,7 @@ from console import stress as words
 from tables import counted
 
 FINDINGS = ("ends", "leaves", "boxes", "layout", "pairs", "contacts", "agree", "moved", "room", "same")
+FACETS = ("family", "whose", "kind", "invariant")
 QUESTION = "Which trees, pairs and contacts are right on hostile scenes?"
 Found = dict[str, Any]  # a cell of `stress`, as in the result file
 
@@ -23,7 +24,8 @@ def finding_of(stress: list[Found]) -> dict[str, Any]:
         return sum(verdict in verdicts(cell) for cell in cells)
 
     ours = [cell for cell in stress if not cell.get("library")]
-    said = [f"Ours: {count(ours, 'broken') or 'none'} of {counted(len(ours), 'cell')} broken, {count(ours, 'refused') or 'none'} refused."]
+    broken, refused = (count(ours, verdict) or "none" for verdict in ("broken", "refused"))
+    said = [f"Ours: {broken} of {counted(len(ours), 'cell')} broken, {refused} refused."]
     for library, cells in grouped((cell for cell in stress if cell.get("library")), lambda cell: cell["library"]).items():
         said.append(f"{library}: {count(cells, 'broken'):,} of {counted(len(cells), 'cell')} broken.")
     return {"experiment": "stress", "question": QUESTION, "answer": " ".join(said), "rows": []}
@@ -35,7 +37,7 @@ def states_of(stress: list[Found]) -> Counter[tuple[str | None, str]]:
 
 
 def shown(name: str, finding: Found | None) -> str | None:
-    """Returns the verdict on an invariant, with what was missed and false of pairs and contacts, or the number that was wrong."""
+    """Returns the verdict on an invariant, with what was missed and false of pairs and contacts, or how much was wrong."""
     if finding is None or finding["verdict"] != "broken":
         return finding and finding["verdict"]
     wrong, missed = finding["wrong"], finding["missed"]
@@ -61,15 +63,16 @@ def cells_table(stress: list[Found]) -> dict[str, Any]:
              *(shown(name, cell["findings"].get(name)) for name in there),
              "; ".join(f"{name}: {finding['detail']}" for name, finding in cell["findings"].items() if finding.get("detail"))
              or None] for cell in stress]
-    return table("Stress", rows, [("family", "text"), ("scene", "text"), ("system", "text"), ("whose", "text"), ("kind", "text"),
-                                  *((name, "state") for name in there), ("detail", "text")], stress) | {"folded": True}
+    columns = [*((label, "text") for label in ("family", "scene", "system", "whose", "kind")),
+               *((name, "state") for name in there), ("detail", "text")]
+    return table("Stress", rows, columns, stress) | {"folded": True}
 
 
 def table(title: str, rows: list[list[Any]], columns: list[tuple[str, str]], cells: list[Found]) -> dict[str, Any]:
     """Returns a table; `cells` tell which rows are a library's."""
     return {"title": title, "cells": None, "note": "", "rows": rows,
             "libraries": [place for place, cell in enumerate(cells) if cell.get("library")],
-            "columns": [{"label": label, "kind": kind, "facet": label in ("family", "whose", "kind", "invariant")} for label, kind in columns]}
+            "columns": [{"label": label, "kind": kind, "facet": label in FACETS} for label, kind in columns]}
 
 
 def systems_table(stress: list[Found]) -> dict[str, Any]:

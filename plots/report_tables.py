@@ -47,7 +47,8 @@ class Table:
             self.add(name.removesuffix("_count").replace("_", " "), kind, lambda data, name=name: data["counters"].get(name))
 
     def data(self) -> dict[str, Any]:
-        return {"title": self.title, "note": noted(self.note, self.cells), "libraries": of_libraries(self.cells), "columns": [column for column, _ in self.columns],
+        return {"title": self.title, "note": noted(self.note, self.cells), "libraries": of_libraries(self.cells),
+                "columns": [column for column, _ in self.columns],
                 "cells": [place for place, _ in self.cells],
                 "rows": [list(row) for row in zip(*(values for _, values in self.columns))]}
 

@@ -33,7 +33,7 @@ function sizeTraces(cells, familyOf, stage, quantity, unit, looks) {
   const families = familyLooks(cells, familyOf);
   const lines = grouped(cells, (cell) => [cell.who, familyOf(cell), cell.asked].join("\n"));
   return [...lines.values()].map((line) => {
-    const {who} = line[0];
+    const {who, asked} = line[0];
     const family = familyOf(line[0]);
     const ofFamily = families.get(family);
     const plain = looks[who];
@@ -59,12 +59,15 @@ function sizeTraces(cells, familyOf, stage, quantity, unit, looks) {
         array: ends.map((end, k) => end[1] - middle[k]),
         arrayminus: ends.map((end, k) => middle[k] - end[0]),
       },
-      hovertemplate: `%{text}, %{x:,} triangles<br>%{y:.4g}${line[0].asked && "<br>" + line[0].asked}<extra>%{fullData.name}</extra>`,
+      hovertemplate: `%{text}, %{x:,} triangles<br>%{y:.4g}${asked && "<br>" + asked}<extra>%{fullData.name}</extra>`,
     });
   });
 }
 
-/** Names stand-ins and scenes of one size along the axis, in the half of the chart where they have no marks. Those of nearly one size share a line. */
+/**
+ * Names stand-ins and scenes of one size along the axis, in the half of the chart where they have no marks. Those of nearly one
+ * size share a line.
+ */
 function meshNames(traces) {
   const all = traces.flatMap(({x, y, text, meta}) => x.map((size, k) => ({size, scene: text[k], y: y[k], family: meta})));
   const marks = all.filter(({scene, family}) => !family || scene.includes(" *"));
@@ -88,8 +91,15 @@ function meshNames(traces) {
     }
   }
   const font = {size: 11, color: colour("quiet")};
-  const text = ([first, ...others]) => (others.length > 1 ? `${first} and ${others.length} more` : [first, ...others].join(", "));
-  return labels.map(({scenes, ...label}) => ({...label, text: text(scenes), yref: "paper", textangle: -90, xshift: -12, showarrow: false, font}));
+  const text = (names) => (names.length > 2 ? `${names[0]} and ${names.length - 1} more` : names.join(", "));
+  const how = {yref: "paper", textangle: -90, xshift: -12, showarrow: false, font};
+  return labels.map(({scenes: names, ...label}) => ({...label, text: text(names), ...how}));
+}
+
+/** Returns the options of a menu of scenes: a single one, all and each, or with too many only all. */
+function menuOf(places) {
+  const each = places.length <= MOST_SCENES ? places : [];
+  return places.length === 1 ? [["", places[0]]] : [["", "all"], ...each];
 }
 
 function sizeChart(file) {
@@ -111,7 +121,7 @@ function sizeChart(file) {
     {
       Experiment: experiments.map(([name]) => name),
       Stage: wanted.map((stage) => [stage, stage === "whole" ? "whole build" : stage]),
-      Scenes: places.length > 1 && places.length <= MOST_SCENES ? [["", "all"], ...places] : [["", places.length > 1 ? "all" : places[0]]],
+      Scenes: menuOf(places),
       Show: Object.entries(QUANTITIES).map(([key, quantity]) => [key, quantity.text]),
     },
     (experiment, stage, scene, key) => {

@@ -1,5 +1,5 @@
-"""Tests that the overview answers each experiment's question, that stand-ins, skips and libraries are told apart from the rest, and
-that the page is dark where the reader wants it so."""
+"""Tests that the overview answers each experiment's question, that stand-ins, skips and libraries are told apart from the rest,
+and that the page is dark where the reader wants it so."""
 import json
 from collections import Counter
 
@@ -20,16 +20,19 @@ class Findings(Page):
         self.browser.open(self.report.page, "#overview")
         heads = self.browser.run("return [...document.querySelectorAll('#overview h3')].map((head) => head.textContent);")
         self.assertEqual(heads, ["What was found", "The best of each scene", "What was run on what"])
-        found = self.browser.run("""const texts = (one) => ["h4", ".question", ".answer"].map((part) => one.querySelector(part)?.textContent);
+        found = self.browser.run("""const parts = ["h4", ".question", ".answer"];
+            const texts = (one) => parts.map((part) => one.querySelector(part)?.textContent);
             return [...document.querySelectorAll("#overview .finding")].map(texts);""")
         question = json.loads((ROOT / "harness" / "experiments" / "table1.json").read_text(encoding="utf-8"))["question"]
         self.assertEqual(found[0][:2], ["table1", question])
         winners = Counter(min(cells, key=lambda cell: cell.median_ns()).builder for cells in self.scenes_of_table1().values())
         (first, most), (second, other) = winners.most_common()
-        self.assertTrue(found[0][2].startswith(f"{first} is soonest on {most} of {most + other} scenes, {second} on {other};"), found[0])
+        begin = f"{first} is soonest on {most} of {most + other} scenes, {second} on {other};"
+        self.assertTrue(found[0][2].startswith(begin), found[0])
         self.assertTrue(found[0][2].endswith(" 44 answers are right; 1 cell skipped."), found[0])
         stress = next(answer for head, _, answer in found if head == "stress")
-        self.assertEqual(stress, "Ours: none of 9 cells broken, none refused. Embree: 4 of 7 cells broken. FCL: 8 of 8 cells broken.")
+        self.assertEqual(stress, "Ours: none of 9 cells broken, none refused. Embree: 4 of 7 cells broken. "
+                                 "FCL: 8 of 8 cells broken.")
 
     def scenes_of_table1(self) -> dict[str, list[results.Cell]]:
         return results.grouped(results.load(GOLDEN / "table1.json").cells, lambda cell: cell.scene)
@@ -41,7 +44,8 @@ class Findings(Page):
         for row, cells in zip(rows, self.scenes_of_table1().values(), strict=True):
             first, second = sorted(cells, key=lambda cell: cell.median_ns())[:2]
             self.assertEqual((row["scene"], row["best"], row["next"]), (called(first), first.builder, second.builder))
-            self.assertAlmostEqual(float(row["time"].replace(",", "")), first.median_ns() / 1e3, delta=1e-3 * first.median_ns() / 1e3)
+            us = first.median_ns() / 1e3
+            self.assertAlmostEqual(float(row["time"].replace(",", "")), us, delta=1e-3 * us)
             self.assertAlmostEqual(float(row["ratio"]), second.median_ns() / first.median_ns(), delta=1e-3)
         links = self.table(title, "return titled.querySelector('tbody').rows[0].querySelectorAll('a').length;")
         self.assertEqual(links, 2)  # to the file and to the samples
@@ -74,7 +78,7 @@ class Findings(Page):
             self.assertEqual((dash == "solid", symbol.endswith("-open")), (family == "torus", family == "soup"))
         self.chart("Time against size", """[...chart.querySelectorAll(".legend button")].find(
             (button) => button.textContent === "soup").click();""")
-        hidden = {family for _, family, _, _, visible in self.chart("Time against size", looks) if visible != True}  # noqa: E712
+        hidden = {family for _, family, *_, visible in self.chart("Time against size", looks) if visible == "legendonly"}
         self.assertEqual(hidden, {"soup"})
         self.choose("Time against size", "Scenes", "soup")
         self.assertEqual({family for _, family, *_ in self.chart("Time against size", looks)}, {"soup"})
@@ -92,7 +96,8 @@ class Findings(Page):
         self.show("faulty")
         style = """return Object.fromEntries([...titled.querySelectorAll("tbody tr")].map((row) => {
             const badge = row.querySelector(".state");
-            return [badge.textContent, [getComputedStyle(row.children[1]).backgroundColor, getComputedStyle(badge).backgroundColor]];}));"""
+            const back = (one) => getComputedStyle(one).backgroundColor;
+            return [badge.textContent, [back(row.children[1]), back(badge)]];}));"""
         seen = self.table("Builds", style)
         self.assertEqual(seen["skipped"], seen["agrees"])
         self.assertEqual(seen["failed"], seen["differs"])
@@ -104,9 +109,10 @@ class Findings(Page):
         rows = {row[0]: row[3] for row in self.rows("What was run on what")}
         self.assertEqual(rows["stress"], "12 broken, all of libraries: FCL 8, Embree 4")
         self.show("stress")
-        tally = self.browser.run("return document.querySelector('section:not([hidden]) .verdicts').innerText.replace(/\\s+/g, ' ');")
-        self.assertEqual(tally, "holds 18 refused 3 broken 12, all of libraries: FCL 8, Embree 4")
-        classes = self.browser.run("return [...document.querySelectorAll('section:not([hidden]) .state-broken')].map((one) => one.className);")
+        tally = self.browser.run("return document.querySelector('section:not([hidden]) .verdicts').innerText;")
+        self.assertEqual(" ".join(tally.split()), "holds 18 refused 3 broken 12, all of libraries: FCL 8, Embree 4")
+        classes = self.browser.run("""const shown = document.querySelectorAll("section:not([hidden]) .state-broken");
+            return [...shown].map((one) => one.className);""")
         self.assertTrue(all("of-library" in one for one in classes))
         bad = self.rows("Broken or refused")
         findings = [finding for cell in golden("stress")["stress"] for finding in cell["findings"].values()]
@@ -117,15 +123,16 @@ class Findings(Page):
         self.show("table1")
         colours = """return [drawing.layout.paper_bgcolor, getComputedStyle(chart).backgroundColor, drawing.layout.font.color,
             drawing.data.map((trace) => trace.marker.color)];"""
+        paper = "document.querySelector('section:not([hidden]) .drawing').layout.paper_bgcolor"
         light = self.chart("Time against size", colours)
         emulate = self.browser.driver.execute_cdp_cmd
         emulate("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme", "value": "dark"}]})
         try:
-            self.browser.wait_for("document.querySelector('section:not([hidden]) .drawing').layout.paper_bgcolor !== arguments[0]", light[0])
+            self.browser.wait_for(f"{paper} !== '#ffffff'")
             dark = self.chart("Time against size", colours)
         finally:
             emulate("Emulation.setEmulatedMedia", {"features": []})
         self.assertTrue(all(one != other for one, other in zip(light, dark)))
         self.assertEqual((light[0], dark[0]), ("#ffffff", "#1f2327"))
         self.assertEqual((light[1], dark[1]), ("rgb(255, 255, 255)", "rgb(31, 35, 39)"))
-        self.browser.wait_for("document.querySelector('section:not([hidden]) .drawing').layout.paper_bgcolor === '#ffffff'")
+        self.browser.wait_for(f"{paper} === '#ffffff'")

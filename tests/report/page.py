@@ -26,8 +26,8 @@ DETAIL = "=7 is not its children's box"  # begins like a formula
 
 
 def with_faults(document: dict) -> dict:
-    """Makes one cell wrong and one failed; one is already skipped in the golden file. Adds soups as large as its tori, and makes the
-    copy rate so low that everything must have come from a cache."""
+    """Makes one cell wrong and one failed; one is already skipped in the golden file. Adds soups as large as its tori, and makes
+    the copy rate so low that everything must have come from a cache."""
     document = copy.deepcopy(document)
     document["run"]["copy_rate_bytes_per_s"] = 1e6
     for cell in copy.deepcopy([cell for cell in document["cells"] if cell["scene"]["name"].startswith("torus")]):
