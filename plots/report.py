@@ -17,27 +17,44 @@ import json_files
 import output
 import report_cells
 import report_facts
+import report_findings
 import report_looks
 import report_page
+import report_stress
 import report_tables
 import results
 from cells import Cell
 
 
+OF_A_FILE = ("cells", "bars", "looks", "tables", "findings")  # what the overview does not need of a file's data
+
+
 def file_data(path: pathlib.Path, document: dict[str, Any], all_cells: list[Cell]) -> dict[str, Any]:
-    run = document["run"]
-    cells = [report_cells.cell_data(cell, run.get("copy_rate_bytes_per_s")) for cell in all_cells]
+    run, reader = document["run"], results.Run(path, document)
+    cells = [report_cells.cell_data(cell, reader.copy_rate_of(cell)) for cell in all_cells]
     report_cells.mark_fronts(cells)
     stress = document.get("stress", [])
-    states = Counter(cell["state"] for cell in cells)
-    states.update(finding["verdict"] for cell in stress for finding in cell["findings"].values())
+    by_library = Counter((cell["library"], cell["state"]) for cell in cells) + report_stress.states_of(stress)
+    findings = report_findings.findings_of(all_cells) + ([report_stress.finding_of(stress)] if stress else [])
     return {"name": text_of(json_files.name_of(path)), "path": text_of(path.name), "cells": cells,
             "bars": report_cells.bars_of(cells), "looks": report_looks.looks_of(cells),
-            "tables": report_tables.tables_of(cells, stress), "states": states,
+            "tables": report_tables.tables_of(cells) + report_stress.tables_of(stress), "states": tallied(by_library),
+            "findings": findings, "star": report_cells.STAR,
             "experiments": list(dict.fromkeys(cell["experiment"] for cell in cells)) or ["stress"],
             "device": run["device"]["name"], "driver": run["device"]["driver"], "machine": run["host"]["name"],
             "processor": run["host"]["cpu"], "commit": run["program"]["commit"][:10], "started": run["started_at"],
             "options": " ".join(run["command"][1:])}
+
+
+def tallied(by_library: Counter[tuple[str | None, str]]) -> dict[str, dict[str, Any]]:
+    """Returns the number of cells, or of findings of stress, in each state, and how many of them are each library's."""
+    states: dict[str, dict[str, Any]] = {}
+    for (library, state), count in by_library.items():
+        here = states.setdefault(state, {"count": 0, "libraries": {}})
+        here["count"] += count
+        if library:
+            here["libraries"][library] = count
+    return states
 
 
 def text_of(name: str) -> str:
@@ -53,7 +70,7 @@ def titles_of(files: list[pathlib.Path]) -> list[str]:
 
 def make(files: list[pathlib.Path], views: list[pathlib.Path]) -> tuple[str, bool]:
     """Returns the page and whether an answer was wrong. Raises results.Refused."""
-    blobs, sections, is_wrong, summary = [], [], False, []
+    blobs, sections, is_wrong, summary, found = [], [], False, [], []
     for number, (path, title) in enumerate(zip(files, titles_of(files))):
         document = results.document_of(path)
         cells = [Cell(cell) for cell in document["cells"]]
@@ -62,12 +79,12 @@ def make(files: list[pathlib.Path], views: list[pathlib.Path]) -> tuple[str, boo
             blobs.append(report_page.json_blob(f"file-{number}", data))
         except (ArithmeticError, ValueError) as error:
             raise results.Refused(f"{path}: no page can be made of its numbers: {error}") from error
-        is_wrong |= data["states"]["differs"] > 0
-        summary.append({key: value for key, value in data.items() if key not in ("cells", "bars", "looks", "tables")}
+        is_wrong |= "differs" in data["states"]
+        summary.append({key: value for key, value in data.items() if key not in OF_A_FILE}
                        | {"count": len(data["cells"]) or len(document.get("stress", []))})
+        found.append((title, data["findings"]))
         sections.append(report_page.section(number, title, report_facts.sentence_of(document),
-                                            report_facts.warnings_of(document),
-                                            report_facts.facts_of(document)))
+                                            report_facts.warnings_of(document), report_facts.facts_of(document), data["findings"]))
         blobs.append(report_page.json_blob(f"samples-{number}", [report_cells.samples_data(cell) for cell in cells]))
     shown = []
     for number, path in enumerate(views):
@@ -75,10 +92,12 @@ def make(files: list[pathlib.Path], views: list[pathlib.Path]) -> tuple[str, boo
         is_wrong |= facts["state"] == "differs"
         shown.append(facts)
         blobs += [report_page.blob(f"view-{number}-{name}", content) for name, content in arrays.items()]
-    head = {"files": summary, "views": shown, "stages": report_looks.stage_looks()}
+    head = {"files": summary, "views": shown, "stages": report_looks.stage_looks(), "dark": report_looks.IN_THE_DARK,
+            "best": report_findings.best_table(found)}
     title = "bvhbench report" + (f": {', '.join(titles_of(files)[:4])}" if files else "")
     title += f" and {len(files) - 4} more" if len(files) > 4 else ""
-    return report_page.page(title, sections, [report_page.json_blob("head", head), *blobs], bool(shown)), is_wrong
+    blobs.insert(0, report_page.json_blob("head", head))
+    return report_page.page(title, report_page.findings(found), sections, blobs, bool(shown)), is_wrong
 
 
 def write(files: list[pathlib.Path], views: list[pathlib.Path], out: pathlib.Path, force: bool) -> int:

@@ -2,20 +2,25 @@
 answer the same question are comparable: the data say which are on a Pareto front, and have a bar for each builder or pipeline.
 
 Times are nanoseconds: 10th percentile, median, 90th percentile. A cell with a wrong answer, or without one, has no times."""
+import re
 from typing import Any
 
 import accuracy
 import names
 import pareto
+import tables
 from cells import Cell, by_stage, grouped, quantiles, whole_ns
 
 WITHOUT_TIMES = ("differs", "skipped", "failed")
 WHOLE = "whole"
+BETWEEN = "between stages"
 MEDIAN = 1  # index of the median among quantiles
 QUESTION = ("experiment", "axis", "scene", "asked")
 # Counters that tell how good a tree is, and their names on the page.
 GOODNESS = {"sah_cost": "surface area cost", "epo": "end-point overlap", "sibling_overlap": "overlap of siblings",
             "box_tests_count": "box tests of a query", "tree_bytes": "bytes of the tree"}
+LIBRARIES = {"embree": "Embree", "fcl": "FCL"}  # by the first word of a builder or collider
+STAR = "* a stand-in: the scene itself is not there"
 FINDS_CONTACTS = ("fcl", "fcl-refit")  # colliders that find exact contacts in their broad phase
 Data = dict[str, Any]  # of a cell, as returned by cell_data
 
@@ -32,13 +37,15 @@ def who(cell: Cell) -> str:
     if cell.collider:
         return cell.called
     name = names.variant(cell.builder, dict(cell.options))
-    return f"{name}, refit" if cell.operation == "refit" else name
+    return f"refit of {name}" if cell.operation == "refit" else name
 
 
 def asked(cell: Cell) -> str:
-    """Returns what a frame's query was asked for. Cells that were asked for different things must not be compared."""
+    """Returns what a frame's query was asked for, and whether caches were emptied. Cells that were asked for different things
+    must not be compared."""
+    cold = ["caches emptied before each sample"] if cell.raw.get("sampling", {}).get("caches") == "cold" else []
     if not cell.collider or cell.accuracy:
-        return ""
+        return ", ".join(cold)
     options = dict(cell.collider_options)
     words = [f"pairs {options['pairs_of']} objects" if options.get("pairs_of", "all") != "all" else "all pairs"]
     if cell.swept:
@@ -48,15 +55,27 @@ def asked(cell: Cell) -> str:
     narrow = "exact" if cell.collider in FINDS_CONTACTS else options.get("narrow", "none")
     if narrow != "none":
         words.append(f"contacts ({narrow})")
-    return ", ".join(words)
+    return ", ".join(words + cold)
 
 
 def scene_name(cell: Cell) -> str:
-    """Returns the scene's name; for a stand-in, with the scene that it replaces."""
+    """Returns the scene's name; for a stand-in, with a star (STAR explains it) and the scene that it replaces, if that has
+    another name."""
     if not (other := cell.stand_in_for):
         return cell.scene
-    name = cell.scene_facts["name"]
-    return f"{name} ({'a stand-in' if other == name else f'for {other}'})"
+    return f"{cell.scene} *" + (f" (for {other})" if other != cell.scene_facts["name"] else "")
+
+
+def family_of(cell: Cell) -> str:
+    """Returns the scene's name without its number of triangles, if it has one: "torus" of "torus:1000". Empty for meshes."""
+    kind = re.sub(rf":{cell.triangles}(?=:|$)", "", cell.scene)
+    return kind if kind != cell.scene else ""
+
+
+def library_of(cell: Cell) -> str | None:
+    """Returns the library that built the tree or queried it, if it was not ours."""
+    first = (name.split("-")[0] for name in (cell.builder, cell.collider) if name)
+    return next((LIBRARIES[word] for word in first if word in LIBRARIES), None)
 
 
 def times_of(cell: Cell) -> dict[str, list[float]]:
@@ -67,12 +86,13 @@ def times_of(cell: Cell) -> dict[str, list[float]]:
     return {name: [round(1e9 * value, 1) for value in quantiles(cell.times_s(stage))] for name, stage in stages.items()}
 
 
-def copy_share(cell: Cell, times: dict[str, list[float]], copy_rate: float | None) -> float | None:
-    """Returns the rate of the bytes that all stages must move as a share of the copy rate; None if a stage ran on the host."""
+def copy_share(cell: Cell, times: dict[str, list[float]], copy_rate: float) -> float | str | None:
+    """Returns the rate of the bytes that all stages must move as a share of the copy rate (tables.of_copy_rate); None if a
+    stage ran on the host."""
     moved = [cell.moved_bytes(stage) for stage in times if stage != WHOLE]
     if not copy_rate or not moved or None in moved or times[WHOLE][MEDIAN] <= 0:
         return None
-    return round(sum(moved) / (1e-9 * times[WHOLE][MEDIAN]) / copy_rate, 5)
+    return tables.of_copy_rate(round(sum(moved) / (1e-9 * times[WHOLE][MEDIAN]) / copy_rate, 5))
 
 
 def errors_of(cell: Cell) -> dict[str, float]:
@@ -94,12 +114,16 @@ def measures_of(cell: Cell) -> dict[str, float]:
     return errors_of(cell) | {text: cell.counters[key] for key, text in goodness.items() if key in cell.counters}
 
 
-def cell_data(cell: Cell, copy_rate: float | None) -> Data:
+def cell_data(cell: Cell, copy_rate: float) -> Data:
+    """Returns a cell's data; `copy_rate` is that of the run that measured it, in bytes per second, or 0."""
     state = state_of(cell)
     data = {
         "experiment": cell.experiment, "operation": cell.operation, "who": who(cell), "builder": cell.builder,
-        "collider": cell.collider, "scene": scene_name(cell), "triangles": cell.scene_facts.get("triangles"),
-        "frame": cell.frame, "asked": asked(cell), "state": state, "why": cell.reason or cell.check.get("detail", ""), "n": len(cell.all_samples),
+        "collider": cell.collider, "scene": scene_name(cell), "family": family_of(cell), "is_stand_in": bool(cell.stand_in_for),
+        "library": library_of(cell),
+        "triangles": cell.scene_facts.get("triangles"),
+        "frame": cell.frame, "asked": asked(cell), "state": state, "why": cell.reason or cell.check.get("detail", ""),
+        "n": len(cell.all_samples),
         "counters": cell.counters, "axis": cell.accuracy.get("axis"), "times": {}}
     if state not in WITHOUT_TIMES:
         times = data["times"] = times_of(cell)
@@ -161,7 +185,7 @@ def bar_of(group: list[Data]) -> Data:
     whole = stages.pop(WHOLE)
     between = round(whole - sum(stages.values()), 1)
     if group[0]["operation"] == "collide" and between > 0:
-        stages["between"] = between
+        stages[BETWEEN] = between
     return {"whole": whole, "stages": stages}
 
 

@@ -34,6 +34,10 @@ def facts_of(document: dict[str, Any]) -> list[tuple[str, str]]:
     if "copy_rate_bytes_per_s" in run:
         over = f", over buffers of {binary(run['copy_rate_buffer_bytes'])}" if "copy_rate_buffer_bytes" in run else ""
         facts.append(("Copy rate", f"{run['copy_rate_bytes_per_s'] / 1e9:,.4g} GB/s read and written{over}"))
+    if sources := document.get("merged_from"):
+        rates = sorted(source["copy_rate_bytes_per_s"] / 1e9 for source in sources if "copy_rate_bytes_per_s" in source)
+        said = f", copy rates {rates[0]:,.4g} to {rates[-1]:,.4g} GB/s; shares are of each cell's own" if rates else ""
+        facts.append(("Merged from", f"{len(sources)} run{'' if len(sources) == 1 else 's'}{said}"))
     if "launch_cost_ns" in run:
         facts.append(("A launch", f"{run['launch_cost_ns'] / 1e3:.4g} µs with next to nothing to do"))
     if "compile_ns" in run:

@@ -6,6 +6,7 @@ import frames
 import pipelines
 import results
 import style
+from report_cells import BETWEEN
 
 SYMBOLS = {"s": "square", "^": "triangle-up", "v": "triangle-down", "D": "diamond", "o": "circle", "d": "diamond-tall",
            "p": "pentagon", "*": "star", "P": "cross", "h": "hexagon", "H": "hexagon2", "x": "x", "+": "x",
@@ -15,6 +16,8 @@ MORE_SYMBOLS = ("circle", "square", "diamond", "triangle-up", "triangle-down", "
                 "triangle-left", "triangle-right", "diamond-tall", "hexagon2")
 DASHES = ("solid", "dash", "dot", "dashdot", "longdash", "longdashdot")
 HATCHED = {"near": "/", "order": "/", "gather": "/", "refit": ".", "ropes": "x", "copy": "/"}
+# Colours of figures that are too dark on a dark page, and those that replace them there.
+IN_THE_DARK = {"#000000": "#F4F4F4", "#0072B2": "#3C95D6", "#8C510A": "#C07A35", "#666666": "#A0A0A0"}
 UNKNOWN = style.Look("#666666", "o")
 
 
@@ -50,8 +53,8 @@ def looks_of(cells: list[dict[str, Any]]) -> dict[str, dict[str, str]]:
 
 
 def stage_looks() -> dict[str, dict[str, str]]:
-    """Returns the colours of frames.py. Of stages that share a colour, all but the main one are hatched."""
+    """Returns the colours of frames.py, by the words of `show`. Of stages that share a colour, all but the main one are
+    hatched."""
     looks = {stage: {"colour": colour, "pattern": HATCHED.get(stage, "")}
              for stages, colour in frames.PARTS for stage in stages}
-    return looks | {"between": {"colour": frames.BETWEEN, "pattern": ""},
-                    "sum": {"colour": "#CC79A7", "pattern": ""}}
+    return looks | {BETWEEN: {"colour": frames.BETWEEN, "pattern": ""}, "sum": {"colour": "#CC79A7", "pattern": ""}}

@@ -14,7 +14,7 @@ import results
 
 PARTS = pathlib.Path(__file__).resolve().parent / "report"
 STYLES = ("base.css", "tables.css", "charts.css", "samples.css", "view.css")
-SCRIPTS = ("unpack.js", "format.js", "table.js", "axes.js", "legend.js", "compared.js", "chart.js", "chart_size.js",
+SCRIPTS = ("unpack.js", "format.js", "theme.js", "table.js", "axes.js", "legend.js", "compared.js", "chart.js", "chart_size.js",
            "chart_stages.js", "chart_pareto.js", "chart_frames.js", "samples.js", "view.js", "page.js")
 DEBIAN = pathlib.Path("/usr/share")
 
@@ -57,21 +57,39 @@ def inlined(names: tuple[str, ...]) -> str:
     return "\n".join(f"/* plots/report/{name} */\n" + (PARTS / name).read_text(encoding="utf-8") for name in names)
 
 
-def section(number: int, title: str, sentence: str, warnings: list[str], facts: list[tuple[str, str]]) -> str:
+def finding(found: dict[str, Any], head: str = "") -> str:
+    """Returns a question and its answer."""
+    lines = [f'<p class="{name}">{html.escape(found[name])}</p>' for name in ("question", "answer") if found[name]]
+    return f'<div class="finding">{head}{"".join(lines)}</div>' if lines else ""
+
+
+def findings(files: list[tuple[str, list[dict[str, Any]]]]) -> str:
+    """Returns what was found in each file, with links to the files."""
+    def head(number: int, title: str, experiment: str) -> str:
+        more = f" <span>{html.escape(experiment)}</span>" if experiment not in title else ""
+        return f'<h4><a href="#file-{number}">{html.escape(title)}</a>{more}</h4>'
+
+    said = "".join(finding(found, head(number, title, found["experiment"])) for number, (title, all_found) in enumerate(files)
+                   for found in all_found)
+    return f'<h3>What was found</h3><div class="findings">{said}</div>' if said else ""
+
+
+def section(number: int, title: str, sentence: str, warnings: list[str], facts: list[tuple[str, str]],
+            findings: list[dict[str, Any]]) -> str:
     """Returns the part of a file's section that is visible without scripts."""
     said = "".join(f'<p class="warning">{html.escape(warning)}</p>' for warning in warnings)
     listed = "".join(f"<div><dt>{html.escape(term)}</dt><dd>{html.escape(fact)}</dd></div>" for term, fact in facts)
     return (f'<section id="file-{number}" class="file" hidden><h2>{html.escape(title)}</h2>'
-            f'<p class="note">{html.escape(sentence)}</p>{said}'
+            f'<p class="note">{html.escape(sentence)}</p>{said}{"".join(map(finding, findings))}'
             f'<details class="circumstances"><summary>What was run on what</summary><dl class="facts">{listed}</dl></details>'
             '<div class="verdicts"></div><div class="charts"></div><div class="tables"></div></section>')
 
 
-def page(title: str, sections: list[str], blobs: list[str], has_views: bool) -> str:
+def page(title: str, found: str, sections: list[str], blobs: list[str], has_views: bool) -> str:
     libraries = [blob("plotly", plotly_file().read_bytes())]
     if has_views:
         libraries.append(blob("three", b"\n".join(path.read_bytes() for path in three_files())))
-    filled = {"TITLE": html.escape(title), "STYLE": inlined(STYLES), "SECTIONS": "\n".join(sections),
+    filled = {"TITLE": html.escape(title), "STYLE": inlined(STYLES), "FINDINGS": found, "SECTIONS": "\n".join(sections),
               "BLOBS": "\n".join([*blobs, *libraries]), "SCRIPT": inlined(SCRIPTS)}
     text = (PARTS / "page.html").read_text(encoding="utf-8")
     for name, content in filled.items():

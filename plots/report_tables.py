@@ -7,12 +7,11 @@ from collections.abc import Callable
 from typing import Any
 
 from cells import grouped, median
-from report_cells import MEDIAN, WHOLE, WITHOUT_TIMES
+from report_cells import BETWEEN, MEDIAN, STAR, WHOLE, WITHOUT_TIMES
+from report_looks import stage_looks
 
-STAGES = ("near", "bounds", "codes", "sort", "order", "gather", "hierarchy", "refit", "ropes", "copy", "broad", "narrow",
-          "sum")
+STAGES = [stage for stage in stage_looks() if stage != BETWEEN]
 UNITS = (("ns", 1.0), ("µs", 1e3), ("ms", 1e6), ("s", 1e9))
-FINDINGS = ("ends", "leaves", "boxes", "layout", "pairs", "contacts", "agree", "moved", "room", "same")
 Cells = list[tuple[int, dict[str, Any]]]  # places in the file and the cells' data
 Value = Callable[[dict[str, Any]], Any]
 
@@ -48,9 +47,20 @@ class Table:
             self.add(name.removesuffix("_count").replace("_", " "), kind, lambda data, name=name: data["counters"].get(name))
 
     def data(self) -> dict[str, Any]:
-        return {"title": self.title, "note": self.note, "columns": [column for column, _ in self.columns],
+        return {"title": self.title, "note": noted(self.note, self.cells), "libraries": of_libraries(self.cells),
+                "columns": [column for column, _ in self.columns],
                 "cells": [place for place, _ in self.cells],
                 "rows": [list(row) for row in zip(*(values for _, values in self.columns))]}
+
+
+def noted(note: str, cells: Cells) -> str:
+    """Returns the note, with the explanation of the star if a scene is a stand-in."""
+    return f"{note} {STAR}.".lstrip() if any(data["is_stand_in"] for _, data in cells) else note
+
+
+def of_libraries(cells: Cells) -> list[int]:
+    """Returns the rows that are a library's."""
+    return [row for row, (_, data) in enumerate(cells) if data["library"]]
 
 
 def begin(title: str, cells: Cells, called: str, note: str = "") -> Table:
@@ -68,9 +78,10 @@ def times_table(title: str, cells: Cells, called: str, counters: list[str], note
     table = begin(title, cells, called, note)
     table.add("samples", "count", lambda data: data["n"] or None)
     table.times(unit_of(cells))
-    table.add("million triangles a second", "number", lambda data: data["triangles"] * 1e3 / data["times"][WHOLE][1]
-              if data["operation"] == "build" and data["times"].get(WHOLE, [0, 0])[1] > 0 and data["triangles"] else None)
-    table.add("of the copy rate", "share", lambda data: data.get("copy_share"))
+    table.add("rate", "number", lambda data: data["triangles"] * 1e3 / data["times"][WHOLE][1]
+              if data["operation"] == "build" and data["times"].get(WHOLE, [0, 0])[1] > 0 and data["triangles"] else None,
+              unit="Mtris/s")
+    table.add("of copy rate", "share", lambda data: data.get("copy_share"))
     for error in dict.fromkeys(name for _, data in cells for name in data.get("errors", {})):
         table.add(error, "number", lambda data, error=error: data.get("errors", {}).get(error))
     table.counters(counters)
@@ -101,36 +112,18 @@ def summary_table(cells: Cells) -> dict[str, Any]:
                      statistics.fmean(medians) if is_whole else None, max(medians) if is_whole else None,
                      mean("pairs_count"), mean("contacts_count")])
     return {"title": "Whole frames by scene", "cells": None, "rows": rows,
-            "note": "Means over all frames of a scene; of a pipeline that lacks one there is none.",
+            "note": noted("Means over all frames of a scene; of a pipeline that lacks one there is none.", cells),
+            "libraries": of_libraries([placed[0] for placed in groups.values()]),
             "columns": [{"label": label, "kind": kind, "facet": label in ("scene", "pipeline", "verdict", "asked for"),
                          **({"unit": unit} if kind == "time" else {}),
                          **({"cells": slowest, "stage": WHOLE} if label == "slowest frame" else {})} for label, kind in columns]}
-
-
-def stress_table(stress: list[dict[str, Any]]) -> dict[str, Any]:
-    there = [name for name in FINDINGS if any(name in cell["findings"] for cell in stress)]
-
-    def said(finding: dict[str, Any] | None) -> str | None:
-        if finding is None or finding["verdict"] != "broken":
-            return finding and finding["verdict"]
-        counts = f": {finding['wrong']:,} of {finding['checked']:,} wrong" if finding["wrong"] else ""
-        return "broken" + counts
-
-    rows = [[cell["family"], cell["scene"], cell["system"], cell["kind"],
-             *(said(cell["findings"].get(name)) for name in there),
-             "; ".join(f"{name}: {finding['detail']}" for name, finding in cell["findings"].items() if finding.get("detail"))
-             or None] for cell in stress]
-    columns = [("family", "text"), ("scene", "text"), ("system", "text"), ("kind", "text"),
-               *((name, "state") for name in there), ("detail", "text")]
-    return {"title": "Stress", "cells": None, "note": "", "rows": rows,
-            "columns": [{"label": label, "kind": kind, "facet": label in ("family", "kind")} for label, kind in columns]}
 
 
 TREE = ["sah_cost", "epo", "sibling_overlap", "depth_max", "nodes_count", "tree_bytes"]
 FOUND = ["pairs_count", "contacts_count", "box_tests_count", "memory_bytes"]
 
 
-def tables_of(cells: list[dict[str, Any]], stress: list[dict[str, Any]]) -> list[dict[str, Any]]:
+def tables_of(cells: list[dict[str, Any]]) -> list[dict[str, Any]]:
     """Returns the tables in the order in which a reader needs them. A table with `folded` is opened on request."""
     placed = list(enumerate(cells))
     builds, frames, others = ([(place, data) for place, data in placed if data["operation"] in operations]
@@ -139,7 +132,7 @@ def tables_of(cells: list[dict[str, Any]], stress: list[dict[str, Any]]) -> list
     if missing := [(place, data) for place, data in placed if data["state"] in WITHOUT_TIMES]:
         table = begin("Without a time, and why", missing, "who")
         table.add("why", "text", lambda data: data["why"] or "no reason given")
-        tables.append(table.data())
+        tables.append(table.data() | {"folded": all(data["state"] == "skipped" for _, data in missing)})
     if builds:
         tables.append(times_table("Builds", builds, "builder", TREE,
                                   "Whole: the sum of the stages. Stages: medians. Each time leads to its samples."))
@@ -155,6 +148,4 @@ def tables_of(cells: list[dict[str, Any]], stress: list[dict[str, Any]]) -> list
         table = begin("All counters", placed, "who")
         table.counters(counters)
         tables.append(table.data() | {"folded": True})
-    if stress:
-        tables.append(stress_table(stress))
     return tables

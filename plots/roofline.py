@@ -45,7 +45,7 @@ def floor_s(run: results.Run, cell: results.Cell, stage: str) -> float | None:
     numbers = cell.samples[0].get(stage, {})
     if run.copy_rate is None or not numbers.get("launches") or not numbers.get("moved_bytes"):
         return None
-    return numbers["moved_bytes"] / run.copy_rate + numbers["launches"] * run.launch_cost_s
+    return numbers["moved_bytes"] / run.copy_rate_of(cell) + numbers["launches"] * run.launch_cost_s
 
 
 def points(run: results.Run, cells: list[results.Cell], stage: str) -> figure.Curve:

@@ -89,6 +89,19 @@ def size(count: float) -> str:
     return with_unit(count, ("B", "kB", "MB", "GB", "TB"))
 
 
+IN_CACHE = "in cache"
+
+
+def of_copy_rate(share: float) -> float | str:
+    """Returns a share of the copy rate, or IN_CACHE if it is above 1: then some of the bytes came from a cache."""
+    return share if share <= 1 else IN_CACHE
+
+
+def percent(share: float | str) -> str:
+    """Returns "69.4 %"; words stay."""
+    return share if isinstance(share, str) else f"{100 * share:.1f} %"
+
+
 def counted(count: int, what: str) -> str:
     """Returns "1 cell", "1,200 cells"."""
     return f"{count:,} {what}{'' if count == 1 else 's'}"

@@ -19,7 +19,7 @@ def text(cell: Cell, run: results.Run) -> str:
     head += f", standing in for {cell.stand_in_for}" if cell.stand_in_for else ""
     parts = [f"{head}\n"]
     if cell.has_times:
-        parts += [stages(cell, run.copy_rate or 0), f"{samples(cell)}\n"]
+        parts += [stages(cell, run.copy_rate_of(cell)), f"{samples(cell)}\n"]
     if first := cell.raw.get("first"):
         parts.append(f"first run {duration(first['run_ns'])} on the host's clock, kernels compiled in "
                      f"{duration(first['compile_ns'])}\n")

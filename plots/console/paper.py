@@ -19,7 +19,7 @@ def table1(run: results.Run) -> str:
         row, nodes = rows.get((mesh, cell.builder)), int(cell.counters.get("nodes_count", 0))
         table.row(mesh + (" *" if cell.stand_in_for else ""), f"{cell.triangles:,}", cell.builder, whole(nodes or None),
                   padding_text(padding_percent(cell)) if nodes else "", row["padding_percent"] if row else "",
-                  *time_columns(cell, run.copy_rate), f"{row['hierarchy_ms']:.3f}" if row else "")
+                  *time_columns(cell, run.copy_rate_of(cell)), f"{row['hierarchy_ms']:.3f}" if row else "")
     stand_in = "* a generated stand-in with the mesh's triangle count: the mesh itself is not there\n"
     return (f"{table.text()}ms: the stage hierarchy from sorted leaves, median; paper ms: {printed['device']}\n"
             f"{stand_in if any(cell.stand_in_for for cell in run.all_cells) else ''}")
@@ -29,7 +29,7 @@ def fig8(run: results.Run) -> str:
     table = Table("triangles", "<builder", "ms", "p10–p90", "Mtris/s", "moved", "% of copy", "Gnodes/s")
     for cell in run.all_cells:
         ns = hierarchy_ns(cell)
-        table.row(f"{cell.triangles:,}", cell.builder, *time_columns(cell, run.copy_rate),
+        table.row(f"{cell.triangles:,}", cell.builder, *time_columns(cell, run.copy_rate_of(cell)),
                   f"{cell.counters.get('nodes_count', 0) / ns:.2f}" if ns else "")
     crossing = crossing_triangles(run.all_cells)
     return table.text() + (f"oibvh-multi is the faster one from {crossing:,} triangles on; in the paper, from about 131,072\n" if crossing
@@ -41,14 +41,14 @@ def hierarchy_ns(cell: Cell) -> float:
     return cell.median_ns(STAGE) if cell.verdict == "agrees" else 0.0
 
 
-def time_columns(cell: Cell, copy_rate: float | None) -> list[str]:
+def time_columns(cell: Cell, copy_rate: float) -> list[str]:
     """Returns time, rate and memory traffic of the stage, or the verdict if there is no time."""
     if not (median := hierarchy_ns(cell)):
         return [cell.verdict, "", "", "", ""]
     low, _, high = quantiles(cell.times_ns(STAGE) * 1e-6)
     moved = cell.moved_bytes(STAGE) or 0
     return [f"{median * 1e-6:.4f}", f"{low:.4f}–{high:.4f}", f"{cell.triangles * 1e3 / median:.0f}", size(moved),
-            spread.rates(moved, median, copy_rate or 0)[1]]
+            spread.rates(moved, median, copy_rate)[1]]
 
 
 def perfect_padding(triangles: int, nodes: float) -> float:

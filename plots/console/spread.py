@@ -28,10 +28,11 @@ def ratio(part: float, of: float) -> float:
 
 
 def rates(moved: float, ns: float, copy_rate: float) -> list[str]:
-    """Returns GB/s and the share of the device's copy rate; blank for unknown values."""
+    """Returns GB/s and the share of the device's copy rate (tables.of_copy_rate); blank for unknown values."""
     if not (moved > 0 and ns > 0):
         return ["", ""]
-    return [f"{moved / ns:.1f}", f"{100 * (moved / (ns * 1e-9)) / copy_rate:.1f} %" if copy_rate > 0 else ""]
+    share = moved / (ns * 1e-9) / copy_rate if copy_rate > 0 else None
+    return [f"{moved / ns:.1f}", "" if share is None else tables.percent(tables.of_copy_rate(share))]
 
 
 def of_stages(cell: Cell, key: str) -> int:

@@ -83,7 +83,7 @@ def roofline(run: results.Run) -> str:
             is_query = cell.operation != "collide" or cell.builder == "none" or entry["stage"] in names.OF_QUERIES
             if not (launches and moved and is_query):
                 continue
-            floor = 1e9 * moved / run.copy_rate + launches * run.facts.get("launch_cost_ns", 0)
+            floor = 1e9 * moved / run.copy_rate_of(cell) + launches * run.facts.get("launch_cost_ns", 0)
             reached = cell.median_ns(entry["stage"])
             table.row(cell.scene_facts["name"], cell.pipeline, entry["stage"], str(launches), size(moved),
                       f"{moved / max(1, cell.triangles):.1f}", duration(floor), duration(reached), f"{reached / floor:.2f}")

@@ -1,32 +1,30 @@
 // SPDX-License-Identifier: MIT
 // Axes and background of all charts.
-const INK = "#222222";
-const FAINT = "#dddddd";
-
 /** Returns an axis, logarithmic if `logValues` holds the values for its labels. */
 function axis(title, logValues, more) {
   return {
     title: {text: title, standoff: 8},
     type: logValues ? "log" : "linear",
     automargin: true,
-    gridcolor: FAINT,
-    linecolor: INK,
-    zerolinecolor: FAINT,
+    gridcolor: colour("line"),
+    linecolor: colour("ink"),
+    zerolinecolor: colour("line"),
     ticks: "outside",
-    tickcolor: INK,
+    tickcolor: colour("ink"),
     ...(logValues ? logTicks(logValues) : {}),
     ...more,
   };
 }
 
 /** Returns a line or marks of cells in the given look. Each mark links to the samples of a stage. */
-function scatter(name, look, cells, stage, {marker, ...more}) {
+function scatter(name, plain, cells, stage, {marker, ...more}) {
+  const look = themed(plain);
   return {
     type: "scatter",
     name,
     ...samplesOf(cells, stage),
     line: {color: look.colour, dash: look.dash, width: 1.5},
-    marker: {color: look.colour, symbol: look.symbol, line: {color: INK, width: 0.4}, ...marker},
+    marker: {color: look.colour, symbol: look.symbol, line: {color: colour("ink"), width: 0.4}, ...marker},
     ...more,
   };
 }
@@ -45,9 +43,10 @@ function isWide(values) {
 
 function layoutOf(more) {
   return {
-    font: {family: "system-ui, sans-serif", size: 12, color: INK},
-    paper_bgcolor: "#ffffff",
-    plot_bgcolor: "#ffffff",
+    font: {family: "system-ui, sans-serif", size: 12, color: colour("ink")},
+    paper_bgcolor: colour("card"),
+    plot_bgcolor: colour("card"),
+    modebar: {bgcolor: "rgba(0,0,0,0)", color: colour("line"), activecolor: colour("quiet")},
     margin: {l: 56, r: 18, t: 14, b: 48},
     showlegend: false,
     hoverlabel: {align: "left", namelength: -1},

@@ -10,20 +10,25 @@ const seen = new IntersectionObserver(
   {rootMargin: "300px"}
 );
 
-// Narrow windows break long names, so charts are redrawn when a window becomes narrow or wide.
+// Narrow windows break long names and dark pages have other colours, so charts are redrawn when this changes.
 const narrow = matchMedia("(max-width: 600px)");
-narrow.addEventListener("change", () =>
-  document.querySelectorAll(".drawing.drawn").forEach((drawing) => drawing.chart && drawing.chart.draw())
-);
+for (const query of [narrow, dark]) {
+  query.addEventListener("change", () =>
+    document.querySelectorAll(".drawing.drawn").forEach((drawing) => drawing.chart && drawing.chart.draw())
+  );
+}
 
 class Chart {
   /** `choices`: options by label, as for menu; `draw` returns {traces, layout, legend, notes} for the chosen options. */
   constructor(title, choices, draw) {
     this.drawing = draw;
     this.selects = Object.values(choices).map((options) => menu(options, () => this.draw()));
-    const shownChoices = Object.keys(choices).map((label, k) =>
-      choices[label].length > 1 ? element("label", {}, label + " ", this.selects[k]) : null
-    );
+    const shownChoices = Object.keys(choices).map((label, k) => {
+      const [only] = [...this.selects[k].options].map((option) => option.textContent);
+      return choices[label].length > 1
+        ? element("label", {}, label + " ", this.selects[k])
+        : element("span", {class: "only"}, label + " ", element("b", {}, only));
+    });
     this.plot = element("div", {class: "drawing", role: "img", "aria-label": title});
     this.legend = element("div", {class: "legend", role: "group", "aria-label": "Legend: press to hide or show"});
     this.notes = element("div", {class: "note"});
@@ -43,11 +48,13 @@ class Chart {
   async draw() {
     await libraryOf("plotly");
     const {traces, layout, legend, notes} = this.drawing(...this.selects.map((select) => select.value));
+    this.hidden = new Set();
     this.legend.replaceChildren(...legend.map((entry) => this.entry(entry)));
     this.notes.replaceChildren(...notes.filter(Boolean).map((note) => element("p", {}, note)));
     this.plot.style.height = (layout.height || 400) + "px";
     await Plotly.react(this.plot, traces, layoutOf(layout), {
       displaylogo: false,
+      displayModeBar: narrow.matches ? false : "hover",
       responsive: true,
       modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d"],
     });
@@ -57,14 +64,14 @@ class Chart {
     this.plot.classList.add("drawn");
   }
 
-  entry({name, look}) {
+  /** Creates a button that hides and shows the traces that `isOf` chooses; by default those of its name. */
+  entry({name, look, isOf = (trace) => trace.name === name}) {
     const toggle = () => {
       const isShown = button.getAttribute("aria-pressed") !== "true";
       button.setAttribute("aria-pressed", String(isShown));
-      const places = this.plot.data.flatMap((trace, k) => (trace.name === name ? [k] : []));
-      if (places.length) {
-        Plotly.restyle(this.plot, {visible: isShown ? true : "legendonly"}, places);
-      }
+      this.hidden[isShown ? "delete" : "add"](isOf);
+      const isHidden = (trace) => [...this.hidden].some((one) => one(trace));
+      Plotly.restyle(this.plot, {visible: this.plot.data.map((trace) => (isHidden(trace) ? "legendonly" : true))});
     };
     const button = element("button", {type: "button", "aria-pressed": "true", click: toggle}, swatch(look), name);
     return button;

@@ -57,7 +57,7 @@ function framesChart(file) {
             {tickformat: ",.4~r", rangemode: "tozero"}
           ),
         },
-        notes: [isTime ? "Medians of each frame." : "", ...missingNotes(here)],
+        notes: [isTime ? "Medians of each frame." : "", ...missingNotes(here), ...starNotes(file, here)],
       };
     }
   );

@@ -30,7 +30,7 @@ function withZero(values) {
 function paretoChart(file) {
   const scenes = grouped(file.cells, questionOf(file.cells));
   const shownOf = (scene, measure) => scenes.get(scene).filter((cell) => cell.times.whole && measure in cell.measures);
-  const isUseful = (scene, measure) => new Set(shownOf(scene, measure).map((cell) => cell.who)).size > 1;
+  const isUseful = (scene, measure) => new Set(shownOf(scene, measure).map((cell) => cell.measures[measure])).size > 1;
   const all = [...new Set(file.cells.flatMap((cell) => Object.keys(cell.measures || {})))];
   const names = [...scenes.keys()].filter((scene) => all.some((measure) => isUseful(scene, measure)));
   const measures = all.filter((measure) => names.some((scene) => isUseful(scene, measure)));
@@ -39,7 +39,7 @@ function paretoChart(file) {
   }
   return new Chart("Time against quality or error", {Scene: names, Against: measures}, (scene, measure) => {
     if (!isUseful(scene, measure)) {
-      return {traces: [], legend: [], layout: {height: 120}, notes: [`Nothing on ${scene} says its ${measure}.`]};
+      return {traces: [], legend: [], layout: {height: 120}, notes: [`On ${scene} none differs in ${measure}.`]};
     }
     const here = shownOf(scene, measure);
     const times = here.map((cell) => cell.times.whole[1]);
@@ -60,7 +60,7 @@ function paretoChart(file) {
       name: "front",
     };
     const dots = [...grouped(here, (cell) => cell.who)].map(([name, cells]) => {
-      const look = file.looks[name];
+      const look = themed(file.looks[name]);
       return scatter(name, look, cells, "whole", {
         mode: "markers",
         ...placesOf(cells),
@@ -70,7 +70,7 @@ function paretoChart(file) {
           symbol: cells.map((cell) => look.symbol + (isBest(cell) ? "" : "-open")),
           line: {
             width: cells.map((cell) => (isBest(cell) ? 0.6 : 1.6)),
-            color: cells.map((cell) => (isBest(cell) ? INK : look.colour)),
+            color: cells.map((cell) => (isBest(cell) ? colour("ink") : look.colour)),
           },
         },
         hovertemplate: `%{x:.4g} ${unit[0]}<br>${measure}: %{customdata}<extra>%{fullData.name}</extra>`,
@@ -87,6 +87,7 @@ function paretoChart(file) {
       notes: [
         "Down and left is better. Filled, joined: no other is as good in both. Medians.",
         ...missingNotes(scenes.get(scene)),
+        ...starNotes(file, here),
       ],
     };
   });

@@ -10,40 +10,96 @@ const QUANTITIES = {
   },
 };
 
-/** Returns "torus" for "torus:1000", and "" for a mesh. */
-function familyOf(scene) {
-  const found = /^(.*):\d+$/.exec(scene);
-  return found ? found[1] : "";
+const DASHES_OF_FAMILIES = ["solid", "dot", "dash", "dashdot"];
+const MOST_NAMES = 12; // of scenes, along the axis
+const MOST_SCENES = 40; // in the menu
+
+/** Returns a function that names a cell's family: generated scenes of several sizes, drawn as a line. Empty for others. */
+function familiesOf(cells) {
+  const sizes = grouped(cells, (cell) => cell.family);
+  const isLine = (family) => family && new Set(sizes.get(family).map((cell) => cell.triangles)).size > 1;
+  const lines = new Set([...sizes.keys()].filter(isLine));
+  return (cell) => (lines.has(cell.family) ? cell.family : "");
 }
 
-function sizeTraces(cells, stage, quantity, unit, looks) {
-  const lines = grouped(cells, (cell) => `${cell.who}\n${familyOf(cell.scene)}`);
+/** Returns how each family looks if there are several: by dash, the first with filled marks. */
+function familyLooks(cells, familyOf) {
+  const families = [...new Set(cells.map(familyOf))].filter(Boolean);
+  const look = (k) => ({line: true, dash: DASHES_OF_FAMILIES[k % DASHES_OF_FAMILIES.length], isOpen: k > 0});
+  return families.length > 1 ? new Map(families.map((family, k) => [family, look(k)])) : new Map();
+}
+
+function sizeTraces(cells, familyOf, stage, quantity, unit, looks) {
+  const families = familyLooks(cells, familyOf);
+  const lines = grouped(cells, (cell) => [cell.who, familyOf(cell), cell.asked].join("\n"));
   return [...lines.values()].map((line) => {
-    const look = looks[line[0].who];
+    const {who, asked} = line[0];
+    const family = familyOf(line[0]);
+    const ofFamily = families.get(family);
+    const plain = looks[who];
+    const look = ofFamily ? {...plain, dash: ofFamily.dash, symbol: plain.symbol + (ofFamily.isOpen ? "-open" : "")} : plain;
     const points = line.sort((a, b) => a.triangles - b.triangles);
     const value = (cell, place) => quantity.of(cell.times[stage][place], cell.triangles, unit);
     const middle = points.map((cell) => value(cell, 1));
     const ends = points.map((cell) => [value(cell, 0), value(cell, 2)].sort((a, b) => a - b));
-    const isLine = familyOf(line[0].scene) !== "" && points.length > 1;
-    return scatter(line[0].who, look, points, stage, {
-      mode: isLine ? "lines+markers" : "markers",
+    return scatter(who, look, points, stage, {
+      meta: family,
+      mode: family && points.length > 1 ? "lines+markers" : "markers",
       x: points.map((cell) => cell.triangles),
       y: middle,
       text: points.map((cell) => cell.scene),
-      marker: {size: points.length > 40 ? 4 : 7},
+      marker: {size: points.length > 40 ? 4 : 7, ...(ofFamily && ofFamily.isOpen ? {line: {width: 1.2}} : {})},
       error_y: {
         type: "data",
         symmetric: false,
         thickness: 1,
         width: 2,
-        color: look.colour,
+        color: themed(look).colour,
         visible: points.length <= 40,
         array: ends.map((end, k) => end[1] - middle[k]),
         arrayminus: ends.map((end, k) => middle[k] - end[0]),
       },
-      hovertemplate: "%{text}, %{x:,} triangles<br>%{y:.4g}<extra>%{fullData.name}</extra>",
+      hovertemplate: `%{text}, %{x:,} triangles<br>%{y:.4g}${asked && "<br>" + asked}<extra>%{fullData.name}</extra>`,
     });
   });
+}
+
+/**
+ * Names stand-ins and scenes of one size along the axis, in the half of the chart where they have no marks. Those of nearly one
+ * size share a line.
+ */
+function meshNames(traces) {
+  const all = traces.flatMap(({x, y, text, meta}) => x.map((size, k) => ({size, scene: text[k], y: y[k], family: meta})));
+  const marks = all.filter(({scene, family}) => !family || scene.includes(" *"));
+  const scenes = [...grouped(marks, (mark) => mark.scene).values()].sort((a, b) => a[0].size - b[0].size);
+  if (!scenes.length || scenes.length > MOST_NAMES) {
+    return [];
+  }
+  const heights = all.map((mark) => Math.log(mark.y));
+  const middle = (Math.max(...heights) + Math.min(...heights)) / 2;
+  const sizes = all.map((mark) => Math.log10(mark.size));
+  const near = (narrow.matches ? 0.08 : 0.03) * (Math.max(...sizes) - Math.min(...sizes));
+  const labels = [];
+  for (const group of scenes) {
+    const x = Math.log10(group[0].size);
+    const last = labels[labels.length - 1];
+    const isLow = group.reduce((sum, mark) => sum + Math.log(mark.y), 0) / group.length < middle;
+    if (last && x - last.x < near) {
+      last.scenes.push(group[0].scene);
+    } else {
+      labels.push({x, scenes: [group[0].scene], y: isLow ? 1 : 0, yanchor: isLow ? "top" : "bottom"});
+    }
+  }
+  const font = {size: 11, color: colour("quiet")};
+  const text = (names) => (names.length > 2 ? `${names[0]} and ${names.length - 1} more` : names.join(", "));
+  const how = {yref: "paper", textangle: -90, xshift: -12, showarrow: false, font};
+  return labels.map(({scenes: names, ...label}) => ({...label, text: text(names), ...how}));
+}
+
+/** Returns the options of a menu of scenes: a single one, all and each, or with too many only all. */
+function menuOf(places) {
+  const each = places.length <= MOST_SCENES ? places : [];
+  return places.length === 1 ? [["", places[0]]] : [["", "all"], ...each];
 }
 
 function sizeChart(file) {
@@ -56,33 +112,41 @@ function sizeChart(file) {
     return null;
   }
   const stages = [...new Set(experiments.flatMap(([, cells]) => cells.flatMap((cell) => Object.keys(cell.times))))];
+  const familyOf = familiesOf(builds);
+  const placeOf = (cell) => familyOf(cell) || cell.scene;
+  const places = [...new Set(experiments.flatMap(([, cells]) => cells.map(placeOf)))];
   const wanted = stages.length === 2 ? ["whole"] : stages; // a single stage is the whole
   return new Chart(
     "Time against size",
     {
       Experiment: experiments.map(([name]) => name),
       Stage: wanted.map((stage) => [stage, stage === "whole" ? "whole build" : stage]),
+      Scenes: menuOf(places),
       Show: Object.entries(QUANTITIES).map(([key, quantity]) => [key, quantity.text]),
     },
-    (experiment, stage, key) => {
-      const all = sizes.get(experiment);
+    (experiment, stage, scene, key) => {
+      const all = sizes.get(experiment).filter((cell) => !scene || placeOf(cell) === scene);
       const cells = all.filter((cell) => cell.times[stage] && cell.times[stage][0] > 0);
       const unit = unitFor(cells.map((cell) => cell.times[stage][1]));
       const quantity = QUANTITIES[key];
-      const traces = sizeTraces(cells, stage, quantity, unit, file.looks);
-      const meshes = cells.some((cell) => familyOf(cell.scene) === "");
+      const traces = sizeTraces(cells, familyOf, stage, quantity, unit, file.looks);
+      const points = cells.some((cell) => !familyOf(cell));
+      const ofFamily = (family, look) => ({name: family, look, isOf: (trace) => trace.meta === family});
+      const families = [...familyLooks(cells, familyOf)].map(([family, look]) => ofFamily(family, look));
       return {
         traces,
-        legend: legendOf(cells, file.looks),
+        legend: [...legendOf(cells, file.looks), ...families],
         layout: {
           height: 430,
+          annotations: meshNames(traces),
           xaxis: axis("triangles", cells.map((cell) => cell.triangles), {tickformat: "~s"}),
           yaxis: axis(quantity.axis(unit), traces.flatMap((trace) => trace.y), {tickformat: ",.4~r"}),
         },
         notes: [
           "Medians; bars from the 10th to the 90th percentile." +
-            (meshes ? " Points without a line are meshes, each another shape." : ""),
+            (points ? " Points without a line are scenes of one size, each another shape." : ""),
           ...missingNotes(all),
+          ...starNotes(file, all),
         ],
       };
     }

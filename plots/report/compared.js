@@ -40,6 +40,11 @@ function missingNotes(cells) {
   return sentences.length > 4 ? [...told, `And ${sentences.length - 4} more, in the table of what has no time.`] : told;
 }
 
+/** Returns the explanation of the star, if one of the scenes has one. */
+function starNotes(file, cells) {
+  return cells.some((cell) => cell.is_stand_in) ? [file.star + "."] : [];
+}
+
 /** Returns the links of marks to their samples: the cell and stage of each mark. */
 function samplesOf(cells, stage) {
   return {leads: cells.map((cell) => (cell ? `#cell=${cell.file}.${cell.place}.${stage}` : null))};

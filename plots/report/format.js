@@ -28,7 +28,7 @@ function shown(value, kind) {
     return value.toLocaleString("en", {maximumFractionDigits: 3});
   }
   if (kind === "share") {
-    return (100 * value).toPrecision(3) + " %";
+    return typeof value === "string" ? value : (100 * value).toFixed(1) + " %";
   }
   return typeof value === "number" ? four(value) : value;
 }
@@ -62,9 +62,18 @@ function menu(options, change) {
   return made;
 }
 
-/** Shows a verdict by word and border, not by colour alone. */
-function badge(state) {
-  return element("span", {class: "state state-" + String(state).split(/[ :]/)[0]}, String(state).replace("_", " "));
+/** Shows a verdict by word and border, not by colour alone. A library's failure is told apart from one of ours. */
+function badge(state, isOfLibrary) {
+  const kind = "state state-" + String(state).split(/[ :]/)[0] + (isOfLibrary ? " of-library" : "");
+  return element("span", {class: kind}, String(state).replace("_", " "));
+}
+
+/** Returns "of libraries: FCL 60, Embree 9", with "all " or the number in front, for the counts of a state; "" without any. */
+function ofLibraries({count, libraries}) {
+  const named = Object.entries(libraries).sort(([, one], [, other]) => other - one);
+  const theirs = named.reduce((sum, [, number]) => sum + number, 0);
+  const said = named.map(([name, number]) => `${name} ${number.toLocaleString("en")}`).join(", ");
+  return theirs ? `${theirs === count ? "all" : theirs.toLocaleString("en")} of libraries: ${said}` : "";
 }
 
 function download(name, lines) {

@@ -18,6 +18,8 @@ const SHAPES = {
   x: "M-4.4,-2.2L-2.2,-4.4L0,-2.2L2.2,-4.4L4.4,-2.2L2.2,0L4.4,2.2L2.2,4.4L0,2.2L-2.2,4.4L-4.4,2.2L-2.2,0Z",
 };
 
+const DASHES = {dash: "6 4", dot: "2 3", dashdot: "6 3 2 3"};
+
 const HATCHES = {
   "/": "M-3,3L3,-3",
   x: "M-3,3L3,-3M-3,-3L3,3",
@@ -32,17 +34,32 @@ function drawn(tag, attributes, ...children) {
 }
 
 /** Draws a look for a legend; a hatched one has a stroke. */
-function swatch(look) {
+function swatch(plain) {
+  const look = themed(plain);
+  if (look.line) {
+    return lineSwatch(look);
+  }
   const shape = drawn("path", {
     d: SHAPES[look.symbol] || SHAPES.square,
     fill: look.colour,
-    stroke: INK,
+    stroke: "currentColor",
     "stroke-width": 0.6,
   });
   const hatch = look.pattern
     ? [drawn("path", {d: HATCHES[look.pattern], stroke: "#ffffff", "stroke-width": 1.6, fill: "none"})]
     : [];
   return drawn("svg", {viewBox: "-8 -7 16 14", "aria-hidden": "true"}, shape, ...hatch);
+}
+
+/** Draws a dashed line with a mark, filled or open. */
+function lineSwatch({dash, isOpen}) {
+  const paint = {stroke: "currentColor", "stroke-width": 1.4};
+  return drawn(
+    "svg",
+    {viewBox: "-14 -7 28 14", class: "wide", "aria-hidden": "true"},
+    drawn("path", {d: "M-14,0H14", "stroke-dasharray": DASHES[dash] || "none", ...paint}),
+    drawn("circle", {r: 3, fill: isOpen ? "var(--card)" : "currentColor", ...paint})
+  );
 }
 
 /** Returns the legend entries of these cells, in the order of the file's looks. */

@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: MIT
 // The page itself: its contents, the part that is shown, and the targets of links. Parts are created when first shown.
 const made = new Set();
+const BAD = ["differs", "failed", "skipped", "broken"];
 const STATES = ["agrees", "counted", "not_checked", "holds", "refused", "differs", "broken", "failed", "skipped"];
 
 function verdictsOf(states) {
-  return STATES.filter((state) => states[state]).map((state) =>
-    element("span", {class: "tally"}, badge(state), " " + states[state].toLocaleString("en"))
-  );
+  return STATES.filter((state) => states[state]).map((state) => {
+    const {count} = states[state];
+    const theirs = BAD.includes(state) ? ofLibraries(states[state]) : "";
+    const said = ` ${count.toLocaleString("en")}${theirs ? `, ${theirs}` : ""}`;
+    return element("span", {class: "tally"}, badge(state, theirs.startsWith("all")), said);
+  });
 }
 
 function runsTable(files) {
   const bad = (file) =>
-    ["differs", "failed", "skipped", "broken"]
-      .filter((state) => file.states[state])
-      .map((state) => `${file.states[state]} ${state}`)
-      .join(", ");
+    BAD.filter((state) => file.states[state])
+      .map((state) => [`${file.states[state].count} ${state}`, ofLibraries(file.states[state])].filter(Boolean).join(", "))
+      .join("; ");
   const plain = ["device", "driver", "commit", "options", "machine", "processor", "started"];
   const columns = [
     ["file", "text", (file) => file.title],
@@ -27,8 +30,12 @@ function runsTable(files) {
     title: "What was run on what",
     cells: null,
     rows: files.map((file) => columns.map(([, , value]) => value(file))),
-    links: files.map((_, k) => "#file-" + k),
-    columns: columns.map(([label, kind]) => ({label, kind, facet: ["device", "experiments", "commit"].includes(label)})),
+    columns: columns.map(([label, kind], k) => ({
+      label,
+      kind,
+      facet: ["device", "experiments", "commit"].includes(label),
+      links: k === 0 ? files.map((_, number) => "#file-" + number) : null,
+    })),
   };
   return tableSection(data, 0);
 }
@@ -46,7 +53,7 @@ async function makeFile(number, head) {
   const charts = [sizeChart(file), stagesChart(file, head.stages), paretoChart(file), framesChart(file)];
   part.querySelector(".charts").append(...charts.filter(Boolean).map((chart) => chart.element));
   const tables = file.tables.map((table) => tableSection(table, number));
-  const missing = file.tables.findIndex((table) => table.title.startsWith("Without"));
+  const missing = file.tables.findIndex((table) => table.title.startsWith("Without") && !table.folded);
   if (missing >= 0) {
     part.querySelector(".verdicts").after(tables.splice(missing, 1)[0]);
   }
@@ -58,7 +65,11 @@ async function show(name, head) {
     part.hidden = part.id !== name;
   });
   document.querySelectorAll("#files a").forEach((link) => {
-    link.toggleAttribute("aria-current", link.getAttribute("href") === "#" + name);
+    const isHere = link.getAttribute("href") === "#" + name;
+    link.toggleAttribute("aria-current", isHere);
+    if (isHere) {
+      link.parentElement.scrollLeft = link.offsetLeft - link.parentElement.offsetLeft - 20;
+    }
   });
   if (name.startsWith("file-")) {
     await makeFile(Number(name.slice(5)), head);
@@ -69,14 +80,13 @@ async function show(name, head) {
 async function follow(head) {
   const target = decodeURIComponent(location.hash.slice(1));
   const cell = /^cell=(\d+)\.(\d+)\.(\w+)$/.exec(target);
-  const first = head.files.length === 1 ? "file-0" : "overview";
   if (cell) {
     await show("file-" + cell[1], head);
     await showSamples(Number(cell[1]), Number(cell[2]), cell[3]);
     return;
   }
   document.getElementById("samples").close();
-  await show(document.getElementById(target) && target ? target : first, head);
+  await show(document.getElementById(target) && target ? target : "overview", head);
 }
 
 async function start() {
@@ -84,8 +94,12 @@ async function start() {
     throw new Error("This page needs a browser of 2023 or later: it unpacks its data with DecompressionStream.");
   }
   const head = await jsonOf("head");
+  Object.assign(inTheDark, head.dark);
   const links = [["overview", "Overview"], ...head.files.map((file, k) => ["file-" + k, file.title])];
   document.getElementById("files").append(...links.map(([id, text]) => element("a", {href: "#" + id}, text)));
+  if (head.best) {
+    document.getElementById("best").append(tableSection(head.best, 0));
+  }
   if (head.files.length) {
     document.getElementById("runs").append(runsTable(head.files));
   }

@@ -53,7 +53,7 @@ function samplesTable(samples, key, marked) {
   return table.element;
 }
 
-async function drawSamples(plot, samples, stage, quantiles, colour) {
+async function drawSamples(plot, samples, stage, quantiles, look) {
   await libraryOf("plotly");
   const isWhole = stage === "whole" || !samples.stages[stage];
   const times = Array.from({length: samples.count}, (_, place) =>
@@ -68,7 +68,7 @@ async function drawSamples(plot, samples, stage, quantiles, colour) {
     x1: 1,
     y0: value / unit[1],
     y1: value / unit[1],
-    line: {color: "#666666", width: 1, dash: k === 1 ? "solid" : "dot"},
+    line: {color: colour("quiet"), width: 1, dash: k === 1 ? "solid" : "dot"},
   }));
   const marks = {
     type: "scatter",
@@ -76,7 +76,7 @@ async function drawSamples(plot, samples, stage, quantiles, colour) {
     x: order,
     y: times.map((time) => time / unit[1]),
     name: stage,
-    marker: {color: colour, size: 6, line: {color: INK, width: 0.4}},
+    marker: {color: themed(look).colour, size: 6, line: {color: colour("ink"), width: 0.4}},
     hovertemplate: `sample %{x}<br>%{y:.5g} ${unit[0]}<extra></extra>`,
   };
   const layout = layoutOf({
@@ -135,6 +135,7 @@ async function showSamples(file, place, stage) {
   }
   dialog.scrollTop = 0;
   if (samples.count && quantiles) {
-    await drawSamples(plot, samples, stage, quantiles, data.looks[cell.who].colour);
+    plot.chart = {draw: () => drawSamples(plot, samples, stage, quantiles, data.looks[cell.who])};
+    await plot.chart.draw();
   }
 }

@@ -5,6 +5,12 @@ const MOST_CHOICES = 60;
 const SHORT = 24; // characters: a column without longer texts does not wrap
 const words = new Intl.Collator("en", {numeric: true});
 
+/** Orders numbers, then texts. */
+function compared(a, b) {
+  const [isText, isOther] = [a, b].map((value) => typeof value !== "number");
+  return isText && isOther ? words.compare(a, b) : isText || isOther ? isText - isOther : a - b;
+}
+
 class SortedTable {
   /** `data` as returned by plots/report_tables.py; `file` is the file's number in links to samples. */
   constructor(data, file) {
@@ -16,6 +22,8 @@ class SortedTable {
     const texts = data.rows.map((row) => row.map((value, k) => shown(value, data.columns[k].kind)));
     this.text = texts.map((row) => row.join(" ").toLowerCase());
     this.short = data.columns.map((_, k) => texts.every((row) => row[k].length <= SHORT));
+    this.libraries = new Set(data.libraries);
+    this.firstTime = data.columns.findIndex((column) => column.kind === "time");
     this.state = data.columns.findIndex((column) => column.kind === "state");
     this.count = element("span", {class: "count", "aria-live": "polite"});
     this.body = element("tbody");
@@ -46,8 +54,7 @@ class SortedTable {
       {class: "controls"},
       element("label", {}, "Filter ", this.query),
       ...choices,
-      this.count,
-      element("button", {type: "button", click: () => this.save()}, "CSV")
+      element("span", {class: "end"}, this.count, element("button", {type: "button", click: () => this.save()}, "CSV"))
     );
   }
 
@@ -90,7 +97,7 @@ class SortedTable {
         if (missing(a) || missing(b)) {
           return missing(a) - missing(b);
         }
-        return direction * (typeof a === "number" ? a - b : words.compare(a, b));
+        return direction * compared(a, b);
       });
     }
     return found;
@@ -109,23 +116,24 @@ class SortedTable {
     const row = this.data.rows[i];
     const state = this.state < 0 ? "" : row[this.state];
     const isBad = WITHOUT_TIMES.includes(state);
+    const kind = state === "skipped" ? "absent" : this.libraries.has(i) ? "of-library" : "bad";
     const entries = row.map((value, k) => {
       const column = this.data.columns[k];
       const attributes = {class: `kind-${column.kind}${this.short[k] ? " short" : ""}`, scope: k === 0 ? "row" : null};
       return element(k === 0 ? "th" : "td", attributes, this.content(value, column, i, isBad ? state : null));
     });
-    return element("tr", {class: isBad ? "bad" : null}, ...entries);
+    return element("tr", {class: isBad ? kind : null}, ...entries);
   }
 
   content(value, column, i, bad) {
     if (column.kind === "state") {
-      return value === null ? "–" : badge(value);
+      return value === null ? "–" : badge(value, this.libraries.has(i));
     }
-    if (value === null && column.kind === "time" && bad) {
-      return badge(bad);
+    if (value === null && column === this.data.columns[this.firstTime] && bad) {
+      return badge(bad, this.libraries.has(i));
     }
-    if (this.data.links && column === this.data.columns[0]) {
-      return element("a", {href: this.data.links[i]}, value);
+    if (value !== null && column.links && column.links[i]) {
+      return element("a", {href: column.links[i]}, shown(value, column.kind));
     }
     const cells = column.cells || this.data.cells;
     if (value !== null && cells && column.stage) {

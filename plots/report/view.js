@@ -6,7 +6,6 @@ const SCENE = {
   contact: "#D55E00",
   inner: "#0072B2",
   leaf: "#009E73",
-  paper: "#ffffff",
 };
 const SEEN_FROM = [0.55, 0.5, 1];
 const FIELD = 25; // degrees: a small field of view distorts little
@@ -135,6 +134,10 @@ class View {
     this.controls.target.copy(this.middle);
     this.controls.addEventListener("change", () => this.render());
     this.controls.update();
+    dark.addEventListener("change", () => {
+      this.paint();
+      this.render();
+    });
     new ResizeObserver(() => this.resize()).observe(this.canvas.parentElement);
     this.show();
     this.resize();
@@ -168,13 +171,18 @@ class View {
       (kind) => new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({color: SCENE[kind]}))
     );
     this.scene = new THREE.Scene();
-    this.scene.background = colours.paper;
+    this.paint();
     this.camera = new THREE.PerspectiveCamera(FIELD, 1, 0.01, 100);
     const lamp = new THREE.DirectionalLight("#ffffff", 0.6);
     lamp.position.set(0.5, 1, 0.8);
     this.camera.add(lamp);
     this.scene.add(this.camera, new THREE.AmbientLight("#ffffff", 0.55), this.mesh, this.part, ...this.lines);
     this.place();
+  }
+
+  /** Gives the scene the page's background. */
+  paint() {
+    this.scene.background = new THREE.Color(colour("card"));
   }
 
   /** Places the camera so that the whole scene is visible, whatever its size. */

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Tests console tables and numbers, what `show` prints for axes of accuracy and for stress, what `reproduce` prints beside the
-paper's numbers, and how `show` reads and writes."""
+paper's numbers, how `show` reads and writes, and what a report says was found."""
 import os
 import pathlib
 import re
@@ -13,10 +13,13 @@ from typing import Any
 import base  # first: it adds plots to sys.path
 from base import GOLDEN, ROOT, Raw, run_of
 
+import report
 import results
+import tables
 from cells import Cell
 from commands import show
 from console import accuracy, paper, stress, tree_costs
+from console import cells as cells_page
 from tables import Table, counted, duration, exact, size
 
 
@@ -100,6 +103,95 @@ class OfCodes(unittest.TestCase):
 def cell(builder: str, ns: int = 100000, scene: str = "bunny", sah_cost: float | None = None, **facts: Any) -> Raw:
     return base.cell(builder, ns, scene={"name": scene, "triangles": 144046, **facts},
                      counters={"nodes_count": 288100} if sah_cost is None else {"sah_cost": sah_cost})
+
+
+def data_of(*cells: Raw, **facts: Any) -> dict[str, Any]:
+    """Returns what the report says about a made file."""
+    made = base.document(*cells, **facts)
+    merged = made["run"].pop("merged_from", [])
+    return report.file_data(pathlib.Path("made.json"), made | {"merged_from": merged}, [Cell(one) for one in made["cells"]])
+
+
+def answer_of(*cells: Raw) -> str:
+    """Returns the answer to the question of a file's only experiment."""
+    (found,) = data_of(*cells)["findings"]
+    return found["answer"]
+
+
+class OfTheReport(unittest.TestCase):
+    def test_shares_are_of_the_copy_rate_of_the_cells_own_run_and_those_of_show(self) -> None:
+        runs = [{"id": name, "copy_rate_bytes_per_s": rate} for name, rate in (("slow", 7e11), ("fast", 2e12))]
+        of_runs = (("oibvh-multi", "slow"), ("oibvh-single", "fast"), ("karras", "none"))
+        made = [{**cell(builder), "run": run} for builder, run in of_runs]
+        data = data_of(*made, merged_from=runs)
+        self.assertEqual([one["copy_share"] for one in data["cells"]], [0.71429, 0.25, 0.5])
+        run = results.Run(pathlib.Path("made.json"), base.document(*made) | {"merged_from": runs})
+        shown = [re.search(r"[\d.]+ %", line)[0] for line in cells_page.text(run).splitlines()[1:4]]
+        self.assertEqual(shown, ["71.4 %", "25.0 %", "50.0 %"])
+
+    def test_what_moves_faster_than_a_copy_is_in_cache(self) -> None:
+        self.assertEqual([tables.of_copy_rate(share) for share in (0.7, 1, 1.001)], [0.7, 1, "in cache"])
+        self.assertEqual(data_of(cell("karras", 1000))["cells"][0]["copy_share"], "in cache")
+        line = cells_page.text(run_of(cell("karras", 1000))).splitlines()[1]
+        self.assertRegex(line, r" in cache +agrees$")
+        self.assertNotIn("%", line)
+
+    def test_the_answer_names_the_soonest_and_how_far_the_next_is_behind(self) -> None:
+        self.assertEqual(answer_of(cell("karras", 100000), cell("perfect", 150000), cell("apetrei", 400000)),
+                         "karras is soonest on bunny: 100 µs. The next, perfect, takes 150 µs, 1.50 times as long. "
+                         "All 3 answers are right.")
+        scenes = (("a", (100000, 120000)), ("b", (100000, 300000)), ("c", (500000, 400000)))
+        several = [cell(builder, ns, scene) for scene, times in scenes for builder, ns in zip(("karras", "perfect"), times)]
+        self.assertEqual(answer_of(*several),
+                         "karras is soonest on 2 of 3 scenes, perfect on 1; the next takes 1.20 to 3.00 times as long. "
+                         "All 6 answers are right.")
+        self.assertEqual(answer_of(*several[:4]),
+                         "karras is soonest on both scenes; the next takes 1.20 to 3.00 times as long. All 4 answers are right.")
+        self.assertIn(", 1.01 times as long, within the spread of samples.",
+                      answer_of(cell("karras", 100000), cell("perfect", 101000)))
+        self.assertEqual(answer_of(cell("karras", 100000)), "Only karras was measured: 100 µs. 1 answer is right.")
+
+    def test_a_wrong_answer_is_not_the_best_and_a_librarys_is_named(self) -> None:
+        wrong = {"check": {"verdict": "differs", "against": "contract"}}
+        text = answer_of({**cell("karras", 100000), **wrong}, {**cell("embree-low", 100000), **wrong}, cell("perfect", 300000),
+                         cell("fcl-aabb", 900000))
+        self.assertEqual(text, "perfect is soonest on bunny: 300 µs. The next, fcl-aabb, takes 900 µs, 3.00 times as long; "
+                               "the best library takes 3.00 times as long. 2 answers are right; 1 cell gave a wrong answer; "
+                               "1 cell of Embree gave a wrong answer.")
+
+    def test_table4_is_answered_by_costs(self) -> None:
+        made = [{**cell(builder, 1000, sah_cost=cost), "experiment": "table4"}
+                for builder, cost in (("oibvh-multi", 200), ("karras", 80))]
+        self.assertEqual(answer_of(*made),
+                         "karras has the lowest surface area cost on bunny: 80. The next, oibvh-multi, costs 200, 2.50 times as "
+                         "much. All 2 answers are right.")
+
+    def test_states_are_counted_by_library(self) -> None:
+        failed = {"status": "failed", "reason": "why", "samples": []}
+        data = data_of({**cell("embree-low"), **failed}, {**cell("karras"), **failed}, cell("perfect"))
+        self.assertEqual(data["states"], {"failed": {"count": 2, "libraries": {"Embree": 1}},
+                                          "agrees": {"count": 1, "libraries": {}}})
+
+    def test_a_rank_needs_every_frame(self) -> None:
+        made = [{**cell(builder, ns), "scene": {"name": "cloth", "triangles": 8, "frame": frame}}
+                for builder, times in (("karras", (100000, 500000)), ("perfect", (200000, 300000)), ("apetrei", (1000,)))
+                for frame, ns in enumerate(times)]
+        answer = "perfect is soonest on cloth: 250 µs. The next, karras, takes 300 µs"
+        self.assertTrue(answer_of(*made).startswith(answer))
+        made[-1] |= {"status": "failed", "reason": "why", "samples": []}
+        self.assertTrue(answer_of(*made).startswith(answer))
+
+    def test_cells_with_and_without_cold_caches_are_not_compared(self) -> None:
+        made = [cell("karras", 100000), {**cell("karras", 900000), "sampling": {"caches": "cold"}}]
+        self.assertEqual([row[3] for row in data_of(*made)["findings"][0]["rows"]], [100, 900])
+
+    def test_a_narrow_phase_is_judged_before_it_is_ranked(self) -> None:
+        made = [narrow("guigue-f64", 10, 1000), narrow("guigue-f32", 10, 250, missed=2), narrow("moller-f32", 10, 3000)]
+        self.assertEqual(answer_of(*made),
+                         "Right: guigue-f64 on 1 of 1 scene, moller-f32 on 1 of 1 scene, guigue-f32 on 0 of 1 scene. Of those that "
+                         "are right: guigue-f64 is soonest on slivers: 1.00 µs. The next, moller-f32, takes 3.00 µs, 3.00 times as "
+                         "long.")
+        self.assertEqual(answer_of(made[1]), "Right: guigue-f32 on 0 of 1 scene.")
 
 
 class OfTable1(unittest.TestCase):

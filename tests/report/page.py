@@ -26,8 +26,13 @@ DETAIL = "=7 is not its children's box"  # begins like a formula
 
 
 def with_faults(document: dict) -> dict:
-    """Makes one cell wrong and one failed. One is already skipped in the golden file."""
+    """Makes one cell wrong and one failed; one is already skipped in the golden file. Adds soups as large as its tori, and makes
+    the copy rate so low that everything must have come from a cache."""
     document = copy.deepcopy(document)
+    document["run"]["copy_rate_bytes_per_s"] = 1e6
+    for cell in copy.deepcopy([cell for cell in document["cells"] if cell["scene"]["name"].startswith("torus")]):
+        cell["scene"]["name"] = cell["scene"]["name"].replace("torus", "soup")
+        document["cells"] += [cell] if cell["status"] == "measured" else []
     measured = [cell for cell in document["cells"] if cell["status"] == "measured"]
     measured[0]["check"] = {"verdict": "differs", "against": "contract", "detail": DETAIL}
     failed = measured[1]

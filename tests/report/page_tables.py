@@ -55,7 +55,7 @@ class Tables(Page):
         self.assertEqual((self.report.made.returncode, self.report.made.stderr), (1, ""))
         self.show("faulty")
         column = self.heads("Builds").index("whole, median")
-        bad = self.table("Builds", """return [...titled.querySelectorAll("tbody tr.bad")].map(
+        bad = self.table("Builds", """return [...titled.querySelectorAll("tbody :is(tr.bad, tr.absent)")].map(
             (row) => [cells(row), row.querySelectorAll("a").length]);""")
         self.assertEqual([(row[column], links) for row, links in bad], [("differs", 0), ("failed", 0), ("skipped", 0)])
         reasons = [row[-1] for row in self.rows("Without a time, and why")]
@@ -88,6 +88,8 @@ class Tables(Page):
 
     def test_stress_shows_what_broke(self) -> None:
         self.show("stress")
+        self.table("Stress", "titled.open = true;")
+        self.browser.wait_for("document.querySelector('section:not([hidden]) details.titled[open] tbody')")
         document = golden("stress")
         broken = sum(finding["verdict"] == "broken" for cell in document["stress"] for finding in cell["findings"].values())
         self.assertEqual(self.table("Stress", "return titled.querySelectorAll('.state-broken').length;"), broken)

@@ -8,6 +8,7 @@ import unittest
 from page import FILES, Page, report  # first: it takes the arguments and adds plots to sys.path
 
 from charts import Charts  # noqa: F401
+from findings import Findings  # noqa: F401
 from page_tables import Tables  # noqa: F401
 
 WIDTHS = (1280, 400)
@@ -30,7 +31,7 @@ class Whole(Page):
         rows = self.rows("What was run on what")
         self.assertEqual([row[0] for row in rows], [*FILES, "faulty"])
         self.assertEqual([row[4] for row in rows], ["Invented GPU"] * len(rows))
-        self.assertEqual(rows[-1][3], "1 differs, 1 failed, 1 skipped")
+        self.assertEqual(rows[-1][3], "1 differs; 1 failed; 1 skipped")
         facts = self.browser.run("return document.querySelector('#file-0 .facts').textContent")
         for words in ("Invented GPU", "Invented CPU", "0" * 40, "reproduce table1", "GNU 12.2.0"):
             self.assertIn(words, facts)
