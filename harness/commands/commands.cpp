@@ -37,6 +37,7 @@ std::span<const CommandEntry> commands()
         in_python("plot", looking, "Draw every figure that result files have the cells for"),
         in_python("report", looking,
                   "Make one page of result files, and of small scenes in three dimensions"),
+        in_python("export", looking, "Write result files in a format that other programs read"),
         in_python("merge", looking,
                   "Make one result file of several, with each cell once and as it was"),
         check_command,
