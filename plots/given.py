@@ -11,20 +11,23 @@ from json_files import Refused, files_in
 MOST_NAMED = 5
 
 
-class Given(NamedTuple):
-    """A result file, and its folder below the folder that was given; "." if the file itself was given."""
+Path = str | os.PathLike[str]
 
-    path: pathlib.Path
+
+class Given(NamedTuple):
+    """A result file, as it was given, and its folder below the folder that was given; "." if the file itself was given."""
+
+    path: Path
     below: pathlib.Path
     is_of_folder: bool
 
 
-def files_of(given: Iterable[str | os.PathLike[str]]) -> list[Given]:
+def files_of(given: Iterable[Path]) -> list[Given]:
     """Returns the files, with the result files of folders in the order of their paths. A note names the JSON files of a folder
     that are not result files. Raises Refused for a folder without result files. Files are read later, and refused then."""
     found: list[Given] = []
-    for path in map(pathlib.Path, given):
-        found += of_folder(path) if path.is_dir() else [Given(path, pathlib.Path("."), False)]
+    for path in given:
+        found += of_folder(pathlib.Path(path)) if os.path.isdir(path) else [Given(path, pathlib.Path("."), False)]
     return found
 
 
