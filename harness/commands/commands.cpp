@@ -40,6 +40,9 @@ std::span<const CommandEntry> commands()
         in_python("export", looking, "Write result files in a format that other programs read"),
         in_python("merge", looking,
                   "Make one result file of several, with each cell once and as it was"),
+        in_python(
+            "data", looking,
+            "List the data sets that scenes are made of, or download some into the data folder"),
         check_command,
         in_python("smoke", holding,
                   "Run every builder and collider over small scenes and hold all to a baseline; 1 "
