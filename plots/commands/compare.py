@@ -18,9 +18,10 @@ def parser() -> command.Parser:
          ("bvhbench compare before.json after.json --threshold 10% --all", "coarser, and every cell"),
          ("bvhbench compare peers.json --builders karras,oibvh-single", "two builders in one file")], "docs/comparing.md")
     words.add_argument("first", metavar="A", type=pathlib.Path, help="the earlier result file")
-    words.add_argument("second", metavar="B", nargs="?", type=pathlib.Path, help="the later one; with --builders, A if not given")
-    words.add_argument("--builders", type=builder_pair, help="compare cells of the second builder in B with those of the first in A; "
-                       "slower is then no regression, and another answer is")
+    words.add_argument("second", metavar="B", nargs="?", type=pathlib.Path,
+                       help="the later one; with --builders, A if not given")
+    words.add_argument("--builders", type=builder_pair, help="as karras,oibvh-single: compare cells of the second builder, in B, "
+                       "with those of the first, in A; slower is then no regression, and another answer is")
     words.add_argument("--threshold", type=command.share(10), default="5%",
                        help="the smallest change of time that counts, as 5% or 0.05")
     words.add_argument("--all", action="store_true", help="show cells that are unchanged, too")

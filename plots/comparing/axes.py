@@ -24,11 +24,12 @@ def words_of(key: str, value: Any) -> str:
 def values_of(cells: list[Cell]) -> dict[str, list[str]]:
     """Returns the different values of each part of the cells' identities."""
     own = [parts(cell.raw) for cell in cells]
-    return {key: list(dict.fromkeys(words_of(key, part.get(key)) for part in own)) for key in dict.fromkeys(key for part in own for key in part)}
+    keys = dict.fromkeys(key for part in own for key in part)
+    return {key: list(dict.fromkeys(words_of(key, part.get(key)) for part in own)) for key in keys}
 
 
 def difference(first: list[Cell], second: list[Cell]) -> str:
-    """Returns what all cells of one file have and no cell of the other: "builder: karras against oibvh-single". Empty if nothing."""
+    """Returns in what no cell of one file equals a cell of the other: "builder: karras against oibvh-single". May be empty."""
     one, other = values_of(first), values_of(second)
     keys = [key for key in dict.fromkeys((*FIRST, *one)) if key in one and key in other and not set(one[key]) & set(other[key])]
     return "; ".join(f"{NAMES.get(key, key)}: {listed(one[key])} against {listed(other[key])}" for key in keys[:MOST_TOLD])
@@ -63,8 +64,8 @@ def pair_of(text: str) -> tuple[str, str]:
 
 def between_builders(paths: tuple[pathlib.Path, pathlib.Path], first: Document, second: Document,
                      builders: tuple[str, str]) -> tuple[Document, Document]:
-    """Returns the cells of the first builder in the first document, and those of the second in the second, under one name, so that
-    they are the same cells to a comparison. Raises WrongUsage if there are none, or if they share no scene and options."""
+    """Returns the cells of the first builder in the first document, and those of the second in the second, under one name, so
+    that they are the same cells to a comparison. Raises WrongUsage if there are none, or if they share no scene and options."""
     made = []
     for path, document, builder in zip(paths, (first, second), builders):
         cells = [copy.copy(raw) for raw in document["cells"] if raw["builder"]["name"] == builder]

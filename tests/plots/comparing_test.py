@@ -240,7 +240,8 @@ class TwoBuilders(unittest.TestCase):
         self.assertEqual(self.held(both, both, "perfect,karras").regressions, 0)  # slower is no regression
 
     def test_a_common_speed_of_all_colliders_is_not_removed(self) -> None:
-        cells = [{**cell(name, ns, seed), "operation": "collide", "collider": {"name": collider}} for name, ns in (("karras", 1e6), ("perfect", 2e6))
+        cells = [{**cell(name, ns, seed), "operation": "collide", "collider": {"name": collider}}
+                 for name, ns in (("karras", 1e6), ("perfect", 2e6))
                  for seed, collider in enumerate(("leaf", "group", "bvtt", "front", "block"))]
         both = document(*cells)
         self.assertEqual([each.verdict for each in self.held(both, both).cells], [SLOWER] * 5)
@@ -279,9 +280,10 @@ class NothingShared(unittest.TestCase):
         ordered["builder"]["options"] = {"order": "kd"}
         one = document(cell("karras"), cell("karras", frame=1))
         start = "a.json and b.json have no cell in common: they differ in "
-        self.assertEqual(self.told(one, document(cell("perfect"))), start + "builder: karras against perfect; to compare builders: "
-                         "bvhbench compare a.json b.json --builders karras,perfect")
-        self.assertIn(start + "builder: karras against karras, order kd; `bvhbench report a.json b.json`", self.told(one, document(ordered)))
+        self.assertEqual(self.told(one, document(cell("perfect"))), start + "builder: karras against perfect; "
+                         "to compare builders: bvhbench compare a.json b.json --builders karras,perfect")
+        self.assertIn(start + "builder: karras against karras, order kd; `bvhbench report a.json b.json`",
+                      self.told(one, document(ordered)))
         self.assertIn(start + "frame: 0 or 1 against 7; ", self.told(one, document(cell(frame=7))))
 
     def test_is_not_told_of_files_that_share_a_cell(self) -> None:
