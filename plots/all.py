@@ -4,14 +4,14 @@
     plots/all.py FILE_OR_FOLDER... --out DIR
 
 A folder stands for all result files below it; their pictures go into folders of the same names below DIR.
-Other JSON files are passed over, and so are files of a folder that no figure is made of. Exits 0; 2 for wrong usage; 3 if a
+Other JSON files are passed over, and so are files of a folder that no figure is made of. A file without cells of an experiment
+with a figure of its own gets bars of medians (overview.py). Exits 0; 2 for wrong usage; 3 if a
 file cannot be read or drawn.
 """
 import argparse
 import collections
 import pathlib
 import sys
-from collections.abc import Iterator
 
 import accuracy
 import fig10
@@ -20,8 +20,9 @@ import fig8
 import fig9
 import figure
 import frames
-import json_files
+import given
 import output
+import overview
 import pareto_orders
 import results
 import roofline
@@ -56,15 +57,6 @@ FRAME_FIGURES: dict[str, dict[str, figure.Draw]] = {
 }
 
 
-def files_of(given: pathlib.Path, out: pathlib.Path) -> Iterator[tuple[pathlib.Path, pathlib.Path]]:
-    if not given.is_dir():
-        yield given, out
-        return
-    for path in json_files.files_in(given):
-        if results.is_result(path):
-            yield path, out / path.parent.relative_to(given)
-
-
 def pictures_of(run: results.Run) -> figure.Figures:
     """Returns every figure that the file has cells for, by the name of its picture."""
     draws = {name: draw for name, draw in FIGURES.items() if run.of(name)} | accuracy.draws_of(run)
@@ -72,7 +64,8 @@ def pictures_of(run: results.Run) -> figure.Figures:
         draws["stress"] = stress.draw
     for experiment, of_frames in FRAME_FIGURES.items():
         draws |= of_frames if run.all_frames(experiment) else {}
-    return figure.named(run, draws | sweeps.figures_of(run))
+    draws |= sweeps.figures_of(run)
+    return figure.named(run, draws or overview.draws_of(run))
 
 
 def held(run: results.Run) -> str:
@@ -88,7 +81,8 @@ def drawn(path: pathlib.Path, folder: pathlib.Path, is_of_folder: bool, inputs: 
     run = results.load(path)
     pictures = pictures_of(run)
     if not pictures and not is_of_folder:
-        raise results.Refused(f"{path}: there is no figure of what it holds: {held(run)}")
+        raise results.Refused(f"{path}: there is no figure of what it holds: {held(run)}; `bvhbench report` makes a page of "
+                              "any file")
     for picture in figure.save_all(run, pictures, folder, [path, *inputs], force):
         print(picture)
 
@@ -97,12 +91,11 @@ def draw_all(files: list[pathlib.Path], out: pathlib.Path, force: bool) -> list[
     """Draws everything that can be drawn and returns one message for each file that cannot. Raises output.WrongUsage."""
     style.set_up()
     refusals = []
-    for given in files:
-        for path, folder in files_of(given, out):
-            try:
-                drawn(path, folder, given.is_dir(), files, force)
-            except results.Refused as refusal:
-                refusals.append(str(refusal))
+    for one in given.files_of(files):
+        try:
+            drawn(pathlib.Path(one.path), out / one.below, one.is_of_folder, files, force)
+        except results.Refused as refusal:
+            refusals.append(str(refusal))
     return refusals
 
 

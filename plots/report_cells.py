@@ -13,7 +13,7 @@ from cells import Cell, by_stage, grouped, quantiles, whole_ns
 
 WITHOUT_TIMES = ("differs", "skipped", "failed")
 WHOLE = "whole"
-BETWEEN = "between stages"
+BETWEEN = names.BETWEEN
 MEDIAN = 1  # index of the median among quantiles
 QUESTION = ("experiment", "axis", "scene", "asked")
 # Counters that tell how good a tree is, and their names on the page.

@@ -29,6 +29,10 @@ class Failure(Exception):
     """A download that did not give the file."""
 
 
+class Unreachable(Failure):
+    """A server or file that cannot be reached."""
+
+
 class Download(NamedTuple):
     """One file of a data set: its path under the data folder, where it is, and its sum if known."""
 
@@ -92,9 +96,13 @@ def fetch(download: Download, folder: pathlib.Path) -> str:
         append_rest(download.url, part)
     except urllib.error.HTTPError as error:
         part.unlink(missing_ok=True)  # 416: what is there is longer than the file
-        raise Failure(f"{download.url} answers {error.code} {error.reason}") from error
+        raise Unreachable(f"{download.url} answers {error.code} {error.reason}") from error
+    except urllib.error.URLError as error:
+        raise Unreachable(f"{download.url} cannot be read: {error.reason}") from error
+    except (ConnectionError, TimeoutError) as error:
+        raise Unreachable(f"{download.url} cannot be read: {error}") from error
     except OSError as error:
-        raise Failure(f"{download.url} cannot be read: {error}") from error
+        raise Failure(f"{part} cannot be written: {error.strerror}") from error
     found = sha256(part)
     if download.sha256 not in (None, found):
         part.unlink()

@@ -27,7 +27,10 @@ std::span<const CommandEntry> commands()
         {"plot", looking, "Draw every figure that result files have the cells for"},
         {"report", looking,
          "Make one page of result files, and of small scenes in three dimensions"},
+        {"export", looking, "Write result files in a format that other programs read"},
         {"merge", looking, "Make one result file of several, with each cell once and as it was"},
+        {"data", looking,
+         "List the data sets that scenes are made of, or download some into the data folder"},
         check_command,
         {"smoke", holding,
          "Run every builder and collider over small scenes and hold all to a baseline; 1 "

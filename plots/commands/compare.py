@@ -3,7 +3,9 @@ import pathlib
 
 import command
 import documents
-from comparing import comparison, report
+import output
+from cells import Cell
+from comparing import axes, comparison, report
 from comparing.refusals import Rules, require_comparable
 
 
@@ -13,9 +15,13 @@ def parser() -> command.Parser:
         "Times by an interval of the ratio of medians and by the Mann-Whitney test: SAME, FASTER, SLOWER or UNSURE. Verdicts, "
         "counters and errors exactly. 1 if anything is slower, larger or wrong, so that CI can gate on it.",
         [("bvhbench compare before.json after.json", "what got worse?"),
-         ("bvhbench compare before.json after.json --threshold 10% --all", "coarser, and every cell")], "docs/comparing.md")
+         ("bvhbench compare before.json after.json --threshold 10% --all", "coarser, and every cell"),
+         ("bvhbench compare peers.json --builders karras,oibvh-single", "two builders in one file")], "docs/comparing.md")
     words.add_argument("first", metavar="A", type=pathlib.Path, help="the earlier result file")
-    words.add_argument("second", metavar="B", type=pathlib.Path, help="the later one")
+    words.add_argument("second", metavar="B", nargs="?", type=pathlib.Path,
+                       help="the later one; with --builders, A if not given")
+    words.add_argument("--builders", type=builder_pair, help="as karras,oibvh-single: compare cells of the second builder, in B, "
+                       "with those of the first, in A; slower is then no regression, and another answer is")
     words.add_argument("--threshold", type=command.share(10), default="5%",
                        help="the smallest change of time that counts, as 5% or 0.05")
     words.add_argument("--all", action="store_true", help="show cells that are unchanged, too")
@@ -27,12 +33,26 @@ def parser() -> command.Parser:
     return words
 
 
+def builder_pair(text: str) -> tuple[str, str]:
+    try:
+        return axes.pair_of(text)
+    except ValueError as error:
+        raise command.argparse.ArgumentTypeError(str(error)) from error
+
+
 def main(words: list[str]) -> int:
     arguments = parser().parse_args(words)
+    if arguments.second is None and not arguments.builders:
+        raise output.WrongUsage("B is required: a later result file, or --builders to compare two builders in one file")
+    names = arguments.first, arguments.second or arguments.first
     rules = Rules(threshold=arguments.threshold, allow_missing=arguments.allow_missing, allow_dirty=arguments.allow_dirty,
-                  other_devices=arguments.other_devices, allow_test_hooks=arguments.test_hooks)
-    first, second = documents.read(str(arguments.first)), documents.read(str(arguments.second))
-    require_comparable((arguments.first, first), (arguments.second, second), rules)
+                  other_devices=arguments.other_devices, allow_test_hooks=arguments.test_hooks, builders=arguments.builders)
+    first, second = (documents.read(str(name)) for name in names)
+    require_comparable((names[0], first), (names[1], second), rules)
+    if rules.builders:
+        first, second = axes.between_builders(names, first, second, rules.builders)
+    elif not rules.allow_missing:
+        axes.require_shared(names, *([Cell(raw) for raw in document["cells"]] for document in (first, second)))
     compared = comparison.compare(first, second, rules)
     print(report.text(compared, arguments.all), end="")
     return 1 if compared.regressions else 0

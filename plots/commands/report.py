@@ -5,6 +5,7 @@ import tempfile
 
 import child
 import command
+import given
 import output
 import report
 from json_files import Refused
@@ -21,7 +22,7 @@ def parser() -> command.Parser:
         [("bvhbench report peers.json -o report.html", "one file"),
          ("bvhbench report a.json b.json --scene torus:3000 -o report.html", "two, and a scene in three dimensions")],
         "docs/report.md")
-    words.add_argument("files", nargs="*", metavar="FILE", help="result files")
+    words.add_argument("files", nargs="*", metavar="FILE", help="result files, or folders of them")
     words.add_argument("-o", "--out", default="report.html", help="the page")
     words.add_argument("--scene", action="append", default=[],
                        help="small scenes to show: their triangles, the boxes of each level of a tree, and what collides")
@@ -39,12 +40,13 @@ def main(words: list[str]) -> int:
     if not arguments.files and not arguments.scene:
         raise output.WrongUsage("name result files, or a --scene to show")
     options = {key: getattr(arguments, key) for key in BUILDER if getattr(arguments, key) is not None}
-    inputs = [*arguments.files, *scene_files(arguments, options)]
+    files = [pathlib.Path(file.path) for file in given.files_of(arguments.files)]
+    inputs = [*map(str, files), *scene_files(arguments, options)]
     with reserved(arguments.out, "--out", arguments.force, inputs, output.is_page), \
             tempfile.TemporaryDirectory(prefix="bvhbench-") as folder:
         views = [view(arguments, scene, options, pathlib.Path(folder, str(number)))
                  for number, scene in enumerate(arguments.scene)]
-        return report.write([pathlib.Path(file) for file in arguments.files], views, pathlib.Path(arguments.out), True)
+        return report.write(files, views, pathlib.Path(arguments.out), True)
 
 
 def scene_files(arguments: argparse.Namespace, options: dict[str, str]) -> list[str]:

@@ -1,5 +1,6 @@
 """bvhbench show: prints a result file as tables."""
 import command
+import given
 import results
 from console import accuracy, cell, cells, frames, skips, stress, swept, trees
 from console import run as run_page
@@ -7,21 +8,27 @@ from console import run as run_page
 
 def parser() -> command.Parser:
     words = command.Parser("show", "Print a result file as tables", "Prints what the command that wrote the file did.",
-                           [("bvhbench show peers.json", "its tables"),
+                           [("bvhbench show peers.json", "its tables"), ("bvhbench show out", "of every file below a folder"),
                             ("bvhbench show peers.json --wide | less -S", "with all columns")], "docs/results.md")
-    words.add_argument("file", metavar="FILE", help="a result file")
+    words.add_argument("files", nargs="+", metavar="FILE", help="result files, or folders of them")
     words.add_wide()
     return words
 
 
 def main(words: list[str]) -> int:
-    file = parser().parse_args(words).file
+    files = given.files_of(parser().parse_args(words).files)
+    for number, file in enumerate(files):
+        heading = f"{chr(10) * (number > 0)}== {file.path}\n" if len(files) > 1 else ""
+        print(heading, text(str(file.path)), sep="", end="")
+    return 0
+
+
+def text(file: str) -> str:
     run = results.everything(file)
     try:
-        print(run_page.text(run), run_page.merged(run), pages(run), sep="", end="")
+        return run_page.text(run) + run_page.merged(run) + pages(run)
     except KeyError as missing:
         raise results.Refused(f"{file}: a cell has no {missing}") from missing
-    return 0
 
 
 def pages(run: results.Run) -> str:

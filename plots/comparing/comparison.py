@@ -1,5 +1,6 @@
 """Compares two result files cell by cell: what became faster, slower, larger or wrong."""
 import functools
+from collections import Counter
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -7,6 +8,7 @@ from cells import Cell, grouped
 from comparing import scenes, times
 from comparing.drift import CellPair
 from comparing.facts import fact_changes, run_remarks
+from comparing.launches import allowance_ns
 from comparing.refusals import Rules
 from comparing.scenes import SceneChange
 
@@ -39,16 +41,20 @@ class Comparison:
     only_second: list[Cell]
     remarks: list[str]  # other differences of the two runs
     by_turns: bool  # true if the runs took samples in turns, so that drift affects both alike
+    allowance: float = 0  # nanoseconds that a launch may differ by between the runs
     scenes: list[SceneChange] = field(default_factory=list)  # of scenes with enough cells for a common change
 
     @functools.cached_property
     def error_of_each(self) -> float:
-        """Returns the error allowed for one cell, after Bonferroni, so that comparisons of hundreds of cells of equal programs
-        rarely fail."""
-        return self.rules.error / max(1, sum(cell.has_times for cell in self.cells))
+        """Returns the error allowed for one cell or one scene's common change, after Bonferroni, so that comparisons of hundreds
+        of cells of equal programs rarely fail."""
+        timed = [group_of(cell.first) for cell in self.cells if cell.has_times]
+        return self.rules.error / max(1, len(timed) + sum(count >= scenes.FEWEST_CELLS for count in Counter(timed).values()))
 
     @property
     def regressions(self) -> int:
+        if self.rules.builders:
+            return sum(bool(cell.regressions) for cell in self.cells)
         return (sum(cell.verdict == times.SLOWER or bool(cell.regressions) for cell in self.cells)
                 + sum(scene.verdict == times.SLOWER for scene in self.scenes)
                 + (0 if self.rules.allow_missing else len(self.only_first)))
@@ -57,25 +63,29 @@ class Comparison:
 def compare(first: dict[str, Any], second: dict[str, Any], rules: Rules) -> Comparison:
     """Compares two documents that require_comparable accepts."""
     both, only_first, only_second = matched_cells(*([Cell(raw) for raw in document["cells"]] for document in (first, second)))
-    cells = [ComparedCell(*pair, *fact_changes(*pair, rules.other_devices, rules.allow_missing)) for pair in both]
+    cells = [ComparedCell(*pair, *fact_changes(*pair, rules)) for pair in both]
     runs = first["run"], second["run"]
     by_turns = all(one["id"] in other.get("turns_with", []) for one, other in (runs, runs[::-1]))
-    comparison = Comparison(rules, cells, only_first, only_second, run_remarks(*runs), by_turns)
+    comparison = Comparison(rules, cells, only_first, only_second, run_remarks(*runs), by_turns,
+                            0 if rules.builders and runs[0]["id"] == runs[1]["id"] else allowance_ns(runs))
     groups = grouped((cell for cell in cells if cell.has_times), lambda cell: group_of(cell.first))
     for _, group in sorted(groups.items()):
         compare_scene(group, comparison)
+    comparison.scenes = scenes.judged(comparison.scenes, rules.threshold)
     return comparison
 
 
 def compare_scene(cells: list[ComparedCell], comparison: Comparison) -> None:
     rules, error = comparison.rules, comparison.error_of_each
     pairs = [(cell.first, cell.second) for cell in cells]
-    if comparison.by_turns:
+    if rules.builders:
+        against = scenes.each_alone(pairs, comparison.allowance)
+    elif comparison.by_turns:
         against = scenes.by_turns(pairs)
     elif rules.other_devices:
         against = scenes.of_other_devices(pairs)
     else:
-        against, scene = scenes.beside_the_others(pairs, rules.threshold)
+        against, scene = scenes.beside_the_others(pairs, comparison.allowance, error)
         comparison.scenes += [scene] if scene else []
     for cell, series in zip(cells, against.pairs if against else []):
         cell.time = scenes.change_of(series, "", against, rules.threshold, error)

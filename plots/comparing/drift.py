@@ -100,11 +100,17 @@ def median_error(in_parts: list[numpy.ndarray]) -> float:
 
 
 def common_trend(cells: list[Pair]) -> numpy.ndarray:
-    """Returns the trend that two runs with alternating samples share. For the n-th samples it is the median, over all cells of
-    the scene in both files and over neighbouring samples, of the logarithm of the time relative to the cell's median."""
-    rows = [times for pair in cells for series in pair if median(times := series.times_ns()) > 0]
+    """Returns the trend that two runs with alternating samples share, from all cells of the scene in both files and from
+    neighbouring samples."""
+    return by_place([series for pair in cells for series in pair], BESIDE)
+
+
+def by_place(cells: list[Series], beside: int) -> numpy.ndarray:
+    """Returns for the n-th samples the median, over all cells and `beside` samples on each side, of the logarithm of the time
+    relative to the cell's median."""
+    rows = [times for series in cells if median(times := series.times_ns()) > 0]
     slower = numpy.full((len(rows), max(map(len, rows), default=0)), math.nan)
     for row, times in zip(slower, rows):
         row[:len(times)] = numpy.log(numpy.maximum(times, 1) / median(times))
-    near_by = (slower[:, max(0, place - BESIDE):place + BESIDE + 1] for place in range(slower.shape[1]))
+    near_by = (slower[:, max(0, place - beside):place + beside + 1] for place in range(slower.shape[1]))
     return numpy.array([median(each[~numpy.isnan(each)]) for each in near_by])

@@ -2,6 +2,7 @@
 from typing import Any
 
 from cells import Cell
+from comparing.refusals import Rules
 from console.cell import depths
 from counters import is_better_smaller, is_exact
 from tables import exact
@@ -17,8 +18,9 @@ CIRCUMSTANCES = {"device": ("device", "name"), "driver": ("device", "driver"), "
 Found = tuple[list[str], list[str]]  # messages: regressions, and other changes
 
 
-def fact_changes(first: Cell, second: Cell, other_devices: bool, allow_missing: bool) -> Found:
-    """Compares verdicts, hashes of answers and exact counters of two cells of one identity. For other devices, only verdicts."""
+def fact_changes(first: Cell, second: Cell, rules: Rules) -> Found:
+    """Compares verdicts, hashes of answers and exact counters of two cells of one identity. For other devices, only verdicts, and
+    for two builders, only verdicts and answers."""
     found: Found = [], []
     compare_verdicts(first, second, found)
     if first.status != "measured" or second.status != "measured":
@@ -26,9 +28,11 @@ def fact_changes(first: Cell, second: Cell, other_devices: bool, allow_missing: 
     scenes = [cell.scene_facts.get("content_hash", NO_HASH) for cell in (first, second)]
     if scenes[0] != scenes[1]:
         found[0].append(f"another scene of the same name: content {scenes[1]}, was {scenes[0]}")
-    elif not other_devices:
+    elif rules.builders:
+        compare_hashes(first.check, {**second.check, "tree_hash": first.check.get("tree_hash")}, found)
+    elif not rules.other_devices:
         compare_hashes(first.check, second.check, found)
-        compare_counters(first, second, allow_missing, found)
+        compare_counters(first, second, rules.allow_missing, found)
     return found
 
 

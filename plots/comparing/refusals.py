@@ -17,6 +17,7 @@ class Rules:
     allow_dirty: bool = False
     other_devices: bool = False  # compare only ratios between the cells of a scene
     allow_test_hooks: bool = False
+    builders: tuple[str, str] | None = None  # compare cells of two builders; a difference of times or trees is no regression
 
 
 def require_comparable(first: Named, second: Named, rules: Rules) -> None:
@@ -31,6 +32,8 @@ def require_comparable(first: Named, second: Named, rules: Rules) -> None:
     costs = [results.costs_text(results.costs_of(document["run"])) for document in (one, other)]
     if costs[0] != costs[1]:
         raise WrongUsage(f"{name} counts {costs[0]} and {other_name} {costs[1]}, so their sah_cost are not of one kind")
+    if rules.other_devices and rules.builders:
+        raise WrongUsage("--builders compares times of one device, and --other-devices ratios of two")
     if not rules.other_devices and machine(one["run"]) != machine(other["run"]):
         raise WrongUsage(f"{name} was measured on {device_text(one['run'])} and {other_name} on {device_text(other['run'])}; "
                          "--other-devices compares only ratios between the cells of a scene")

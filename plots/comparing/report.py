@@ -4,7 +4,7 @@ from comparing.comparison import ComparedCell, Comparison
 from comparing.intervals import Interval
 from comparing.scenes import SceneChange
 from comparing.times import FASTER, FEWEST_SAMPLES, SAME, SLOWER, UNSURE, TimeChange
-from tables import Table, duration
+from tables import Table, counted, duration
 
 WORST_FIRST = (SLOWER, UNSURE, FASTER, SAME)
 
@@ -59,6 +59,8 @@ def ends(ratio: Interval) -> str:
 
 def changes(comparison: Comparison) -> list[str]:
     fails = "" if comparison.rules.allow_missing else "REGRESSION "
+    if comparison.rules.builders:  # cells of one builder alone are no change
+        return [f"WRONG {cell.first.label}: {sentence}\n" for cell in comparison.cells for sentence in cell.regressions]
     return [*(f"REGRESSION {cell.first.label}: {sentence}\n" for cell in comparison.cells for sentence in cell.regressions),
             *(f"{fails}{cell.label}: not in B\n" for cell in comparison.only_first),
             *(f"changed {cell.first.label}: {sentence}\n" for cell in comparison.cells for sentence in cell.changes),
@@ -70,6 +72,10 @@ def summary(comparison: Comparison) -> str:
     counts = ", ".join(f"{verdicts.count(verdict)} {verdict}" for verdict in (SAME, FASTER, SLOWER, UNSURE))
     few = sum(is_timed(cell) and min(cell.time.counts) < FEWEST_SAMPLES for cell in comparison.cells)
     regressions = comparison.regressions
+    if builders := comparison.rules.builders:
+        alone = len(comparison.only_first) + len(comparison.only_second)
+        return (f"{counted(len(verdicts), 'cell')} of {builders[1]} against {builders[0]}: {counts} at "
+                f"{100 * comparison.rules.threshold:.1f} %\n" + (f"not of both: {counted(alone, 'cell')}\n" if alone else ""))
     return (f"{len(verdicts)} cells: {counts} at {100 * comparison.rules.threshold:.1f} %"
             f"{f'; {few} have fewer than {FEWEST_SAMPLES} samples' if few else ''}\n"
             f"{regressions or 'no'} regression{'s' if regressions > 1 else ''}\n")

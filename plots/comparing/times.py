@@ -24,15 +24,16 @@ class TimeChange:
 
 
 def time_change(first: numpy.ndarray, second: numpy.ndarray, threshold: float, error: float,
-                common: Interval = Interval(1, 1, 1)) -> TimeChange:
-    """Compares times in the order taken; `common` is the ratio shared by the scene's cells. FASTER and SLOWER require all of: 9
-    samples in each file, a median ratio beyond the threshold, an interval of the ratio without 1, and a Mann-Whitney p below
-    `error`. SAME requires an interval within the threshold. Everything else is UNSURE."""
+                common: Interval = Interval(1, 1, 1), launches: float = 0) -> TimeChange:
+    """Compares times in the order taken; `common` is the ratio shared by the scene's cells, and `launches` the share of the first
+    median that launches may cost more. FASTER and SLOWER require all of: 9 samples in each file, a median ratio beyond the
+    threshold and beyond `launches`, an interval of the ratio without 1, and a Mann-Whitney p below `error`. SAME requires an
+    interval within the threshold. Everything else is UNSURE."""
     medians = median_interval(first, error), median_interval(second, error)
     ratio = ratio_interval(ratio_interval(medians[1], medians[0]), common)
     p, counts = p_value(first, second / common.value), (len(first), len(second))
     enough = min(counts) >= FEWEST_SAMPLES
-    return TimeChange(*medians, ratio, p, counts, verdict_of(ratio, threshold, p < error) if enough else UNSURE)
+    return TimeChange(*medians, ratio, p, counts, verdict_of(ratio, threshold, launches, p < error) if enough else UNSURE)
 
 
 def p_value(first: numpy.ndarray, second: numpy.ndarray) -> float:
@@ -48,9 +49,10 @@ def p_value(first: numpy.ndarray, second: numpy.ndarray) -> float:
     return float(mannwhitneyu(first, second, alternative="two-sided", method="exact" if is_exact else "asymptotic").pvalue)
 
 
-def verdict_of(ratio: Interval, threshold: float, differs: bool = True) -> str:
-    if differs and ratio.low > 1 and ratio.value >= 1 + threshold:
+def verdict_of(ratio: Interval, threshold: float, launches: float = 0, differs: bool = True) -> str:
+    smallest = 1 + max(threshold, launches)
+    if differs and ratio.low > 1 and ratio.value >= smallest:
         return SLOWER
-    if differs and ratio.high < 1 and ratio.value <= 1 / (1 + threshold):
+    if differs and ratio.high < 1 and ratio.value <= 1 / smallest:
         return FASTER
     return SAME if ratio.low > 1 / (1 + threshold) and ratio.high < 1 + threshold else UNSURE

@@ -13,10 +13,12 @@ LEAST_EXCESS_NS = 50_000  # smaller excess times are ignored: they are a few lau
 
 @dataclass
 class Changes:
-    """Regressions, and remarks that do not fail, one sentence each. `timed` of the `compared` cells have a ratio of times."""
+    """Regressions, and remarks that do not fail, one sentence each, and the names of cells that the baseline lacks. `timed` of the
+    `compared` cells have a ratio of times."""
 
     regressions: list[str] = field(default_factory=list)
     remarks: list[str] = field(default_factory=list)
+    new: list[str] = field(default_factory=list)
     compared: int = 0
     timed: int = 0
 
@@ -31,7 +33,7 @@ def compare(before: list[Kept], now: list[Kept], tolerance: float, some: bool) -
             changes.compared += 1
             compare_facts(old[cell["cell"]], cell, changes)
         else:
-            changes.regressions.append(f"{cell['cell']}: is not in the baseline")
+            changes.new.append(cell["cell"])
     there = {cell["cell"] for cell in now}
     gone = [cell["cell"] for cell in before if not some and cell["cell"] not in there]
     changes.regressions += [f"{name}: is in the baseline only" for name in gone]
@@ -81,7 +83,8 @@ def compare_times(pairs: list[tuple[Kept, Kept]], tolerance: float, changes: Cha
 
 
 def report(changes: Changes, tolerance: float) -> str:
-    lines = [f"changed: {remark}\n" for remark in changes.remarks] + [f"REGRESSION {told}\n" for told in changes.regressions]
+    lines = [f"new: {name}: not in the baseline; `bvhbench smoke --update` adds it\n" for name in changes.new]
+    lines += [f"changed: {remark}\n" for remark in changes.remarks] + [f"REGRESSION {told}\n" for told in changes.regressions]
     count = len(changes.regressions)
     return "".join(lines) + (f"{changes.compared} cells held to the baseline, {changes.timed} times to {tolerance:g} times the "
                              f"ratio there: {f'{count} regressions' if count else 'as before'}\n")

@@ -37,10 +37,10 @@ def check_files(prefix: pathlib.Path) -> None:
     headers = [name for name in installed(prefix) if name.endswith((".h", ".hpp", ".clh", ".cl"))]
     assert headers == ["include/bvhbench/oibvh.h"], headers
     assert names.count(pathlib.Path(LIBRARY).name) == 1, names
-    package = {"bvhbenchConfig.cmake", "bvhbenchConfigVersion.cmake", "bvhbenchTargets.cmake", "LICENSE"}
+    package = {"bvhbench-oibvh.pc", "bvhbenchConfig.cmake", "bvhbenchConfigVersion.cmake", "bvhbenchTargets.cmake", "LICENSE"}
     assert package <= set(names), names
     for path in prefix.rglob("*"):
-        if path.suffix not in (".cmake", ".h"):
+        if path.suffix not in (".cmake", ".h", ".pc"):
             continue
         text = path.read_text()
         for word in (ROOT, BUILD, "-march", "project_flags"):
@@ -85,6 +85,26 @@ def check_documents(folder: pathlib.Path, prefix: pathlib.Path) -> None:
     run(COMPILER, "-std=c++20", "-fsyntax-only", "-DCL_TARGET_OPENCL_VERSION=120", f"-I{prefix / 'include'}", source)
 
 
+USER = """#include <bvhbench/oibvh.h>
+
+#include <iostream>
+
+int main() { std::cout << bvhbench::oibvh::version() << std::endl; }
+"""
+
+
+def check_pkg_config(folder: pathlib.Path, prefix: pathlib.Path, version: str) -> None:
+    """Asserts that pkg-config's flags compile and link a program, which prints the package's version."""
+    where = {"PKG_CONFIG_PATH": str(next(prefix.rglob("bvhbench-oibvh.pc")).parent)}
+    assert run("pkg-config", "--modversion", "bvhbench-oibvh", **where).strip() == version
+    flags = run("pkg-config", "--cflags", "--libs", "bvhbench-oibvh", **where).split()
+    source, program = folder / "user.cpp", folder / "user"
+    source.write_text(USER)
+    run(COMPILER, "-std=c++20", *FLAGS.split(), "-DCL_TARGET_OPENCL_VERSION=120", source, "-o", program, *flags)
+    said = run(program, LD_LIBRARY_PATH=str(next(prefix.rglob(pathlib.Path(LIBRARY).name)).parent))
+    assert said == f"{version}\n", said
+
+
 def main() -> int:
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
@@ -104,12 +124,14 @@ def main() -> int:
         assert "-march" not in commands and ROOT not in commands, commands
         run(CMAKE, "--build", build, "--parallel", "2")
 
+        version = next(prefix.rglob("bvhbenchConfigVersion.cmake")).read_text().split('PACKAGE_VERSION "')[1].split('"')[0]
+        check_pkg_config(folder, prefix, version)
+
         # The programs must run without the source tree and without the installed headers.
         shutil.rmtree(prefix / "include")
         nowhere = {"BVHBENCH_KERNELS": str(folder / "nowhere")}
         shared = {"LD_LIBRARY_PATH": str(next(prefix.rglob(pathlib.Path(LIBRARY).name)).parent)}
         said = run(build / "torus", **nowhere, **shared)
-        version = next(prefix.rglob("bvhbenchConfigVersion.cmake")).read_text().split('PACKAGE_VERSION "')[1].split('"')[0]
         assert said.startswith(f"bvhbench {version}\n"), said
         assert "4800 leaves on level 13 of 14, 9603 nodes of 24 bytes" in said, said
         assert "31485 pairs" in said and "the same" in said, said

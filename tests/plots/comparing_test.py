@@ -13,7 +13,7 @@ from base import Raw  # first: it adds plots to sys.path
 
 import counters
 from cells import Cell
-from comparing import comparison, report
+from comparing import axes, comparison, report
 from comparing.refusals import Rules, require_comparable
 from output import WrongUsage
 
@@ -164,6 +164,130 @@ class OfAScene(unittest.TestCase):
         self.assertEqual([each.verdict for each in found.cells], [SAME, SAME, SLOWER])
         self.assertEqual(found.cells[0].regressions, [])
         self.assertEqual(verdicts(document(cell()), document(cell(median_ns=9e6)), other_devices=True), [UNSURE])  # alone
+
+
+class OfOneBuild(unittest.TestCase):
+    """Two runs of one program on a machine whose speed drifts slowly, and whose launches cost 0.7 or 5.7 us in a whole scene."""
+
+    def run_of(self, random: numpy.random.Generator, slowed: float = 1) -> Raw:
+        cells = []
+        for scene, work in (("tiny", 1e4), ("large", 1e6)):
+            drift = [random.normal(0, 0.05)]
+            while len(drift) < 30:
+                drift.append(0.95 * drift[-1] + random.normal(0, 0.05 * math.sqrt(1 - 0.95**2)))
+            launches = 15 * random.choice((700, 5700))
+            for place, name in enumerate(BUILDERS):
+                times = (work * (1 + place) * (slowed if (scene, name) == ("large", "karras") else 1) + launches)
+                times = times * numpy.exp(random.normal(0, 0.05, 30) + drift)
+                cells.append({**cell(name, first=place, every=6), "samples": [
+                    {"order": 6 * number + place, "stages": [{"stage": "hierarchy", "span_ns": int(ns), "launches": 15}]}
+                    for number, ns in enumerate(times)]})
+                cells[-1]["scene"] = {**cells[-1]["scene"], "name": scene}
+        made = document(*cells)
+        made["run"] |= {"launch_cost_ns": 700}
+        made["run"]["device"]["kind"] = "cpu"
+        return made
+
+    def test_alarms_are_rare_and_a_slower_builder_is_found(self) -> None:
+        random = numpy.random.default_rng(3)
+        alarms = sum(compared(self.run_of(random), self.run_of(random)).regressions > 0 for _ in range(30))
+        self.assertLessEqual(alarms, 4)  # 5 % are allowed: more than 4 of 30 have a probability of 1 %
+        found = sum(compared(self.run_of(random), self.run_of(random, 1.8)).cells[7].verdict == SLOWER for _ in range(6))
+        self.assertGreaterEqual(found, 5)
+
+    def test_of_times_that_launches_explain_nothing_is_told(self) -> None:
+        def tiny(ns: float, **facts: Any) -> Raw:
+            made = document(*(cell(name, ns, seed) for seed, name in enumerate(BUILDERS)))
+            made["run"] |= {"launch_cost_ns": 1000, **facts}
+            made["run"]["device"]["kind"] = "cpu"
+            return made
+
+        before, after = tiny(20e3), tiny(50e3)  # 4 launches may cost 40 us more
+        found = compared(before, after)
+        self.assertEqual(([scene.verdict for scene in found.scenes], found.regressions), ([UNSURE], 0))
+        self.assertEqual([scene.verdict for scene in compared(after, before).scenes], [UNSURE])
+        for factor, verdict in ((2.5, UNSURE), (4, SLOWER)):
+            changed = copy.deepcopy(before)
+            for sample in changed["cells"][1]["samples"]:
+                for stage in sample["stages"]:
+                    stage["span_ns"] *= factor
+            self.assertEqual(verdicts(before, changed)[1], verdict)
+        after["run"]["device"]["kind"] = "gpu"
+        before["run"]["device"]["kind"] = "gpu"  # 4 launches may cost 2 us more
+        self.assertEqual([scene.verdict for scene in compared(before, after).scenes], [SLOWER])
+        for run in (before, after):
+            del run["run"]["launch_cost_ns"]  # as before format 1.5
+        self.assertEqual([scene.verdict for scene in compared(before, after).scenes], [SLOWER])
+
+
+class TwoBuilders(unittest.TestCase):
+    PATHS = pathlib.Path("a.json"), pathlib.Path("b.json")
+
+    def held(self, first: Raw, second: Raw, pair: str = "karras,perfect") -> comparison.Comparison:
+        names = axes.pair_of(pair)
+        return compared(*axes.between_builders(self.PATHS, first, second, names), builders=names)
+
+    def test_of_one_file_or_two_are_compared(self) -> None:
+        both = document(cell("karras"), cell("perfect", 5e5, seed=2), cell("apetrei"))
+        alone = document(cell("karras")), document(cell("perfect", 5e5, seed=2))
+        for first, second in ((both, both), alone):
+            found = self.held(first, second)
+            only, = found.cells
+            self.assertEqual((only.verdict, found.regressions), (FASTER, 0))
+            self.assertAlmostEqual(only.time.ratio.value, 0.5, delta=0.02)
+            self.assertIn("bunny: perfect against karras", report.text(found))
+            self.assertIn("1 cell of perfect against karras: 0 SAME, 1 FASTER", report.text(found))
+        self.assertEqual(self.held(both, both, "perfect,karras").regressions, 0)  # slower is no regression
+
+    def test_a_common_speed_of_all_colliders_is_not_removed(self) -> None:
+        cells = [{**cell(name, ns, seed), "operation": "collide", "collider": {"name": collider}}
+                 for name, ns in (("karras", 1e6), ("perfect", 2e6))
+                 for seed, collider in enumerate(("leaf", "group", "bvtt", "front", "block"))]
+        both = document(*cells)
+        self.assertEqual([each.verdict for each in self.held(both, both).cells], [SLOWER] * 5)
+
+    def test_another_answer_is_wrong_and_another_tree_is_not(self) -> None:
+        both = document(cell("karras"), cell("perfect"))
+        both["cells"][1]["check"]["tree_hash"] = "3" * 16
+        both["cells"][1]["counters"]["sah_cost"] = 999
+        found = self.held(both, both)
+        self.assertEqual((found.cells[0].regressions, found.cells[0].changes), ([], []))
+        both["cells"][1]["check"]["pairs_hash"] = "4" * 16
+        found = self.held(both, both)
+        self.assertEqual(found.regressions, 1)
+        self.assertIn("WRONG bunny: perfect against karras: other pairs", report.text(found))
+
+    def test_that_have_nothing_in_common_are_refused(self) -> None:
+        only, other = document(cell("karras")), document(cell("perfect", frame=2))
+        for first, second, says in ((only, only, "b.json has no cell of perfect; it has karras$"),
+                                    (only, other, "no cell of perfect has the scene and options of one of karras: "
+                                                  "they differ in frame: 0 against 2$")):
+            with self.assertRaisesRegex(WrongUsage, says):
+                self.held(first, second)
+        for wrong in ("karras", "karras,", "karras,karras", "a,b,c"):
+            with self.assertRaises(ValueError):
+                axes.pair_of(wrong)
+
+
+class NothingShared(unittest.TestCase):
+    def told(self, first: Raw, second: Raw) -> str:
+        with self.assertRaises(WrongUsage) as caught:
+            axes.require_shared(TwoBuilders.PATHS, *([Cell(raw) for raw in made["cells"]] for made in (first, second)))
+        return str(caught.exception)
+
+    def test_is_told_with_what_differs_and_what_to_do(self) -> None:
+        ordered = cell("karras")
+        ordered["builder"]["options"] = {"order": "kd"}
+        one = document(cell("karras"), cell("karras", frame=1))
+        start = "a.json and b.json have no cell in common: they differ in "
+        self.assertEqual(self.told(one, document(cell("perfect"))), start + "builder: karras against perfect; "
+                         "to compare builders: bvhbench compare a.json b.json --builders karras,perfect")
+        self.assertIn(start + "builder: karras against karras, order kd; `bvhbench report a.json b.json`",
+                      self.told(one, document(ordered)))
+        self.assertIn(start + "frame: 0 or 1 against 7; ", self.told(one, document(cell(frame=7))))
+
+    def test_is_not_told_of_files_that_share_a_cell(self) -> None:
+        axes.require_shared(TwoBuilders.PATHS, [Cell(cell()), Cell(cell("perfect"))], [Cell(cell("perfect"))])
 
 
 class Facts(unittest.TestCase):

@@ -289,6 +289,17 @@ class OfTheCommand(unittest.TestCase):
             self.assertEqual(self.show(path, 3),
                              f"bvhbench: the result file '{path}' cannot be read: No such file or directory\n")
 
+    def test_of_a_folder_is_of_every_result_file_in_it(self) -> None:
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            (folder / "inner").mkdir()
+            for place, golden in (("b.json", "table1"), ("inner/a.json", "pairs")):
+                (folder / place).write_bytes((GOLDEN / f"{golden}.json").read_bytes())
+            (folder / "none.json").write_text("[]")
+            text = self.show(folder)
+            alone = [self.show(folder / place) for place in ("b.json", "inner/a.json")]
+            self.assertEqual(text, f"== {folder / 'b.json'}\n{alone[0]}\n== {folder / 'inner/a.json'}\n{alone[1]}")
+
     def test_is_in_utf_8_in_any_locale(self) -> None:
         path = GOLDEN / "pairs.json"
         self.assertIn("±", self.show(path))

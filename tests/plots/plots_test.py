@@ -14,6 +14,7 @@ import figure
 import frames
 import names
 import output
+import overview
 import pipelines
 import results
 import roofline
@@ -22,6 +23,7 @@ import style
 import swept
 import table1
 import tables
+from cells import Cell
 from PIL import Image
 from style import plt
 
@@ -92,12 +94,44 @@ class Scripts(InFolder):
     def test_a_file_without_a_figure_is_told_what_it_holds(self) -> None:
         for cell in self.document["cells"]:
             cell["experiment"] = "smoke"
+            cell.pop("samples", None)
+            cell.update(status="skipped", reason="too large")
         path = self.written(self.document, "no.json")
         done = self.made("all.py", path, "--out", self.folder / "out", code=3)
         self.assertIn(f"{path}: there is no figure of what it holds: smoke ({len(self.document['cells'])} cells)", done.stderr)
         (self.folder / "table1.json").unlink(missing_ok=True)
         done = self.run_script("all.py", self.folder, "--out", self.folder / "out")
         self.assertEqual((done.returncode, done.stderr), (0, ""), "in a folder it is passed over")
+
+    def test_a_file_without_a_figure_of_its_own_gets_bars_of_medians(self) -> None:
+        self.document["cells"] = [{**cell, "experiment": "mine"} for cell in self.document["cells"]
+                                  if cell["scene"]["name"] == "bunny"]
+        run = results.Run(pathlib.Path("a.json"), self.document, [Cell(cell) for cell in self.document["cells"]
+                                                                  if cell["status"] == "measured"])
+        bars = overview.bars_of(run)
+        self.assertEqual([scene for _, scene, _ in bars], list(dict.fromkeys(cell.scene for cell in run.cells if cell.has_times)))
+        for (_, scene, _), panel in bars.items():
+            wanted = sorted((cell.median_ns(), cell.pipeline) for cell in run.cells if cell.scene == scene and cell.has_times)
+            self.assertEqual([(ns, name) for name, ns, _ in panel], wanted)
+        path = self.written(self.document, "mine.json")
+        done = self.made("all.py", path, "--out", self.folder / "out")
+        self.assertEqual(done.stdout.split(), [str(self.folder / "out" / f"mine-overview.{end}") for end in ("png", "svg")])
+        text = (self.folder / "out" / "mine-overview.svg").read_text(encoding="utf-8")
+        self.assertIn("bunny, build, mine", text)
+
+    def test_bars_of_frames_are_means_and_many_scenes_are_counted(self) -> None:
+        def made(scene: str, frame: int, ns: int) -> dict:
+            cell = copy.deepcopy(self.document["cells"][0])
+            cell["scene"] = {"name": scene, "triangles": 9, "frame": frame}
+            cell["builder"] = {"name": "none"}
+            cell["samples"] = [{"order": 0, "stages": [{"stage": "broad", "wall_ns": ns}]}]
+            return {**cell, "experiment": "mine", "operation": "collide", "collider": {"name": "grid"}}
+
+        self.document["cells"] = [made(f"scene{number}", frame, 1000 * (1 + frame)) for number in range(14) for frame in (0, 1)]
+        run = results.Run(pathlib.Path("a.json"), self.document, [Cell(cell) for cell in self.document["cells"]])
+        self.assertEqual([panel[0][:2] for panel in overview.bars_of(run).values()], [("grid", 1500.0)] * 14)
+        texts = "".join(text.get_text() for text in overview.draw(run).texts)
+        self.assertIn("2 more scenes not drawn.", texts)
 
     def test_cells_of_several_devices_make_no_picture(self) -> None:
         source = {"id": "a", "started_at": "", "command": [], "commit": "", "host": "", "device": "one", "driver": "1"}

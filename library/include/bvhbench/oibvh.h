@@ -276,7 +276,7 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-/// Returns the library's version, "0.1.0".
+/// Returns the library's version, "0.2.0".
 BVHBENCH_API std::string_view version();
 
 }  // namespace bvhbench::oibvh

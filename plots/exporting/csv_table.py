@@ -1,0 +1,15 @@
+"""Writes a row for each stage of each sample as CSV, with the columns of bvhbench_results.read."""
+import csv
+import io
+
+import bvhbench_results
+from results import Run
+
+
+def text(runs: list[Run]) -> str:
+    rows = [row for run in runs for row in bvhbench_results.rows(run, counters=False)]
+    file = io.StringIO()
+    writer = csv.DictWriter(file, bvhbench_results.columns_of(rows), lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)
+    return file.getvalue()
