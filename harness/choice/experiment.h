@@ -36,7 +36,8 @@ namespace bvhbench {
 /// overrides the command line.
 ///
 /// `"until": 0.02` samples each cell until its interquartile range is 2 % of the median, instead of a fixed number of times,
-/// within `min_samples`, `max_samples` and `time_budget_s`. `"caches": "cold"` empties the caches before each sample.
+/// within `min_samples`, `max_samples` and `time_budget_s`. `"race": "whole"` stops a cell that is beaten by another of its scene or
+/// frame (harness/session/race.h). `"caches": "cold"` empties the caches before each sample.
 ///
 /// With --quick, the object `quick` replaces `scenes`, `builders`, `pipelines`, `samples` or `warm_up`. In a scene with sizes,
 /// the key in braces has a list of numbers or an object of `from` and `to` (every number between), `powers_of_two_from` and

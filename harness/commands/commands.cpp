@@ -28,6 +28,9 @@ std::span<const CommandEntry> commands()
         in_python("sweep", measuring,
                   "Measure a product of scenes, sizes, builders, orders, colliders and options, a "
                   "process a cell; go on where it was interrupted"),
+        in_python("best", measuring,
+                  "Say which builder and collider is the fastest for scenes of yours, and by how "
+                  "much"),
         in_python("reproduce", measuring, "Measure, print and draw what the paper shows"),
         accuracy_command,
         tune_command,

@@ -77,6 +77,7 @@ void collide_scene(Session& session, const CollideTask& task, int& order, const 
     if (passes && passes((frames.end - frames.first) * task.pipelines.size()))
         return;
     Input input = upload_frame(session, scene, frames.first);
+    Contest contest(task.sampling.race);
     std::vector<Running> all;
     for (const PipelineChoice& pipeline : task.pipelines)
         all.push_back({pipeline});
@@ -89,6 +90,7 @@ void collide_scene(Session& session, const CollideTask& task, int& order, const 
         if (frame > frames.first)
             now.motions = object_motions(scene, frame - 1, frame);
         now.file_faces = scene.file_faces;
+        now.contest = &contest;
         Found found{.scene = &scene};
         add(run_frame(session, task, all, now, order, found), found);
     }

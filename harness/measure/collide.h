@@ -9,6 +9,7 @@
 
 #include "collide/pairs.h"
 #include "harness/choice/scene_choice.h"
+#include "harness/measure/contest.h"
 #include "harness/measure/pipeline.h"
 #include "harness/record/record.h"
 #include "harness/session/session.h"
@@ -76,6 +77,7 @@ struct FrameOfPipelines {
     std::span<const uint> file_faces = {};  ///< as Scene::file_faces
     /// Judges what a pipeline found, in addition to the oracles; may be empty.
     std::function<void(const Found& found, Cell& cell)> judge_more = {};
+    Contest* contest = nullptr;  ///< of a race over the scene's frames; null: every cell is run
 };
 
 /// Sets the verdict to `differs` and appends `detail` to the reasons.

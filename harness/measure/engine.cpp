@@ -63,6 +63,32 @@ void Engine::settle(Subject& subject, const std::function<void()>& work)
                std::move(failure));
 }
 
+bool Engine::look(Subject& subject, Contest* contest)
+{
+    if (plan_.rules.race == Race::none || !subject.is_ready())
+        return false;
+    Cell& cell = subject.cell;
+    const watchdog::Hand hand(subject.number);
+    const int order = order_++;
+    std::string failure = reason_of_failure([&] {
+        cell.samples.push_back({order, subject.once()});
+    });
+    if (!failure.empty())
+        refuse(subject, Cell::Status::failed, std::move(failure));
+    if (contest == nullptr || contest->look(cell) == Contest::Place::in_the_race)
+        return false;
+    subject.once = {};
+    cell.warm_up = plan_.warm_up;
+    cell.sampling = facts_of(Stopped::beaten);
+    return true;
+}
+
+SamplingFacts Engine::facts_of(Stopped stopped) const
+{
+    const SamplingRules& rules = plan_.rules;
+    return {.stopped = stopped, .until = rules.until, .race = rules.race, .cold = rules.cold};
+}
+
 void Engine::sample(std::span<Subject> subjects)
 {
     std::vector<Timed> timed;
@@ -72,21 +98,21 @@ void Engine::sample(std::span<Subject> subjects)
             continue;
         ready.push_back(&one);
         const Cell& cell = one.cell;
-        timed.push_back(
-            {cell.collider.name.empty() ? cell.builder.name : cell.collider.name, [&one] {
-                 const watchdog::Hand hand(one.number);
-                 return one.once();
-             }});
+        timed.push_back({cell.collider.name.empty() ? cell.builder.name : cell.collider.name,
+                         [&one] {
+                             const watchdog::Hand hand(one.number);
+                             return one.once();
+                         },
+                         cell.samples, bytes_held(cell)});
     }
     std::vector<Taken> taken = session_samples(session_, timed, plan_, order_);
     for (std::size_t i = 0; i < ready.size(); ++i) {
         Cell& cell = ready[i]->cell;
         cell.warm_up = plan_.warm_up;
         cell.samples = std::move(taken[i].samples);
-        cell.sampling = {
-            .stopped = taken[i].stopped, .until = plan_.rules.until, .cold = plan_.rules.cold};
+        cell.sampling = facts_of(taken[i].stopped);
         std::string failure = std::move(taken[i].failure);
-        if (failure.empty() && ready[i]->judge_again)
+        if (failure.empty() && ready[i]->judge_again && taken[i].stopped != Stopped::beaten)
             failure = reason_of_failure(ready[i]->judge_again);
         if (!failure.empty())
             refuse(*ready[i], Cell::Status::failed, std::move(failure));

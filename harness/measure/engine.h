@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "harness/choice/sampling.h"
+#include "harness/measure/contest.h"
 #include "harness/record/record.h"
 #include "harness/session/session.h"
 
@@ -44,13 +45,19 @@ public:
     /// as failed or skipped if `work` throws or if an earlier process of this run gave the cell up.
     void settle(Subject& subject, const std::function<void()>& work);
 
-    /// Samples all subjects that are ready, interleaved, and judges each again.
+    /// In a race, takes the first sample of a subject that is ready. Returns true if that is far behind the best of `contest`, which
+    /// may be null: the subject is then not sampled further.
+    bool look(Subject& subject, Contest* contest);
+
+    /// Samples all subjects that are ready, interleaved, and judges each again, except those that lost a race.
     void sample(std::span<Subject> subjects);
 
     /// Marks the cell with `status` and `reason`, drops its samples, and discards its queued launches.
     void refuse(Subject& subject, Cell::Status status, std::string reason);
 
 private:
+    SamplingFacts facts_of(Stopped stopped) const;
+
     Session& session_;
     SamplingPlan plan_;
     int& order_;

@@ -255,6 +255,11 @@ std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span
             continue;
         }
         Cell& cell = subject.cell;
+        if (frame.contest != nullptr && one.pipeline == nullptr)
+            if (std::string why = frame.contest->why_not(cell); !why.empty()) {
+                engine.refuse(subject, Cell::Status::skipped, std::move(why));
+                continue;
+            }
         engine.settle(subject, [&] {
             require_memory(cell.collider, input.triangle_count(), oracle);
             settle(session, one, frame, cell);
@@ -270,6 +275,8 @@ std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span
             one.pipeline->once(input);
             judge(*one.pipeline, cell, oracle, frame, found);
         };
+        if (engine.look(subject, frame.contest))
+            one.pipeline.reset();  // it is far behind; frees its memory
     }
     oracle.wait();  // needed even if no pipeline has asked the oracle
     engine.sample(subjects);
@@ -280,6 +287,12 @@ std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span
         all[k].cannot_be = cell.status == Cell::Status::skipped;
         cells.push_back(std::move(cell));
     }
+    if (frame.contest == nullptr)
+        return cells;
+    frame.contest->end_frame(cells);
+    for (std::size_t k = 0; k < all.size(); ++k)
+        if (std::string why = frame.contest->why_lost(k); !why.empty())
+            all[k] = {.choice = all[k].choice, .failure = std::move(why), .cannot_be = true};
     return cells;
 }
 

@@ -10,6 +10,7 @@
 #include "harness/judge/check.h"
 #include "harness/judge/metrics.h"
 #include "harness/measure/collide.h"
+#include "harness/measure/contest.h"
 #include "harness/measure/engine.h"
 #include "harness/measure/frames.h"
 #include "harness/record/provenance.h"
@@ -185,6 +186,7 @@ void Run::scene(const Experiment& experiment, const std::string& name,
     Oracles oracles{{session_, frames.now()}, {session_, frames.before()}};
     Engine engine(session_, {experiment.samples, experiment.warm_up, experiment.sampling}, order_);
     const std::size_t count = builders.size() * experiment.operations.size();
+    Contest contest(experiment.sampling.race);
     std::vector<Subject> subjects(count);
     std::vector<Built> built(count);
     for (std::size_t k = 0; k < count; ++k) {
@@ -192,9 +194,11 @@ void Run::scene(const Experiment& experiment, const std::string& name,
         subject = {.cell = empty, .number = number + std::to_string(k)};
         subject.cell.builder = builders[k / experiment.operations.size()];
         subject.cell.operation = experiment.operations[k % experiment.operations.size()];
-        const std::string absent(find_builder(subject.cell.builder.name).absent);
-        if (const std::string& why = no_scene.empty() ? absent : no_scene; !why.empty()) {
-            engine.refuse(subject, Cell::Status::skipped, why);
+        std::string why(find_builder(subject.cell.builder.name).absent);
+        if (why.empty())
+            why = contest.why_not(subject.cell);
+        if (!no_scene.empty() || !why.empty()) {
+            engine.refuse(subject, Cell::Status::skipped, no_scene.empty() ? why : no_scene);
             continue;
         }
         engine.settle(subject,
@@ -208,6 +212,7 @@ void Run::scene(const Experiment& experiment, const std::string& name,
         subject.judge_again = [&, k] {
             subject.cell.check = check_again(*built[k].tree, std::move(subject.cell.check));
         };
+        engine.look(subject, &contest);
     }
     oracles.now.wait();  // builders that failed may have begun references that are still running
     oracles.before.wait();

@@ -129,6 +129,7 @@ Json json_of(const SamplingFacts& sampling)
                  {"caches", sampling.cold ? "cold" : "hot"}};
     if (sampling.until > 0)
         json["until"] = sampling.until;
+    put_if(json, "race", std::string(race_name(sampling.race)));
     return json;
 }
 

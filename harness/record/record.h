@@ -73,7 +73,8 @@ struct AccuracyFacts {
 struct SamplingFacts {
     Stopped stopped = Stopped::not_sampled;  ///< why sampling stopped
     double until = 0;                        ///< target for interquartile range / median; 0: none
-    bool cold = false;                       ///< whether caches were emptied before each sample
+    Race race = Race::none;
+    bool cold = false;  ///< whether caches were emptied before each sample
 };
 
 /// Times before the first sample, on the host's clock.
@@ -151,7 +152,7 @@ struct RunFacts {
 };
 
 /// Format version of written files.
-inline const std::string result_format = "1.9";
+inline const std::string result_format = "1.10";
 
 /// Returns a run or a cell as one line of JSON. Numbers that are not finite are left out.
 std::string run_text(const RunFacts& run);
