@@ -43,16 +43,16 @@ def label(cell: Cell) -> str:
 
 
 def beside(cell: Cell, best: Cell) -> str:
-    """Returns in what a cell differs from the best: "`bvtt`", "over `karras`", "order morton30"."""
-    if (cell.builder == "none") != (best.builder == "none"):
+    """Returns in what a cell differs from the best: "`bvtt`", "`bvtt` over `karras`", "order morton30"."""
+    if "none" in (cell.builder, best.builder):
         return called(cell)
     parts = [f"`{cell.collider}`"] if cell.collider != best.collider else []
     if cell.builder != best.builder:
-        parts.append(f"{'over ' if cell.collider else ''}`{cell.builder}`")
+        parts = [f"`{cell.collider}` over `{cell.builder}`" if cell.collider else f"`{cell.builder}`"]
     own, other = options_of(cell), options_of(best)
-    changed = [words_of(key, own.get(key, names.USUAL[key])) for key in names.OPTIONS if own.get(key) != other.get(key)
-               and not (key == "leaves" and "boxes" in own)]
-    return ", ".join([" ".join(parts)] * bool(parts) + changed) or called(cell)
+    parts += [words_of(key, own.get(key, names.USUAL[key])) for key in names.OPTIONS if own.get(key) != other.get(key)
+              and not (key == "leaves" and "boxes" in own)]
+    return ", ".join(parts) or called(cell)
 
 
 def family(row: Row) -> str:
@@ -70,8 +70,8 @@ def next_words(found: Ranking) -> str:
     rival = others[0] if others else next((row for row in found.rows[1:] if not row.tied), None)
     if rival is None or rival.tied:
         return ""
-    name = f"`{rival.first.collider if rival.first.builder == 'none' else rival.first.builder}`"
-    who = f"the next family ({name})" if others else f"the next, {beside(rival.first, best.first)}"
+    name = rival.first.collider if families.of_collider(rival.first.collider or "") else rival.first.builder
+    who = f"the next family (`{name}`)" if others else f"the next, {beside(rival.first, best.first)}"
     by = rival.ratio / best.ratio if best.ratio > 0 else rival.ratio
     return f"; {who} holds {number(by)} times as much" if found.objective == "memory" else f", {number(by)} times as fast as {who}"
 
@@ -83,9 +83,11 @@ def tied_words(found: Ranking) -> str:
         return ""
     # One of each kind first: another family or collider says more than another order.
     shown = sorted(tied, key=lambda row: (family(row) == family(best)) + (row.first.collider == best.first.collider))[:MOST_TIED]
-    said = [beside(row.first, best.first) for row in shown] + [f"{len(tied) - len(shown)} more"] * (len(tied) > len(shown))
-    listed = said[0] if len(said) == 1 else "; ".join(said[:-1]) + " and " + said[-1]
-    return f"; {listed} {'is' if len(tied) == 1 else 'are'} no slower within noise"
+    said = [beside(row.first, best.first) for row in shown]
+    if len(tied) == 1:
+        return f"; {said[0]} is no slower within noise"
+    more = [f"{len(tied) - len(shown)} more"] if len(tied) > len(shown) else []
+    return "; no slower within noise: " + "; ".join([*said, *more])
 
 
 def error_words(row: Row) -> str:

@@ -1,4 +1,6 @@
 """The figure of `best`: the best builders or pipelines of each scene as bars, their stages stacked, their ratio to the best beside."""
+import dataclasses
+
 import matplotlib.pyplot as plt
 from matplotlib.patches import Patch
 
@@ -63,5 +65,6 @@ def draw(run: results.Run, found: Ranking) -> plt.Figure:
     hidden = max(len(rows) for rows in found.scenes.values()) - MOST_ROWS
     remarks += [f"Of each scene the best {MOST_ROWS}."] if hidden > 0 else []
     remarks += [f"The first {MOST_SCENES} of {len(found.scenes)} scenes."] if len(found.scenes) > MOST_SCENES else []
-    figure.footer(drawing, run, run.all_cells[0].experiment, tuple(remarks), height)
+    measured = dataclasses.replace(run, cells=[cell for rows in found.scenes.values() for row in rows for cell in row.cells])
+    figure.footer(drawing, measured, run.all_cells[0].experiment, tuple(remarks), height)
     return drawing

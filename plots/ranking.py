@@ -9,7 +9,8 @@ from dataclasses import dataclass, field
 
 import numpy
 
-from cells import Cell, elapsed_ns, grouped, median, whole_ns
+from cells import Cell, counted, elapsed_ns, grouped, median, whole_ns
+from results import USUAL_COSTS
 
 OBJECTIVES = ("frame", "query", "build", "memory")
 OF_QUERY = ("near", "ropes", "broad", "copy", "narrow")  # stages that follow the tree
@@ -36,6 +37,11 @@ class Row:
     @property
     def bytes(self) -> float:
         return mean([bytes_of(cell) for cell in self.cells])
+
+    @property
+    def sah(self) -> float:
+        """Returns the mean surface area cost, or NaN if it is unknown."""
+        return mean([sah_of(cell) for cell in self.cells])
 
     @property
     def is_right(self) -> bool:
@@ -69,6 +75,13 @@ def bytes_of(cell: Cell) -> float:
     return counters.get("memory_bytes", counters.get("tree_bytes", math.nan) + counters.get("scratch_bytes", 0))
 
 
+def sah_of(cell: Cell) -> float:
+    """Returns the surface area cost of the cell's tree, at the usual costs if the cell has the areas alone; NaN if unknown."""
+    inner, triangle = USUAL_COSTS
+    areas = inner * cell.counters.get("sah_inner", math.nan) + triangle * cell.counters.get("sah_leaf", math.nan)
+    return cell.counters.get("sah_cost", areas)
+
+
 def values_of(samples: Iterable[dict], objective: str) -> numpy.ndarray:
     """Returns the nanoseconds of each sample that count for the objective."""
     if objective == "query":
@@ -91,15 +104,8 @@ def was_beaten(cell: Cell) -> bool:
 
 def middle_until(cell: Cell, order: float, objective: str) -> float:
     """Returns the median of the cell's samples up to the given order, or its first sample's value."""
-    until = [sample for sample, raw in zip(cell.samples, counted_raw(cell)) if raw["order"] <= order]
+    until = [sample for sample, raw in zip(cell.samples, counted(cell.all_samples)) if raw["order"] <= order]
     return median(values_of(until or cell.samples[:1], objective))
-
-
-def counted_raw(cell: Cell) -> list[dict]:
-    """Returns the raw samples in parallel to cell.samples."""
-    from cells import counted
-
-    return counted(cell.all_samples)
 
 
 class Frame:
@@ -118,7 +124,7 @@ class Frame:
         own = self.middle(cell)
         if not was_beaten(cell) or cell is self.base:
             return own
-        beside = middle_until(self.base, counted_raw(cell)[-1]["order"], self.objective)
+        beside = middle_until(self.base, counted(cell.all_samples)[-1]["order"], self.objective)
         return own * self.middle(self.base) / beside if beside > 0 else own
 
 
@@ -153,18 +159,17 @@ def rows_of_scene(cells: list[Cell], objective: str) -> list[Row]:
     def total(row: Row, numbers: set[int]) -> float:
         return sum(levels[id(cell)] for cell in row.cells if cell.frame in numbers)
 
+    def bytes_held(row: Row) -> float:
+        return row.bytes if objective == "memory" else 0
+
     full = [row for row in rows if row.complete] or rows
-    if objective == "memory":
-        best = min(full, key=lambda row: (row.bytes, total(row, set(frames))))
-    else:
-        best = min(full, key=lambda row: total(row, set(frames)))
+    best = min(full, key=lambda row: (bytes_held(row), total(row, set(frames))))
     for row in rows:
         there = {cell.frame for cell in row.cells} & {cell.frame for cell in best.cells}
-        beside = row.bytes / best.bytes if objective == "memory" else total(row, there) / max(total(best, there), 1e-9)
-        row.ratio = beside if there else math.inf
-        row.tied = (objective != "memory" or row.bytes == best.bytes) and is_tied(row, best, objective)
-    time = {id(row): row.ns for row in rows}
-    return sorted(rows, key=lambda row: (row is not best, row.ratio, not row.complete, time[id(row)]))
+        time = total(row, there) / max(total(best, there), 1e-9) if there else math.inf
+        row.ratio = max(row.bytes, 1) / max(best.bytes, 1) if objective == "memory" else time
+        row.tied = bytes_held(row) == bytes_held(best) and is_tied(row, best, objective)
+    return sorted(rows, key=lambda row: (row is not best, row.ratio, not row.complete, row.ns))
 
 
 def over_scenes(scenes: dict[str, list[Row]]) -> list[Row]:

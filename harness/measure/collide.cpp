@@ -85,12 +85,12 @@ void collide_scene(Session& session, const CollideTask& task, int& order, const 
         input.points = scene.frames[frame];
         input.device_points.upload(session.queue().cl(), input.points);
         FrameOfPipelines now{.input = input,
+                             .contest = contest,
                              .number = task.number + '/' + std::to_string(frame),
                              .scene = facts_of(task, scene, frame)};
         if (frame > frames.first)
             now.motions = object_motions(scene, frame - 1, frame);
         now.file_faces = scene.file_faces;
-        now.contest = &contest;
         Found found{.scene = &scene};
         add(run_frame(session, task, all, now, order, found), found);
     }

@@ -70,6 +70,7 @@ struct Running {
 /// A frame that several pipelines run over.
 struct FrameOfPipelines {
     const Input& input;
+    Contest& contest;    ///< between the pipelines, over the scene's frames
     std::string number;  ///< path of the frame within the run, such as "2/0"
     SceneFacts scene;
     SweptFacts swept = {};
@@ -77,7 +78,6 @@ struct FrameOfPipelines {
     std::span<const uint> file_faces = {};  ///< as Scene::file_faces
     /// Judges what a pipeline found, in addition to the oracles; may be empty.
     std::function<void(const Found& found, Cell& cell)> judge_more = {};
-    Contest* contest = nullptr;  ///< of a race over the scene's frames; null: every cell is run
 };
 
 /// Sets the verdict to `differs` and appends `detail` to the reasons.

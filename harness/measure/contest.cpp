@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "harness/base/table.h"
+#include "harness/judge/metrics.h"
 #include "harness/session/race.h"
 #include "harness/session/sampler.h"
 
@@ -80,21 +81,39 @@ double Contest::least_of(const std::string& key) const
     return found == least_.end() ? 0 : found->second;
 }
 
-Contest::Place Contest::look(const Cell& cell)
+void Contest::count_areas(const Pipeline& pipeline, const Input& input, Cell& cell) const
+{
+    if (race_ == Race::none || pipeline.tree() == nullptr || input.objects.size() > 1 ||
+        cell.check.verdict == Check::Verdict::differs)
+        return;
+    if (const std::optional<AreaSums> sums = area_sums(pipeline.tree()->spelled_out())) {
+        cell.counters["sah_inner"] = sums->inner;
+        cell.counters["sah_leaf"] = sums->leaf;
+    }
+}
+
+Contest::Place Contest::look(const Cell& cell, const std::vector<StageTime>& before)
 {
     if (race_ == Race::none || !tells(cell))
         return Place::in_the_race;
-    const std::vector<StageTime>& sample = cell.samples.front().stages;
-    for (const StageTime& time : sample) {
-        const auto ns = static_cast<double>(time.elapsed_ns());
-        keep_least(key_of(time.stage, cell), ns);
-        if (time.stage == "broad")
-            keep_least(key_of_kind(cell), ns);
-    }
-    const double own = raced_ns(race_, sample);
+    const auto learn = [&](const std::vector<StageTime>& run) {
+        for (const StageTime& time : run) {
+            const auto ns = static_cast<double>(time.elapsed_ns());
+            keep_least(key_of(time.stage, cell), ns);
+            if (time.stage == "broad")
+                keep_least(key_of_kind(cell), ns);
+        }
+        return raced_ns(race_, run);
+    };
+    double own = std::numeric_limits<double>::infinity();
+    for (const Sample& sample : cell.samples)
+        own = std::min(own, learn(sample.stages));
+    const double earlier = before.empty() ? own : learn(before);
     best_ns_ = best_ns_ == 0 ? own : std::min(best_ns_, own);
-    return race_ != Race::memory && own > far_behind * best_ns_ ? Place::far_behind
-                                                                : Place::in_the_race;
+    const double limit = race_ == Race::memory ? own : far_behind * best_ns_;
+    return own <= limit       ? Place::in_the_race
+           : earlier <= limit ? Place::slow_once
+                              : Place::far_behind;
 }
 
 std::string Contest::why_not(const Cell& cell) const

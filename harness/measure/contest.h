@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "harness/choice/sampling.h"
+#include "harness/measure/pipeline.h"
 #include "harness/record/record.h"
 
 namespace bvhbench {
@@ -21,13 +22,17 @@ double bytes_held(const Cell& cell);
 class Contest {
 public:
     /// Without a race, no cell is ever left out.
-    explicit Contest(Race race) : race_(race) {}
+    explicit Contest(Race race = Race::none) : race_(race) {}
 
-    enum class Place { in_the_race, far_behind };
+    enum class Place {
+        in_the_race,
+        slow_once,  ///< its samples are far behind the best so far, the run before them is not
+        far_behind  ///< it need not be sampled further
+    };
 
-    /// Takes the stages of a cell's first sample, and returns whether it is far behind the best so far, and so can be left. Cells
-    /// without a sample, and wrong ones, tell nothing and stay.
-    Place look(const Cell& cell);
+    /// Takes the stages of a cell's samples so far, and of the run before them, which may be empty. Cells without a sample, and wrong
+    /// ones, tell nothing and stay in the race.
+    Place look(const Cell& cell, const std::vector<StageTime>& before = {});
 
     /// Returns why a cell that was not run yet cannot win: the stages that it has in common with cells that were run take longer
     /// than `hopeless` times the best of those. Empty if it may win, and always in a race for memory.
@@ -37,6 +42,9 @@ public:
     /// collider over the same tree. Over the same kind of tree along another order, `broad` counts a third of the least known time.
     /// An unknown stage counts as 0.
     std::string why_not(const Cell& cell) const;
+
+    /// In a race, writes the counters sah_inner and sah_leaf of the tree that a pipeline queried, if it is of one object.
+    void count_areas(const Pipeline& pipeline, const Input& input, Cell& cell) const;
 
     /// Takes all cells of a frame, in the same order for each frame, after they were sampled.
     void end_frame(std::span<const Cell> cells);

@@ -63,19 +63,23 @@ void Engine::settle(Subject& subject, const std::function<void()>& work)
                std::move(failure));
 }
 
-bool Engine::look(Subject& subject, Contest* contest)
+bool Engine::look(Subject& subject, Contest& contest)
 {
     if (plan_.rules.race == Race::none || !subject.is_ready())
         return false;
     Cell& cell = subject.cell;
     const watchdog::Hand hand(subject.number);
-    const int order = order_++;
+    Contest::Place place = Contest::Place::in_the_race;
     std::string failure = reason_of_failure([&] {
-        cell.samples.push_back({order, subject.once()});
+        do {
+            const int order = order_++;
+            cell.samples.push_back({order, subject.once()});
+            place = contest.look(cell, subject.settled);
+        } while (place == Contest::Place::slow_once && cell.samples.size() < 2);
     });
     if (!failure.empty())
         refuse(subject, Cell::Status::failed, std::move(failure));
-    if (contest == nullptr || contest->look(cell) == Contest::Place::in_the_race)
+    if (place != Contest::Place::far_behind)
         return false;
     subject.once = {};
     cell.warm_up = plan_.warm_up;

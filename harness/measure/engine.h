@@ -23,6 +23,7 @@ struct Subject {
     /// Runs one sample and returns its stages; empty if there is nothing to time.
     std::function<std::vector<StageTime>()> once = {};
     std::function<void()> judge_again = {};  ///< judges the result of the last sample; may be empty
+    std::vector<StageTime> settled = {};     ///< stages of the last run before the samples
 
     bool is_ready() const
     {
@@ -45,9 +46,9 @@ public:
     /// as failed or skipped if `work` throws or if an earlier process of this run gave the cell up.
     void settle(Subject& subject, const std::function<void()>& work);
 
-    /// In a race, takes the first sample of a subject that is ready. Returns true if that is far behind the best of `contest`, which
-    /// may be null: the subject is then not sampled further.
-    bool look(Subject& subject, Contest* contest);
+    /// In a race, takes the first sample of a subject that is ready. If that is far behind the best of `contest`, and so is the last
+    /// run before, returns true: the subject is not sampled further. If only the sample is, takes a second one.
+    bool look(Subject& subject, Contest& contest);
 
     /// Samples all subjects that are ready, interleaved, and judges each again, except those that lost a race.
     void sample(std::span<Subject> subjects);

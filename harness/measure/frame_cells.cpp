@@ -204,8 +204,9 @@ void require_memory(const ColliderChoice& choice, std::size_t triangles, FrameOr
                         bytes * triangles + 4 * sizeof(Pair) * count);
 }
 
-/// Creates the pipeline if it does not exist and runs the frame once, so that the frame can be timed.
-void settle(Session& session, Running& one, const FrameOfPipelines& frame, Cell& cell)
+/// Creates the pipeline if it does not exist and runs the frame once, so that the frame can be timed. Returns the stages.
+std::vector<StageTime> settle(Session& session, Running& one, const FrameOfPipelines& frame,
+                              Cell& cell)
 {
     const watchdog::Watch watch;
     if (one.pipeline == nullptr)
@@ -214,7 +215,9 @@ void settle(Session& session, Running& one, const FrameOfPipelines& frame, Cell&
     if (!one.pipeline->collider().needs_tree())
         cell.builder = {.name = "none"};
     one.pipeline->begin_frame(frame.motions);
-    cell.first.run_ns = host_ns([&] { one.pipeline->settle(frame.input); });
+    std::vector<StageTime> stages;
+    cell.first.run_ns = host_ns([&] { stages = one.pipeline->settle(frame.input); });
+    return stages;
 }
 
 /// Returns a cell of the frame and pipeline without results.
@@ -249,20 +252,19 @@ std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span
         Subject& subject = subjects[k];
         subject = {.cell = empty_cell(task, one.choice, frame),
                    .number = frame.number + '/' + std::to_string(k)};
+        if (one.failure.empty() && one.pipeline == nullptr) {
+            one.failure = frame.contest.why_not(subject.cell);
+            one.cannot_be = !one.failure.empty();
+        }
         if (!one.failure.empty()) {
             engine.refuse(subject, one.cannot_be ? Cell::Status::skipped : Cell::Status::failed,
                           one.failure);
             continue;
         }
         Cell& cell = subject.cell;
-        if (frame.contest != nullptr && one.pipeline == nullptr)
-            if (std::string why = frame.contest->why_not(cell); !why.empty()) {
-                engine.refuse(subject, Cell::Status::skipped, std::move(why));
-                continue;
-            }
         engine.settle(subject, [&] {
             require_memory(cell.collider, input.triangle_count(), oracle);
-            settle(session, one, frame, cell);
+            subject.settled = settle(session, one, frame, cell);
             cell.counters = one.pipeline->counters();
             judge(*one.pipeline, cell, oracle, frame, found);
         });
@@ -274,6 +276,7 @@ std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span
         subject.judge_again = [&] {
             one.pipeline->once(input);
             judge(*one.pipeline, cell, oracle, frame, found);
+            frame.contest.count_areas(*one.pipeline, input, cell);
         };
         if (engine.look(subject, frame.contest))
             one.pipeline.reset();  // it is far behind; frees its memory
@@ -287,11 +290,9 @@ std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span
         all[k].cannot_be = cell.status == Cell::Status::skipped;
         cells.push_back(std::move(cell));
     }
-    if (frame.contest == nullptr)
-        return cells;
-    frame.contest->end_frame(cells);
+    frame.contest.end_frame(cells);
     for (std::size_t k = 0; k < all.size(); ++k)
-        if (std::string why = frame.contest->why_lost(k); !why.empty())
+        if (std::string why = frame.contest.why_lost(k); !why.empty())
             all[k] = {.choice = all[k].choice, .failure = std::move(why), .cannot_be = true};
     return cells;
 }

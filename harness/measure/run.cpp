@@ -76,10 +76,11 @@ RunFacts measured_facts(Session& session, std::vector<std::string> command, cons
     return facts;
 }
 
-/// A builder and its last tree.
+/// A builder, its last tree and the stages of its first build; of a refit they are empty.
 struct Run::Built {
     Builder* builder = nullptr;
     const Tree* tree = nullptr;
+    std::vector<StageTime> first = {};
 };
 
 /// Oracles for the frame that cells are about and for the frame that refits start from.
@@ -195,7 +196,7 @@ void Run::scene(const Experiment& experiment, const std::string& name,
         subject.cell.builder = builders[k / experiment.operations.size()];
         subject.cell.operation = experiment.operations[k % experiment.operations.size()];
         std::string why(find_builder(subject.cell.builder.name).absent);
-        if (why.empty())
+        if (why.empty() && subject.cell.operation == Operation::build)
             why = contest.why_not(subject.cell);
         if (!no_scene.empty() || !why.empty()) {
             engine.refuse(subject, Cell::Status::skipped, no_scene.empty() ? why : no_scene);
@@ -212,7 +213,9 @@ void Run::scene(const Experiment& experiment, const std::string& name,
         subject.judge_again = [&, k] {
             subject.cell.check = check_again(*built[k].tree, std::move(subject.cell.check));
         };
-        engine.look(subject, &contest);
+        if (experiment.start == Start::from_triangles)
+            subject.settled = built[k].first;
+        engine.look(subject, contest);
     }
     oracles.now.wait();  // builders that failed may have begun references that are still running
     oracles.before.wait();
@@ -253,7 +256,8 @@ void Run::judge_build(const Experiment& experiment, const Frames& frames, Cell& 
                       Oracle& oracle)
 {
     cell.first.run_ns = host_ns([&] {
-        session_.build_once(*built.builder, frames.now(), Start::from_triangles, &built.tree);
+        built.first =
+            session_.build_once(*built.builder, frames.now(), Start::from_triangles, &built.tree);
     });
     const HostTree tree = built.tree->spelled_out();
     cell.check = check_tree(tree, frames.now(), cell.builder, oracle);

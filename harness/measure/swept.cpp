@@ -20,10 +20,12 @@ struct Question {
     std::optional<std::uint64_t> counted = {};
     Input input = {};
     std::vector<Running> running = {};
+    Contest contest = Contest();
 
     /// Adds the task's pipelines that take part in this query.
     void ask(const CollideTask& task)
     {
+        contest = Contest(task.sampling.race);
         for (PipelineChoice pipeline : task.pipelines) {
             if (pipeline.collider.among != Among::all && pipeline.collider.among != among)
                 continue;
@@ -123,6 +125,7 @@ void collide_swept(Session& session, const CollideTask& task, int& order, const 
             }
             FrameOfPipelines now{
                 .input = question.input,
+                .contest = question.contest,
                 .number = task.number + '/' + std::to_string(step) + '/' + question.name,
                 .scene = facts_of(task, scene, step)};
             now.swept = {.pairs = question.name,

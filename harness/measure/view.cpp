@@ -105,8 +105,11 @@ std::string view_text(Session& session, const ViewTask& task, std::vector<std::s
     const Input input = upload(session.device(), session.queue(), points, scene.faces);
     std::vector<Running> all;
     all.push_back({task.pipeline});
-    const FrameOfPipelines frame{
-        .input = input, .number = "view", .scene = facts_of(collide, scene, task.frame)};
+    Contest contest;
+    const FrameOfPipelines frame{.input = input,
+                                 .contest = contest,
+                                 .number = "view",
+                                 .scene = facts_of(collide, scene, task.frame)};
     int order = 0;
     Found found;
     Cell cell = run_frame(session, collide, all, frame, order, found).front();

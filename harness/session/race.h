@@ -33,7 +33,7 @@ struct MedianInterval {
 
 /// Returns the k-th smallest and the k-th largest of `values`, where k is the largest rank for which the interval holds the true
 /// median with a probability of at least 95 %; k is 1 if no rank does, which is so for fewer than 6 values. `values` must not be
-/// empty. No distribution is assumed (David and Nagaraja 2003, Section 7.1).
+/// empty. No distribution is assumed [David2003, Section 7.1].
 MedianInterval median_interval(std::vector<double> values);
 
 /// True if `own` needs no more samples because of `best`: it holds more bytes, or it is far behind, or its interval lies above

@@ -1,4 +1,5 @@
 """bvhbench show: prints a result file as tables."""
+import answer
 import command
 import results
 from console import accuracy, cell, cells, frames, skips, stress, swept, trees
@@ -16,7 +17,7 @@ def main(words: list[str]) -> int:
     file = parser().parse_args(words).file
     run = results.everything(file)
     try:
-        print(run_page.text(run), run_page.merged(run), pages(run), sep="", end="")
+        print(answer.of_cells(run.all_cells), run_page.text(run), run_page.merged(run), pages(run), sep="", end="")
     except KeyError as missing:
         raise results.Refused(f"{file}: a cell has no {missing}") from missing
     return 0

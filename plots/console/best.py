@@ -31,7 +31,7 @@ def rows_text(rows: list[Row], most: int | None, scenes: list[str]) -> str:
         samples = {len(cell.samples) for cell in row.cells}
         frames = "" if row.complete else f", {counted(len(row.cells), 'frame')} only"
         table.row(answer.label(row.first), *columns, fixed(row.ratio), "=" if row.tied and row is not rows[0] else "", fixed(row.bytes * MEGA, 1),
-                  fixed(row.mean("sah_cost")), whole(row.mean("box_tests_count")), error(row),
+                  fixed(row.sah), whole(row.mean("box_tests_count")), error(row),
                   "–".join(str(count) for count in sorted({min(samples), max(samples)})), verdict(row) + frames)
     more = len(rows) - len(table.rows)
     return table.text() + (f"and {more} more; --all\n" if more > 0 else "")

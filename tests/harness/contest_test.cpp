@@ -47,6 +47,19 @@ TEST(Contest, WhatTakesLongerThanTheBestInStagesThatAreKnownIsNotRun)
     EXPECT_NE(contest.why_not(planned("oibvh-single", "hilbert30", "bvtt")), "");
 }
 
+TEST(Contest, OneSlowSampleAloneDoesNotLeaveACellBehind)
+{
+    Contest contest(Race::whole);
+    contest.look(cell("oibvh-multi", "morton30", "group", 40, 20, 40));
+    const Cell slow = cell("karras", "morton30", "group", 40, 220, 60);
+    const std::vector<StageTime> quick = {{"broad", 60, 60, 0, 1}, {"hierarchy", 30, 30, 0, 1}};
+    EXPECT_EQ(contest.look(slow, quick), Contest::Place::slow_once);
+    EXPECT_EQ(contest.look(slow, slow.samples[0].stages), Contest::Place::far_behind);
+    EXPECT_EQ(contest.look(slow), Contest::Place::far_behind);
+    // What is known of a stage is the least of all runs.
+    EXPECT_EQ(contest.why_not(planned("karras", "hilbert30", "leaf")), "");
+}
+
 TEST(Contest, WrongCellsAndThoseOfNoRaceTellNothing)
 {
     Contest contest(Race::whole), none(Race::none);
