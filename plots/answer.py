@@ -51,12 +51,16 @@ def beside(cell: Cell, best: Cell) -> str:
         parts = [f"`{cell.collider}` over `{cell.builder}`" if cell.collider else f"`{cell.builder}`"]
     own, other = options_of(cell), options_of(best)
     parts += [words_of(key, own.get(key, names.USUAL[key])) for key in names.OPTIONS if own.get(key) != other.get(key)
-              and not (key == "leaves" and "boxes" in own)]
+              and not (key == "leaves" and ("boxes" in own or families.of_cell(cell) in families.OWN_LEAVES))]
     return ", ".join(parts) or called(cell)
 
 
 def family(row: Row) -> str:
     return families.of_cell(row.first)
+
+
+def kind_of(row: Row) -> tuple[str, str | None]:
+    return family(row), row.first.collider
 
 
 def number(ratio: float) -> str:
@@ -77,12 +81,14 @@ def next_words(found: Ranking) -> str:
 
 
 def tied_words(found: Ranking) -> str:
-    best, *others = found.rows
-    tied = [row for row in others if row.tied]
+    best = found.rows[0]
+    tied = [row for row in found.rows[1:] if row.tied]
     if not tied:
         return ""
-    # One of each kind first: another family or collider says more than another order.
-    shown = sorted(tied, key=lambda row: (family(row) == family(best)) + (row.first.collider == best.first.collider))[:MOST_TIED]
+    # The first of each kind: another family or collider says more than another order.
+    kinds = {kind_of(row): row for row in reversed(tied)}
+    others = [row for row in tied if row is kinds[kind_of(row)] and kind_of(row) != kind_of(best)]
+    shown = (others or tied)[:MOST_TIED]
     said = [beside(row.first, best.first) for row in shown]
     if len(tied) == 1:
         return f"; {said[0]} is no slower within noise"

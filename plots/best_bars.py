@@ -25,8 +25,9 @@ def parts_of(row: Row, objective: str) -> list[Part]:
         return [(name, colour, 1e-6 * row.mean(counter)) for name, counter, colour in BYTES if row.mean(counter) > 0]
     shown = pipelines.Pipeline(row.first.scene, row.cells)
     if objective != "query":
-        return frames.parts_of(shown)
-    parts = [(name, colour, sum(shown.stage_ms(stage) for stage in stages if stage in OF_QUERY)) for name, stages, colour in frames.PARTS]
+        return [(name, colour, row.scale * width) for name, colour, width in frames.parts_of(shown)]
+    parts = [(name, colour, row.scale * sum(shown.stage_ms(stage) for stage in stages if stage in OF_QUERY))
+             for name, stages, colour in frames.PARTS]
     return [part for part in parts if part[2] > 0]
 
 
@@ -61,7 +62,7 @@ def draw(run: results.Run, found: Ranking) -> plt.Figure:
     every = [(name, colour) for name, _, colour in BYTES] if found.objective == "memory" else \
         [*((name, colour) for name, _, colour in frames.PARTS), frames.BETWEEN]
     height = figure.legend_above(drawing, [Patch(facecolor=colour, label=name) for name, colour in every if (name, colour) in there])
-    remarks = ["Ratios are to the first bar; = is no worse within noise."]
+    remarks = ["Ratios are to the first bar; = is no worse within noise. Times of the beaten are scaled to when the best was sampled."]
     hidden = max(len(rows) for rows in found.scenes.values()) - MOST_ROWS
     remarks += [f"Of each scene the best {MOST_ROWS}."] if hidden > 0 else []
     remarks += [f"The first {MOST_SCENES} of {len(found.scenes)} scenes."] if len(found.scenes) > MOST_SCENES else []

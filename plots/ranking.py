@@ -1,7 +1,8 @@
 """Ranks builders or pipelines by time or memory, over one scene or several.
 
 Times of cells that lost a race (docs/measuring.md, A race) were taken while the machine may have been faster or slower than
-later. Such a cell is therefore compared with the samples that the best had until then.
+later. Such a cell is therefore compared with the samples that the best had until then, and its time is scaled by what the best
+took later.
 """
 import math
 from collections.abc import Iterable, Sequence
@@ -24,7 +25,8 @@ class Row:
     """A builder or pipeline over the frames of one scene, or over several scenes."""
 
     cells: list[Cell]
-    ns: float = 0.0  # mean over frames of the medians of what it is ranked by
+    ns: float = 0.0  # mean over frames of the medians of what it is ranked by; of the beaten as scaled (see above)
+    scale: float = 1.0  # by which the medians of its samples were scaled
     ratio: float = math.inf  # to the best; of several scenes the geometric mean of the ratios
     tied: bool = False  # the best is not better by more than the noise
     complete: bool = True  # measured in every frame
@@ -153,8 +155,8 @@ def rows_of_scene(cells: list[Cell], objective: str) -> list[Row]:
     levels = {id(cell): frames[cell.frame].level(cell) for cell in cells}
     rows = []
     for there in grouped(cells, lambda cell: cell.key("builder", "collider")).values():
-        rows.append(Row(there, mean([frames[cell.frame].middle(cell) for cell in there]),
-                        complete=len({cell.frame for cell in there}) == len(frames)))
+        ns, own = mean([levels[id(cell)] for cell in there]), mean([frames[cell.frame].middle(cell) for cell in there])
+        rows.append(Row(there, ns, ns / own if own > 0 else 1, complete=len({cell.frame for cell in there}) == len(frames)))
 
     def total(row: Row, numbers: set[int]) -> float:
         return sum(levels[id(cell)] for cell in row.cells if cell.frame in numbers)
@@ -179,7 +181,7 @@ def over_scenes(scenes: dict[str, list[Row]]) -> list[Row]:
         for row in rows:
             found.setdefault(row.first.key("builder", "collider"), []).append(row)
     every = [rows for rows in found.values() if len(rows) == len(scenes) and all(row.ratio > 0 for row in rows)]
-    merged = [Row([cell for row in rows for cell in row.cells], mean([row.ns for row in rows]),
+    merged = [Row([cell for row in rows for cell in row.cells], mean([row.ns for row in rows]), 1,
                   float(numpy.exp(numpy.mean(numpy.log([row.ratio for row in rows])))), all(row.tied for row in rows),
                   all(row.complete for row in rows), [row.ratio for row in rows]) for rows in every]
     merged.sort(key=lambda row: row.ratio)

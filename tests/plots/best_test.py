@@ -106,6 +106,7 @@ class ARanking(unittest.TestCase):
         found = ranked(frame("leaf", [130, 130, 130], stopped="beaten"), best)
         self.assertEqual(names(found), ["group", "leaf"])
         self.assertEqual((found.rows[1].ratio, found.rows[1].tied), (1.3, False))
+        self.assertEqual([row.ns for row in found.rows], [200000, 260000])
 
     def test_intervals_are_those_of_the_race(self) -> None:
         import numpy
