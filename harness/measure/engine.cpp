@@ -71,12 +71,14 @@ bool Engine::look(Subject& subject, Contest& contest)
     const watchdog::Hand hand(subject.number);
     Contest::Place place = Contest::Place::in_the_race;
     std::string failure = reason_of_failure([&] {
+        session_.empty_caches(plan_.rules.cold);
         do {
             const int order = order_++;
             cell.samples.push_back({order, subject.once()});
             place = contest.look(cell, subject.settled);
         } while (place == Contest::Place::slow_once && cell.samples.size() < 2);
     });
+    session_.empty_caches(false);
     if (!failure.empty())
         refuse(subject, Cell::Status::failed, std::move(failure));
     if (place != Contest::Place::far_behind)

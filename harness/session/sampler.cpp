@@ -168,6 +168,8 @@ public:
             runners_[i].bytes = plan.rules.race == Race::memory ? cells[i].bytes : 0;
             for (const Sample& sample : cells[i].earlier)
                 keep(i, sample);
+            if (!cells[i].earlier.empty())
+                taken_[i].stopped = rules_[i].verdict(0);
         }
     }
 

@@ -16,7 +16,7 @@ import results
 from console import best as page
 from output import WrongUsage
 from racing.plan import MOST, NAME, Plan
-from reserved import reserved
+from reserved import is_replaced, reserved
 from sweeping.planned import Json
 
 
@@ -55,22 +55,31 @@ def main(words: list[str]) -> int:
         raise WrongUsage(f"--max-samples: {arguments.max_samples} is not from 2 to 1000000")
     facts = child.facts(command.common_words(arguments, "--force"))
     plan = Plan(arguments, facts["device"]["kind"] == "cpu")
-    picture = pathlib.Path(arguments.out).with_suffix(".png")
+    picture = picture_of(arguments.out)
     with reserved(arguments.out, "--out", arguments.force, plan.files):
-        for path in (picture, picture.with_suffix(".svg")):
+        for path in (picture, picture.with_suffix(".svg")) if picture else ():
             output.check(path, map(pathlib.Path, plan.files), arguments.force, output.is_picture)
         print(plan.note(arguments.all), end="", flush=True)
         code, document = measured(plan, words)
         if document is None:
             return code
         output.write(arguments.out, text_of(document).encode(errors="surrogateescape"))
-    run = results.everything(arguments.out)
+    run = results.Run(pathlib.Path(arguments.out), document)
     found = ranking.ranked(run.all_cells, plan.objective)
     print(page.text(found, arguments.all), end="")
     if found.rows:
         print("".join(f"again, alone: {line}\n" for line in repeated(plan, found)), end="")
-    print(f"written: {arguments.out}{drawn(run, found, picture, arguments.force)}", flush=True)
+    figure = drawn(run, found, picture, arguments.force) if picture and found.rows else ""
+    print(f"written: {arguments.out}{figure}", flush=True)
     return code
+
+
+def picture_of(out: str) -> pathlib.Path | None:
+    """Returns the path of the figure, or None if the result goes to a device or pipe."""
+    path = pathlib.Path(out).with_suffix(".png")
+    if path == pathlib.Path(out):
+        raise WrongUsage(f"--out: {out} is the name of the figure; name a .json file")
+    return path if is_replaced(out) else None
 
 
 def measured(plan: Plan, words: list[str]) -> tuple[int, Json | None]:
@@ -104,8 +113,6 @@ def repeated(plan: Plan, found: ranking.Ranking) -> list[str]:
 
 def drawn(run: results.Run, found: ranking.Ranking, picture: pathlib.Path, force: bool) -> str:
     """Draws the figure. Returns its name for the message, or why there is none; the measurement is of use without."""
-    if not found.rows:
-        return ""
     try:
         import best_bars
         import style

@@ -8,6 +8,7 @@ from tables import Table, counted, fixed, whole
 
 MOST_ROWS = 12
 MOST_OF_SCENE = 4  # rows of each scene, if there are several
+MAY_BE_BLANK = ("<", "SAH", "box tests", "<error")  # columns that are left out if no row has them
 MILLI, MEGA = 1e-6, 1e-6
 
 
@@ -24,16 +25,21 @@ def verdict(row: Row) -> str:
 def rows_text(rows: list[Row], most: int | None, scenes: list[str]) -> str:
     """Returns a line for each row; "=" marks what is no worse than the best within noise. With several scenes each has a column
     with the ratio to its best."""
-    table = Table("<pipeline" if rows[0].first.collider else "<builder", *(scenes or ["ms"]), "times the best", "<", "MB", "SAH",
-                  "box tests", "<error", "samples", "<verdict")
+    lines = []
     for row in rows[:most]:
         columns = [fixed(ratio) for ratio in row.by_scene] if scenes else [fixed(row.ns * MILLI, 3)]
         samples = {len(cell.samples) for cell in row.cells}
         frames = "" if row.complete else f", {counted(len(row.cells), 'frame')} only"
-        table.row(answer.label(row.first), *columns, fixed(row.ratio), "=" if row.tied and row is not rows[0] else "", fixed(row.bytes * MEGA, 1),
+        lines.append([answer.label(row.first), *columns, fixed(row.ratio), "=" if row.tied and row is not rows[0] else "", fixed(row.bytes * MEGA, 1),
                   fixed(row.sah), whole(row.mean("box_tests_count")), error(row),
-                  "–".join(str(count) for count in sorted({min(samples), max(samples)})), verdict(row) + frames)
-    more = len(rows) - len(table.rows)
+                  "–".join(str(count) for count in sorted({min(samples), max(samples)})), verdict(row) + frames])
+    titles = ["<pipeline" if rows[0].first.collider else "<builder", *(scenes or ["ms"]), "times the best", "<", "MB", "SAH", "box tests",
+              "<error", "samples", "<verdict"]
+    shown = [place for place, title in enumerate(titles) if title not in MAY_BE_BLANK or any(line[place] for line in lines)]
+    table = Table(*(titles[place] for place in shown))
+    for line in lines:
+        table.row(*(line[place] for place in shown))
+    more = len(rows) - len(lines)
     return table.text() + (f"and {more} more; --all\n" if more > 0 else "")
 
 

@@ -84,6 +84,9 @@ TEST(Race, EarlierSamplesCountSoThatOneFarBehindIsNotRunAgain)
     EXPECT_EQ(taken[1].samples[0].order, 7);
     EXPECT_EQ(taken[0].samples.size(), 5u);
     EXPECT_EQ(fast.next, 1u + 3 + 4);
+    Listed one{{1000}};
+    const std::vector<Timed> done = {{"one", std::ref(one), {{7, one()}}}};
+    EXPECT_EQ(take_samples(done, 1, 0, order)[0].samples.size(), 1u);
 }
 
 TEST(Race, ASlowFirstSampleDoesNotLoseTheRace)
