@@ -92,13 +92,13 @@ void Contest::count_areas(const Pipeline& pipeline, const Input& input, Cell& ce
     }
 }
 
-Contest::Place Contest::look(const Cell& cell, const std::vector<StageTime>& before)
+Contest::Place Contest::look(const Cell& cell, const std::vector<StageTime>& before, double slower)
 {
     if (race_ == Race::none || !tells(cell))
         return Place::in_the_race;
     const auto learn = [&](const std::vector<StageTime>& run) {
         for (const StageTime& time : run) {
-            const auto ns = static_cast<double>(time.elapsed_ns());
+            const double ns = static_cast<double>(time.elapsed_ns()) / slower;
             keep_least(key_of(time.stage, cell), ns);
             if (time.stage == "broad")
                 keep_least(key_of_kind(cell), ns);
@@ -110,7 +110,7 @@ Contest::Place Contest::look(const Cell& cell, const std::vector<StageTime>& bef
         own = std::min(own, learn(sample.stages));
     const double earlier = before.empty() ? own : learn(before);
     best_ns_ = best_ns_ == 0 ? own : std::min(best_ns_, own);
-    const double limit = race_ == Race::memory ? own : far_behind * best_ns_;
+    const double limit = race_ == Race::memory ? own : far_behind * slower * best_ns_;
     return own <= limit       ? Place::in_the_race
            : earlier <= limit ? Place::slow_once
                               : Place::far_behind;

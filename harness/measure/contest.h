@@ -30,9 +30,9 @@ public:
         far_behind  ///< it need not be sampled further
     };
 
-    /// Takes the stages of a cell's samples so far, and of the run before them, which may be empty. Cells without a sample, and wrong
-    /// ones, tell nothing and stay in the race.
-    Place look(const Cell& cell, const std::vector<StageTime>& before = {});
+    /// Takes the stages of a cell's samples so far, and of the run before them, which may be empty, and by which factor the best so
+    /// far was slower just now than it had been. Cells without a sample, and wrong ones, tell nothing and stay in the race.
+    Place look(const Cell& cell, const std::vector<StageTime>& before = {}, double slower = 1);
 
     /// Returns why a cell that was not run yet cannot win: the stages that it has in common with cells that were run take longer
     /// than `hopeless` times the best of those. Empty if it may win, and always in a race for memory.

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "harness/measure/engine.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "harness/base/failure.h"
+#include "harness/session/race.h"
 #include "harness/session/sampler.h"
 #include "harness/session/watchdog.h"
 
@@ -75,18 +77,35 @@ bool Engine::look(Subject& subject, Contest& contest)
         do {
             const int order = order_++;
             cell.samples.push_back({order, subject.once()});
-            place = contest.look(cell, subject.settled);
+            place = contest.look(cell, subject.settled, slower_now());
         } while (place == Contest::Place::slow_once && cell.samples.size() < 2);
     });
     session_.empty_caches(false);
-    if (!failure.empty())
+    const bool failed = !failure.empty();
+    if (failed)
         refuse(subject, Cell::Status::failed, std::move(failure));
-    if (place != Contest::Place::far_behind)
+    if (place != Contest::Place::far_behind) {
+        const double own = failed ? 0 : raced_ns(plan_.rules.race, cell.samples.back().stages);
+        if (own > 0 && (ahead_ == nullptr || own < ahead_ns_)) {
+            ahead_ = &subject;
+            ahead_ns_ = own;
+        }
         return false;
+    }
     subject.once = {};
     cell.warm_up = plan_.warm_up;
     cell.sampling = facts_of(Stopped::beaten);
     return true;
+}
+
+/// Returns how many times its least time the best so far takes now; at least 1.
+double Engine::slower_now()
+{
+    if (ahead_ == nullptr || !ahead_->is_ready() || plan_.rules.race == Race::memory)
+        return 1;
+    const double now = raced_ns(plan_.rules.race, ahead_->once());
+    ahead_ns_ = std::min(ahead_ns_, now);
+    return ahead_ns_ > 0 ? now / ahead_ns_ : 1;
 }
 
 SamplingFacts Engine::facts_of(Stopped stopped) const

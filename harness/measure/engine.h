@@ -46,8 +46,9 @@ public:
     /// as failed or skipped if `work` throws or if an earlier process of this run gave the cell up.
     void settle(Subject& subject, const std::function<void()>& work);
 
-    /// In a race, takes the first sample of a subject that is ready. If that is far behind the best of `contest`, and so is the last
-    /// run before, returns true: the subject is not sampled further. If only the sample is, takes a second one.
+    /// In a race, takes the first sample of a subject that is ready, and runs the best so far once more beside it, because the speed
+    /// of a machine changes. If the sample is far behind, and so is the last run before, returns true: the subject is not sampled
+    /// further. If only the sample is, takes a second one.
     bool look(Subject& subject, Contest& contest);
 
     /// Samples all subjects that are ready, interleaved, and judges each again, except those that lost a race.
@@ -58,10 +59,13 @@ public:
 
 private:
     SamplingFacts facts_of(Stopped stopped) const;
+    double slower_now();
 
     Session& session_;
     SamplingPlan plan_;
     int& order_;
+    Subject* ahead_ = nullptr;  ///< the best of those that were looked at
+    double ahead_ns_ = 0;       ///< its least time
 };
 
 }  // namespace bvhbench

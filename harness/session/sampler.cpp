@@ -166,8 +166,10 @@ public:
         for (std::size_t i = 0; i < cells.size(); ++i) {
             going_.push_back(i);
             runners_[i].bytes = plan.rules.race == Race::memory ? cells[i].bytes : 0;
-            for (const Sample& sample : cells[i].earlier)
-                keep(i, sample);
+            for (const Sample& sample : cells[i].earlier) {
+                rules_[i].add(whole_ns(sample.stages), true);
+                taken_[i].samples.push_back(sample);
+            }
             if (!cells[i].earlier.empty())
                 taken_[i].stopped = rules_[i].verdict(0);
         }
@@ -175,7 +177,6 @@ public:
 
     std::vector<Taken> run()
     {
-        stop_beaten();
         if (turns_ != nullptr)
             turns_->meet();
         for (int round = 0; round < plan_.warm_up && !going_.empty(); ++round)
@@ -225,13 +226,6 @@ private:
                       [&](std::size_t i) { return taken_[i].stopped != Stopped::not_sampled; });
     }
 
-    void keep(std::size_t i, Sample sample)
-    {
-        rules_[i].add(whole_ns(sample.stages), drift_.is_steady());
-        runners_[i].values.push_back(raced_ns(plan_.rules.race, sample.stages));
-        taken_[i].samples.push_back(std::move(sample));
-    }
-
     void take(std::size_t i, bool counts)
     {
         Taken& taken = taken_[i];
@@ -246,7 +240,9 @@ private:
         if (!counts)
             return;
         slow_down(stages, cells_[i].name);
-        keep(i, {order, std::move(stages)});
+        rules_[i].add(whole_ns(stages), drift_.is_steady());
+        runners_[i].values.push_back(raced_ns(plan_.rules.race, stages));
+        taken.samples.push_back({order, std::move(stages)});
         const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
         taken.stopped = rules_[i].verdict(elapsed.count());
     }

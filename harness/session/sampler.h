@@ -36,8 +36,8 @@ struct Taken {
 /// `drifted` if one of them is off their median by more than `drift_limit`. Marked samples are kept, but do not count towards the
 /// target `until`. If `calibrate` throws or is empty, nothing is marked.
 ///
-/// In a race (race.h) a cell that another one beats stops: before the first round if its earlier samples show it, and after each
-/// round.
+/// In a race (race.h) a cell that another one beats stops after a round. Earlier samples were not interleaved, so they do not decide
+/// it.
 ///
 /// With `turns`, each round is one turn among other runs.
 ///

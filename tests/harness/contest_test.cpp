@@ -56,6 +56,8 @@ TEST(Contest, OneSlowSampleAloneDoesNotLeaveACellBehind)
     EXPECT_EQ(contest.look(slow, quick), Contest::Place::slow_once);
     EXPECT_EQ(contest.look(slow, slow.samples[0].stages), Contest::Place::far_behind);
     EXPECT_EQ(contest.look(slow), Contest::Place::far_behind);
+    // Neither does a machine that is slower for a while: the best takes longer now, too.
+    EXPECT_EQ(contest.look(slow, {}, 1.1), Contest::Place::in_the_race);
     // What is known of a stage is the least of all runs.
     EXPECT_EQ(contest.why_not(planned("karras", "hilbert30", "leaf")), "");
 }

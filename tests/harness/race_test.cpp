@@ -69,7 +69,7 @@ TEST(Race, OneFarBehindHasOneSample)
     EXPECT_EQ(taken[2].samples.size(), fewest_compared);
 }
 
-TEST(Race, EarlierSamplesCountSoThatOneFarBehindIsNotRunAgain)
+TEST(Race, EarlierSamplesCountButDoNotDecide)
 {
     Listed fast{{1000}}, slow{{4000}};
     std::vector<Timed> cells = {{"fast", std::ref(fast)}, {"slow", std::ref(slow)}};
@@ -78,9 +78,9 @@ TEST(Race, EarlierSamplesCountSoThatOneFarBehindIsNotRunAgain)
     int order = 0;
     const auto taken =
         take_samples(cells, {.samples = 5, .warm_up = 3, .rules = {.race = Race::whole}}, order);
-    EXPECT_EQ(slow.next, 1u);
+    EXPECT_EQ(slow.next, 1u + 3 + 1);
     EXPECT_EQ(taken[1].stopped, Stopped::beaten);
-    ASSERT_EQ(taken[1].samples.size(), 1u);
+    ASSERT_EQ(taken[1].samples.size(), 2u);
     EXPECT_EQ(taken[1].samples[0].order, 7);
     EXPECT_EQ(taken[0].samples.size(), 5u);
     EXPECT_EQ(fast.next, 1u + 3 + 4);
