@@ -164,7 +164,6 @@ public:
         , runners_(cells.size())
     {
         for (std::size_t i = 0; i < cells.size(); ++i) {
-            going_.push_back(i);
             runners_[i].bytes = plan.rules.race == Race::memory ? cells[i].bytes : 0;
             for (const Sample& sample : cells[i].earlier) {
                 rules_[i].add(whole_ns(sample.stages), true);
@@ -172,6 +171,8 @@ public:
             }
             if (!cells[i].earlier.empty())
                 taken_[i].stopped = rules_[i].verdict(0);
+            if (taken_[i].stopped == Stopped::not_sampled)
+                going_.push_back(i);
         }
     }
 
