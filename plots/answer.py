@@ -77,7 +77,9 @@ def next_words(found: Ranking) -> str:
     name = rival.first.collider if families.of_collider(rival.first.collider or "") else rival.first.builder
     who = f"the next family (`{name}`)" if others else f"the next, {beside(rival.first, best.first)}"
     by = rival.ratio / best.ratio if best.ratio > 0 else rival.ratio
-    return f"; {who} holds {number(by)} times as much" if found.objective == "memory" else f", {number(by)} times as fast as {who}"
+    if found.objective == "memory":
+        return f"; {who} holds {number(by)} times as much"
+    return f", {number(by)} times as fast as {who}"
 
 
 def tied_words(found: Ranking) -> str:
@@ -131,7 +133,8 @@ def of_cells(cells: Sequence[Cell]) -> str:
     if len(kinds) != 1 or not all(cell.checked for cell in measured):
         return ""
     operation, _, _, is_swept, from_leaves, *_ = next(iter(kinds))
-    if operation not in ("build", "collide") or is_swept or from_leaves or len({cell.key("builder", "collider") for cell in measured}) < 2:
+    is_ranked = operation in ("build", "collide") and not is_swept and not from_leaves
+    if not is_ranked or len({cell.key("builder", "collider") for cell in measured}) < 2:
         return ""
     races = {cell.raw.get("sampling", {}).get("race", "") for cell in measured}
     objective = {"query": "query", "memory": "memory"}.get(races.pop() if len(races) == 1 else "", "")

@@ -1,4 +1,4 @@
-"""The figure of `best`: the best builders or pipelines of each scene as bars, their stages stacked, their ratio to the best beside."""
+"""The figure of `best`: the best builders or pipelines of each scene as bars, with stages stacked and the ratio to the best."""
 import dataclasses
 
 import matplotlib.pyplot as plt
@@ -61,8 +61,9 @@ def draw(run: results.Run, found: Ranking) -> plt.Figure:
     grid[-1, 0].set_xlabel(what.get(found.objective, "milliseconds a frame"))
     every = [(name, colour) for name, _, colour in BYTES] if found.objective == "memory" else \
         [*((name, colour) for name, _, colour in frames.PARTS), frames.BETWEEN]
-    height = figure.legend_above(drawing, [Patch(facecolor=colour, label=name) for name, colour in every if (name, colour) in there])
-    remarks = ["Ratios are to the first bar; = is no worse within noise. Times of the beaten are scaled to when the best was sampled."]
+    handles = [Patch(facecolor=colour, label=name) for name, colour in every if (name, colour) in there]
+    height = figure.legend_above(drawing, handles)
+    remarks = ["Ratios are to the first bar; = is no worse within noise. Times of the beaten are scaled to those of the best."]
     hidden = max(len(rows) for rows in found.scenes.values()) - MOST_ROWS
     remarks += [f"Of each scene the best {MOST_ROWS}."] if hidden > 0 else []
     remarks += [f"The first {MOST_SCENES} of {len(found.scenes)} scenes."] if len(found.scenes) > MOST_SCENES else []

@@ -2,8 +2,8 @@
 from cells import Cell
 
 # The start of a builder's name, and its family. The first that fits counts.
-BUILDERS = (("oibvh-wide", "wide trees"), ("oibvh-", "implicit trees"), ("perfect", "padded implicit trees"), ("karras", "radix trees"),
-            ("apetrei", "radix trees"), ("lbvh-", "radix trees"), ("radix-", "radix trees"), ("heap-median", "host builders"),
+BUILDERS = (("oibvh-wide", "wide trees"), ("oibvh-", "implicit trees"), ("perfect", "padded implicit trees"),
+            ("karras", "radix trees"), ("apetrei", "radix trees"), ("lbvh-", "radix trees"), ("radix-", "radix trees"), ("heap-median", "host builders"),
             ("median-split", "host builders"), ("sah-binned", "host builders"), ("embree", "Embree"), ("fcl", "FCL"))
 # Families whose trees are on the host, where no collider of the device queries them.
 ON_HOST = ("host builders", "Embree", "FCL")

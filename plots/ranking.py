@@ -87,12 +87,13 @@ def sah_of(cell: Cell) -> float:
 def values_of(samples: Iterable[dict], objective: str) -> numpy.ndarray:
     """Returns the nanoseconds of each sample that count for the objective."""
     if objective == "query":
-        return numpy.array([sum(elapsed_ns(stage) for name, stage in sample.items() if name in OF_QUERY) for sample in samples], float)
+        return numpy.array([sum(elapsed_ns(stage) for name, stage in sample.items() if name in OF_QUERY)
+                            for sample in samples], float)
     return numpy.array([whole_ns(sample) for sample in samples], float)
 
 
 def ends_of(values: numpy.ndarray) -> tuple[float, float]:
-    """Returns the order statistics around the median that hold it with a probability of 95 %, or the range of fewer than 6 values."""
+    """Returns the order statistics that hold the median with a probability of 95 %, or the range of fewer than 6 values."""
     from scipy.stats import binom
 
     ascending = numpy.sort(values)

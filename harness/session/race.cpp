@@ -45,7 +45,8 @@ bool is_beaten(const Runner& own, const Runner& best)
         return own.bytes > best.bytes;
     if (own.values.empty() || best.values.empty())
         return false;
-    const double least = *std::min_element(own.values.begin(), own.values.end());
+    const double least =
+        std::min(own.least, *std::min_element(own.values.begin(), own.values.end()));
     const double middle = quantile(best.values, 0.5);
     if (least > far_behind * middle)
         return true;

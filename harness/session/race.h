@@ -4,6 +4,7 @@
 // "which is the fastest" with few samples (docs/measuring.md, A race).
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <string_view>
@@ -24,6 +25,7 @@ constexpr std::size_t fewest_compared = 3;
 struct Runner {
     std::vector<double> values;  ///< what the race is for, of each sample, in nanoseconds
     double bytes = 0;            ///< bytes held, compared first; 0 unless the race is for memory
+    double least = HUGE_VAL;     ///< the least value of samples that were not interleaved
 };
 
 /// Two order statistics around a median.

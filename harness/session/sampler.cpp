@@ -167,6 +167,8 @@ public:
             runners_[i].bytes = plan.rules.race == Race::memory ? cells[i].bytes : 0;
             for (const Sample& sample : cells[i].earlier) {
                 rules_[i].add(whole_ns(sample.stages), true);
+                runners_[i].least =
+                    std::min(runners_[i].least, raced_ns(plan.rules.race, sample.stages));
                 taken_[i].samples.push_back(sample);
             }
             if (!cells[i].earlier.empty())

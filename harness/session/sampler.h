@@ -37,7 +37,7 @@ struct Taken {
 /// target `until`. If `calibrate` throws or is empty, nothing is marked.
 ///
 /// In a race (race.h) a cell that another one beats stops after a round. Earlier samples were not interleaved, so they do not decide
-/// it.
+/// it, except that a cell with one of them as fast as the best stays.
 ///
 /// With `turns`, each round is one turn among other runs.
 ///

@@ -98,7 +98,8 @@ def measured(plan: Plan, words: list[str]) -> tuple[int, Json | None]:
 
 
 def text_of(document: Json) -> str:
-    return merging.document_text(document["run"], [documents.line_of(cell) for cell in document["cells"]], [], [], document["format"])
+    lines = [documents.line_of(cell) for cell in document["cells"]]
+    return merging.document_text(document["run"], lines, [], [], document["format"])
 
 
 def repeated(plan: Plan, found: ranking.Ranking) -> list[str]:

@@ -30,11 +30,12 @@ def rows_text(rows: list[Row], most: int | None, scenes: list[str]) -> str:
         columns = [fixed(ratio) for ratio in row.by_scene] if scenes else [fixed(row.ns * MILLI, 3)]
         samples = {len(cell.samples) for cell in row.cells}
         frames = "" if row.complete else f", {counted(len(row.cells), 'frame')} only"
-        lines.append([answer.label(row.first), *columns, fixed(row.ratio), "=" if row.tied and row is not rows[0] else "", fixed(row.bytes * MEGA, 1),
-                  fixed(row.sah), whole(row.mean("box_tests_count")), error(row),
+        mark = "=" if row.tied and row is not rows[0] else ""
+        lines.append([answer.label(row.first), *columns, fixed(row.ratio), mark, fixed(row.bytes * MEGA, 1), fixed(row.sah),
+                      whole(row.mean("box_tests_count")), error(row),
                   "–".join(str(count) for count in sorted({min(samples), max(samples)})), verdict(row) + frames])
-    titles = ["<pipeline" if rows[0].first.collider else "<builder", *(scenes or ["ms"]), "times the best", "<", "MB", "SAH", "box tests",
-              "<error", "samples", "<verdict"]
+    titles = ["<pipeline" if rows[0].first.collider else "<builder", *(scenes or ["ms"]), "times the best", "<", "MB", "SAH",
+              "box tests", "<error", "samples", "<verdict"]
     shown = [place for place, title in enumerate(titles) if title not in MAY_BE_BLANK or any(line[place] for line in lines)]
     table = Table(*(titles[place] for place in shown))
     for line in lines:

@@ -55,14 +55,16 @@ class Plan:
         self.objective, self.most = arguments.objective, arguments.max_samples
         self.query = {key: value for key in QUESTION if (value := getattr(arguments, key)) is not None}
         if self.objective == "build" and (self.query or arguments.colliders is not None):
-            raise WrongUsage(f"--{next(iter(self.query), 'colliders').replace('_', '-')} is for pairs, and --for build makes trees only")
+            option = next(iter(self.query), "colliders").replace("_", "-")
+            raise WrongUsage(f"--{option} is for pairs, and --for build makes trees only")
         self.scenes = scenes_of(arguments)
         self.words = command.common_words(arguments, "--force")
         self.sweep = Sweep(NAME, "Which builder and collider is the fastest?", 1, 0, False, "", [])
         self.files = self.check_scenes()
         self.check_names(arguments)
         several = any(has_several(scene.get("frames")) for scene in self.scenes)
-        asked = candidates.Asked(self.objective, is_cpu, arguments.with_libraries, self.query.get("narrow", "none") != "none", several,
+        has_narrow = self.query.get("narrow", "none") != "none"
+        asked = candidates.Asked(self.objective, is_cpu, arguments.with_libraries, has_narrow, several,
                                  *(named(arguments, key) for key in ("builders", "orders", "colliders", "boxes")))
         self.product = candidates.Product(asked, list_of)
         self.cells = self.settled(self.scenes[0], self.product.candidates())

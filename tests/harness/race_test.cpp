@@ -84,6 +84,12 @@ TEST(Race, EarlierSamplesCountButDoNotDecide)
     EXPECT_EQ(taken[1].samples[0].order, 7);
     EXPECT_EQ(taken[0].samples.size(), 5u);
     EXPECT_EQ(fast.next, 1u + 3 + 4);
+    Listed again{{1000}}, once_fast{{2000, 4000}};
+    cells = {{"fast", std::ref(again), {{7, again()}}}, {"other", std::ref(once_fast), {}}};
+    cells[1].earlier = {{8, once_fast()}};
+    const auto longer =
+        take_samples(cells, {.samples = 5, .warm_up = 0, .rules = {.race = Race::whole}}, order);
+    EXPECT_EQ(longer[1].samples.size(), 1 + fewest_compared);
     Listed one{{1000}};
     const std::vector<Timed> done = {{"one", std::ref(one), {{7, one()}}}};
     EXPECT_EQ(take_samples(done, 1, 0, order)[0].samples.size(), 1u);
