@@ -56,6 +56,8 @@ SamplingRules sampling_of(const Json& json)
             throw BadUsage("'caches' is hot or cold, not '" + caches + "'");
         rules.cold = caches == "cold";
     }
+    if (json.contains("race"))
+        rules.race = race_called(text_at(json, "race"));
     check_rules(rules);
     return rules;
 }
@@ -86,11 +88,12 @@ std::vector<Operation> operations_of(const Json& json)
 
 Experiment experiment_of(const Json& json, bool quick)
 {
-    refuse_unknown_keys(json,
-                        {"experiment", "question", "paper", "scenes", "builders", "operations",
-                         "pipelines", "stages", "samples", "warm_up", "until", "min_samples",
-                         "max_samples", "time_budget_s", "caches", "quality", "doubles", "quick"},
-                        "an experiment");
+    refuse_unknown_keys(
+        json,
+        {"experiment", "question", "paper", "scenes", "builders", "operations", "pipelines",
+         "stages", "samples", "warm_up", "until", "min_samples", "max_samples", "time_budget_s",
+         "race", "caches", "quality", "doubles", "quick"},
+        "an experiment");
     const bool collides = json.contains("pipelines");
     for (const char* key : {"experiment", "scenes", collides ? "pipelines" : "builders"})
         if (!json.contains(key))

@@ -1,9 +1,24 @@
 // SPDX-License-Identifier: MIT
 #include "harness/choice/sampling.h"
 
+#include <algorithm>
+#include <array>
+
 #include "geometry/error.h"
 
 namespace bvhbench {
+
+constexpr std::array<std::string_view, 4> races = {"", "whole", "query", "memory"};
+
+std::string_view race_name(Race race) { return races[static_cast<std::size_t>(race)]; }
+
+Race race_called(std::string_view name)
+{
+    const auto found = std::find(races.begin() + 1, races.end(), name);
+    if (found == races.end())
+        throw BadUsage("a race is for whole, query or memory, not '" + std::string(name) + "'");
+    return static_cast<Race>(found - races.begin());
+}
 
 void SamplingWords::apply(SamplingRules& rules) const
 {
@@ -13,6 +28,7 @@ void SamplingWords::apply(SamplingRules& rules) const
     rules.min_samples = min_samples.value_or(rules.min_samples);
     rules.max_samples = max_samples.value_or(rules.max_samples);
     rules.calibrate_every = calibrate_every.value_or(rules.calibrate_every);
+    rules.race = race.empty() ? rules.race : race_called(race);
     rules.cold = rules.cold || cold;
     if (rules.until == 0 && (min_samples || max_samples || time_budget_s))
         throw BadUsage(

@@ -8,6 +8,20 @@ namespace bvhbench {
 
 constexpr int most_samples = 1000000;
 
+/// What the cells of a scene or frame race for (harness/session/race.h), if they do.
+enum class Race {
+    none,    ///< no race: all cells are sampled alike
+    whole,   ///< the time of all stages
+    query,   ///< the time of the stages after the tree
+    memory,  ///< the bytes held; of equal bytes, the time of all stages
+};
+
+/// Returns the race's name in experiments and on the command line: "whole". Empty for none.
+std::string_view race_name(Race race);
+
+/// Returns the race of that name. Throws BadUsage.
+Race race_called(std::string_view name);
+
 /// When sampling of a cell stops, and under which conditions samples are taken.
 struct SamplingRules {
     /// If not 0, sampling stops when the interquartile range is at most this fraction of the median.
@@ -15,6 +29,7 @@ struct SamplingRules {
     int min_samples = 15;
     int max_samples = 1000;
     double time_budget_s = 60;  ///< for all cells sampled together, without warm-up
+    Race race = Race::none;     ///< whether a cell that is beaten by another stops
     bool cold = false;          ///< whether caches are emptied before each sample
     int calibrate_every = 16;   ///< samples between two calibration runs; 0: no calibration
     double drift_limit = 0.25;  ///< allowed relative deviation of a calibration from the median
@@ -37,6 +52,7 @@ enum class Stopped {
     noisy,   ///< the noise is stable above the target: more samples will not help
     most,    ///< `max_samples` were taken
     budget,  ///< the time budget is used up
+    beaten,  ///< another cell of the race is better
     failure
 };
 
@@ -44,7 +60,7 @@ enum class Stopped {
 constexpr std::string_view stopped_name(Stopped stopped)
 {
     constexpr std::string_view names[] = {"not_sampled", "number", "steady", "noisy",
-                                          "most",        "budget", "failure"};
+                                          "most",        "budget", "beaten", "failure"};
     return names[static_cast<std::size_t>(stopped)];
 }
 
@@ -52,6 +68,7 @@ constexpr std::string_view stopped_name(Stopped stopped)
 struct SamplingWords {
     std::optional<double> until, time_budget_s, drift_limit;
     std::optional<int> min_samples, max_samples, calibrate_every;
+    std::string race;
     bool cold = false;
 
     /// Overwrites `rules` with the options that are set. Throws BadUsage if the options or the result contradict each other.

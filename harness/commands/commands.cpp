@@ -18,6 +18,8 @@ std::span<const CommandEntry> commands()
         {"sweep", measuring,
          "Measure a product of scenes, sizes, builders, orders, colliders and options, a "
          "process a cell; go on where it was interrupted"},
+        {"best", measuring,
+         "Say which builder and collider is the fastest for scenes of yours, and by how much"},
         {"reproduce", measuring, "Measure, print and draw what the paper shows"},
         accuracy_command,
         tune_command,

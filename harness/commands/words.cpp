@@ -107,6 +107,9 @@ void add_sampling(CLI::App& app, int& samples, const char* help, SamplingWords& 
     app.add_option("--time-budget", sampling.time_budget_s,
                    "with --until: seconds for the samples of a scene or frame; 60")
         ->check(a_number(most_seconds));
+    app.add_option("--race", sampling.race,
+                   "whole, query or memory: cells of a scene or frame race for the shortest whole "
+                   "or query or the least memory; one that is beaten gets no more samples");
     app.add_flag("--cold", sampling.cold, "empty the device's caches before each sample");
     app.add_option("--calibrate-every", sampling.calibrate_every,
                    "samples between two looks at how fast the device is; 0: none; 16")

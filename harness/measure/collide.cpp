@@ -36,6 +36,7 @@ void collide_scene(Session& session, const CollideTask& task, int& order, const 
     if (passes && passes((frames.end - frames.first) * task.pipelines.size()))
         return;
     Input input = upload_frame(session, scene, frames.first);
+    Contest contest(task.sampling.race);
     std::vector<Running> all;
     for (const PipelineChoice& pipeline : task.pipelines)
         all.push_back({pipeline});
@@ -43,6 +44,7 @@ void collide_scene(Session& session, const CollideTask& task, int& order, const 
         input.points = scene.frames[frame];
         input.device_points.upload(session.queue().cl(), input.points);
         FrameOfPipelines now{.input = input,
+                             .contest = contest,
                              .number = task.number + '/' + std::to_string(frame),
                              .scene = facts_of(task, scene, frame)};
         if (frame > frames.first)

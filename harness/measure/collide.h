@@ -9,6 +9,7 @@
 
 #include "collide/pairs.h"
 #include "harness/choice/scene_choice.h"
+#include "harness/measure/contest.h"
 #include "harness/measure/pipeline.h"
 #include "harness/record/record.h"
 #include "harness/session/session.h"
@@ -69,6 +70,7 @@ struct Running {
 /// A frame that several pipelines run over.
 struct FrameOfPipelines {
     const Input& input;
+    Contest& contest;    ///< between the pipelines, over the scene's frames
     std::string number;  ///< path of the frame within the run, such as "2/0"
     SceneFacts scene;
     SweptFacts swept = {};

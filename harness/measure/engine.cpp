@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "harness/measure/engine.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "harness/base/failure.h"
+#include "harness/session/race.h"
 #include "harness/session/sampler.h"
 #include "harness/session/watchdog.h"
 
@@ -64,6 +66,55 @@ void Engine::settle(Subject& subject, const std::function<void()>& work)
                std::move(failure));
 }
 
+bool Engine::look(Subject& subject, Contest& contest)
+{
+    if (plan_.rules.race == Race::none || !subject.is_ready())
+        return false;
+    Cell& cell = subject.cell;
+    const watchdog::Hand hand(subject.number);
+    Contest::Place place = Contest::Place::in_the_race;
+    std::string failure = reason_of_failure([&] {
+        session_.empty_caches(plan_.rules.cold);
+        do {
+            const int order = order_++;
+            cell.samples.push_back({order, subject.once()});
+            place = contest.look(cell, subject.settled, slower_now());
+        } while (place == Contest::Place::slow_once && cell.samples.size() < 2);
+    });
+    session_.empty_caches(false);
+    const bool failed = !failure.empty();
+    if (failed)
+        refuse(subject, Cell::Status::failed, std::move(failure));
+    if (place != Contest::Place::far_behind) {
+        const double own = failed ? 0 : raced_ns(plan_.rules.race, cell.samples.back().stages);
+        if (own > 0 && (ahead_ == nullptr || own < ahead_ns_)) {
+            ahead_ = &subject;
+            ahead_ns_ = own;
+        }
+        return false;
+    }
+    subject.once = {};
+    cell.warm_up = plan_.warm_up;
+    cell.sampling = facts_of(Stopped::beaten);
+    return true;
+}
+
+/// Returns how many times its least time the best so far takes now; at least 1.
+double Engine::slower_now()
+{
+    if (ahead_ == nullptr || !ahead_->is_ready() || plan_.rules.race == Race::memory)
+        return 1;
+    const double now = raced_ns(plan_.rules.race, ahead_->once());
+    ahead_ns_ = std::min(ahead_ns_, now);
+    return ahead_ns_ > 0 ? now / ahead_ns_ : 1;
+}
+
+SamplingFacts Engine::facts_of(Stopped stopped) const
+{
+    const SamplingRules& rules = plan_.rules;
+    return {.stopped = stopped, .until = rules.until, .race = rules.race, .cold = rules.cold};
+}
+
 void Engine::sample(std::span<Subject> subjects)
 {
     if (other_sampler)
@@ -75,20 +126,20 @@ void Engine::sample(std::span<Subject> subjects)
             continue;
         ready.push_back(&one);
         const Cell& cell = one.cell;
-        timed.push_back(
-            {cell.collider.name.empty() ? cell.builder.name : cell.collider.name, [&one] {
-                 const watchdog::Hand hand(one.number);
-                 return one.once();
-             }});
+        timed.push_back({cell.collider.name.empty() ? cell.builder.name : cell.collider.name,
+                         [&one] {
+                             const watchdog::Hand hand(one.number);
+                             return one.once();
+                         },
+                         cell.samples, bytes_held(cell)});
     }
     std::vector<Taken> taken = session_samples(session_, timed, plan_, order_);
     for (std::size_t i = 0; i < ready.size(); ++i) {
         Cell& cell = ready[i]->cell;
         cell.samples = std::move(taken[i].samples);
-        cell.sampling = {
-            .stopped = taken[i].stopped, .until = plan_.rules.until, .cold = plan_.rules.cold};
+        cell.sampling = facts_of(taken[i].stopped);
         std::string failure = std::move(taken[i].failure);
-        if (failure.empty() && ready[i]->judge_again)
+        if (failure.empty() && ready[i]->judge_again && taken[i].stopped != Stopped::beaten)
             failure = reason_of_failure(ready[i]->judge_again);
         if (!failure.empty())
             refuse(*ready[i], Cell::Status::failed, std::move(failure));

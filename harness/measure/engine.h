@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "harness/choice/sampling.h"
+#include "harness/measure/contest.h"
 #include "harness/record/record.h"
 #include "harness/session/session.h"
 
@@ -22,6 +23,7 @@ struct Subject {
     /// Runs one sample and returns its stages; empty if there is nothing to time.
     std::function<std::vector<StageTime>()> once = {};
     std::function<void()> judge_again = {};  ///< judges the result of the last sample; may be empty
+    std::vector<StageTime> settled = {};     ///< stages of the last run before the samples
 
     bool is_ready() const
     {
@@ -44,7 +46,12 @@ public:
     /// as failed or skipped if `work` throws or if an earlier process of this run gave the cell up.
     void settle(Subject& subject, const std::function<void()>& work);
 
-    /// Samples all subjects that are ready, interleaved, and judges each again.
+    /// In a race, takes the first sample of a subject that is ready, and runs the best so far once more beside it, because the speed
+    /// of a machine changes. If the sample is far behind, and so is the last run before, returns true: the subject is not sampled
+    /// further. If only the sample is, takes a second one.
+    bool look(Subject& subject, Contest& contest);
+
+    /// Samples all subjects that are ready, interleaved, and judges each again, except those that lost a race.
     void sample(std::span<Subject> subjects);
 
     /// If set, sample() calls this instead, for a program with a sampler of its own (benchmarks/).
@@ -54,9 +61,14 @@ public:
     void refuse(Subject& subject, Cell::Status status, std::string reason);
 
 private:
+    SamplingFacts facts_of(Stopped stopped) const;
+    double slower_now();
+
     Session& session_;
     SamplingPlan plan_;
     int& order_;
+    Subject* ahead_ = nullptr;  ///< the best of those that were looked at
+    double ahead_ns_ = 0;       ///< its least time
 };
 
 }  // namespace bvhbench

@@ -185,8 +185,9 @@ void require_memory(const ColliderChoice& choice, std::size_t triangles, FrameOr
                         bytes * triangles + 4 * sizeof(Pair) * count);
 }
 
-/// Creates the pipeline if it does not exist and runs the frame once, so that the frame can be timed.
-void settle(Session& session, Running& one, const FrameOfPipelines& frame, Cell& cell)
+/// Creates the pipeline if it does not exist and runs the frame once, so that the frame can be timed. Returns the stages.
+std::vector<StageTime> settle(Session& session, Running& one, const FrameOfPipelines& frame,
+                              Cell& cell)
 {
     const watchdog::Watch watch;
     if (one.pipeline == nullptr)
@@ -195,7 +196,9 @@ void settle(Session& session, Running& one, const FrameOfPipelines& frame, Cell&
     if (!one.pipeline->collider().needs_tree())
         cell.builder = {.name = "none"};
     one.pipeline->begin_frame(frame.motions);
-    cell.first.run_ns = host_ns([&] { one.pipeline->settle(frame.input); });
+    std::vector<StageTime> stages;
+    cell.first.run_ns = host_ns([&] { stages = one.pipeline->settle(frame.input); });
+    return stages;
 }
 
 }  // namespace
@@ -216,13 +219,16 @@ std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span
         Cell& cell = subject.cell;
         cell.scene = frame.scene;
         cell.swept = frame.swept;
+        if (one.status == Cell::Status::measured && one.pipeline == nullptr)
+            if (one.reason = frame.contest.why_not(cell); !one.reason.empty())
+                one.status = Cell::Status::skipped;
         if (one.status != Cell::Status::measured) {
             engine.refuse(subject, one.status, one.reason);
             continue;
         }
         engine.settle(subject, [&] {
             require_memory(cell.collider, input.triangle_count(), oracle);
-            settle(session, one, frame, cell);
+            subject.settled = settle(session, one, frame, cell);
             cell.counters = one.pipeline->counters();
             judge(*one.pipeline, cell, oracle, frame, found);
         });
@@ -234,7 +240,10 @@ std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span
         subject.judge_again = [&] {
             one.pipeline->once(input);
             judge(*one.pipeline, cell, oracle, frame, found);
+            frame.contest.count_areas(*one.pipeline, input, cell);
         };
+        if (engine.look(subject, frame.contest))
+            one.pipeline.reset();  // it is far behind; frees its memory
     }
     oracle.wait();  // needed even if no pipeline has asked the oracle
     engine.sample(subjects);
@@ -245,6 +254,11 @@ std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span
         all[k].reason = cell.reason;
         cells.push_back(std::move(cell));
     }
+    frame.contest.end_frame(cells);
+    for (std::size_t k = 0; k < all.size(); ++k)
+        if (std::string why = frame.contest.why_lost(k); !why.empty())
+            all[k] = {
+                .choice = all[k].choice, .status = Cell::Status::skipped, .reason = std::move(why)};
     return cells;
 }
 

@@ -141,15 +141,17 @@ bool Pipeline::complete()
     return !queries() || (collider_->complete(queue) && (!narrow_ || narrow_->complete(queue)));
 }
 
-void Pipeline::settle(const Input& input)
+std::vector<StageTime> Pipeline::settle(const Input& input)
 {
     choose_entering(input);
+    std::vector<StageTime> stages;
     do {
         enqueue(input);
-        session_.queue().finish();
+        stages = session_.queue().finish();
     } while (!complete());
     corner_bytes_ =
         narrow_ && queries() ? corner_bytes(collider_->pairs(session_.queue()), input) : 0;
+    return stages;
 }
 
 /// Adds the bytes of pairs and contacts to the stages. Their number is known only after the frame.

@@ -30,8 +30,9 @@ public:
     /// rule `near` built holds some triangles only: it is kept if all objects are unchanged, and else rebuilt, never refitted.
     void begin_frame(std::span<const Motion> motions);
 
-    /// Runs the whole frame until no buffer overflows, and reserves memory for the triangles that enter it. Blocks until done.
-    void settle(const Input& input);
+    /// Runs the whole frame until no buffer overflows, and reserves memory for the triangles that enter it. Returns the stages of
+    /// the last run, which may include compiling. Blocks until done.
+    std::vector<StageTime> settle(const Input& input);
 
     /// Runs the whole frame once and returns its stages. Blocks until done. Throws Unavailable if a buffer overflows, which
     /// cannot happen after settle() over the same points.

@@ -10,6 +10,7 @@
 #include "harness/judge/check.h"
 #include "harness/judge/metrics.h"
 #include "harness/measure/collide.h"
+#include "harness/measure/contest.h"
 #include "harness/measure/engine.h"
 #include "harness/measure/frames.h"
 #include "harness/record/provenance.h"
@@ -39,10 +40,11 @@ std::vector<BuilderChoice> chosen(const Experiment& experiment, const std::strin
     return builders;
 }
 
-/// A builder and its last tree.
+/// A builder, its last tree and the stages of its first build; of a refit they are empty.
 struct Built {
     Builder* builder = nullptr;
     const Tree* tree = nullptr;
+    std::vector<StageTime> first = {};
 };
 
 /// Builds or refits the cell's tree for the first time, checks it and writes its quality and size to the cell. `oracle` is that
@@ -64,8 +66,11 @@ void settle(Session& session, const Experiment& experiment, const Frames& frames
     if (builder.card().runs == BuilderCard::Runs::on_host)
         require_host_memory("the tree", builder.footprint(triangles).total());
     builder.reserve(triangles);
-    cell.first.run_ns =
-        host_ns([&] { session.build_once(builder, first, Start::from_triangles, &built.tree); });
+    cell.first.run_ns = host_ns([&] {
+        built.first = session.build_once(builder, first, Start::from_triangles, &built.tree);
+    });
+    if (refits)
+        built.first.clear();  // they are no stages of a refit
     HostTree tree = built.tree->spelled_out();
     cell.check = check_tree(tree, first, cell.builder, oracle);
     if (refits) {
@@ -217,6 +222,7 @@ void Run::scene(const Experiment& experiment, const std::string& name,
     Oracle oracle(session_, frames.now()), oracle_before(session_, frames.before());
     Engine engine(session_, {experiment.samples, experiment.warm_up, experiment.sampling}, order_);
     const std::size_t count = builders.size() * experiment.operations.size();
+    Contest contest(experiment.sampling.race);
     std::vector<Subject> subjects(count);
     std::vector<Built> built(count);
     for (std::size_t k = 0; k < count; ++k) {
@@ -224,9 +230,11 @@ void Run::scene(const Experiment& experiment, const std::string& name,
         subject = {.cell = empty, .number = number + std::to_string(k)};
         subject.cell.builder = builders[k / experiment.operations.size()];
         subject.cell.operation = experiment.operations[k % experiment.operations.size()];
-        const std::string absent(find_builder(subject.cell.builder.name).absent);
-        if (const std::string& why = no_scene.empty() ? absent : no_scene; !why.empty()) {
-            engine.refuse(subject, Cell::Status::skipped, why);
+        std::string why(find_builder(subject.cell.builder.name).absent);
+        if (why.empty() && subject.cell.operation == Operation::build)
+            why = contest.why_not(subject.cell);
+        if (!no_scene.empty() || !why.empty()) {
+            engine.refuse(subject, Cell::Status::skipped, no_scene.empty() ? why : no_scene);
             continue;
         }
         engine.settle(subject, [&] {
@@ -242,6 +250,9 @@ void Run::scene(const Experiment& experiment, const std::string& name,
         subject.judge_again = [&, k] {
             subject.cell.check = check_again(*built[k].tree, std::move(subject.cell.check));
         };
+        if (experiment.start == Start::from_triangles)
+            subject.settled = built[k].first;
+        engine.look(subject, contest);
     }
     oracle.wait();  // builders that failed may have begun references that are still running
     oracle_before.wait();

@@ -19,6 +19,7 @@ struct Question {
     std::optional<std::uint64_t> GroundTruth::*counted;
     Input input = {};
     std::vector<Running> running = {};  ///< the pipelines that take part in it
+    Contest contest = Contest();
 };
 
 /// Returns how many of the pairs `listed` are not in `found`.
@@ -82,13 +83,15 @@ void collide_swept(Session& session, const CollideTask& task, int& order, const 
                              &GroundTruth::vertex_face, &GroundTruth::swept_vertex_face},
                             {"edge-edge", Among::within_objects, unique_edges(scene),
                              &GroundTruth::edge_edge, &GroundTruth::swept_edge_edge}};
-    for (Question& question : questions)
+    for (Question& question : questions) {
+        question.contest = Contest(task.sampling.race);
         for (PipelineChoice pipeline : task.pipelines) {
             const Among among = std::exchange(pipeline.collider.among, question.among);
             pipeline.collider.keep_adjacent = false;
             if (among == Among::all || among == question.among)
                 question.running.push_back({std::move(pipeline)});
         }
+    }
     const std::size_t cells_a_step = questions[0].running.size() + questions[1].running.size();
     if (passes && passes((steps.end - steps.first) * cells_a_step))
         return;
@@ -108,6 +111,7 @@ void collide_swept(Session& session, const CollideTask& task, int& order, const 
                 continue;
             FrameOfPipelines now{
                 .input = question.input,
+                .contest = question.contest,
                 .number = task.number + '/' + std::to_string(step) + '/' + question.name,
                 .scene = facts_of(task, scene, step)};
             now.swept = {.pairs = question.name,

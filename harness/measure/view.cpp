@@ -84,8 +84,11 @@ std::string view_text(Session& session, const std::string& scene_name, std::size
     const Input input = upload(session.device(), session.queue(), points, scene.faces);
     std::vector<Running> all;
     all.push_back({pipeline});
-    const FrameOfPipelines frame{
-        .input = input, .number = "view", .scene = facts_of(task, scene, number)};
+    Contest contest;
+    const FrameOfPipelines frame{.input = input,
+                                 .contest = contest,
+                                 .number = "view",
+                                 .scene = facts_of(task, scene, number)};
     int order = 0;
     Found found;
     Cell cell = run_frame(session, task, all, frame, order, found).front();

@@ -113,6 +113,7 @@ std::string cell_text(const Cell& cell)
                             {"caches", cell.sampling.cold ? "cold" : "hot"}};
         if (cell.sampling.until > 0)
             json["sampling"]["until"] = cell.sampling.until;
+        put_if(json["sampling"], "race", std::string(race_name(cell.sampling.race)));
     }
     json["samples"] = cell.samples;
     Json& counters = json["counters"] = Json::object();

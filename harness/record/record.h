@@ -86,7 +86,8 @@ struct AccuracyFacts {
 struct SamplingFacts {
     Stopped stopped = Stopped::not_sampled;  ///< why sampling stopped
     double until = 0;                        ///< target for interquartile range / median; 0: none
-    bool cold = false;                       ///< whether caches were emptied before each sample
+    Race race = Race::none;
+    bool cold = false;  ///< whether caches were emptied before each sample
 };
 
 /// Times before the first sample, on the host's clock.
@@ -119,7 +120,7 @@ struct Cell {
 };
 
 /// Format version of written files.
-inline const std::string result_format = "1.9";
+inline const std::string result_format = "1.10";
 
 /// Returns a cell as one line of JSON. Numbers that are not finite are left out.
 std::string cell_text(const Cell& cell);

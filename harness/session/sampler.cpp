@@ -9,6 +9,7 @@
 
 #include "harness/base/failure.h"
 #include "harness/base/test_hooks.h"
+#include "harness/session/race.h"
 
 namespace bvhbench {
 namespace {
@@ -160,9 +161,21 @@ public:
         , random_(static_cast<unsigned>(order))
         , taken_(cells.size())
         , rules_(cells.size(), StoppingRule(plan))
+        , runners_(cells.size())
     {
-        for (std::size_t i = 0; i < cells.size(); ++i)
-            going_.push_back(i);
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            runners_[i].bytes = plan.rules.race == Race::memory ? cells[i].bytes : 0;
+            for (const Sample& sample : cells[i].earlier) {
+                rules_[i].add(whole_ns(sample.stages), true);
+                runners_[i].least =
+                    std::min(runners_[i].least, raced_ns(plan.rules.race, sample.stages));
+                taken_[i].samples.push_back(sample);
+            }
+            if (!cells[i].earlier.empty())
+                taken_[i].stopped = rules_[i].verdict(0);
+            if (taken_[i].stopped == Stopped::not_sampled)
+                going_.push_back(i);
+        }
     }
 
     std::vector<Taken> run()
@@ -199,6 +212,19 @@ private:
                 drift_.look(order_);
             take(i, counts);
         }
+        stop_beaten();
+    }
+
+    /// Marks the cells that another one beats, and removes all that have stopped.
+    void stop_beaten()
+    {
+        const std::size_t best =
+            plan_.rules.race == Race::none ? runners_.size() : best_of(runners_);
+        if (best < runners_.size())
+            for (const std::size_t i : going_)
+                if (taken_[i].stopped == Stopped::not_sampled &&
+                    is_beaten(runners_[i], runners_[best]))
+                    taken_[i].stopped = Stopped::beaten;
         std::erase_if(going_,
                       [&](std::size_t i) { return taken_[i].stopped != Stopped::not_sampled; });
     }
@@ -211,12 +237,14 @@ private:
         taken.failure = reason_of_failure([&] { stages = cells_[i].once(); });
         if (!taken.failure.empty()) {
             taken.stopped = Stopped::failure;
+            runners_[i].values.clear();
             return;
         }
         if (!counts)
             return;
         slow_down(stages, cells_[i].name);
         rules_[i].add(whole_ns(stages), drift_.is_steady());
+        runners_[i].values.push_back(raced_ns(plan_.rules.race, stages));
         taken.samples.push_back({order, std::move(stages)});
         const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
         taken.stopped = rules_[i].verdict(elapsed.count());
@@ -230,6 +258,7 @@ private:
     std::mt19937 random_;
     std::vector<Taken> taken_;
     std::vector<StoppingRule> rules_;
+    std::vector<Runner> runners_;
     std::vector<std::size_t> going_;
     std::chrono::steady_clock::time_point start_;
 };

@@ -17,6 +17,8 @@ namespace bvhbench {
 struct Timed {
     std::string name;
     std::function<std::vector<StageTime>()> once;  ///< runs it, waits, returns its stages' times
+    std::vector<Sample> earlier = {};              ///< samples that it already has, which count
+    double bytes = 0;                              ///< bytes held, for a race for memory
 };
 
 /// The samples of one cell.
@@ -33,6 +35,9 @@ struct Taken {
 /// `calibrate_every` samples, and after the last. Each sample stores the mean of the calibrations around it, and is marked
 /// `drifted` if one of them is off their median by more than `drift_limit`. Marked samples are kept, but do not count towards the
 /// target `until`. If `calibrate` throws or is empty, nothing is marked.
+///
+/// In a race (race.h) a cell that another one beats stops after a round. Earlier samples were not interleaved, so they do not decide
+/// it, except that a cell with one of them as fast as the best stays.
 ///
 /// With `turns`, each round is one turn among other runs.
 ///

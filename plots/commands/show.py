@@ -1,4 +1,5 @@
 """bvhbench show: prints a result file as tables."""
+import answer
 import command
 import given
 import results
@@ -26,7 +27,7 @@ def main(words: list[str]) -> int:
 def text(file: str) -> str:
     run = results.everything(file)
     try:
-        return run_page.text(run) + run_page.merged(run) + pages(run)
+        return answer.of_cells(run.all_cells) + run_page.text(run) + run_page.merged(run) + pages(run)
     except KeyError as missing:
         raise results.Refused(f"{file}: a cell has no {missing}") from missing
 

@@ -211,11 +211,13 @@ TEST(Experiment, SaysWhenToStopSamplingAndWhetherCachesAreCold)
     };
     EXPECT_EQ(of("").sampling, SamplingRules());
     const Experiment experiment = of(
-        R"(, "until": 0.02, "min_samples": 20, "max_samples": 300, "time_budget_s": 2.5, "caches": "cold")");
+        R"(, "until": 0.02, "min_samples": 20, "max_samples": 300, "time_budget_s": 2.5,
+              "race": "query", "caches": "cold")");
     EXPECT_EQ(experiment.sampling, (SamplingRules{.until = 0.02,
                                                   .min_samples = 20,
                                                   .max_samples = 300,
                                                   .time_budget_s = 2.5,
+                                                  .race = Race::query,
                                                   .cold = true}));
     EXPECT_EQ(experiment.collisions.at(0).sampling, experiment.sampling);
 }
@@ -246,7 +248,7 @@ TEST(Experiment, NamesTheKeyThatItDoesNotKnowAndThoseItDoes)
         {{R"({"experiment": "a", "scene": ["soup:1"], "builders": ["perfect"]})",
           "x.json: 'scene' is no key of an experiment; there are: experiment, question, paper, "
           "scenes, builders, operations, pipelines, stages, samples, warm_up, until, min_samples, "
-          "max_samples, time_budget_s, caches, quality, doubles, quick"},
+          "max_samples, time_budget_s, race, caches, quality, doubles, quick"},
          {R"({"experiment": "a", "scenes": ["b"], "builders": [{"name": "perfect", "size": 3}]})",
           "x.json: 'size' is no key of a builder; there are: name, order, grid, group_size, items, "
           "boxes, leaves"},
@@ -286,7 +288,8 @@ TEST(Experiment, RefusesWhatMakesNoSense)
           R"("operations": "refit")", R"("operations": ["build", "build"])",
           R"("operations": ["build", "paint"])", R"("doubles": "exact")", R"("until": -1)",
           R"("until": "2%")", R"("caches": "warm")", R"("min_samples": 20)",
-          R"("until": 0.1, "min_samples": 20, "max_samples": 10)", R"("time_budget_s": 3)"})
+          R"("until": 0.1, "min_samples": 20, "max_samples": 10)", R"("time_budget_s": 3)",
+          R"("race": "fastest")"})
         texts.push_back(with(R"("a")", R"(["b"])", one, std::string(", ") + more));
     EXPECT_EQ(refusal(with(R"("a")", R"(["b"])", one)), "") << "these would all be refused";
     for (const std::string& text : texts)

@@ -46,6 +46,7 @@ def test_what_makes_no_sense_is_refused() -> None:
     expect(2, *BUILD, "--until", "2", says="a share")
     expect(2, *BUILD, "--min-samples", "9", says="--until begins")
     expect(2, *BUILD, "--until", "2%", "--min-samples", "30", "--max-samples", "20", says="at most 20")
+    expect(2, "run", "smoke", "--race", "fastest", says="a race is for whole, query or memory, not 'fastest'")
     for turns in ("turns", "turns:1", ":2", "turns:x", "turns:99"):
         expect(2, "run", "smoke", "--turns", turns, says="--turns names a file and how many runs")
 

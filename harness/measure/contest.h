@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+//
+// What the cells of a scene that were measured so far tell about the others in a race: which need not be run, because they cannot
+// win, or are too far behind to win over all frames (docs/measuring.md, A race).
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "harness/choice/sampling.h"
+#include "harness/measure/pipeline.h"
+#include "harness/record/record.h"
+
+namespace bvhbench {
+
+/// Returns the bytes that the builder, collider and narrow phase of a measured cell hold.
+double bytes_held(const Cell& cell);
+
+class Contest {
+public:
+    /// Without a race, no cell is ever left out.
+    explicit Contest(Race race = Race::none) : race_(race) {}
+
+    enum class Place {
+        in_the_race,
+        slow_once,  ///< its samples are far behind the best so far, the run before them is not
+        far_behind  ///< it need not be sampled further
+    };
+
+    /// Takes the stages of a cell's samples so far, and of the run before them, which may be empty, and by which factor the best so
+    /// far was slower just now than it had been. Cells without a sample, and wrong ones, tell nothing and stay in the race.
+    Place look(const Cell& cell, const std::vector<StageTime>& before = {}, double slower = 1);
+
+    /// Returns why a cell that was not run yet cannot win: the stages that it has in common with cells that were run take longer
+    /// than `hopeless` times the best of those. Empty if it may win, and always in a race for memory.
+    ///
+    /// Equal trees are built from equal leaves and queried alike. So the stages before `hierarchy` are known from any builder of
+    /// the same tree with the same options, `hierarchy` from the same builder along any order, and `broad` from the same
+    /// collider over the same tree. Over the same kind of tree along another order, `broad` counts a third of the least known time.
+    /// An unknown stage counts as 0.
+    std::string why_not(const Cell& cell) const;
+
+    /// In a race, writes the counters sah_inner and sah_leaf of the tree that a pipeline queried, if it is of one object.
+    void count_areas(const Pipeline& pipeline, const Input& input, Cell& cell) const;
+
+    /// Takes all cells of a frame, in the same order for each frame, after they were sampled.
+    void end_frame(std::span<const Cell> cells);
+
+    /// Returns why the cell number `k` need not be measured in later frames: over the frames so far it takes more than `lost`
+    /// times as long as the best, or as much memory. Empty if it should be.
+    std::string why_lost(std::size_t k) const;
+
+private:
+    static constexpr double hopeless = 1.5;
+    static constexpr double lost = 2;
+
+    /// By how much orders change the time of `broad`: in all files of results/ two orders of one kind of tree differ by at most a
+    /// factor of 3.4, and by 2.5 without `front`; `hopeless` is on top of it.
+    static constexpr double across_orders = 3;
+
+    void keep_least(const std::string& key, double ns);
+    double least_of(const std::string& key) const;  ///< 0 if unknown
+    double value_of(const Cell& cell) const;        ///< what the race is for, of a measured cell
+
+    Race race_;
+    std::map<std::string, double> least_;  ///< nanoseconds of each stage under its key
+    double best_ns_ = 0;                   ///< of the first samples; 0: none yet
+    std::vector<double> sums_;             ///< of each cell over the frames; NaN if one is missing
+};
+
+}  // namespace bvhbench

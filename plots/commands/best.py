@@ -1,0 +1,126 @@
+"""bvhbench best: finds the fastest builder and collider for scenes on a device."""
+import json
+import os
+import pathlib
+import tempfile
+from typing import Any
+
+import answer
+import child
+import command
+import documents
+import merging
+import output
+import ranking
+import results
+from console import best as page
+from output import WrongUsage
+from racing.plan import MOST, NAME, Plan
+from reserved import is_replaced, reserved
+from sweeping.planned import Json
+
+
+def parser() -> command.Parser:
+    words = command.Parser(
+        "best", "Say which builder and collider is the fastest for scenes of yours, and by how much",
+        "Races the builders, orders and colliders that the device has against each other; one that is beaten is not measured "
+        "further. Prints them by time, then which to take, and the command that measures it alone. Several scenes are one class: "
+        "each has a table, and all together one.",
+        [("bvhbench best bunny.obj", "which pipeline for a mesh with itself?"),
+         ("bvhbench best my/folder --frames 0:10 --adjacent drop --narrow exact", "for frames of an animation, to contacts"),
+         ("bvhbench best a.ply b.ply --for build --builders oibvh-multi,karras,apetrei-fused", "which of these builds, over both?")],
+        "docs/measuring.md")
+    add = words.add_argument
+    add("scenes", nargs="*", metavar="SCENE", help="scenes, data sets, mesh files or folders; none: a small set that is generated")
+    add("--for", dest="objective", choices=ranking.OBJECTIVES, default="frame",
+        help="frame, query, build or memory: what is to be small")
+    for key, what in (("builders", "names of `list builders`"), ("orders", "names of `list orders`"),
+                      ("colliders", "names of `list colliders`"), ("boxes", "names of `list formats`")):
+        add(f"--{key}", help=f"only these: {what}, with commas between")
+    add("--with-libraries", action="store_true", help="on a GPU too: what runs on the host, and Embree and FCL")
+    add("--frames", help="a:b, from frame a to before b")
+    add("--objects", help="what gets a tree of its own: auto, one, mesh or components")
+    add("--pairs-of", help="all, between or within: pairs of all triangles, between objects or within")
+    add("--adjacent", help="keep or drop pairs that share a vertex index")
+    add("--narrow", help="which pairs intersect: a name of `list narrow`, exact, or none")
+    add("--max-samples", type=int, default=MOST, help="samples of those that nobody beats")
+    add("--all", action="store_true", help="print every row, and all that was left out")
+    add("--out", default="best.json", help="the result file; the figure is beside it")
+    return words
+
+
+def main(words: list[str]) -> int:
+    arguments = parser().parse_args(words)
+    if not 2 <= arguments.max_samples <= 1_000_000:
+        raise WrongUsage(f"--max-samples: {arguments.max_samples} is not from 2 to 1000000")
+    facts = child.facts(command.common_words(arguments, "--force"))
+    plan = Plan(arguments, facts["device"]["kind"] == "cpu")
+    picture = picture_of(arguments.out)
+    with reserved(arguments.out, "--out", arguments.force, plan.files):
+        for path in (picture, picture.with_suffix(".svg")) if picture else ():
+            output.check(path, map(pathlib.Path, plan.files), arguments.force, output.is_picture)
+        print(plan.note(arguments.all), end="", flush=True)
+        code, document = measured(plan, words)
+        if document is None:
+            return code
+        output.write(arguments.out, text_of(document).encode(errors="surrogateescape"))
+    run = results.Run(pathlib.Path(arguments.out), document)
+    found = ranking.ranked(run.all_cells, plan.objective)
+    print(page.text(found, arguments.all), end="")
+    if found.rows:
+        print("".join(f"again, alone: {line}\n" for line in repeated(plan, found)), end="")
+    figure = drawn(run, found, picture, arguments.force) if picture and found.rows else ""
+    print(f"written: {arguments.out}{figure}", flush=True)
+    return code
+
+
+def picture_of(out: str) -> pathlib.Path | None:
+    """Returns the path of the figure, or None if the result goes to a device or pipe."""
+    path = pathlib.Path(out).with_suffix(".png")
+    if path == pathlib.Path(out):
+        raise WrongUsage(f"--out: {out} is the name of the figure; name a .json file")
+    return path if is_replaced(out) else None
+
+
+def measured(plan: Plan, words: list[str]) -> tuple[int, Json | None]:
+    """Runs the race. Returns the exit code of its process and the result file, or None if there is none. Exits with the process's
+    code if it could not begin."""
+    with tempfile.TemporaryDirectory(prefix="bvhbench-") as folder:
+        described, file = os.path.join(folder, f"{NAME}.json"), os.path.join(folder, "result.json")
+        output.write(described, json.dumps(plan.experiment(), indent=1).encode())
+        code, _ = child.run(["run", described, "--out", file, "--quiet", *plan.words])
+        if not os.path.exists(file):
+            return code, None
+        document: dict[str, Any] = documents.read(file)
+    document["run"]["command"] = ["bvhbench", NAME, *words]
+    document["cells"] += [one.raw | {"status": "skipped", "reason": one.why_not} for one in plan.cells if one.why_not]
+    return code, document
+
+
+def text_of(document: Json) -> str:
+    lines = [documents.line_of(cell) for cell in document["cells"]]
+    return merging.document_text(document["run"], lines, [], [], document["format"])
+
+
+def repeated(plan: Plan, found: ranking.Ranking) -> list[str]:
+    """Returns the command lines that measure the best alone, one for each scene."""
+    lines = []
+    for scene in plan.scenes:
+        options = plan.query | {key: value for key, value in plan.scene_of(scene).items() if key != "scene"}
+        words = [word for key, value in options.items() for word in ("--" + key.replace("_", "-"), value)]
+        lines.append(answer.repeated(found.rows[0], scene["scene"], [*words, *plan.words]))
+    return lines
+
+
+def drawn(run: results.Run, found: ranking.Ranking, picture: pathlib.Path, force: bool) -> str:
+    """Draws the figure. Returns its name for the message, or why there is none; the measurement is of use without."""
+    try:
+        import best_bars
+        import style
+
+        style.set_up()
+        paths = style.save(best_bars.draw(run, found), picture.parent, picture.stem, [pathlib.Path(run.path)], force)
+        return f", {paths[0]}"
+    except ModuleNotFoundError as error:
+        return f"; no figure: there is no module {error.name}"
+

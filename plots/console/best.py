@@ -1,0 +1,76 @@
+"""Prints a ranking of builders or pipelines, and what was left out of it."""
+import math
+
+import answer
+from cells import Cell, grouped
+from ranking import Ranking, Row
+from tables import Table, counted, fixed, whole
+
+MOST_ROWS = 12
+MOST_OF_SCENE = 4  # rows of each scene, if there are several
+MAY_BE_BLANK = ("<", "SAH", "box tests", "<error")  # columns that are left out if no row has them
+MILLI, MEGA = 1e-6, 1e-6
+
+
+def error(row: Row) -> str:
+    """Returns how many pairs or contacts are missed or false on average; blank for what is exact."""
+    said = [(row.mean("missed_count"), "missed"), (row.mean("false_count"), "false"), (row.mean("false_pairs_count"), "false")]
+    return ", ".join(f"{count:,.0f} {what}" for count, what in said if not math.isnan(count) and count > 0)
+
+
+def verdict(row: Row) -> str:
+    return next((cell.verdict for cell in row.cells if cell.verdict != "agrees"), "agrees")
+
+
+def rows_text(rows: list[Row], most: int | None, scenes: list[str]) -> str:
+    """Returns a line for each row; "=" marks what is no worse than the best within noise. With several scenes each has a column
+    with the ratio to its best."""
+    lines = []
+    for row in rows[:most]:
+        columns = [fixed(ratio) for ratio in row.by_scene] if scenes else [fixed(row.ns * MILLI, 3)]
+        samples = {len(cell.samples) for cell in row.cells}
+        frames = "" if row.complete else f", {counted(len(row.cells), 'frame')} only"
+        mark = "=" if row.tied and row is not rows[0] else ""
+        lines.append([answer.label(row.first), *columns, fixed(row.ratio), mark, fixed(row.bytes * MEGA, 1), fixed(row.sah),
+                      whole(row.mean("box_tests_count")), error(row),
+                  "–".join(str(count) for count in sorted({min(samples), max(samples)})), verdict(row) + frames])
+    titles = ["<pipeline" if rows[0].first.collider else "<builder", *(scenes or ["ms"]), "times the best", "<", "MB", "SAH",
+              "box tests", "<error", "samples", "<verdict"]
+    shown = [place for place, title in enumerate(titles) if title not in MAY_BE_BLANK or any(line[place] for line in lines)]
+    table = Table(*(titles[place] for place in shown))
+    for line in lines:
+        table.row(*(line[place] for place in shown))
+    more = len(rows) - len(lines)
+    return table.text() + (f"and {more} more; --all\n" if more > 0 else "")
+
+
+def reason(cell: Cell) -> str:
+    """Returns the kind of reason, so that cells can be counted by it."""
+    return cell.reason.partition(":")[0] if cell.reason.startswith(("cannot win", "left behind")) else cell.reason
+
+
+def left_out(found: Ranking, all_: bool) -> str:
+    """Returns what has no time, counted by reason or, with `all_`, listed."""
+    lines = []
+    for why, cells in grouped(found.without, reason).items():
+        lines.append(f"{counted(len(cells), 'cell')} {cells[0].status}: {why}\n")
+        lines += [f"    {cell.label}{cell.reason.removeprefix(why)}\n" for cell in cells] if all_ else []
+    beaten = sum(cell.raw.get("sampling", {}).get("stopped") == "beaten" for rows in found.scenes.values() for row in rows
+                 for cell in row.cells)
+    lines += [f"{counted(beaten, 'cell')} beaten before the end of the race\n"] if beaten else []
+    return "".join(lines)
+
+
+def text(found: Ranking, all_: bool = False) -> str:
+    """Returns the tables of a ranking: each scene's and, of several scenes, one over all."""
+    parts = [f"WRONG: {cell.label}: {cell.check.get('detail', 'no detail given')}\n" for cell in found.wrong]
+    several = len(found.scenes) > 1
+    for scene, rows in found.scenes.items():
+        parts += [f"{scene}\n"] if several else []
+        parts.append(rows_text(rows, None if all_ else MOST_OF_SCENE if several else MOST_ROWS, []))
+    if several and found.rows:
+        parts += ["all scenes: the geometric mean of the ratios to each scene's best\n",
+                  rows_text(found.rows, None if all_ else MOST_ROWS, list(found.scenes))]
+    parts += [left_out(found, all_)]
+    parts += [f"{answer.sentence(found)}\n"] if found.rows else []
+    return "".join(parts)

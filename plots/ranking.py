@@ -1,0 +1,201 @@
+"""Ranks builders or pipelines by time or memory, over one scene or several.
+
+Times of cells that lost a race (docs/measuring.md, A race) were taken while the machine may have been faster or slower than
+later. Such a cell is therefore compared with the samples that the best had until then, and its time is scaled by what the best
+took later.
+"""
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+
+import numpy
+
+from cells import Cell, counted, elapsed_ns, grouped, median, whole_ns
+from results import USUAL_COSTS
+
+OBJECTIVES = ("frame", "query", "build", "memory")
+OF_QUERY = ("near", "ropes", "broad", "copy", "narrow")  # stages that follow the tree
+FEWEST = 3  # samples from which intervals are compared
+FAR = 3  # ratio from which fewer samples are enough
+ERROR = 0.05
+
+
+@dataclass
+class Row:
+    """A builder or pipeline over the frames of one scene, or over several scenes."""
+
+    cells: list[Cell]
+    ns: float = 0.0  # mean over frames of the medians of what it is ranked by; of the beaten as scaled (see above)
+    scale: float = 1.0  # by which the medians of its samples were scaled
+    ratio: float = math.inf  # to the best; of several scenes the geometric mean of the ratios
+    tied: bool = False  # the best is not better by more than the noise
+    complete: bool = True  # measured in every frame
+    by_scene: list[float] = field(default_factory=list)  # the ratio of each scene, if there are several
+
+    @property
+    def first(self) -> Cell:
+        return self.cells[0]
+
+    @property
+    def bytes(self) -> float:
+        return mean([bytes_of(cell) for cell in self.cells])
+
+    @property
+    def sah(self) -> float:
+        """Returns the mean surface area cost, or NaN if it is unknown."""
+        return mean([sah_of(cell) for cell in self.cells])
+
+    @property
+    def is_right(self) -> bool:
+        return all(cell.checked for cell in self.cells)
+
+    def mean(self, counter: str) -> float:
+        """Returns the mean of a counter over the cells, or NaN if one lacks it."""
+        return mean([cell.counters.get(counter, math.nan) for cell in self.cells])
+
+
+@dataclass
+class Ranking:
+    objective: str
+    rows: list[Row]  # best first
+    scenes: dict[str, list[Row]]  # of each scene
+    wrong: list[Cell]  # cells whose answer is wrong; they are in no row
+    without: list[Cell]  # cells without times
+
+    @property
+    def best(self) -> Row | None:
+        return self.rows[0] if self.rows else None
+
+
+def mean(values: Sequence[float]) -> float:
+    return sum(values) / len(values) if values else math.nan
+
+
+def bytes_of(cell: Cell) -> float:
+    """Returns the bytes that a cell's builder, collider and narrow phase hold, or NaN if it does not say."""
+    counters = cell.counters
+    return counters.get("memory_bytes", counters.get("tree_bytes", math.nan) + counters.get("scratch_bytes", 0))
+
+
+def sah_of(cell: Cell) -> float:
+    """Returns the surface area cost of the cell's tree, at the usual costs if the cell has the areas alone; NaN if unknown."""
+    inner, triangle = USUAL_COSTS
+    areas = inner * cell.counters.get("sah_inner", math.nan) + triangle * cell.counters.get("sah_leaf", math.nan)
+    return cell.counters.get("sah_cost", areas)
+
+
+def values_of(samples: Iterable[dict], objective: str) -> numpy.ndarray:
+    """Returns the nanoseconds of each sample that count for the objective."""
+    if objective == "query":
+        return numpy.array([sum(elapsed_ns(stage) for name, stage in sample.items() if name in OF_QUERY)
+                            for sample in samples], float)
+    return numpy.array([whole_ns(sample) for sample in samples], float)
+
+
+def ends_of(values: numpy.ndarray) -> tuple[float, float]:
+    """Returns the order statistics that hold the median with a probability of 95 %, or the range of fewer than 6 values."""
+    from scipy.stats import binom
+
+    ascending = numpy.sort(values)
+    rank = max(1, int(binom.ppf(ERROR / 2, len(values), 0.5)))
+    return float(ascending[rank - 1]), float(ascending[len(values) - rank])
+
+
+def was_beaten(cell: Cell) -> bool:
+    return cell.raw.get("sampling", {}).get("stopped") == "beaten"
+
+
+def middle_until(cell: Cell, order: float, objective: str) -> float:
+    """Returns the median of the cell's samples up to the given order, or its first sample's value."""
+    until = [sample for sample, raw in zip(cell.samples, counted(cell.all_samples)) if raw["order"] <= order]
+    return median(values_of(until or cell.samples[:1], objective))
+
+
+class Frame:
+    """All cells of one frame, and the one that the others are compared with."""
+
+    def __init__(self, cells: list[Cell], objective: str) -> None:
+        self.objective = objective
+        stayed = [cell for cell in cells if not was_beaten(cell)] or cells
+        self.base = min(stayed, key=self.middle)
+
+    def middle(self, cell: Cell) -> float:
+        return median(values_of(cell.samples, self.objective))
+
+    def level(self, cell: Cell) -> float:
+        """Returns the cell's median, as it would have been while the frame's best cell was sampled."""
+        own = self.middle(cell)
+        if not was_beaten(cell) or cell is self.base:
+            return own
+        beside = middle_until(self.base, counted(cell.all_samples)[-1]["order"], self.objective)
+        return own * self.middle(self.base) / beside if beside > 0 else own
+
+
+def margins(row: Row, objective: str) -> tuple[float, float, float]:
+    """Returns the sum of the medians of the row's cells, and by how much its interval goes below and above it."""
+    parts = [(median(values), *ends_of(values)) for values in (values_of(cell.samples, objective) for cell in row.cells)]
+    return (sum(middle for middle, _, _ in parts), math.hypot(*(middle - low for middle, low, _ in parts)),
+            math.hypot(*(high - middle for middle, _, high in parts)))
+
+
+def is_tied(row: Row, best: Row, objective: str) -> bool:
+    """True if the intervals of both overlap. Few samples tell only what is far apart."""
+    if row is best:
+        return True
+    if not row.complete or any(was_beaten(cell) for cell in row.cells):
+        return False
+    if min(len(cell.samples) for cell in row.cells + best.cells) < FEWEST:
+        return row.ns < FAR * best.ns
+    (own, below, _), (other, _, above) = margins(row, objective), margins(best, objective)
+    return own - below <= other + above
+
+
+def rows_of_scene(cells: list[Cell], objective: str) -> list[Row]:
+    """Ranks the cells of one scene, all of which have times. Rows that lack frames come after the others of a like ratio."""
+    frames = {number: Frame(there, objective) for number, there in grouped(cells, lambda cell: cell.frame).items()}
+    levels = {id(cell): frames[cell.frame].level(cell) for cell in cells}
+    rows = []
+    for there in grouped(cells, lambda cell: cell.key("builder", "collider")).values():
+        ns, own = mean([levels[id(cell)] for cell in there]), mean([frames[cell.frame].middle(cell) for cell in there])
+        rows.append(Row(there, ns, ns / own if own > 0 else 1, complete=len({cell.frame for cell in there}) == len(frames)))
+
+    def total(row: Row, numbers: set[int]) -> float:
+        return sum(levels[id(cell)] for cell in row.cells if cell.frame in numbers)
+
+    def bytes_held(row: Row) -> float:
+        return row.bytes if objective == "memory" else 0
+
+    full = [row for row in rows if row.complete] or rows
+    best = min(full, key=lambda row: (bytes_held(row), total(row, set(frames))))
+    for row in rows:
+        there = {cell.frame for cell in row.cells} & {cell.frame for cell in best.cells}
+        time = total(row, there) / max(total(best, there), 1e-9) if there else math.inf
+        row.ratio = max(row.bytes, 1) / max(best.bytes, 1) if objective == "memory" else time
+        row.tied = bytes_held(row) == bytes_held(best) and is_tied(row, best, objective)
+    return sorted(rows, key=lambda row: (row is not best, row.ratio, not row.complete, row.ns))
+
+
+def over_scenes(scenes: dict[str, list[Row]]) -> list[Row]:
+    """Ranks the pipelines that have a time in every scene by the geometric mean of their ratios."""
+    found: dict[object, list[Row]] = {}
+    for rows in scenes.values():
+        for row in rows:
+            found.setdefault(row.first.key("builder", "collider"), []).append(row)
+    every = [rows for rows in found.values() if len(rows) == len(scenes) and all(row.ratio > 0 for row in rows)]
+    merged = [Row([cell for row in rows for cell in row.cells], mean([row.ns for row in rows]), 1,
+                  float(numpy.exp(numpy.mean(numpy.log([row.ratio for row in rows])))), all(row.tied for row in rows),
+                  all(row.complete for row in rows), [row.ratio for row in rows]) for rows in every]
+    merged.sort(key=lambda row: row.ratio)
+    return merged
+
+
+def ranked(cells: Iterable[Cell], objective: str = "frame") -> Ranking:
+    """Ranks builders or pipelines. Cells that are wrong are named apart and never ranked; neither is what has no times."""
+    cells = list(cells)
+    wrong = [cell for cell in cells if cell.verdict == "differs"]
+    bad = {(cell.scene, cell.key("builder", "collider")) for cell in wrong}
+    timed = [cell for cell in cells if cell.has_times and (cell.scene, cell.key("builder", "collider")) not in bad
+             and (objective != "memory" or not math.isnan(bytes_of(cell)))]
+    scenes = {scene: rows_of_scene(there, objective) for scene, there in grouped(timed, lambda cell: cell.scene).items()}
+    rows = next(iter(scenes.values())) if len(scenes) == 1 else over_scenes(scenes)
+    return Ranking(objective, rows, scenes, wrong, [cell for cell in cells if not cell.has_times and cell.verdict != "differs"])

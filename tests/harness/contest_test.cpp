@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include "harness/measure/contest.h"
+
+#include <gtest/gtest.h>
+
+namespace bvhbench {
+namespace {
+
+/// Returns a measured cell with one sample: `before` ns until the leaves, then the tree and the query.
+Cell cell(const char* builder, const char* order, const char* collider, std::int64_t before,
+          std::int64_t tree, std::int64_t query)
+{
+    Cell cell;
+    cell.builder = {.name = builder, .order = order};
+    cell.collider.name = collider;
+    cell.status = Cell::Status::measured;
+    cell.check.verdict = Check::Verdict::agrees;
+    cell.samples = {{0,
+                     {{"sort", before, before, 0, 1},
+                      {"hierarchy", tree, tree, 0, 1},
+                      {"broad", query, query, 0, 1}}}};
+    return cell;
+}
+
+Cell planned(const char* builder, const char* order, const char* collider)
+{
+    return cell(builder, order, collider, 0, 0, 0);
+}
+
+TEST(Contest, WhatTakesLongerThanTheBestInStagesThatAreKnownIsNotRun)
+{
+    Contest contest(Race::whole);
+    contest.look(cell("oibvh-multi", "morton30", "group", 40, 20, 40));
+    EXPECT_EQ(contest.why_not(planned("oibvh-multi", "kd", "group")), "");
+    contest.look(cell("oibvh-multi", "kd", "group", 400, 20, 30));
+    EXPECT_NE(contest.why_not(planned("oibvh-multi", "kd", "leaf")), "");
+    EXPECT_NE(contest.why_not(planned("oibvh-single", "kd", "leaf")), "");
+    // A radix tree has other stages, so nothing is known of it.
+    EXPECT_EQ(contest.why_not(planned("karras", "kd", "leaf")), "");
+    // Equal trees are queried alike.
+    contest.look(cell("oibvh-multi", "morton30", "leaf", 40, 20, 160));
+    EXPECT_NE(contest.why_not(planned("oibvh-single", "morton30", "leaf")), "");
+    EXPECT_EQ(contest.why_not(planned("oibvh-single", "morton30", "group")), "");
+    // Along another order a query counts a third.
+    EXPECT_EQ(contest.why_not(planned("oibvh-single", "hilbert30", "leaf")), "");
+    contest.look(cell("oibvh-multi", "morton30", "bvtt", 40, 20, 460));
+    EXPECT_NE(contest.why_not(planned("oibvh-single", "hilbert30", "bvtt")), "");
+}
+
+TEST(Contest, OneSlowSampleAloneDoesNotLeaveACellBehind)
+{
+    Contest contest(Race::whole);
+    contest.look(cell("oibvh-multi", "morton30", "group", 40, 20, 40));
+    const Cell slow = cell("karras", "morton30", "group", 40, 220, 60);
+    const std::vector<StageTime> quick = {{"broad", 60, 60, 0, 1}, {"hierarchy", 30, 30, 0, 1}};
+    EXPECT_EQ(contest.look(slow, quick), Contest::Place::slow_once);
+    EXPECT_EQ(contest.look(slow, slow.samples[0].stages), Contest::Place::far_behind);
+    EXPECT_EQ(contest.look(slow), Contest::Place::far_behind);
+    // Neither does a machine that is slower for a while: the best takes longer now, too.
+    EXPECT_EQ(contest.look(slow, {}, 1.1), Contest::Place::in_the_race);
+    // What is known of a stage is the least of all runs.
+    EXPECT_EQ(contest.why_not(planned("karras", "hilbert30", "leaf")), "");
+}
+
+TEST(Contest, WrongCellsAndThoseOfNoRaceTellNothing)
+{
+    Contest contest(Race::whole), none(Race::none);
+    Cell wrong = cell("oibvh-multi", "morton30", "group", 1, 1, 1);
+    wrong.check.verdict = Check::Verdict::differs;
+    contest.look(wrong);
+    const Cell slow = cell("oibvh-multi", "morton30", "leaf", 900, 900, 900);
+    EXPECT_EQ(contest.look(slow), Contest::Place::in_the_race);
+    for (Contest* one : {&contest, &none}) {
+        one->look(cell("karras", "morton30", "leaf", 1, 1, 1));
+        EXPECT_EQ(one->why_not(slow).empty(), one == &none);
+    }
+}
+
+TEST(Contest, ARaceForQueriesCountsQueriesOnly)
+{
+    Contest contest(Race::query);
+    contest.look(cell("oibvh-multi", "morton30", "group", 40, 20, 40));
+    contest.look(cell("oibvh-multi", "kd", "group", 4000, 20, 30));
+    EXPECT_EQ(contest.why_not(planned("oibvh-single", "kd", "group")), "");
+    EXPECT_EQ(contest.look(cell("oibvh-multi", "kd", "leaf", 4000, 20, 90)),
+              Contest::Place::in_the_race);
+    EXPECT_EQ(contest.look(cell("oibvh-multi", "kd", "leaf", 40, 20, 91)),
+              Contest::Place::far_behind);
+}
+
+TEST(Contest, WhoIsFarBehindOverTheFramesIsLeftBehind)
+{
+    Contest contest(Race::whole);
+    const auto frame = [](std::int64_t first, std::int64_t second) {
+        return std::vector{cell("oibvh-multi", "morton30", "group", 0, 0, first),
+                           cell("karras", "morton30", "group", 0, 0, second)};
+    };
+    contest.end_frame(frame(100, 199));
+    EXPECT_EQ(contest.why_lost(0), "");
+    EXPECT_EQ(contest.why_lost(1), "");
+    contest.end_frame(frame(100, 250));
+    EXPECT_EQ(contest.why_lost(0), "");
+    EXPECT_NE(contest.why_lost(1).find("2.2 times the time"), std::string::npos)
+        << contest.why_lost(1);
+}
+
+TEST(Contest, OfMemoryNothingIsKnownBeforeACellIsRun)
+{
+    Contest contest(Race::memory);
+    Cell one = cell("oibvh-multi", "kd", "group", 4000, 20, 30);
+    one.counters["memory_bytes"] = 64;
+    EXPECT_EQ(bytes_held(one), 64);
+    contest.look(cell("oibvh-multi", "morton30", "group", 1, 1, 1));
+    EXPECT_EQ(contest.look(one), Contest::Place::in_the_race);
+    EXPECT_EQ(contest.why_not(planned("oibvh-single", "kd", "group")), "");
+    Cell other = one;
+    other.counters = {{"tree_bytes", 100.0}, {"scratch_bytes", 40.0}};
+    EXPECT_EQ(bytes_held(other), 140);
+    contest.end_frame(std::vector{one, other});
+    EXPECT_NE(contest.why_lost(1).find("2.2 times the memory"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace bvhbench

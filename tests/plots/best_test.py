@@ -1,0 +1,242 @@
+#!/usr/bin/env python3
+"""Tests the ranking of builders and pipelines, the sentence and the tables made of it, and the candidates of `best`."""
+import json
+import unittest
+from typing import Any
+
+from base import Raw, InFolder, cell, run_of, stage  # first: it adds plots to sys.path
+
+import answer
+import best_bars
+import families
+import ranking
+import style
+from cells import Cell
+from console import best as page
+from racing import candidates
+
+
+def frame(name: str, times: list[int], builder: str = "oibvh-multi", scene: str = "bunny", number: int = 0, order: int = 0,
+          memory: int = 0, stopped: str = "", options: dict[str, Any] | None = None, **more: Any) -> Raw:
+    """Returns a frame of a collision with these times in microseconds, of which the query takes half."""
+    made = cell(builder, operation="collide", collider={"name": name, "options": {}}, **more)
+    made["builder"]["options"] = options or {}
+    made["scene"] = {"name": scene, "triangles": 70, "frame": number}
+    made["samples"] = [{"order": order + place, "stages": [stage("hierarchy", 500 * time), stage("broad", 500 * time, start_ns=500 * time)]}
+                       for place, time in enumerate(times)]
+    made.setdefault("counters", {})["memory_bytes"] = memory
+    if stopped:
+        made["sampling"] = {"stopped": stopped, "caches": "hot", "race": "whole"}
+    return made
+
+
+def ranked(*raw: Raw, objective: str = "frame") -> ranking.Ranking:
+    return ranking.ranked([Cell(one) for one in raw], objective)
+
+
+def names(found: ranking.Ranking) -> list[str]:
+    return [row.first.collider or row.first.builder for row in found.rows]
+
+
+NARROW = [98, 99, 100, 101, 102]
+
+
+class ARanking(unittest.TestCase):
+    def test_is_by_time_and_marks_what_the_noise_hides(self) -> None:
+        found = ranked(frame("leaf", [200] * 5), frame("group", NARROW), frame("bvtt", [101, 102, 103, 104, 105]))
+        self.assertEqual(names(found), ["group", "bvtt", "leaf"])
+        self.assertEqual([row.tied for row in found.rows], [True, True, False])
+        self.assertEqual([round(row.ratio, 2) for row in found.rows], [1, 1.03, 2])
+        apart = ranked(frame("group", NARROW), frame("bvtt", [103, 104, 105, 106, 107]))
+        self.assertFalse(apart.rows[1].tied)
+
+    def test_of_few_samples_tells_what_is_far_apart_only(self) -> None:
+        found = ranked(frame("group", [100]), frame("bvtt", [250]), frame("leaf", [301]))
+        self.assertEqual([row.tied for row in found.rows], [True, True, False])
+
+    def test_never_has_a_wrong_answer_first(self) -> None:
+        wrong = frame("leaf", [1] * 5, check={"verdict": "differs", "detail": "3 pairs are lost"})
+        found = ranked(wrong, frame("group", NARROW), frame("leaf", [1] * 5, number=1))
+        self.assertEqual(names(found), ["group"])
+        self.assertIn("WRONG: bunny, frame 0: leaf over oibvh-multi: 3 pairs are lost\n", page.text(found))
+        only = ranked(wrong)
+        self.assertEqual((only.rows, answer.sentence(only)), ([], ""))
+        self.assertIn("WRONG", page.text(only))
+
+    def test_for_memory_is_by_bytes_and_then_by_time(self) -> None:
+        found = ranked(frame("leaf", [200] * 5, memory=4000), frame("group", NARROW, memory=5000),
+                       frame("bvtt", [150] * 5, memory=4000), objective="memory")
+        self.assertEqual(names(found), ["bvtt", "leaf", "group"])
+        self.assertEqual([row.tied for row in found.rows], [True, False, False])
+        self.assertEqual(found.rows[2].ratio, 1.25)
+        self.assertIn("take `bvtt` over `oibvh-multi`: 4.00 kB and 150 us a frame", answer.sentence(found))
+
+    def test_for_queries_leaves_the_tree_out(self) -> None:
+        slow_tree = frame("group", NARROW)
+        for sample in slow_tree["samples"]:
+            sample["stages"][0]["span_ns"] = 10**9
+        found = ranked(slow_tree, frame("leaf", [200] * 5), objective="query")
+        self.assertEqual(names(found), ["group", "leaf"])
+        self.assertEqual(round(found.rows[0].ns), 50000)
+
+    def test_over_scenes_is_by_the_geometric_mean_of_ratios(self) -> None:
+        found = ranked(frame("leaf", [100] * 5), frame("group", [400] * 5), frame("bvtt", [120] * 5),
+                       frame("leaf", [400] * 5, scene="cow"), frame("group", [100] * 5, scene="cow"),
+                       frame("bvtt", [120] * 5, scene="cow"), frame("front", [1] * 5, scene="cow"))
+        self.assertEqual(names(found), ["bvtt", "leaf", "group"])  # front has no time on the bunny
+        self.assertEqual([round(row.ratio, 1) for row in found.rows], [12.0, 20.0, 20.0])
+        found = ranked(*(frame(name, [time] * 5, scene=scene) for scene, times in (("a", (100, 400)), ("b", (900, 100)))
+                         for name, time in zip(("leaf", "group"), times)))
+        self.assertEqual([round(row.ratio, 1) for row in found.rows], [2.0, 3.0])
+        self.assertEqual(found.rows[0].by_scene, [4.0, 1.0])
+        self.assertIn("all scenes", page.text(found))
+        self.assertIn("2.0 times the time of each scene's best, in the geometric mean over 2 scenes", answer.sentence(found))
+
+    def test_sums_frames_and_puts_what_lacks_some_behind(self) -> None:
+        found = ranked(frame("leaf", [100] * 5), frame("leaf", [300] * 5, number=1), frame("group", [150] * 5),
+                       frame("group", [200] * 5, number=1), frame("bvtt", [340] * 5))
+        self.assertEqual(names(found), ["group", "leaf", "bvtt"])
+        self.assertEqual([row.complete for row in found.rows], [True, True, False])
+        self.assertEqual(round(found.rows[2].ratio, 2), 2.27)  # to the best on its own frame
+        self.assertIn("1 frame only", page.text(found))
+
+    def test_compares_the_beaten_with_what_the_best_took_then(self) -> None:
+        # The machine became slower after `leaf` had lost: its times are shorter, and it lost all the same.
+        best = frame("group", [100, 100, 100, 200, 200, 200, 200], stopped="most")
+        found = ranked(frame("leaf", [130, 130, 130], stopped="beaten"), best)
+        self.assertEqual(names(found), ["group", "leaf"])
+        self.assertEqual((found.rows[1].ratio, found.rows[1].tied), (1.3, False))
+        self.assertEqual([row.ns for row in found.rows], [200000, 260000])
+
+    def test_intervals_are_those_of_the_race(self) -> None:
+        import numpy
+
+        for count, low, high in ((1, 1, 1), (5, 1, 5), (8, 1, 8), (9, 2, 8), (20, 6, 15)):
+            self.assertEqual(ranking.ends_of(numpy.arange(1.0, count + 1)), (low, high), count)
+
+
+class ASentence(unittest.TestCase):
+    def test_names_the_best_the_next_family_and_those_as_fast(self) -> None:
+        order = {"order": "hilbert30", "leaves": "sorted"}
+        found = ranked(frame("block", NARROW, "oibvh-single", options=order), frame("bvtt", NARROW, "oibvh-single", options=order),
+                       frame("group", [190] * 5, "karras"), frame("front", [250] * 5))
+        self.assertEqual(answer.sentence(found), "take `block` over `oibvh-single`, order hilbert30, sorted leaves: 100 us a frame, "
+                         "1.90 times as fast as the next family (`karras`); `bvtt` is no slower within noise.")
+        self.assertEqual(answer.repeated(found.rows[0], "my mesh.obj", ["--narrow", "exact"]),
+                         "bvhbench collide --builder oibvh-single --collider block --order hilbert30 --leaves sorted "
+                         "--scene 'my mesh.obj' --narrow exact")
+        alone = ranked(frame("leaf", NARROW), frame("front", [210] * 5))
+        self.assertIn("2.1 times as fast as the next family (`front`).", answer.sentence(alone))
+
+    def test_without_another_family_names_the_next(self) -> None:
+        found = ranked(frame("leaf", NARROW), frame("leaf", [150] * 5, options={"order": "kd"}))
+        self.assertIn(", 1.50 times as fast as the next, order kd.", answer.sentence(found))
+        many = ranked(*(frame("leaf", NARROW, builder) for builder in ("karras", "perfect", "oibvh-multi", "apetrei", "oibvh-wide4")))
+        self.assertIn("; no slower within noise: ", answer.sentence(many))
+        self.assertIn("; 1 more.", answer.sentence(many))
+
+    def test_is_given_for_files_that_have_one_question_and_right_answers(self) -> None:
+        def of(*raw: Raw) -> str:
+            return answer.of_cells(run_of(*raw).all_cells)
+
+        two = frame("leaf", NARROW), frame("group", [200] * 5)
+        self.assertTrue(of(*two).startswith("take `leaf`"))
+        self.assertEqual(of(two[0]), "")
+        self.assertEqual(of(*two, frame("bvtt", NARROW, check={"verdict": "differs"})), "")
+        self.assertEqual(of(*two, frame("bvtt", NARROW, check={"verdict": "not_checked"})), "")
+        self.assertEqual(of(*two, frame("leaf", NARROW, scene="cow")), "")
+        other = frame("bvtt", NARROW)
+        other["collider"]["options"]["narrow"] = "exact"
+        self.assertEqual(of(*two, other), "")
+        self.assertEqual(of(cell(), cell("karras")), "")  # from sorted leaves
+        queries = [{**one, "sampling": {"stopped": "most", "caches": "hot", "race": "query"}} for one in two]
+        self.assertIn("50.0 us a query", of(*queries))
+
+    def test_families_are_those_of_the_catalog(self) -> None:
+        self.assertEqual([families.of_cell(Cell(frame(*words))) for words in (("front", [1], "karras"), ("group", [1], "karras"),
+                                                                             ("grid", [1], "none"), ("leaf", [1], "oibvh-wide8"))],
+                         ["front tracking", "radix trees", "grid", "wide trees"])
+        for name in style.LOOKS:
+            self.assertNotEqual(families.of_builder(name), name, f"plots/families.py has no family for {name}")
+
+
+class ATable(unittest.TestCase):
+    def test_has_twelve_rows_unless_all_are_asked_for(self) -> None:
+        found = ranked(*(frame("leaf", [100 + place], options={"order": f"o{place}"}) for place in range(15)),
+                       *({**frame("bvtt", [1], options={"order": f"o{place}"}), "status": "skipped",
+                          "reason": f"cannot win: it takes {place} ms"} for place in range(2)))
+        text = page.text(found)
+        self.assertEqual(text.count("leaf over"), page.MOST_ROWS)
+        self.assertIn("and 3 more; --all\n2 cells skipped: cannot win\n", text)
+        self.assertIn("bvtt over oibvh-multi, o1: it takes 1 ms\n", page.text(found, True))
+        self.assertEqual(page.text(found, True).count("leaf over"), 15)
+
+    def test_says_errors_of_formats(self) -> None:
+        made = frame("leaf", NARROW, options={"boxes": "u16", "leaves": "sorted"}, check={"verdict": "counted"})
+        made["counters"] |= {"false_pairs_count": 12, "sah_inner": 10, "sah_leaf": 2}
+        text = page.text(ranked(made))
+        self.assertRegex(text, r"leaf over oibvh-multi, u16 boxes .* 14\.00 .* 12 false +5  counted\n")
+        self.assertIn("; of what it finds 12 false.", text)
+
+
+class AFigure(InFolder):
+    def test_is_drawn_for_each_objective(self) -> None:
+        cells = [frame("leaf", NARROW, memory=100), frame("group", [2000] * 5, memory=50), frame("leaf", NARROW, scene="cow"),
+                 frame("group", NARROW, scene="cow")]
+        for made in cells:
+            made["counters"] |= {"tree_bytes": 30, "query_bytes": 20}
+        style.set_up()
+        for objective in ("frame", "query", "memory"):
+            paths = style.save(best_bars.draw(run_of(*cells), ranked(*cells, objective=objective)), self.folder, objective, [], False)
+            self.assertGreater(paths[0].stat().st_size, 10000)
+            self.assertIn("group over oibvh-multi", paths[1].read_text())
+
+
+LISTS = {"builders": {"oibvh-multi": "trees", "karras": "trees", "oibvh-host": "by threads on the host", "sah-binned": "on a host core",
+                      "embree-low": "built without Embree", "oibvh-reference": "slowly: the oracle", "oibvh-wide8": "trees"},
+         "orders": {"morton30": "30 bits   Morton", "hilbert30": "30 bits  Hilbert", "morton48": "48 bits  Morton",
+                    "morton30-axis": "30 bits  as morton30", "kd": "no codes"},
+         "colliders": {"leaf": "each leaf", "group": "groups", "front": "where the frame before", "grid": "no tree", "brute": "the oracle",
+                       "fcl": "contacts, on a host core"},
+         "formats": {"f32": "24 bytes", "u16": "12 bytes"}}
+
+
+class TheCandidates(unittest.TestCase):
+    def product(self, objective: str = "frame", on_cpu: bool = True, **more: Any) -> candidates.Product:
+        asked = {"with_libraries": False, "has_narrow": False, "has_frames": False} | more
+        return candidates.Product(candidates.Asked(objective, on_cpu, **asked), LISTS.__getitem__)
+
+    def test_are_what_the_device_and_the_question_allow(self) -> None:
+        product = self.product()
+        self.assertEqual(product.builders, ["oibvh-multi", "karras", "oibvh-host", "oibvh-wide8"])
+        self.assertEqual(product.orders, ["morton30", "hilbert30", "kd"])
+        self.assertEqual(product.colliders, ["leaf", "group", "grid"])
+        self.assertEqual(self.product(on_cpu=False).builders, ["oibvh-multi", "karras", "oibvh-wide8"])
+        self.assertIn("fcl", self.product(has_narrow=True).colliders)
+        self.assertNotIn("fcl", self.product(on_cpu=False, has_narrow=True).colliders)
+        self.assertIn("fcl", self.product(on_cpu=False, has_narrow=True, with_libraries=True).colliders)
+        self.assertIn("front", self.product(has_frames=True).colliders)
+        self.assertIn("sah-binned", self.product("build").builders)
+        self.assertEqual(self.product(builders=["sah-binned"]).builders, ["sah-binned"])
+        self.assertEqual([names for why, names in product.without.items() if "built without" in why], [])
+        self.assertEqual(self.product("build").without["built without Embree"], ["embree-low"])
+
+    def test_are_each_there_once_and_likely_ones_first(self) -> None:
+        pairs = self.product().candidates()
+        self.assertEqual(len({json.dumps(pair) for pair in pairs}), len(pairs))
+        # Two places of leaves for three of the builders, one for wide trees; three orders; two colliders; and the grid.
+        self.assertEqual(len(pairs), (3 * 2 + 1) * 3 * 2 + 1)
+        self.assertEqual(pairs[0], ({"name": "oibvh-multi", "order": "hilbert30", "leaves": "sorted", "boxes": "f32"}, {"name": "group"}))
+        self.assertEqual(pairs[-1][0]["order"], "kd")
+        self.assertIn((None, {"name": "grid"}), pairs)
+        of_host = [builder for builder, _ in self.product("build", builders=["sah-binned", "karras"]).candidates()]
+        self.assertEqual(len(of_host), 1 + 2 * 3)
+
+    def test_of_other_boxes_have_sorted_leaves(self) -> None:
+        places = {(builder["boxes"], builder["leaves"]) for builder, _ in self.product(boxes=["f32", "u16"]).candidates() if builder}
+        self.assertEqual(places, {("f32", "mesh"), ("f32", "sorted"), ("u16", "sorted"), ("u16", "mesh")})
+        self.assertEqual({builder["boxes"] for builder, _ in self.product("memory").candidates() if builder}, {"f32", "u16"})
+
+
+if __name__ == "__main__":
+    unittest.main()
