@@ -92,7 +92,7 @@ TEST(Race, EarlierSamplesCountButDoNotDecide)
     EXPECT_EQ(longer[1].samples.size(), 1 + fewest_compared);
     Listed one{{1000}};
     const std::vector<Timed> done = {{"one", std::ref(one), {{7, one()}}}};
-    EXPECT_EQ(take_samples(done, 1, 0, order)[0].samples.size(), 1u);
+    EXPECT_EQ(take_samples(done, {.samples = 1, .warm_up = 0}, order)[0].samples.size(), 1u);
 }
 
 TEST(Race, ASlowFirstSampleDoesNotLoseTheRace)
@@ -128,7 +128,7 @@ TEST(Race, WithoutARaceNothingIsBeaten)
     Listed fast{{1000}}, slow{{9000}};
     const std::vector<Timed> cells = {{"fast", std::ref(fast)}, {"slow", std::ref(slow)}};
     int order = 0;
-    EXPECT_EQ(take_samples(cells, 5, 0, order)[1].samples.size(), 5u);
+    EXPECT_EQ(take_samples(cells, {.samples = 5, .warm_up = 0}, order)[1].samples.size(), 5u);
 }
 
 TEST(Race, OneThatFailsBeatsNobody)
