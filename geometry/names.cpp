@@ -5,6 +5,8 @@
 
 namespace bvhbench {
 
+constexpr std::size_t longest_list = 12;  ///< names that a sentence has beside a guess
+
 std::string joined(std::span<const std::string_view> words)
 {
     std::string text;
@@ -51,12 +53,14 @@ std::string_view nearest_name(std::string_view name, std::span<const std::string
 std::string there_are(std::string_view name, std::span<const std::string_view> known,
                       std::string_view also)
 {
-    if (const std::string_view meant = nearest_name(name, known); !meant.empty())
-        return "; did you mean '" + std::string(meant) + "'?";
+    const std::string_view meant = nearest_name(name, known);
+    const std::string guess = meant.empty() ? "" : "; did you mean '" + std::string(meant) + "'?";
+    if (!guess.empty() && known.size() > longest_list)
+        return guess;
     std::vector<std::string_view> all(known.begin(), known.end());
     if (!also.empty())
         all.push_back(also);
-    return "; there are: " + joined(all);
+    return "; there are: " + joined(all) + guess;
 }
 
 }  // namespace bvhbench

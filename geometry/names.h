@@ -19,8 +19,8 @@ std::string joined(std::span<const std::string_view> words);
 /// to, if they are at most a third of the characters. What follows a colon, as in "torus:N", is not compared.
 std::string_view nearest_name(std::string_view name, std::span<const std::string_view> known);
 
-/// Returns the end of a sentence about a `name` that is none of `known`: "; did you mean 'a'?", or if none is near "; there are:
-/// a, b, c". `also` is appended as one more entry: "or all".
+/// Returns the end of a sentence about a `name` that is none of `known`: "; there are: a, b, c; did you mean 'a'?". Of many names
+/// only the nearest is given if there is one. `also` is appended as one more entry: "or all".
 std::string there_are(std::string_view name, std::span<const std::string_view> known,
                       std::string_view also = {});
 

@@ -6,6 +6,7 @@ import re
 from typing import Any
 
 import accuracy
+import accuracy_narrow
 import names
 import pareto
 import tables
@@ -102,7 +103,7 @@ def errors_of(cell: Cell) -> dict[str, float]:
         if "right_pairs_count" in counters:
             errors["false pairs for each right one"] = accuracy.inflation(cell)
         elif counters["pairs_count"]:
-            errors["share of wrong answers"] = accuracy.wrong(cell)
+            errors["share of wrong answers"] = accuracy_narrow.wrong(cell)
     if "relative_error" in counters:
         errors["relative error"] = counters["relative_error"]
     return errors

@@ -22,9 +22,12 @@ TEST(Names, NearestIsWhatAFewEditsLeadTo)
     EXPECT_EQ(nearest_name("karras", {}), "");
 }
 
-TEST(Names, ASentenceHasTheNearestNameOrElseAll)
+TEST(Names, ASentenceHasTheNamesAndTheNearest)
 {
-    EXPECT_EQ(there_are("karas", known), "; did you mean 'karras'?");
+    EXPECT_EQ(there_are("kaaras", std::span(known).first(2)),
+              "; there are: karras, oibvh-multi; did you mean 'karras'?");
+    const std::vector<std::string_view> many(13, "karras");
+    EXPECT_EQ(there_are("karas", many), "; did you mean 'karras'?");
     EXPECT_EQ(there_are("x", std::span(known).first(2), "or all"),
               "; there are: karras, oibvh-multi, or all");
     struct Entry {

@@ -246,7 +246,9 @@ TEST(Experiment, NamesTheKeyThatItDoesNotKnowAndThoseItDoes)
 {
     expect_refusals(
         {{R"({"experiment": "a", "scene": ["soup:1"], "builders": ["perfect"]})",
-          "x.json: 'scene' is no key of an experiment; there are: experiment, question, paper, "
+          "x.json: 'scene' is no key of an experiment; did you mean 'scenes'?"},
+         {R"({"experiment": "a", "meshes": ["soup:1"], "builders": ["perfect"]})",
+          "x.json: 'meshes' is no key of an experiment; there are: experiment, question, paper, "
           "scenes, builders, operations, pipelines, stages, samples, warm_up, until, min_samples, "
           "max_samples, time_budget_s, race, caches, quality, doubles, quick"},
          {R"({"experiment": "a", "scenes": ["b"], "builders": [{"name": "perfect", "size": 3}]})",
