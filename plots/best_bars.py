@@ -7,6 +7,7 @@ from matplotlib.patches import Patch
 import answer
 import figure
 import frames
+import names
 import pipelines
 import results
 import style
@@ -17,6 +18,8 @@ MOST_ROWS = 15
 MOST_SCENES = 6
 BYTES = (("tree", "tree_bytes", "#009E73"), ("scratch", "scratch_bytes", "#56B4E9"), ("query", "query_bytes", "#E69F00"),
          ("narrow phase", "narrow_bytes", "#D55E00"))
+# The name of each part of a frame, by its colour.
+PARTS = {colour: names.part(stages, names.STAGES) for stages, colour in frames.PARTS} | {frames.BETWEEN: names.BETWEEN}
 Part = tuple[str, str, float]  # name, colour, milliseconds or megabytes
 
 
@@ -25,9 +28,9 @@ def parts_of(row: Row, objective: str) -> list[Part]:
         return [(name, colour, 1e-6 * row.mean(counter)) for name, counter, colour in BYTES if row.mean(counter) > 0]
     shown = pipelines.Pipeline(row.first.scene, row.cells)
     if objective != "query":
-        return [(name, colour, row.scale * width) for name, colour, width in frames.parts_of(shown)]
-    parts = [(name, colour, row.scale * sum(shown.stage_ms(stage) for stage in stages if stage in OF_QUERY))
-             for name, stages, colour in frames.PARTS]
+        return [(PARTS[colour], colour, row.scale * width) for colour, width in frames.parts_of(shown)]
+    parts = [(PARTS[colour], colour, row.scale * sum(shown.stage_ms(stage) for stage in stages if stage in OF_QUERY))
+             for stages, colour in frames.PARTS]
     return [part for part in parts if part[2] > 0]
 
 
@@ -60,7 +63,7 @@ def draw(run: results.Run, found: Ranking) -> plt.Figure:
     what = {"memory": "megabytes", "build": "milliseconds a build", "query": "milliseconds a query"}
     grid[-1, 0].set_xlabel(what.get(found.objective, "milliseconds a frame"))
     every = [(name, colour) for name, _, colour in BYTES] if found.objective == "memory" else \
-        [*((name, colour) for name, _, colour in frames.PARTS), frames.BETWEEN]
+        [(name, colour) for colour, name in PARTS.items()]
     handles = [Patch(facecolor=colour, label=name) for name, colour in every if (name, colour) in there]
     height = figure.legend_above(drawing, handles)
     remarks = ["Ratios are to the first bar; = is no worse within noise. Times of the beaten are scaled to those of the best."]

@@ -235,7 +235,7 @@ def test_what_cannot_be_is_one_sentence():
     soup, one = "--scenes soup:70 --builders perfect", "--scenes soup --builders perfect"
     for says, words in (
             ("no builder is called 'perfekt'; did you mean 'perfect'?", "--scenes soup:70 --builders perfekt"),
-            ("no scene is called 'sooup:70'; there are: torus:N, ", "--scenes sooup:70 --builders perfect"),
+            ("no scene is called 'sooup:70'; did you mean 'soup:N'?", "--scenes sooup:70 --builders perfect"),
             ("no order is called 'x'; there are: morton30, ", f"{soup} --orders x"),
             ("no collider is called 'x'; there are: leaf, ", f"{soup} --colliders x"),
             ("no format of boxes is called 'u15'; there are: f32, ", f"{soup} --set boxes=u15"),
