@@ -87,7 +87,7 @@ std::set<std::string> selected(const Plan& plan)
     const bool excludes = filter.starts_with('-');
     if (filter == "all" || filter.empty())
         filter = ".";
-    const CellFilter pattern = cell_filter(filter.substr(excludes ? 1 : 0));
+    const CellFilter pattern = cell_filter(filter.substr(excludes ? 1 : 0), "--benchmark_filter");
     std::set<std::string> names;
     for (const PlannedCell& cell : plan.cells)
         if (passes(pattern, cell.name + "/manual_time") != excludes)

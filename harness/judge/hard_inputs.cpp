@@ -1,20 +1,46 @@
 // SPDX-License-Identifier: MIT
 #include "harness/judge/hard_inputs.h"
 
-#include <algorithm>
-#include <functional>
-
-#include "scenes/generate/generators.h"
+#include <random>
 
 namespace bvhbench {
 namespace {
+
+/// Random numbers, the same on every machine: the standard fixes the engine's output, not that of distributions.
+class Random {
+public:
+    /// Returns a multiple of 2^-24 in [0, 1).
+    float next() { return static_cast<float>(engine_() >> 8) * 0x1p-24f; }
+    Point point() { return {next(), next(), next()}; }
+
+private:
+    std::mt19937 engine_{20200511};
+};
+
+void add(Mesh& mesh, Point a, Point b, Point c)
+{
+    const auto first = static_cast<uint>(mesh.points.size());
+    mesh.points.insert(mesh.points.end(), {a, b, c});
+    mesh.faces.push_back({first, first + 1, first + 2});
+}
+
+Point moved(Point p, Point by, float size)
+{
+    return {p.x + size * by.x, p.y + size * by.y, p.z + size * by.z};
+}
 
 /// Returns small triangles at random places in the unit cube, with `change` applied to every vertex.
 template <class Change>
 Mesh soup(std::size_t triangles, const Change& change)
 {
-    Mesh mesh = make_soup(static_cast<uint>(triangles));
-    std::ranges::transform(mesh.points, mesh.points.begin(), change);
+    Random random;
+    Mesh mesh;
+    for (std::size_t i = 0; i < triangles; ++i) {
+        const Point at = random.point();
+        const Point a = moved(at, random.point(), 0.05f);
+        const Point b = moved(at, random.point(), 0.05f);
+        add(mesh, change(at), change(a), change(b));
+    }
     return mesh;
 }
 
@@ -23,19 +49,23 @@ Point scaled(Point p, float size, float shift)
     return {shift + size * p.x, shift + size * p.y, shift + size * p.z};
 }
 
+Mesh random_soup(std::size_t n)
+{
+    return soup(n, [](Point p) { return p; });
+}
+
 constexpr HardInput inputs[] = {
-    {"random", [](std::size_t n) { return soup(n, std::identity()); }},
+    {"random", random_soup},
     {"identical",
      [](std::size_t n) {
          return Mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 1}}, std::vector<Face>(n, {0, 1, 2})};
      }},
     {"same-centre",  // boxes of different sizes with exactly one centre: all codes are equal
      [](std::size_t n) {
-         Mesh mesh = soup(n, std::identity());
+         Mesh mesh;
          for (std::size_t i = 0; i < n; ++i) {
              const float half = static_cast<float>(i % 64 + 1) * 0.125f;
-             const Point corners[] = {{-half, -half, -half}, {half, half, half}, {0, half, 0}};
-             std::ranges::copy(corners, mesh.points.begin() + static_cast<std::ptrdiff_t>(3 * i));
+             add(mesh, {-half, -half, -half}, {half, half, half}, {0, half, 0});
          }
          return mesh;
      }},
@@ -44,14 +74,17 @@ constexpr HardInput inputs[] = {
                                  }); }},
     {"points",  // triangles whose corners coincide
      [](std::size_t n) {
-         Mesh mesh = soup(n, std::identity());
-         for (Face& face : mesh.faces)
-             face = {face.a, face.a, face.a};
+         Random random;
+         Mesh mesh;
+         for (std::size_t i = 0; i < n; ++i) {
+             const Point p = random.point();
+             add(mesh, p, p, p);
+         }
          return mesh;
      }},
     {"outlier",  // all triangles but one share a cell of the Morton grid
      [](std::size_t n) {
-         Mesh mesh = soup(n, std::identity());
+         Mesh mesh = random_soup(n);
          for (std::size_t k = mesh.points.size() - 3; k < mesh.points.size(); ++k)
              mesh.points[k] = scaled(mesh.points[k], 1, 1e7f);
          return mesh;

@@ -139,13 +139,13 @@ std::vector<std::string> files_of(const std::vector<std::string>& scenes,
     return files;
 }
 
-CellFilter cell_filter(const std::string& text)
+CellFilter cell_filter(const std::string& text, const char* option)
 {
     if (text.empty())
         return {};
     auto filter = std::make_shared<const re2::RE2>(text, re2::RE2::Quiet);
     if (!filter->ok())
-        throw BadUsage("--filter: '" + text + "' is no regular expression: " +
+        throw BadUsage(std::string(option) + ": '" + text + "' is no regular expression: " +
                        filter->error().substr(0, filter->error().find(':')));
     return filter;
 }

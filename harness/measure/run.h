@@ -20,8 +20,8 @@ using CellFilter = std::shared_ptr<const re2::RE2>;
 std::vector<std::string> files_of(const std::vector<std::string>& scenes,
                                   const SceneLibrary& library);
 
-/// Returns the filter for the option --filter; null if `text` is empty. Throws BadUsage if it is not a regular expression.
-CellFilter cell_filter(const std::string& text);
+/// Returns the filter for the option --filter or `option`; null if `text` is empty. Throws BadUsage if it is not a regular expression.
+CellFilter cell_filter(const std::string& text, const char* option = "--filter");
 
 /// True if any part of `cell` matches the filter, or if that is null.
 bool passes(const CellFilter& filter, const std::string& cell);

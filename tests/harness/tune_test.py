@@ -31,7 +31,7 @@ def test_tune_searches_checks_and_writes_what_is_then_used():
         assert set(file) == {"format", "device", "driver", "values"}, file
         kept = {line.split()[0] for line in out.splitlines() if line.endswith("better, kept")}
         assert {name for name in file["values"] if file["values"][name]["target"] == target} <= kept, (file, out)
-    expect(2, *tune, "sotr", says="nothing that could be tuned is called 'sotr'; there are: sort, perfect, ")
+    expect(2, *tune, "sotr", says="nothing that could be tuned is called 'sotr'; did you mean 'sort'?")
     expect(2, *tune, "median-split", says="there is nothing to tune")
     expect(2, "tune", "sort", says="--scene is required")
     expect(2, *tune, "sort", "--samples", "2", says="--samples")
