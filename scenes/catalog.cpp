@@ -2,13 +2,13 @@
 #include "scenes/catalog.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <new>
 
 #include "geometry/error.h"
 #include "geometry/host_memory.h"
 #include "geometry/names.h"
+#include "scenes/counts.h"
 #include "scenes/formats/text.h"
 #include "scenes/generate/derived.h"
 #include "scenes/generate/generators.h"
@@ -24,34 +24,6 @@ Scene load_any(std::string_view text, const SceneLibrary& library);
 void require_memory(std::string_view scene, std::uint64_t bytes)
 {
     require_host_memory("scene " + in_quotes(scene), bytes);
-}
-
-/// Returns the whole number that `number` spells in digits, or as "100k", "2.88M" or "1e5"; none if it spells no whole number.
-std::optional<std::int64_t> count_of(std::string_view number)
-{
-    if (number.empty() || number.find_first_not_of("0123456789.ekM") != number.npos)
-        return std::nullopt;
-    if (number.find_first_of(".ekM") == number.npos)
-        return parse_integer(number);
-    const char unit = number.back();
-    const double factor = unit == 'k' ? 1e3 : unit == 'M' ? 1e6 : 1;
-    double value = 0;
-    const char* const end = number.data() + number.size() - (factor > 1 ? 1 : 0);
-    const auto [stop, error] = std::from_chars(number.data(), end, value);
-    value = std::round(value * factor * 1e6) / 1e6;  // 2.88 and 1e6 give a product beside the whole
-    if (error != std::errc{} || stop != end || value > 1e15 || value != std::floor(value))
-        return std::nullopt;
-    return static_cast<std::int64_t>(value);
-}
-
-/// Returns the count that `number`, a part of the name `scene`, spells. Throws BadUsage unless it is from 1 to `most`.
-uint count_in(std::string_view scene, std::string_view number, const char* what, uint most)
-{
-    const auto value = count_of(number);
-    if (!value || *value < 1 || *value > std::int64_t{most})
-        throw BadUsage("scene " + in_quotes(scene) + " ends in " + in_quotes(number) + " where a " +
-                       what + " from 1 to " + std::to_string(most) + " goes");
-    return static_cast<uint>(*value);
 }
 
 uint triangle_count(std::string_view scene, std::string_view number, uint most)

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+//
+// Counts in the names of scenes, as the 100000 of "torus:100000".
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "geometry/dialect.h"
+
+namespace bvhbench {
+
+/// Returns the whole number that `number` spells in digits, or as "100k", "2.88M" or "1e5"; none if it spells no whole number.
+std::optional<std::int64_t> count_of(std::string_view number);
+
+/// Returns the count that `number`, a part of the name `scene`, spells. Throws BadUsage unless it is from 1 to `most`.
+uint count_in(std::string_view scene, std::string_view number, const char* what, uint most);
+
+}  // namespace bvhbench
