@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <iterator>
+#include <numeric>
 #include <utility>
 
 #include "geometry/hash.h"
@@ -30,6 +31,30 @@ std::uint64_t PairList::hash() const
     Hash hash;
     hash.values(pairs());
     return hash.get();
+}
+
+bool has_exactly(const PairList& list, std::span<const Pair> found)
+{
+    const std::span<const Pair> all = list.pairs();
+    if (found.size() != all.size() || all.empty())
+        return found.size() == all.size();
+    std::vector<std::size_t> begins(all.back().a + std::size_t{2}, 0);  // of the pairs of each a
+    for (const Pair pair : all)
+        ++begins[pair.a + 1];
+    std::partial_sum(begins.begin(), begins.end(), begins.begin());
+    std::vector<char> is_there(all.size(), 0);
+    return std::ranges::all_of(found, [&](Pair pair) {
+        if (pair.b < pair.a)
+            std::swap(pair.a, pair.b);
+        if (pair.a > all.back().a)
+            return false;
+        const auto end = all.begin() + static_cast<std::ptrdiff_t>(begins[pair.a + 1]);
+        const auto at =
+            std::lower_bound(all.begin() + static_cast<std::ptrdiff_t>(begins[pair.a]), end, pair);
+        if (at == end || *at != pair)
+            return false;
+        return std::exchange(is_there[static_cast<std::size_t>(at - all.begin())], 1) == 0;
+    });
 }
 
 Relation relation_of(Pair pair, const Family& family)

@@ -46,6 +46,10 @@ private:
     std::size_t surplus_ = 0;
 };
 
+/// True if `found` has exactly the pairs of `list`, each once, in any order and with either id first. Does not sort: takes time
+/// linear in both.
+bool has_exactly(const PairList& list, std::span<const Pair> found);
+
 /// Relation between the two triangles of a pair. Papers count different relations, so they are kept apart here.
 enum class Relation {
     between_objects,  ///< two objects, even if a vertex is shared

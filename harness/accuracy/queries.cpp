@@ -32,7 +32,7 @@ void settle_pipeline(Session& session, const Input& input, Subject& one, const J
 /// Compares the last pairs with the correct ones. Writes the counters of missed and false pairs, and returns both.
 Differences count_pairs(const Pipeline& pipeline, const PairList& right, Cell& cell)
 {
-    const PairList found = pipeline.pairs();
+    const PairList found(pipeline.pairs());
     const Differences wrong = differences(found, right);
     cell.counters["missed_count"] = static_cast<double>(wrong.missed);
     cell.counters["false_count"] = static_cast<double>(wrong.false_ones);
@@ -156,7 +156,7 @@ void measure_boxes(const AxisRun& run, const SceneFacts& scene, const Input& inp
         // False pairs are counted, and missed pairs are an error.
         judge_errors(cell, has_exact_reference ? "brute, CGAL" : "brute",
                      wrong.missed > 0 || wrong == Differences{});
-        const PairList found = pipeline.contacts();
+        const PairList found(pipeline.contacts());
         Check& check = cell.check;
         check.contacts_hash = found.hash();
         if (!has_exact_reference || found == contacts)

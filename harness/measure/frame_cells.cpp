@@ -1,103 +1,59 @@
 // SPDX-License-Identifier: MIT
 #include "harness/measure/collide.h"
 
-#include <chrono>
-#include <future>
-#include <map>
 #include <memory>
+#include <optional>
 
 #include "builders/box_format.h"
 #include "collide/narrow/narrow_methods.h"
 #include "collide/oracles/exact_reference.h"
-#include "collide/oracles/sweep.h"
 #include "geometry/hash.h"
 #include "geometry/host_memory.h"
 #include "harness/judge/pair_counts.h"
 #include "harness/measure/engine.h"
+#include "harness/measure/frame_oracle.h"
 #include "harness/session/watchdog.h"
 
 namespace bvhbench {
 namespace {
 
-/// Computes the pairs and contacts of a frame on another core, each when first asked for.
-class FrameOracle {
+/// A list that a pipeline found. If it is right, it is the oracle's list, which need not be sorted and hashed again.
+class Listed {
 public:
-    /// `note` receives a line of progress each second of waiting.
-    FrameOracle(const Input& input, std::function<void(const std::string&)> note)
-        : input_(input), note_(std::move(note))
-    {}
-
-    /// Starts computing the pairs. Nothing may be timed before wait().
-    void begin(const ColliderChoice& choice) { entry(choice); }
-
-    /// Blocks until all pairs that were begun are computed.
-    void wait() const
+    Listed(std::vector<Pair> found, const Answer& right) : right_(right)
     {
-        for (const auto& [choice, one] : entries_)
-            wait_for(one.pairs);
+        if (!has_exactly(right.list, found))
+            own_.emplace(std::move(found));
     }
 
-    const PairList& pairs(const ColliderChoice& choice)
+    const PairList& list() const { return own_ ? *own_ : right_.list; }
+
+    /// Adds differences from the oracle's list to the check.
+    void hold(const std::string& what, Check& check) const
     {
-        return wait_for(entry(choice).pairs).get();
+        if (list().surplus() > 0)
+            check.find_wrong(std::to_string(list().surplus()) + ' ' + what + " were found twice");
+        else if (own_)
+            check.find_wrong("the oracle has " + std::to_string(right_.list.size()) + ' ' + what +
+                             " of the hash " + hex(right_.hash));
     }
 
-    const PairList& contacts(const ColliderChoice& choice)
+    /// Returns the list with triangles numbered as in the scene's file, and writes its hash.
+    PairList in_file(std::span<const uint> file_faces, std::optional<std::uint64_t>& hash) const
     {
-        Later& found = entry(choice).contacts;
-        if (!found.valid())
-            found = std::async(std::launch::async, [this, keep_adjacent = choice.keep_adjacent,
-                                                    of = &pairs(choice)] {
-                return intersecting_pairs(input_.points, input_.faces, *of, keep_adjacent);
-            });
-        return wait_for(found).get();
+        if (!own_) {
+            hash = right_.hash;
+            return right_.in_file;
+        }
+        PairList numbered = renumbered(*own_, file_faces);
+        hash = numbered.hash();
+        return numbered;
     }
 
 private:
-    using Later = std::shared_future<PairList>;
-    struct Entry {
-        Later pairs, contacts;
-    };
-
-    const Later& wait_for(const Later& later) const
-    {
-        for (int seconds = 1; later.wait_for(std::chrono::seconds(1)) != std::future_status::ready;
-             ++seconds) {
-            if (note_)
-                note_("the oracle is checking, " + std::to_string(seconds) + " s");
-        }
-        return later;
-    }
-
-    Entry& entry(const ColliderChoice& choice)
-    {
-        const std::pair asked(choice.among, choice.keep_adjacent);
-        const auto [at, is_new] = entries_.try_emplace(asked);
-        if (is_new)
-            at->second.pairs = std::async(std::launch::async, [this, asked] {
-                require_host_memory("checking the pairs", input_.faces.size() * sizeof(Aabb));
-                return touching_pairs(leaf_boxes(input_), input_.faces, asked.second,
-                                      input_.objects, asked.first);
-            });
-        return at->second;
-    }
-
-    const Input& input_;
-    std::function<void(const std::string&)> note_;
-    std::map<std::pair<Among, bool>, Entry>
-        entries_;  ///< by the kind of pairs, and whether adjacent ones are kept
+    const Answer& right_;
+    std::optional<PairList> own_;  ///< if it is not the oracle's
 };
-
-/// Compares a list to the oracle's and adds differences to the check.
-void hold(const PairList& found, const PairList& expected, const std::string& what,
-          std::span<const uint> file_faces, Check& check)
-{
-    if (found.surplus() > 0)
-        check.find_wrong(std::to_string(found.surplus()) + ' ' + what + " were found twice");
-    else if (found != expected)
-        check.find_wrong("the oracle has " + std::to_string(expected.size()) + ' ' + what +
-                         " of the hash " + hex(renumbered(expected, file_faces).hash()));
-}
 
 /// Counts what is missed and what is false, and writes both to the cell's counters. `of` is part of their names.
 Differences count_errors(const PairList& found, const PairList& expected, const std::string& of,
@@ -141,32 +97,36 @@ void judge(const Pipeline& pipeline, Cell& cell, FrameOracle& oracle, const Fram
     check = {.verdict = Check::Verdict::agrees, .against = {}, .detail = {}};
     found = {.scene = found.scene};
     if (pipeline.has_pairs()) {
-        PairList pairs = pipeline.pairs();
+        const Answer& right = oracle.pairs(choice);
+        const Listed pairs(pipeline.pairs(), right);
         check.against = "brute";
         if (find_box_format(cell.builder.boxes).has_cells())
-            hold_candidates(pairs, oracle.pairs(choice), !pipeline.has_contacts(), cell);
+            hold_candidates(pairs.list(), right.list, !pipeline.has_contacts(), cell);
         else
-            hold(pairs, oracle.pairs(choice), "pairs", frame.file_faces, check);
+            pairs.hold("pairs", check);
         if (!cell.swept.pairs.empty())
-            count_errors(pairs, oracle.pairs(choice), "", cell);
-        found.pairs = renumbered(std::move(pairs), frame.file_faces);
-        check.pairs_hash = found.pairs.hash();
+            count_errors(pairs.list(), right.list, "", cell);
+        found.pairs = pairs.in_file(frame.file_faces, check.pairs_hash);
     }
     if (pipeline.has_contacts()) {
-        PairList contacts = pipeline.contacts();
         if (has_exact_reference) {
             check.against += check.against.empty() ? "CGAL" : ", CGAL";
+            const Answer& right = oracle.contacts(choice);
+            const Listed contacts(pipeline.contacts(), right);
             const bool by_collider = pipeline.collider().finds_contacts();
             if (by_collider || find_narrow_method(choice.narrow).is_exact)
-                hold(contacts, oracle.contacts(choice), "contacts", frame.file_faces, check);
+                contacts.hold("contacts", check);
             else
-                hold_inexact(contacts, oracle.contacts(choice), cell);
-        } else if (check.verdict == Check::Verdict::agrees) {
-            check.verdict = Check::Verdict::not_checked;
-            check.detail = "contacts: built without CGAL";
+                hold_inexact(contacts.list(), right.list, cell);
+            found.contacts = contacts.in_file(frame.file_faces, check.contacts_hash);
+        } else {
+            if (check.verdict == Check::Verdict::agrees) {
+                check.verdict = Check::Verdict::not_checked;
+                check.detail = "contacts: built without CGAL";
+            }
+            found.contacts = renumbered(PairList(pipeline.contacts()), frame.file_faces);
+            check.contacts_hash = found.contacts.hash();
         }
-        found.contacts = renumbered(std::move(contacts), frame.file_faces);
-        check.contacts_hash = found.contacts.hash();
     }
     if (frame.judge_more)
         frame.judge_more(found, cell);
@@ -180,7 +140,7 @@ void require_memory(const ColliderChoice& choice, std::size_t triangles, FrameOr
     if (bytes == 0)
         return;
     require_host_memory("collider " + choice.name, bytes * triangles);
-    const std::size_t count = oracle.pairs(choice).size();
+    const std::size_t count = oracle.pairs(choice).list.size();
     require_host_memory("collider " + choice.name + " for " + std::to_string(count) + " pairs",
                         bytes * triangles + 4 * sizeof(Pair) * count);
 }
@@ -207,7 +167,7 @@ std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span
                             const FrameOfPipelines& frame, int& order, Found& found)
 {
     const Input& input = frame.input;
-    FrameOracle oracle(input, task.note);
+    FrameOracle oracle(input, frame.file_faces, task.note);
     oracle.begin(all.front().choice.collider);  // runs while the first pipeline settles
     Engine engine(session, {task.samples, task.warm_up, task.sampling}, order);
     std::vector<Subject> subjects(all.size());

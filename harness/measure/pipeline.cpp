@@ -181,14 +181,14 @@ std::vector<StageTime> Pipeline::once(const Input& input)
     return stages;
 }
 
-PairList Pipeline::pairs() const
+std::vector<Pair> Pipeline::pairs() const
 {
-    return queries() ? PairList(collider_->pairs(session_.queue())) : PairList();
+    return queries() ? collider_->pairs(session_.queue()) : std::vector<Pair>();
 }
 
-PairList Pipeline::contacts() const
+std::vector<Pair> Pipeline::contacts() const
 {
-    return narrow_ && queries() ? PairList(narrow_->contacts(session_.queue())) : pairs();
+    return narrow_ && queries() ? narrow_->contacts(session_.queue()) : pairs();
 }
 
 std::map<std::string, double> Pipeline::counters() const

@@ -41,8 +41,8 @@ public:
     /// Results of the last frame. All of these functions block until it is done.
     bool has_pairs() const { return !collider_->finds_contacts(); }
     bool has_contacts() const { return collider_->finds_contacts() || narrow_.has_value(); }
-    PairList pairs() const;     ///< requires has_pairs()
-    PairList contacts() const;  ///< requires has_contacts()
+    std::vector<Pair> pairs() const;     ///< in any order; requires has_pairs()
+    std::vector<Pair> contacts() const;  ///< in any order; requires has_contacts()
     std::map<std::string, double> counters() const;
 
     const Collider& collider() const { return *collider_; }

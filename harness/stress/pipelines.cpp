@@ -74,9 +74,9 @@ FoundPairs found_next(Pipeline& pipeline, const PipelineChoice& chosen, const In
     FoundPairs found;
     found.is_rounded = find_box_format(chosen.builder.boxes).has_cells();
     if (pipeline.has_pairs())
-        found.pairs = pipeline.pairs();
+        found.pairs = PairList(pipeline.pairs());
     if (pipeline.has_contacts())
-        found.contacts = pipeline.contacts();
+        found.contacts = PairList(pipeline.contacts());
     return found;
 }
 

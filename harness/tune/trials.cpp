@@ -98,9 +98,9 @@ public:
         once();
         Differences pairs, contacts;
         if (pipeline_.has_pairs())
-            pairs = differences(pipeline_.pairs(), pairs_);
+            pairs = differences(PairList(pipeline_.pairs()), pairs_);
         if (pipeline_.has_contacts() && contacts_)
-            contacts = differences(pipeline_.contacts(), *contacts_);
+            contacts = differences(PairList(pipeline_.contacts()), *contacts_);
         return pairs != Differences{}      ? pairs.text()
                : contacts != Differences{} ? "of contacts, " + contacts.text()
                                            : "";

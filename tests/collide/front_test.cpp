@@ -247,7 +247,7 @@ TEST(FrontPipeline, KeepsItsTreeWhileOthersBuildTheirs)
                     std::any_of(stages.begin(), stages.end(),
                                 [](const StageTime& stage) { return stage.stage == "refit"; });
                 EXPECT_EQ(refits, one == &tracking && frame > 0);
-                EXPECT_EQ(one->pairs(), touching_pairs(points, moving.mesh.faces, true));
+                EXPECT_EQ(PairList(one->pairs()), touching_pairs(points, moving.mesh.faces, true));
             }
     }
 }

@@ -35,6 +35,22 @@ TEST(PairList, HashIsFnv1aOverLittleEndianWords)
     EXPECT_NE(PairList({{0, 2}}).hash(), PairList({{1, 2}}).hash());
 }
 
+TEST(HasExactly, HoldsInAnyOrderAndForNothingElse)
+{
+    const PairList list({{2, 7}, {0, 1}, {2, 3}});
+    const auto has = [&](std::vector<Pair> found) { return has_exactly(list, found); };
+    EXPECT_TRUE(has({{3, 2}, {7, 2}, {1, 0}}));
+    EXPECT_FALSE(has({{2, 3}, {2, 7}}));                  // one is missing
+    EXPECT_FALSE(has({{2, 3}, {2, 7}, {0, 1}, {0, 2}}));  // one too many
+    EXPECT_FALSE(has({{2, 3}, {7, 2}, {2, 7}}));          // one twice
+    EXPECT_FALSE(has({{2, 3}, {2, 7}, {0, 2}}));          // others, with ids
+    EXPECT_FALSE(has({{2, 3}, {2, 7}, {1, 7}}));          // below,
+    EXPECT_FALSE(has({{2, 3}, {2, 7}, {2, 8}}));          // beside
+    EXPECT_FALSE(has({{2, 3}, {2, 7}, {9, 8}}));          // and above those of the list
+    EXPECT_TRUE(has_exactly(PairList(), {}));
+    EXPECT_FALSE(has_exactly(PairList(), list.pairs()));
+}
+
 TEST(Relation, IsBetweenObjectsBeforeItIsAdjacent)
 {
     const std::vector<Face> faces = {{0, 1, 2}, {2, 1, 3}, {4, 5, 6}, {3, 7, 8}};

@@ -68,7 +68,7 @@ PairList pairs_by(const BuilderChoice& builder, const ColliderChoice& collider, 
     Pipeline pipeline(session(), builder, collider, input);
     pipeline.begin_frame({});
     pipeline.settle(input);
-    return pipeline.pairs();
+    return PairList(pipeline.pairs());
 }
 
 PairList right_pairs(const Input& input, Among among)
