@@ -14,6 +14,7 @@ import pathlib
 import sys
 
 import accuracy
+import family_bars
 import fig10
 import fig13
 import fig8
@@ -53,7 +54,7 @@ FRAME_FIGURES: dict[str, dict[str, figure.Draw]] = {
     "table2": {"table2": table2.draw, "fig9": fig9.draw, "fig10": fig10.draw},
     "table3": {"table3": table3.draw},
     "swept": {"swept": swept.draw},
-    **{name: {name: draw} for name, draw in frames.FIGURES.items()},
+    **{name: {name: draw} for name, draw in (frames.FIGURES | family_bars.FIGURES).items()},
 }
 
 

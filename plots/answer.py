@@ -59,6 +59,14 @@ def family(row: Row) -> str:
     return families.of_cell(row.first)
 
 
+def best_of_families(rows: Sequence[Row]) -> list[Row]:
+    """Returns the first row of each family."""
+    firsts: dict[str, Row] = {}
+    for row in rows:
+        firsts.setdefault(family(row), row)
+    return list(firsts.values())
+
+
 def kind_of(row: Row) -> tuple[str, str | None]:
     return family(row), row.first.collider
 

@@ -1,5 +1,6 @@
 """The figure of `best`: the best builders or pipelines of each scene as bars, with stages stacked and the ratio to the best."""
 import dataclasses
+from collections.abc import Callable, Sequence
 
 import matplotlib.pyplot as plt
 from matplotlib.patches import Patch
@@ -12,7 +13,7 @@ import pipelines
 import results
 import style
 from ranking import OF_QUERY, Ranking, Row
-from tables import counted
+from tables import three_digits
 
 MOST_ROWS = 15
 MOST_SCENES = 6
@@ -34,39 +35,38 @@ def parts_of(row: Row, objective: str) -> list[Part]:
     return [part for part in parts if part[2] > 0]
 
 
-def draw_scene(axes: plt.Axes, rows: list[Row], objective: str) -> set[tuple[str, str]]:
+def draw_scene(axes: plt.Axes, rows: list[Row], objective: str, label: Callable[[Row], str]) -> set[tuple[str, str]]:
     """Draws the bars of one scene and returns the names and colours of their parts."""
     drawn = [parts_of(row, objective) for row in rows]
     wholes = [sum(width for _, _, width in parts) for parts in drawn]
     limit = frames.MOST * wholes[0]
     unit = "MB" if objective == "memory" else "ms"
     for place, (row, parts, whole) in enumerate(zip(rows, drawn, wholes)):
-        left, scale = 0.0, min(1.0, limit / whole) if whole > 0 else 1.0
-        for _, colour, width in parts:
-            axes.barh(place, scale * width, 0.72, left=left, color=colour, linewidth=0)
-            left += scale * width
         mark = "=" if row.tied and place else f"× {answer.number(row.ratio)}"
-        pipelines.told(axes, place, left, f"{whole:.3g} {unit}" + (f"  {mark}" if place else ""), 2)
-    pipelines.dress_rows(axes, [answer.label(row.first) for row in rows])
+        frames.bar(axes, place, [part[1:] for part in parts], limit, f"{three_digits(whole)} {unit}" + (f"  {mark}" if place else ""))
+    pipelines.dress_rows(axes, [label(row) for row in rows])
     axes.set_xlim(0, 1.3 * min(limit, max(wholes)))
-    cell = rows[0].first
-    axes.set_title(f"{cell.scene}: {cell.triangles:,} triangles, {counted(len(rows[0].cells), 'frame')}", loc="left")
+    axes.set_title(pipelines.scene_title([pipelines.Pipeline(row.first.scene, row.cells) for row in rows]), loc="left")
     return {(name, colour) for parts in drawn for name, colour, _ in parts}
 
 
-def draw(run: results.Run, found: Ranking) -> plt.Figure:
+def draw(run: results.Run, found: Ranking, label: Callable[[Row], str] = lambda row: answer.label(row.first),
+         remarks: Sequence[str] = ()) -> plt.Figure:
     scenes = [rows[:MOST_ROWS] for rows in found.scenes.values()][:MOST_SCENES]
     heights = [len(rows) + 2.2 for rows in scenes]
     drawing, grid = plt.subplots(len(scenes), 1, figsize=(style.PAGE_WIDTH, pipelines.ROW * sum(heights) + 0.9), squeeze=False,
                                  height_ratios=heights, layout="constrained")
-    there = set().union(*(draw_scene(axes, rows, found.objective) for axes, rows in zip(grid[:, 0], scenes)))
+    there = set().union(*(draw_scene(axes, rows, found.objective, label) for axes, rows in zip(grid[:, 0], scenes)))
     what = {"memory": "megabytes", "build": "milliseconds a build", "query": "milliseconds a query"}
     grid[-1, 0].set_xlabel(what.get(found.objective, "milliseconds a frame"))
     every = [(name, colour) for name, _, colour in BYTES] if found.objective == "memory" else \
         [(name, colour) for colour, name in PARTS.items()]
     handles = [Patch(facecolor=colour, label=name) for name, colour in every if (name, colour) in there]
     height = figure.legend_above(drawing, handles)
-    remarks = ["Ratios are to the first bar; = is no worse within noise. Times of the beaten are scaled to those of the best."]
+    remarks = [*remarks, "Ratios are to the first bar; = is no worse within noise."]
+    scaled = any(row.scale != 1 for rows in scenes for row in rows)
+    remarks += ["Times of the beaten are scaled to those of the best."] if scaled else []
+    remarks += [frames.SHORTENED] if any(row.ratio > frames.MOST for rows in scenes for row in rows) else []
     hidden = max(len(rows) for rows in found.scenes.values()) - MOST_ROWS
     remarks += [f"Of each scene the best {MOST_ROWS}."] if hidden > 0 else []
     remarks += [f"The first {MOST_SCENES} of {len(found.scenes)} scenes."] if len(found.scenes) > MOST_SCENES else []

@@ -1,6 +1,8 @@
 """Families of builders and colliders: methods that work alike. To add a builder or collider, add the start of its name here."""
 from cells import Cell
 
+EXPERIMENT = "families"  # compares the best of each
+
 # The start of a builder's name, and its family. The first that fits counts.
 BUILDERS = (("oibvh-wide", "wide trees"), ("oibvh-", "implicit trees"), ("perfect", "padded implicit trees"),
             ("karras", "radix trees"), ("apetrei", "radix trees"), ("lbvh-", "radix trees"), ("radix-", "radix trees"), ("heap-median", "host builders"),

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The experiments rebuild, pairs and libraries: milliseconds a frame of each scene by each pipeline, by stage.
+"""The experiments rebuild and pairs: milliseconds a frame of each scene by each pipeline, by stage.
 
     plots/frames.py FILE... --out DIR
 """
@@ -20,12 +20,12 @@ import tables
 EXPERIMENTS = {
     "rebuild": "A frame is all from moved vertices to exact contacts: trees built anew, or refitted and a front moved.",
     "pairs": "A frame is all from vertices to pairs of overlapping boxes, in one set of triangles.",
-    "libraries": "A frame is all from moved vertices to exact contacts; FCL finds them in its broad phase.",
 }
 # The stages of each part of a frame, and its colour.
 PARTS = tuple(zip(names.PARTS, ("#999999", "#56B4E9", "#0072B2", "#009E73", "#E69F00", "#D55E00")))
 BETWEEN = "#DDDDDD"
 MOST = 12  # longest bar drawn, in multiples of the scene's shortest bar
+SHORTENED = f"Bars with a white stroke are shortened to {MOST} times their scene's shortest; the stages keep their shares."
 ROOM = 1.25  # for the number at the end of the longest bar, relative to that bar
 IN_ONE_COLUMN = 3  # panels; more are drawn in two columns if all have the same pipelines
 
@@ -45,19 +45,26 @@ def legend_of(shown: list[pipelines.Pipeline]) -> list[Patch]:
     return [Patch(facecolor=colour, label=name) for name, colour in named if colour in colours]
 
 
+def bar(axes: plt.Axes, row: int, parts: list[tuple[str, float]], limit: float, text: str) -> None:
+    """Draws a bar of stacked parts, each a colour and a width, and a text at its end. A bar longer than `limit` is drawn in
+    proportion, as long as the limit, with a white stroke."""
+    whole = sum(width for _, width in parts)
+    left, scale = 0.0, min(1.0, limit / whole) if whole > 0 else 1.0
+    for colour, width in parts:
+        axes.barh(row, scale * width, 0.72, left=left, color=colour, linewidth=0)
+        left += scale * width
+    if whole > limit:
+        axes.plot([0.96 * limit, 0.975 * limit], [row + 0.45, row - 0.45], color="white", linewidth=2)
+    pipelines.told(axes, row, left, text, 2)
+
+
 def draw_scene(axes: plt.Axes, shown: list[pipelines.Pipeline]) -> bool:
     """Draws the bars of one scene and returns whether a bar was shortened."""
     wholes = [float(pipeline.frame_ms().mean()) for pipeline in shown]
     limit = MOST * min(wholes)
     end = max(min(whole, limit) for whole in wholes)
     for row, (pipeline, whole) in enumerate(zip(shown, wholes)):
-        left, scale = 0.0, min(1.0, limit / whole)
-        for colour, width in parts_of(pipeline):
-            axes.barh(row, scale * width, 0.72, left=left, color=colour, linewidth=0)
-            left += scale * width
-        if whole > limit:
-            axes.plot([0.96 * limit, 0.975 * limit], [row + 0.45, row - 0.45], color="white", linewidth=2)
-        pipelines.told(axes, row, left, f"{tables.three_digits(whole)} ms", 2)
+        bar(axes, row, parts_of(pipeline), limit, f"{tables.three_digits(whole)} ms")
     pipelines.dress(axes, shown)
     axes.set_xlim(0, ROOM * end)
     return max(wholes) > limit
@@ -94,8 +101,7 @@ def draw(run: results.Run, experiment: str, remarks: tuple[str, ...] = ()) -> pl
     lines = (*remarks, "Means over frames: of their medians at the end of a bar, of their stages' medians in it. "
              "Each scene has a scale of its own.", *pipelines.remarks(scenes))
     if any(shortened):
-        lines += (f"Bars with a white stroke are shortened to {MOST} times their scene's shortest; "
-                  "the stages keep their shares.",)
+        lines += (SHORTENED,)
     figure.footer(drawing, run, experiment, lines, height)
     return drawing
 

@@ -3,7 +3,7 @@ import answer
 import command
 import given
 import results
-from console import accuracy, cell, cells, frames, skips, stress, swept, trees
+from console import accuracy, best, cell, cells, frames, skips, stress, swept, trees
 from console import run as run_page
 
 
@@ -43,5 +43,6 @@ def pages(run: results.Run) -> str:
         return whole + swept.text(run) + skips.text(run)
     if len(run.all_cells) == 1:
         return cell.text(run.all_cells[0], run)
-    pages_of = (cells.text, frames.text, swept.text, trees.refits, trees.quality, trees.roofline, trees.yardstick)
+    pages_of = (cells.text, frames.text, swept.text, trees.refits, trees.quality, trees.roofline, trees.yardstick,
+                best.families_of)
     return "".join(page(run) for page in pages_of)

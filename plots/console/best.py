@@ -2,8 +2,10 @@
 import math
 
 import answer
+import families
+import results
 from cells import Cell, grouped
-from ranking import Ranking, Row
+from ranking import Ranking, Row, ranked
 from tables import Table, counted, fixed, whole
 
 MOST_ROWS = 12
@@ -61,6 +63,25 @@ def left_out(found: Ranking, all_: bool) -> str:
     return "".join(lines)
 
 
+def by_family(found: Ranking) -> str:
+    """Returns a table of the best of each family by scene, with its time and the ratio to the scene's best; empty for one family."""
+    firsts = {scene: answer.best_of_families(rows) for scene, rows in found.scenes.items()}
+    if max(map(len, firsts.values()), default=0) < 2:
+        return ""
+    table = Table("<scene", "<family", "<its best", "ms", "times the best", "<")
+    for scene, rows in firsts.items():
+        for row in rows:
+            mark = "=" if row.tied and row is not rows[0] else ""
+            table.row(scene, answer.family(row), answer.label(row.first), fixed(row.ns * MILLI, 3), fixed(row.ratio), mark,
+                      among=scene)
+    return f"the best of each family:\n{table.text()}"
+
+
+def families_of(run: results.Run) -> str:
+    """Returns the table by_family of a run's cells of the experiment families; empty without such cells."""
+    return by_family(ranked([cell for cell in run.all_cells if cell.experiment == families.EXPERIMENT]))
+
+
 def text(found: Ranking, all_: bool = False) -> str:
     """Returns the tables of a ranking: each scene's and, of several scenes, one over all."""
     parts = [f"WRONG: {cell.label}: {cell.check.get('detail', 'no detail given')}\n" for cell in found.wrong]
@@ -71,6 +92,6 @@ def text(found: Ranking, all_: bool = False) -> str:
     if several and found.rows:
         parts += ["all scenes: the geometric mean of the ratios to each scene's best\n",
                   rows_text(found.rows, None if all_ else MOST_ROWS, list(found.scenes))]
-    parts += [left_out(found, all_)]
+    parts += [by_family(found), left_out(found, all_)]
     parts += [f"{answer.sentence(found)}\n"] if found.rows else []
     return "".join(parts)

@@ -8,6 +8,7 @@ import families
 from sweeping.planned import Json
 
 BOXES = "f32"
+ON_THE_HOST = "on the host, and the device is a GPU: --with-libraries"
 PLACES = ("mesh", "sorted")  # of leaf boxes
 # What is tried first, by kind of device: the fastest in docs/collisions.md. It decides the order only.
 FIRST = {"gpu": {"name": "oibvh-single", "collider": "block"}, "cpu": {"name": "oibvh-multi", "collider": "group"}}
@@ -56,7 +57,7 @@ class Product:
         if text.endswith("the oracle"):
             return "what others are checked against"
         if "host" in text and not (self.asked.on_cpu or self.asked.with_libraries):
-            return "on the host, and the device is a GPU: --with-libraries"
+            return ON_THE_HOST
         return ""
 
     def why_no_builder(self, name: str, text: str) -> str:
@@ -67,6 +68,8 @@ class Product:
     def why_no_collider(self, name: str, text: str) -> str:
         if name in ("front", "fcl-refit") and not self.asked.has_frames:
             return "they start from the frame before, and there is one frame: --frames"
+        if families.of_collider(name) in families.ON_HOST and not (self.asked.on_cpu or self.asked.with_libraries):
+            return ON_THE_HOST
         if families.of_collider(name) == "FCL" and not self.asked.has_narrow:
             return "they find contacts, and the question is about pairs of boxes: --narrow exact"
         return self.why_not_at_all(text)

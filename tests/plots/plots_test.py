@@ -39,7 +39,8 @@ class Scripts(InFolder):
         alone = ("table1", "table2", "table3", "table4", "fig8", "fig13", "scaling", "roofline", "stress", "swept")
         scripts = {name: (f"{name}.py", name) for name in alone}
         scripts |= {f"table2-{name}": (f"{name}.py", "table2") for name in ("fig9", "fig10")}
-        scripts |= {name: ("frames.py", name) for name in ("rebuild", "pairs", "libraries")}
+        scripts |= {name: ("frames.py", name) for name in ("rebuild", "pairs")}
+        scripts["families"] = ("family_bars.py", "families")
         axes = ("narrow", "classes", "sums", "codes", "input", "boxes", "swept")
         scripts |= {f"accuracy-{axis}": ("accuracy.py", "accuracy") for axis in axes}
         for script, file in dict.fromkeys(scripts.values()):  # a script may draw several pictures
@@ -177,10 +178,10 @@ class Frames(InFolder):
         for words in ("was not there", "printed", "mine*"):
             self.assertNotIn(words, text)
 
-    def test_libraries_are_said_to_be_on_the_host_and_rules_to_be_off(self) -> None:
-        text = self.drawn("frames.py", "libraries")
-        for words in ("On the host and its clock: embree, fcl, fcl-refit (Invented CPU).", "cloth-ball* (unc_cloth_ball)",
-                      "leaf (without near) over oibvh-multi", "shortened to 12 times"):
+    def test_libraries_are_said_to_be_on_the_host_and_long_bars_to_be_shortened(self) -> None:
+        text = self.drawn("family_bars.py", "families")
+        for words in ("On the host and its clock: embree, fcl-refit (Invented CPU).", "cloth-ball* (unc_cloth_ball)",
+                      "implicit trees: leaf over oibvh-multi", "shortened to 12 times"):
             self.assertIn(words, text)
 
     def test_the_most_pairs_that_wait_are_of_those_that_count_them(self) -> None:
@@ -191,7 +192,7 @@ class Frames(InFolder):
 
     def test_a_wrong_answer_makes_no_picture(self) -> None:
         scripts = {"table2": ("table2.py", "fig9.py", "fig10.py", "all.py"), "table3": ("table3.py",),
-                   "libraries": ("frames.py",)}
+                   "families": ("family_bars.py",)}
         for name, those in scripts.items():
             document = golden(name)
             document["cells"][3]["check"] = {"verdict": "differs", "detail": "pair 7"}
@@ -213,7 +214,7 @@ class Frames(InFolder):
         cell = run.frames("table2")[0]
         narrow = cell.samples[0]["narrow"]
         self.assertAlmostEqual(cell.times_s()[0] * 1e9, narrow["start_ns"] + narrow["span_ns"])
-        embree = next(cell for cell in results.load(GOLDEN / "libraries.json").cells if cell.collider == "embree")
+        embree = next(cell for cell in results.load(GOLDEN / "families.json").cells if cell.collider == "embree")
         times = [entry.get("wall_ns", entry.get("span_ns")) for entry in embree.samples[0].values()]
         self.assertAlmostEqual(embree.times_s()[0] * 1e9, sum(times))
 
@@ -224,7 +225,7 @@ class Frames(InFolder):
         of_frames = set(stages) - {"sum"}  # which is on an axis of accuracy
         self.assertEqual(sorted(names.STAGES), sorted(of_frames))
         self.assertEqual([those for those, _ in frames.PARTS], list(names.PARTS))
-        for name in ("table2", "libraries", "rebuild"):
+        for name in ("table2", "families", "rebuild"):
             for shown in pipelines.of(results.load(GOLDEN / f"{name}.json"), name).values():
                 for one in shown:
                     parts = sum(width for _, width in frames.parts_of(one))
@@ -237,9 +238,11 @@ class Frames(InFolder):
         self.assertEqual(set(words) - {names.BETWEEN}, stages)
 
     def test_pipelines_of_one_scene_are_told_apart(self) -> None:
-        for name in ("table2", "table3", "rebuild", "pairs", "libraries"):
+        for name in ("table2", "table3", "rebuild", "pairs", "families"):
             for shown in pipelines.of(results.load(GOLDEN / f"{name}.json"), name).values():
                 self.assertEqual(len({one.label for one in shown}), len(shown))
+        labels = {one.label for those in pipelines.of(results.load(GOLDEN / "families.json"), "families").values() for one in those}
+        self.assertIn("leaf (without near) over oibvh-multi", labels)
 
     def test_every_collider_has_a_look(self) -> None:
         catalog = (ROOT / "harness" / "choice" / "catalog.cpp").read_text(encoding="utf-8")
