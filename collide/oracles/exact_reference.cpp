@@ -7,8 +7,10 @@
 
 #include <algorithm>
 #include <array>
+#include <future>
 #include <optional>
 #include <set>
+#include <thread>
 #include <variant>
 
 #include "geometry/host_memory.h"
@@ -18,6 +20,8 @@ namespace {
 
 using Predicates = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Constructions = CGAL::Exact_predicates_exact_constructions_kernel;
+
+constexpr std::size_t least_share = 1000;  ///< pairs of a thread
 
 template <class Kernel>
 using Corners3 = std::array<typename Kernel::Point_3, 3>;
@@ -154,23 +158,26 @@ bool contact(std::span<const Point> points, Face a, Face b, bool keep_adjacent)
 }  // namespace
 
 PairList intersecting_pairs(std::span<const Point> points, std::span<const Face> faces,
-                            const PairList& candidates, bool keep_adjacent)
+                            std::span<const Pair> candidates, bool keep_adjacent)
 {
-    require_host_memory("checking the contacts", candidates.size() / 8);
-    std::vector<bool> is_contact(candidates.size());
-    std::size_t count = 0;
-    for (std::size_t k = 0; k < candidates.size(); ++k) {
-        const Pair pair = candidates.pairs()[k];
-        is_contact[k] = contact(points, faces[pair.a], faces[pair.b], keep_adjacent);
-        count += is_contact[k] ? 1 : 0;
-    }
-    require_host_memory("checking the contacts, " + std::to_string(count) + " of them,",
-                        count * sizeof(Pair));
+    require_host_memory("checking the contacts", candidates.size_bytes());
+    const std::size_t workers = std::max(1u, std::thread::hardware_concurrency());
+    const std::size_t share = std::max(candidates.size() / workers + 1, least_share);
+    std::vector<std::future<std::vector<Pair>>> parts;
+    for (std::size_t first = 0; first < candidates.size(); first += share)
+        parts.push_back(std::async(std::launch::async, [=] {
+            std::vector<Pair> own;
+            for (const Pair pair :
+                 candidates.subspan(first, std::min(share, candidates.size() - first)))
+                if (contact(points, faces[pair.a], faces[pair.b], keep_adjacent))
+                    own.push_back(pair);
+            return own;
+        }));
     std::vector<Pair> found;
-    found.reserve(count);
-    for (std::size_t k = 0; k < candidates.size(); ++k)
-        if (is_contact[k])
-            found.push_back(candidates.pairs()[k]);
+    for (auto& part : parts) {
+        const std::vector<Pair> own = part.get();
+        found.insert(found.end(), own.begin(), own.end());
+    }
     return PairList(std::move(found));
 }
 

@@ -12,9 +12,9 @@ namespace bvhbench {
 constexpr bool has_exact_reference = BVHBENCH_HAS_CGAL != 0;
 
 /// Returns the candidates whose triangles intersect, as defined in collide/narrow/narrow.h, by CGAL's exact predicates: the
-/// oracle of the narrow phase, independent of its code. Single-threaded. Throws Unavailable without CGAL or with too little host
+/// oracle of the narrow phase, independent of its code. Uses all host cores. Throws Unavailable without CGAL or with too little host
 /// memory.
 PairList intersecting_pairs(std::span<const Point> points, std::span<const Face> faces,
-                            const PairList& candidates, bool keep_adjacent);
+                            std::span<const Pair> candidates, bool keep_adjacent);
 
 }  // namespace bvhbench

@@ -4,7 +4,8 @@
 
 namespace bvhbench {
 
-PairList intersecting_pairs(std::span<const Point>, std::span<const Face>, const PairList&, bool)
+PairList intersecting_pairs(std::span<const Point>, std::span<const Face>, std::span<const Pair>,
+                            bool)
 {
     throw Unavailable("this build has no CGAL to tell which triangles intersect");
 }

@@ -2,8 +2,6 @@
 //
 // The axis narrow: narrow phases over classes of triangle pairs, against CGAL's exact predicates.
 #include <algorithm>
-#include <future>
-#include <thread>
 
 #include "collide/narrow/narrow.h"
 #include "collide/oracles/exact_reference.h"
@@ -32,26 +30,6 @@ std::vector<Pair> pairs_of_neighbours(const Mesh& mesh)
     return pairs;
 }
 
-/// Returns the pairs that intersect by CGAL's exact predicates, computed on all host cores.
-PairList pairs_that_meet(const Mesh& mesh, std::span<const Pair> pairs)
-{
-    const std::size_t workers = std::max(1u, std::thread::hardware_concurrency());
-    const std::size_t share = pairs.size() / workers + 1;
-    std::vector<std::future<PairList>> parts;
-    for (std::size_t first = 0; first < pairs.size(); first += share)
-        parts.push_back(std::async(std::launch::async, [&mesh, pairs, first, share] {
-            const auto own = pairs.subspan(first, std::min(share, pairs.size() - first));
-            return intersecting_pairs(mesh.points, mesh.faces, PairList({own.begin(), own.end()}),
-                                      false);
-        }));
-    std::vector<Pair> meeting;
-    for (auto& part : parts) {
-        const PairList found = part.get();
-        meeting.insert(meeting.end(), found.pairs().begin(), found.pairs().end());
-    }
-    return PairList(std::move(meeting));
-}
-
 /// A part of a class's pairs, on the host and on the device, with the correct answer.
 struct Piece {
     Mesh mesh;
@@ -63,7 +41,7 @@ struct Piece {
     Piece(Session& session, const PairClass& of, uint count, uint seed)
         : mesh(apart_pairs(of, count, seed))
         , pairs(pairs_of_neighbours(mesh))
-        , meeting(pairs_that_meet(mesh, pairs))
+        , meeting(intersecting_pairs(mesh.points, mesh.faces, pairs, false))
         , input(upload(session.device(), session.queue(), mesh.points, mesh.faces))
         , candidates(room_for_pairs(session.device(), count))
     {

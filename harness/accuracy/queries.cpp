@@ -147,9 +147,9 @@ void measure_input(const AxisRun& run, const SceneFacts& scene, const Input& inp
 void measure_boxes(const AxisRun& run, const SceneFacts& scene, const Input& input)
 {
     const PairList right = touching_pairs(input.points, input.faces, false);
-    const PairList contacts = has_exact_reference
-                                  ? intersecting_pairs(input.points, input.faces, right, false)
-                                  : PairList();
+    const PairList contacts =
+        has_exact_reference ? intersecting_pairs(input.points, input.faces, right.pairs(), false)
+                            : PairList();
     const auto judge = [&](const Pipeline& pipeline, Cell& cell) {
         const Differences wrong = count_pairs(pipeline, right, cell);
         cell.counters["right_pairs_count"] = static_cast<double>(right.size());

@@ -59,8 +59,9 @@ public:
         if (!found.valid())
             found = std::async(std::launch::async, [this, keep_adjacent = choice.keep_adjacent,
                                                     of = &pairs(choice).list] {
-                return Answer(intersecting_pairs(input_.points, input_.faces, *of, keep_adjacent),
-                              file_faces_);
+                return Answer(
+                    intersecting_pairs(input_.points, input_.faces, of->pairs(), keep_adjacent),
+                    file_faces_);
             });
         return wait_for(found).get();
     }

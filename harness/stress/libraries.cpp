@@ -65,7 +65,7 @@ PairList expected_of(const PlainLibrary& library, const StressScene& scene)
     PairList pairs = touching_pairs(points, faces, !library.finds_contacts);
     if (scene.objects.size() > 1)
         pairs = among_objects(pairs, scene.objects, Among::between_objects);
-    return library.finds_contacts ? intersecting_pairs(points, faces, pairs, false) : pairs;
+    return library.finds_contacts ? intersecting_pairs(points, faces, pairs.pairs(), false) : pairs;
 }
 
 }  // namespace

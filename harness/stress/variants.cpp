@@ -91,7 +91,7 @@ FoundPairs expected_over(const StressScene& scene, PairList pairs)
     expected.pairs = std::move(pairs);
     if (has_exact_reference)
         expected.contacts =
-            intersecting_pairs(scene.mesh.points, scene.mesh.faces, *expected.pairs, true);
+            intersecting_pairs(scene.mesh.points, scene.mesh.faces, expected.pairs->pairs(), true);
     return expected;
 }
 

@@ -140,7 +140,7 @@ TuneTarget::TuneTarget(Session& session, TuneTask task) : session_(session), tas
     const bool keep_adjacent = task_.collider.keep_adjacent;
     pairs_ = touching_pairs(input_.points, input_.faces, keep_adjacent);
     if (has_exact_reference && task_.collider.narrow != "none")
-        contacts_ = intersecting_pairs(input_.points, input_.faces, pairs_, keep_adjacent);
+        contacts_ = intersecting_pairs(input_.points, input_.faces, pairs_.pairs(), keep_adjacent);
 }
 
 std::unique_ptr<Trial> TuneTarget::trial(const Tuning& tuning)

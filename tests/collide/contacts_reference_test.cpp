@@ -62,7 +62,7 @@ protected:
             return;
         const Chain chain = run_chain(standing, GetParam(), keep_adjacent);
         EXPECT_EQ(chain.contacts, intersecting_pairs(standing.mesh.points, standing.mesh.faces,
-                                                     chain.candidates, keep_adjacent));
+                                                     chain.candidates.pairs(), keep_adjacent));
     }
 };
 

@@ -38,7 +38,7 @@ protected:
                 const Candidates candidates(mesh, neighbours(mesh));
                 narrow.reserve(mesh.faces.size());
                 expect_equal(mesh, contacts_found(narrow, candidates),
-                             intersecting_pairs(mesh.points, mesh.faces, candidates.pairs,
+                             intersecting_pairs(mesh.points, mesh.faces, candidates.pairs.pairs(),
                                                 options.keep_adjacent));
             }
     }
@@ -106,7 +106,8 @@ std::array<std::size_t, 2> errors_of(std::string_view method, KernelForm form, c
     const Candidates candidates(mesh, neighbours(mesh));
     narrow.reserve(mesh.faces.size());
     const PairList found = contacts_found(narrow, candidates);
-    const PairList right = intersecting_pairs(mesh.points, mesh.faces, candidates.pairs, false);
+    const PairList right =
+        intersecting_pairs(mesh.points, mesh.faces, candidates.pairs.pairs(), false);
     std::vector<Pair> missed, more;
     std::ranges::set_difference(right.pairs(), found.pairs(), std::back_inserter(missed));
     std::ranges::set_difference(found.pairs(), right.pairs(), std::back_inserter(more));

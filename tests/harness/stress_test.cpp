@@ -31,7 +31,7 @@ FoundPairs right_answer(const StressScene& scene)
     found.pairs = touching_pairs(scene.mesh.points, scene.mesh.faces, true);
     if (has_exact_reference)
         found.contacts =
-            intersecting_pairs(scene.mesh.points, scene.mesh.faces, *found.pairs, true);
+            intersecting_pairs(scene.mesh.points, scene.mesh.faces, found.pairs->pairs(), true);
     return found;
 }
 
