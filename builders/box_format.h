@@ -44,7 +44,8 @@ struct BoxRounding {
     /// Returns the six sides of `box` as kernels store them.
     std::vector<std::byte> stored(const Aabb& box) const;
 
-    /// Returns the smallest float box that contains the stored box; a side beyond the largest float is infinite.
+    /// Returns the smallest float box that contains the stored box; a side beyond the largest float is infinite. Where
+    /// adjacent floats are further apart than cells, that box is larger: queries compare stored boxes, not these.
     Aabb read(std::span<const std::byte> stored) const;
 
     /// Returns `box` after storing and reading it: a box that contains `box`, and equals it in exact formats.
