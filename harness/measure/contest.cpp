@@ -23,22 +23,25 @@ std::string key_of(const std::string& stage, const Cell& cell)
 {
     const BuilderChoice& builder = cell.builder;
     const ColliderChoice& collider = cell.collider;
-    const std::string stored = builder.boxes + (builder.sorted_leaves ? " sorted" : " mesh");
-    std::string key = stage + ' ' + stored;
+    const auto numbers = [](auto... values) { return (... + (' ' + std::to_string(values))); };
+    std::string key = stage + ' ' + builder.boxes + (builder.sorted_leaves ? " sorted" : " mesh");
+    if (is_of_query(stage))
+        key +=
+            numbers(static_cast<int>(collider.among), collider.keep_adjacent, collider.rules_off);
     if (stage == "narrow")
         return key + ' ' + collider.narrow;
     if (builder.name == "none")
         return key + ' ' + collider.name;
     if (stage == "hierarchy")
-        return key + ' ' + builder.name;
+        return key + ' ' + builder.name + numbers(builder.group_size, builder.items);
     const std::string_view equal = find_builder(builder.name).oracle;
     key += ' ' + (equal.empty() ? builder.name : std::string(equal));
     if (stage != "ropes")
         key += ' ' + builder.order + (builder.grid == GridOver::scene ? " scene" : "");
     if (is_of_query(stage))
-        key += ' ' + collider.name + ' ' + std::to_string(collider.jump) + ' ' +
-               std::to_string(collider.start_level) + ' ' + std::to_string(collider.group_size);
-    return key + ' ' + std::to_string(builder.group_size) + ' ' + std::to_string(builder.items);
+        key +=
+            ' ' + collider.name + numbers(collider.jump, collider.start_level, collider.group_size);
+    return key + numbers(builder.group_size, builder.items);
 }
 
 /// Returns a text that is equal for two cells if the same collider queries trees of the same kind, along any order.
@@ -152,6 +155,9 @@ void Contest::end_frame(std::span<const Cell> cells)
     sums_.resize(cells.size(), 0);
     for (std::size_t k = 0; k < cells.size(); ++k)
         sums_[k] += value_of(cells[k]);
+    // Another frame may take any number of times as long.
+    least_.clear();
+    best_ns_ = 0;
 }
 
 std::string Contest::why_lost(std::size_t k) const

@@ -46,7 +46,8 @@ public:
     /// In a race, writes the counters sah_inner and sah_leaf of the tree that a pipeline queried, if it is of one object.
     void count_areas(const Pipeline& pipeline, const Input& input, Cell& cell) const;
 
-    /// Takes all cells of a frame, in the same order for each frame, after they were sampled.
+    /// Takes all cells of a frame, in the same order for each frame, after they were sampled. What is known of stages and of the
+    /// best ends with the frame.
     void end_frame(std::span<const Cell> cells);
 
     /// Returns why the cell number `k` need not be measured in later frames: over the frames so far it takes more than `lost`

@@ -71,22 +71,17 @@ bool Engine::look(Subject& subject, Contest& contest)
     if (plan_.rules.race == Race::none || !subject.is_ready())
         return false;
     Cell& cell = subject.cell;
-    const watchdog::Hand hand(subject.number);
     Contest::Place place = Contest::Place::in_the_race;
-    std::string failure = reason_of_failure([&] {
-        session_.empty_caches(plan_.rules.cold);
-        do {
-            const int order = order_++;
-            cell.samples.push_back({order, subject.once()});
-            place = contest.look(cell, subject.settled, slower_now());
-        } while (place == Contest::Place::slow_once && cell.samples.size() < 2);
-    });
-    session_.empty_caches(false);
-    const bool failed = !failure.empty();
-    if (failed)
-        refuse(subject, Cell::Status::failed, std::move(failure));
+    do {
+        const int order = order_++;
+        std::vector<StageTime> stages = run_once(subject);
+        if (cell.status != Cell::Status::measured)
+            return false;
+        cell.samples.push_back({order, std::move(stages)});
+        place = contest.look(cell, subject.settled, slower_now());
+    } while (place == Contest::Place::slow_once && cell.samples.size() < 2);
     if (place != Contest::Place::far_behind) {
-        const double own = failed ? 0 : raced_ns(plan_.rules.race, cell.samples.back().stages);
+        const double own = raced_ns(plan_.rules.race, cell.samples.back().stages);
         if (own > 0 && (ahead_ == nullptr || own < ahead_ns_)) {
             ahead_ = &subject;
             ahead_ns_ = own;
@@ -94,9 +89,23 @@ bool Engine::look(Subject& subject, Contest& contest)
         return false;
     }
     subject.once = {};
-    cell.warm_up = plan_.warm_up;
     cell.sampling = facts_of(Stopped::beaten);
     return true;
+}
+
+/// Runs a subject once and returns its stages. If that fails, refuses the subject and returns nothing.
+std::vector<StageTime> Engine::run_once(Subject& subject)
+{
+    const watchdog::Hand hand(subject.number);
+    std::vector<StageTime> stages;
+    std::string failure = reason_of_failure([&] {
+        session_.empty_caches(plan_.rules.cold);
+        stages = subject.once();
+    });
+    session_.empty_caches(false);
+    if (!failure.empty())
+        refuse(subject, Cell::Status::failed, std::move(failure));
+    return stages;
 }
 
 /// Returns how many times its least time the best so far takes now; at least 1.
@@ -104,7 +113,11 @@ double Engine::slower_now()
 {
     if (ahead_ == nullptr || !ahead_->is_ready() || plan_.rules.race == Race::memory)
         return 1;
-    const double now = raced_ns(plan_.rules.race, ahead_->once());
+    const double now = raced_ns(plan_.rules.race, run_once(*ahead_));
+    if (!ahead_->is_ready()) {
+        ahead_ = nullptr;
+        return 1;
+    }
     ahead_ns_ = std::min(ahead_ns_, now);
     return ahead_ns_ > 0 ? now / ahead_ns_ : 1;
 }

@@ -62,6 +62,7 @@ public:
 
 private:
     SamplingFacts facts_of(Stopped stopped) const;
+    std::vector<StageTime> run_once(Subject& subject);
     double slower_now();
 
     Session& session_;

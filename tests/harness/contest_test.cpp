@@ -47,6 +47,28 @@ TEST(Contest, WhatTakesLongerThanTheBestInStagesThatAreKnownIsNotRun)
     EXPECT_NE(contest.why_not(planned("oibvh-single", "hilbert30", "bvtt")), "");
 }
 
+TEST(Contest, OnlyEqualWorkTells)
+{
+    Contest contest(Race::whole);
+    contest.look(cell("oibvh-multi", "morton30", "group", 40, 20, 40));
+    contest.look(cell("oibvh-multi", "morton30", "leaf", 40, 900, 900));
+    Cell other = planned("oibvh-multi", "morton30", "leaf");
+    EXPECT_NE(contest.why_not(other), "");
+    other.builder.items = 4;  // its hierarchy may be faster, and it queries a tree of its own
+    EXPECT_NE(contest.why_not(other), "");  // though along the same order
+    other.collider.keep_adjacent = false;
+    EXPECT_EQ(contest.why_not(other), "");
+}
+
+TEST(Contest, AFrameIsComparedWithItself)
+{
+    Contest contest(Race::whole);
+    contest.look(cell("oibvh-multi", "morton30", "group", 4, 2, 4));
+    contest.end_frame(std::vector{cell("oibvh-multi", "morton30", "group", 4, 2, 4)});
+    EXPECT_EQ(contest.look(cell("oibvh-multi", "morton30", "group", 400, 200, 400)),
+              Contest::Place::in_the_race);
+}
+
 TEST(Contest, OneSlowSampleAloneDoesNotLeaveACellBehind)
 {
     Contest contest(Race::whole);
