@@ -17,7 +17,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "harness"))
 from program import SOURCE, copied_kernels, expect, experiment, main, valid
 
 BENCHMARKS = pathlib.Path(sys.argv[3]).resolve()
-SCHEMA = json.loads(pathlib.Path(__file__).with_name("google_benchmark.schema.json").read_text())
+SCHEMA = json.loads((SOURCE / "tests/google_benchmark.schema.json").read_text())
 FUSED = "baselines/radix/apetrei_fused.cl"
 FEW = ("--benchmark_min_time=0.0001",)
 MIXED = {"scenes": ["bend:torus:2048"], "builders": ["oibvh-multi", {"name": "karras", "order": "hilbert30"}],
