@@ -34,7 +34,7 @@ void register_codes(const char* name, Outcome& outcome, Code code)
         uint count = cells;
         benchmark::DoNotOptimize(count);  // else the sum is computed once, or by the compiler
         for (uint k = 0; k < count; ++k)
-            sum += code(Cell{k / side / side, k / side % side, k % side});
+            sum += code(GridCell{k / side / side, k / side % side, k % side});
         return sum;
     });
 }
@@ -45,10 +45,10 @@ void register_host_codes(Outcome& outcome)
 {
     constexpr uint nodes = oi_node_count(oi_shape(leaves));
     register_host("layout/slots", outcome, nodes, sum_below(nodes), sum_of_slots);
-    register_codes("codes/morton30", outcome, [](Cell cell) { return morton_30(cell); });
-    register_codes("codes/morton63", outcome, [](Cell cell) { return morton_63(cell); });
-    register_codes("codes/hilbert30", outcome, [](Cell cell) { return hilbert_30(cell); });
-    register_codes("codes/hilbert63", outcome, [](Cell cell) { return hilbert_63(cell); });
+    register_codes("codes/morton30", outcome, [](GridCell cell) { return morton_30(cell); });
+    register_codes("codes/morton63", outcome, [](GridCell cell) { return morton_63(cell); });
+    register_codes("codes/hilbert30", outcome, [](GridCell cell) { return hilbert_30(cell); });
+    register_codes("codes/hilbert63", outcome, [](GridCell cell) { return hilbert_63(cell); });
 }
 
 }  // namespace bvhbench
