@@ -167,6 +167,13 @@ class OfTheReport(unittest.TestCase):
                          "karras has the lowest surface area cost on bunny: 80; the next, oibvh-multi, costs 2.5 times as much. "
                          "All 2 answers are right.")
 
+    def test_sums_are_answered_by_errors_and_none_is_a_multiple_of_zero(self) -> None:
+        made = [{**cell("none"), "accuracy": {"axis": "sums", "method": method}, "counters": {"relative_error": error}}
+                for method, error in (("f32", 3e-7), ("f64", 1e-7), ("exact", 0))]
+        self.assertEqual(answer_of(*made[:2]), "f64 errs least on bunny: 1e-07; the next, f32, errs by 3.0 times as much.")
+        self.assertEqual(answer_of(*made), "exact errs least on bunny: 0.")
+        self.assertEqual([row[6] for row in data_of(*made)["findings"][0]["rows"]], [None])
+
     def test_states_are_counted_by_library(self) -> None:
         failed = {"status": "failed", "reason": "why", "samples": []}
         data = data_of({**cell("embree-low"), **failed}, {**cell("karras"), **failed}, cell("perfect"))
