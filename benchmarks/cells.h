@@ -1,45 +1,63 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <map>
+#include <functional>
 #include <memory>
-#include <set>
+#include <semaphore>
+#include <span>
 #include <string>
+#include <thread>
 
-#include "benchmarks/held_scene.h"
 #include "benchmarks/iterations.h"
 #include "benchmarks/plan.h"
+#include "harness/measure/engine.h"
 #include "harness/measure/run.h"
 
 namespace bvhbench {
+
+/// A call of the harness that waits where it would sample. The harness loads a scene, settles its cells and samples them in one
+/// call, but Google Benchmark calls a function for each repetition of a cell, in any order. Therefore the call has a thread of its
+/// own, which waits while the cells are sampled outside: only one of the two threads works at any time. One object may exist.
+class HeldScene {
+public:
+    std::span<Subject>
+        cells;            ///< settled together, valid until go_on(); empty if the call has ended
+    std::string failure;  ///< why the call threw; empty if it did not
+
+    /// Begins the call and waits until it has settled cells or ended.
+    explicit HeldScene(const std::function<void()>& measure);
+    ~HeldScene();  ///< lets the call end
+    HeldScene(const HeldScene&) = delete;
+    HeldScene& operator=(const HeldScene&) = delete;
+
+    /// Waits until the call has settled its next cells or ended.
+    void go_on();
+
+private:
+    bool leaves_ = false;  ///< whether the call is to end without further waiting
+    std::binary_semaphore settled_{0}, sampled_{0};
+    std::thread thread_;
+};
 
 /// The cells of a plan on one device. A scene is loaded, and those of its cells that are wanted are settled and judged, when the
 /// first of them runs. The scene is released when a cell of another scene runs.
 class Cells {
 public:
-    /// `wanted` are the names of cells that will run. `plan` must outlive this object.
-    Cells(Session& session, const Plan& plan, std::set<std::string> wanted);
+    /// Opens the device and names it in the output. `plan` must outlive this object.
+    Cells(const CommonOptions& common, Plan& plan);
 
-    /// Runs the iterations of `state` by take_iterations, and judges the cell again. Then `state` has the cell's counters and
-    /// verdict, or an error if its result is wrong or it cannot be measured.
-    void run(benchmark::State& state, const PlannedCell& planned, const std::string& stage,
-             Outcome& outcome);
+    /// Runs the iterations of `state` by take_iterations, judges the cell again, and gives `state` its counters and verdict.
+    /// Returns why it has no times: its result is wrong, or it cannot be measured.
+    std::string run(benchmark::State& state, PlannedCell& planned, const std::string& stage);
 
 private:
-    void load(const PlannedCell& planned);
     Subject* find(const PlannedCell& planned);
-    std::string reason_without(const PlannedCell& planned) const;
     std::string sampled(benchmark::State& state, Subject& subject, const std::string& stage);
 
-    Session& session_;
-    const Plan& plan_;
-    std::set<std::string> wanted_;
+    Session session_;
+    Plan& plan_;
     Run run_;
-    int order_ = 0;
-    std::map<std::string, std::string> failed_;  ///< why cells cannot be measured
-    std::vector<Cell> ended_;     ///< cells that the scene's measurement has ended with
-    std::set<std::string> warm_;  ///< cells of the scene whose warm-up was run
-    std::size_t scene_ = 0;       ///< number of the scene held
+    std::size_t scene_ = 0;  ///< number of the scene held
     std::unique_ptr<HeldScene> held_;
 };
 

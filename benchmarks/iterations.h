@@ -18,19 +18,22 @@ struct Outcome {
     std::string reason;         ///< why the last benchmark without a time has none
 };
 
-/// Runs the iterations of `state`: each is one sample by `once`, and its time is that of the stage `stage`, or of the whole
-/// sample if that is empty. The mean of each stage becomes a counter such as "sort_ns". `slowed` is the name by which
-/// BVHBENCH_SLOW lengthens stages (harness/base/test_hooks.h).
-///
-/// Returns why a sample failed, which is then the error of `state`; empty if none did. A sample fails if `once` throws, if it has
-/// no such stage or no time, and after a minute with hardly any device time: Google Benchmark demands iterations until their
-/// times add up to --benchmark_min_time, however long that takes.
-std::string take_iterations(benchmark::State& state, const std::string& slowed,
-                            const std::string& stage,
-                            const std::function<std::vector<StageTime>()>& once);
+/// How the failure of a benchmark begins whose result is wrong.
+inline const std::string wrong = "the result is wrong: ";
 
-/// Gives a benchmark whose iterations did not begin an error. It counts them all the same: Google Benchmark ends the program if
-/// one repetition has fewer than another.
-void fail(benchmark::State& state, const std::string& reason);
+/// Registers a benchmark. `work` runs its iterations and returns why it has no time, which is then the benchmark's error; empty if
+/// it has one.
+benchmark::internal::Benchmark* add_benchmark(
+    const std::string& name, Outcome& outcome,
+    const std::function<std::string(benchmark::State&)>& work);
+
+/// Runs the iterations of `state`: each is one sample by `once`, and its time is that of the stage `stage`, or of the whole
+/// sample if that is empty. The mean of each stage becomes a counter such as "sort_ns".
+///
+/// Returns why a sample failed; empty if none did. A sample fails if `once` throws, if it has no such stage or no time, and after
+/// a minute with hardly any device time: Google Benchmark demands iterations until their times add up to
+/// --benchmark_min_time, however long that takes.
+std::string take_iterations(benchmark::State& state, const std::string& stage,
+                            const std::function<std::vector<StageTime>()>& once);
 
 }  // namespace bvhbench

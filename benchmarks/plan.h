@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <set>
 #include <string>
 #include <vector>
 
@@ -18,10 +17,13 @@ struct PlannedCell {
     Operation operation = Operation::build;
     BuilderChoice builder;
     ColliderChoice collider = {};  ///< empty name: none
+    bool is_wanted = true;         ///< whether it is to run
+    std::string failure = {};      ///< why it cannot be measured
 
     bool is(const Cell& cell) const
     {
-        return cell.operation == operation && cell.builder == builder && cell.collider == collider;
+        return cell.operation == operation && cell.collider == collider &&
+               (builder.name == "none" || cell.builder == builder);
     }
 };
 
@@ -33,9 +35,6 @@ struct Plan {
 };
 
 /// Plans all cells; loads nothing. If `stage` is not empty, that stage of each sample is timed.
-Plan plan_of(const Experiment& experiment, const std::string& stage);
-
-/// Returns the experiment of a scene with only what the cells called `names` need.
-Experiment narrowed(const Plan& plan, std::size_t scene, const std::set<std::string>& names);
+Plan plan_of(Experiment experiment, const std::string& stage);
 
 }  // namespace bvhbench

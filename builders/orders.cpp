@@ -31,7 +31,8 @@ ulong OrderEntry::code(Aabb box, Bounds bounds) const
 {
     const uint axis_bits = code_bits / 3;
     const auto cells = static_cast<float>(1u << axis_bits);
-    Cell cell = is_stretched ? stretched_cell(box, bounds, cells) : cubic_cell(box, bounds, cells);
+    GridCell cell =
+        is_stretched ? stretched_cell(box, bounds, cells) : cubic_cell(box, bounds, cells);
     if (is_hilbert)
         cell = hilbert_cell(cell, axis_bits);
     return morton_63(cell);

@@ -17,7 +17,7 @@ SHARED_BEGIN
 /// A cell of the grid, one number per axis.
 typedef struct {
     uint x, y, z;
-} Cell;
+} GridCell;
 
 /// A cubic grid: its low corner and side, both multiplied by `scale`.
 typedef struct {
@@ -59,11 +59,11 @@ SHARED_FN uint part_of(float offset, float side, float cells)
 }
 
 /// Returns the cell of a box's centre in the cubic grid with `cells` cells per side over the bounds of all centres.
-SHARED_FN Cell cubic_cell(Aabb box, Bounds bounds, float cells)
+SHARED_FN GridCell cubic_cell(Aabb box, Bounds bounds, float cells)
 {
     const Grid grid = cubic_grid(bounds.centres);
     const Point centre = box_centre(box);
-    Cell cell;
+    GridCell cell;
     cell.x = part_of(centre.x * grid.scale - grid.low.x, grid.side, cells);
     cell.y = part_of(centre.y * grid.scale - grid.low.y, grid.side, cells);
     cell.z = part_of(centre.z * grid.scale - grid.low.z, grid.side, cells);
@@ -78,10 +78,10 @@ SHARED_FN uint part_between(float low, float high, float x, float cells)
 }
 
 /// Returns the cell of a box's centre in the grid over the scene's box with `cells` cells along every axis.
-SHARED_FN Cell stretched_cell(Aabb box, Bounds bounds, float cells)
+SHARED_FN GridCell stretched_cell(Aabb box, Bounds bounds, float cells)
 {
     const Point centre = box_centre(box);
-    Cell cell;
+    GridCell cell;
     cell.x = part_between(bounds.scene.min_x, bounds.scene.max_x, centre.x, cells);
     cell.y = part_between(bounds.scene.min_y, bounds.scene.max_y, centre.y, cells);
     cell.z = part_between(bounds.scene.min_z, bounds.scene.max_z, centre.z, cells);

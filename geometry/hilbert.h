@@ -32,7 +32,7 @@ SHARED_FN_INLINED uint parity_above(uint x)
 
 /// One step: applies the turn of the octant given by bit `size` of each axis to all lower bits. Without branches, so that many
 /// cells can be processed at once.
-SHARED_FN_INLINED Cell hilbert_turned(Cell cell, uint size)
+SHARED_FN_INLINED GridCell hilbert_turned(GridCell cell, uint size)
 {
     const uint smaller = (1u << size) - 1u;
     const uint x_set = 0u - (cell.x >> size & 1u), y_set = 0u - (cell.y >> size & 1u);
@@ -48,7 +48,7 @@ SHARED_FN_INLINED Cell hilbert_turned(Cell cell, uint size)
 }
 
 /// Decodes the Gray code of each size, after all turns were applied. The Morton code of the result is the Hilbert code.
-SHARED_FN_INLINED Cell hilbert_ungrayed(Cell cell)
+SHARED_FN_INLINED GridCell hilbert_ungrayed(GridCell cell)
 {
     cell.y ^= cell.x;
     cell.z ^= cell.y;
@@ -61,7 +61,7 @@ SHARED_FN_INLINED Cell hilbert_ungrayed(Cell cell)
 
 /// Returns the cell whose Morton code is the Hilbert code of `cell`, for 1 to 31 `bits` per axis. The curve starts at (0, 0, 0)
 /// and ends at the other end of the x axis.
-SHARED_FN Cell hilbert_cell(Cell cell, uint bits)
+SHARED_FN GridCell hilbert_cell(GridCell cell, uint bits)
 {
     for (uint size = bits - 1u; size > 0u; --size)
         cell = hilbert_turned(cell, size);
@@ -69,13 +69,13 @@ SHARED_FN Cell hilbert_cell(Cell cell, uint bits)
 }
 
 /// Returns the Hilbert code of a cell with 10 bits per axis.
-SHARED_FN uint hilbert_30(Cell cell) { return morton_30(hilbert_cell(cell, 10u)); }
+SHARED_FN uint hilbert_30(GridCell cell) { return morton_30(hilbert_cell(cell, 10u)); }
 
 /// Returns the Hilbert code of a cell with 16 bits per axis.
-SHARED_FN ulong hilbert_48(Cell cell) { return morton_48(hilbert_cell(cell, 16u)); }
+SHARED_FN ulong hilbert_48(GridCell cell) { return morton_48(hilbert_cell(cell, 16u)); }
 
 /// Returns the Hilbert code of a cell with 21 bits per axis.
-SHARED_FN ulong hilbert_63(Cell cell) { return morton_63(hilbert_cell(cell, 21u)); }
+SHARED_FN ulong hilbert_63(GridCell cell) { return morton_63(hilbert_cell(cell, 21u)); }
 
 SHARED_END
 

@@ -36,19 +36,19 @@ SHARED_FN ulong spread_21(ulong x)
 }
 
 /// Returns the Morton code of a cell with 10 bits per axis.
-SHARED_FN uint morton_30(Cell cell)
+SHARED_FN uint morton_30(GridCell cell)
 {
     return spread_10(cell.x) << 2u | spread_10(cell.y) << 1u | spread_10(cell.z);
 }
 
 /// Returns the Morton code of a cell with 21 bits per axis.
-SHARED_FN ulong morton_63(Cell cell)
+SHARED_FN ulong morton_63(GridCell cell)
 {
     return spread_21(cell.x) << 2u | spread_21(cell.y) << 1u | spread_21(cell.z);
 }
 
 /// Returns the Morton code of a cell with 16 bits per axis: the 63-bit code with zeros in its upper bits.
-SHARED_FN ulong morton_48(Cell cell) { return morton_63(cell); }
+SHARED_FN ulong morton_48(GridCell cell) { return morton_63(cell); }
 
 SHARED_END
 

@@ -1,11 +1,11 @@
-"""Ranks builders or pipelines by time or memory, over one scene or several.
+"""Ranks builders or pipelines by time or by an amount, over one scene or several.
 
 Times of cells that lost a race (docs/measuring.md, A race) were taken while the machine may have been faster or slower than
 later. Such a cell is therefore compared with the samples that the best had until then, and its time is scaled by what the best
 took later.
 """
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Hashable, Iterable, Sequence
 from dataclasses import dataclass, field
 
 import numpy
@@ -38,12 +38,16 @@ class Row:
 
     @property
     def bytes(self) -> float:
-        return mean([bytes_of(cell) for cell in self.cells])
+        return self.amount("memory")
 
     @property
     def sah(self) -> float:
         """Returns the mean surface area cost, or NaN if it is unknown."""
-        return mean([sah_of(cell) for cell in self.cells])
+        return self.amount("cost")
+
+    def amount(self, objective: str) -> float:
+        """Returns the mean amount that an objective of AMOUNTS ranks by, or 0 for a time."""
+        return mean([AMOUNTS[objective](cell) for cell in self.cells]) if objective in AMOUNTS else 0
 
     @property
     def is_right(self) -> bool:
@@ -82,6 +86,10 @@ def sah_of(cell: Cell) -> float:
     inner, triangle = USUAL_COSTS
     areas = inner * cell.counters.get("sah_inner", math.nan) + triangle * cell.counters.get("sah_leaf", math.nan)
     return cell.counters.get("sah_cost", areas)
+
+
+# Objectives that are no time. What holds the same amount is ranked by time.
+AMOUNTS = {"memory": bytes_of, "cost": sah_of, "error": lambda cell: cell.counters.get("relative_error", math.nan)}
 
 
 def values_of(samples: Iterable[dict], objective: str) -> numpy.ndarray:
@@ -131,6 +139,11 @@ class Frame:
         return own * self.middle(self.base) / beside if beside > 0 else own
 
 
+def method(cell: Cell) -> tuple[Hashable, ...]:
+    """Returns what is ranked: a builder or pipeline, or a method along an axis of accuracy."""
+    return *cell.key("operation", "builder", "collider"), cell.accuracy.get("method")
+
+
 def margins(row: Row, objective: str) -> tuple[float, float, float]:
     """Returns the sum of the medians of the row's cells, and by how much its interval goes below and above it."""
     parts = [(median(values), *ends_of(values)) for values in (values_of(cell.samples, objective) for cell in row.cells)]
@@ -155,23 +168,22 @@ def rows_of_scene(cells: list[Cell], objective: str) -> list[Row]:
     frames = {number: Frame(there, objective) for number, there in grouped(cells, lambda cell: cell.frame).items()}
     levels = {id(cell): frames[cell.frame].level(cell) for cell in cells}
     rows = []
-    for there in grouped(cells, lambda cell: cell.key("builder", "collider")).values():
+    for there in grouped(cells, method).values():
         ns, own = mean([levels[id(cell)] for cell in there]), mean([frames[cell.frame].middle(cell) for cell in there])
         rows.append(Row(there, ns, ns / own if own > 0 else 1, complete=len({cell.frame for cell in there}) == len(frames)))
 
     def total(row: Row, numbers: set[int]) -> float:
         return sum(levels[id(cell)] for cell in row.cells if cell.frame in numbers)
 
-    def bytes_held(row: Row) -> float:
-        return row.bytes if objective == "memory" else 0
-
     full = [row for row in rows if row.complete] or rows
-    best = min(full, key=lambda row: (bytes_held(row), total(row, set(frames))))
+    best = min(full, key=lambda row: (row.amount(objective), total(row, set(frames))))
     for row in rows:
         there = {cell.frame for cell in row.cells} & {cell.frame for cell in best.cells}
-        time = total(row, there) / max(total(best, there), 1e-9) if there else math.inf
-        row.ratio = max(row.bytes, 1) / max(best.bytes, 1) if objective == "memory" else time
-        row.tied = bytes_held(row) == bytes_held(best) and is_tied(row, best, objective)
+        own, least = row.amount(objective), best.amount(objective)
+        row.ratio = total(row, there) / max(total(best, there), 1e-9) if there else math.inf
+        if objective in AMOUNTS:
+            row.ratio = own / least if least > 0 else 1 if own == least else math.inf
+        row.tied = own == least and is_tied(row, best, objective)
     return sorted(rows, key=lambda row: (row is not best, row.ratio, not row.complete, row.ns))
 
 
@@ -180,7 +192,7 @@ def over_scenes(scenes: dict[str, list[Row]]) -> list[Row]:
     found: dict[object, list[Row]] = {}
     for rows in scenes.values():
         for row in rows:
-            found.setdefault(row.first.key("builder", "collider"), []).append(row)
+            found.setdefault(method(row.first), []).append(row)
     every = [rows for rows in found.values() if len(rows) == len(scenes) and all(row.ratio > 0 for row in rows)]
     merged = [Row([cell for row in rows for cell in row.cells], mean([row.ns for row in rows]), 1,
                   float(numpy.exp(numpy.mean(numpy.log([row.ratio for row in rows])))), all(row.tied for row in rows),
@@ -193,9 +205,9 @@ def ranked(cells: Iterable[Cell], objective: str = "frame") -> Ranking:
     """Ranks builders or pipelines. Cells that are wrong are named apart and never ranked; neither is what has no times."""
     cells = list(cells)
     wrong = [cell for cell in cells if cell.verdict == "differs"]
-    bad = {(cell.scene, cell.key("builder", "collider")) for cell in wrong}
-    timed = [cell for cell in cells if cell.has_times and (cell.scene, cell.key("builder", "collider")) not in bad
-             and (objective != "memory" or not math.isnan(bytes_of(cell)))]
+    bad = {(cell.scene, method(cell)) for cell in wrong}
+    timed = [cell for cell in cells if cell.has_times and (cell.scene, method(cell)) not in bad
+             and (objective not in AMOUNTS or not math.isnan(AMOUNTS[objective](cell)))]
     scenes = {scene: rows_of_scene(there, objective) for scene, there in grouped(timed, lambda cell: cell.scene).items()}
     rows = next(iter(scenes.values())) if len(scenes) == 1 else over_scenes(scenes)
     return Ranking(objective, rows, scenes, wrong, [cell for cell in cells if not cell.has_times and cell.verdict != "differs"])

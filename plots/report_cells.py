@@ -42,15 +42,14 @@ def who(cell: Cell) -> str:
 
 
 def asked(cell: Cell) -> str:
-    """Returns what a frame's query was asked for, and whether caches were emptied. Cells that were asked for different things
+    """Returns what a query was asked for, and whether caches were emptied. Cells that were asked for different things
     must not be compared."""
     cold = ["caches emptied before each sample"] if cell.raw.get("sampling", {}).get("caches") == "cold" else []
+    swept = [cell.swept["pairs"]] if cell.swept else []
     if not cell.collider or cell.accuracy:
-        return ", ".join(cold)
+        return ", ".join(swept + cold)
     options = dict(cell.collider_options)
-    words = [f"pairs {options['pairs_of']} objects" if options.get("pairs_of", "all") != "all" else "all pairs"]
-    if cell.swept:
-        words.append(cell.swept["pairs"])
+    words = [f"pairs {options['pairs_of']} objects" if options.get("pairs_of", "all") != "all" else "all pairs", *swept]
     if options.get("adjacent") == "drop":
         words.append("adjacent dropped")
     narrow = "exact" if cell.collider in FINDS_CONTACTS else options.get("narrow", "none")

@@ -1,18 +1,23 @@
 """What a result file answers: of each experiment its question, a sentence, and the best builder or pipeline of each scene."""
+import math
 import pathlib
 from collections import Counter
-from typing import Any
+from typing import Any, NamedTuple
 
 import json_files
 import report_cells
+from answer import number
 from cells import Cell, grouped
-from report_cells import state_of
-from report_ranking import COST, ERROR, TIME, Objective, Ranking, is_right, ranked, sentence
-from tables import counted
+from ranking import Row, ranked
+from report_cells import WITHOUT_TIMES, library_of, state_of, who
+from tables import counted, duration
 
 EXPERIMENTS = pathlib.Path(__file__).resolve().parent.parent / "harness" / "experiments"
 # Experiments and axes of accuracy that do not ask who is soonest; None: they ask only whether answers are right.
-OBJECTIVES = {"agreement": None, "equality": None, "smoke": None, "table4": COST, "fig13": COST, "sums": ERROR}
+OBJECTIVES = {"agreement": None, "equality": None, "smoke": None, "table4": "cost", "fig13": "cost", "sums": "error"}
+# Words of an objective: "A {is soonest} on S: 1.00 ms; the next {takes} 1.20 times {as long}".
+WORDS = {"frame": ("is soonest", "takes", "as long"), "cost": ("has the lowest surface area cost", "costs", "as much"),
+         "error": ("errs least", "errs by", "as much")}
 # Questions of the axes of accuracy.
 AXES = {"narrow": "Which test of two triangles is right, and what does it cost?",
         "sums": "How far off is each way to add areas up, and what does it cost?",
@@ -35,7 +40,7 @@ def verdicts(cells: list[Cell]) -> str:
     right on how many scenes."""
     if cells[0].accuracy.get("axis") == "narrow":
         return rightness(cells)
-    found = Counter((report_cells.library_of(cell), state_of(cell)) for cell in cells)
+    found = Counter((library_of(cell), state_of(cell)) for cell in cells)
     agreeing = sum(count for (_, state), count in found.items() if state == "agrees")
     told = []
     if agreeing and not cells[0].accuracy:  # of methods, that they err is no fault
@@ -49,10 +54,77 @@ def verdicts(cells: list[Cell]) -> str:
 
 
 def rightness(cells: list[Cell]) -> str:
-    counts = {who: (sum(map(is_right, own)), len(own)) for who, own in grouped(cells, report_cells.who).items()}
-    told = [f"{who} on {'all ' if right == most > 1 else f'{right} of '}{counted(most, 'scene')}"
-            for who, (right, most) in sorted(counts.items(), key=lambda one: -one[1][0])]
+    counts = {name: (sum(map(is_right, own)), len(own)) for name, own in grouped(cells, who).items()}
+    told = [f"{name} on {'all ' if right == most > 1 else f'{right} of '}{counted(most, 'scene')}"
+            for name, (right, most) in sorted(counts.items(), key=lambda one: -one[1][0])]
     return f"Right: {', '.join(told)}."
+
+
+class Case(NamedTuple):
+    """Builders or pipelines that were asked for the same, the best first. Each has right answers in every frame."""
+
+    scene: str
+    asked: str
+    rows: list[Row]
+
+
+def is_right(cell: Cell) -> bool:
+    """True if a cell has times and missed nothing; a narrow phase must not find too much either."""
+    wrong = ("missed_count", "false_count") if cell.accuracy.get("axis") == "narrow" else ("missed_count",)
+    return bool(cell.samples) and state_of(cell) not in WITHOUT_TIMES and not any(cell.counters.get(key) for key in wrong)
+
+
+def cases_of(cells: list[Cell], objective: str) -> list[Case]:
+    """Ranks the cells of one experiment or axis: once for each scene and request."""
+    groups = grouped(cells, lambda cell: (report_cells.scene_name(cell), report_cells.asked(cell)))
+    cases = []
+    for key, own in groups.items():
+        frames = {cell.frame for cell in own}
+        rows = ranked(filter(is_right, own), objective).rows
+        if full := [row for row in rows if {cell.frame for cell in row.cells} == frames]:
+            cases.append(Case(*key, full))
+    return cases
+
+
+def amount(row: Row, objective: str) -> str:
+    return duration(row.ns).replace("us", "µs") if objective == "frame" else f"{row.amount(objective):.4g}"
+
+
+def is_librarys(row: Row) -> bool:
+    return library_of(row.first) is not None
+
+
+def span(texts: list[str]) -> str:
+    """Returns the first and the last text, or one if they are equal: "1.05 to 2.1"."""
+    return " to ".join(dict.fromkeys((texts[0], texts[-1])))
+
+
+def sentence(cases: list[Case], objective: str | None) -> str:
+    """Says which is best, on how many scenes, and how far the next and the best library are behind; empty without a time."""
+    compared = [case for case in cases if len(case.rows) > 1]
+    if not compared:
+        rows = sorted((row for case in cases for row in case.rows), key=lambda row: (row.amount(objective), row.ns))
+        names = {who(row.first) for row in rows}
+        return f"Only {names.pop()} was measured: {span([amount(row, objective) for row in rows])}." if len(names) == 1 else ""
+    is_best, has, times = WORDS[objective]
+    (winner, count), *others = Counter(who(case.rows[0].first) for case in compared).most_common()
+    what = "scenes" if len({case.scene for case in compared}) == len(compared) else "cases"
+    where, rival = f"{count} of {len(compared)} {what}" if others else f"{'both' if count == 2 else f'all {count}'} {what}", ""
+    if len(compared) == 1:
+        where, rival = f"{compared[0].scene}: {amount(compared[0].rows[0], objective)}", f", {who(compared[0].rows[1].first)},"
+    said = [f"{winner} {is_best} on {where}", *(f"{name} on {wins}" for name, wins in others[:3])]
+    said += [f"others on {sum(wins for _, wins in others[3:])}"] if others[3:] else []
+
+    def behind(name: str, rows: list[Row]) -> str:
+        ratios = [number(ratio) for ratio in sorted(row.ratio for row in rows) if math.isfinite(ratio)]
+        return f"; {name} {has} {span(ratios)} times {times}" if ratios else ""
+
+    tied = sum(case.rows[1].tied for case in compared) if objective == "frame" else 0
+    noise = f",{f' on {tied}' if len(compared) > 1 else ''} within noise" if tied else ""
+    libraries = [next(filter(is_librarys, case.rows)) for case in compared if not is_librarys(case.rows[0])
+                 and any(map(is_librarys, case.rows))]
+    after = behind(f"the next{rival}", [case.rows[1] for case in compared]) + noise + behind("the best library", libraries)
+    return f"{', '.join(said)}{after}."
 
 
 def findings_of(cells: list[Cell]) -> list[dict[str, Any]]:
@@ -60,26 +132,31 @@ def findings_of(cells: list[Cell]) -> list[dict[str, Any]]:
     found = []
     named = grouped(enumerate(cells), lambda one: (one[1].experiment, one[1].accuracy.get("axis")))
     for (experiment, axis), placed in named.items():
-        objective = OBJECTIVES.get(axis or experiment, TIME)
-        rankings = ranked(placed, objective) if objective else []
-        said = [sentence(rankings, objective) if objective else "", verdicts([cell for _, cell in placed])]
+        objective, own = OBJECTIVES.get(axis or experiment, "frame"), [cell for _, cell in placed]
+        cases = cases_of(own, objective) if objective else []
+        said = [sentence(cases, objective), verdicts(own)]
         if axis == "narrow" and said[0]:
             said = [said[1], "Of those that are right:", said[0]]
         found.append({"experiment": experiment + (f", {axis}" if axis else ""), "question": question(experiment, axis),
                       "answer": " ".join(filter(None, said)),
-                      "rows": [row(ranking, objective) for ranking in rankings]})
+                      "rows": [best_row(case, objective, {id(cell): place for place, cell in placed}) for case in cases]})
     return found
 
 
-def row(ranking: Ranking, objective: Objective) -> list[Any]:
-    first, *others = ranking.entries
-    spreads = ("overlap" if ranking.overlaps else "apart") if others and objective is TIME else None
-    return [ranking.scene, ranking.asked, first.who, first.value / 1e3 if objective is TIME else None,
-            None if objective is TIME else first.value, others[0].who if others else None, ranking.ratio, spreads, first.place]
+def best_row(case: Case, objective: str, places: dict[int, int]) -> list[Any]:
+    """Returns a row of best_table. `places` are those of the cells in the file, by their id."""
+    best, *others = case.rows
+    after = [None] * 3
+    if others:
+        is_apart = ("no" if others[0].tied else "yes") if objective == "frame" else None
+        after = [who(others[0].first), others[0].ratio if math.isfinite(others[0].ratio) else None, is_apart]
+    time, held = (best.ns / 1e3, None) if objective == "frame" else (None, best.amount(objective))
+    place = places[id(best.first)] if len(best.cells) == 1 else None
+    return [case.scene, case.asked, who(best.first), time, held, *after, place]
 
 
 COLUMNS = (("file", "text"), ("experiment", "text"), ("scene", "text"), ("asked for", "text"), ("best", "text"),
-           ("time", "time"), ("cost or error", "number"), ("next", "text"), ("ratio", "number"), ("p10 to p90", "text"))
+           ("time", "time"), ("cost or error", "number"), ("next", "text"), ("ratio", "number"), ("beyond noise", "text"))
 FACETS = ("file", "experiment", "best", "next")
 
 
@@ -98,8 +175,8 @@ def best_table(files: list[tuple[str, list[dict[str, Any]]]]) -> dict[str, Any] 
     kept = [k for k, _ in enumerate(COLUMNS) if is_needed.get(k, True) and any(row[k] not in (None, "") for row in rows)]
     more = {"file": {"links": names}, "time": {"links": links, "unit": "µs"}}
     starred = any(row[2] and " *" in row[2] for row in rows)
-    note = ("Time: the lowest, a mean over frames of medians. Ratio: the next over it. Last: whether their 10th to 90th "
-            "percentiles overlap. What was wrong, or lacks a frame, has no place.")
+    note = ("Time: the lowest, a mean over frames of medians. Ratio: the next over it. Beyond noise: intervals of the medians "
+            "do not overlap. What was wrong, or lacks a frame, has no place.")
     return {"title": "The best of each scene", "cells": None, "note": note + (f" {report_cells.STAR}." if starred else ""),
             "rows": [[row[k] for k in kept] for row in rows],
             "columns": [{"label": label, "kind": kind, "facet": label in FACETS, **more.get(label, {})}

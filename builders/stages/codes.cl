@@ -12,7 +12,7 @@
 
 static inline Code code_of_box(const Aabb box, const Bounds bounds)
 {
-    const Cell cell = CELL_OF(box, bounds);
+    const GridCell cell = CELL_OF(box, bounds);
 #if HILBERT
     return MORTON_CODE(hilbert_cell(cell, AXIS_BITS));
 #else

@@ -25,7 +25,7 @@ static inline __attribute__((always_inline)) void code_block(global const float*
     for (uint lane = 0u; lane < lanes; ++lane) {
         global const float* f = box_floats + FLOATS_PER_BOX * lane;
         const Aabb box = {f[0], f[1], f[2], f[3], f[4], f[5]};
-        const Cell cell = CELL_OF(box, bounds);
+        const GridCell cell = CELL_OF(box, bounds);
         x[lane] = cell.x;
         y[lane] = cell.y;
         z[lane] = cell.z;
@@ -33,15 +33,15 @@ static inline __attribute__((always_inline)) void code_block(global const float*
 #if HILBERT
     for (uint size = AXIS_BITS - 1u; size > 0u; --size)
         for (uint lane = 0u; lane < lanes; ++lane) {
-            const Cell cell = {x[lane], y[lane], z[lane]};
-            const Cell turned = hilbert_turned(cell, size);
+            const GridCell cell = {x[lane], y[lane], z[lane]};
+            const GridCell turned = hilbert_turned(cell, size);
             x[lane] = turned.x;
             y[lane] = turned.y;
             z[lane] = turned.z;
         }
 #endif
     for (uint lane = 0u; lane < lanes; ++lane) {
-        const Cell cell = {x[lane], y[lane], z[lane]};
+        const GridCell cell = {x[lane], y[lane], z[lane]};
         codes[lane] = above | code_of(cell) >> dropped;
     }
 }

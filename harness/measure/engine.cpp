@@ -55,6 +55,8 @@ void Engine::settle(Subject& subject, const std::function<void()>& work)
 {
     if (std::string why = watchdog::given_up(subject.number); !why.empty())
         return refuse(subject, Cell::Status::failed, std::move(why));
+    if (is_wanted && !is_wanted(subject.cell))
+        return refuse(subject, Cell::Status::skipped, "not wanted");
     const watchdog::Hand hand(subject.number);
     subject.cell.warm_up = plan_.warm_up;
     const std::int64_t compiled_ns = session_.programs().compile_ns();

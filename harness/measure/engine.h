@@ -56,6 +56,8 @@ public:
 
     /// If set, sample() calls this instead, for a program with a sampler of its own (benchmarks/).
     static inline std::function<void(std::span<Subject>)> other_sampler = {};
+    /// If set, settle() skips cells for which it returns false.
+    static inline std::function<bool(const Cell&)> is_wanted = {};
 
     /// Marks the cell with `status` and `reason`, drops its samples, and discards its queued launches.
     void refuse(Subject& subject, Cell::Status status, std::string reason);

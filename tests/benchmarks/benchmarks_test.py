@@ -17,7 +17,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "harness"))
 from program import SOURCE, copied_kernels, expect, experiment, main, valid
 
 BENCHMARKS = pathlib.Path(sys.argv[3]).resolve()
-SCHEMA = json.loads(pathlib.Path(__file__).with_name("google_benchmark.schema.json").read_text())
+SCHEMA = json.loads((SOURCE / "tests/google_benchmark.schema.json").read_text())
 FUSED = "baselines/radix/apetrei_fused.cl"
 FEW = ("--benchmark_min_time=0.0001",)
 MIXED = {"scenes": ["bend:torus:2048"], "builders": ["oibvh-multi", {"name": "karras", "order": "hilbert30"}],
@@ -97,7 +97,7 @@ def test_the_time_of_one_stage() -> None:
     row, = measured(0, "--benchmark_filter=torus:2048/oibvh-multi/hierarchy", "--stage", "hierarchy", *FEW)
     assert abs(1000 * row["real_time"] - row["hierarchy_ns"]) < 1e-3 * row["hierarchy_ns"], row
     row, = measured(4, "--benchmark_filter=torus:2048/oibvh-multi/gather", "--stage", "gather", *FEW)
-    assert row["error_message"].startswith("there is no stage 'gather'"), row
+    assert row["error_message"].startswith("a sample has no stage 'gather'"), row
 
 
 def test_what_is_wrong_or_missing_is_an_error_of_its_benchmark() -> None:
@@ -124,7 +124,7 @@ def test_wrong_words_are_one_sentence() -> None:
     for code, words, says in ((2, ["--experiment", "no-such"], "no experiment is called 'no-such'"),
                               (2, ["--benchmark_filter=no-such"], "no benchmark matches 'no-such'"),
                               (2, ["--benchmark_filter=("], "--benchmark_filter"),
-                              (2, ["--benchmark_no-such=1"], "'--benchmark_no-such=1' is no option of Google Benchmark"),
+                              (2, ["--benchmark_no-such=1"], "'--benchmark_no-such=1' is no option of this program or of Google Benchmark"),
                               (2, ["--no-such"], "--no-such"),
                               (2, ["--benchmark_out=mine.json"], "mine.json"),
                               (3, ["--benchmark_filter=soup:1/", "--device", "no-such"], "no-such")):

@@ -96,7 +96,7 @@ TEST(Hash, IsWrittenAsSixteenDigits)
 }
 
 /// Returns the Manhattan distance of two cells.
-uint distance(Cell a, Cell b)
+uint distance(GridCell a, GridCell b)
 {
     const auto apart = [](uint p, uint q) { return p < q ? q - p : p - q; };
     return apart(a.x, b.x) + apart(a.y, b.y) + apart(a.z, b.z);
@@ -104,14 +104,14 @@ uint distance(Cell a, Cell b)
 
 /// The cells of a cube with 2^bits cells per side, indexed by their code, and the number of codes that occur twice.
 struct Curve {
-    std::vector<Cell> cells;
+    std::vector<GridCell> cells;
     uint met_twice = 0;
 };
 
 Curve whole_curve(uint bits)
 {
     const uint side = 1u << bits;
-    Curve curve{std::vector<Cell>(std::size_t{side} * side * side), 0};
+    Curve curve{std::vector<GridCell>(std::size_t{side} * side * side), 0};
     std::vector<bool> met(curve.cells.size());
     for (uint x = 0; x < side; ++x)
         for (uint y = 0; y < side; ++y)
@@ -147,14 +147,14 @@ TEST(Hilbert, StartsInOneCornerAndEndsAlongX)
 /// consecutive cells of the curve.
 TEST(Hilbert, VisitsEveryOctantBeforeItLeavesIt)
 {
-    const Cell corner = {0x12344, 0x1edcba, 0x0f0f0e};
+    const GridCell corner = {0x12344, 0x1edcba, 0x0f0f0e};
     const ulong first = hilbert_63(corner) / 8;
     for (uint octant = 0; octant < 8; ++octant)
         EXPECT_EQ(
             hilbert_63({corner.x + octant / 4, corner.y + octant / 2 % 2, corner.z + octant % 2}) /
                 8,
             first);
-    const Cell small = {0x1234, 0xfcba, 0x0f0e};
+    const GridCell small = {0x1234, 0xfcba, 0x0f0e};
     for (uint octant = 0; octant < 8; ++octant)
         EXPECT_EQ(
             hilbert_48({small.x + octant / 4, small.y + octant / 2 % 2, small.z + octant % 2}) / 8,

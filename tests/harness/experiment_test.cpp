@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <set>
-
 #include "collide/skips.h"
 #include "geometry/error.h"
 #include "tests/harness/fakes.h"
@@ -30,29 +28,12 @@ void expect_refusals(const std::vector<std::pair<std::string, std::string>>& wro
         EXPECT_NE(refusal(text).find(says), std::string::npos) << text << refusal(text);
 }
 
-TEST(Experiment, OfEveryNameInThisProgramIsValid)
-{
-    for (const std::string_view name : experiment_names())
-        for (const bool quick : {false, true}) {
-            const Experiment experiment = find_experiment(std::string(name), quick);
-            EXPECT_EQ(experiment.name, name);
-            EXPECT_FALSE(experiment.question.empty());
-            EXPECT_EQ(experiment.has(Operation::refit), name == "refit") << "the others only build";
-            EXPECT_EQ(experiment.scenes.empty(), experiment.builders.empty());
-            EXPECT_FALSE(experiment.builders.empty() && experiment.collisions.empty());
-            for (const CollideTask& task : experiment.collisions) {
-                EXPECT_EQ(task.experiment, name);
-                EXPECT_FALSE(task.pipelines.empty());
-            }
-        }
-}
-
 TEST(Experiment, MayHaveBuildersAndPipelinesOverTheSameScenes)
 {
     const std::string_view text = R"({
         "experiment": "mine", "scenes": ["soup:9", "soup:10"], "builders": ["perfect", "karras"],
         "pipelines": [{"builder": "perfect", "collider": "leaf"}], "samples": 7,
-        "quick": {"samples": 2, "scenes": ["soup:1"], "builders": ["perfect"]}})";
+        "warm_up": 1, "quick": {"samples": 2, "scenes": ["soup:1"], "builders": ["perfect"]}})";
     const Experiment whole = read(text);
     EXPECT_EQ(whole.scenes, (std::vector<std::string>{"soup:9", "soup:10"}));
     EXPECT_EQ(whole.builders.size(), 2u);
@@ -64,7 +45,9 @@ TEST(Experiment, MayHaveBuildersAndPipelinesOverTheSameScenes)
     EXPECT_EQ(quick.builders.size(), 1u);
     EXPECT_EQ(quick.scenes, (std::vector<std::string>{"soup:1"}));
     ASSERT_EQ(quick.collisions.size(), 1u);
+    EXPECT_EQ(quick.collisions[0].scene, "soup:1");
     EXPECT_EQ(quick.collisions[0].samples, 2);
+    EXPECT_EQ(quick.collisions[0].warm_up, 1);
     EXPECT_NE(refusal(R"({"experiment": "mine", "builders": ["perfect"],
         "scenes": [{"scene": "soup:9", "frames": "0:"}],
         "pipelines": [{"builder": "perfect", "collider": "leaf"}]})"),
@@ -80,7 +63,7 @@ TEST(Experiment, OfWholeFramesReadsEveryKey)
         "pipelines": [{"collider": "brute", "narrow": "exact", "no_skip": "near"},
                       {"builder": {"name": "perfect", "leaves": "sorted"}, "adjacent": "drop", "pairs_of": "within",
                        "collider": {"name": "bvtt", "jump": 2, "start_level": 3, "group_size": 64}}],
-        "samples": 7, "warm_up": 1, "quick": {"samples": 2, "scenes": ["torus:5"]}})";
+        "samples": 7, "warm_up": 1})";
     const std::vector<CollideTask> tasks = read(text).collisions;
     ASSERT_EQ(tasks.size(), 2u);
     EXPECT_FALSE(tasks[0].swept || tasks[1].swept);
@@ -104,12 +87,6 @@ TEST(Experiment, OfWholeFramesReadsEveryKey)
     EXPECT_EQ(tasks[1].between, 3u);
     EXPECT_EQ(tasks[1].objects, ObjectsBy::components);
     EXPECT_EQ(tasks[1].pipelines[1].collider.among, Among::between_objects);
-
-    const std::vector<CollideTask> quick = read(text, true).collisions;
-    ASSERT_EQ(quick.size(), 1u);
-    EXPECT_EQ(quick[0].scene, "torus:5");
-    EXPECT_EQ(quick[0].samples, 2);
-    EXPECT_EQ(quick[0].warm_up, 1);
 }
 
 TEST(Experiment, OfWholeFramesMayBeOfBoxesSweptFromOneToTheNext)
@@ -222,26 +199,6 @@ TEST(Experiment, SaysWhenToStopSamplingAndWhetherCachesAreCold)
     EXPECT_EQ(experiment.collisions.at(0).sampling, experiment.sampling);
 }
 
-TEST(Experiment, SmokeHasEveryBuilderAndEveryCollider)
-{
-    const Experiment smoke = find_experiment("smoke", false);
-    std::set<std::string_view> builders, all_builders, all_colliders;
-    for (const BuilderChoice& one : smoke.builders)
-        builders.insert(one.name);
-    for (const BuilderEntry& entry : builder_catalog())
-        all_builders.insert(entry.name);
-    EXPECT_EQ(builders, all_builders);
-    for (const ColliderEntry& entry : collider_catalog())
-        all_colliders.insert(entry.name);
-    for (const CollideTask& task : smoke.collisions) {
-        std::set<std::string_view> colliders;
-        for (const PipelineChoice& one : task.pipelines)
-            colliders.insert(one.collider.name);
-        EXPECT_EQ(colliders, all_colliders) << task.scene;
-    }
-    EXPECT_EQ(smoke.collisions.size(), smoke.scenes.size());
-}
-
 TEST(Experiment, NamesTheKeyThatItDoesNotKnowAndThoseItDoes)
 {
     expect_refusals(
@@ -298,12 +255,6 @@ TEST(Experiment, RefusesWhatMakesNoSense)
         EXPECT_TRUE(refusal(text).starts_with("x.json: ")) << text;
 }
 
-TEST(Experiment, OfAnUnknownNameIsAnsweredWithThoseThereAre)
-{
-    EXPECT_THROW(find_experiment("tabel1", false), BadUsage);
-    EXPECT_THROW(find_experiment("/nowhere/mine.json", false), Unavailable);
-}
-
 TEST(Experiment, HasScenesOfAllSizesThatItSaysInOrder)
 {
     const auto sizes = [](const std::string& said) {
@@ -316,16 +267,6 @@ TEST(Experiment, HasScenesOfAllSizesThatItSaysInOrder)
               (std::vector<std::string>{"1", "2", "3", "4", "5", "7", "8", "9", "15", "16", "17"}));
     EXPECT_EQ(sizes(R"({"powers_of_two_from": 1000, "powers_of_two_to": 4096})"),
               (std::vector<std::string>{"1024", "2048", "4096"}));
-}
-
-TEST(Experiment, GivesEqualityEverySizeWhereALayoutCanGoWrong)
-{
-    const Experiment experiment = find_experiment("equality", false);
-    EXPECT_EQ(experiment.scenes.front(), "soup:1");
-    EXPECT_EQ(experiment.scenes[599], "soup:600");
-    EXPECT_EQ(experiment.scenes[600], "soup:1023");
-    EXPECT_EQ(experiment.scenes.back(), "soup:1048577");
-    EXPECT_EQ(experiment.scenes.size(), 600u + 3 * 11);
 }
 
 }  // namespace

@@ -8,14 +8,14 @@ import unittest
 import jsonschema
 import pandas
 
-from base import GOLDEN, InFolder, Raw, cell, document, run_of, stage  # first: it adds plots to sys.path
+from base import GOLDEN, ROOT, InFolder, Raw, cell, document, run_of, stage  # first: it adds plots to sys.path
 
 import bvhbench_results
 import results
 from cells import Cell
 from exporting import names
 
-SCHEMA = json.loads(pathlib.Path(__file__).with_name("google_benchmark.schema.json").read_text(encoding="utf-8"))
+SCHEMA = json.loads((ROOT / "tests" / "google_benchmark.schema.json").read_text(encoding="utf-8"))
 WITH_CELLS = [path for path in sorted(GOLDEN.glob("*.json")) if path.name != "stress.json"]
 
 
@@ -34,6 +34,7 @@ class Exports(InFolder):
         """Exports for Google Benchmark and returns the entries, after holding the whole to the schema."""
         made = json.loads(self.exported("google-benchmark", *files))
         jsonschema.Draft202012Validator(SCHEMA).validate(made)
+        self.assertEqual(made["context"]["json_schema_version"], 1)
         return made["benchmarks"]
 
 

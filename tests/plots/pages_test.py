@@ -138,16 +138,17 @@ class OfTheReport(unittest.TestCase):
 
     def test_the_answer_names_the_soonest_and_how_far_the_next_is_behind(self) -> None:
         self.assertEqual(answer_of(cell("karras", 100000), cell("perfect", 150000), cell("apetrei", 400000)),
-                         "karras is soonest on bunny: 100 µs. The next, perfect, takes 150 µs, 1.50 times as long. "
+                         "karras is soonest on bunny: 100 µs; the next, perfect, takes 1.50 times as long. "
                          "All 3 answers are right.")
         scenes = (("a", (100000, 120000)), ("b", (100000, 300000)), ("c", (500000, 400000)))
         several = [cell(builder, ns, scene) for scene, times in scenes for builder, ns in zip(("karras", "perfect"), times)]
         self.assertEqual(answer_of(*several),
-                         "karras is soonest on 2 of 3 scenes, perfect on 1; the next takes 1.20 to 3.00 times as long. "
-                         "All 6 answers are right.")
+                         "karras is soonest on 2 of 3 scenes, perfect on 1; the next takes 1.20 to 3.0 times as long, on 1 "
+                         "within noise. All 6 answers are right.")
         self.assertEqual(answer_of(*several[:4]),
-                         "karras is soonest on both scenes; the next takes 1.20 to 3.00 times as long. All 4 answers are right.")
-        self.assertIn(", 1.01 times as long, within the spread of samples.",
+                         "karras is soonest on both scenes; the next takes 1.20 to 3.0 times as long, on 1 within noise. "
+                         "All 4 answers are right.")
+        self.assertIn(" takes 1.01 times as long, within noise.",
                       answer_of(cell("karras", 100000), cell("perfect", 101000)))
         self.assertEqual(answer_of(cell("karras", 100000)), "Only karras was measured: 100 µs. 1 answer is right.")
 
@@ -155,16 +156,23 @@ class OfTheReport(unittest.TestCase):
         wrong = {"check": {"verdict": "differs", "against": "contract"}}
         text = answer_of({**cell("karras", 100000), **wrong}, {**cell("embree-low", 100000), **wrong}, cell("perfect", 300000),
                          cell("fcl-aabb", 900000))
-        self.assertEqual(text, "perfect is soonest on bunny: 300 µs. The next, fcl-aabb, takes 900 µs, 3.00 times as long; "
-                               "the best library takes 3.00 times as long. 2 answers are right; 1 cell gave a wrong answer; "
+        self.assertEqual(text, "perfect is soonest on bunny: 300 µs; the next, fcl-aabb, takes 3.0 times as long; "
+                               "the best library takes 3.0 times as long. 2 answers are right; 1 cell gave a wrong answer; "
                                "1 cell of Embree gave a wrong answer.")
 
     def test_table4_is_answered_by_costs(self) -> None:
         made = [{**cell(builder, 1000, sah_cost=cost), "experiment": "table4"}
                 for builder, cost in (("oibvh-multi", 200), ("karras", 80))]
         self.assertEqual(answer_of(*made),
-                         "karras has the lowest surface area cost on bunny: 80. The next, oibvh-multi, costs 200, 2.50 times as "
-                         "much. All 2 answers are right.")
+                         "karras has the lowest surface area cost on bunny: 80; the next, oibvh-multi, costs 2.5 times as much. "
+                         "All 2 answers are right.")
+
+    def test_sums_are_answered_by_errors_and_none_is_a_multiple_of_zero(self) -> None:
+        made = [{**cell("none"), "accuracy": {"axis": "sums", "method": method}, "counters": {"relative_error": error}}
+                for method, error in (("f32", 3e-7), ("f64", 1e-7), ("exact", 0))]
+        self.assertEqual(answer_of(*made[:2]), "f64 errs least on bunny: 1e-07; the next, f32, errs by 3.0 times as much.")
+        self.assertEqual(answer_of(*made), "exact errs least on bunny: 0.")
+        self.assertEqual([row[6] for row in data_of(*made)["findings"][0]["rows"]], [None])
 
     def test_states_are_counted_by_library(self) -> None:
         failed = {"status": "failed", "reason": "why", "samples": []}
@@ -176,20 +184,28 @@ class OfTheReport(unittest.TestCase):
         made = [{**cell(builder, ns), "scene": {"name": "cloth", "triangles": 8, "frame": frame}}
                 for builder, times in (("karras", (100000, 500000)), ("perfect", (200000, 300000)), ("apetrei", (1000,)))
                 for frame, ns in enumerate(times)]
-        answer = "perfect is soonest on cloth: 250 µs. The next, karras, takes 300 µs"
+        answer = "perfect is soonest on cloth: 250 µs; the next, karras, takes 1.20 times as long"
         self.assertTrue(answer_of(*made).startswith(answer))
         made[-1] |= {"status": "failed", "reason": "why", "samples": []}
         self.assertTrue(answer_of(*made).startswith(answer))
+
+        wrong = {"check": {"verdict": "differs", "against": "contract"}}
+        self.assertEqual(answer_of(made[0], {**made[1], **wrong}), "1 answer is right; 1 cell gave a wrong answer.")
 
     def test_cells_with_and_without_cold_caches_are_not_compared(self) -> None:
         made = [cell("karras", 100000), {**cell("karras", 900000), "sampling": {"caches": "cold"}}]
         self.assertEqual([row[3] for row in data_of(*made)["findings"][0]["rows"]], [100, 900])
 
+    def test_steps_swept_for_other_pairs_are_not_compared(self) -> None:
+        made = [{**cell("karras"), "accuracy": {"axis": "swept", "method": "embree"}, "swept": {"pairs": pairs, "to_frame": 1}}
+                for pairs in ("edge-edge", "vertex-face")]
+        self.assertEqual([row[1] for row in data_of(*made)["findings"][0]["rows"]], ["edge-edge", "vertex-face"])
+
     def test_a_narrow_phase_is_judged_before_it_is_ranked(self) -> None:
         made = [narrow("guigue-f64", 10, 1000), narrow("guigue-f32", 10, 250, missed=2), narrow("moller-f32", 10, 3000)]
         self.assertEqual(answer_of(*made),
                          "Right: guigue-f64 on 1 of 1 scene, moller-f32 on 1 of 1 scene, guigue-f32 on 0 of 1 scene. Of those that "
-                         "are right: guigue-f64 is soonest on slivers: 1.00 µs. The next, moller-f32, takes 3.00 µs, 3.00 times as "
+                         "are right: guigue-f64 is soonest on slivers: 1.00 µs; the next, moller-f32, takes 3.0 times as "
                          "long.")
         self.assertEqual(answer_of(made[1]), "Right: guigue-f32 on 0 of 1 scene.")
 
