@@ -18,16 +18,22 @@ namespace {
 constexpr const char* stages[] = {"bounds",    "codes", "sort",  "order", "gather",
                                   "hierarchy", "ropes", "broad", "copy",  "narrow"};
 
+std::string numbers(auto... values) { return (... + (' ' + std::to_string(values))); }
+
+/// Returns a text that is equal for two colliders if they answer the same question.
+std::string question_of(const ColliderChoice& collider)
+{
+    return numbers(static_cast<int>(collider.among), collider.keep_adjacent, collider.rules_off);
+}
+
 /// Returns a text that is equal for two cells if the stage does the same work in both.
 std::string key_of(const std::string& stage, const Cell& cell)
 {
     const BuilderChoice& builder = cell.builder;
     const ColliderChoice& collider = cell.collider;
-    const auto numbers = [](auto... values) { return (... + (' ' + std::to_string(values))); };
     std::string key = stage + ' ' + builder.boxes + (builder.sorted_leaves ? " sorted" : " mesh");
     if (is_of_query(stage))
-        key +=
-            numbers(static_cast<int>(collider.among), collider.keep_adjacent, collider.rules_off);
+        key += question_of(collider);
     if (stage == "narrow")
         return key + ' ' + collider.narrow;
     if (builder.name == "none")
@@ -50,7 +56,8 @@ std::string key_of_kind(const Cell& cell)
     const BuilderChoice& builder = cell.builder;
     const std::string_view equal =
         builder.name == "none" ? builder.name : find_builder(builder.name).oracle;
-    return cell.collider.name + " over " + (equal.empty() ? builder.name : std::string(equal));
+    return cell.collider.name + question_of(cell.collider) + " over " +
+           (equal.empty() ? builder.name : std::string(equal));
 }
 
 bool tells(const Cell& cell)
