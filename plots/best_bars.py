@@ -38,7 +38,7 @@ def parts_of(row: Row, objective: str) -> list[Part]:
 def draw_scene(axes: plt.Axes, rows: list[Row], objective: str, label: Callable[[Row], str]) -> set[tuple[str, str]]:
     """Draws the bars of one scene and returns the names and colours of their parts."""
     drawn = [parts_of(row, objective) for row in rows]
-    wholes = [1e-6 * (row.bytes if objective == "memory" else row.ns) for row in rows]
+    wholes = [sum(width for _, _, width in parts) if objective == "memory" else 1e-6 * row.ns for row, parts in zip(rows, drawn)]
     limit = frames.MOST * wholes[0]
     unit = "MB" if objective == "memory" else "ms"
     for place, (row, parts, whole) in enumerate(zip(rows, drawn, wholes)):

@@ -16,6 +16,7 @@ from results import USUAL_COSTS
 OBJECTIVES = ("frame", "query", "build", "memory")
 OF_QUERY = ("near", "ropes", "broad", "copy", "narrow")  # stages that follow the tree
 FEWEST = 3  # samples from which intervals are compared
+LEAST = 0.005  # differences below this are none: the best of two runs differ by more (docs/measuring.md, A race)
 FAR = 3  # ratio from which fewer samples are enough
 ERROR = 0.05
 
@@ -152,10 +153,14 @@ def margins(row: Row, objective: str) -> tuple[float, float, float]:
 
 
 def is_tied(row: Row, best: Row, objective: str) -> bool:
-    """True if the intervals of both overlap. Few samples tell only what is far apart."""
+    """True if the intervals of both overlap or the times hardly differ. Few samples tell only what is far apart."""
     if row is best:
         return True
-    if not row.complete or any(was_beaten(cell) for cell in row.cells):
+    if not row.complete:
+        return False
+    if objective not in AMOUNTS and row.ratio < 1 + LEAST:
+        return True
+    if any(was_beaten(cell) for cell in row.cells):
         return False
     if min(len(cell.samples) for cell in row.cells + best.cells) < FEWEST:
         return row.ns < FAR * best.ns

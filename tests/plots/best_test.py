@@ -49,6 +49,8 @@ class ARanking(unittest.TestCase):
         self.assertEqual([round(row.ratio, 2) for row in found.rows], [1, 1.03, 2])
         apart = ranked(frame("group", NARROW), frame("bvtt", [103, 104, 105, 106, 107]))
         self.assertFalse(apart.rows[1].tied)
+        hardly = ranked(frame("group", [1000] * 9), frame("bvtt", [1004] * 9), frame("leaf", [1006] * 9))
+        self.assertEqual([row.tied for row in hardly.rows], [True, True, False])
 
     def test_of_few_samples_tells_what_is_far_apart_only(self) -> None:
         found = ranked(frame("group", [100]), frame("bvtt", [250]), frame("leaf", [301]))
