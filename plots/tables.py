@@ -48,7 +48,7 @@ class Table:
             for entries in itertools.zip_longest(*made.cells_of(number), fillvalue=""):
                 lines.append(self.line(entries, widths, aligns, number in best))
         if made.left_out:
-            said = f"{counted(len(made.left_out), 'column')} left out: {', '.join(made.left_out)}; show --wide shows all"
+            said = f"{counted(len(made.left_out), 'column')} left out: {', '.join(made.left_out)}; --wide shows all"
             lines += [f"{line}\n" for line in textwrap.wrap(said, width, break_on_hyphens=False)]
         return "".join(lines)
 
