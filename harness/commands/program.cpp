@@ -110,7 +110,7 @@ private:
                 option = command->get_option_no_throw(name);
             if (option == nullptr && command != nullptr)
                 refuse_option(name, *command);
-            i += option != nullptr && option->get_type_size() > 0 && name == word ? 1 : 0;
+            i += option != nullptr && option->get_items_expected_max() > 0 && name == word ? 1 : 0;
         }
     }
 
@@ -155,7 +155,7 @@ int command_place(int argc, const char* const* argv)
         if (!word.starts_with('-'))
             return i;
         const CLI::Option* option = app.get_option_no_throw(word);
-        i += option != nullptr && option->get_type_size() > 0 ? 1 : 0;
+        i += option != nullptr && option->get_items_expected_max() > 0 ? 1 : 0;
     }
     return argc;
 }
