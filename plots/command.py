@@ -23,7 +23,7 @@ SEE = "Options that all commands have, exit codes and environment: bvhbench --he
 
 # Options of the whole program. They may come before or after the command, and are passed on to measuring processes.
 COMMON = ("--device", "--kernels", "--data", "--doubles", "--tuning", "--memory-limit", "--time-limit")
-COMMON_FLAGS = ("--force", "--verbose")
+COMMON_FLAGS = ("--force", "--verbose", "--wide")
 
 
 class Parser(argparse.ArgumentParser):
@@ -50,18 +50,12 @@ class Parser(argparse.ArgumentParser):
                 host_memory.limit = host_memory.bytes_of(arguments.memory_limit)
             except ValueError as error:
                 self.error(f"--memory-limit: {error}")
-        if hasattr(arguments, "wide"):
-            terminal.set_up(arguments.wide)
+        terminal.set_up(arguments.wide)
         if getattr(arguments, "out", None) == "":
             raise output.WrongUsage("--out names no file or folder")
         if getattr(arguments, "sah_inner", 1) == getattr(arguments, "sah_triangle", 1) == 0:
             raise output.WrongUsage("--sah-inner and --sah-triangle must not both be 0")
         return arguments
-
-    def add_wide(self) -> None:
-        """Adds --wide, for commands that print tables. Without it they fit the terminal."""
-        self.add_argument("--wide", action="store_true",
-                          help="print all columns; without it, tables fit the terminal. Output to a file or pipe has all columns")
 
     def add_costs(self) -> None:
         self.add_argument("--epo", "--quality", dest="quality", action="store_true",

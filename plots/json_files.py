@@ -95,6 +95,8 @@ def value_of(encoded: bytes) -> Any:
         raise ValueError(f"not text in UTF-8, at byte {error.start}") from error
     except UnicodeEncodeError as error:
         raise ValueError(f"a text in it has half a character, {error.object[error.start]!a}") from error
+    except json.JSONDecodeError as error:
+        raise ValueError(f"not JSON, at line {error.lineno}, column {error.colno}") from error
     except ValueError as error:
         raise ValueError(f"not JSON: {error}") from error
     except RecursionError as error:

@@ -22,6 +22,7 @@ class Fitted:
         self.left_out = self.leave_out([places[title] for title in LEAST if title in places])
         self.wrap(NARROWEST)
         self.left_out += self.leave_out([place for place in reversed(self.shown[1:]) if self.aligns[place] == ">"])
+        self.wrap(0)
 
     def take_constant(self, count: int) -> list[str]:
         """Removes columns with one value in all rows, and blank ones, and returns "title: value" of the former. At least one
@@ -37,10 +38,11 @@ class Fitted:
         return sum(self.limits[place] + GAP for place in self.shown) - GAP - self.width
 
     def wrap(self, least: int) -> None:
-        """Narrows columns of text, the widest first, down to `least`, until the table fits."""
+        """Narrows columns of text, the widest first, down to `least` or to their longest word, until the table fits."""
         for place in sorted((place for place in self.shown if self.aligns[place] == "<"), key=lambda place: -self.limits[place]):
             if (excess := self.excess()) > 0:
-                self.limits[place] = min(self.limits[place], max(least, self.limits[place] - excess))
+                word = max((len(word) for entry in (self.titles[place], *self.columns[place]) for word in entry.split()), default=0)
+                self.limits[place] = min(self.limits[place], max(least, min(word, WRAPPED), self.limits[place] - excess))
 
     def leave_out(self, order: list[int]) -> list[str]:
         """Removes columns, in the given order, until the table fits. Returns their titles."""
@@ -52,6 +54,6 @@ class Fitted:
             gone.append(self.titles[place])
         return gone
 
-    def cells_of(self, row: int) -> list[list[str]]:
-        """Returns the lines of each shown entry of a row."""
-        return [textwrap.wrap(self.columns[place][row], self.limits[place]) or [""] for place in self.shown]
+    def cells_of(self, row: list[str]) -> list[list[str]]:
+        """Returns the lines of each shown entry of a row, or of the titles."""
+        return [textwrap.wrap(row[place], self.limits[place]) or [""] for place in self.shown]

@@ -43,12 +43,11 @@ class Table:
         made, best = narrowing.Fitted(self.titles, self.aligns, self.rows, width), self.best()
         aligns, widths = [self.aligns[place] for place in made.shown], [made.limits[place] for place in made.shown]
         lines = [f"{line}\n" for line in textwrap.wrap("; ".join(made.above), width)]
-        lines.append(self.line([self.titles[place] for place in made.shown], widths, aligns))
-        for number in range(len(self.rows)):
-            for entries in itertools.zip_longest(*made.cells_of(number), fillvalue=""):
+        for number, row in enumerate((self.titles, *self.rows), -1):
+            for entries in itertools.zip_longest(*made.cells_of(row), fillvalue=""):
                 lines.append(self.line(entries, widths, aligns, number in best))
         if made.left_out:
-            said = f"{counted(len(made.left_out), 'column')} left out: {', '.join(made.left_out)}; show --wide shows all"
+            said = f"{counted(len(made.left_out), 'column')} left out: {', '.join(made.left_out)}; --wide shows all"
             lines += [f"{line}\n" for line in textwrap.wrap(said, width, break_on_hyphens=False)]
         return "".join(lines)
 

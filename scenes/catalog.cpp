@@ -179,7 +179,7 @@ bool looks_like_path(std::string_view text)
 {
     std::error_code error;
     return text.find('/') != text.npos || std::filesystem::exists(text, error) ||
-           is_mesh_file(text);
+           text.find('.') != text.npos;
 }
 
 Scene unfinished(std::string_view text, const SceneLibrary& library)

@@ -19,6 +19,7 @@ struct CommonOptions {
     double time_limit_s = 600;     ///< for a single build or query; 0: no limit
     bool force = false;            ///< whether existing files may be replaced
     bool quiet = false;            ///< whether tables of results are not printed
+    bool wide = false;             ///< whether tables may be wider than the terminal
     bool verbose = false;
 };
 

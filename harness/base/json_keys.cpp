@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "harness/base/json_keys.h"
 
+#include <re2/re2.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
@@ -49,7 +51,9 @@ bool truth_at(const Json& json, const char* key)
 std::string json_reason(const std::exception& error)
 {
     constexpr std::size_t longest = 200;
-    std::string text = error.what();
+    std::string text = error.what(), place;
+    if (RE2::PartialMatch(text, "parse error at (line \\d+, column \\d+)", &place))
+        return "not JSON, at " + place;
     if (text.starts_with("[json.exception."))
         text.erase(0, text.find("] ") + 2);
     if (text.size() > longest)

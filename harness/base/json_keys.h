@@ -59,7 +59,8 @@ void read_number(const Json& json, const char* key, std::type_identity_t<Number>
         value = number_of<Number>(json[key], key, least, most);
 }
 
-/// Returns the JSON library's message without its error number: one printable line, cut after 200 characters.
+/// Returns where a text stops being JSON. Of other errors of the JSON library, returns the message: one printable line, cut after
+/// 200 characters.
 std::string json_reason(const std::exception& error);
 
 /// Calls `add` with each item of the list at `key`. Throws BadUsage unless that is a list of at least one item.

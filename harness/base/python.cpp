@@ -84,7 +84,10 @@ void print_tables(const std::string& document, const CommonOptions& common)
     if (common.quiet)
         return;
     const MemoryFile file(document);
-    const std::string failure = failure_of("__main__.py", {"show", file.path()});
+    std::vector<std::string> words = {"show", file.path()};
+    if (common.wide)
+        words.emplace_back("--wide");
+    const std::string failure = failure_of("__main__.py", words);
     if (!failure.empty())
         throw Unavailable("no tables were printed, " + failure);
 }

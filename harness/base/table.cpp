@@ -5,15 +5,24 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <sstream>
+
+#include "harness/base/terminal.h"
 
 namespace bvhbench {
 namespace {
 
-/// Counts characters, not bytes: continuation bytes of UTF-8 start with the bits 10.
-std::size_t width(const std::string& text)
+/// Returns the words of `text` in lines of at most `width` characters, if the words are no longer.
+std::vector<std::string> wrapped(const std::string& text, std::size_t width)
 {
-    return static_cast<std::size_t>(
-        std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
+    std::istringstream words(text);
+    std::vector<std::string> lines;
+    for (std::string word; words >> word;)
+        if (lines.empty() || character_count(lines.back() + word) >= width)
+            lines.push_back(word);
+        else
+            lines.back() += ' ' + word;
+    return lines;
 }
 
 /// Formats three significant digits in the largest unit that gives at least 1.
@@ -28,24 +37,44 @@ std::string with_unit(double value, const std::vector<const char*>& units)
 
 }  // namespace
 
-std::string Table::text() const
+std::string Table::text(std::size_t width) const
 {
+    constexpr std::size_t gap = 2, indent = 4;
     std::vector<std::size_t> widths;
+    std::size_t fitting = 0, end = 0;  // number of columns that fit, and where they end
     for (std::size_t i = 0; i < columns_.size(); ++i) {
-        widths.push_back(width(columns_[i].title));
+        widths.push_back(character_count(columns_[i].title));
         for (const auto& row : rows_)
-            widths[i] = std::max(widths[i], i < row.size() ? width(row[i]) : 0);
+            widths[i] = std::max(widths[i], i < row.size() ? character_count(row[i]) : 0);
+        if (i == 0 || (i == fitting && (width == 0 || end + gap + widths[i] <= width))) {
+            end += widths[i] + (i == 0 ? 0 : gap);
+            ++fitting;
+        }
     }
+    const bool has_room = end + gap <= width / 2;
+    const std::size_t margin = has_room ? end + gap : indent;
     std::string out;
     const auto line = [&](const auto& entry_at) {
-        std::string text;
+        std::string text, more;
         for (std::size_t i = 0; i < columns_.size(); ++i) {
             const std::string entry = entry_at(i);
-            const std::string blank(widths[i] - width(entry), ' ');
+            if (i >= fitting) {
+                more += (more.empty() || entry.empty() ? "" : "; ") + entry;
+                continue;
+            }
+            const std::string blank(widths[i] - character_count(entry), ' ');
             text += i == 0 ? "" : "  ";
             text += columns_[i].align == Align::left ? entry + blank : blank + entry;
         }
-        out += text.substr(0, text.find_last_not_of(' ') + 1) + '\n';
+        text.erase(text.find_last_not_of(' ') + 1);
+        for (const std::string& each : wrapped(more, width - margin)) {
+            if (!has_room || character_count(text) >= margin) {
+                out += text + '\n';
+                text.clear();
+            }
+            text.append(margin - character_count(text), ' ') += each;
+        }
+        out += text + '\n';
     };
     if (std::any_of(columns_.begin(), columns_.end(),
                     [](const Column& c) { return !c.title.empty(); }))

@@ -20,8 +20,9 @@ public:
     /// Adds a row with one entry per column; missing entries at the end are blank.
     void row(std::vector<std::string> entries) { rows_.push_back(std::move(entries)); }
 
-    /// Returns the title line, if any column has a title, then the rows. Each line ends in a newline and has no trailing blanks.
-    std::string text() const;
+    /// Returns the title line, if any column has a title, then the rows. Each line ends in a newline and has no trailing blanks. With a
+    /// `width`, columns that do not fit are wrapped, as one text, in lines of their own or below the column where they begin.
+    std::string text(std::size_t width = 0) const;
 
 private:
     std::vector<Column> columns_;

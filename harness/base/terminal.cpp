@@ -1,11 +1,34 @@
 // SPDX-License-Identifier: MIT
 #include "harness/base/terminal.h"
 
+#include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 
 namespace bvhbench {
+namespace {
+
+/// Returns "12 s", "3 min" or "5 h 20 min", rounded up.
+std::string rough(double seconds)
+{
+    const auto whole = static_cast<long>(std::ceil(seconds));
+    const long minutes = (whole + 59) / 60;
+    return whole < 90 ? std::to_string(whole) + " s"
+           : minutes < 90
+               ? std::to_string(minutes) + " min"
+               : std::to_string(minutes / 60) + " h " + std::to_string(minutes % 60) + " min";
+}
+
+double seconds(std::chrono::steady_clock::duration time)
+{
+    return std::chrono::duration<double>(time).count();
+}
+
+}  // namespace
 
 std::string printable(std::string_view text)
 {
@@ -39,9 +62,27 @@ int PrintableOutput::overflow(int c)
     return xsputn(&text, 1) == 1 ? c : traits_type::eof();
 }
 
+std::size_t character_count(std::string_view text)
+{
+    return static_cast<std::size_t>(  // continuation bytes of UTF-8 start with the bits 10
+        std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
+}
+
+std::size_t terminal_width(int file)
+{
+    if (isatty(file) != 1)
+        return 0;
+    const char* variable = std::getenv("COLUMNS");
+    long columns = variable != nullptr ? std::strtol(variable, nullptr, 10) : 0;
+    winsize size{};
+    if (columns <= 0)
+        columns = ioctl(file, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+    return static_cast<std::size_t>(std::max(columns, 40L));
+}
+
 Progress::Progress(std::size_t total) : total_(total), is_shown_(isatty(STDERR_FILENO) == 1) {}
 
-Progress::~Progress()
+void Progress::clear() const
 {
     if (is_shown_)
         std::fputs(clear_line, stderr);
@@ -49,14 +90,34 @@ Progress::~Progress()
 
 void Progress::step(const std::string& what)
 {
-    ++done_;
+    ++begun_;
+    item_start_ = Clock::now();
     note(what);
 }
 
-void Progress::note(const std::string& what) const
+void Progress::note(const std::string& what, double share)
 {
-    if (is_shown_)
-        std::fprintf(stderr, "%s[%zu/%zu] %s", clear_line, done_, total_, printable(what).c_str());
+    const auto now = Clock::now();
+    if (!is_shown_ || (share > 0 && now - shown_ < std::chrono::milliseconds(200)))
+        return;
+    shown_ = now;
+    const double left = seconds_left(share, now);
+    std::string line = '[' + std::to_string(begun_) + '/' + std::to_string(total_) + ']' +
+                       (left > 0 ? " about " + rough(left) + " left:" : "") + ' ' + printable(what);
+    while (character_count(line) >= terminal_width(STDERR_FILENO))
+        line.pop_back();
+    std::fprintf(stderr, "%s%s", clear_line, line.c_str());
+}
+
+/// Returns 0 if nothing is known.
+double Progress::seconds_left(double share, Clock::time_point now) const
+{
+    const double finished = static_cast<double>(begun_) - 1, item = seconds(now - item_start_);
+    const double mean = finished > 0 ? seconds(item_start_ - start_) / finished : item / share;
+    if (finished <= 0 && share <= 0)
+        return 0;
+    const double rest = share > 0 ? item / share - item : std::max(0.0, mean - item);
+    return rest + mean * (static_cast<double>(total_) - finished - 1);
 }
 
 }  // namespace bvhbench

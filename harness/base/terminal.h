@@ -3,6 +3,8 @@
 // Terminal output: escapes control characters and shows the progress of long runs.
 #pragma once
 
+#include <chrono>
+#include <functional>
 #include <ostream>
 #include <streambuf>
 #include <string>
@@ -31,27 +33,46 @@ private:
     std::streambuf* to_;
 };
 
+/// Returns the columns of the terminal that the file descriptor is, at least 40; 0 if it is no terminal. COLUMNS takes precedence.
+std::size_t terminal_width(int file);
+
+/// Returns the number of characters, not bytes.
+std::size_t character_count(std::string_view text);
+
 /// Clears the progress line.
 constexpr const char* clear_line = "\r\033[K";
 
-/// A progress line on stderr. Prints nothing unless stderr is a terminal.
+/// Takes what is being done, and which share of the current item is done; 0: unknown.
+using Note = std::function<void(const std::string& what, double share)>;
+
+/// A progress line on stderr, no wider than the terminal. Prints nothing unless stderr is a terminal. Once something is done it has
+/// the time to go: the rest of the items takes as long as those before, or as the current one if it is the first.
 class Progress {
 public:
     explicit Progress(std::size_t total);
-    ~Progress();
+    ~Progress() { clear(); }
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
     /// Shows that the next of the `total` items has begun.
     void step(const std::string& what);
 
-    /// Changes the text shown for the current item.
-    void note(const std::string& what) const;
+    /// Changes the text shown for the current item, of which the share is done; 0: unknown. Notes with a share are shown a few times
+    /// a second.
+    void note(const std::string& what, double share = 0);
+
+    /// Removes the line, before other output.
+    void clear() const;
 
 private:
+    using Clock = std::chrono::steady_clock;
+
+    double seconds_left(double share, Clock::time_point now) const;
+
     std::size_t total_;
-    std::size_t done_ = 0;
+    std::size_t begun_ = 0;
     bool is_shown_;
+    Clock::time_point start_ = Clock::now(), item_start_ = start_, shown_ = {};
 };
 
 }  // namespace bvhbench

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string_view>
 
@@ -42,6 +43,8 @@ struct SamplingPlan {
     int samples = 20;  ///< per cell, if `rules.until` is 0
     int warm_up = 3;   ///< samples taken first and discarded
     SamplingRules rules = {};
+    /// Called after each round with the number of rounds taken, warm-up included; may be empty.
+    std::function<void(int)> after_round = {};
 };
 
 /// Why sampling of a cell stopped.

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <string>
 #include <vector>
 
+#include "harness/base/terminal.h"
 #include "harness/choice/catalog.h"
 #include "harness/choice/sampling.h"
 #include "scenes/face_order.h"
@@ -49,8 +49,7 @@ struct CollideTask : SceneChoice {
     int samples = 20;
     int warm_up = 3;
     SamplingRules sampling = {};
-    /// Called with a line of progress before work that takes long; may be empty.
-    std::function<void(const std::string& what)> note = {};
+    Note note = {};  ///< told before and during work that takes long; may be empty
 };
 
 /// Throws BadUsage for options that are invalid with swept boxes. Needs no scene.

@@ -59,6 +59,7 @@ public:
         if (results.size() == 0)
             throw BadUsage("--filter: no cell matches '" + filter_ + "'");
         results.finish(session.programs().compile_ns());
+        progress.clear();
         print_tables(results.text(), common);
         std::cout << results.written();
         const int code = results.exit_code();

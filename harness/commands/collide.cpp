@@ -128,7 +128,9 @@ private:
     {
         int order = results.next_order();
         Progress progress(scenes_.size());
-        task.note = [&](const std::string& what) { progress.note(task.scene + ", " + what); };
+        task.note = [&](const std::string& what, double share) {
+            progress.note(task.scene + ", " + what, share);
+        };
         for (std::size_t i = 0; i < scenes_.size(); ++i) {
             task.scene = scene_name(scenes_[i]);
             task.number = std::to_string(i);

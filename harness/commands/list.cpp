@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <unistd.h>
+
 #include <functional>
 #include <iostream>
 
@@ -9,6 +11,7 @@
 #include "geometry/names.h"
 #include "harness/accuracy/axis.h"
 #include "harness/base/table.h"
+#include "harness/base/terminal.h"
 #include "harness/choice/experiment.h"
 #include "harness/commands/command.h"
 #include "harness/commands/words.h"
@@ -28,12 +31,12 @@ Table blank_table(std::size_t columns)
 
 /// Returns one line for each entry, with its name first.
 template <class Entries, class... Column>
-std::string lines(const Entries& entries, const Column&... columns)
+Table lines(const Entries& entries, const Column&... columns)
 {
     Table table = blank_table(sizeof...(columns));
     for (const auto& entry : entries)
         table.row({std::string(columns(entry))...});
-    return table.text();
+    return table;
 }
 
 constexpr auto name = [](const auto& entry) { return entry.name; };
@@ -42,7 +45,7 @@ constexpr auto summary_or_why_not = [](const auto& entry) {
     return entry.make != nullptr ? entry.summary : entry.absent;
 };
 
-std::string orders(const CommonOptions&)
+Table orders(const CommonOptions&)
 {
     const auto bits = [](const OrderEntry& entry) {
         return entry.code_bits > 0 ? std::to_string(entry.code_bits) + " bits" : "no codes";
@@ -50,7 +53,7 @@ std::string orders(const CommonOptions&)
     return lines(order_catalog(), name, bits, summary);
 }
 
-std::string formats(const CommonOptions&)
+Table formats(const CommonOptions&)
 {
     const auto bytes = [](const BoxFormat& format) {
         return std::to_string(format.box_bytes()) + " bytes a box";
@@ -58,7 +61,7 @@ std::string formats(const CommonOptions&)
     return lines(box_formats(), name, bytes, summary);
 }
 
-std::string experiments(const CommonOptions&)
+Table experiments(const CommonOptions&)
 {
     std::vector<Experiment> all;
     for (const std::string_view one : experiment_names())
@@ -67,7 +70,7 @@ std::string experiments(const CommonOptions&)
 }
 
 /// Returns the values of all tuning parameters on the device and their origins.
-std::string tuning(const CommonOptions& common)
+Table tuning(const CommonOptions& common)
 {
     const PoclCache cache;
     const Device device = open_device_of(common);
@@ -81,11 +84,11 @@ std::string tuning(const CommonOptions& common)
                    parameter->stage.empty() ? "all stages" : std::string(parameter->stage),
                    std::string(parameter->meaning)});
     }
-    return table.text();
+    return table;
 }
 
 /// Returns the properties of all devices that the program depends on or reports.
-std::string devices(const CommonOptions&)
+Table devices(const CommonOptions&)
 {
     const PoclCache cache;
     const std::size_t count = device_names().size();
@@ -105,12 +108,12 @@ std::string devices(const CommonOptions&)
                                                                 : "division to 2.5 ulp") +
                        (facts.device_scope_acq_rel_atomics ? ", acq_rel atomics" : "")});
     }
-    return table.text();
+    return table;
 }
 
 struct ListEntry {
     std::string_view name;
-    std::string (*text)(const CommonOptions&);
+    Table (*table)(const CommonOptions&);
 };
 
 constexpr ListEntry lists[] = {
@@ -147,7 +150,8 @@ public:
 
     int run(const Invocation& invocation) override
     {
-        std::cout << list_->text(invocation.common);
+        const CommonOptions& common = invocation.common;
+        std::cout << list_->table(common).text(common.wide ? 0 : terminal_width(STDOUT_FILENO));
         return 0;
     }
 

@@ -110,7 +110,7 @@ private:
                 option = command->get_option_no_throw(name);
             if (option == nullptr && command != nullptr)
                 refuse_option(name, *command);
-            i += option != nullptr && option->get_type_size() > 0 && name == word ? 1 : 0;
+            i += option != nullptr && option->get_items_expected_max() > 0 && name == word ? 1 : 0;
         }
     }
 
@@ -144,24 +144,20 @@ private:
     std::string to_print_;
 };
 
-/// Returns the position in `argv` of a Python command: the first word that is neither an option nor an option's value. Returns 0
-/// if that word is not a Python command.
-int python_command(int argc, const char* const* argv)
+/// Returns the position in `argv` of the first word that is neither an option nor an option's value; `argc` without one.
+int command_place(int argc, const char* const* argv)
 {
     CommonOptions ignored;
     CLI::App app;
     add_common(app, ignored);
     for (int i = 1; i < argc; ++i) {
         const std::string word = argv[i];
-        if (word.starts_with('-')) {
-            const CLI::Option* option = app.get_option_no_throw(word);
-            i += option != nullptr && option->get_type_size() > 0 ? 1 : 0;
-            continue;
-        }
-        const CommandEntry* entry = find_name(commands(), word);
-        return entry != nullptr && entry->make == nullptr ? i : 0;
+        if (!word.starts_with('-'))
+            return i;
+        const CLI::Option* option = app.get_option_no_throw(word);
+        i += option != nullptr && option->get_items_expected_max() > 0 ? 1 : 0;
     }
-    return 0;
+    return argc;
 }
 
 }  // namespace
@@ -182,13 +178,16 @@ int run_program(int argc, const char* const* argv)
 {
     const PrintableOutput output(std::cout), errors(std::cerr);
     return exit_code_of([&] {
-        if (argc > 1 && argv[1] == std::string_view("help")) {  // help COMMAND is COMMAND --help
+        const int place = command_place(argc, argv);
+        const std::string command = place < argc ? argv[place] : "";
+        if (command == "help") {  // help COMMAND is COMMAND --help
             std::vector<const char*> words(argv, argv + argc);
-            words.erase(words.begin() + 1);
+            words.erase(words.begin() + place);
             words.push_back("--help");
             return run_program(argc, words.data());
         }
-        if (const int place = python_command(argc, argv); place > 0) {
+        if (const CommandEntry* entry = find_name(commands(), command);
+            entry != nullptr && entry->make == nullptr) {
             std::vector<std::string> words(argv + 1, argv + argc);
             std::rotate(words.begin(), words.begin() + place - 1, words.begin() + place);
             become_python(words);

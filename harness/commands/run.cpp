@@ -33,7 +33,7 @@ public:
     {
         const Experiment experiment = this->experiment();
         const CellFilter filter = cell_filter(filter_);
-        if (!has_cells(experiment, filter))
+        if (parts_of(experiment, filter) == 0)
             throw BadUsage("--filter: no cell of " + experiment.name + " matches '" + filter_ +
                            "'");
         const bool is_file = name_.ends_with(".json");

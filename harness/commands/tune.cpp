@@ -39,7 +39,7 @@ void put(const SearchResult& result, const TuneTask& task, int samples, TuningFi
 /// Searches one target, prints the result and writes the file. A signal writes what was found so far. Throws BadUsage if the
 /// target has no parameters, and what loading the scene and searching throw.
 void tune_target(Session& session, const TuneTask& task, const SearchOptions& options,
-                 const Output& output, TuningFile& file, const Progress& progress)
+                 const Output& output, TuningFile& file, Progress& progress)
 {
     TuneTarget over(session, task);
     const Tuning in_effect = tuning_of(file, session.device(), output.path().string());
@@ -47,6 +47,7 @@ void tune_target(Session& session, const TuneTask& task, const SearchOptions& op
     std::mutex mutex;  // guards result
     const auto keep = [&] {
         const std::lock_guard lock(mutex);
+        progress.clear();
         std::cout << "tuned: " << task.target << " over " << task.scene << " on "
                   << session.device().name() << '\n'
                   << search_report(result) << std::flush;

@@ -86,6 +86,9 @@ void add_common(CLI::App& app, CommonOptions& common)
         ->check(a_number(most_seconds));
     app.add_flag("--force", common.force, "replace files that are there, but none that is read");
     app.add_flag("--quiet", common.quiet, "print no tables of results");
+    app.add_flag("--wide", common.wide,
+                 "print tables with all columns; without it, they fit the terminal. In a file or "
+                 "pipe they have all");
     app.add_flag("--verbose", common.verbose, "say on stderr what is being used");
 }
 

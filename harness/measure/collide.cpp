@@ -50,6 +50,8 @@ void collide_scene(Session& session, const CollideTask& task, int& order, const 
         if (frame > frames.first)
             now.motions = object_motions(scene, frame - 1, frame);
         now.file_faces = scene.file_faces;
+        now.note = note_of(task, "frame " + std::to_string(frame), frame - frames.first,
+                           frames.end - frames.first);
         Found found{.scene = &scene};
         add(run_frame(session, task, all, now, order, found), found);
     }
@@ -73,6 +75,15 @@ FrameRange frames_of(const CollideTask& task, std::size_t there, const char* wha
                        std::to_string(there - 1) + ", not " + std::to_string(range.first) +
                        " to before " + std::to_string(range.end));
     return range;
+}
+
+Note note_of(const CollideTask& task, const std::string& what, std::size_t k, std::size_t count)
+{
+    if (!task.note)
+        return {};
+    return [&task, what, k, count](const std::string& how, double share) {
+        task.note(what + ", " + how, (static_cast<double>(k) + share) / static_cast<double>(count));
+    };
 }
 
 Cell planned_cell(const CollideTask& task, const PipelineChoice& pipeline)

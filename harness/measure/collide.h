@@ -30,6 +30,9 @@ FrameRange frames_of(const CollideTask& task, std::size_t there, const char* wha
 
 SceneFacts facts_of(const CollideTask& task, const Scene& scene, std::size_t frame);
 
+/// Returns what notes the `k`-th of a task's `count` frames or steps, named `what`.
+Note note_of(const CollideTask& task, const std::string& what, std::size_t k, std::size_t count);
+
 /// Returns a cell that names the task, builder and collider and has no measurements yet.
 Cell planned_cell(const CollideTask& task, const PipelineChoice& pipeline);
 
@@ -76,6 +79,7 @@ struct FrameOfPipelines {
     SweptFacts swept = {};
     std::vector<Motion> motions = {};       ///< since the previous frame; empty: unknown
     std::span<const uint> file_faces = {};  ///< as Scene::file_faces
+    Note note = {};
     /// Judges what a pipeline found, in addition to the oracles; may be empty.
     std::function<void(const Found& found, Cell& cell)> judge_more = {};
 };

@@ -15,6 +15,11 @@ namespace {
 /// Fewer samples than this run without calibration: compiling it takes longer than they do, and drift matters little.
 constexpr int fewest_calibrated = 9;
 
+double seconds_since(std::chrono::steady_clock::time_point start)
+{
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 /// Samples on the session's device. Runs the calibration between samples if there are enough of them, and empties the caches
 /// before each if the plan says so. Throws as take_samples does.
 std::vector<Taken> session_samples(Session& session, std::span<const Timed> cells,
@@ -130,10 +135,28 @@ SamplingFacts Engine::facts_of(Stopped stopped) const
     return {.stopped = stopped, .until = rules.until, .race = rules.race, .cold = rules.cold};
 }
 
+/// Notes that `rounds` have been sampled in `sampling_s`, after `before_s` of preparation. All rounds take as long as the average.
+void Engine::tell(int rounds, double before_s, double sampling_s) const
+{
+    const bool is_fixed = plan_.rules.until == 0;
+    const int most = plan_.warm_up + (is_fixed ? plan_.samples : plan_.rules.max_samples);
+    double all_s = sampling_s * most / rounds;
+    if (!is_fixed)
+        all_s = std::max(sampling_s, std::min(all_s, plan_.rules.time_budget_s));
+    note_("sample " + std::to_string(rounds) + (is_fixed ? " of " : " of at most ") +
+              std::to_string(most),
+          (before_s + sampling_s) / (before_s + all_s));
+}
+
 void Engine::sample(std::span<Subject> subjects)
 {
     if (other_sampler)
         return other_sampler(subjects);
+    const double before_s = seconds_since(start_);
+    if (note_)
+        plan_.after_round = [this, before_s](int rounds) {
+            tell(rounds, before_s, seconds_since(start_) - before_s);
+        };
     std::vector<Timed> timed;
     std::vector<Subject*> ready;
     for (Subject& one : subjects) {

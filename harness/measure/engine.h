@@ -4,11 +4,13 @@
 // judge it again. A step that fails marks the cell as failed or skipped, with the reason.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "harness/base/terminal.h"
 #include "harness/choice/sampling.h"
 #include "harness/measure/contest.h"
 #include "harness/record/record.h"
@@ -37,9 +39,9 @@ std::int64_t host_ns(const std::function<void()>& work);
 
 class Engine {
 public:
-    /// `order` is the number of the next sample; each sample increments it.
-    Engine(Session& session, SamplingPlan plan, int& order)
-        : session_(session), plan_(plan), order_(order)
+    /// `order` is the number of the next sample; each sample increments it. `note` is told of samples; may be empty.
+    Engine(Session& session, SamplingPlan plan, int& order, Note note = {})
+        : session_(session), plan_(std::move(plan)), order_(order), note_(std::move(note))
     {}
 
     /// Runs `work`, which compiles, runs and judges the cell for the first time, and fills in `cell` and `once`. Marks the cell
@@ -66,10 +68,13 @@ private:
     SamplingFacts facts_of(Stopped stopped) const;
     std::vector<StageTime> run_once(Subject& subject);
     double slower_now();
+    void tell(int rounds, double before_s, double sampling_s) const;
 
     Session& session_;
     SamplingPlan plan_;
     int& order_;
+    Note note_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     Subject* ahead_ = nullptr;  ///< the best of those that were looked at
     double ahead_ns_ = 0;       ///< its least time
 };

@@ -167,9 +167,9 @@ std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span
                             const FrameOfPipelines& frame, int& order, Found& found)
 {
     const Input& input = frame.input;
-    FrameOracle oracle(input, frame.file_faces, task.note);
+    FrameOracle oracle(input, frame.file_faces, frame.note);
     oracle.begin(all.front().choice.collider);  // runs while the first pipeline settles
-    Engine engine(session, {task.samples, task.warm_up, task.sampling}, order);
+    Engine engine(session, {task.samples, task.warm_up, task.sampling}, order, frame.note);
     std::vector<Subject> subjects(all.size());
     for (std::size_t k = 0; k < all.size(); ++k) {
         Running& one = all[k];
@@ -186,6 +186,10 @@ std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span
             engine.refuse(subject, one.status, one.reason);
             continue;
         }
+        if (frame.note)
+            frame.note(one.choice.collider.name + " over " + one.choice.builder.name + ", cell " +
+                           std::to_string(k + 1) + " of " + std::to_string(all.size()),
+                       0);
         engine.settle(subject, [&] {
             require_memory(cell.collider, input.triangle_count(), oracle);
             subject.settled = settle(session, one, frame, cell);

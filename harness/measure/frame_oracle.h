@@ -4,7 +4,6 @@
 #pragma once
 
 #include <chrono>
-#include <functional>
 #include <future>
 #include <map>
 #include <span>
@@ -14,6 +13,7 @@
 #include "collide/oracles/exact_reference.h"
 #include "collide/oracles/sweep.h"
 #include "geometry/host_memory.h"
+#include "harness/base/terminal.h"
 #include "harness/choice/catalog.h"
 
 namespace bvhbench {
@@ -33,8 +33,7 @@ struct Answer {
 class FrameOracle {
 public:
     /// `file_faces` are as in FrameOfPipelines. `note` receives a line of progress each second of waiting.
-    FrameOracle(const Input& input, std::span<const uint> file_faces,
-                std::function<void(const std::string&)> note)
+    FrameOracle(const Input& input, std::span<const uint> file_faces, Note note)
         : input_(input), file_faces_(file_faces), note_(std::move(note))
     {}
 
@@ -77,7 +76,7 @@ private:
         for (int seconds = 1; later.wait_for(std::chrono::seconds(1)) != std::future_status::ready;
              ++seconds) {
             if (note_)
-                note_("the oracle is checking, " + std::to_string(seconds) + " s");
+                note_("the oracle is checking, " + std::to_string(seconds) + " s", 0);
         }
         return later;
     }
@@ -98,7 +97,7 @@ private:
 
     const Input& input_;
     std::span<const uint> file_faces_;
-    std::function<void(const std::string&)> note_;
+    Note note_;
     std::map<std::pair<Among, bool>, Entry>
         entries_;  ///< by the kind of pairs, and whether adjacent ones are kept
 };

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
+#include <unistd.h>
+
 #include <iostream>
 
 #include "collide/narrow/narrow_methods.h"
 #include "harness/base/python.h"
 #include "harness/base/table.h"
+#include "harness/base/terminal.h"
 #include "harness/measure/run.h"
 #include "harness/record/provenance.h"
 
@@ -40,7 +43,7 @@ std::string device_text(const Device& device)
                    value.is_string() ? value.get<std::string>() : value.dump()});
     table.row({"loops", device.ends_loops ? "end after 65,535 steps" : "end by themselves"});
     table.row({"extensions", device.cl.getInfo<CL_DEVICE_EXTENSIONS>()});
-    return table.text();
+    return table.text(terminal_width(STDOUT_FILENO));
 }
 
 }  // namespace

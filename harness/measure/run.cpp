@@ -155,43 +155,44 @@ bool passes(const CellFilter& filter, const std::string& cell)
     return filter == nullptr || re2::RE2::PartialMatch(cell, *filter);
 }
 
-bool has_cells(const Experiment& experiment, const CellFilter& filter)
+std::size_t parts_of(const Experiment& experiment, const CellFilter& filter)
 {
-    return std::any_of(experiment.scenes.begin(), experiment.scenes.end(),
-                       [&](const std::string& scene) {
-                           return !chosen(experiment, scene, filter).empty();
-                       }) ||
-           std::any_of(experiment.collisions.begin(), experiment.collisions.end(),
-                       [&](const CollideTask& task) { return !chosen(task, filter).empty(); });
+    return static_cast<std::size_t>(
+        std::ranges::count_if(
+            experiment.scenes,
+            [&](const std::string& scene) { return !chosen(experiment, scene, filter).empty(); }) +
+        std::ranges::count_if(experiment.collisions, [&](const CollideTask& task) {
+            return !chosen(task, filter).empty();
+        }));
 }
 
 void Run::experiment(const Experiment& experiment, const CellFilter& filter)
 {
     session_.read_doubles(experiment.doubles);
-    Progress progress(experiment.scenes.size() + experiment.collisions.size());
+    Progress progress(parts_of(experiment, filter));
     for (const CollideTask& task : experiment.collisions)
         collisions(task, filter, progress);
-    for (const std::string& name : experiment.scenes) {
-        const std::vector<BuilderChoice> builders = chosen(experiment, name, filter);
-        progress.step(experiment.name + ": " + name);
-        if (!builders.empty())
+    for (const std::string& name : experiment.scenes)
+        if (const auto builders = chosen(experiment, name, filter); !builders.empty()) {
+            progress.step(experiment.name + ": " + name);
             scene(experiment, name, builders, progress);
-    }
+        }
 }
 
 void Run::collisions(CollideTask task, const CellFilter& filter, Progress& progress)
 {
     const std::string title = task.experiment + ": " + task.scene;
-    progress.step(title);
     task.number = std::to_string(scenes_++);
     task.pipelines = chosen(task, filter);
-    task.note = [&](const std::string& what) { progress.note(title + ", " + what); };
+    task.note = [&](const std::string& what, double share) {
+        progress.note(title + ", " + what, share);
+    };
     if (task.pipelines.empty())
         return;
+    progress.step(title);
     collide_frames(
         session_, task, order_,
         [&](std::vector<Cell>&& cells, const Found&) {
-            task.note("frame " + std::to_string(cells.front().scene.frame));
             for (const Cell& cell : cells)
                 results_.add(cell);
         },
@@ -220,7 +221,11 @@ void Run::scene(const Experiment& experiment, const std::string& name,
         no_scene = reason_of_failure(load);
 
     Oracle oracle(session_, frames.now()), oracle_before(session_, frames.before());
-    Engine engine(session_, {experiment.samples, experiment.warm_up, experiment.sampling}, order_);
+    const Note note = [&](const std::string& what, double share) {
+        progress.note(experiment.name + ": " + name + ", " + what, share);
+    };
+    Engine engine(session_, {experiment.samples, experiment.warm_up, experiment.sampling}, order_,
+                  note);
     const std::size_t count = builders.size() * experiment.operations.size();
     Contest contest(experiment.sampling.race);
     std::vector<Subject> subjects(count);
@@ -237,6 +242,9 @@ void Run::scene(const Experiment& experiment, const std::string& name,
             engine.refuse(subject, Cell::Status::skipped, no_scene.empty() ? why : no_scene);
             continue;
         }
+        note(subject.cell.builder.name + ", cell " + std::to_string(k + 1) + " of " +
+                 std::to_string(count),
+             0);
         engine.settle(subject, [&] {
             Oracle& own = subject.cell.operation == Operation::refit ? oracle_before : oracle;
             settle(session_, experiment, frames, own, costs_, subject.cell, built[k]);
@@ -256,7 +264,6 @@ void Run::scene(const Experiment& experiment, const std::string& name,
     }
     oracle.wait();  // builders that failed may have begun references that are still running
     oracle_before.wait();
-    progress.note(experiment.name + ": " + name + ", sampling");
     engine.sample(subjects);
     for (const Subject& subject : subjects)
         results_.add(subject.cell);

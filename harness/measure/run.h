@@ -26,8 +26,8 @@ CellFilter cell_filter(const std::string& text, const char* option = "--filter")
 /// True if any part of `cell` matches the filter, or if that is null.
 bool passes(const CellFilter& filter, const std::string& cell);
 
-/// True if the experiment has a cell that matches.
-bool has_cells(const Experiment& experiment, const CellFilter& filter);
+/// Returns the number of scenes of the experiment, of builds and of collisions, that have a cell that matches.
+std::size_t parts_of(const Experiment& experiment, const CellFilter& filter);
 
 /// Returns run_facts (harness/record/provenance.h) with the device's copy rate and launch cost, which it measures.
 Json measured_facts(Session& session, std::vector<std::string> command,

@@ -114,6 +114,8 @@ void collide_swept(Session& session, const CollideTask& task, int& order, const 
                 .contest = question.contest,
                 .number = task.number + '/' + std::to_string(step) + '/' + question.name,
                 .scene = facts_of(task, scene, step)};
+            now.note = note_of(task, "step " + std::to_string(step), step - steps.first,
+                               steps.end - steps.first);
             now.swept = {.pairs = question.name,
                          .to_frame = static_cast<std::int64_t>(step + 1),
                          .primitives = question.input.triangle_count()};

@@ -213,6 +213,8 @@ private:
             take(i, counts);
         }
         stop_beaten();
+        if (plan_.after_round)
+            plan_.after_round(++rounds_);
     }
 
     /// Marks the cells that another one beats, and removes all that have stopped.
@@ -260,6 +262,7 @@ private:
     std::vector<StoppingRule> rules_;
     std::vector<Runner> runners_;
     std::vector<std::size_t> going_;
+    int rounds_ = 0;
     std::chrono::steady_clock::time_point start_;
 };
 

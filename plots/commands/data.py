@@ -4,11 +4,13 @@ import difflib
 import importlib.util
 import os
 import pathlib
+import textwrap
 import types
 
 import command
 import documents
 import output
+import terminal
 from json_files import Refused
 from output import WrongUsage
 from tables import Table, size
@@ -69,8 +71,10 @@ def listing(fetch: types.ModuleType, entries: list[dict[str, str]], folder: path
         table.row(entry["name"], *(entry[key].replace("-", "") for key in ("triangles", "frames")), size_of(entry, folder),
                   "download" if fetch.downloads(entry, None) else "mirror" if sums else "hand",
                   next(iter(sums.values()), "")[:12])
-    about = "".join(f"{entry['name']}: {entry['licence']}; {entry['source'] if entry['url'] == '-' else entry['url']}\n" for entry in entries)
-    return f"{table.text()}\n{about}"
+    about = [f"{entry['name']}: {entry['licence']}; {entry['source'] if entry['url'] == '-' else entry['url']}" for entry in entries]
+    if width := terminal.screen.width:
+        about = [textwrap.fill(line, width, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False) for line in about]
+    return "\n".join([table.text(), *about, ""])
 
 
 def size_of(entry: dict[str, str], folder: pathlib.Path | None) -> str:

@@ -43,7 +43,6 @@ def parser() -> command.Parser:
          ("bvhbench reproduce fig8 --device nvidia --data meshes", "on a GPU, with real meshes")], "docs/paper.md")
     words.add_argument("what", metavar="WHAT", help="table1 to table4, fig8, fig9, fig10, fig13; or all, and a page of all")
     words.add_argument("--out", default="out", help="folder for result files, figures and the page")
-    words.add_wide()
     words.add_argument("--quick", action="store_true", help="fewer scenes and samples")
     words.add_costs()
     return words

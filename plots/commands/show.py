@@ -10,9 +10,8 @@ from console import run as run_page
 def parser() -> command.Parser:
     words = command.Parser("show", "Print a result file as tables", "Prints what the command that wrote the file did.",
                            [("bvhbench show peers.json", "its tables"), ("bvhbench show out", "of every file below a folder"),
-                            ("bvhbench show peers.json --wide | less -S", "with all columns")], "docs/results.md")
+                            ("bvhbench show peers.json --wide", "with all columns")], "docs/results.md")
     words.add_argument("files", nargs="+", metavar="FILE", help="result files, or folders of them")
-    words.add_wide()
     return words
 
 

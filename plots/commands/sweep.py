@@ -67,7 +67,6 @@ def parser() -> command.Parser:
     add("--continue-other-commit", action="store_true",
         help="keep cells that another commit has measured, and go on with this one")
     add("--retry-failed", action="store_true", help="measure cells that failed again")
-    words.add_wide()
     add("--dry-run", action="store_true", help="print the cells and measure none")
     return words
 
@@ -79,7 +78,7 @@ def described(arguments: argparse.Namespace) -> Json:
         try:
             description = value_of(documents.file_text(arguments.file, "the sweep's file"))
         except ValueError as error:
-            raise WrongUsage(f"parse error: {error}") from error
+            raise WrongUsage(str(error)) from error
         if not isinstance(description, dict):
             raise WrongUsage("a sweep must be an object")
     for key in LISTS:

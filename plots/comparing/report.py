@@ -76,6 +76,6 @@ def summary(comparison: Comparison) -> str:
         alone = len(comparison.only_first) + len(comparison.only_second)
         return (f"{counted(len(verdicts), 'cell')} of {builders[1]} against {builders[0]}: {counts} at "
                 f"{100 * comparison.rules.threshold:.1f} %\n" + (f"not of both: {counted(alone, 'cell')}\n" if alone else ""))
-    return (f"{len(verdicts)} cells: {counts} at {100 * comparison.rules.threshold:.1f} %"
+    return (f"{counted(len(verdicts), 'cell')}: {counts} at {100 * comparison.rules.threshold:.1f} %"
             f"{f'; {few} have fewer than {FEWEST_SAMPLES} samples' if few else ''}\n"
             f"{regressions or 'no'} regression{'s' if regressions > 1 else ''}\n")

@@ -66,7 +66,7 @@ def parsed(text: bytes, origin: str) -> dict[str, Any]:
     try:
         baseline = value_of(text)
         if not isinstance(baseline, dict) or "format" not in baseline:
-            raise ValueError("key 'format' not found")
+            raise ValueError("key 'format' not found" if isinstance(baseline, dict) else "it is no object")
         if baseline["format"] != FORMAT:
             raise Refused(f'{origin} has format {line_of(baseline["format"])}; this program reads "{FORMAT}"')
         shape.check_of(SCHEMA, SCHEMA)(baseline)

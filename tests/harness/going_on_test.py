@@ -124,7 +124,7 @@ def test_a_signal_ends_what_reads_generates_judges_and_measures_and_keeps_what_i
     oracle = {"pipelines": [{"builder": "perfect", "collider": "leaf", "narrow": "exact"}]}
     for sent, seconds, scene, keys in ((signal.SIGTERM, 0.2, "large.obj", {}), (signal.SIGINT, 0.2, simulated, {}),
                                        (signal.SIGHUP, 0.2, simulated, {}), (signal.SIGTERM, 1, "hairball:200000", oracle),
-                                       (signal.SIGTERM, 1, "hairball:200000", {"quality": True})):
+                                       (signal.SIGTERM, 1, "hairball:500000", {"quality": True})):
         with at_work(*begun(scene, **keys)) as process:
             wait_until(lambda: pathlib.Path("signals.json").exists())
             time.sleep(seconds)

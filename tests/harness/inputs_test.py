@@ -88,27 +88,33 @@ def test_a_list_of_nothing_is_refused():
 def one_sentence(path: str, *words: str, codes: tuple[int, ...]) -> None:
     done = run(*words)
     assert done.returncode in codes and done.stderr.count("\n") == 1 and path in done.stderr, (words, done)
-    assert not re.search("json.exception|basic_", done.stderr), done.stderr
+    assert not re.search("json.exception|basic_|syntax error|Expecting|Traceback|Errno", done.stderr), done.stderr
     assert len(done.stderr) < 500 and done.stderr.strip().isprintable(), done.stderr
 
 
-# Commands that read a file, with the exit code for an unreadable one.
+# Commands that read a JSON file, with the exit code for one that is none, and commands that take one for a mesh.
 READERS = ((("run", "FILE", "--out", "o.json"), 2), (("show", "FILE"), 3),
            (("build", "--builder", "perfect", "--scene", "soup:9", "--tuning", "FILE"), 3))
 MORE_READERS = ((("sweep", "FILE", "--out", "o"), 2), (("compare", "FILE", "FILE"), 3), (("merge", "FILE", "-o", "m.json"), 3),
-                (("smoke", "--baseline", "FILE"), 3))
+                (("smoke", "--baseline", "FILE"), 3), (("plot", "FILE"), 3), (("report", "FILE"), 3),
+                (("export", "FILE", "--format", "csv"), 3))
+SCENE_READERS = (("build", "--builder", "perfect", "--scene", "FILE"), ("collide", "--collider", "leaf", "--scene", "FILE"),
+                 ("tune", "sort", "--out", "t.json", "--scene", "FILE"))
 
 
 def test_json_that_is_none_and_a_folder_are_a_sentence_without_the_parsers_words():
-    texts = ("{", "", "[1, 2", '{"experiment": 3}', '{"experiment": "x", "scenes": [], "builders": []}', '{"a": \x01}', "\xff\xfe",
-             '{"experiment": "x", "scenes": [7], "builders": ["perfect"]}', "[" * 5000, '"' + "a" * 100_000)
+    texts = ("{", "[1, 2]", '{"format": 3}', "", "[1, 2", "7", '{"experiment": 3}', '{"experiment": "x", "scenes": [], "builders": []}',
+             '{"a": \x01}', "\xff\xfe", '{"experiment": "x", "scenes": [7], "builders": ["perfect"]}', "[" * 5000, '"' + "a" * 100_000)
     for number, text in enumerate(texts):
         pathlib.Path("bad.json").write_text(text, encoding="latin-1")
-        for words, code in READERS if number else READERS + MORE_READERS:
+        for words, code in READERS if number > 2 else READERS + MORE_READERS:
             one_sentence("bad.json", *(word.replace("FILE", "bad.json") for word in words), codes=(code, 2))
     pathlib.Path("folder.json").mkdir()
-    for words, _ in READERS[:2] + MORE_READERS:
-        one_sentence("folder.json", *(word.replace("FILE", "folder.json") for word in words), codes=(2, 3))
+    pathlib.Path("cut.json.xz").write_bytes(lzma.compress(bytes(range(256)))[:60])
+    for path in ("bad.json", "folder.json", "cut.json.xz", "/dev/null", "nothere.json"):
+        readers = [words for words, _ in (READERS[:2] + MORE_READERS) if path != "bad.json"]
+        for words in (*readers, *SCENE_READERS):
+            one_sentence(path, *(word.replace("FILE", path) for word in words), codes=(2, 3))
 
 
 def test_every_reader_takes_a_result_packed_by_xz_and_a_damaged_one_is_a_sentence():

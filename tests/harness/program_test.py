@@ -1,11 +1,15 @@
 #!/usr/bin/env python3
 """Tests the program's exit codes, output and result files."""
+import contextlib
 import json
 import os
 import pathlib
+import pty
+import re
+import subprocess
 import sys
 
-from program import expect, experiment, main, only, valid
+from program import PROGRAM, expect, experiment, main, only, valid
 
 PERFECT = "build --builder perfect --scene soup:5"
 SENTENCES = (
@@ -37,6 +41,8 @@ SENTENCES = (
     (0, "--help", "reproduce"),
     (0, "help", "reproduce"),
     (0, "help sweep", "--dry-run"),
+    (0, "--verbose help build", "--group-size"),
+    (0, "--wide show --help", "result files"),
     (0, "build --help", "--group-size"),
     (0, "--version", "bvhbench "),
     (0, "list scenes", "\nsoup:"),
@@ -66,6 +72,31 @@ def test_lists_put_the_name_first():
     assert first[:12] == ["perfect", "karras", "apetrei", "apetrei-fused", "lbvh-levels", "oibvh-single",
                           "oibvh-multi", "oibvh-wide4", "oibvh-wide8", "oibvh-host", "oibvh-reference",
                           "radix-reference"], first
+
+
+def on_a_terminal(*words: str) -> list[str]:
+    """Runs the program on a terminal of 80 columns. Returns what it shows, line by line, with each state of its line of progress."""
+    own, child = pty.openpty()
+    with subprocess.Popen([PROGRAM, *words], stdout=child, stderr=child,
+                          env={**os.environ, "COLUMNS": "80", "NO_COLOR": "1"}) as process, os.fdopen(own, "rb", buffering=0) as shown:
+        os.close(child)
+        text = b""
+        with contextlib.suppress(OSError):  # when the terminal's other end is closed
+            while part := shown.read(4096):
+                text += part
+    assert process.returncode == 0, text
+    return re.split("[\r\n]+(?:\x1b\\[K)?", text.decode())
+
+
+def test_a_terminal_has_narrow_lists_and_the_time_that_a_run_takes():
+    for what in ("scenes", "builders", "devices", "experiments"):
+        narrow, whole = on_a_terminal("list", what), expect(0, "list", what)
+        assert max(map(len, narrow)) <= 80 < max(map(len, whole.splitlines())), narrow
+        assert " ".join(narrow).replace(";", " ").split() == whole.replace(";", " ").split(), narrow  # nothing is left out
+        assert on_a_terminal("list", what, "--wide") == whole.split("\n"), what
+    shown = on_a_terminal("collide", "--collider", "leaf", "--scene", "cloth-ball:2000:2", "--frames", "0:", "--samples", "1000", "--quiet")
+    assert max(map(len, shown)) < 80 and shown[0] == "" and shown[1] == "[1/1] cloth-ball:2000:2", shown
+    assert any(re.fullmatch(r"\[1/1\] about \d+ s left: cloth-ball:2000:2, frame \d, sample \d+ of 1003", line) for line in shown), shown
 
 
 def test_build_writes_a_valid_result_and_the_tree_as_it_was_asked_for():

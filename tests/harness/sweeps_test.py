@@ -257,7 +257,7 @@ def test_what_cannot_be_is_one_sentence():
             ("'builders' must be a list of at least one", '{"scenes":["soup:70"],"builders":[]}'),
             ("'boxes' must be a list", '{"scenes":["soup:70"],"builders":["perfect"],"set":{"boxes":[]}}'),
             ("'scene' is no key of a sweep; there are: sweep, question, scenes", '{"scene":["soup:70"]}'),
-            ("must be an object", "[]"), ("parse error", "{"), ("--out is required", ""),
+            ("must be an object", "[]"), ("not JSON, at line 1, column 2", "{"), ("--out is required", ""),
             ("whole holds another sweep, 'sweep' of 2 scenes x 2 builders x 2 orders: 8 of the 8 cells that it measures are none of these; "
              "choose another --out", f"{soup} --out whole"),
             ("taken/sweep.json is there and no sweep's", f"{soup} --out taken")):

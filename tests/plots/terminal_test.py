@@ -38,6 +38,14 @@ class Tables(unittest.TestCase):
             lines = self.text(width).splitlines()
             self.assertLessEqual(max(map(len, lines)), width, lines)
 
+    def test_wrap_titles_and_break_no_word(self) -> None:
+        table = Table("<scene", *(f"<a library with a long name {number}" for number in range(3)))
+        table.row("hairball:2880000", "right", "wrong", "19 wrong")
+        terminal.screen = terminal.Screen(64)
+        lines = table.text().splitlines()
+        self.assertLessEqual(max(map(len, lines)), 64, lines)
+        self.assertIn("hairball:2880000", "".join(lines))
+
     def test_say_what_all_rows_share_once_above_them(self) -> None:
         above, titles, *rows = self.text(120).splitlines()
         self.assertEqual(above, "scene: bunny; triangles: 144,046; p10: 1 us; n: 20")

@@ -47,7 +47,7 @@ class Refusals(unittest.TestCase):
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
             other = folder / "other.json"
-            for text, words in (("{}", "not a result file"), ("{", "Expecting"), ('{"format": "2.0"}', "this reader knows 1.x")):
+            for text, words in (("{}", "not a result file"), ("{", "not JSON, at line 1"), ('{"format": "2.0"}', "this reader knows 1.x")):
                 other.write_text(text, encoding="utf-8")
                 done = report(folder / "r.html", other)
                 self.assertEqual((done.returncode, done.stdout), (3, ""))
