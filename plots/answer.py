@@ -5,6 +5,7 @@ from collections.abc import Sequence
 
 import families
 import names
+import terminal
 from cells import Cell
 from ranking import Ranking, Row, ranked
 from tables import duration, size
@@ -146,7 +147,7 @@ def of_cells(cells: Sequence[Cell]) -> str:
         return ""
     races = {cell.raw.get("sampling", {}).get("race", "") for cell in measured}
     objective = {"query": "query", "memory": "memory"}.get(races.pop() if len(races) == 1 else "", "")
-    return sentence(ranked(cells, objective or ("build" if operation == "build" else "frame"))) + "\n"
+    return terminal.prose(sentence(ranked(cells, objective or ("build" if operation == "build" else "frame")))) + "\n"
 
 
 def repeated(row: Row, scene: str, words: Sequence[str]) -> str:

@@ -3,6 +3,7 @@ import os
 import re
 import shutil
 import sys
+import textwrap
 from dataclasses import dataclass
 
 # Stand for the start of a style and for its end in text on its way to standard output, which spells out control characters.
@@ -32,6 +33,11 @@ def set_up(is_wide: bool) -> None:
 def cleaned(text: str) -> str:
     """Returns the text without the letters that stand for styles: names from files have none."""
     return re.sub(f"[{RED}-{PLAIN}]", "", text)
+
+
+def prose(text: str) -> str:
+    """Returns the text with line breaks between words where a terminal is narrower."""
+    return text if screen.width is None else textwrap.fill(text, screen.width, break_long_words=False, break_on_hyphens=False)
 
 
 def of_verdict(entry: str) -> str:

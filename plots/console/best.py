@@ -4,6 +4,7 @@ import math
 import answer
 import families
 import results
+import terminal
 from cells import Cell, grouped
 from ranking import Ranking, Row, ranked
 from tables import Table, counted, fixed, whole
@@ -55,7 +56,7 @@ def left_out(found: Ranking, all_: bool) -> str:
     """Returns what has no time, counted by reason or, with `all_`, listed."""
     lines = []
     for why, cells in grouped(found.without, reason).items():
-        lines.append(f"{counted(len(cells), 'cell')} {cells[0].status}: {why}\n")
+        lines.append(terminal.prose(f"{counted(len(cells), 'cell')} {cells[0].status}: {why}") + "\n")
         lines += [f"    {cell.label}{cell.reason.removeprefix(why)}\n" for cell in cells] if all_ else []
     beaten = sum(cell.raw.get("sampling", {}).get("stopped") == "beaten" for rows in found.scenes.values() for row in rows
                  for cell in row.cells)
@@ -93,5 +94,5 @@ def text(found: Ranking, all_: bool = False) -> str:
         parts += ["all scenes: the geometric mean of the ratios to each scene's best\n",
                   rows_text(found.rows, None if all_ else MOST_ROWS, list(found.scenes))]
     parts += [by_family(found), left_out(found, all_)]
-    parts += [f"{answer.sentence(found)}\n"] if found.rows else []
+    parts += [f"{terminal.prose(answer.sentence(found))}\n"] if found.rows else []
     return "".join(parts)

@@ -1,16 +1,19 @@
 #!/usr/bin/env python3
 """Tests the ranking of builders and pipelines, the sentence and the tables made of it, and the candidates of `best`."""
 import json
+import re
 import unittest
 from typing import Any
 
-from base import Raw, InFolder, cell, run_of, stage  # first: it adds plots to sys.path
+from base import ROOT, Raw, InFolder, cell, run_of, stage  # first: it adds plots to sys.path
 
 import answer
 import best_bars
 import families
 import ranking
+import results
 import style
+import tables
 from cells import Cell
 from console import best as page
 from racing import candidates
@@ -39,6 +42,29 @@ def names(found: ranking.Ranking) -> list[str]:
 
 
 NARROW = [98, 99, 100, 101, 102]
+
+
+class TheReadme(unittest.TestCase):
+    def test_has_the_times_of_its_files(self) -> None:
+        """Each row of the table of families has the best pipeline's time and its ratio, in both files by scene."""
+        bests = []
+        for machine in ("h200", "pocl-2-cores"):
+            found = ranking.ranked(results.load(ROOT / "results" / machine / "families.json.xz").frames("families"))
+            bests += [{answer.family(row): row for row in answer.best_of_families(rows)} for rows in found.scenes.values()]
+        self.assertEqual([next(iter(of.values())).first.scene for of in bests], ["bunny", "unc_cloth_ball", "unc_nbody"] * 2)
+        for of in bests:  # a time that is quoted is the median of at least 15
+            self.assertGreaterEqual(min(len(cell.samples) for row in of.values() for cell in row.cells), 15)
+        text = (ROOT / "README.md").read_text(encoding="utf-8")
+        for family in bests[0]:
+            (line,) = re.findall(rf"^\| {family}(?:,[^|]*)? \| (.*) \|$", text, re.MULTILINE)
+            told = [self.told(of[family], next(iter(of.values()))) for of in bests]
+            self.assertEqual(line.split(" | "), told, family)
+
+    @staticmethod
+    def told(row: ranking.Row, best: ranking.Row) -> str:
+        time = tables.three_digits(row.ns * 1e-6)
+        mark = "=" if row.tied else f"× {answer.number(row.ratio)}"
+        return f"**{time}**" if row is best else f"{time} ({mark})"
 
 
 class ARanking(unittest.TestCase):
