@@ -54,7 +54,7 @@ public:
         const std::uint64_t front = all[FRONT_COUNT / 2];
         counts.bvtt_peak = std::max(
             {front, std::uint64_t{plan_.standing()}, *std::max_element(queues, all.end())});
-        counts.more = {{"front_count", plan_.writes() ? front : plan_.standing()},
+        counts.more = {{"front_count", front > 0 ? front : plan_.standing()},
                        {"sprouts_count", std::accumulate(queues, all.end(), std::uint64_t{0})},
                        {"prunes_count", all[PRUNES_COUNT / 2]},
                        {"restarts_count", plan_.restarts()}};

@@ -53,7 +53,7 @@ public:
         const std::vector<std::uint64_t> all = wide_counts(counters_, queue);
         const std::uint64_t written = all[FRONT_COUNT / 2];
         counts.bvtt_peak = std::max<std::uint64_t>(written, plan_.standing());
-        counts.more = {{"front_count", plan_.writes() ? written : plan_.standing()},
+        counts.more = {{"front_count", written > 0 ? written : plan_.standing()},
                        {"descents_count", all[DESCENTS_COUNT / 2]},
                        {"prunes_count", all[PRUNES_COUNT / 2]},
                        {"restarts_count", plan_.restarts()}};

@@ -35,8 +35,8 @@ inline std::string naming_objection(std::string_view collider, const DeviceTree&
            std::to_string(tree.label_bits()) + " bits";
 }
 
-/// Number of work-groups for `tasks` tasks, `a_group` of which a group does at a time: enough that each has work, at most what
-/// fills the device.
+/// Number of work-groups for `tasks` tasks: enough that each has work, at most what fills the device. `a_group` is the number of
+/// tasks that a group does at a time.
 inline std::size_t group_count(const Device& device, std::size_t tasks, std::size_t a_group)
 {
     const std::size_t most =

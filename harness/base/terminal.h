@@ -57,8 +57,8 @@ public:
     /// Shows that the next of the `total` items has begun.
     void step(const std::string& what);
 
-    /// Changes the text shown for the current item, of which the share is done; 0: unknown. Notes with a share are shown a few times
-    /// a second.
+    /// Changes the text shown for the current item. The share is how much of it is done; 0: unknown. Notes with a
+    /// share are shown a few times a second.
     void note(const std::string& what, double share = 0);
 
     /// Removes the line, before other output.
