@@ -16,7 +16,7 @@ void for_near_objects(const std::vector<std::unique_ptr<Object>>& objects,
                       std::span<const Aabb> boxes, Among among, const Meet& meet)
 {
     if (among != Among::within_objects) {
-        const PairList near = overlapping_pairs(boxes);
+        const PairList near = swept_pairs(boxes);
         for (const Pair pair : near.pairs())
             meet(*objects[pair.a], *objects[pair.b]);
     }

@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "collide/oracles/exact_reference.h"
-#include "collide/oracles/sweep.h"
+#include "collide/oracles/box_pairs.h"
 #include "collide/pairs.h"
 #include "harness/stress/judge.h"
 #include "scenes/generate/random.h"

@@ -7,7 +7,7 @@
 
 #include <cstdlib>
 
-#include "collide/oracles/sweep.h"
+#include "collide/oracles/box_pairs.h"
 #include "collide/skips.h"
 #include "harness/measure/frames.h"
 #include "tests/collide/collider_testing.h"

@@ -10,7 +10,7 @@
 
 #include "builders/spell_out.h"
 #include "collide/oracles/exact_reference.h"
-#include "collide/oracles/sweep.h"
+#include "collide/oracles/box_pairs.h"
 #include "geometry/error.h"
 #include "harness/stress/libraries.h"
 #include "harness/stress/run.h"
