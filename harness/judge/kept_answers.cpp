@@ -66,11 +66,10 @@ try {
         for (const fs::directory_entry& entry : fs::directory_iterator(folder))
             fs::remove_all(entry);
     const fs::path temporary = folder / (hex(key) + '-' + std::to_string(getpid()));
-    std::ofstream file(temporary, std::ios::binary);
-    if (file << text_of(key, facts) << std::flush)
-        fs::rename(temporary, path);
-    else
-        fs::remove(temporary);
+    std::error_code failed;
+    if (std::ofstream(temporary, std::ios::binary) << text_of(key, facts) << std::flush)
+        fs::rename(temporary, path, failed);
+    fs::remove(temporary, failed);       // what could not be written or renamed
 } catch (const fs::filesystem_error&) {  // the next run asks the oracle again
 }
 
