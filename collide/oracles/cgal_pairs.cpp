@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -112,23 +113,36 @@ private:
 PairList pairs_of_cgal(std::span<const Aabb> boxes, const WantedPairs& wanted)
 {
     require_host_memory("checking the pairs", boxes.size() * sizeof(PlacedBox));
+    require_host_memory("checking the pairs", 2 * boxes.size() * sizeof(std::uint64_t));
     const Slabs slabs(boxes);
-    std::vector<std::uint64_t> begins(slabs.count() + 1, 0);
+    // Each pair is written among those of its smaller id, so that only these few have to be sorted.
+    const auto next_of = [](std::vector<std::uint64_t>& places, uint a) {
+        return std::atomic_ref(places[a]).fetch_add(1, std::memory_order_relaxed);
+    };
+    std::vector<std::uint64_t> ends(boxes.size(),
+                                    0);  // of the pairs of each smaller id; first counts
     on_all_cores(slabs.count(), [&](std::size_t slab) {
-        std::uint64_t count = 0;
-        slabs.for_pairs(slab, [&](uint a, uint b) { count += wanted(a, b) ? 1 : 0; });
-        begins[slab + 1] = count;
-    });
-    std::partial_sum(begins.begin(), begins.end(), begins.begin());
-    require_host_memory("checking the pairs, " + std::to_string(begins.back()) + " of them,",
-                        begins.back() * sizeof(Pair));
-    std::vector<Pair> all(begins.back());
-    on_all_cores(slabs.count(), [&](std::size_t slab) {
-        Pair* at = all.data() + begins[slab];
         slabs.for_pairs(slab, [&](uint a, uint b) {
             if (wanted(a, b))
-                *at++ = {a, b};
+                next_of(ends, std::min(a, b));
         });
+    });
+    const std::uint64_t count = std::reduce(ends.begin(), ends.end(), std::uint64_t{0});
+    require_host_memory("checking the pairs, " + std::to_string(count) + " of them,",
+                        count * sizeof(Pair));
+    std::exclusive_scan(ends.begin(), ends.end(), ends.begin(), std::uint64_t{0});
+    const std::vector<std::uint64_t> begins = ends;
+    std::vector<Pair> all(count);
+    on_all_cores(slabs.count(), [&](std::size_t slab) {
+        slabs.for_pairs(slab, [&](uint a, uint b) {
+            if (wanted(a, b))
+                all[next_of(ends, std::min(a, b))] = {std::min(a, b), std::max(a, b)};
+        });
+    });
+    constexpr std::size_t part = 4096;
+    on_all_cores((boxes.size() + part - 1) / part, [&](std::size_t k) {
+        for (std::size_t id = k * part; id < std::min(boxes.size(), (k + 1) * part); ++id)
+            std::sort(all.data() + begins[id], all.data() + ends[id]);
     });
     return PairList(std::move(all));
 }
