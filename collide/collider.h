@@ -121,6 +121,7 @@ using MakeCollider = std::unique_ptr<Collider> (*)(Programs& programs,
 std::unique_ptr<Collider> make_leaf(Programs& programs, const ColliderOptions& options);
 std::unique_ptr<Collider> make_bvtt(Programs& programs, const ColliderOptions& options);
 std::unique_ptr<Collider> make_front(Programs& programs, const ColliderOptions& options);
+std::unique_ptr<Collider> make_leaf_front(Programs& programs, const ColliderOptions& options);
 std::unique_ptr<Collider> make_group(Programs& programs, const ColliderOptions& options);
 std::unique_ptr<Collider> make_block(Programs& programs, const ColliderOptions& options);
 std::unique_ptr<Collider> make_grid(Programs& programs, const ColliderOptions& options);

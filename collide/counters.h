@@ -11,10 +11,11 @@
     6u  // chunk form of group and block: number of tasks that work-items have taken; one word
 #define QUEUES_COUNT 6u  // bvtt: queue sizes, one per step
 
-// Counters of front, from QUEUES_COUNT on:
-#define FRONT_COUNT 6u   // entries of the front that a frame writes
-#define PRUNES_COUNT 8u  // entries that climbed to an ancestor
+// Counters of front and front-leaf, from QUEUES_COUNT on:
+#define FRONT_COUNT 6u      // entries of the front that a frame writes
+#define PRUNES_COUNT 8u     // entries that climbed to an ancestor
+#define DESCENTS_COUNT 10u  // front-leaf: boxes tested below entries
 #define FRONT_QUEUES_COUNT \
-    8u  // sizes of the queues of steps 1, 2, ... follow 2 words further on; step 0 reads the front
+    8u  // front: sizes of the queues of steps 1, 2, ... follow 2 words further on; step 0 reads the front
 
 #endif

@@ -105,6 +105,7 @@ void DeviceCollider::take_all()
         counters_ = arena.take<uint>(QUEUES_COUNT + 2 * queue_count_, Use::scratch);
         const bool with_ropes = tree_ != nullptr && has_ropes(*tree_);
         ropes_ = arena.take<uint>(with_ropes ? 2 * std::size_t{triangles_} - 1 : 1, Use::scratch);
+        has_written_ropes_ = false;
         plan(arena);
         pairs_ = arena.take<Pair>(pair_room_, Use::scratch);
     });
@@ -117,7 +118,8 @@ void DeviceCollider::query(const Tree* tree, const Input& input, Queue& queue)
         tree_ = &dynamic_cast<const DeviceTree&>(*tree);
     assert(arena_ && triangles_ == (needs_tree() ? tree_->leaf_count() : input.triangle_count()));
     const bool has_pairs = triangles_ > 1;
-    if (has_pairs && needs_tree() && has_ropes(*tree_)) {
+    if (has_pairs && needs_tree() && has_ropes(*tree_) && !(has_written_ropes_ && keeps_ropes())) {
+        has_written_ropes_ = true;
         queue.begin("ropes");
         set_arguments_from(ropes_kernel_, tree_->bind(ropes_kernel_, 0), ropes_);
         launch(

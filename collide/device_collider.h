@@ -58,6 +58,9 @@ protected:
     /// True if `tasks` and the entries of each queue fitted; otherwise the next `plan` allocates more.
     virtual bool make_room(std::uint64_t tasks, const std::vector<std::uint64_t>& queues) = 0;
 
+    /// True if the tree has the same nodes as in the last query, so that its ropes still hold.
+    virtual bool keeps_ropes() const { return false; }
+
     /// Lower bound on the bytes that `broad` reads: each box and each leaf's triangle once, if a tree is tested against itself.
     virtual std::int64_t reads_at_least() const;
 
@@ -121,7 +124,8 @@ private:
     std::size_t pair_room_ = 0;
     cl::Kernel ropes_kernel_;
     std::optional<Arena> arena_;
-    Buffer<uint> ropes_;  ///< one per node; a single word if the tree needs none
+    Buffer<uint> ropes_;              ///< one per node; a single word if the tree needs none
+    bool has_written_ropes_ = false;  ///< whether ropes_ has those of a tree
 };
 
 }  // namespace bvhbench

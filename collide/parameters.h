@@ -39,11 +39,10 @@ inline constexpr Parameter group_frontier_per_item =
 inline constexpr Parameter block_teams = usually(
     4, "block.teams", "broad", "blocks of leaves a group of block, a warp each, on NVIDIA's GPUs",
     {1, 8}, {1, 2, 4, 8});
-inline constexpr Parameter bvtt_group_size = group_size_parameter(
-    "bvtt.group_size", "work-items in a group of bvtt and front", "broad", 128);
-inline constexpr Parameter bvtt_items =
-    usually(4, "bvtt.items", "broad", "tasks a work-item of bvtt and front has a turn", {1, 16},
-            {1, 2, 4, 8});
+inline constexpr Parameter bvtt_group_size =
+    group_size_parameter("bvtt.group_size", "work-items in a group of bvtt", "broad", 128);
+inline constexpr Parameter bvtt_items = usually(
+    4, "bvtt.items", "broad", "tasks a work-item of bvtt has a turn", {1, 16}, {1, 2, 4, 8});
 inline constexpr Parameter bvtt_jump =
     usually(1, "bvtt.jump", "broad",
             "levels a step of bvtt descends in a binary tree without pointers, if not asked for",
@@ -52,6 +51,15 @@ inline constexpr Parameter bvtt_start_level =
     usually(0, "bvtt.start_level", "broad",
             "the level bvtt starts on in such a tree, if not asked for; 0: the root", {0, 12},
             {0, 2, 4, 5, 6, 7, 8});
+inline constexpr Parameter front_group_size =
+    group_size_parameter("front.group_size", "work-items in a group of front", "broad", 128);
+inline constexpr Parameter front_items = usually(
+    4, "front.items", "broad", "tasks a work-item of front has a turn", {1, 16}, {1, 2, 4, 8});
+inline constexpr Parameter leaf_front_group_size = group_size_parameter(
+    "front-leaf.group_size", "work-items in a group of front-leaf", "broad", 128);
+inline constexpr Parameter leaf_front_ordered =
+    usually(1, "front-leaf.ordered", "broad",
+            "1: front-leaf orders its entries by node when it writes them; 0: not", {0, 1}, {0, 1});
 inline constexpr Parameter grid_group_size = group_size_parameter(
     "grid.group_size", "work-items in a group that holds entries of a cell to each other", "broad",
     64);
@@ -60,9 +68,22 @@ inline constexpr Parameter narrow_group_size = group_size_parameter(
 
 /// All parameters of this file.
 inline constexpr const Parameter* collider_parameters[] = {
-    &leaf_group_size, &group_group_size,  &walk_task_leaves, &group_loose, &group_frontier_per_item,
-    &block_teams,     &bvtt_group_size,   &bvtt_items,       &bvtt_jump,   &bvtt_start_level,
-    &grid_group_size, &narrow_group_size,
+    &leaf_group_size,
+    &group_group_size,
+    &walk_task_leaves,
+    &group_loose,
+    &group_frontier_per_item,
+    &block_teams,
+    &bvtt_group_size,
+    &bvtt_items,
+    &bvtt_jump,
+    &bvtt_start_level,
+    &front_group_size,
+    &front_items,
+    &leaf_front_group_size,
+    &leaf_front_ordered,
+    &grid_group_size,
+    &narrow_group_size,
 };
 
 }  // namespace bvhbench

@@ -1,28 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <numeric>
-#include <optional>
 
 #include "collide/counters.h"
 #include "collide/device_collider.h"
 #include "collide/device_lists.h"
+#include "collide/front/front_plan.h"
 #include "collide/parameters.h"
 #include "collide/queues/node_pairs.h"
 
 namespace bvhbench {
 namespace {
 
-/// Testing whether parents are apart costs more than the rest of a frame. So entries climb only in a frame whose front has grown
-/// past this multiple of what the last climb left, and also every frames_to_climb frames, because objects that part do not let
-/// the front grow. In between, the front is correct but deeper than necessary.
-constexpr double growth_to_climb = 1.5;
-constexpr uint frames_to_climb = 16;
-
-/// Refitted boxes become loose, and the front grows with them. If entries have climbed and the front still exceeds this multiple
-/// of the front after the last build, the tree is rebuilt and the front starts from the roots. Contacts let the front grow as
-/// well; the front after the rebuild is then the new reference, so that contacts cost a few builds rather than one per frame.
-constexpr double growth_to_restart = 2;
+constexpr uint all_steps = std::numeric_limits<uint>::max();
 
 /// Number of entries (128 MiB) from which buffers grow by less: repeating a query costs less than the extra memory.
 constexpr std::size_t many = std::size_t{1} << 24;
@@ -32,10 +24,9 @@ constexpr std::size_t many = std::size_t{1} << 24;
 class Front final : public DeviceCollider {
 public:
     Front(Programs& programs, const ColliderOptions& options)
-        : DeviceCollider(
-              programs,
-              {"front", "Front tracking over refitted boxes [Lauterbach2010], [Wang2018]"}, options,
-              bvtt_group_size, Wants::tree)
+        : DeviceCollider(programs,
+                         {"front", "Front of pairs of nodes, over refitted boxes [Lauterbach2010]"},
+                         options, front_group_size, Wants::tree)
     {
         if (options.jump > 1 || options.start_level > 0)
             throw BadUsage("front descends a level after the other and starts where it stands");
@@ -45,25 +36,13 @@ public:
 
     TreeUpdate next_frame() override
     {
-        const bool from_roots = !standing_, is_highest = from_roots || climbs_;
-        standing_ = last_front_;
-        last_front_.reset();
-        if (!standing_)
-            return TreeUpdate::rebuild;
-        std::swap(fronts_[0], fronts_[1]);
-        const double size = *standing_;
-        if (from_roots)
-            after_build_ = size;
-        if (is_highest) {
-            after_climb_ = size;
-            since_climb_ = 0;
-        }
-        climbs_ = size > growth_to_climb * after_climb_ || ++since_climb_ == frames_to_climb;
-        if (!is_highest || size <= growth_to_restart * after_build_)
-            return TreeUpdate::refit;
-        standing_.reset();
-        ++restarts_;
-        return TreeUpdate::rebuild;
+        if (plan_.exchanges())
+            std::swap(fronts_[0], fronts_[1]);
+        const FrontStep before = plan_.step();
+        const TreeUpdate update = plan_.next_frame();
+        if (before != plan_.step())
+            needed_steps_ = all_steps;
+        return update;
     }
 
     QueryCounts counts(const Queue& queue) const override
@@ -74,11 +53,11 @@ public:
         const auto queues = all.begin() + FRONT_QUEUES_COUNT / 2 + 1;
         const std::uint64_t front = all[FRONT_COUNT / 2];
         counts.bvtt_peak = std::max(
-            {front, std::uint64_t{standing_.value_or(0)}, *std::max_element(queues, all.end())});
-        counts.more = {{"front_count", front},
+            {front, std::uint64_t{plan_.standing()}, *std::max_element(queues, all.end())});
+        counts.more = {{"front_count", plan_.writes() ? front : plan_.standing()},
                        {"sprouts_count", std::accumulate(queues, all.end(), std::uint64_t{0})},
                        {"prunes_count", all[PRUNES_COUNT / 2]},
-                       {"restarts_count", restarts_}};
+                       {"restarts_count", plan_.restarts()}};
         return counts;
     }
 
@@ -111,7 +90,7 @@ private:
             by_groups()
                 ? kernel(
                       "collide/front/front_groups.cl", "advance",
-                      {{"GROUP_SIZE", group_size_}, {"ITEMS", device().tuned(bvtt_items)}, label})
+                      {{"GROUP_SIZE", group_size_}, {"ITEMS", device().tuned(front_items)}, label})
                 : kernel("collide/front/front_chunks.cl", "advance",
                          {{"SINK_BLOCK", block_pairs_}, label});
         roots_ = kernel("collide/queues/roots.cl", "list_roots", {label, {"SKIP_APART", 0}});
@@ -123,10 +102,8 @@ private:
         const std::size_t leaves = triangles_;
         queue_room_ = first_room(std::clamp<std::size_t>(8 * leaves, 1024, std::max(leaves, many)));
         front_room_ = std::max(queue_room_, static_cast<std::size_t>(roots));
-        standing_.reset();
-        last_front_.reset();
-        climbs_ = false;
-        restarts_ = 0;
+        plan_.reset();
+        needed_steps_ = all_steps;
     }
 
     void plan(Arena& arena) override
@@ -143,12 +120,12 @@ private:
     /// Saves the state that the frame starts from, which must survive a reallocation: the current front and the parents.
     void save(const cl::CommandQueue& queue) override
     {
-        set_aside_.resize(standing_.value_or(0));
+        set_aside_.resize(plan_.standing());
         if (!set_aside_.empty())
             queue.enqueueReadBuffer(fronts_[0].cl(), CL_TRUE, 0, set_aside_.size() * sizeof(Pair),
                                     set_aside_.data());
-        parents_aside_ =
-            standing_ && parents_.size() > 1 ? parents_.download(queue) : std::vector<Pair>{};
+        parents_aside_ = plan_.standing() > 0 && parents_.size() > 1 ? parents_.download(queue)
+                                                                     : std::vector<Pair>{};
     }
 
     void fill(const cl::CommandQueue& queue) override
@@ -160,13 +137,18 @@ private:
             parents_.upload(queue, parents_aside_);
         set_aside_ = {};
         parents_aside_ = {};
-        last_front_.reset();
+        plan_.incomplete();
     }
 
     bool make_room(std::uint64_t, const std::vector<std::uint64_t>& sizes) override
     {
         constexpr std::size_t queues = (FRONT_QUEUES_COUNT - QUEUES_COUNT) / 2 + 1;
-        const std::uint64_t waiting = *std::max_element(sizes.begin() + queues, sizes.end());
+        const auto first = sizes.begin() + queues;
+        // False if the last step launched left entries although the tree has more steps; then the next query launches all steps.
+        const bool ended = launched_ == 0 || launched_ > descents() || first[launched_ - 1] == 0;
+        needed_steps_ =
+            ended ? static_cast<uint>(std::find(first, sizes.end(), 0u) - first) + 1 : all_steps;
+        const std::uint64_t waiting = *std::max_element(first, sizes.end());
         // Steps after an overflow have seen only some of their entries, so they, and the front, will need more.
         const bool queues_fit =
             had_room(queue_room_, waiting, waiting < many ? waiting : waiting / 16, sizeof(Pair),
@@ -174,32 +156,42 @@ private:
         const std::uint64_t front = sizes.front();
         const bool front_fits = had_room(front_room_, front, front / (front < many ? 4 : 16),
                                          sizeof(Pair), device(), "pairs of nodes");
-        if (queues_fit && front_fits)
-            last_front_ = static_cast<uint>(front);
-        return queues_fit && front_fits;
+        if (!ended || !queues_fit || !front_fits)
+            return false;
+        const std::uint64_t tests_a_node = std::uint64_t{1} << (2 * tree().child_bits());
+        plan_.complete(static_cast<uint>(front),
+                       tests_a_node * std::accumulate(first, sizes.end(), std::uint64_t{0}));
+        return true;
     }
 
     /// Bytes of the current front. How much of the tree a frame reads beyond it depends on the front.
     std::int64_t reads_at_least() const override
     {
-        return std::int64_t{standing_.value_or(0)} * std::int64_t{sizeof(Pair)};
+        return std::int64_t{plan_.standing()} * std::int64_t{sizeof(Pair)};
     }
 
     void enqueue(const Input& input, Queue& queue) override
     {
-        if (!standing_)
+        const bool from_roots = plan_.step() == FrontStep::generate;
+        if (from_roots)
             start_from_roots(queue);
-        const auto standing = standing_.value_or(static_cast<uint>(root_count()));
-        for (uint step = 0; step <= descents(); ++step) {
+        const uint standing = from_roots ? static_cast<uint>(root_count()) : plan_.standing();
+        for (launched_ = 0; launched_ <= descents(); ++launched_) {
+            const uint step = launched_;
+            if (step == needed_steps_ && skips(skip_empty_queue))
+                break;
             const Buffer<Pair>& from = step == 0 ? fronts_[0] : queues_[step % 2];
             bind(advance_, input, parents_, from, queues_[(step + 1) % 2],
                  static_cast<uint>(queue_room_), fronts_[1], static_cast<uint>(front_room_), step,
-                 standing, climbs_ ? 1u : 0u, blocks_);
+                 standing, plan_.writes() ? 1u : 0u, blocks_);
             // In binary trees, an entry has 4 pairs of children per level.
             const std::size_t tasks = std::size_t{standing}
                                       << std::min(2 * tree().child_bits() * step, 30u);
             if (by_groups())
-                launch(advance_, group_count(device(), tasks, group_size_) * group_size_,
+                launch(advance_,
+                       group_count(device(), tasks,
+                                   std::size_t{group_size_} * device().tuned(front_items)) *
+                           group_size_,
                        group_size_, queue);
             else
                 launch(advance_, chunks_, 1, queue);
@@ -233,13 +225,9 @@ private:
     Buffer<Pair> blocks_;                 ///< blocks of the chunk form
     std::vector<Pair> set_aside_, parents_aside_;
 
-    std::optional<uint> standing_;    ///< entries of the current front; empty: start from the roots
-    std::optional<uint> last_front_;  ///< entries that the last query left, if it was complete
-    bool climbs_ = false;             ///< whether entries of the current front may climb
-    uint since_climb_ = 0;            ///< frames since the last climb
-    double after_build_ = 0;          ///< entries after the first frame since the last build
-    double after_climb_ = 0;          ///< entries after the last frame with climbing
-    std::uint64_t restarts_ = 0;
+    FrontPlan plan_;
+    uint launched_ = 0;              ///< steps launched by the last query
+    uint needed_steps_ = all_steps;  ///< steps that had tasks in the last query
 };
 
 }  // namespace

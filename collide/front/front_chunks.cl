@@ -13,7 +13,7 @@ kernel void advance(FOREST_PARAMETERS, global const uint* ropes, global const Fa
                     global uint2* pairs, const uint capacity, volatile global uint* counters,
                     global const uint2* parents, global const uint2* queue, global uint2* next,
                     const uint queue_capacity, global uint2* front, const uint front_capacity,
-                    const uint step, const uint standing, const uint climbs, global uint2* blocks)
+                    const uint step, const uint standing, const uint writes, global uint2* blocks)
 {
     const TaskRun run = own_run(tasks_of(counters, standing, queue_capacity, step));
     global uint2* own = blocks + 3u * SINK_BLOCK * get_global_id(0);
@@ -24,7 +24,7 @@ kernel void advance(FOREST_PARAMETERS, global const uint* ropes, global const Fa
                    0ul};
     ulong tests = 0ul;
     for (ulong task = run.first; task < run.end; ++task)
-        tests += do_task(FOREST, faces, parents, queue, step, climbs, task, &lists);
+        tests += do_task(FOREST, faces, parents, queue, step, writes, task, &lists);
     close_sink(&lists.nodes);
     close_sink(&lists.pairs);
     close_sink(&lists.entries);

@@ -8,14 +8,14 @@
 
 #include "collide/front/front.clh"
 
-/// Advances the front by a step. In step 0, `queue` is the old front of `standing` entries, which climb if `climbs` is set; later
-/// it holds the nodes that the previous step queued. `next` receives the entries of the next step, `front` the entries that stay,
-/// and `pairs` the pairs found. What exceeds a capacity is counted, not written.
+/// Advances the front by a step. In step 0, `queue` is the current front of `standing` entries; later it holds the nodes that the
+/// previous step queued. `next` receives the entries of the next step, `pairs` the pairs found, and if `writes` is set `front` the
+/// entries of the next front. What exceeds a capacity is counted, not written.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void advance(
     FOREST_PARAMETERS, global const uint* ropes, global const Face* faces, global uint2* pairs,
     const uint capacity, volatile global uint* counters, global const uint2* parents,
     global const uint2* queue, global uint2* next, const uint queue_capacity, global uint2* front,
-    const uint front_capacity, const uint step, const uint standing, const uint climbs,
+    const uint front_capacity, const uint step, const uint standing, const uint writes,
     global uint2* blocks)
 {
     local uint2 kept[2u * KEPT];
@@ -33,7 +33,7 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void advance(
         for (uint k = 0u; k < ITEMS; ++k) {
             const ulong task = first + k * GROUP_SIZE + item;
             if (task < tasks)
-                tests[item] += do_task(FOREST, faces, parents, queue, step, climbs, task, LISTS);
+                tests[item] += do_task(FOREST, faces, parents, queue, step, writes, task, LISTS);
         }
         barrier(CLK_LOCAL_MEM_FENCE);
         if (item < 4u) {

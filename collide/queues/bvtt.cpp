@@ -147,7 +147,10 @@ private:
                 // With one object, there are no more tasks than pairs of nodes at this depth.
                 const std::size_t tasks = std::size_t{1}
                                           << (one_object ? std::min(2 * depth, 40u) : 40);
-                launch(expand_, group_count(device(), tasks, group_size_) * group_size_,
+                launch(expand_,
+                       group_count(device(), tasks,
+                                   std::size_t{group_size_} * device().tuned(bvtt_items)) *
+                           group_size_,
                        group_size_, queue);
             } else {
                 bind(expand_, input, from, to, room, launched_, levels, blocks_);

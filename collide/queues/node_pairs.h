@@ -35,10 +35,10 @@ inline std::string naming_objection(std::string_view collider, const DeviceTree&
            std::to_string(tree.label_bits()) + " bits";
 }
 
-/// Number of work-groups for `tasks` tasks: enough that each has work, at most what fills the device.
-inline std::size_t group_count(const Device& device, std::size_t tasks, uint group_size)
+/// Number of work-groups for `tasks` tasks, `a_group` of which a group does at a time: enough that each has work, at most what
+/// fills the device.
+inline std::size_t group_count(const Device& device, std::size_t tasks, std::size_t a_group)
 {
-    const std::size_t a_group = std::size_t{group_size} * device.tuned(bvtt_items);
     const std::size_t most =
         groups_of_pairs_per_unit * device.cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
     return std::clamp<std::size_t>((tasks + a_group - 1) / a_group, 1, most);

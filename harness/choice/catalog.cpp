@@ -86,6 +86,7 @@ constexpr ColliderEntry colliders[] = {
      make_block},
     {"front", "where the frame before stopped, moved to where this one does, over refitted boxes",
      make_front},
+    {"front-leaf", "as front, for each leaf where its walk over the tree stopped", make_leaf_front},
     {.name = "grid",
      .summary = "no tree: boxes hashed by the cells they cover, on levels by their size",
      .make = make_grid,

@@ -34,7 +34,7 @@ std::vector<Asker> askers()
     for (const BuilderChoice& builder : builders)
         all.push_back({{builder, {}}});
     for (const KernelForm form : {KernelForm::groups, KernelForm::chunks})
-        for (const char* name : {"leaf", "group", "block", "bvtt", "front", "grid"})
+        for (const char* name : {"leaf", "group", "block", "bvtt", "front", "front-leaf", "grid"})
             all.push_back({{builders[0], {.name = name, .form = form}}});
     all.push_back({{builders[0], {.name = "leaf", .narrow = "exact"}}});
     return all;

@@ -29,6 +29,7 @@ constexpr InFormat some_formats[] = {
     {"front", builder_in_formats, "f64"},
     {"leaf", "karras", "f16"},
     {"front", "karras", "u8"},
+    {"front-leaf", "karras", "u16"},
     {"group", "apetrei", "u16"},
     {"bvtt", "karras", "f64"},
 };

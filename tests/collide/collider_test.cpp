@@ -229,7 +229,7 @@ TEST(Colliders, TakeTheLeastAndTheMostOfGroupSizesAndRefuseOthers)
 {
     const Standing standing(crowded_mesh(600), "karras");
     const Standing wide(crowded_mesh(600), "oibvh-wide8");
-    for (const char* name : {"leaf", "bvtt", "group", "front", "grid"})
+    for (const char* name : {"leaf", "bvtt", "group", "front", "front-leaf", "grid"})
         for (const unsigned group_size : {8u, 256u}) {
             SCOPED_TRACE(std::string(name) + ", groups of " + std::to_string(group_size));
             const auto collider =
@@ -242,17 +242,19 @@ TEST(Colliders, TakeTheLeastAndTheMostOfGroupSizesAndRefuseOthers)
         EXPECT_THROW(made("leaf", {.group_size = group_size}), BadUsage);
 }
 
-TEST(Colliders, TakeEveryTreeOnADeviceButBlockBinaryImplicitOnes)
+TEST(Colliders, TakeEveryTreeOnADeviceButBlockBinaryImplicitOnesAndFrontLeafBinaryOnes)
 {
     const Mesh mesh = crowded_mesh(20);
     for (const BuilderEntry& builder : device_builders()) {
         const Standing standing(mesh, builder.make);
         const auto& tree = dynamic_cast<const DeviceTree&>(*standing.tree);
-        const bool has_blocks = tree.is_implicit() && tree.child_bits() == 1;
+        const bool is_binary = tree.child_bits() == 1, has_blocks = tree.is_implicit() && is_binary;
         for (const ColliderEntry& entry : box_colliders(true)) {
             const auto collider = entry.make(session().programs(), {});
-            EXPECT_EQ(collider->refusal(*standing.tree).empty(),
-                      has_blocks || entry.name != "block")
+            EXPECT_EQ(collider->refusal(*standing.tree).empty(), entry.name == "block" ? has_blocks
+                                                                 : entry.name == "front-leaf"
+                                                                     ? is_binary
+                                                                     : true)
                 << entry.name << " over " << builder.name;
         }
     }

@@ -71,6 +71,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Tunable{"oibvh-multi", "oibvh-multi", "kd"}, Tunable{"group", "apetrei-fused"},
                     Tunable{"bvtt", "oibvh-multi", "morton30", true, "exact"},
                     Tunable{.target = "front", .only_in_groups = true},
+                    Tunable{.target = "front-leaf", .only_in_groups = true},
                     Tunable{.target = "grid", .builder = "none", .only_in_groups = true}),
     [](const auto& tested) {
         std::string name = tested.param.target + std::string("_") + tested.param.builder + "_" +
