@@ -14,14 +14,15 @@
 #include "baselines/hploc/ranges.clh"
 #include "baselines/hploc/team.clh"
 
+// Places, and so many more that each lane can read those behind its own; what it finds behind the list has no meaning.
+#define ROOM (TEAM_SIZE + SEARCH_RADIUS)
+
 /// A list of clusters, and what the lanes of a team exchange.
 typedef struct {
-    float min_x[TEAM_SIZE], min_y[TEAM_SIZE], min_z[TEAM_SIZE];
-    float max_x[TEAM_SIZE], max_y[TEAM_SIZE], max_z[TEAM_SIZE];
+    float min_x[ROOM], min_y[ROOM], min_z[ROOM], max_x[ROOM], max_y[ROOM], max_z[ROOM];
     uint node[TEAM_SIZE], leaf[TEAM_SIZE];
-    uint
-        keys[SEARCH_RADIUS * TEAM_SIZE];  ///< of each place and the one `step` behind, step by step
-    uint best[TEAM_SIZE];                 ///< smallest key of each place
+    uint keys[SEARCH_RADIUS * ROOM];  ///< of each place and the one `step` before it, step by step
+    uint best[TEAM_SIZE];             ///< smallest key of each place
     Range range;
     uint end;
 } Team;
@@ -45,24 +46,26 @@ static inline void set_cluster(local Team* team, const uint k, const Aabb box, c
     team->leaf[k] = cluster.y;
 }
 
-/// Returns the smallest key of the lane's cluster. Each pair's key is computed by the first of both.
+/// Returns the smallest key of the lane's cluster. Each pair's key is computed by the first of both. There are no branches, so that
+/// all reads can be under way at once.
 static inline uint chosen(local Team* team, const uint lane, const uint count)
 {
     const Aabb box = box_at(team, lane);
     uint best = NO_KEY;
 #pragma unroll
     for (uint step = 1u; step <= SEARCH_RADIUS; ++step) {
-        uint key = NO_KEY;
-        if (lane + step < count)
-            key = cluster_key(box, box_at(team, lane + step), lane, lane + step);
-        team->keys[(step - 1u) * TEAM_SIZE + lane] = key;
-        best = min(best, key);
+        const uint other = lane + step;
+        const uint key = cluster_key(box, box_at(team, other), lane, other);
+        const uint if_there = other < count ? key : NO_KEY;
+        team->keys[(step - 1u) * ROOM + other] = if_there;
+        best = min(best, if_there);
     }
     team_barrier();
 #pragma unroll
-    for (uint step = 1u; step <= SEARCH_RADIUS; ++step)
-        if (lane >= step)
-            best = min(best, team->keys[(step - 1u) * TEAM_SIZE + lane - step]);
+    for (uint step = 1u; step <= SEARCH_RADIUS; ++step) {
+        const uint key = team->keys[(step - 1u) * ROOM + lane];
+        best = min(best, lane >= step ? key : NO_KEY);
+    }
     return best;
 }
 
