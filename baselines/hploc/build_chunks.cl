@@ -51,26 +51,29 @@ static inline void choose(List* list, const uint count)
     }
 }
 
-/// Joins clusters that chose each other, writes their nodes, and returns the number of clusters left.
+/// Writes the node of the clusters at two places. Returns its number.
+static inline uint joined(const Build build, const List* list, const uint k, const uint partner)
+{
+    const uint number = list->leaf[partner] - 1u;
+    store_node(build.nodes, number, merged(box_at(list, k), box_at(list, partner)), list->node[k],
+               list->node[partner]);
+    return number;
+}
+
+/// Joins clusters that chose each other, writes their nodes, and returns the number of clusters left. There is no `continue` in the
+/// loop: Mesa 22.3 compiles it wrongly for llvmpipe.
 static inline uint join(const Build build, List* list, const uint count)
 {
     uint left = 0u;
     for (uint k = 0u; k < count; ++k) {
         const uint partner = partner_of(list->best[k], k);
         const bool joins = list->best[partner] == list->best[k];
-        if (joins && partner < k)
-            continue;
-        Aabb box = box_at(list, k);
-        uint node = list->node[k];
-        if (joins) {
-            const uint number = list->leaf[partner] - 1u;
-            box = merged(box, box_at(list, partner));
-            store_node(build.nodes, number, box, node, list->node[partner]);
-            node = number;
+        if (!joins || k < partner) {  // else it is joined already
+            const Aabb box = box_at(list, k), other = joins ? box_at(list, partner) : box;
+            list->node[left] = joins ? joined(build, list, k, partner) : list->node[k];
+            list->leaf[left] = list->leaf[k];
+            set_box(list, left++, merged(box, other));
         }
-        list->node[left] = node;
-        list->leaf[left] = list->leaf[k];
-        set_box(list, left++, box);
     }
     return left;
 }
