@@ -34,6 +34,12 @@ std::unique_ptr<Builder> make_lbvh_levels(Programs& programs, const BuildOptions
 /// The binary radix tree, built top-down on one core of the host. Slow; the oracle for all builders of this tree.
 std::unique_ptr<Builder> make_radix_reference(Programs& programs, const BuildOptions& options);
 
+/// The radix tree's ranges joined anew by surface area, bottom-up in one launch, as in [Benthin2024].
+std::unique_ptr<Builder> make_hploc(Programs& programs, const BuildOptions& options);
+
+/// The same tree on one core of the host. Slow; the oracle.
+std::unique_ptr<Builder> make_hploc_reference(Programs& programs, const BuildOptions& options);
+
 // For a library that the program was built without, all its make_ functions are nullptr and `..._absent` gives the reason. Test
 // `..._absent`: with its undefined-behaviour sanitizer, GCC 12 does not treat a function's address as a constant.
 #if BVHBENCH_HAS_EMBREE
