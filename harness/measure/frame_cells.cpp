@@ -199,6 +199,7 @@ std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span
             require_memory(cell.collider, input.triangle_count(), oracle);
             subject.settled = settle(session, one, frame, cell);
             cell.counters = one.pipeline->counters();
+            cell.counters.merge(one.pipeline->transfers(input));
             judge(*one.pipeline, cell, oracle, frame, found);
         });
         subject.once = [&] {

@@ -23,7 +23,7 @@ def test_collide_writes_a_valid_result_and_the_pairs():
             cell = only("c.json")
             assert cell["operation"] == "collide" and cell["collider"]["name"] == collider, cell
             has_tree = cell["builder"]["name"] != "none"
-            assert has_tree == (collider not in ("grid", "brute", "embree")), cell
+            assert has_tree == (collider not in ("grid", "brute", "embree", "embree-refit")), cell
             assert (f"{collider} over {builder}" if has_tree else f"{collider} on sphere") in out, out
             assert "\nbroad " in out and (not has_tree or "\nhierarchy " in out), out
             lines = pathlib.Path("p.csv").read_text().splitlines()

@@ -203,7 +203,7 @@ TEST(Catalog, ListsEachOnceAndAnswersAnUnknownNameWithThoseThereAre)
     expect_whole(collider_catalog(), find_collider);
     EXPECT_TRUE(refusal_of([] {
                     find_collider("leafs");
-                }).ends_with(", embree, fcl, fcl-refit; did you mean 'leaf'?"));
+                }).ends_with(", embree, embree-refit, fcl, fcl-refit; did you mean 'leaf'?"));
     const std::string said = refusal_of([] { find_builder("oibvh"); });
     EXPECT_TRUE(said.starts_with(
         "no builder is called 'oibvh'; there are: perfect, karras, apetrei, apetrei-fused, "
