@@ -34,6 +34,12 @@ std::unique_ptr<Builder> make_lbvh_levels(Programs& programs, const BuildOptions
 /// The binary radix tree, built top-down on one core of the host. Slow; the oracle for all builders of this tree.
 std::unique_ptr<Builder> make_radix_reference(Programs& programs, const BuildOptions& options);
 
+/// The radix tree's ranges joined anew by surface area, bottom-up in one launch, as in [Benthin2024].
+std::unique_ptr<Builder> make_hploc(Programs& programs, const BuildOptions& options);
+
+/// The same tree on one core of the host. Slow; the oracle.
+std::unique_ptr<Builder> make_hploc_reference(Programs& programs, const BuildOptions& options);
+
 // For a library that the program was built without, all its make_ functions are nullptr and `..._absent` gives the reason. Test
 // `..._absent`: with its undefined-behaviour sanitizer, GCC 12 does not treat a function's address as a constant.
 #if BVHBENCH_HAS_EMBREE
@@ -46,15 +52,19 @@ std::unique_ptr<Builder> make_embree_low(Programs& programs, const BuildOptions&
 std::unique_ptr<Builder> make_embree_medium(Programs& programs, const BuildOptions& options);
 std::unique_ptr<Builder> make_embree_high(Programs& programs, const BuildOptions& options);
 
-/// Embree's rtcCollide over user geometry, built anew for each query, on all threads of the host. Finds pairs of overlapping
-/// boxes. A query throws Unavailable for coordinates beyond 1.8e18.
+/// Embree's rtcCollide over user geometry, on all threads of the host. Finds pairs of overlapping boxes. `embree` builds its
+/// trees for each query; `embree-refit` refits trees whose topology comes from the points given to `reserve`. `query`, and
+/// `reserve` of `embree-refit`, throw Unavailable for coordinates beyond 1.8e18.
 std::unique_ptr<Collider> make_embree_collider(Programs& programs, const ColliderOptions& options);
+std::unique_ptr<Collider> make_embree_refit_collider(Programs& programs,
+                                                     const ColliderOptions& options);
 #else
 inline constexpr std::string_view embree_absent = "built without Embree";
 inline constexpr MakeBuilder make_embree_low = nullptr;
 inline constexpr MakeBuilder make_embree_medium = nullptr;
 inline constexpr MakeBuilder make_embree_high = nullptr;
 inline constexpr MakeCollider make_embree_collider = nullptr;
+inline constexpr MakeCollider make_embree_refit_collider = nullptr;
 #endif
 
 #if BVHBENCH_HAS_FCL
@@ -64,8 +74,8 @@ inline constexpr std::string_view fcl_absent = {};
 std::unique_ptr<Builder> make_fcl_aabb(Programs& programs, const BuildOptions& options);
 std::unique_ptr<Builder> make_fcl_obbrss(Programs& programs, const BuildOptions& options);
 
-/// FCL's collision of BVHModels in double precision, on one core of the host. Finds pairs of triangles that intersect and
-/// share no vertex. `fcl` builds its trees for each query; `fcl-refit` refits trees whose topology comes from the points given
+/// FCL's collision of BVHModels, boxes in floats and triangles in doubles, on all cores of the host. Finds pairs of triangles that
+/// intersect and share no vertex. `fcl` builds its trees for each query; `fcl-refit` refits trees whose topology comes from the points given
 /// to `reserve`. Both throw BadUsage if adjacent pairs are to be kept.
 std::unique_ptr<Collider> make_fcl_collider(Programs& programs, const ColliderOptions& options);
 std::unique_ptr<Collider> make_fcl_refit_collider(Programs& programs,

@@ -36,6 +36,8 @@ namespace bvhbench {
 ///                                  0: inner nodes have numbers, tree_inner(TREE, k) for k + 1 < leaves, and
 ///                                  every node has one, tree_number(TREE, node), leaves after inner nodes; the
 ///                                  objects' trees are parts of one, PICK_WHOLE_TREE, and a node is the same in all
+///     TREE_IN_ORDER                0, only without TREE_IMPLICIT: leaves are not in the order of their places in the
+///                                  tree, but tree_leaf ascends with the place; else not defined
 ///
 /// and is compiled with SORTED_LEAVES (1: leaf boxes in leaf order; 0: in mesh order, reached through ids) and with BOX_FORMAT
 /// (geometry/box_side.h) unless boxes are floats.

@@ -82,6 +82,9 @@ public:
     /// often they are repeated. Without such a query, or if this is never called, they are queries of a first frame.
     virtual TreeUpdate next_frame() { return TreeUpdate::rebuild; }
 
+    /// True if the collider runs on the host and reads the host's copy of the input.
+    virtual bool is_on_host() const { return false; }
+
     /// True if the collider reports pairs of intersecting triangles rather than pairs of overlapping boxes.
     virtual bool finds_contacts() const { return false; }
 

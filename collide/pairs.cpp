@@ -7,12 +7,34 @@
 #include <numeric>
 #include <utility>
 
+#include "geometry/cores.h"
 #include "geometry/hash.h"
 
 namespace bvhbench {
 
 // The hash reads the bytes of the list directly.
 static_assert(std::endian::native == std::endian::little && sizeof(Pair) == 8);
+
+namespace {
+
+/// Sorts parts on all host cores, then merges neighbours until one part is left.
+void sort_on_all_cores(std::vector<Pair>& pairs)
+{
+    constexpr std::size_t least_part = 1 << 16;
+    const std::size_t parts =
+        std::bit_floor(std::clamp<std::size_t>(pairs.size() / least_part, 1, 2 * core_count() - 1));
+    const auto at = [&](std::size_t part) {
+        return pairs.begin() + static_cast<std::ptrdiff_t>(pairs.size() * part / parts);
+    };
+    on_all_cores(parts, [&](std::size_t k) { std::sort(at(k), at(k + 1)); });
+    for (std::size_t width = 1; width < parts; width *= 2)
+        on_all_cores(parts / (2 * width), [&](std::size_t k) {
+            const std::size_t first = 2 * width * k;
+            std::inplace_merge(at(first), at(first + width), at(first + 2 * width));
+        });
+}
+
+}  // namespace
 
 PairList::PairList(std::vector<Pair> found) : pairs_(std::move(found))
 {
@@ -21,7 +43,8 @@ PairList::PairList(std::vector<Pair> found) : pairs_(std::move(found))
     for (Pair& pair : pairs_)
         if (pair.b < pair.a)
             std::swap(pair.a, pair.b);
-    std::sort(pairs_.begin(), pairs_.end());
+    if (!std::is_sorted(pairs_.begin(), pairs_.end()))
+        sort_on_all_cores(pairs_);
     pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
     surplus_ = found_count - pairs_.size();
 }
@@ -33,28 +56,17 @@ std::uint64_t PairList::hash() const
     return hash.get();
 }
 
-bool has_exactly(const PairList& list, std::span<const Pair> found)
+PairFacts facts_of(std::span<const Pair> pairs)
 {
-    const std::span<const Pair> all = list.pairs();
-    if (found.size() != all.size() || all.empty())
-        return found.size() == all.size();
-    std::vector<std::size_t> begins(all.back().a + std::size_t{2}, 0);  // of the pairs of each a
-    for (const Pair pair : all)
-        ++begins[pair.a + 1];
-    std::partial_sum(begins.begin(), begins.end(), begins.begin());
-    std::vector<char> is_there(all.size(), 0);
-    return std::ranges::all_of(found, [&](Pair pair) {
-        if (pair.b < pair.a)
-            std::swap(pair.a, pair.b);
-        if (pair.a > all.back().a)
-            return false;
-        const auto end = all.begin() + static_cast<std::ptrdiff_t>(begins[pair.a + 1]);
-        const auto at =
-            std::lower_bound(all.begin() + static_cast<std::ptrdiff_t>(begins[pair.a]), end, pair);
-        if (at == end || *at != pair)
-            return false;
-        return std::exchange(is_there[static_cast<std::size_t>(at - all.begin())], 1) == 0;
+    constexpr std::size_t part_size = 1 << 18;
+    std::vector<SetHash> parts((pairs.size() + part_size - 1) / part_size, SetHash{0, 0});
+    on_all_cores(parts.size(), [&](std::size_t k) {
+        const std::size_t first = k * part_size;
+        for (const Pair pair : pairs.subspan(first, std::min(part_size, pairs.size() - first)))
+            parts[k] = with_pair(parts[k], pair.a, pair.b);
     });
+    const SetHash all = std::accumulate(parts.begin(), parts.end(), SetHash{0, 0}, both_sets);
+    return {pairs.size(), all.low, all.high};
 }
 
 Relation relation_of(Pair pair, const Family& family)

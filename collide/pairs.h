@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "collide/set_hash.h"
 #include "geometry/mesh.h"
 
 namespace bvhbench {
@@ -27,7 +28,7 @@ class PairList {
 public:
     PairList() = default;
 
-    /// Takes pairs in any order, with either id first.
+    /// Takes pairs in any order, with either id first. Sorts them on all host cores.
     explicit PairList(std::vector<Pair> found);
 
     std::span<const Pair> pairs() const { return pairs_; }
@@ -46,9 +47,17 @@ private:
     std::size_t surplus_ = 0;
 };
 
-/// True if `found` has exactly the pairs of `list`, each once, in any order and with either id first. Does not sort: takes time
-/// linear in both.
-bool has_exactly(const PairList& list, std::span<const Pair> found);
+/// What identifies a set of pairs without listing it: two lists of pairs with equal facts have the same pairs, in whatever order,
+/// as often, short of a collision in 128 bits.
+struct PairFacts {
+    std::uint64_t count = 0;
+    std::uint64_t low = 0, high = 0;  ///< SetHash
+
+    bool operator==(const PairFacts&) const = default;
+};
+
+/// Returns the facts of pairs in any order, with either id first. Uses all host cores.
+PairFacts facts_of(std::span<const Pair> pairs);
 
 /// Relation between the two triangles of a pair. Papers count different relations, so they are kept apart here.
 enum class Relation {

@@ -5,7 +5,8 @@ EXPERIMENT = "families"  # compares the best of each
 
 # The start of a builder's name, and its family. The first that fits counts.
 BUILDERS = (("oibvh-wide", "wide trees"), ("oibvh-", "implicit trees"), ("perfect", "padded implicit trees"),
-            ("karras", "radix trees"), ("apetrei", "radix trees"), ("lbvh-", "radix trees"), ("radix-", "radix trees"), ("heap-median", "host builders"),
+            ("karras", "radix trees"), ("apetrei", "radix trees"), ("lbvh-", "radix trees"), ("radix-", "radix trees"),
+            ("hploc", "clustered trees"), ("heap-median", "host builders"),
             ("median-split", "host builders"), ("sah-binned", "host builders"), ("embree", "Embree"), ("fcl", "FCL"))
 # Families whose trees are on the host, where no collider of the device queries them.
 ON_HOST = ("host builders", "Embree", "FCL")

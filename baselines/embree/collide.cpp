@@ -5,14 +5,21 @@
 // Each object is a scene with one user geometry. Objects whose boxes overlap are tested against each other, and an object
 // against itself only on request. This is never slower than one scene of all objects. Between the 305 objects of a real frame
 // a query is fourteen times as fast, because a scene tested against itself first yields all pairs of neighbouring triangles.
+//
+// Embree takes boxes, builds and collides in parallel itself; the loops here do so for many objects. They use Embree's own
+// threads, those of TBB.
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
+
 #include <algorithm>
 #include <limits>
 
 #include "baselines/baselines.h"
 #include "baselines/embree/device.h"
-#include "baselines/embree/thread_pairs.h"
 #include "baselines/object_pairs.h"
 #include "baselines/plain_libraries.h"
+#include "baselines/thread_pairs.h"
 #include "collide/oracles/host_collider.h"
 
 namespace bvhbench {
@@ -33,8 +40,12 @@ void tell_box(const RTCBoundsFunctionArguments* asked)
     *asked->bounds_o = {box.min_x, box.min_y, box.min_z, 0, box.max_x, box.max_y, box.max_z, 0};
 }
 
+/// The quality of the geometry decides how its tree is made: low from Morton codes, the others by surface areas, refit by surface
+/// areas at first and then by new boxes over the same tree. That of the scene is low, because with any other Embree makes one
+/// tree of all geometries, by surface areas, and never refits it.
 std::unique_ptr<Object> object_of(const EmbreeHandle<RTCDevice>& device, FaceRange faces,
-                                  const std::vector<Aabb>& boxes, RTCSceneFlags flags)
+                                  const std::vector<Aabb>& boxes, RTCSceneFlags flags,
+                                  RTCBuildQuality quality)
 {
     auto object = std::make_unique<Object>(Object{faces, &boxes});
     object->geometry.reset(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER));
@@ -43,8 +54,7 @@ std::unique_ptr<Object> object_of(const EmbreeHandle<RTCDevice>& device, FaceRan
     rtcSetGeometryBoundsFunction(object->geometry.get(), tell_box, nullptr);
     object->scene.reset(rtcNewScene(device.get()));
     rtcSetSceneFlags(object->scene.get(), flags);
-    // Low quality on both: with either one higher, Embree's build costs more than queries save if points move every frame.
-    rtcSetGeometryBuildQuality(object->geometry.get(), RTC_BUILD_QUALITY_LOW);
+    rtcSetGeometryBuildQuality(object->geometry.get(), quality);
     rtcSetSceneBuildQuality(object->scene.get(), RTC_BUILD_QUALITY_LOW);
     rtcAttachGeometry(object->scene.get(), object->geometry.get());
     return object;
@@ -96,61 +106,90 @@ Aabb rounded_outward(const Aabb& box)
 
 class Embree final : public HostCollider {
 public:
-    Embree(const Device& device, const ColliderOptions& options)
-        : HostCollider(
-              device,
-              {"embree", "Embree's rtcCollide, low quality, on all host threads [Wald2014]"},
-              options)
-        , device_(start_embree())
-    {}
+    Embree(const Device& device, std::string_view name, std::string_view method,
+           const ColliderOptions& options, RTCBuildQuality quality)
+        : HostCollider(device, {name, method}, options), quality_(quality), device_(start_embree())
+    {
+        memory_.watch(device_);
+    }
 
     void reserve(const Tree*, const Input& input) override
     {
         boxes_.resize(input.faces.size());
         objects_.clear();
+        memory_.begin();
         for (const FaceRange& faces : input.objects)
             if (faces.count > 0)  // rtcCollide refuses a scene without triangles
-                objects_.push_back(object_of(device_, faces, boxes_, RTC_SCENE_FLAG_DYNAMIC));
+                objects_.push_back(
+                    object_of(device_, faces, boxes_, RTC_SCENE_FLAG_DYNAMIC, quality_));
         object_boxes_.resize(objects_.size());
+        if (!is_refit())
+            return;
+        take_boxes(input);
+        for (const auto& object : objects_)
+            build(*object);
+        require_success(device_, "built no tree");
     }
 
-    /// Counts the boxes. Embree does not report the memory it allocates.
+    /// Counts what Embree held at most since `reserve`, our boxes, and the pairs.
     Footprint reserved() const override
     {
-        return {0, (boxes_.size() + object_boxes_.size()) * sizeof(Aabb)};
+        return {memory_.peak_bytes(), (boxes_.size() + object_boxes_.size()) * sizeof(Aabb) +
+                                          found_.size() * sizeof(Pair)};
     }
 
     void query(const Tree*, const Input& input, Queue& queue) override
     {
-        queue.on_host("hierarchy", [&] {
+        ObjectTasks tasks;
+        queue.on_host(is_refit() ? "refit" : "hierarchy", [&] {
             take_boxes(input);
-            for (const auto& object : objects_)
-                build(*object);
+            tasks = object_tasks(object_boxes_, options_);
+            tbb::parallel_for(std::size_t{0}, tasks.with_trees.size(),
+                              [&](std::size_t k) { build(*objects_[tasks.with_trees[k]]); });
         });
-        queue.on_host("broad", [&] { collide(input); });
+        queue.on_host("broad", [&] { collide(input, tasks.meetings); });
         require_success(device_, "found no pairs");
+        more_ = {{is_refit() ? "refitted_objects_count" : "rebuilt_objects_count",
+                  tasks.with_trees.size()}};
     }
 
 private:
-    /// Computes the boxes of this frame. Throws Unavailable for the first triangle out of Embree's range of coordinates.
+    bool is_refit() const { return quality_ == RTC_BUILD_QUALITY_REFIT; }
+
+    /// Computes the boxes of this frame. Throws Unavailable for a triangle out of Embree's range of coordinates.
     void take_boxes(const Input& input)
     {
         is_rounded_ = false;
-        for (std::size_t k = 0; k < objects_.size(); ++k) {
+        tbb::parallel_for(std::size_t{0}, objects_.size(), [&](std::size_t k) {
             const auto [first, count] = objects_[k]->faces;
-            Aabb around = empty_box();
-            for (std::size_t i = first; i < first + count; ++i) {
-                const Aabb box = leaf_box(input, input.faces[i]);
-                require_in_range(box, i);
-                boxes_[i] = rounded_outward(box);
-                is_rounded_ = is_rounded_ || sides_of(box) != sides_of(boxes_[i]);
-                around = merged(around, boxes_[i]);
-            }
+            Aabb around = tbb::parallel_reduce(
+                tbb::blocked_range<std::size_t>(first, first + count, boxes_a_task), empty_box(),
+                [&](const auto& range, const Aabb& before) {
+                    return merged(before, take_boxes(input, range.begin(), range.end()));
+                },
+                [](const Aabb& a, const Aabb& b) { return merged(a, b); });
             if (around.min_x == around.max_x && around.min_y == around.max_y &&
                 around.min_z == around.max_z)
                 give_extent(first, count, around);
             object_boxes_[k] = around;
+        });
+    }
+
+    /// Computes the boxes of a run of triangles and returns the box around them.
+    Aabb take_boxes(const Input& input, std::size_t begin, std::size_t end)
+    {
+        Aabb around = empty_box();
+        bool is_rounded = false;
+        for (std::size_t i = begin; i < end; ++i) {
+            const Aabb box = leaf_box(input, input.faces[i]);
+            require_in_range(box, i);
+            boxes_[i] = rounded_outward(box);
+            is_rounded = is_rounded || sides_of(box) != sides_of(boxes_[i]);
+            around = merged(around, boxes_[i]);
         }
+        if (is_rounded)
+            is_rounded_ = true;
+        return around;
     }
 
     /// Enlarges the box of an object whose triangles all lie in one point, and gives it to all of them: for two to four such
@@ -163,7 +202,7 @@ private:
         is_rounded_ = true;
     }
 
-    void collide(const Input& input)
+    void collide(const Input& input, const std::vector<Pair>& meetings)
     {
         by_thread_.clear();
         const auto wanted = [&](Pair pair) {
@@ -171,8 +210,9 @@ private:
                    (options_.keep_adjacent ||
                     !share_a_vertex(input.faces[pair.a], input.faces[pair.b]));
         };
-        for_near_objects(objects_, object_boxes_, options_.among,
-                         [&](const Object& a, const Object& b) { meet(a, b, by_thread_, wanted); });
+        tbb::parallel_for(std::size_t{0}, meetings.size(), [&](std::size_t k) {
+            meet(*objects_[meetings[k].a], *objects_[meetings[k].b], by_thread_, wanted);
+        });
         found_.clear();
         by_thread_.append_to(found_);
         if (is_rounded_)
@@ -182,11 +222,15 @@ private:
             });
     }
 
+    static constexpr std::size_t boxes_a_task = 1024;
+
+    RTCBuildQuality quality_;
+    EmbreeMemory memory_;
     EmbreeHandle<RTCDevice> device_;
     std::vector<std::unique_ptr<Object>> objects_;
     std::vector<Aabb> boxes_;  ///< as given to Embree; equal to the triangles' unless `is_rounded_`
     std::vector<Aabb> object_boxes_;
-    bool is_rounded_ = false;
+    std::atomic<bool> is_rounded_ = false;
     ThreadPairs by_thread_;
 };
 
@@ -198,7 +242,7 @@ std::vector<Pair> find_plainly(std::span<const Point> points, std::span<const Fa
     const std::vector<Aabb> boxes = face_boxes(points, faces);
     std::vector<std::unique_ptr<Object>> made;
     for (const FaceRange& range : objects) {
-        made.push_back(object_of(device, range, boxes, RTC_SCENE_FLAG_NONE));
+        made.push_back(object_of(device, range, boxes, RTC_SCENE_FLAG_NONE, RTC_BUILD_QUALITY_LOW));
         build(*made.back());
     }
     ThreadPairs by_thread;
@@ -213,7 +257,19 @@ std::vector<Pair> find_plainly(std::span<const Point> points, std::span<const Fa
 
 std::unique_ptr<Collider> make_embree_collider(Programs& programs, const ColliderOptions& options)
 {
-    return std::make_unique<Embree>(programs.device(), options);
+    return std::make_unique<Embree>(
+        programs.device(), "embree",
+        "Embree's rtcCollide, trees of low quality built each time, on all host threads [Wald2014]",
+        options, RTC_BUILD_QUALITY_LOW);
+}
+
+std::unique_ptr<Collider> make_embree_refit_collider(Programs& programs,
+                                                     const ColliderOptions& options)
+{
+    return std::make_unique<Embree>(
+        programs.device(), "embree-refit",
+        "Embree's rtcCollide, trees refit to moved points, on all host threads [Wald2014]", options,
+        RTC_BUILD_QUALITY_REFIT);
 }
 
 std::vector<PlainLibrary> plain_embree() { return {{"rtcCollide", "Embree", false, find_plainly}}; }

@@ -3,7 +3,9 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <memory>
@@ -40,6 +42,37 @@ struct EmbreeRelease {
 /// An owning handle of an Embree object.
 template <class Raw>
 using EmbreeHandle = std::unique_ptr<std::remove_pointer_t<Raw>, EmbreeRelease>;
+
+/// Memory that an Embree device holds, as the device reports it. Must outlive the device.
+class EmbreeMemory {
+public:
+    /// Counts from now on. The device must hold nothing yet.
+    void watch(const EmbreeHandle<RTCDevice>& device)
+    {
+        rtcSetDeviceMemoryMonitorFunction(device.get(), count, this);
+    }
+
+    /// Begins a new peak, at what is held now.
+    void begin() { peak_ = held_.load(); }
+
+    /// Returns the most bytes held at once since `begin`.
+    std::size_t peak_bytes() const { return static_cast<std::size_t>(std::max(0L, peak_.load())); }
+
+private:
+    /// Called from all of Embree's threads, with a negative number of bytes where memory is freed.
+    static bool count(void* data, ssize_t bytes, bool)
+    {
+        auto& memory = *static_cast<EmbreeMemory*>(data);
+        const long now = memory.held_ += bytes;
+        for (long peak = memory.peak_;
+             now > peak && !memory.peak_.compare_exchange_weak(peak, now);)
+            ;
+        return true;
+    }
+
+    std::atomic<long> held_ = 0;
+    std::atomic<long> peak_ = 0;
+};
 
 /// Starts Embree with one thread per hardware thread, which is `host_threads` in result files. Throws Unavailable on failure.
 inline EmbreeHandle<RTCDevice> start_embree()

@@ -14,8 +14,8 @@ public:
         , deltas_(kernel("baselines/radix/apetrei.cl", "deltas"))
         , build_(kernel("baselines/radix/apetrei.cl", "build"))
     {
-        tree_.in_arrays = true;
-        numbers_by_range_ = false;
+        tree_.in_arrays = tree_.root_is_stored = true;
+        searches_roots_ = true;
     }
 
 private:

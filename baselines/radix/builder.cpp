@@ -7,7 +7,7 @@
 #include <cstring>
 #include <numeric>
 
-#include "baselines/parameters.h"
+#include "baselines/hploc/clusters.h"
 #include "builders/stages/codes.h"
 #include "builders/stages/kernel_form.h"
 #include "geometry/bits.h"
@@ -51,18 +51,29 @@ std::size_t RadixTree::inner_bytes() const
                : sizeof(Children) + (format->box_bytes() + word - 1) / word * word;
 }
 
-/// Returns an upper bound: each node splits at a lower bit of its leaves' keys than its parent.
-uint RadixTree::most_levels() const { return std::min(leaves, code_bits + ceil_log2(leaves) + 1); }
+/// Returns an upper bound: each node of a radix tree splits at a lower bit of its leaves' keys than its parent. A range of the
+/// clustered tree adds as many levels as it joins clusters. Together that is at most RANGE_CLUSTERS for each level of the radix
+/// tree, for the clusters that come in from the side, and those of the lowest range.
+uint RadixTree::most_levels() const
+{
+    const uint levels = code_bits + ceil_log2(leaves) + 1;
+    return std::min(leaves, is_clustered ? RANGE_CLUSTERS * (levels + 1) : levels);
+}
 
 std::string_view RadixTree::access_header() const
 {
-    return in_arrays ? "baselines/radix/access_apetrei.clh" : "baselines/radix/access.clh";
+    return in_arrays      ? "baselines/radix/access_apetrei.clh"
+           : is_clustered ? "baselines/hploc/access.clh"
+                          : "baselines/radix/access.clh";
 }
 
 cl_uint RadixTree::bind(cl::Kernel& kernel, cl_uint first) const
 {
-    first = in_arrays ? set_arguments_from(kernel, first, nodes, children, root)
-                      : set_arguments_from(kernel, first, nodes);
+    first = set_arguments_from(kernel, first, nodes);
+    if (in_arrays)
+        first = set_arguments_from(kernel, first, children);
+    if (root_is_stored)
+        first = set_arguments_from(kernel, first, root);
     return set_arguments_from(kernel, first, leaf_boxes, ids, leaves, device_objects);
 }
 
@@ -93,7 +104,7 @@ HostTree RadixTree::spelled_out_object(uint object) const
         return radix_node(box_in(stored, sizeof own), own[0], own[1]);
     };
 
-    uint top = radix_child(in_arrays ? root.download(queue->cl()).at(0) : 0, leaves == 1);
+    uint top = radix_child(root_is_stored ? root.download(queue->cl()).at(0) : 0, leaves == 1);
     if (objects.size() > 1)
         top = device_objects.download(queue->cl()).at(object).root;
     std::vector<uint> order{top};
@@ -118,10 +129,11 @@ HostTree RadixTree::spelled_out_object(uint object) const
 }
 
 RadixBuilder::RadixBuilder(Programs& programs, std::string_view name, std::string_view method,
-                           MakeBuilder make, const BuildOptions& options)
+                           MakeBuilder make, const BuildOptions& options,
+                           const Parameter& group_size)
     : OrderedBuilder(programs, {name, method, BuilderCard::Runs::on_device}, options)
-    , make_(make)
     , group_size_(options.group_size)
+    , make_(make)
 {
     tree_.sorted = options.sorted_leaves;
     tree_.format = &format();
@@ -131,7 +143,7 @@ RadixBuilder::RadixBuilder(Programs& programs, std::string_view name, std::strin
         group_size_ = 1;
         most_items_ = chunk_count(device);
     } else if (group_size_ == 0) {
-        group_size_ = std::min<std::size_t>(device.tuned(radix_group_size), std::bit_floor(most));
+        group_size_ = std::min<std::size_t>(device.tuned(group_size), std::bit_floor(most));
     } else if (!std::has_single_bit(group_size_) || group_size_ > most) {
         throw BadUsage("a group size is a power of two up to " + std::to_string(most) + " on " +
                        device.name() + ", not " + std::to_string(group_size_));
@@ -196,7 +208,7 @@ void RadixBuilder::prepare(const cl::CommandQueue& queue)
     tree_.device_objects.upload(queue, tree_.objects);
     const std::array defines = {Define{"SORTED_LEAVES", tree_.sorted ? 1u : 0u},
                                 Define{"BOX_FORMAT", format().number}};
-    if (!numbers_by_range_)
+    if (searches_roots_)
         roots_ = programs_.kernel(tree_.access_header(), "baselines/radix/roots.cl", "find_roots",
                                   defines);
     prepare_nodes(queue);
@@ -206,7 +218,7 @@ void RadixBuilder::enqueue_hierarchy(Queue& queue)
 {
     if (tree_.leaves > 1)  // a single leaf is the root
         build_nodes(queue);
-    if (tree_.objects.size() > 1 && !numbers_by_range_)
+    if (tree_.objects.size() > 1 && searches_roots_)
         find_roots(queue);
 }
 

@@ -3,6 +3,7 @@
 // Base of the builders of radix trees: the leaf order before the hierarchy, and the tree after it.
 #pragma once
 
+#include "baselines/parameters.h"
 #include "baselines/radix/node.h"
 #include "builders/ordered/ordered_builder.h"
 
@@ -26,6 +27,13 @@ public:
     Buffer<uint> children, root;
     bool in_arrays = false;
 
+    /// True if the number of the root, and those of the objects' roots, are known on the device only: in `root` and
+    /// `device_objects`.
+    bool root_is_stored = false;
+
+    /// True if the tree is that of baselines/hploc, whose leaves are not in the order of their places.
+    bool is_clustered = false;
+
     std::size_t inner() const { return std::size_t{leaves} - 1; }  ///< number of inner nodes
     std::size_t inner_bytes() const;  ///< bytes of one entry of `nodes`
 
@@ -43,9 +51,11 @@ public:
 /// Everything of a radix tree builder but the hierarchy, which derived classes add.
 class RadixBuilder : public OrderedBuilder {
 public:
-    /// `make` creates another builder of the same kind. Throws BadUsage for a group size that the device does not support.
+    /// `make` creates another builder of the same kind; `group_size` applies outside CPUs if no group size is chosen. Throws
+    /// BadUsage for a group size that the device does not support.
     RadixBuilder(Programs& programs, std::string_view name, std::string_view method,
-                 MakeBuilder make, const BuildOptions& options);
+                 MakeBuilder make, const BuildOptions& options,
+                 const Parameter& group_size = radix_group_size);
 
 protected:
     cl::Kernel kernel(std::string_view path, const char* name) const;
@@ -71,12 +81,14 @@ protected:
     std::size_t box_bytes() const;
     std::size_t child_bytes() const { return tree_.inner() * 2 * sizeof(uint); }
 
+    std::size_t group_size_;      ///< work-items in a group of a launch
     std::size_t most_items_ = 0;  ///< most work-items of a launch; 0: no limit
     RadixTree tree_;
     Buffer<uint> arrivals_;  ///< one per inner node; zero before and after a build
 
-    /// True if inner nodes are numbered as in node.h, so that the numbers of the objects' roots are known in advance.
-    bool numbers_by_range_ = true;
+    /// True if the objects' roots must be searched after a build. Otherwise they are known in advance, as inner nodes are
+    /// numbered as in node.h, or `build_nodes` stores them.
+    bool searches_roots_ = false;
 
 private:
     std::unique_ptr<OrderedBuilder> twin() const final;
@@ -88,7 +100,6 @@ private:
     void find_roots(Queue& queue);
 
     MakeBuilder make_;
-    std::size_t group_size_;
     cl::Kernel roots_;
 };
 

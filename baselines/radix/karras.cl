@@ -11,17 +11,6 @@
 #include "baselines/radix/leaves.clh"
 #include "device/handoff.clh"
 
-/// Returns the largest reach < `bound`, a power of two, for which common_of leaves i and i + reach * step exceeds `least`.
-static inline uint farthest_with(global const Code* codes, const uint leaves, const uint i,
-                                 const uint step, const uint bound, const uint least)
-{
-    uint reach = 0u;
-    for (uint part = bound >> 1u; part > 0u; part >>= 1u)
-        if (common_of(codes, leaves, i, i + (reach + part) * step) > least)
-            reach += part;
-    return reach;
-}
-
 /// Builds inner node i, which covers leaf i and, on the side of its nearer neighbour, all leaves that have more in common with
 /// leaf i than its other neighbour has.
 static inline void make_node(global const Code* codes, global RadixWord* nodes,
@@ -49,10 +38,12 @@ static inline void make_node(global const Code* codes, global RadixWord* nodes,
     store_node(nodes, i, empty_box(), left, right);
     parents[radix_is_leaf(left) ? leaves - 1u + split : split] = i;
     parents[radix_is_leaf(right) ? leaves + split : split + 1u] = i;
+    if (i == 0u)
+        parents[0] = NO_PARENT;
 }
 
 /// Writes the children of every inner node, with empty boxes, and to `parents` the parent of every node: inner nodes first, then
-/// leaves. The root, node 0, has no parent.
+/// leaves.
 kernel void topology(global const Code* restrict codes, global RadixWord* restrict nodes,
                      global uint* restrict parents, const uint leaves)
 {
@@ -70,15 +61,13 @@ static inline void climb_from(global const BoxWord* leaf_boxes, global const uin
     Aabb box = leaf_box(leaf_boxes, ids, leaf);
     uint child = radix_child(leaf, true);
     uint parent = parents[leaves - 1u + leaf];
-    for (;;) {
+    while (parent != NO_PARENT) {
         if (!arrived_second(&arrivals[parent]))
             return;
         forget_arrivals(&arrivals[parent]);
         const uint left = node_left(nodes, parent), right = node_right(nodes, parent);
         box = merged(box, child_box(leaf_boxes, ids, nodes, child == left ? right : left));
         store_node(nodes, parent, box, left, right);
-        if (parent == 0u)
-            return;
         child = parent;
         parent = parents[child];
     }

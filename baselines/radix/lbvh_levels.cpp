@@ -25,7 +25,7 @@ public:
         , split_(kernel("baselines/radix/lbvh_levels.cl", "split_level"))
         , box_(kernel("baselines/radix/lbvh_levels.cl", "box_level"))
     {
-        numbers_by_range_ = false;
+        searches_roots_ = true;
         if (most_items_ == 0)
             most_items_ = most_lanes(programs.device());
     }

@@ -2,12 +2,9 @@
 //
 // The oracle for radix trees: builds the tree by its definition, top-down on one core. The kernels' trees must equal it bit for
 // bit. It shares nothing with them but the leaf order: no delta, no node indices, no climbing.
-#include <string>
-#include <vector>
+#include "baselines/radix/reference.h"
 
 #include "baselines/baselines.h"
-#include "baselines/host/host_builder.h"
-#include "builders/ordered/leaf_order.h"
 
 namespace bvhbench {
 namespace {
@@ -32,68 +29,47 @@ uint split_of(const HostLeafOrder& leaves, uint first, uint last)
     return beyond;
 }
 
-void make_radix_tree(HostTree& tree, const HostLeafOrder& leaves)
-{
-    struct Range {
-        uint first, last;
-    };
-    tree.nodes.clear();
-    std::vector<Range> ranges{{0, static_cast<uint>(leaves.ids.size()) - 1}};  // node k's leaves
-    for (std::size_t k = 0; k < ranges.size(); ++k) {
-        const auto [first, last] = ranges[k];
-        HostTree::Node& node = tree.nodes.emplace_back();
-        if (first == last) {
-            node.primitive = static_cast<int>(leaves.ids[first]);
-            node.box = leaves.boxes[leaves.ids[first]];
-            continue;
-        }
-        const uint split = split_of(leaves, first, last);
-        node.child = {static_cast<int>(ranges.size()), static_cast<int>(ranges.size() + 1)};
-        ranges.push_back({first, split - 1});
-        ranges.push_back({split, last});
-    }
-}
-
-class RadixReference final : public HostBuilder {
+class RadixReference final : public OrderedHostBuilder {
 public:
     explicit RadixReference(const BuildOptions& options)
-        : HostBuilder("radix-reference", "Binary radix tree, slowly on the host [Karras2012]")
-        , order_(options.order)
-    {
-        find_order(order_);
-    }
+        : OrderedHostBuilder("radix-reference",
+                             "Binary radix tree, slowly on the host [Karras2012]", options)
+    {}
 
 private:
-    Footprint footprint(std::size_t primitives) const override
-    {
-        return {(2 * primitives - 1) * sizeof(HostTree::Node), 0};
-    }
-
-    void reserve_own(std::size_t primitives) override
-    {
-        tree_.plain.nodes.reserve(2 * primitives - 1);
-    }
-
-    void prepare(const Input& input, Queue& queue, Start start) override
-    {
-        if (start == Start::from_triangles)
-            queue.on_host("sort", [&] { leaves_ = host_leaf_order(leaf_boxes(input), order_); });
-    }
-
     void build_tree() override
     {
-        make_radix_tree(tree_.plain, leaves_);
+        tree_.plain.nodes.clear();
+        for (const RadixRange& range : radix_ranges(leaves_)) {
+            HostTree::Node& node = tree_.plain.nodes.emplace_back();
+            const int left = static_cast<int>(range.left);
+            if (range.first != range.last) {
+                node.child = {left, left + 1};
+                continue;
+            }
+            node.primitive = static_cast<int>(leaves_.ids[range.first]);
+            node.box = leaves_.boxes[leaves_.ids[range.first]];
+        }
         tree_.merge_boxes();
     }
-
-    const Tree& tree() const override { return tree_; }
-
-    std::string order_;
-    HostLeafOrder leaves_;
-    PlainTree tree_;
 };
 
 }  // namespace
+
+std::vector<RadixRange> radix_ranges(const HostLeafOrder& leaves)
+{
+    std::vector<RadixRange> ranges{{0, static_cast<uint>(leaves.ids.size()) - 1}};
+    for (std::size_t k = 0; k < ranges.size(); ++k) {
+        const auto [first, last, none] = ranges[k];
+        if (first == last)
+            continue;
+        const uint split = split_of(leaves, first, last);
+        ranges[k].left = ranges.size();
+        ranges.push_back({first, split - 1});
+        ranges.push_back({split, last});
+    }
+    return ranges;
+}
 
 std::unique_ptr<Builder> make_radix_reference(Programs&, const BuildOptions& options)
 {

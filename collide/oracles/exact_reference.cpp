@@ -7,12 +7,11 @@
 
 #include <algorithm>
 #include <array>
-#include <future>
 #include <optional>
 #include <set>
-#include <thread>
 #include <variant>
 
+#include "geometry/cores.h"
 #include "geometry/host_memory.h"
 
 namespace bvhbench {
@@ -21,7 +20,7 @@ namespace {
 using Predicates = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Constructions = CGAL::Exact_predicates_exact_constructions_kernel;
 
-constexpr std::size_t least_share = 1000;  ///< pairs of a thread
+constexpr std::size_t part_size = 4096;  ///< pairs that a thread takes at once
 
 template <class Kernel>
 using Corners3 = std::array<typename Kernel::Point_3, 3>;
@@ -161,23 +160,17 @@ PairList intersecting_pairs(std::span<const Point> points, std::span<const Face>
                             std::span<const Pair> candidates, bool keep_adjacent)
 {
     require_host_memory("checking the contacts", candidates.size_bytes());
-    const std::size_t workers = std::max(1u, std::thread::hardware_concurrency());
-    const std::size_t share = std::max(candidates.size() / workers + 1, least_share);
-    std::vector<std::future<std::vector<Pair>>> parts;
-    for (std::size_t first = 0; first < candidates.size(); first += share)
-        parts.push_back(std::async(std::launch::async, [=] {
-            std::vector<Pair> own;
-            for (const Pair pair :
-                 candidates.subspan(first, std::min(share, candidates.size() - first)))
-                if (contact(points, faces[pair.a], faces[pair.b], keep_adjacent))
-                    own.push_back(pair);
-            return own;
-        }));
+    std::vector<std::vector<Pair>> parts((candidates.size() + part_size - 1) / part_size);
+    on_all_cores(parts.size(), [&](std::size_t k) {
+        const std::size_t first = k * part_size;
+        for (const Pair pair :
+             candidates.subspan(first, std::min(part_size, candidates.size() - first)))
+            if (contact(points, faces[pair.a], faces[pair.b], keep_adjacent))
+                parts[k].push_back(pair);
+    });
     std::vector<Pair> found;
-    for (auto& part : parts) {
-        const std::vector<Pair> own = part.get();
-        found.insert(found.end(), own.begin(), own.end());
-    }
+    for (const std::vector<Pair>& part : parts)
+        found.insert(found.end(), part.begin(), part.end());
     return PairList(std::move(found));
 }
 

@@ -53,9 +53,9 @@ public:
     void query(const Tree*, const Input& input, Queue& queue) override
     {
         queue.on_host("broad", [&] {
-            const PairList found =
-                touching_pairs(leaf_boxes(input), input.faces, options_.keep_adjacent,
-                               input.objects, options_.among);
+            const PairList found = swept_pairs(
+                leaf_boxes(input),
+                WantedPairs(input.faces, options_.keep_adjacent, input.objects, options_.among));
             require_host_memory("collider brute", found.size() * sizeof(Pair));
             found_.assign(found.pairs().begin(), found.pairs().end());
         });

@@ -22,16 +22,18 @@ public:
 
     ColliderCard card() const final { return card_; }
     bool needs_tree() const final { return false; }
+    bool is_on_host() const final { return true; }
     std::string refusal(const Tree&) const final { return {}; }
     Footprint reserved() const override { return {}; }
     bool complete(const Queue&) final { return true; }
-    QueryCounts counts(const Queue&) const final { return {found_.size(), {}, {}, {}}; }
+    QueryCounts counts(const Queue&) const final { return {found_.size(), {}, {}, {}, more_}; }
     std::vector<Pair> pairs(const Queue&) const final { return found_; }
     DevicePairs device_pairs(Queue& queue) final;
 
 protected:
     ColliderOptions options_;
-    std::vector<Pair> found_;  ///< pairs of the last query
+    std::vector<Pair> found_;                                       ///< pairs of the last query
+    std::vector<std::pair<std::string_view, std::uint64_t>> more_;  ///< its counters by name
 
 private:
     const Device& device_;

@@ -3,46 +3,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
 #include <numeric>
 #include <string>
 
+#include "collide/oracles/axes.h"
 #include "geometry/host_memory.h"
 
 namespace bvhbench {
 namespace {
-
-struct Axis {
-    float Aabb::*min;
-    float Aabb::*max;
-    double low = 0;     ///< smallest coordinate of all boxes
-    double length = 0;  ///< extent of all boxes along the axis
-    double share = 0;   ///< mean extent of a box, as a fraction of `length`
-};
-
-/// Returns the axes, ordered by the mean share of a box: the fewest boxes overlap, as a rule, along the first.
-std::array<Axis, 3> axes_of(std::span<const Aabb> boxes)
-{
-    Aabb all = empty_box();
-    for (const Aabb& box : boxes)
-        all = merged(all, box);
-    std::array<Axis, 3> axes = {
-        {{&Aabb::min_x, &Aabb::max_x}, {&Aabb::min_y, &Aabb::max_y}, {&Aabb::min_z, &Aabb::max_z}}};
-    for (Axis& axis : axes) {
-        double sum = 0;
-        for (const Aabb& box : boxes)
-            sum += static_cast<double>(box.*axis.max) - static_cast<double>(box.*axis.min);
-        axis.low = all.*axis.min;
-        axis.length = static_cast<double>(all.*axis.max) - axis.low;
-        axis.share = sum / static_cast<double>(boxes.size()) / axis.length;
-        if (!std::isfinite(axis.share))
-            axis.share = std::numeric_limits<double>::infinity();
-    }
-    std::stable_sort(axes.begin(), axes.end(),
-                     [](const Axis& a, const Axis& b) { return a.share < b.share; });
-    return axes;
-}
 
 /// Boxes in strips across the second axis, each swept along the first axis. A box is in every strip that it overlaps.
 class Strips {
@@ -129,38 +97,22 @@ private:
 
 }  // namespace
 
-PairList overlapping_pairs(std::span<const Aabb> boxes, const Wanted& wanted)
+PairList swept_pairs(std::span<const Aabb> boxes, const WantedPairs& wanted)
 {
     require_host_memory("checking the pairs", Strips::bytes(boxes.size()));
     const Strips strips(boxes);
     std::uint64_t count = 0;
-    strips.sweep([&](uint a, uint b) { count += !wanted || wanted(a, b) ? 1 : 0; });
+    strips.sweep([&](uint a, uint b) { count += wanted(a, b) ? 1 : 0; });
     require_host_memory("checking the pairs, " + std::to_string(count) + " of them,",
                         count * sizeof(Pair));
     std::vector<Pair> found;
     found.reserve(count);
     const auto list = [&](uint a, uint b) {
-        if (!wanted || wanted(a, b))
+        if (wanted(a, b))
             found.push_back({a, b});
     };
     strips.sweep(list);
     return PairList(std::move(found));
-}
-
-PairList touching_pairs(std::span<const Aabb> boxes, std::span<const Face> faces,
-                        bool keep_adjacent, std::span<const FaceRange> objects, Among among)
-{
-    const auto wanted = [&](uint a, uint b) {
-        return (keep_adjacent || !share_a_vertex(faces[a], faces[b])) &&
-               is_among({a, b}, objects, among);
-    };
-    return overlapping_pairs(boxes, wanted);
-}
-
-PairList touching_pairs(std::span<const Point> points, std::span<const Face> faces,
-                        bool keep_adjacent, std::span<const FaceRange> objects, Among among)
-{
-    return touching_pairs(face_boxes(points, faces), faces, keep_adjacent, objects, among);
 }
 
 }  // namespace bvhbench

@@ -7,6 +7,7 @@
 // check: -include oibvh/wide/wide8_access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=1 -DTASK_LEAVES=64u -DSKIP_OVERLAP=0
 // check: -include oibvh/wide/wide4_access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=1 -DTASK_LEAVES=64u -DSKIP_OVERLAP=0
 // check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DTASK_LEAVES=64u -DSKIP_OVERLAP=1
+// check: -include baselines/hploc/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DTASK_LEAVES=64u -DSKIP_OVERLAP=1
 //
 // Queries a tree with all leaves of a task at once, for few cores with wide registers. The common box of the leaves traverses the
 // tree, and the leaves that it overlaps are collected in a line. Then each block of LANES leaves of the task selects the steps of

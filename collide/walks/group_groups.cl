@@ -2,6 +2,7 @@
 // check: -include oibvh/access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=0 -DGROUP_SIZE=64u -DFRONTIER=512u -DRESERVE=97u -DLOOSE=4u
 // check: -include oibvh/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=0 -DGROUP_SIZE=64u -DFRONTIER=512u -DRESERVE=97u -DLOOSE=4u -DBOX_FORMAT=2u
 // check: -include baselines/radix/access.clh -DSORTED_LEAVES=1 -DKEEP_ADJACENT=1 -DGROUP_SIZE=64u -DFRONTIER=512u -DRESERVE=97u -DLOOSE=4u
+// check: -include baselines/hploc/access.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=1 -DGROUP_SIZE=64u -DFRONTIER=2048u -DRESERVE=849u -DLOOSE=4u
 // check: -include baselines/radix/access_apetrei.clh -DSORTED_LEAVES=0 -DKEEP_ADJACENT=1 -DGROUP_SIZE=64u -DFRONTIER=512u -DRESERVE=97u -DLOOSE=4u
 //
 // Queries a tree with all leaves of a task at once. Their common box descends the tree, so that a node is loaded once per group,
@@ -40,13 +41,15 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void group_pairs(
     PICK_TREE(task.other)
 
     const uint last = task.first + max(count, 1u) - 1u, place = min(task.first + item, last);
+    const uint wanted = first_wanted(TREE, task, last);
     load_query(FOREST, task.own, place, own, own_ids, seen, areas);
     tests[item] = 0u;
     const bool is_loose = take_common_box(seen, areas, common);
     if (item == 0u) {
-        waiting[0] = is_loose || count == 0u
-                         ? 0u
-                         : chain_from(TREE, ropes, first_node(TREE, ropes, task, last), frontier);
+        waiting[0] =
+            is_loose || count == 0u
+                ? 0u
+                : chain_from(TREE, ropes, first_node_of_all(TREE, ropes, task, last), frontier);
         met_count[0] = is_own ? count : 0u;
     }
     met[item] = is_own ? tree_leaf(TREE, place) : 0u;
@@ -76,15 +79,15 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void group_pairs(
             tests[item] +=
                 test_boxes(seen, seen_ids, begin, takes, own, own_ids, item, faces, SINK);
         if (!is_testing && item < takes) {
-            descend(TREE, taken[item], levels, load_local_box(common, 0u), frontier, &waiting[then],
-                    met, &met_count[then]);
+            descend(TREE, taken[item], levels, load_local_box(common, 0u), wanted, frontier,
+                    &waiting[then], met, &met_count[then]);
             ++tests[item];
         }
         barrier(CLK_LOCAL_MEM_FENCE);
     }
     if (is_loose && item < count)
         tests[item] += walk_from(TREE, ropes, faces, SINK, load_local_box(own, item), own_ids[item],
-                                 first_node(TREE, ropes, task, last));
+                                 first_node_of_all(TREE, ropes, task, last), wanted);
     barrier(CLK_LOCAL_MEM_FENCE);
     count_tests(tests, counters);
     close_sink(SINK);

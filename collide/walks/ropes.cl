@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // check: -include baselines/radix/access.clh -DSORTED_LEAVES=0
+// check: -include baselines/hploc/access.clh -DSORTED_LEAVES=0
 //
 // Writes ropes (skip links) for trees that store only children: for each node, by its number, the node after its subtree in
 // depth-first order. The trees of several objects are parts of one tree, so the last rope of one leads into what follows it.

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "builders/stages/codes.h"
-#include "collide/oracles/sweep.h"
+#include "collide/oracles/box_pairs.h"
 #include "geometry/error.h"
 #include "harness/accuracy/axis.h"
 

@@ -5,8 +5,8 @@
 
 #include "builders/box_format.h"
 #include "builders/device_tree.h"
+#include "collide/oracles/box_pairs.h"
 #include "collide/oracles/exact_reference.h"
-#include "collide/oracles/sweep.h"
 #include "harness/accuracy/axis.h"
 #include "harness/judge/metrics.h"
 #include "harness/judge/pair_counts.h"
@@ -77,7 +77,7 @@ void measure_codes(const AxisRun& run, const SceneFacts& scene, const Input& inp
         const auto settle = [&, codes](Subject& one) {
             settle_pipeline(session, input, one, [&](const Pipeline& pipeline, Cell& cell) {
                 count_pairs(pipeline, right, cell);
-                judge_errors(cell, "brute", true);
+                judge_errors(cell, pairs_oracle, true);
             });
             add_forest_cost(session, input, one.cell);
             if (codes == nullptr)
@@ -154,7 +154,7 @@ void measure_boxes(const AxisRun& run, const SceneFacts& scene, const Input& inp
         const Differences wrong = count_pairs(pipeline, right, cell);
         cell.counters["right_pairs_count"] = static_cast<double>(right.size());
         // False pairs are counted, and missed pairs are an error.
-        judge_errors(cell, has_exact_reference ? "brute, CGAL" : "brute",
+        judge_errors(cell, has_exact_reference ? "CGAL boxes, CGAL" : pairs_oracle,
                      wrong.missed > 0 || wrong == Differences{});
         const PairList found(pipeline.contacts());
         Check& check = cell.check;

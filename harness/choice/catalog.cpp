@@ -12,6 +12,7 @@ namespace {
 // Oracles. Apart from padding and pointers, all implicit trees are equal, and so are all radix trees.
 constexpr std::string_view oi_tree = "oibvh-reference";
 constexpr std::string_view radix_tree = "radix-reference";
+constexpr std::string_view hploc_tree = "hploc-reference";
 constexpr std::string_view own_tree = {};  // no other builder makes it: only invariants are checked
 
 constexpr BuilderEntry of_embree(std::string_view name, std::string_view summary, MakeBuilder make)
@@ -40,6 +41,8 @@ constexpr BuilderEntry builders[] = {
     in_any_format("lbvh-levels",
                   "radix tree, a launch a level: topology from the root down, boxes back up",
                   radix_tree, make_lbvh_levels),
+    in_any_format("hploc", "radix tree whose ranges are joined anew by surface area, in one launch",
+                  hploc_tree, make_hploc),
     in_any_format("oibvh-single", "Oi-BVH in one launch, groups meet through global atomics",
                   oi_tree, make_oibvh_single),
     in_any_format("oibvh-multi", "Oi-BVH in several launches, groups meet between them", oi_tree,
@@ -55,6 +58,8 @@ constexpr BuilderEntry builders[] = {
      make_oibvh_reference},
     {"radix-reference", "radix tree on one core of the host, slowly: the oracle", radix_tree,
      make_radix_reference},
+    {"hploc-reference", "the tree of hploc on one core of the host, slowly: the oracle", hploc_tree,
+     make_hploc_reference},
     {"heap-median", "left-balanced heap, split at medians, on a host core", own_tree,
      make_heap_median},
     {"median-split", "halves along the longest axis, on a host core", own_tree, make_median_split},
@@ -70,10 +75,10 @@ constexpr BuilderEntry builders[] = {
 };
 
 // Host memory of the libraries per triangle. Embree: 24 bytes for the box, and 104 measured as the growth of the process beyond
-// that of `brute` from torus:60000 to torus:160000. FCL, from its structures: two nodes of 64 bytes, a triangle of three 64-bit
-// indices, half a vertex of 24 bytes now and in the previous frame, and a 4-byte index.
+// that of `brute` from torus:60000 to torus:160000. FCL, from its structures: two nodes of 36 bytes, a triangle of three 64-bit
+// indices, half a vertex of 12 bytes, and a 4-byte index.
 constexpr std::size_t embree_bytes = 128;
-constexpr std::size_t fcl_bytes = 180;
+constexpr std::size_t fcl_bytes = 106;
 
 // To add a collider, add its line here. There is no other registration.
 constexpr ColliderEntry colliders[] = {
@@ -97,7 +102,9 @@ constexpr ColliderEntry colliders[] = {
      .needs_tree = false},
     {"embree", "Embree's rtcCollide over trees of its own, on all host threads",
      make_embree_collider, embree_absent, embree_bytes, true, false},
-    {"fcl", "triangles that intersect, by FCL, its trees built each time, on a host core",
+    {"embree-refit", "the same, its trees refit to moved points", make_embree_refit_collider,
+     embree_absent, embree_bytes, true, false},
+    {"fcl", "triangles that intersect, by FCL, its trees built each time, on all host cores",
      make_fcl_collider, fcl_absent, fcl_bytes, true, false, true},
     {"fcl-refit", "the same, its trees refit to moved points", make_fcl_refit_collider, fcl_absent,
      fcl_bytes, true, false, true},

@@ -49,7 +49,8 @@ struct CollideTask : SceneChoice {
     int samples = 20;
     int warm_up = 3;
     SamplingRules sampling = {};
-    Note note = {};  ///< told before and during work that takes long; may be empty
+    bool wants_lists = false;  ///< what is found is listed, even if it is known to be right
+    Note note = {};            ///< told before and during work that takes long; may be empty
 };
 
 /// Throws BadUsage for options that are invalid with swept boxes. Needs no scene.

@@ -114,6 +114,7 @@ private:
         }
         task.needs_scene = scenes_.size() == 1;
         task.samples = samples_;
+        task.wants_lists = !pairs_.empty() || !contacts_.empty();
         sampling_.apply(task.sampling);
         if (task.swept) {
             check_swept_words(task);

@@ -2,11 +2,10 @@
 #include "harness/judge/end_point_overlap.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <future>
-#include <thread>
 #include <vector>
+
+#include "geometry/cores.h"
 
 namespace bvhbench {
 namespace {
@@ -254,18 +253,9 @@ std::optional<AreaSums> end_point_overlap(const HostTree& tree, std::span<const 
     const DepthFirst flat(tree);
     // Threads take chunks as they become free; the chunks are added in their order, so the sum does not depend on threads.
     std::vector<Sums> chunks((flat.nodes.size() + chunk - 1) / chunk);
-    std::atomic<std::size_t> next = 0;
-    const auto work = [&] {
-        for (std::size_t i; (i = next++) < chunks.size();)
-            chunks[i] = sums_of(flat, i * chunk, points, faces);
-    };
-    std::vector<std::future<void>> others;
-    const unsigned wanted = threads > 0 ? threads : std::thread::hardware_concurrency();
-    for (std::size_t i = 1; i < std::min<std::size_t>(wanted, chunks.size()); ++i)
-        others.push_back(std::async(std::launch::async, work));
-    work();
-    for (std::future<void>& other : others)
-        other.get();
+    on_all_cores(
+        chunks.size(), [&](std::size_t i) { chunks[i] = sums_of(flat, i * chunk, points, faces); },
+        threads > 0 ? threads : core_count());
 
     Sums sums;
     for (const Sums& one : chunks)

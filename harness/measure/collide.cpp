@@ -50,6 +50,7 @@ void collide_scene(Session& session, const CollideTask& task, int& order, const 
         if (frame > frames.first)
             now.motions = object_motions(scene, frame - 1, frame);
         now.file_faces = scene.file_faces;
+        now.wants_lists = task.wants_lists;
         now.note = note_of(task, "frame " + std::to_string(frame), frame - frames.first,
                            frames.end - frames.first);
         Found found{.scene = &scene};

@@ -16,7 +16,8 @@
 
 namespace bvhbench {
 
-/// Pairs and contacts that a pipeline found in a frame, in canonical order. Triangles are numbered as in the scene's file.
+/// Pairs and contacts that a pipeline found in a frame, in canonical order. Triangles are numbered as in the scene's file. Right
+/// lists are empty unless `wants_lists`.
 struct Found {
     const Scene* scene = nullptr;  ///< valid only during the call
     PairList pairs = {}, contacts = {};
@@ -80,6 +81,7 @@ struct FrameOfPipelines {
     std::vector<Motion> motions = {};       ///< since the previous frame; empty: unknown
     std::span<const uint> file_faces = {};  ///< as Scene::file_faces
     Note note = {};
+    bool wants_lists = false;  ///< as in CollideTask
     /// Judges what a pipeline found, in addition to the oracles; may be empty.
     std::function<void(const Found& found, Cell& cell)> judge_more = {};
 };

@@ -17,41 +17,46 @@
 namespace bvhbench {
 namespace {
 
-/// A list that a pipeline found. If it is right, it is the oracle's list, which need not be sorted and hashed again.
+/// A list that a pipeline found. If it is right, as its facts tell, it is the oracle's, which need not be listed.
 class Listed {
 public:
-    Listed(std::vector<Pair> found, const Answer& right) : right_(right)
+    Listed(std::vector<Pair> found, const Right& right) : right_(right)
     {
-        if (!has_exactly(right.list, found))
+        const PairFacts facts = facts_of(found);
+        // Facts from an earlier run may be wrong. Only the list condemns.
+        if (facts != right.facts().set && facts != right.list().facts.set)
             own_.emplace(std::move(found));
     }
 
-    const PairList& list() const { return own_ ? *own_ : right_.list; }
+    const PairList& list() const { return own_ ? *own_ : right_.list().list; }
 
     /// Adds differences from the oracle's list to the check.
     void hold(const std::string& what, Check& check) const
     {
-        if (list().surplus() > 0)
-            check.find_wrong(std::to_string(list().surplus()) + ' ' + what + " were found twice");
-        else if (own_)
-            check.find_wrong("the oracle has " + std::to_string(right_.list.size()) + ' ' + what +
-                             " of the hash " + hex(right_.hash));
+        if (!own_)
+            return;
+        const RightFacts& right = right_.list().facts;
+        if (own_->surplus() > 0)
+            check.find_wrong(std::to_string(own_->surplus()) + ' ' + what + " were found twice");
+        else
+            check.find_wrong("the oracle has " + std::to_string(right.set.count) + ' ' + what +
+                             " of the hash " + hex(right.file_hash));
     }
 
-    /// Returns the list with triangles numbered as in the scene's file, and writes its hash.
-    PairList in_file(std::span<const uint> file_faces, std::optional<std::uint64_t>& hash) const
+    /// Writes the hash of the list with triangles numbered as in the scene's file. Returns that list if it is wanted, else none.
+    PairList in_file(const FrameOfPipelines& frame, std::optional<std::uint64_t>& hash) const
     {
-        if (!own_) {
-            hash = right_.hash;
-            return right_.in_file;
+        if (!own_ && !frame.wants_lists) {
+            hash = right_.facts().file_hash;
+            return {};
         }
-        PairList numbered = renumbered(*own_, file_faces);
-        hash = numbered.hash();
+        PairList numbered = own_ ? renumbered(*own_, frame.file_faces) : right_.list().in_file();
+        hash = own_ ? numbered.hash() : right_.list().facts.file_hash;
         return numbered;
     }
 
 private:
-    const Answer& right_;
+    const Right& right_;
     std::optional<PairList> own_;  ///< if it is not the oracle's
 };
 
@@ -97,28 +102,28 @@ void judge(const Pipeline& pipeline, Cell& cell, FrameOracle& oracle, const Fram
     check = {.verdict = Check::Verdict::agrees, .against = {}, .detail = {}};
     found = {.scene = found.scene};
     if (pipeline.has_pairs()) {
-        const Answer& right = oracle.pairs(choice);
+        const Right& right = oracle.pairs(choice);
         const Listed pairs(pipeline.pairs(), right);
-        check.against = "brute";
+        check.against = pairs_oracle;
         if (find_box_format(cell.builder.boxes).has_cells())
-            hold_candidates(pairs.list(), right.list, !pipeline.has_contacts(), cell);
+            hold_candidates(pairs.list(), right.list().list, !pipeline.has_contacts(), cell);
         else
             pairs.hold("pairs", check);
         if (!cell.swept.pairs.empty())
-            count_errors(pairs.list(), right.list, "", cell);
-        found.pairs = pairs.in_file(frame.file_faces, check.pairs_hash);
+            count_errors(pairs.list(), right.list().list, "", cell);
+        found.pairs = pairs.in_file(frame, check.pairs_hash);
     }
     if (pipeline.has_contacts()) {
         if (has_exact_reference) {
             check.against += check.against.empty() ? "CGAL" : ", CGAL";
-            const Answer& right = oracle.contacts(choice);
+            const Right& right = oracle.contacts(choice);
             const Listed contacts(pipeline.contacts(), right);
             const bool by_collider = pipeline.collider().finds_contacts();
             if (by_collider || find_narrow_method(choice.narrow).is_exact)
                 contacts.hold("contacts", check);
             else
-                hold_inexact(contacts.list(), right.list, cell);
-            found.contacts = contacts.in_file(frame.file_faces, check.contacts_hash);
+                hold_inexact(contacts.list(), right.list().list, cell);
+            found.contacts = contacts.in_file(frame, check.contacts_hash);
         } else {
             if (check.verdict == Check::Verdict::agrees) {
                 check.verdict = Check::Verdict::not_checked;
@@ -140,7 +145,7 @@ void require_memory(const ColliderChoice& choice, std::size_t triangles, FrameOr
     if (bytes == 0)
         return;
     require_host_memory("collider " + choice.name, bytes * triangles);
-    const std::size_t count = oracle.pairs(choice).list.size();
+    const std::uint64_t count = oracle.pairs(choice).facts().set.count;
     require_host_memory("collider " + choice.name + " for " + std::to_string(count) + " pairs",
                         bytes * triangles + 4 * sizeof(Pair) * count);
 }
@@ -194,6 +199,7 @@ std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span
             require_memory(cell.collider, input.triangle_count(), oracle);
             subject.settled = settle(session, one, frame, cell);
             cell.counters = one.pipeline->counters();
+            cell.counters.merge(one.pipeline->transfers(input));
             judge(*one.pipeline, cell, oracle, frame, found);
         });
         subject.once = [&] {

@@ -1,105 +1,178 @@
 // SPDX-License-Identifier: MIT
 //
-// The right pairs and contacts of a frame, which the host computes while the device compiles.
+// The right pairs and contacts of a frame. The host computes them while the device compiles, or an earlier run has.
 #pragma once
 
 #include <chrono>
 #include <future>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
 
-#include "collide/oracles/exact_reference.h"
-#include "collide/oracles/sweep.h"
+#include "collide/oracles/box_pairs.h"
+#include "geometry/hash.h"
 #include "geometry/host_memory.h"
 #include "harness/base/terminal.h"
 #include "harness/choice/catalog.h"
+#include "harness/judge/kept_answers.h"
 
 namespace bvhbench {
 
 /// A list that an oracle computed.
-struct Answer {
-    Answer(PairList computed, std::span<const uint> file_faces)
-        : list(std::move(computed)), in_file(renumbered(list, file_faces)), hash(in_file.hash())
-    {}
+class Answer {
+public:
+    Answer(PairList computed, std::span<const uint> file_faces) : list(std::move(computed))
+    {
+        if (!file_faces.empty())
+            renumbered_ = renumbered(list, file_faces);
+        facts = {facts_of(list.pairs()), in_file().hash()};
+    }
+
+    /// The list with triangles numbered as in the scene's file.
+    const PairList& in_file() const { return renumbered_ ? *renumbered_ : list; }
 
     PairList list;
-    PairList in_file;    ///< with triangles numbered as in the scene's file
-    std::uint64_t hash;  ///< of in_file
+    RightFacts facts;
+
+private:
+    std::optional<PairList> renumbered_;  ///< if the numbers differ
 };
 
-/// Computes the pairs and contacts of a frame on another core, each when first asked for.
+/// Pairs or contacts of a frame: what identifies them, and the list, which is computed only where it is needed.
+class Right {
+public:
+    Right() = default;
+
+    /// Starts looking for a kept answer to `key`, and computing the list if there is none. `compute` returns an Answer.
+    template <class Compute>
+    Right(std::uint64_t key, Note note, Compute compute)
+        : list_(std::async(std::launch::deferred,
+                           [key, compute = std::move(compute)] {
+                               Answer answer = compute();
+                               keep_answer(key, answer.facts);
+                               return answer;
+                           }))
+        , facts_(std::async(std::launch::async,
+                            [key, list = list_] {
+                                const std::optional<RightFacts> kept = kept_answer(key);
+                                return kept ? *kept : list.get().facts;
+                            }))
+        , note_(std::move(note))
+    {}
+
+    bool is_asked() const { return facts_.valid(); }
+
+    /// Facts of the list, kept or computed. Blocks.
+    const RightFacts& facts() const
+    {
+        wait_for(facts_);
+        return facts_.get();
+    }
+
+    /// The list itself. Computes it, and keeps its facts, if they were kept before. Blocks.
+    const Answer& list() const
+    {
+        wait_for(std::async(std::launch::async, [list = list_] { list.wait(); }));
+        return list_.get();
+    }
+
+    /// As list(), for whoever waits without notes.
+    std::shared_future<Answer> later() const { return list_; }
+
+private:
+    template <class Later>
+    void wait_for(const Later& later) const
+    {
+        for (int seconds = 1; later.wait_for(std::chrono::seconds(1)) != std::future_status::ready;
+             ++seconds)
+            if (note_)
+                note_("the oracle is checking, " + std::to_string(seconds) + " s", 0);
+    }
+
+    std::shared_future<Answer> list_;  ///< deferred: the first who needs it computes it
+    std::shared_future<RightFacts> facts_;
+    Note note_;
+};
+
+/// Computes the pairs and contacts of a frame on other cores, each when first asked for.
 class FrameOracle {
 public:
     /// `file_faces` are as in FrameOfPipelines. `note` receives a line of progress each second of waiting.
     FrameOracle(const Input& input, std::span<const uint> file_faces, Note note)
         : input_(input), file_faces_(file_faces), note_(std::move(note))
-    {}
+    {
+        content_.value(oracle_version);
+        content_.values(input.points);
+        content_.values(input.end_points);
+        content_.values(input.faces);
+        content_.values(std::span<const FaceRange>(input.objects));
+        content_.values(file_faces);
+    }
 
-    /// Starts computing the pairs. Nothing may be timed before wait().
-    void begin(const ColliderChoice& choice) { entry(choice); }
+    /// Starts on the pairs. Nothing may be timed before wait().
+    void begin(const ColliderChoice& choice) { pairs(choice); }
 
     /// Blocks until all pairs that were begun are computed.
     void wait() const
     {
         for (const auto& [choice, one] : entries_)
-            wait_for(one.pairs);
+            one.pairs.facts();
     }
 
-    const Answer& pairs(const ColliderChoice& choice)
-    {
-        return wait_for(entry(choice).pairs).get();
-    }
-
-    const Answer& contacts(const ColliderChoice& choice)
-    {
-        Later& found = entry(choice).contacts;
-        if (!found.valid())
-            found = std::async(std::launch::async, [this, keep_adjacent = choice.keep_adjacent,
-                                                    of = &pairs(choice).list] {
-                return Answer(
-                    intersecting_pairs(input_.points, input_.faces, of->pairs(), keep_adjacent),
-                    file_faces_);
-            });
-        return wait_for(found).get();
-    }
-
-private:
-    using Later = std::shared_future<Answer>;
-    struct Entry {
-        Later pairs, contacts;
-    };
-
-    const Later& wait_for(const Later& later) const
-    {
-        for (int seconds = 1; later.wait_for(std::chrono::seconds(1)) != std::future_status::ready;
-             ++seconds) {
-            if (note_)
-                note_("the oracle is checking, " + std::to_string(seconds) + " s", 0);
-        }
-        return later;
-    }
-
-    Entry& entry(const ColliderChoice& choice)
+    const Right& pairs(const ColliderChoice& choice)
     {
         const std::pair asked(choice.among, choice.keep_adjacent);
-        const auto [at, is_new] = entries_.try_emplace(asked);
-        if (is_new)
-            at->second.pairs = std::async(std::launch::async, [this, asked] {
+        Right& pairs = entries_[asked].pairs;
+        if (!pairs.is_asked())
+            pairs = Right(key_of(asked, 'p'), note_, [this, asked] {
                 require_host_memory("checking the pairs", input_.faces.size() * sizeof(Aabb));
                 return Answer(touching_pairs(leaf_boxes(input_), input_.faces, asked.second,
                                              input_.objects, asked.first),
                               file_faces_);
             });
-        return at->second;
+        return pairs;
+    }
+
+    const Right& contacts(const ColliderChoice& choice)
+    {
+        const std::shared_future<Answer> pairs = this->pairs(choice).later();
+        const std::pair asked(choice.among, choice.keep_adjacent);
+        Right& contacts = entries_[asked].contacts;
+        if (!contacts.is_asked())
+            contacts = Right(key_of(asked, 'c'), note_, [this, asked, pairs] {
+                return Answer(intersecting_pairs(input_.points, input_.faces,
+                                                 pairs.get().list.pairs(), asked.second),
+                              file_faces_);
+            });
+        return contacts;
+    }
+
+private:
+    /// Changes whenever an oracle answers differently, so that older answers are not found.
+    static constexpr int oracle_version = 1;
+
+    using Asked =
+        std::pair<Among, bool>;  ///< the kind of pairs, and whether adjacent ones are kept
+    struct Entry {
+        Right pairs, contacts;
+    };
+
+    std::uint64_t key_of(const Asked& asked, char list) const
+    {
+        Hash key = content_;
+        key.value(static_cast<int>(asked.first));
+        key.value(asked.second);
+        key.value(list);
+        return key.get();
     }
 
     const Input& input_;
     std::span<const uint> file_faces_;
     Note note_;
-    std::map<std::pair<Among, bool>, Entry>
-        entries_;  ///< by the kind of pairs, and whether adjacent ones are kept
+    Hash content_;  ///< of the frame
+    std::map<Asked, Entry> entries_;
 };
 
 }  // namespace bvhbench

@@ -2,10 +2,12 @@
 #include "harness/measure/pipeline.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 
 #include "geometry/error.h"
 #include "harness/judge/pair_counts.h"
+#include "harness/measure/engine.h"
 
 namespace bvhbench {
 
@@ -189,6 +191,27 @@ std::vector<Pair> Pipeline::pairs() const
 std::vector<Pair> Pipeline::contacts() const
 {
     return narrow_ && queries() ? narrow_->contacts(session_.queue()) : pairs();
+}
+
+std::map<std::string, double> Pipeline::transfers(const Input& input) const
+{
+    if (collider_->is_on_host() && !narrow_)
+        return {};
+    const auto median_ns = [](const std::function<void()>& copy) {
+        copy();  // the first one may touch new memory
+        std::array<std::int64_t, 5> times;
+        for (std::int64_t& time : times)
+            time = host_ns(copy);
+        std::ranges::sort(times);
+        return static_cast<double>(times[times.size() / 2]);
+    };
+    const cl::CommandQueue& queue = session_.queue().cl();
+    Buffer<Point> points = input.device_points, end_points = input.device_end_points;
+    return {{"upload_ns", median_ns([&] {
+                 points.upload(queue, input.points);
+                 end_points.upload(queue, input.end_points);
+             })},
+            {"read_back_ns", median_ns([&] { has_contacts() ? contacts() : pairs(); })}};
 }
 
 std::map<std::string, double> Pipeline::counters() const

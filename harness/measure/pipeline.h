@@ -45,6 +45,10 @@ public:
     std::vector<Pair> contacts() const;  ///< in any order; requires has_contacts()
     std::map<std::string, double> counters() const;
 
+    /// Host times, in ns, of what no stage holds: `upload_ns` copies the frame's points to the device, `read_back_ns` copies the
+    /// answer to the host; each the median of five. Empty if no part of the pipeline runs on the device.
+    std::map<std::string, double> transfers(const Input& input) const;
+
     const Collider& collider() const { return *collider_; }
     /// Tree that the last frame queried; null if the collider needs none.
     const Tree* tree() const { return tree_; }

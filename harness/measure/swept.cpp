@@ -119,11 +119,14 @@ void collide_swept(Session& session, const CollideTask& task, int& order, const 
             now.swept = {.pairs = question.name,
                          .to_frame = static_cast<std::int64_t>(step + 1),
                          .primitives = question.input.triangle_count()};
-            if (truth && truth->from_frame == step)
+            now.wants_lists = task.wants_lists;
+            if (truth && truth->from_frame == step) {
+                now.wants_lists = true;
                 now.judge_more = [&](const Found& found, Cell& cell) {
                     judge_step((*truth).*question.listed, (*truth).*question.counted, found.pairs,
                                cell);
                 };
+            }
             Found found{.scene = &scene};
             add(run_frame(session, task, question.running, now, order, found), found);
         }

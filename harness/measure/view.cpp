@@ -88,7 +88,8 @@ std::string view_text(Session& session, const std::string& scene_name, std::size
     const FrameOfPipelines frame{.input = input,
                                  .contest = contest,
                                  .number = "view",
-                                 .scene = facts_of(task, scene, number)};
+                                 .scene = facts_of(task, scene, number),
+                                 .wants_lists = true};
     int order = 0;
     Found found;
     Cell cell = run_frame(session, task, all, frame, order, found).front();

@@ -31,15 +31,6 @@ fs::path variable(const char* name)
     return value != nullptr ? value : "";
 }
 
-fs::path own_folder()
-{
-    if (const fs::path base = variable("XDG_CACHE_HOME"); base.is_absolute())
-        return base / "bvhbench" / "pocl";
-    if (const fs::path home = variable("HOME"); home.is_absolute())
-        return home / ".cache" / "bvhbench" / "pocl";
-    return {};
-}
-
 /// Removes everything that PoCL has stored in the folder if the files take more than most_bytes.
 void empty_if_large(const fs::path& folder)
 try {
@@ -75,9 +66,18 @@ std::string folder_problem(const fs::path& folder)
 
 }  // namespace
 
+fs::path cache_folder(const char* of)
+{
+    if (const fs::path base = variable("XDG_CACHE_HOME"); base.is_absolute())
+        return base / "bvhbench" / of;
+    if (const fs::path home = variable("HOME"); home.is_absolute())
+        return home / ".cache" / "bvhbench" / of;
+    return {};
+}
+
 PoclCache::PoclCache()
 {
-    const fs::path named = variable("POCL_CACHE_DIR"), own = own_folder();
+    const fs::path named = variable("POCL_CACHE_DIR"), own = cache_folder("pocl");
     const fs::path folder = named.empty() ? own : named;
     std::string problem = folder.empty() ? "there is no home folder" : folder_problem(folder);
     if (!problem.empty())

@@ -9,6 +9,10 @@
 
 namespace bvhbench {
 
+/// Returns the folder of this program's files called `of` below $XDG_CACHE_HOME or ~/.cache; empty if there is no home folder. It
+/// need not exist.
+std::filesystem::path cache_folder(const char* of);
+
 /// A writable folder in which PoCL keeps compiled kernels for the lifetime of this object.
 ///
 /// PoCL ends the process if it cannot write its folder. Therefore the constructor chooses a usable folder, before the first

@@ -29,6 +29,7 @@ std::vector<Asker> askers()
                                       {.name = "apetrei-fused"},
                                       {.name = "karras"},
                                       {.name = "lbvh-levels"},
+                                      {.name = "hploc"},
                                       {.name = "oibvh-wide4"}};
     std::vector<Asker> all;
     for (const BuilderChoice& builder : builders)

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "collide/oracles/box_pairs.h"
 #include "collide/oracles/exact_reference.h"
-#include "collide/oracles/sweep.h"
 #include "geometry/names.h"
 #include "harness/base/failure.h"
 #include "scenes/mesh_file.h"

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "collide/oracles/sweep.h"
+#include "collide/oracles/box_pairs.h"
 #include "harness/choice/scene_choice.h"
 #include "harness/judge/check.h"
 #include "harness/measure/run.h"

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "collide/oracles/box_pairs.h"
 #include "collide/oracles/exact_reference.h"
-#include "collide/oracles/sweep.h"
 #include "collide/pairs.h"
 #include "harness/stress/judge.h"
 #include "scenes/generate/random.h"

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "collide/oracles/box_pairs.h"
 #include "collide/oracles/exact_reference.h"
-#include "collide/oracles/sweep.h"
 #include "collide/parameters.h"
 #include "geometry/names.h"
 #include "harness/judge/pair_counts.h"

@@ -28,10 +28,10 @@ def of_pipeline(cells: list[Cell]) -> str:
 
 def text(run: results.Run, printed: str = "") -> str:
     """Returns one line for the frames of a scene by a pipeline, followed by the rows of the paper's table `printed`. Empty if
-    there are no frames."""
+    there are no frames. The columns "up" and "back", in ms, are of copies to and from the device, which "ms" does not have."""
     groups = list(grouped((cell for cell in run.all_cells if cell.operation == "collide" and not cell.swept),
                           lambda cell: cell.key("scene", "builder", "collider", "experiment")).values())
-    table = Table("<scene", "<pipeline", "frames", "ms", "±", "broad", "MB", "pairs", "contacts", "peak BVTT", "<verdict")
+    table = Table("<scene", "<pipeline", "frames", "ms", "±", "broad", "up", "back", "MB", "pairs", "contacts", "peak BVTT", "<verdict")
     rows = results.printed(printed)["rows"] if printed else []
     names = [cells[0].scene_facts["name"] for cells in groups]
     for cells, name, next_name in zip(groups, names, [*names[1:], None]):
@@ -39,13 +39,14 @@ def text(run: results.Run, printed: str = "") -> str:
         stand_in = f" for {first.stand_in_for}" if first.stand_in_for else ""
         counts = [whole(mean(cells, key, 1, 0.5)) for key in ("pairs_count", "contacts_count", "bvtt_peak_count")]
         of_frames = times_of(cells)
-        table.row(name + stand_in, first.pipeline, str(len(cells)), *of_frames,
+        copies = [fixed(mean(cells, key, 1e-6), 3) for key in ("upload_ns", "read_back_ns")]
+        table.row(name + stand_in, first.pipeline, str(len(cells)), *of_frames, *copies,
                   fixed(mean(cells, "memory_bytes", 1e-6), 1), *counts, verdict(cells), among=name,
                   value=float(of_frames[0] or "nan"))
         for row in rows if name != next_name else ():
             if row["scene"] == (first.stand_in_for or name):
                 table.row("", f"paper: {row['method']}", str(row["frames"]), fixed(row["frame_ms"], 3),
-                          fixed(row.get("frame_stdev_ms", 0) or None, 3), "", fixed(row["memory_megabytes"], 1), "", "", "",
+                          fixed(row.get("frame_stdev_ms", 0) or None, 3), "", "", "", fixed(row["memory_megabytes"], 1), "", "", "",
                           "printed")
     return table.text() if groups else ""
 

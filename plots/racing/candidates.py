@@ -66,7 +66,7 @@ class Product:
         return self.why_not_at_all(text)
 
     def why_no_collider(self, name: str, text: str) -> str:
-        if name in ("front", "front-leaf", "fcl-refit") and not self.asked.has_frames:
+        if (name.startswith("front") or name.endswith("-refit")) and not self.asked.has_frames:
             return "they start from the frame before, and there is one frame: --frames"
         if families.of_collider(name) in families.ON_HOST and not (self.asked.on_cpu or self.asked.with_libraries):
             return ON_THE_HOST

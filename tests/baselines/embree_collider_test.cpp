@@ -9,8 +9,15 @@
 namespace bvhbench {
 namespace {
 
-class EmbreeCollider : public testing::Test {
+class EmbreeCollider : public testing::TestWithParam<bool> {
 protected:
+    static bool is_refit() { return GetParam(); }
+    static std::unique_ptr<Collider> made(const ColliderOptions& options)
+    {
+        const MakeCollider make = is_refit() ? make_embree_refit_collider : make_embree_collider;
+        return make(session().programs(), options);
+    }
+
     void SetUp() override
     {
         if (!embree_absent.empty())
@@ -18,29 +25,30 @@ protected:
     }
 };
 
-TEST_F(EmbreeCollider, FindsTheOraclesPairsOfHardMeshes)
+TEST_P(EmbreeCollider, FindsTheOraclesPairsOfHardMeshes)
 {
     for (const bool keep_adjacent : {true, false}) {
-        const auto embree =
-            make_embree_collider(session().programs(), {.keep_adjacent = keep_adjacent});
+        const auto embree = made({.keep_adjacent = keep_adjacent});
         for (const std::size_t size : {1u, 2u, 3u, 9u, 65u, 777u})
             for (const auto& [name, mesh] : hard_meshes(size)) {
                 SCOPED_TRACE(name + ", " + std::to_string(size) + " triangles");
                 const Input input = uploaded(mesh.points, mesh.faces);
-                embree->reserve(nullptr, input);
+                const auto found = [&] {
+                    embree->reserve(nullptr, input);
+                    return found_by(*embree, input);
+                };
                 if (name == "huge")
-                    EXPECT_THROW(found_by(*embree, input), Unavailable);
+                    EXPECT_THROW(found(), Unavailable);
                 else
-                    EXPECT_EQ(found_by(*embree, input),
-                              touching_pairs(mesh.points, mesh.faces, keep_adjacent));
+                    EXPECT_EQ(found(), touching_pairs(mesh.points, mesh.faces, keep_adjacent));
             }
     }
 }
 
 /// Embree treats subnormal floats as zeros, and subnormal differences of normal floats, too.
-TEST_F(EmbreeCollider, FindsTheOraclesPairsWhereFloatsEnd)
+TEST_P(EmbreeCollider, FindsTheOraclesPairsWhereFloatsEnd)
 {
-    const auto embree = make_embree_collider(session().programs(), {});
+    const auto embree = made({});
     for (const std::size_t size : {1u, 2u, 5u, 65u, 777u})
         for (const auto& [scale, along] : {std::pair{0x1p-126f, 0x1p-126f},
                                            {0x1p-125f, -0x1p-126f},
@@ -60,7 +68,7 @@ TEST_F(EmbreeCollider, FindsTheOraclesPairsWhereFloatsEnd)
         }
 }
 
-TEST_F(EmbreeCollider, FindsTheOraclesPairsOfObjectsThatMove)
+TEST_P(EmbreeCollider, FindsTheOraclesPairsOfObjectsThatMove)
 {
     ManyObjects before({1, 70, 3, 2, 129, 200, 1});
     before.add({}, 0);
@@ -78,8 +86,7 @@ TEST_F(EmbreeCollider, FindsTheOraclesPairsOfObjectsThatMove)
     for (const Among among : all_kinds)
         for (const bool keep_adjacent : {true, false}) {
             SCOPED_TRACE(std::to_string(static_cast<int>(among)) + (keep_adjacent ? " kept" : ""));
-            const auto embree = make_embree_collider(
-                session().programs(), {.among = among, .keep_adjacent = keep_adjacent});
+            const auto embree = made({.among = among, .keep_adjacent = keep_adjacent});
             EXPECT_FALSE(embree->needs_tree());
             EXPECT_FALSE(embree->finds_contacts());
             bool is_reserved = false;
@@ -92,10 +99,10 @@ TEST_F(EmbreeCollider, FindsTheOraclesPairsOfObjectsThatMove)
         }
 }
 
-TEST_F(EmbreeCollider, RefusesAFrameWithCoordinatesItWouldDropTrianglesForAndTakesTheNext)
+TEST_P(EmbreeCollider, RefusesAFrameWithCoordinatesItWouldDropTrianglesForAndTakesTheNext)
 {
     Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1e18f, 0, 0}}, {{0, 1, 2}, {0, 1, 3}}};
-    const auto embree = make_embree_collider(session().programs(), {});
+    const auto embree = made({});
     const Input input = uploaded(mesh.points, mesh.faces);
     embree->reserve(nullptr, input);
     EXPECT_EQ(found_by(*embree, input).size(), 1u);
@@ -111,19 +118,37 @@ TEST_F(EmbreeCollider, RefusesAFrameWithCoordinatesItWouldDropTrianglesForAndTak
     EXPECT_EQ(found_by(*embree, input).size(), 1u);
 }
 
-TEST_F(EmbreeCollider, NamesItsStages)
+TEST_P(EmbreeCollider, NamesItsStages)
 {
     const Mesh mesh = crowded_mesh(100);
     const Input input = uploaded(mesh.points, mesh.faces);
-    const auto embree = make_embree_collider(session().programs(), {});
+    const auto embree = made({});
     embree->reserve(nullptr, input);
     embree->query(nullptr, input, session().queue());
     const std::vector<StageTime> stages = session().queue().finish();
     ASSERT_EQ(stages.size(), 2u);
-    EXPECT_EQ(stages[0].stage, "hierarchy");
+    EXPECT_EQ(stages[0].stage, is_refit() ? "refit" : "hierarchy");
     EXPECT_EQ(stages[1].stage, "broad");
     EXPECT_GT(stages[0].wall_ns, 0);
 }
+
+/// Embree's nodes of eight children take at least 8 bytes a triangle, its leaves 8.
+TEST_P(EmbreeCollider, TellsWhatEmbreeHolds)
+{
+    const auto bytes_of = [](std::size_t triangles) {
+        const Mesh mesh = crowded_mesh(triangles);
+        const Input input = uploaded(mesh.points, mesh.faces);
+        const auto embree = made({});
+        embree->reserve(nullptr, input);
+        found_by(*embree, input);
+        return embree->reserved().tree_bytes;
+    };
+    EXPECT_GT(bytes_of(20000), bytes_of(2000) + 16 * 18000);
+    EXPECT_LT(bytes_of(20000), 1000 * 20000);
+}
+
+INSTANTIATE_TEST_SUITE_P(Trees, EmbreeCollider, testing::Bool(),
+                         [](const auto& tested) { return tested.param ? "refit" : "built"; });
 
 }  // namespace
 }  // namespace bvhbench

@@ -56,12 +56,13 @@ TEST_P(LibraryReference, CountedWhatTheLibraryFinds)
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Libraries, LibraryReference, testing::Values("embree", "fcl", "fcl-refit"),
+INSTANTIATE_TEST_SUITE_P(Libraries, LibraryReference,
+                         testing::Values("embree", "embree-refit", "fcl", "fcl-refit"),
                          [](const auto& tested) { return test_name(tested.param); });
 
 TEST(LibraryColliders, AreListedAndRefusedWhereTheyWereNotBuilt)
 {
-    for (const char* name : {"embree", "fcl", "fcl-refit"}) {
+    for (const char* name : {"embree", "embree-refit", "fcl", "fcl-refit"}) {
         const ColliderEntry& entry = find_collider(name);
         if (entry.make != nullptr) {
             EXPECT_EQ(make_collider({.name = name, .keep_adjacent = false}, session().programs())

@@ -68,7 +68,7 @@ TEST_P(RoundedTrees, AreTheSameWhereGroupsWait)
 /// Inner nodes of radix trees are packed too, in words that depend on the format.
 TEST_P(RoundedTrees, OfFewAreRadixTreesToo)
 {
-    for (const char* builder : {"karras", "apetrei", "apetrei-fused", "lbvh-levels"})
+    for (const char* builder : {"karras", "apetrei", "apetrei-fused", "lbvh-levels", "hploc"})
         EXPECT_EQ(broken_over(session(), rounding(builder, GetParam().name, 16),
                               hard_inputs().front().make(33)),
                   "")

@@ -13,7 +13,7 @@
 
 #include "builders/device_tree.h"
 #include "builders/parameters.h"
-#include "collide/oracles/sweep.h"
+#include "collide/oracles/box_pairs.h"
 #include "geometry/error.h"
 #include "harness/choice/catalog.h"
 #include "harness/judge/hard_inputs.h"

@@ -35,20 +35,36 @@ TEST(PairList, HashIsFnv1aOverLittleEndianWords)
     EXPECT_NE(PairList({{0, 2}}).hash(), PairList({{1, 2}}).hash());
 }
 
-TEST(HasExactly, HoldsInAnyOrderAndForNothingElse)
+TEST(PairList, OfMorePairsThanACoreSortsIsSorted)
 {
-    const PairList list({{2, 7}, {0, 1}, {2, 3}});
-    const auto has = [&](std::vector<Pair> found) { return has_exactly(list, found); };
-    EXPECT_TRUE(has({{3, 2}, {7, 2}, {1, 0}}));
-    EXPECT_FALSE(has({{2, 3}, {2, 7}}));                  // one is missing
-    EXPECT_FALSE(has({{2, 3}, {2, 7}, {0, 1}, {0, 2}}));  // one too many
-    EXPECT_FALSE(has({{2, 3}, {7, 2}, {2, 7}}));          // one twice
-    EXPECT_FALSE(has({{2, 3}, {2, 7}, {0, 2}}));          // others, with ids
-    EXPECT_FALSE(has({{2, 3}, {2, 7}, {1, 7}}));          // below,
-    EXPECT_FALSE(has({{2, 3}, {2, 7}, {2, 8}}));          // beside
-    EXPECT_FALSE(has({{2, 3}, {2, 7}, {9, 8}}));          // and above those of the list
-    EXPECT_TRUE(has_exactly(PairList(), {}));
-    EXPECT_FALSE(has_exactly(PairList(), list.pairs()));
+    std::vector<Pair> found;
+    for (uint k = 300'000; k-- > 0;)
+        found.push_back({(k * 7919) % 1009, 2000 + k});
+    const PairList list(found);
+    EXPECT_EQ(list.size(), found.size());
+    EXPECT_TRUE(std::is_sorted(list.pairs().begin(), list.pairs().end()));
+    EXPECT_EQ(facts_of(list.pairs()), facts_of(found));
+    found.back() = found.front();
+    EXPECT_EQ(PairList(found).surplus(), 1u);
+}
+
+TEST(PairFacts, AreThoseOfASetInAnyOrderAndOfNoOther)
+{
+    const std::vector<Pair> pairs = {{2, 7}, {0, 1}, {2, 3}};
+    const auto same = [&](std::vector<Pair> found) { return facts_of(found) == facts_of(pairs); };
+    EXPECT_TRUE(same({{3, 2}, {7, 2}, {1, 0}}));
+    EXPECT_FALSE(same({{2, 3}, {2, 7}}));                  // one is missing
+    EXPECT_FALSE(same({{2, 3}, {2, 7}, {0, 1}, {0, 2}}));  // one too many
+    EXPECT_FALSE(same({{2, 3}, {7, 2}, {2, 7}}));          // one twice
+    EXPECT_FALSE(same({{2, 3}, {2, 7}, {0, 2}}));          // another one
+    EXPECT_FALSE(same({{2, 7}, {0, 3}, {2, 1}}));          // the same ids in other pairs
+    EXPECT_EQ(facts_of({}), PairFacts{});
+}
+
+TEST(PairFacts, KeepTheirValueFromVersionToVersion)
+{
+    const PairFacts facts = facts_of(std::vector<Pair>{{0, 1}, {5, 3}});
+    EXPECT_EQ(hex(facts.low) + hex(facts.high), "1aea1b7351843f97fe24adce293ebb6d");
 }
 
 TEST(Relation, IsBetweenObjectsBeforeItIsAdjacent)

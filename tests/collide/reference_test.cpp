@@ -3,7 +3,7 @@
 // Compares the oracle with the counts of a separate program on real meshes.
 #include <limits>
 
-#include "collide/oracles/sweep.h"
+#include "collide/oracles/box_pairs.h"
 #include "tests/collide/reference_testing.h"
 
 namespace bvhbench {

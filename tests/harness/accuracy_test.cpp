@@ -6,8 +6,8 @@
 #include <map>
 
 #include "collide/narrow/narrow_methods.h"
+#include "collide/oracles/box_pairs.h"
 #include "collide/oracles/exact_reference.h"
-#include "collide/oracles/sweep.h"
 #include "geometry/error.h"
 #include "harness/accuracy/axis.h"
 #include "harness/judge/metrics.h"

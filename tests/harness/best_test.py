@@ -29,7 +29,7 @@ def test_answers_with_a_table_a_sentence_a_command_and_files() -> None:
     again, = (line.removeprefix("again, alone: ") for line in lines if line.startswith("again, alone: "))
     words = shlex.split(again)
     assert words[:2] == ["bvhbench", "collide"] and f"`{words[words.index('--collider') + 1]}`" in sentence, (again, sentence)
-    expect(0, *words[1:], "--samples", "1", says="verdict: agrees with brute")
+    expect(0, *words[1:], "--samples", "1", says="verdict: agrees with CGAL boxes")
     result = valid("best.json")
     assert result["run"]["command"][1:3] == ["best", "torus:2000"] and "finished_at" in result["run"]
     cells = result["cells"]

@@ -19,11 +19,11 @@ def test_collide_writes_a_valid_result_and_the_pairs():
             if (builder, collider) == ("karras", "block"):
                 expect(4, *words, says="block needs a binary implicit tree")
                 continue
-            out = expect(0, *words, says="verdict: agrees with brute, pairs ")
+            out = expect(0, *words, says="verdict: agrees with CGAL boxes, pairs ")
             cell = only("c.json")
             assert cell["operation"] == "collide" and cell["collider"]["name"] == collider, cell
             has_tree = cell["builder"]["name"] != "none"
-            assert has_tree == (collider not in ("grid", "brute", "embree")), cell
+            assert has_tree == (collider not in ("grid", "brute", "embree", "embree-refit")), cell
             assert (f"{collider} over {builder}" if has_tree else f"{collider} on sphere") in out, out
             assert "\nbroad " in out and (not has_tree or "\nhierarchy " in out), out
             lines = pathlib.Path("p.csv").read_text().splitlines()
@@ -71,7 +71,7 @@ def test_collide_goes_through_frames_and_objects_to_contacts():
             count = next(cell for cell in cells if cell["scene"]["frame"] == frame)["counters"][f"{kind}_count"]
             assert sum(line.startswith(f"{frame},") for line in lines) == count, (kind, frame)
     assert len(pairs) > 100
-    expect(0, "collide", "--collider", "leaf", *common, "--objects", "one", "--json", "o.json", says="verdict: agrees with brute, CGAL")
+    expect(0, "collide", "--collider", "leaf", *common, "--objects", "one", "--json", "o.json", says="verdict: agrees with CGAL boxes, CGAL")
     assert only("o.json")["scene"]["objects"] == 1
     for code, says, *words in ((2, "has frames 0 to 2, not 2 to before 9", *common, "--frames", "2:9"),
                                (2, "there are: unchanged, rigid, ", *common, "--no-skip", "lunch"),
@@ -100,11 +100,11 @@ def test_collide_finds_pairs_of_swept_boxes_and_holds_them_to_the_folders_ground
         assert (vf["counters"]["pairs_count"], ee["counters"]["pairs_count"]) == (8, 3)
         return vf, ee
 
-    expect(0, *swept, says="agrees with brute, pairs ")
+    expect(0, *swept, says="agrees with CGAL boxes, pairs ")
     assert all("ground_truth_pairs" not in cell["counters"] for cell in cells())
     (folder / "gt_vf.csv").write_text("4,0,1\n6,1,0\n")
     (folder / "gt_ee.csv").write_text("0,2,5,4,1\r\n")
-    shown = expect(0, *swept, says="agrees with brute, ground truth, pairs ")
+    shown = expect(0, *swept, says="agrees with CGAL boxes, ground truth, pairs ")
     assert " 2 " in shown and "4.0" in shown, shown  # eight pairs, two of the ground truth
     for cell, listed in zip(cells(), (2, 1)):
         assert (cell["counters"]["ground_truth_pairs"], cell["counters"]["ground_truth_missed"]) == (listed, 0), cell
@@ -120,7 +120,7 @@ def test_collide_finds_pairs_of_swept_boxes_and_holds_them_to_the_folders_ground
     meta = {"frame_labels": [0, 1], "ccd": {"from_frame": "0", "to_frame": "1", "swept_vf": 8, "swept_ee": 4}}
     (folder / "meta.json").write_text(json.dumps(meta))
     assert "meta.json counts 4 pairs" in expect(1, *swept)
-    expect(0, *swept, "--pairs-of", "between", says="agrees with brute, meta.json, pairs ")
+    expect(0, *swept, "--pairs-of", "between", says="agrees with CGAL boxes, meta.json, pairs ")
 
     for options, sentence in ((("--narrow", "exact"), "'exact' looks at one moment"),
                               (("--adjacent", "keep"), "there are none for --adjacent keep"),

@@ -203,12 +203,12 @@ TEST(Catalog, ListsEachOnceAndAnswersAnUnknownNameWithThoseThereAre)
     expect_whole(collider_catalog(), find_collider);
     EXPECT_TRUE(refusal_of([] {
                     find_collider("leafs");
-                }).ends_with(", embree, fcl, fcl-refit; did you mean 'leaf'?"));
+                }).ends_with(", embree, embree-refit, fcl, fcl-refit; did you mean 'leaf'?"));
     const std::string said = refusal_of([] { find_builder("oibvh"); });
     EXPECT_TRUE(said.starts_with(
         "no builder is called 'oibvh'; there are: perfect, karras, apetrei, apetrei-fused, "
-        "lbvh-levels, oibvh-single, oibvh-multi, oibvh-wide4, oibvh-wide8, oibvh-host, "
-        "oibvh-reference, radix-reference, "))
+        "lbvh-levels, hploc, oibvh-single, oibvh-multi, oibvh-wide4, oibvh-wide8, oibvh-host, "
+        "oibvh-reference, radix-reference, hploc-reference, "))
         << said;
 }
 

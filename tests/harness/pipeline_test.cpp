@@ -7,7 +7,7 @@
 
 #include <cstdlib>
 
-#include "collide/oracles/sweep.h"
+#include "collide/oracles/box_pairs.h"
 #include "collide/skips.h"
 #include "harness/measure/frames.h"
 #include "tests/collide/collider_testing.h"
@@ -100,6 +100,29 @@ TEST(Pipeline, RebuildsOfARealMixedSceneOnlyWhatDeforms)
     const Counts counts = counts_of(frames.go_to(1, object_motions(scene, 0, 1)));
     EXPECT_EQ(counts[0], 1);
     EXPECT_EQ(counts[1] + counts[2], 1);
+}
+
+TEST(Transfers, AreOfPipelinesThatReadOrWriteTheDevice)
+{
+    const Scene scene = load_scene("soup:300", {});
+    const Input input = upload_frame(session(), scene, 0);
+    const auto transfers_of = [&](const ColliderChoice& collider) {
+        Pipeline pipeline(session(), {.name = "oibvh-multi"}, collider, input);
+        pipeline.begin_frame({});
+        pipeline.settle(input);
+        const std::vector<Pair> found = pipeline.pairs();
+        const std::map<std::string, double> transfers = pipeline.transfers(input);
+        EXPECT_EQ(pipeline.pairs(), found);
+        return transfers;
+    };
+    for (const ColliderChoice& collider :
+         {ColliderChoice{.name = "group"},
+          ColliderChoice{.name = "brute", .keep_adjacent = false, .narrow = "exact"}}) {
+        const std::map<std::string, double> transfers = transfers_of(collider);
+        EXPECT_GT(transfers.at("upload_ns"), 0) << collider.name;
+        EXPECT_GT(transfers.at("read_back_ns"), 0) << collider.name;
+    }
+    EXPECT_TRUE(transfers_of({.name = "brute"}).empty());
 }
 
 }  // namespace

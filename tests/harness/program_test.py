@@ -69,9 +69,9 @@ def test_combinations_of_names_are_cells_of_one_run():
 
 def test_lists_put_the_name_first():
     first = [line.split()[0] for line in expect(0, "list", "builders").splitlines()]
-    assert first[:12] == ["perfect", "karras", "apetrei", "apetrei-fused", "lbvh-levels", "oibvh-single",
+    assert first[:14] == ["perfect", "karras", "apetrei", "apetrei-fused", "lbvh-levels", "hploc", "oibvh-single",
                           "oibvh-multi", "oibvh-wide4", "oibvh-wide8", "oibvh-host", "oibvh-reference",
-                          "radix-reference"], first
+                          "radix-reference", "hploc-reference"], first
 
 
 def on_a_terminal(*words: str) -> list[str]:
@@ -169,7 +169,7 @@ def test_an_experiment_of_ones_own():
 
 def test_a_refit_is_timed_beside_the_rebuild_and_judged():
     experiment("moved.json", scenes=["bend:soup:700", "bend:soup:1", "soup:9"], operations=["build", "refit"], samples=3, builders=[
-        "perfect", "karras", "apetrei", "apetrei-fused", "lbvh-levels", "oibvh-single", {"name": "oibvh-multi", "leaves": "sorted"},
+        "perfect", "karras", "apetrei", "apetrei-fused", "lbvh-levels", "hploc", "oibvh-single", {"name": "oibvh-multi", "leaves": "sorted"},
         "median-split"])
     out = expect(0, "run", "moved.json", "--out", "moved-out.json", says="rebuilding takes longer than refitting in ")
     assert expect(0, "show", "moved-out.json") in out

@@ -9,8 +9,8 @@
 #include <limits>
 
 #include "builders/spell_out.h"
+#include "collide/oracles/box_pairs.h"
 #include "collide/oracles/exact_reference.h"
-#include "collide/oracles/sweep.h"
 #include "geometry/error.h"
 #include "harness/stress/libraries.h"
 #include "harness/stress/run.h"

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "collide/oracles/sweep.h"
+#include "collide/oracles/box_pairs.h"
 #include "collide/pairs.h"
 #include "device/device.h"
 #include "geometry/error.h"

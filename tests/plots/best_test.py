@@ -225,7 +225,7 @@ LISTS = {"builders": {"oibvh-multi": "trees", "karras": "trees", "oibvh-host": "
          "orders": {"morton30": "30 bits   Morton", "hilbert30": "30 bits  Hilbert", "morton48": "48 bits  Morton",
                     "morton30-axis": "30 bits  as morton30", "kd": "no codes"},
          "colliders": {"leaf": "each leaf", "group": "groups", "front": "where the frame before", "grid": "no tree", "brute": "the oracle",
-                       "fcl": "contacts, on a host core"},
+                       "embree-refit": "refit", "fcl": "contacts, on a host core"},
          "formats": {"f32": "24 bytes", "u16": "12 bytes"}}
 
 
@@ -244,6 +244,7 @@ class TheCandidates(unittest.TestCase):
         self.assertNotIn("fcl", self.product(on_cpu=False, has_narrow=True).colliders)
         self.assertIn("fcl", self.product(on_cpu=False, has_narrow=True, with_libraries=True).colliders)
         self.assertIn("front", self.product(has_frames=True).colliders)
+        self.assertIn("embree-refit", self.product(has_frames=True).colliders)
         self.assertIn("sah-binned", self.product("build").builders)
         self.assertEqual(self.product(builders=["sah-binned"]).builders, ["sah-binned"])
         self.assertEqual([names for why, names in product.without.items() if "built without" in why], [])

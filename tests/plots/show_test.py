@@ -122,8 +122,11 @@ class OfFrames(unittest.TestCase):
     def test_those_of_a_pipeline_are_a_line_with_the_mean_and_deviation_of_their_medians(self) -> None:
         absent = frame(1, ns=3000000, jump=0)  # a file may omit an option with its default value
         titles, line = frames.text(run_of(frame(0), absent)).splitlines()
-        self.assertEqual(titles.split(), "scene pipeline frames ms ± broad MB pairs contacts peak BVTT verdict".split())
+        self.assertEqual(titles.split(), "scene pipeline frames ms ± broad up back MB pairs contacts peak BVTT verdict".split())
         self.assertEqual(line.split(), "bunny group over oibvh-multi 2 2.000 1.000 1.000 1,000 agrees".split())
+        copied = frame(0)
+        copied["counters"] |= {"upload_ns": 1234000, "read_back_ns": 5000}
+        self.assertEqual(frames.text(run_of(copied)).splitlines()[1].split()[5:9], ["1.000", "0.000", "0.500", "1.234"])
         self.assertEqual(frames.text(run_of(cell())), "")
         blank = frames.text(run_of(frame(0), {**frame(1), "status": "failed", "reason": "no memory"})).splitlines()[1]
         self.assertEqual(blank.split()[4:], ["2", "1,000", "failed:", "no", "memory"])
