@@ -38,7 +38,7 @@ LOOKS = {
     "apetrei-fused": Look("#D55E00", "v"),
     "karras": Look("#CC79A7", "D"),
     "lbvh-levels": Look("#CC79A7", "p", "////"),
-    "hploc": Look("#E69F00", "P", "...."),
+    "hploc": Look("#E69F00", "X", "...."),
     "oibvh-single": Look("#56B4E9", "o"),
     "oibvh-multi": Look("#0072B2", "o"),
     "oibvh-wide4": Look("#0072B2", "d", "...."),

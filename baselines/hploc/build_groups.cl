@@ -14,136 +14,119 @@
 #include "baselines/hploc/ranges.clh"
 #include "baselines/hploc/team.clh"
 
-// Places, and so many more that each lane can read those behind its own; what it finds behind the list has no meaning.
-#define ROOM (TEAM_SIZE + SEARCH_RADIUS)
-
-/// A list of clusters, and what the lanes of a team exchange.
+/// The cluster in the lane's place of a list.
 typedef struct {
-    float min_x[ROOM], min_y[ROOM], min_z[ROOM], max_x[ROOM], max_y[ROOM], max_z[ROOM];
-    uint node[TEAM_SIZE], leaf[TEAM_SIZE];
-    uint keys[SEARCH_RADIUS * ROOM];  ///< of each place and the one `step` before it, step by step
-    uint best[TEAM_SIZE];             ///< smallest key of each place
-    Range range;
-    uint end;
-} Team;
+    Aabb box;
+    uint node, leaf;
+} Cluster;
 
-static inline Aabb box_at(local const Team* team, const uint k)
+/// Returns the cluster of lane `from`.
+static inline Cluster cluster_from(const Team team, const Cluster own, const uint from)
 {
-    const Aabb box = {team->min_x[k], team->min_y[k], team->min_z[k],
-                      team->max_x[k], team->max_y[k], team->max_z[k]};
-    return box;
+    Cluster cluster;
+    cluster.box = box_of(team, own.box, from);
+    cluster.node = word_of(team, own.node, from);
+    cluster.leaf = word_of(team, own.leaf, from);
+    return cluster;
 }
 
-static inline void set_cluster(local Team* team, const uint k, const Aabb box, const uint2 cluster)
+/// Returns the smallest key of the lane's cluster. Each pair's key is computed by the first of both. All boxes are asked for before
+/// any key is handed over, so that no key waits for another. Lanes wrap around: those behind the last cluster have NO_KEY to give.
+static inline uint chosen(const Team team, const Aabb box, const uint count)
 {
-    team->min_x[k] = box.min_x;
-    team->min_y[k] = box.min_y;
-    team->min_z[k] = box.min_z;
-    team->max_x[k] = box.max_x;
-    team->max_y[k] = box.max_y;
-    team->max_z[k] = box.max_z;
-    team->node[k] = cluster.x;
-    team->leaf[k] = cluster.y;
-}
-
-/// Returns the smallest key of the lane's cluster. Each pair's key is computed by the first of both. There are no branches, so that
-/// all reads can be under way at once.
-static inline uint chosen(local Team* team, const uint lane, const uint count)
-{
-    const Aabb box = box_at(team, lane);
-    uint best = NO_KEY;
+    uint keys[SEARCH_RADIUS], best = NO_KEY;
 #pragma unroll
     for (uint step = 1u; step <= SEARCH_RADIUS; ++step) {
-        const uint other = lane + step;
-        const uint key = cluster_key(box, box_at(team, other), lane, other);
-        const uint if_there = other < count ? key : NO_KEY;
-        team->keys[(step - 1u) * ROOM + other] = if_there;
-        best = min(best, if_there);
+        const uint other = team.lane + step;
+        const Aabb other_box = box_of(team, box, other);
+        const uint key = cluster_key(box, other_box, team.lane, other);
+        keys[step - 1u] = other < count ? key : NO_KEY;
+        best = min(best, keys[step - 1u]);
     }
-    team_barrier();
 #pragma unroll
-    for (uint step = 1u; step <= SEARCH_RADIUS; ++step) {
-        const uint key = team->keys[(step - 1u) * ROOM + lane];
-        best = min(best, lane >= step ? key : NO_KEY);
-    }
+    for (uint step = 1u; step <= SEARCH_RADIUS; ++step)
+        best = min(best, word_of(team, keys[step - 1u], team.lane - step));
     return best;
 }
 
-/// Joins clusters that choose each other, writes their nodes, and returns the number of clusters left. The list is written.
-static inline uint join_once(const Build build, local Team* team, const uint lane, const uint count)
+/// Joins clusters that choose each other, writes their nodes, and returns the number of clusters left.
+static inline uint join_once(const Build build, const Team team, Cluster* list, const uint count)
 {
-    const uint best = chosen(team, lane, count);
-    team->best[lane] = best;
-    team_barrier();
-    const uint partner = partner_of(best, lane);
-    const bool is_there = lane < count, joins = is_there && team->best[partner] == best;
-    Aabb box = box_at(team, lane);
-    uint2 cluster = (uint2)(team->node[lane], team->leaf[lane]);
-    if (joins && lane < partner) {
-        const uint number = team->leaf[partner] - 1u;
-        box = merged(box, box_at(team, partner));
-        store_node(build.nodes, number, box, cluster.x, team->node[partner]);
-        cluster.x = number;
+    const uint best = chosen(team, list->box, count);
+    const uint partner = partner_of(best, team.lane);
+    const uint best_of_partner = word_of(team, best, partner);
+    const Cluster other = cluster_from(team, *list, partner);
+    const bool is_there = team.lane < count, joins = is_there && best == best_of_partner;
+    Cluster joined = *list;
+    if (joins && team.lane < partner) {
+        const uint number = other.leaf - 1u;
+        joined.box = merged(joined.box, other.box);
+        store_node(build.nodes, number, joined.box, joined.node, other.node);
+        joined.node = number;
     }
-    const bool stays = is_there && (!joins || lane < partner);
-    const uint all = team_votes(team->keys, lane, stays);
-    team_barrier();
+    const bool stays = is_there && (!joins || team.lane < partner);
+    const uint all = team_votes(team, stays);
     if (stays)
-        set_cluster(team, (uint)popcount(all & ((1u << lane) - 1u)), box, cluster);
+        team.words[popcount(all & ((1u << team.lane) - 1u))] = team.lane;
     team_barrier();
+    const uint from = team.words[team.lane];
+    team_barrier();
+    *list = cluster_from(team, joined, from);
     return (uint)popcount(all);
 }
 
-/// Loads the clusters of both children, half of the lanes each. Returns their number.
-static inline uint load_clusters(const Build build, local Team* team, const uint lane,
-                                 const Range range)
+/// Adds the clusters of a child of `range` to a list of `own` clusters: of the left child to its front, of the right child to its end.
+/// Returns the number of all.
+static inline uint add_child(const Build build, const Team team, Cluster* list, const uint own,
+                             const Range range, const bool is_left)
 {
     const bool are_whole = joins_objects(build, range);
-    const uint left_size = range.split - range.first + 1u, right_size = range.last - range.split;
-    const bool is_left = lane < RANGE_CLUSTERS;
-    const uint k = lane % RANGE_CLUSTERS;
     const uint first = is_left ? range.first : range.split + 1u;
-    const uint size = is_left ? left_size : right_size;
+    const uint size = is_left ? range.split - range.first + 1u : range.last - range.split;
+    const uint k = is_left ? team.lane : team.lane - own;
     uint2 cluster = (uint2)(0u, 0u);
-    if (k < size)  // before the number of clusters is known, so that both are read at once
+    if (k <
+        min(size, RANGE_CLUSTERS))  // before their number is known, so that both are read at once
         cluster = cluster_of(build, first, size, are_whole, k);
-    const uint left = cluster_count(build, range.first, left_size, are_whole);
-    const uint right = cluster_count(build, range.split + 1u, right_size, are_whole);
-    if (k < (is_left ? left : right))
-        set_cluster(team, (is_left ? 0u : left) + k, box_of_cluster(build, cluster.x), cluster);
-    team_barrier();
-    return left + right;
-}
-
-/// Joins the clusters of a range, and stores what is left.
-static inline void join_range(const Build build, local Team* team, const uint lane,
-                              const Range range, global uint* root, global ForestObject* objects)
-{
-    const uint most = is_whole(build, range) ? 1u : RANGE_CLUSTERS;
-    uint count = load_clusters(build, team, lane, range);
-    while (count > most)
-        count = join_once(build, team, lane, count);
-    if (lane < count)
-        store_cluster(build, range, lane, count, (uint2)(team->node[lane], team->leaf[lane]));
-    if (most == 1u && lane == 0u)
-        store_root(build, range, team->node[0], root, objects);
+    const uint added = cluster_count(build, first, size, are_whole);
+    if (is_left && own != 0u)
+        *list = cluster_from(team, *list, team.lane - added);
+    if (k < added) {
+        list->box = box_of_cluster(build, cluster.x);
+        list->node = cluster.x;
+        list->leaf = cluster.y;
+    }
+    return own + added;
 }
 
 /// Joins a range and all above it whose other child has arrived. The barriers order the writes of all lanes before the exchange
 /// of the first, and the reads of all lanes after it (device/handoff.clh).
-static inline void climb_from(const Build build, local Team* team, const uint lane, Range range,
+static inline void climb_from(const Build build, const Team team, Range range,
                               volatile global Arrivals* ends, global uint* root,
                               global ForestObject* objects)
 {
-    while (range.last != 0u) {
-        join_range(build, team, lane, range, root, objects);
+    Cluster list = {empty_box(), 0u, 0u};
+    uint count = add_child(build, team, &list, 0u, range, true);
+    count = add_child(build, team, &list, count, range, false);
+    while (count != 0u) {
+        const uint most = is_whole(build, range) ? 1u : RANGE_CLUSTERS;
+        while (count > most)
+            count = join_once(build, team, &list, count);
+        if (team.lane < count)
+            store_cluster(build, range, team.lane, count, (uint2)(list.node, list.leaf));
+        if (most == 1u && team.lane == 0u)
+            store_root(build, range, list.node, root, objects);
         if (range.before == range.after)  // all leaves: both are 0
             return;
+        uint end = 0u;
         team_barrier();
-        if (lane == 0u)
-            team->end = arrive(range, ends);
+        if (team.lane == 0u)
+            end = arrive(range, ends);
+        end = word_of(team, end, 0u);
         team_barrier();
-        range = parent_of(build, range, team->end);
+        const bool is_right = range.before > range.after;
+        range = parent_of(build, range, end);
+        count = end == 0u ? 0u : add_child(build, team, &list, count, range, is_right);
     }
 }
 
@@ -155,20 +138,24 @@ __attribute__((reqd_work_group_size(TEAMS * TEAM_SIZE, 1, 1))) kernel void build
     volatile global Arrivals* ends, global uint* root, global ForestObject* objects,
     const uint leaves, const uint root_common)
 {
-    local Team teams[TEAMS];
-    local Team* team = &teams[(uint)get_local_id(0) / TEAM_SIZE];
+    local uint words[TEAMS * TEAM_SIZE];
     const uint lane = (uint)get_local_id(0) % TEAM_SIZE, split = (uint)get_global_id(0);
+    const Team team = {words + (uint)get_local_id(0) / TEAM_SIZE * TEAM_SIZE, lane};
     const Build build = {codes, leaf_boxes, ids, nodes, clusters, leaves, root_common};
     Range own = no_range();
     if (split + 1u < leaves)
         own = range_at(build, ends, split);
-    uint waiting = team_votes(team->keys, lane, own.last != 0u);
+    uint waiting = team_votes(team, own.last != 0u);
     while (waiting != 0u) {
         const uint from = lowest_bit(waiting);
         waiting &= waiting - 1u;
-        if (lane == from)
-            team->range = own;
-        team_barrier();
-        climb_from(build, team, lane, team->range, ends, root, objects);
+        Range range;
+        range.first = word_of(team, own.first, from);
+        range.split = word_of(team, own.split, from);
+        range.last = word_of(team, own.last, from);
+        range.common = word_of(team, own.common, from);
+        range.before = word_of(team, own.before, from);
+        range.after = word_of(team, own.after, from);
+        climb_from(build, team, range, ends, root, objects);
     }
 }

@@ -29,11 +29,11 @@
 SHARED_BEGIN
 
 /// Returns the key of the clusters with boxes `a` and `b` at places i and j, below NO_KEY: the surface area of the box around
-/// both, rounded down to 19 bits behind the leading one, and then i ^ j. Areas beyond the largest float are equal.
+/// both, rounded down to 18 bits behind the leading one, and then i ^ j. Areas beyond the largest float are equal.
 SHARED_FN_INLINED uint cluster_key(Aabb a, Aabb b, uint i, uint j)
 {
     const float area = fmin(half_surface(merged(a, b)), as_float(0x7f800000u));
-    return (as_uint(area) << 1u & ~(MOST_CLUSTERS - 1u)) | (i ^ j);
+    return (as_uint(area) & ~(MOST_CLUSTERS - 1u)) | (i ^ j);
 }
 
 /// Returns the place j of a key of place i.

@@ -90,7 +90,7 @@ class Scene(unittest.TestCase):
         self.assertEqual(self.blob("view-0-contacts"), contacts.read_bytes())
         facts = self.facts()
         self.assertEqual((facts["state"], facts["frame"], facts["triangles"]), ("agrees", int(FRAME), 1200))
-        self.assertRegex(facts["against"], r"^brute.*contract$")
+        self.assertRegex(facts["against"], r"^CGAL boxes, .*contract$")
         self.assertGreater(facts["contacts"], 20)
         self.assertGreater(facts["pairs"], facts["contacts"])
 
