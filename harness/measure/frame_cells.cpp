@@ -10,6 +10,7 @@
 #include "geometry/hash.h"
 #include "geometry/host_memory.h"
 #include "harness/judge/pair_counts.h"
+#include "harness/measure/device_verdict.h"
 #include "harness/measure/engine.h"
 #include "harness/measure/frame_oracle.h"
 #include "harness/session/watchdog.h"
@@ -93,25 +94,44 @@ void hold_candidates(const PairList& found, const PairList& expected, bool is_an
     }
 }
 
+/// Judges the pairs that a pipeline found by the oracle's list.
+void judge_by_list(const Pipeline& pipeline, Cell& cell, const Right& right,
+                   const FrameOfPipelines& frame, Found& found)
+{
+    const Listed pairs(pipeline.pairs(), right);
+    cell.check.against = pairs_oracle;
+    if (find_box_format(cell.builder.boxes).has_cells())
+        hold_candidates(pairs.list(), right.list().list, !pipeline.has_contacts(), cell);
+    else
+        pairs.hold("pairs", cell.check);
+    if (!cell.swept.pairs.empty())
+        count_errors(pairs.list(), right.list().list, "", cell);
+    found.pairs = pairs.in_file(frame, cell.check.pairs_hash);
+}
+
+/// True if the pairs can be judged without a list of them: they are a device's, exact, and nobody wants the list.
+bool needs_no_list(const Pipeline& pipeline, const Cell& cell, const FrameOfPipelines& frame)
+{
+    return !pipeline.collider().is_on_host() && !frame.wants_lists && cell.swept.pairs.empty() &&
+           !find_box_format(cell.builder.boxes).has_cells();
+}
+
 /// Judges what a pipeline found and writes the verdict to the cell.
-void judge(const Pipeline& pipeline, Cell& cell, FrameOracle& oracle, const FrameOfPipelines& frame,
-           Found& found)
+void judge(Session& session, Pipeline& pipeline, Cell& cell, FrameOracle& oracle,
+           const FrameOfPipelines& frame, Found& found)
 {
     const ColliderChoice& choice = cell.collider;
     Check& check = cell.check;
     check = {.verdict = Check::Verdict::agrees, .against = {}, .detail = {}};
     found = {.scene = found.scene};
     if (pipeline.has_pairs()) {
-        const Right& right = oracle.pairs(choice);
-        const Listed pairs(pipeline.pairs(), right);
-        check.against = pairs_oracle;
-        if (find_box_format(cell.builder.boxes).has_cells())
-            hold_candidates(pairs.list(), right.list().list, !pipeline.has_contacts(), cell);
-        else
-            pairs.hold("pairs", check);
-        if (!cell.swept.pairs.empty())
-            count_errors(pairs.list(), right.list().list, "", cell);
-        found.pairs = pairs.in_file(frame, check.pairs_hash);
+        try {
+            judge_by_list(pipeline, cell, oracle.pairs(choice), frame, found);
+        } catch (const Unavailable&) {  // the host cannot list them
+            if (!needs_no_list(pipeline, cell, frame))
+                throw;
+            check = verdict_of_devices(session, pipeline, choice, frame.input);
+        }
     }
     if (pipeline.has_contacts()) {
         if (has_exact_reference) {
@@ -200,7 +220,7 @@ std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span
             subject.settled = settle(session, one, frame, cell);
             cell.counters = one.pipeline->counters();
             cell.counters.merge(one.pipeline->transfers(input));
-            judge(*one.pipeline, cell, oracle, frame, found);
+            judge(session, *one.pipeline, cell, oracle, frame, found);
         });
         subject.once = [&] {
             const watchdog::Watch watch;
@@ -209,7 +229,7 @@ std::vector<Cell> run_frame(Session& session, const CollideTask& task, std::span
         // Another pipeline may have used the same builder's tree since the last sample, so the frame runs once more.
         subject.judge_again = [&] {
             one.pipeline->once(input);
-            judge(*one.pipeline, cell, oracle, frame, found);
+            judge(session, *one.pipeline, cell, oracle, frame, found);
             frame.contest.count_areas(*one.pipeline, input, cell);
         };
         if (engine.look(subject, frame.contest))

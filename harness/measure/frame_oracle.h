@@ -64,10 +64,13 @@ public:
 
     bool is_asked() const { return facts_.valid(); }
 
-    /// Facts of the list, kept or computed. Blocks.
+    /// Blocks until facts() are there, or until it is known that there can be none.
+    void wait() const { wait_for(facts_); }
+
+    /// Facts of the list, kept or computed. Blocks. Throws Unavailable if the host lacks the memory to list the pairs.
     const RightFacts& facts() const
     {
-        wait_for(facts_);
+        wait();
         return facts_.get();
     }
 
@@ -118,7 +121,7 @@ public:
     void wait() const
     {
         for (const auto& [choice, one] : entries_)
-            one.pairs.facts();
+            one.pairs.wait();
     }
 
     const Right& pairs(const ColliderChoice& choice)

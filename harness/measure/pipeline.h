@@ -46,8 +46,11 @@ public:
     std::map<std::string, double> counters() const;
 
     /// Host times, in ns, of what no stage holds: `upload_ns` copies the frame's points to the device, `read_back_ns` copies the
-    /// answer to the host; each the median of five. Empty if no part of the pipeline runs on the device.
+    /// answer to the host, if it has room for that; each the median of up to five. Empty if no part of the pipeline runs on the device.
     std::map<std::string, double> transfers(const Input& input) const;
+
+    /// Pairs in device memory, as many as counters() has. Requires has_pairs(), and a frame with triangles to query.
+    DevicePairs device_pairs() { return collider_->device_pairs(session_.queue()); }
 
     const Collider& collider() const { return *collider_; }
     /// Tree that the last frame queried; null if the collider needs none.

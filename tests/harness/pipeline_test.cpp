@@ -9,6 +9,7 @@
 
 #include "collide/oracles/box_pairs.h"
 #include "collide/skips.h"
+#include "harness/measure/device_verdict.h"
 #include "harness/measure/frames.h"
 #include "tests/collide/collider_testing.h"
 
@@ -123,6 +124,46 @@ TEST(Transfers, AreOfPipelinesThatReadOrWriteTheDevice)
         EXPECT_GT(transfers.at("read_back_ns"), 0) << collider.name;
     }
     EXPECT_TRUE(transfers_of({.name = "brute"}).empty());
+}
+
+/// Settles the first frame of a scene, gives the points of the second to the device, the host or neither, and returns the
+/// verdict of devices on the pairs of the first.
+Check verdict_on(const char* scene_name, const ColliderChoice& collider, bool device_moves,
+                 bool host_moves)
+{
+    const Scene scene = load_scene(scene_name, {});
+    Input input = upload_frame(session(), scene, 0);
+    Pipeline pipeline(session(), {.name = "karras"}, collider, input);
+    pipeline.begin_frame({});
+    pipeline.settle(input);
+    if (device_moves)
+        input.device_points.upload(session().queue().cl(), scene.frames[1]);
+    if (host_moves)
+        input.points = scene.frames[1];
+    return verdict_of_devices(session(), pipeline, collider, input);
+}
+
+TEST(VerdictOfDevices, AgreesWithRightPairs)
+{
+    for (const char* name : {"leaf", "grid"})
+        for (const Among among : {Among::all, Among::between_objects}) {
+            const ColliderChoice collider{
+                .name = name, .among = among, .keep_adjacent = among != Among::all};
+            const Check check = verdict_on("n-body:12200:2", collider, false, false);
+            EXPECT_EQ(check.verdict, Check::Verdict::agrees) << name << ": " << check.detail;
+            EXPECT_NE(check.detail.find(" pairs of the hash "), std::string::npos);
+        }
+}
+
+TEST(VerdictOfDevices, NeedsBothTheOtherAlgorithmAndBruteForceToAgree)
+{
+    const ColliderChoice collider{.name = "leaf", .keep_adjacent = false};
+    for (const bool device_moves : {false, true}) {
+        const Check check = verdict_on("n-body:12200:2", collider, device_moves, !device_moves);
+        EXPECT_EQ(check.verdict, Check::Verdict::differs);
+        EXPECT_EQ(check.detail.find("grid found ") != std::string::npos, device_moves);
+        EXPECT_EQ(check.detail.find("brute force found ") != std::string::npos, !device_moves);
+    }
 }
 
 }  // namespace

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "harness/measure/device_verdict.h"
+
+#include "collide/oracles/pair_sets.h"
+#include "geometry/hash.h"
+#include "geometry/host_memory.h"
+
+namespace bvhbench {
+namespace {
+
+constexpr std::size_t sample_size = 10'000;
+
+std::string text_of(const PairFacts& facts)
+{
+    return std::to_string(facts.count) + " pairs of the hash " + hex(facts.low) + hex(facts.high);
+}
+
+}  // namespace
+
+Check verdict_of_devices(Session& session, Pipeline& pipeline, const ColliderChoice& choice,
+                         const Input& input)
+{
+    const auto count_of = [](const Pipeline& of) {
+        return static_cast<std::uint64_t>(of.counters().at("pairs_count"));
+    };
+    const std::uint64_t count = count_of(pipeline);
+    const DevicePairs pairs = pipeline.device_pairs();
+    const PairFacts facts = facts_on_device(session.programs(), pairs, count, session.queue());
+    const TriangleSample sample(input.triangle_count(), sample_size);
+    const PairList of_sample = sample.of_device(session.programs(), pairs, count, session.queue());
+
+    const bool is_grid = choice.name == "grid";
+    const ColliderChoice other = {.name = is_grid ? "leaf" : "grid",
+                                  .among = choice.among,
+                                  .keep_adjacent = choice.keep_adjacent};
+    Pipeline second(session, {.name = is_grid ? "oibvh-multi" : "none"}, other, input);
+    second.settle(input);
+    const PairFacts others = facts_on_device(session.programs(), second.device_pairs(),
+                                             count_of(second), session.queue());
+
+    require_host_memory("checking the pairs of a sample", input.faces.size() * sizeof(Aabb));
+    const PairList right = sample.by_brute_force(
+        leaf_boxes(input), {input.faces, choice.keep_adjacent, input.objects, choice.among});
+
+    Check check = {.verdict = Check::Verdict::agrees,
+                   .against = other.name + ", brute over a sample",
+                   .detail = "too many to list: " + text_of(facts)};
+    if (others != facts)
+        check.find_wrong(other.name + " found " + text_of(others));
+    if (of_sample != right || of_sample.surplus() > 0)
+        check.find_wrong("brute force found " + std::to_string(right.size()) +
+                         " pairs with one of " + std::to_string(sample.ids().size()) +
+                         " triangles, not " + std::to_string(of_sample.size()));
+    return check;
+}
+
+}  // namespace bvhbench
