@@ -16,7 +16,7 @@ inline constexpr Parameter radix_group_size{
     .least = 1,
     .most = 1024,
     .is_group_size = true,
-    .candidates = {32, 64, 128, 256, 512}};
+    .candidates = {32, 64, 128, 256, 512, 1024}};
 
 inline constexpr Parameter radix_local{
     .name = "radix.local",

@@ -131,6 +131,29 @@ TEST(RadixBuilders, GiveTheSameTreeAHundredTimes)
         }
 }
 
+/// Returns the number of launches of a stage that was recorded last.
+int launches_of(std::string_view stage)
+{
+    for (const StageTime& time : bench().queue.finish())
+        if (time.stage == stage)
+            return time.launches;
+    return 0;
+}
+
+TEST(RadixBuilders, LaunchOnceForAllLevelsWhereGroupsWait)
+{
+    const Mesh mesh = soup(1000, 1000);
+    const Input input = upload(bench().device, bench().queue, mesh.points, mesh.faces);
+    for (const unsigned group_size : {0u, 64u}) {
+        const auto builder = make_levels_at_once(bench().programs, {.group_size = group_size});
+        builder->reserve(1000);
+        const std::uint64_t built = tree_hash(builder->build(input, bench().queue).spelled_out());
+        EXPECT_EQ(launches_of("hierarchy"), 1);
+        EXPECT_EQ(tree_hash(builder->refit(input, bench().queue).spelled_out()), built);
+        EXPECT_EQ(launches_of("refit"), 1);
+    }
+}
+
 TEST(RadixBuilders, RefuseAGroupSizeThatIsNoPowerOfTwo)
 {
     for (const MakeBuilder make : makers) {
