@@ -99,9 +99,8 @@ kernel void build(global const Code* restrict codes, global const BoxWord* restr
 
 /// Local memory of a group whose first leaf is `begin`.
 typedef struct {
-    BoxWord boxes
-        [WORDS_PER_BOX *
-         GROUP_SIZE];  ///< of nodes: left children at their last leaf, right ones at their first
+    /// Boxes of nodes: of left children at the place of their last leaf, of right ones at that of their first.
+    BoxWord boxes[WORDS_PER_BOX * GROUP_SIZE];
     uint common[GROUP_SIZE + 1u];    ///< common_of leaves begin - 1 + k and begin + k
     GroupArrivals ends[GROUP_SIZE];  ///< as the global ones, of the gaps after the group's leaves
 } Group;
