@@ -16,7 +16,29 @@ inline constexpr Parameter radix_group_size{
     .least = 1,
     .most = 1024,
     .is_group_size = true,
-    .candidates = {32, 64, 128, 256, 512}};
+    .candidates = {32, 64, 128, 256, 512, 1024}};
+
+inline constexpr Parameter radix_local{
+    .name = "radix.local",
+    .meaning =
+        "apetrei-fused, 1: a group merges its own leaves in local memory first; 0: all "
+        "nodes meet in global memory",
+    .stage = "hierarchy",
+    .on_cpu = 0,
+    .elsewhere = 1,
+    .least = 0,
+    .most = 1,
+    .candidates = {0, 1}};
+
+inline constexpr Parameter levels_at_once{
+    .name = "levels.at_once",
+    .meaning = "lbvh-levels where groups wait, 1: all levels in one launch; 0: a launch a level",
+    .stage = "hierarchy",
+    .on_cpu = 0,
+    .elsewhere = 1,
+    .least = 0,
+    .most = 1,
+    .candidates = {0, 1}};
 
 inline constexpr Parameter hploc_group_size{
     .name = "hploc.group_size",
@@ -29,6 +51,7 @@ inline constexpr Parameter hploc_group_size{
     .is_group_size = true,
     .candidates = {32, 64, 128, 256, 512}};
 
-inline constexpr const Parameter* baseline_parameters[] = {&radix_group_size, &hploc_group_size};
+inline constexpr const Parameter* baseline_parameters[] = {&radix_group_size, &radix_local,
+                                                           &levels_at_once, &hploc_group_size};
 
 }  // namespace bvhbench

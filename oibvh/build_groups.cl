@@ -8,6 +8,7 @@
 // check: -DGROUP_SIZE=64u -DITEMS=4u -DLEVELS=9u -DBOX_FORMAT=4u
 #include "oibvh/levels.clh"
 
+#include "builders/implicit/build_climbing.clh"
 #include "builders/implicit/build_groups.clh"
 #include "builders/implicit/build_upward.clh"
 #include "builders/implicit/build_waiting.clh"

@@ -33,6 +33,15 @@ std::unique_ptr<Builder> make_oibvh_single(Programs& programs, const BuildOption
         oi_layout, Meeting::by_handoff, options);
 }
 
+std::unique_ptr<Builder> make_oibvh_single_printed(Programs& programs, const BuildOptions& options)
+{
+    return make_implicit_builder(
+        programs,
+        {"oibvh-single-printed", "Oi-BVH, single-kernel, as printed [Chitalu2020]",
+         BuilderCard::Runs::on_device},
+        oi_layout, Meeting::by_climbing, options);
+}
+
 std::unique_ptr<Builder> make_oibvh_host(Programs& programs, const BuildOptions& options)
 {
     return make_host_implicit_builder(

@@ -10,8 +10,12 @@ namespace bvhbench {
 /// Algorithm 1 in several launches, within which work-groups do not interact; Appendix B plans the launches.
 std::unique_ptr<Builder> make_oibvh_multi(Programs& programs, const BuildOptions& options);
 
-/// Algorithm 1 in one launch: above the subtrees of single groups, groups meet through global atomics.
+/// Algorithm 1 in one launch: above the subtrees of single groups, a few groups wait for the others where they may, else the last
+/// group to arrive below a subtree builds it.
 std::unique_ptr<Builder> make_oibvh_single(Programs& programs, const BuildOptions& options);
+
+/// The same as printed: above the subtrees, groups meet node by node through global atomics, and one work-item goes on.
+std::unique_ptr<Builder> make_oibvh_single_printed(Programs& programs, const BuildOptions& options);
 
 /// Appendix C: trees with 4 or 8 children per node; a node holds its children's boxes.
 std::unique_ptr<Builder> make_oibvh_wide4(Programs& programs, const BuildOptions& options);

@@ -16,7 +16,7 @@ from style import Look
 # Methods of each axis, in the order of legends; colours as in style.py. To add a method, add its line here.
 METHODS = {
     "narrow": {"filter-f64+exact": Look("#0072B2", "o"), "guigue-f64": Look("#E69F00", "^"),
-               "guigue-f32": Look("#D55E00", "v"), "moller-f32": Look("#CC79A7", "s")},
+               "guigue-f32": Look("#D55E00", "v"), "moller-f32": Look("#CC79A7", "s"), "sat-f32": Look("#009E73", "D")},
     "sums": {"f32": Look("#D55E00", "v"), "f32-pairwise": Look("#E69F00", "s"), "f32-compensated": Look("#CC79A7", "D"),
              "f64": Look("#0072B2", "^"), "f64-pairwise": Look("#56B4E9", "s"), "f64-compensated": Look("#009E73", "o")},
     "codes": {f"{curve}{bits}{axis}{grid}": Look(colour, marker)

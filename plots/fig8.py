@@ -54,8 +54,9 @@ def crossings(curves: dict[style.Series, Curve], panels: list[plt.Axes]) -> None
     paper = printed["crossing_triangles"]
     first = {name: points for (name, _), points in reversed(curves.items())}
     ours = None
-    if {"oibvh-single", "oibvh-multi"} <= first.keys():
-        ours = crossing(first["oibvh-single"], first["oibvh-multi"])
+    single = next((name for name in ("oibvh-single-printed", "oibvh-single") if name in first), None)  # the paper's where it is there
+    if single and "oibvh-multi" in first:
+        ours = crossing(first[single], first["oibvh-multi"])
     sizes = [triangles for points in curves.values() for triangles, _, _ in points]
     middle = math.sqrt(min(sizes) * max(sizes))
     texts = [f"paper: multi ahead\nfrom $2^{{{math.log2(paper):.0f}}}$ ({results.printed_device('fig8')})",

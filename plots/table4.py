@@ -18,7 +18,7 @@ import results
 import style
 
 RADIX = ("apetrei", "apetrei-fused", "karras", "lbvh-levels", "radix-reference")  # all build the same tree
-OIBVH = ("oibvh-multi", "oibvh-single", "oibvh-reference")
+OIBVH = ("oibvh-multi", "oibvh-single", "oibvh-single-printed", "oibvh-reference")
 KINDS = (("apetrei", RADIX), ("oibvh-multi", OIBVH))  # the paper's builder for each kind of tree, and ours
 WIDTH = 0.36
 

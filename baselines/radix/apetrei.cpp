@@ -57,17 +57,30 @@ private:
     Buffer<uint> common_;  ///< one entry per gap between leaves
 };
 
-/// [Apetrei2014] in one launch. `arrivals_` holds an end of a range for each gap between leaves.
+/// [Apetrei2014] in one launch. `arrivals_` holds an end of a range for each gap between leaves. On devices with many lanes a group
+/// merges its own leaves in local memory first (radix.local).
 class ApetreiFused final : public RadixBuilder {
 public:
     ApetreiFused(Programs& programs, const BuildOptions& options)
         : RadixBuilder(programs, "apetrei-fused",
                        "Binary radix tree, one launch, one exchange a node [Apetrei2014]",
                        make_apetrei_fused, options)
-        , build_(kernel("baselines/radix/apetrei_fused.cl", "build"))
-    {}
+    {
+        constexpr std::string_view path = "baselines/radix/apetrei_fused.cl";
+        if (most_items_ == 0 && programs.device().tuned(radix_local) != 0 && fits_in_local_memory())
+            build_ = kernel(path, "build", {{"GROUP_SIZE", static_cast<uint>(group_size_)}});
+        else
+            build_ = kernel(path, "build");
+    }
 
 private:
+    /// True if a box and two words per leaf of a group fit, with 1 KiB for what compilers add.
+    bool fits_in_local_memory() const
+    {
+        return group_size_ * (format().box_bytes() + 2 * sizeof(uint)) + 1024 <=
+               programs_.device().cl.getInfo<CL_DEVICE_LOCAL_MEM_SIZE>();
+    }
+
     void plan_nodes(Arena& arena) override
     {
         tree_.nodes = take_nodes(arena);

@@ -150,12 +150,14 @@ RadixBuilder::RadixBuilder(Programs& programs, std::string_view name, std::strin
     }
 }
 
-cl::Kernel RadixBuilder::kernel(std::string_view path, const char* name) const
+cl::Kernel RadixBuilder::kernel(std::string_view path, const char* name,
+                                std::initializer_list<Define> more) const
 {
-    return programs_.kernel(path, name,
-                            {{"CODE_WORDS", code_words(leaf_order_.code_bits())},
-                             {"SORTED_LEAVES", tree_.sorted ? 1u : 0u},
-                             {"BOX_FORMAT", format().number}});
+    std::vector<Define> defines = {{"CODE_WORDS", code_words(leaf_order_.code_bits())},
+                                   {"SORTED_LEAVES", tree_.sorted ? 1u : 0u},
+                                   {"BOX_FORMAT", format().number}};
+    defines.insert(defines.end(), more);
+    return programs_.kernel(path, name, defines);
 }
 
 void RadixBuilder::launch(Queue& queue, const cl::Kernel& kernel, uint count,

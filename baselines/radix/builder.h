@@ -58,7 +58,9 @@ public:
                  const Parameter& group_size = radix_group_size);
 
 protected:
-    cl::Kernel kernel(std::string_view path, const char* name) const;
+    /// Returns a kernel compiled with the defines of leaves.clh and `more`.
+    cl::Kernel kernel(std::string_view path, const char* name,
+                      std::initializer_list<Define> more = {}) const;
 
     /// Enqueues a kernel over `count` leaves or nodes with one work-item for each, but at most `most_items_` work-items unless
     /// that is 0. own_chunk gives each work-item its share, so the kernels are the same in both cases.

@@ -42,12 +42,16 @@ private:
 
     bool in_one_launch() const { return meeting_ != Meeting::between_launches; }
     bool waits() const { return meeting_ == Meeting::by_waiting; }
+    bool climbs() const { return meeting_ == Meeting::by_climbing; }
     bool by_groups() const { return cut_.form == KernelForm::groups; }
 
     /// Returns the group kernel for `cut`, or the work-item kernel, that reads leaves in mesh order (`from_leaves`) or nodes.
     cl::Kernel kernel(const Cut& cut, bool from_leaves) const
     {
-        const char* name = waits() ? "waiting" : in_one_launch() ? "single" : "multi";
+        const char* name = waits()                   ? "waiting"
+                           : climbs() && by_groups() ? "climbing"
+                           : in_one_launch()         ? "single"
+                                                     : "multi";
         std::vector<Define> defines = {{"BOX_FORMAT", tree_.format->number},
                                        {"FROM_LEAVES", from_leaves ? 1u : 0u},
                                        {"SEVERAL_OBJECTS", is_forest() ? 1u : 0u}};
@@ -77,7 +81,7 @@ private:
     cl::Kernel from_leaves_, from_nodes_;
     Launches whole_, update_;
     Buffer<uint>
-        arrivals_;  ///< by_handoff only: one per slot, up to those of the last tree's first subtree roots.
+        arrivals_;  ///< by_handoff and by_climbing: one per slot, up to those of the last tree's first subtree roots.
     Buffer<cl_ulong> posts_;  ///< If groups wait: a box per group.
 };
 
@@ -138,7 +142,7 @@ void KernelBuilder::plan_hierarchy(Arena& arena)
     const ForestObject& last = tree_.objects.back();
     const uint leaf_level = implicit_leaf_level(last.leaves);
     const uint root_level = leaf_level - std::min(leaf_level, cut_.levels);
-    arrivals_ = arena.take<uint>(meeting_ == Meeting::by_handoff
+    arrivals_ = arena.take<uint>(in_one_launch() && !waits()
                                      ? last.nodes + tree_.layout.first_slot(last.leaves, root_level)
                                      : 0,
                                  Use::scratch);

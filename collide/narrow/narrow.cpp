@@ -22,6 +22,7 @@ constexpr NarrowMethod catalog[] = {
     {"guigue-f64", "orientations in doubles, as computed", false, 2, 64},
     {"guigue-f32", "orientations in floats, as computed", false, 2, 32},
     {"moller-f32", "intervals in floats, heights below 1e-6 taken for 0", false, 1, 32},
+    {"sat-f32", "projections onto 17 axes in floats, as computed", false, 3, 32},
 };
 
 constexpr uint pairs_in_block = 512;         ///< that a work-item collects of a kind, on few cores

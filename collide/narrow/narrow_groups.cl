@@ -5,6 +5,7 @@
 // check: -include collide/narrow/rounded.clh -DGROUP_SIZE=128u -DROUNDED_TEST=1 -DREAL_BITS=32
 // check: -include collide/narrow/rounded.clh -DGROUP_SIZE=128u -DROUNDED_TEST=2 -DREAL_BITS=32 -Xclang -cl-ext=-cl_khr_fp64,-__opencl_c_fp64
 // check: -include collide/narrow/rounded.clh -DGROUP_SIZE=128u -DROUNDED_TEST=2 -DREAL_BITS=64
+// check: -include collide/narrow/rounded.clh -DGROUP_SIZE=128u -DROUNDED_TEST=3 -DREAL_BITS=32
 //
 // The work-group form of the narrow phase: one candidate per work-item and iteration. Contacts and unsure candidates are in the
 // lists of sinks/lists_groups.clh. Compiled behind the header that defines the verdict on a candidate.

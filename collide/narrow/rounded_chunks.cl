@@ -2,6 +2,7 @@
 // check: -DSINK_BLOCK=512u -DROUNDED_TEST=1 -DREAL_BITS=32
 // check: -DSINK_BLOCK=512u -DROUNDED_TEST=2 -DREAL_BITS=32 -Xclang -cl-ext=-cl_khr_fp64,-__opencl_c_fp64
 // check: -DSINK_BLOCK=512u -DROUNDED_TEST=2 -DREAL_BITS=64
+// check: -DSINK_BLOCK=512u -DROUNDED_TEST=3 -DREAL_BITS=32 -Xclang -cl-ext=-cl_khr_fp64,-__opencl_c_fp64
 //
 // As narrow_chunks.cl, for tests in rounded arithmetic: pair by pair, since these tests branch. No candidate is unsure.
 #include "collide/narrow/rounded.clh"

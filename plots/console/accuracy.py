@@ -7,7 +7,7 @@ from console import spread, swept
 from tables import Table, duration, fixed, whole
 
 YARDSTICK = "guigue-f64"
-NARROW = ("filter-f64+exact", YARDSTICK, "guigue-f32", "moller-f32")
+NARROW = ("filter-f64+exact", YARDSTICK, "guigue-f32", "moller-f32", "sat-f32")
 
 
 def text(run: results.Run) -> str:

@@ -31,9 +31,16 @@ def fig8(run: results.Run) -> str:
         ns = hierarchy_ns(cell)
         table.row(f"{cell.triangles:,}", cell.builder, *time_columns(cell, run.copy_rate_of(cell)),
                   f"{cell.counters.get('nodes_count', 0) / ns:.2f}" if ns else "")
-    crossing = crossing_triangles(run.all_cells)
-    return table.text() + (f"oibvh-multi is the faster one from {crossing:,} triangles on; in the paper, from about 131,072\n" if crossing
-                           else "oibvh-single and oibvh-multi do not cross here; in the paper they do at about 131,072 triangles\n")
+    there = {cell.builder for cell in run.all_cells}
+    return table.text() + "".join(crossing_text(run.all_cells, single) for single in ("oibvh-single-printed", "oibvh-single")
+                                  if single in there)
+
+
+def crossing_text(cells: list[Cell], single: str) -> str:
+    """Returns a sentence on where oibvh-multi overtakes the builder `single`."""
+    if crossing := crossing_triangles(cells, single):
+        return f"oibvh-multi is faster than {single} from {crossing:,} triangles on; in the paper, from about 131,072\n"
+    return f"{single} and oibvh-multi do not cross here; in the paper they do at about 131,072 triangles\n"
 
 
 def hierarchy_ns(cell: Cell) -> float:
@@ -78,17 +85,17 @@ def padding_text(percent: float) -> str:
     return f"{math.floor(percent / 10 ** (exponent - 1) + 1e-9) / 10:.1f}e{exponent}"
 
 
-def crossing_triangles(cells: list[Cell]) -> int | None:
-    """Returns the size from which oibvh-multi is no slower than oibvh-single, if it was slower at a smaller size."""
+def crossing_triangles(cells: list[Cell], single: str) -> int | None:
+    """Returns the size from which oibvh-multi is no slower than the builder `single`, if it was slower at a smaller size."""
     times: dict[int, dict[str, float]] = {}
     for cell in cells:
         if ns := hierarchy_ns(cell):
             times.setdefault(cell.triangles, {})[cell.builder] = ns
     crossing, was_slower = None, False
     for triangles, by_builder in sorted(times.items()):
-        if not {"oibvh-single", "oibvh-multi"} <= by_builder.keys():
+        if not {single, "oibvh-multi"} <= by_builder.keys():
             continue
-        if by_builder["oibvh-multi"] > by_builder["oibvh-single"]:
+        if by_builder["oibvh-multi"] > by_builder[single]:
             crossing, was_slower = None, True
         elif crossing is None:
             crossing = triangles

@@ -2,6 +2,7 @@
 //
 // Every builder of radix trees builds the oracle's tree bit for bit, for all sizes, group sizes, leaf storage, code widths and
 // numbers of equal codes.
+#include "baselines/parameters.h"
 #include "baselines/radix/delta.h"
 #include "geometry/error.h"
 #include "tests/baselines/radix_testing.h"
@@ -9,7 +10,32 @@
 namespace bvhbench {
 namespace {
 
-constexpr MakeBuilder makers[] = {make_karras, make_apetrei, make_apetrei_fused, make_lbvh_levels};
+/// Returns programs of the same device, tuned as one with many lanes.
+Programs& programs_of_many_lanes()
+{
+    static Programs& programs = *[] {
+        Device& device = *new Device(bench().device);
+        device.tuning.set(radix_local, 1);
+        device.tuning.set(levels_at_once, 1);
+        return new Programs(device);
+    }();
+    return programs;
+}
+
+/// Makes apetrei-fused whose groups merge their own leaves in local memory. Without a group size a CPU has no groups.
+std::unique_ptr<Builder> make_fused_in_groups(Programs&, const BuildOptions& options)
+{
+    return make_apetrei_fused(programs_of_many_lanes(), options);
+}
+
+/// Makes lbvh-levels with all levels in one launch.
+std::unique_ptr<Builder> make_levels_at_once(Programs&, const BuildOptions& options)
+{
+    return make_lbvh_levels(programs_of_many_lanes(), options);
+}
+
+constexpr MakeBuilder makers[] = {make_karras,          make_apetrei,     make_apetrei_fused,
+                                  make_fused_in_groups, make_lbvh_levels, make_levels_at_once};
 
 void expect_the_references_tree(const Mesh& mesh, const std::vector<BuildOptions>& ways)
 {
@@ -103,6 +129,29 @@ TEST(RadixBuilders, GiveTheSameTreeAHundredTimes)
             }
             bench().queue.finish();
         }
+}
+
+/// Returns the number of launches of a stage that was recorded last.
+int launches_of(std::string_view stage)
+{
+    for (const StageTime& time : bench().queue.finish())
+        if (time.stage == stage)
+            return time.launches;
+    return 0;
+}
+
+TEST(RadixBuilders, LaunchOnceForAllLevelsWhereGroupsWait)
+{
+    const Mesh mesh = soup(1000, 1000);
+    const Input input = upload(bench().device, bench().queue, mesh.points, mesh.faces);
+    for (const unsigned group_size : {0u, 64u}) {
+        const auto builder = make_levels_at_once(bench().programs, {.group_size = group_size});
+        builder->reserve(1000);
+        const std::uint64_t built = tree_hash(builder->build(input, bench().queue).spelled_out());
+        EXPECT_EQ(launches_of("hierarchy"), 1);
+        EXPECT_EQ(tree_hash(builder->refit(input, bench().queue).spelled_out()), built);
+        EXPECT_EQ(launches_of("refit"), 1);
+    }
 }
 
 TEST(RadixBuilders, RefuseAGroupSizeThatIsNoPowerOfTwo)

@@ -102,7 +102,7 @@ def test_the_time_of_one_stage() -> None:
 
 
 def test_what_is_wrong_or_missing_is_an_error_of_its_benchmark() -> None:
-    kernels = copied_kernels("wrong", FUSED, r"box = merged\(box, (?=child_box\(leaf_boxes, ids, nodes, sibling\)\);)", "box = (")
+    kernels = copied_kernels("wrong", FUSED, r"at.box = merged\(at.box, (?=child_box\(leaf_boxes, ids, nodes, sibling\)\);)", "at.box = (")
     experiment("wrong.json", scenes=["soup:300", "missing.obj"], builders=["apetrei-fused", "oibvh-multi"])
     rows = measured(1, "--experiment", "wrong.json", "--kernels", kernels, "--benchmark_filter=^test/",
                     "--benchmark_repetitions=2", *FEW)

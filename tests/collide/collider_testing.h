@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "baselines/parameters.h"
 #include "builders/device_tree.h"
 #include "builders/parameters.h"
 #include "collide/oracles/box_pairs.h"
@@ -28,12 +29,15 @@ inline Session& session()
     return session;
 }
 
-/// Returns a session on a device that is configured to let work-groups wait for each other.
+/// Returns a session on a device that is tuned as one with many lanes: work-groups wait for each other, those of apetrei-fused
+/// merge their own leaves first, and lbvh-levels has one launch.
 inline Session& waiting_session()
 {
     static Session& waiting = *[] {
         Device device = session().device();
         device.tuning.set(implicit_waits, 1);
+        device.tuning.set(radix_local, 1);
+        device.tuning.set(levels_at_once, 1);
         return new Session(std::move(device), session().scenes());
     }();
     return waiting;

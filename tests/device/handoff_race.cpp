@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Compiles device/handoff.clh and builders/implicit/climb.clh as C++ and runs them on threads under ThreadSanitizer. Threads
-// climb from the leaves, and the sanitizer reports two unordered accesses to one box. This tests the OpenCL C 3.0 branch,
-// whose atomics are those of C++. With PLANT_RACE the atomics are relaxed, and then the sanitizer must report a race.
+// Compiles device/handoff.clh, device/group_handoff.clh and builders/implicit/climb.clh as C++ and runs them on threads under
+// ThreadSanitizer. Threads climb from the leaves, and the sanitizer reports two unordered accesses to one box. This tests the
+// OpenCL C 3.0 branch, whose atomics are those of C++. With PLANT_RACE the atomics are relaxed, and then the sanitizer must
+// report a race.
 //
 // Not tested: `wait_for_all`, because ThreadSanitizer does not know its fences, and the OpenCL C 1.2 branch, because 1.2 has no
 // memory model.
@@ -18,7 +19,7 @@ namespace bvhbench {
 
 using std::atomic_uint;
 using std::memory_order;
-constexpr int memory_scope_device = 0;
+constexpr int memory_scope_device = 0, memory_scope_work_group = 0;
 constexpr int CLK_LOCAL_MEM_FENCE = 1, CLK_GLOBAL_MEM_FENCE = 2;
 #ifdef PLANT_RACE
 constexpr memory_order memory_order_acq_rel = std::memory_order_relaxed;
@@ -56,9 +57,12 @@ constexpr uint first_slot(uint leaves, uint level)
 constexpr uint stored_on(uint leaves, uint level) { return oi_real_on(oi_shape(leaves), level); }
 
 #define global
+#define local
 #define __opencl_c_atomic_order_acq_rel
 #define __opencl_c_atomic_scope_device
 #include "builders/implicit/climb.clh"
+#include "device/group_handoff.clh"
+#undef local
 #undef global
 
 namespace {
@@ -86,14 +90,15 @@ void build(uint leaves, uint threads, std::vector<Aabb>& nodes, std::vector<Arri
 }
 
 /// Two threads exchange a word at each slot. True if at every slot the second to arrive read the payload that the first wrote.
-bool exchange(uint slots)
+template <class Exchange>
+bool exchange(uint slots, const Exchange& exchanged_at)
 {
-    std::vector<Arrivals> words(slots);
+    std::vector<std::atomic_uint> words(slots);
     std::vector<uint> payload(2 * std::size_t{slots}), got(slots);
     const auto agent = [&](uint side) {
         for (uint i = 0; i < slots; ++i) {
             payload[2 * i + side] = i + 7;
-            if (exchanged(&words[i], side + 1) != 0)
+            if (exchanged_at(&words[i], side + 1) != 0)
                 got[i] = payload[2 * i + 1 - side];
         }
     };
@@ -129,7 +134,7 @@ int test()
                     return 1;
                 }
         }
-    if (!exchange(10000)) {
+    if (!exchange(10000, exchanged) || !exchange(10000, exchanged_in_group)) {
         std::printf("a word that was exchanged came before what it promised\n");
         return 1;
     }

@@ -72,7 +72,7 @@ def test_ranks_scenes_one_by_one_and_all_together() -> None:
 
 def test_a_wrong_pipeline_never_wins() -> None:
     folder = copied_kernels("wrong", "baselines/radix/apetrei_fused.cl",
-                            r"box = merged\(box, (?=child_box\(leaf_boxes, ids, nodes, sibling\)\);)", "box = (")
+                            r"at.box = merged\(at.box, (?=child_box\(leaf_boxes, ids, nodes, sibling\)\);)", "at.box = (")
     said = best(1, "torus:2000", "--builders", "apetrei-fused,karras", "--orders", "morton30", "--colliders", "leaf", "--kernels", folder,
                 "--out", "wrong.json")
     assert "WRONG: torus:2000, frame 0: leaf over apetrei-fused: " in said, said

@@ -23,7 +23,7 @@ def test_commands_options_and_names_are_completed():
     assert {"--builder", "--device"} <= completed("build", "--")
     assert completed("build", "--build") == {"--builder"}
     assert completed("sweep", "--dry") == {"--dry-run"}
-    assert completed("build", "--builder", "oibvh-s") == {"oibvh-single"}
+    assert completed("build", "--builder", "oibvh-s") == {"oibvh-single", "oibvh-single-printed"}
     assert {"morton30", "hilbert30", "kd"} <= completed("--device", "cpu", "collide", "--order", "")
     assert {"builders", "devices", "experiments"} <= completed("list", "")
     assert "peers" in completed("run", "pee")

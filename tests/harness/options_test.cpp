@@ -207,8 +207,9 @@ TEST(Catalog, ListsEachOnceAndAnswersAnUnknownNameWithThoseThereAre)
     const std::string said = refusal_of([] { find_builder("oibvh"); });
     EXPECT_TRUE(said.starts_with(
         "no builder is called 'oibvh'; there are: perfect, karras, apetrei, apetrei-fused, "
-        "lbvh-levels, hploc, oibvh-single, oibvh-multi, oibvh-wide4, oibvh-wide8, oibvh-host, "
-        "oibvh-reference, radix-reference, hploc-reference, "))
+        "lbvh-levels, hploc, oibvh-single, oibvh-single-printed, oibvh-multi, oibvh-wide4, "
+        "oibvh-wide8, "
+        "oibvh-host, oibvh-reference, radix-reference, hploc-reference, "))
         << said;
 }
 

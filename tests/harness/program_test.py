@@ -69,8 +69,8 @@ def test_combinations_of_names_are_cells_of_one_run():
 
 def test_lists_put_the_name_first():
     first = [line.split()[0] for line in expect(0, "list", "builders").splitlines()]
-    assert first[:14] == ["perfect", "karras", "apetrei", "apetrei-fused", "lbvh-levels", "hploc", "oibvh-single",
-                          "oibvh-multi", "oibvh-wide4", "oibvh-wide8", "oibvh-host", "oibvh-reference",
+    assert first[:15] == ["perfect", "karras", "apetrei", "apetrei-fused", "lbvh-levels", "hploc", "oibvh-single",
+                          "oibvh-single-printed", "oibvh-multi", "oibvh-wide4", "oibvh-wide8", "oibvh-host", "oibvh-reference",
                           "radix-reference", "hploc-reference"], first
 
 

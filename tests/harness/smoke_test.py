@@ -40,7 +40,7 @@ def test_a_baseline_is_made_and_held() -> None:
 
 
 def test_a_wrong_tree_is_found() -> None:
-    folder = copied_kernels("wrong", FUSED, r"box = merged\(box, (?=child_box\(leaf_boxes, ids, nodes, sibling\)\);)", "box = (")
+    folder = copied_kernels("wrong", FUSED, r"at.box = merged\(at.box, (?=child_box\(leaf_boxes, ids, nodes, sibling\)\);)", "at.box = (")
     said = smoke(1, *SOME, "--kernels", folder, says="REGRESSION torus:2048: apetrei-fused: differs, was agrees")
     assert all("apetrei-fused" in line for line in regressions(said)), said
 
@@ -54,7 +54,7 @@ def test_a_worse_tree_that_is_right_is_found() -> None:
 
 def test_a_slower_kernel_is_found() -> None:
     spin = r"    for (volatile uint spin = 0u; spin < 20000u; ++spin)\n        ;\n\1"
-    folder = copied_kernels("slow", FUSED, "(    uint first = leaf, last = leaf;\n)", spin)
+    folder = copied_kernels("slow", FUSED, r"(        const Reached at = \{leaf, leaf, )", spin)
     found = regressions(smoke(1, *SOME, "--kernels", folder, says="torus:2048: apetrei-fused: takes "))
     assert len(found) == 1 and "times as long beside the others" in found[0], found
 

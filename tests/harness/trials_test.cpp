@@ -69,6 +69,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Tunable{"sort", "oibvh-multi", "morton63"},
                     Tunable{"oibvh-multi", "oibvh-multi", "morton30", true},
                     Tunable{"oibvh-multi", "oibvh-multi", "kd"}, Tunable{"group", "apetrei-fused"},
+                    Tunable{"lbvh-levels", "lbvh-levels"},
                     Tunable{"bvtt", "oibvh-multi", "morton30", true, "exact"},
                     Tunable{.target = "front", .only_in_groups = true},
                     Tunable{.target = "front-leaf", .only_in_groups = true},

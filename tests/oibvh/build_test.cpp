@@ -40,12 +40,14 @@ std::vector<Way> ways()
             all.push_back({make_oibvh_single, options});
             all.push_back({make_perfect, options});
             all.push_back({make_oibvh_single, options, true});
+            all.push_back({make_oibvh_single_printed, options});
         }
     for (const unsigned items : {2u, 4u, 8u}) {
         const BuildOptions options{.group_size = 64, .items = items};
         all.push_back({make_oibvh_multi, options});
         all.push_back({make_oibvh_single, options});
         all.push_back({make_oibvh_single, options, true});
+        all.push_back({make_oibvh_single_printed, options});
     }
     return all;
 }
@@ -102,7 +104,9 @@ TEST(ImplicitBuilders, EqualTheReferenceInEveryWayAndKeepNothingOfTheTreeBefore)
 
 TEST(OiBuilders, EqualTheReferenceForEveryCountTo600AndAroundEveryPowerOfTwoTo2To20)
 {
-    auto builders = builders_of({{make_oibvh_multi, {}}, {make_oibvh_single, {}}});
+    auto builders = builders_of({{make_oibvh_multi, {}},
+                                 {make_oibvh_single, {}},
+                                 {make_oibvh_single_printed, {.group_size = 64}}});
     for (uint triangles = 1; triangles <= 600; ++triangles)
         ASSERT_NO_FATAL_FAILURE(expect_all_equal(builders, triangles));
     for (uint power = 10; power <= 20; ++power)
@@ -114,8 +118,12 @@ TEST(OiBuilders, GiveTheSameTreeAHundredTimes)
 {
     const Mesh mesh = random_mesh(20000);
     const Input input = upload(bench().device, bench().queue, mesh.points, mesh.faces);
-    for (const MakeBuilder make : {make_oibvh_multi, make_oibvh_single}) {
-        const auto builder = make(bench().programs, {});
+    const Way all[] = {{make_oibvh_multi, {}},
+                       {make_oibvh_single, {}},
+                       {make_oibvh_single_printed, {}},
+                       {make_oibvh_single_printed, {.group_size = 64}}};
+    for (const Way& way : all) {
+        const auto builder = way.make(bench().programs, way.options);
         builder->reserve(20000);
         const Tree& tree = builder->build(input, bench().queue);
         const std::uint64_t first = tree_hash(tree.spelled_out());
