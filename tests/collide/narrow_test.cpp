@@ -123,8 +123,9 @@ TEST(RoundedNarrow, IsRightWhereNothingIsClose)
         for (const NarrowMethod& method : narrow_methods()) {
             SCOPED_TRACE(std::string(method.name) + ", " + form_name(form));
             EXPECT_EQ(errors_of(method.name, form, "generic"), none);
-            if (method.name != "sat-f32")  // has no axis between a segment and others in its plane
+            if (method.name != "sat-f32") {  // no axis between a segment and others in its plane
                 EXPECT_EQ(errors_of(method.name, form, "coplanar_lattice"), none);
+            }
             EXPECT_EQ(errors_of(method.name, form, "edge_crosses_edge"), none);
         }
 }
