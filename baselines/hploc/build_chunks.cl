@@ -78,16 +78,16 @@ static inline uint join(const Build build, List* list, const uint count)
     return left;
 }
 
-/// Adds the clusters of a child to the list. Returns the number of clusters in it.
-static inline uint append(const Build build, List* list, uint count, const uint first,
-                          const uint size, const bool are_whole)
+/// Adds the clusters of a child of `range` to the list. Returns the number of clusters in it.
+static inline uint append(const Build build, List* list, uint count, const Range range,
+                          const uint first, const uint size)
 {
-    const uint own = cluster_count(build, first, size, are_whole);
+    const uint own = cluster_count(build, range, first, size);
     for (uint k = 0u; k < own; ++k, ++count) {
-        const uint2 cluster = cluster_of(build, first, size, are_whole, k);
+        const uint2 cluster = cluster_of(build, range, first, size, k);
         list->node[count] = cluster.x;
         list->leaf[count] = cluster.y;
-        set_box(list, count, box_of_cluster(build, cluster.x));
+        set_box(list, count, box_of_cluster(build, range.common, first + k, cluster.x));
     }
     return count;
 }
@@ -96,16 +96,16 @@ static inline uint append(const Build build, List* list, uint count, const uint 
 static inline void join_range(const Build build, List* list, const Range range, global uint* root,
                               global ForestObject* objects)
 {
-    const bool are_whole = joins_objects(build, range);
-    uint count = append(build, list, 0u, range.first, range.split - range.first + 1u, are_whole);
-    count = append(build, list, count, range.split + 1u, range.last - range.split, are_whole);
+    uint count = append(build, list, 0u, range, range.first, range.split - range.first + 1u);
+    count = append(build, list, count, range, range.split + 1u, range.last - range.split);
     const uint most = is_whole(build, range) ? 1u : RANGE_CLUSTERS;
     while (count > most) {
         choose(list, count);
         count = join(build, list, count);
     }
     for (uint k = 0u; k < count; ++k)
-        store_cluster(build, range, k, count, (uint2)(list->node[k], list->leaf[k]));
+        store_cluster(build, range, k, count, box_at(list, k),
+                      (uint2)(list->node[k], list->leaf[k]));
     if (most == 1u)
         store_root(build, range, list->node[0], root, objects);
 }
@@ -116,17 +116,17 @@ kernel void build(global const Code* restrict codes, global const BoxWord* restr
                   volatile global Arrivals* ends, global uint* root, global ForestObject* objects,
                   const uint leaves, const uint root_common)
 {
-    const Build build = {codes, leaf_boxes, ids, nodes, clusters, leaves, root_common};
+    const Build build = {codes, leaf_boxes, ids, nodes, clusters, ends, leaves, root_common};
     const Chunk chunk = own_chunk(leaves - 1u);
     List list;
     for (uint k = 0u; k < ROOM; ++k)
         set_box(&list, k, empty_box());
     for (uint split = chunk.first; split < chunk.end; ++split) {
-        Range range = range_at(build, ends, split);
+        Range range = range_at(build, split);
         while (range.last != 0u) {
             join_range(build, &list, range, root, objects);
             range = range.before == range.after ? no_range()
-                                                : parent_of(build, range, arrive(range, ends));
+                                                : parent_of(build, range, arrive(build, range));
         }
     }
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// check: -DCODE_WORDS=1 -DSORTED_LEAVES=0 -DTEAMS=1
-// check: -DCODE_WORDS=2 -DSORTED_LEAVES=1 -DTEAMS=2
+// check: -DCODE_WORDS=1 -DSORTED_LEAVES=0 -DTEAMS=1 -DTEAM_LEAVES=128u
+// check: -DCODE_WORDS=2 -DSORTED_LEAVES=1 -DTEAMS=2 -DTEAM_LEAVES=32u
 //
 // [Benthin2024]: the tree of clusters.h in one launch. As published, teams work on ranges together, one lane's after the other's,
 // and the second child of a range to arrive joins it.
 //
-// Unlike there, the lowest ranges are found from the codes alone: a lane looks at most RANGE_CLUSTERS leaves to both sides of its
+// Unlike there, a team has TEAM_LEAVES leaves, and joins all ranges of these alone in local memory. The lowest ranges are found from the codes alone: a lane looks at most RANGE_CLUSTERS leaves to both sides of its
 // split. Only children that are not found so arrive at their parents, about one node in 16, and a team climbs as one.
 //
 // A node has the number of a leaf, less one: each cluster is told from others by one of its leaves, and a joined cluster keeps
@@ -80,29 +80,27 @@ static inline uint join_once(const Build build, const Team team, Cluster* list, 
 static inline uint add_child(const Build build, const Team team, Cluster* list, const uint own,
                              const Range range, const bool is_left)
 {
-    const bool are_whole = joins_objects(build, range);
     const uint first = is_left ? range.first : range.split + 1u;
     const uint size = is_left ? range.split - range.first + 1u : range.last - range.split;
     const uint k = is_left ? team.lane : team.lane - own;
     uint2 cluster = (uint2)(0u, 0u);
     if (k <
         min(size, RANGE_CLUSTERS))  // before their number is known, so that both are read at once
-        cluster = cluster_of(build, first, size, are_whole, k);
-    const uint added = cluster_count(build, first, size, are_whole);
+        cluster = cluster_of(build, range, first, size, k);
+    const uint added = cluster_count(build, range, first, size);
     if (is_left && own != 0u)
         *list = cluster_from(team, *list, team.lane - added);
     if (k < added) {
-        list->box = box_of_cluster(build, cluster.x);
+        list->box = box_of_cluster(build, range.common, first + k, cluster.x);
         list->node = cluster.x;
         list->leaf = cluster.y;
     }
     return own + added;
 }
 
-/// Joins a range and all above it whose other child has arrived. The barriers order the writes of all lanes before the exchange
+/// Joins a range and all above it whose other child has arrived. The barriers order the writes of all lanes before the arrival
 /// of the first, and the reads of all lanes after it (device/handoff.clh).
-static inline void climb_from(const Build build, const Team team, Range range,
-                              volatile global Arrivals* ends, global uint* root,
+static inline void climb_from(const Build build, const Team team, Range range, global uint* root,
                               global ForestObject* objects)
 {
     Cluster list = {empty_box(), 0u, 0u};
@@ -113,7 +111,7 @@ static inline void climb_from(const Build build, const Team team, Range range,
         while (count > most)
             count = join_once(build, team, &list, count);
         if (team.lane < count)
-            store_cluster(build, range, team.lane, count, (uint2)(list.node, list.leaf));
+            store_cluster(build, range, team.lane, count, list.box, (uint2)(list.node, list.leaf));
         if (most == 1u && team.lane == 0u)
             store_root(build, range, list.node, root, objects);
         if (range.before == range.after)  // all leaves: both are 0
@@ -121,7 +119,7 @@ static inline void climb_from(const Build build, const Team team, Range range,
         uint end = 0u;
         team_barrier();
         if (team.lane == 0u)
-            end = arrive(range, ends);
+            end = arrive(build, range);
         end = word_of(team, end, 0u);
         team_barrier();
         const bool is_right = range.before > range.after;
@@ -130,21 +128,20 @@ static inline void climb_from(const Build build, const Team team, Range range,
     }
 }
 
-/// Builds the tree over the ascending `codes` into `nodes`, with one work-item per gap between leaves, and writes `root` and the
-/// roots of objects with several leaves. `ends` has one entry per gap, zero before and after; `clusters` has one per leaf.
-__attribute__((reqd_work_group_size(TEAMS * TEAM_SIZE, 1, 1))) kernel void build(
-    global const Code* restrict codes, global const BoxWord* restrict leaf_boxes,
-    global const uint* restrict ids, global RadixWord* nodes, global uint2* clusters,
-    volatile global Arrivals* ends, global uint* root, global ForestObject* objects,
-    const uint leaves, const uint root_common)
+/// Joins the ranges whose left children end at the team's 32 leaves from `first` on, and those above them.
+static inline void build_from(Build build, const Team team, const uint first, global uint* root,
+                              global ForestObject* objects)
 {
-    local uint words[TEAMS * TEAM_SIZE];
-    const uint lane = (uint)get_local_id(0) % TEAM_SIZE, split = (uint)get_global_id(0);
-    const Team team = {words + (uint)get_local_id(0) / TEAM_SIZE * TEAM_SIZE, lane};
-    const Build build = {codes, leaf_boxes, ids, nodes, clusters, leaves, root_common};
+    const uint split = first + team.lane, leaves = build.leaves;
+    uint outside = 0u;
     Range own = no_range();
-    if (split + 1u < leaves)
-        own = range_at(build, ends, split);
+    if (split + 1u < leaves) {
+        outside = max(common_of(build.codes, leaves, split, build.begin - 1u),
+                      common_of(build.codes, leaves, split, build.begin + TEAM_LEAVES));
+        build.outside = outside;
+        own = range_at(build, split);
+    }
+    team_barrier();
     uint waiting = team_votes(team, own.last != 0u);
     while (waiting != 0u) {
         const uint from = lowest_bit(waiting);
@@ -156,6 +153,32 @@ __attribute__((reqd_work_group_size(TEAMS * TEAM_SIZE, 1, 1))) kernel void build
         range.common = word_of(team, own.common, from);
         range.before = word_of(team, own.before, from);
         range.after = word_of(team, own.after, from);
-        climb_from(build, team, range, ends, root, objects);
+        build.outside = word_of(team, outside, from);
+        climb_from(build, team, range, root, objects);
     }
+}
+
+/// Builds the tree over the ascending `codes` into `nodes`, with a team for TEAM_LEAVES leaves, and writes `root` and the roots of
+/// objects with several leaves. `ends` has one entry per gap, zero before and after; `clusters` has one per leaf.
+__attribute__((reqd_work_group_size(TEAMS * TEAM_SIZE, 1, 1))) kernel void build(
+    global const Code* restrict codes, global const BoxWord* restrict leaf_boxes,
+    global const uint* restrict ids, global RadixWord* nodes, global uint2* clusters,
+    volatile global Arrivals* ends, global uint* root, global ForestObject* objects,
+    const uint leaves, const uint root_common)
+{
+    local uint words[TEAMS * TEAM_SIZE];
+    local TeamLeaves own[TEAMS];
+    const uint item = (uint)get_local_id(0), k = item / TEAM_SIZE;
+    const Team team = {words + k * TEAM_SIZE, item % TEAM_SIZE};
+    const uint begin = (uint)get_global_id(0) / TEAM_SIZE * TEAM_LEAVES;
+    const Build build = {codes,  leaf_boxes,  ids,     nodes, clusters, ends,
+                         leaves, root_common, own + k, begin, 0u};
+    for (uint place = team.lane; place < TEAM_LEAVES; place += TEAM_SIZE) {
+        own[k].ends[place] = 0u;
+        if (begin + place < leaves)
+            store_local_box(own[k].boxes, place, leaf_box(leaf_boxes, ids, begin + place));
+    }
+    team_barrier();
+    for (uint first = begin; first < begin + TEAM_LEAVES; first += TEAM_SIZE)
+        build_from(build, team, first, root, objects);
 }

@@ -33,9 +33,16 @@ public:
         }
         const bool has_warps = programs.device().lets_groups_wait();
         group_size_ = has_warps ? std::max<std::size_t>(group_size_, team_size) : team_size;
-        const Define teams{"TEAMS", static_cast<uint>(group_size_) / team_size};
-        build_ = programs.kernel("baselines/hploc/build_groups.cl", "build", {words, sorted, teams},
-                                 Optimise::on_gpus);
+        team_leaves_ = programs.device().tuned(hploc_leaves);
+        std::vector<Define> defines = {words,
+                                       sorted,
+                                       {"TEAMS", static_cast<uint>(group_size_) / team_size},
+                                       {"TEAM_LEAVES", team_leaves_}};
+        const uint registers = programs.device().tuned(hploc_registers);
+        if (has_warps && registers != 0)
+            defines.push_back({most_registers, registers});
+        build_ =
+            programs.kernel("baselines/hploc/build_groups.cl", "build", defines, Optimise::on_gpus);
     }
 
 private:
@@ -67,8 +74,11 @@ private:
         else
             set_arguments(build_, tree_.codes, leaf_order_.boxes(), tree_.ids, built_, clusters_,
                           arrivals_, tree_.root, tree_.device_objects, tree_.leaves, root_common);
+        const uint items = team_leaves_ == 0
+                               ? tree_.leaves - 1
+                               : divided_up(tree_.leaves - 1, team_leaves_) * team_size;
         launch(
-            queue, build_, tree_.leaves - 1,
+            queue, build_, items,
             tree_.codes.bytes() + tree_.leaves * sizeof(Aabb) + tree_.inner() * sizeof(RadixNode));
         if (!builds_floats_)
             refit_nodes(queue);
@@ -90,6 +100,7 @@ private:
     }
 
     bool builds_floats_;
+    uint team_leaves_ = 0;  ///< TEAM_LEAVES of build_groups.cl; 0 in the form for few cores
     cl::Kernel build_, boxes_, links_;
     Buffer<uint> clusters_;    ///< see ranges.clh; in a refit, parents of all nodes
     Buffer<RadixNode> built_;  ///< nodes with boxes of floats, for trees of another format

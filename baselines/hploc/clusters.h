@@ -20,8 +20,9 @@
 
 #include "geometry/aabb.h"
 
-// Other values make other trees, so these are no tuning parameters. A list of two children has MOST_CLUSTERS places at most.
-#define SEARCH_RADIUS 8u
+// Other values make other trees, so these are no tuning parameters. A list of two children has MOST_CLUSTERS places at most. The
+// radius of [Benthin2024] is 8; with 4 the surface of six scenes is 0.984 to 1.008 of that, and each round takes less.
+#define SEARCH_RADIUS 4u
 #define RANGE_CLUSTERS 16u
 #define MOST_CLUSTERS 32u
 #define NO_KEY 0xffffffffu
