@@ -145,11 +145,22 @@ class Cell:
         return self.operation == "build" and list(first) == ["hierarchy"] and first["hierarchy"].get("launches", 0) > 0
 
     @property
+    def used_options(self) -> dict[str, str]:
+        """Returns the collider's options. Where the cell tells from which level a traversal started and how far it jumped, that
+        is in them in place of what was asked for, which may be the device's choice."""
+        options = dict(self.collider_options)
+        if (level := self.counters.get("used_start_level")) is None:
+            return options
+        rules = [rule for rule in options.get("no_skip", "").split(", ") if rule and (rule != "start-level" or level > 0)]
+        return options | {"no_skip": ", ".join(rules), "jump": f"{self.counters['used_jump']:g}", "start_level": "0",
+                          "start": f"level {level:g}" if level > 0 else "the root"}
+
+    @property
     def called(self) -> str:
         """Returns the name in figures: the pipeline of a frame, the builder of a build."""
         if self.collider is None:
             return self.builder
-        return names.pipeline(self.collider, dict(self.collider_options), self.builder, dict(self.options))
+        return names.pipeline(self.collider, self.used_options, self.builder, dict(self.options))
 
     @property
     def pipeline(self) -> str:
@@ -159,7 +170,8 @@ class Cell:
         builder = names.in_full(self.raw["builder"])
         if self.operation == "collide":
             swept = f"{self.swept['pairs']} by " if self.swept else ""
-            return f"{swept}{names.in_full(self.raw['collider'])}{'' if self.builder == 'none' else f' over {builder}'}"
+            collider = names.in_full({"name": self.collider, "options": self.used_options})
+            return f"{swept}{collider}{'' if self.builder == 'none' else f' over {builder}'}"
         return f"{builder}, refit" if self.operation == "refit" else builder
 
     @property

@@ -26,7 +26,7 @@ PARTS = tuple(zip(names.PARTS, ("#999999", "#56B4E9", "#0072B2", "#009E73", "#E6
 BETWEEN = "#DDDDDD"
 MOST = 12  # longest bar drawn, in multiples of the scene's shortest bar
 SHORTENED = f"Bars with a white stroke are shortened to {MOST} times their scene's shortest; the stages keep their shares."
-ROOM = 1.25  # for the number at the end of the longest bar, relative to that bar
+ROOM = 1.45  # for the number at the end of the longest bar, relative to that bar
 IN_ONE_COLUMN = 3  # panels; more are drawn in two columns if all have the same pipelines
 
 
@@ -59,13 +59,15 @@ def bar(axes: plt.Axes, row: int, parts: list[tuple[str, float]], limit: float, 
 
 
 def draw_scene(axes: plt.Axes, shown: list[pipelines.Pipeline]) -> bool:
-    """Draws the bars of one scene and returns whether a bar was shortened."""
+    """Draws the bars of one scene, of its frames after the first, and returns whether a bar was shortened."""
+    firsts = [one.first_ms for one in shown]
+    shown = [one.later for one in shown]
     wholes = [float(pipeline.frame_ms().mean()) for pipeline in shown]
     limit = MOST * min(wholes)
     end = max(min(whole, limit) for whole in wholes)
-    for row, (pipeline, whole) in enumerate(zip(shown, wholes)):
-        bar(axes, row, parts_of(pipeline), limit, f"{tables.three_digits(whole)} ms")
-    pipelines.dress(axes, shown)
+    for row, (pipeline, whole, first) in enumerate(zip(shown, wholes, firsts)):
+        text = f"{tables.three_digits(whole)} ms" + (f", first {tables.three_digits(first)}" if first is not None else "")
+        bar(axes, row, parts_of(pipeline), limit, text)
     axes.set_xlim(0, ROOM * end)
     return max(wholes) > limit
 
@@ -89,6 +91,8 @@ def draw(run: results.Run, experiment: str, remarks: tuple[str, ...] = ()) -> pl
     scenes = pipelines.of(run, experiment)
     drawing, panels, columns = panels_for(scenes)
     shortened = [draw_scene(axes, shown) for axes, shown in zip(panels, scenes.values())]
+    for axes, shown in zip(panels, scenes.values()):
+        pipelines.dress(axes, shown)
     shown = list(scenes.values())
     for place, axes in enumerate(panels):
         if columns > 1:  # a title has half the width
@@ -98,7 +102,8 @@ def draw(run: results.Run, experiment: str, remarks: tuple[str, ...] = ()) -> pl
         if place // columns == (len(panels) - 1) // columns:
             axes.set_xlabel("milliseconds a frame")
     height = figure.legend_above(drawing, legend_of([pipeline for one in shown for pipeline in one]))
-    lines = (*remarks, "Means over frames: of their medians at the end of a bar, of their stages' medians in it. "
+    lines = (*remarks, f"Means {pipelines.apart(scenes)}: of their medians at the end of a bar, of their stages' medians in it. The first "
+             "of several frames is in the text. "
              "Each scene has a scale of its own.", *pipelines.remarks(scenes))
     if any(shortened):
         lines += (SHORTENED,)

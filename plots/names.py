@@ -18,9 +18,15 @@ ORDERS = ("morton30", "morton48", "morton63", "hilbert30", "hilbert48", "hilbert
 # The default of each option and the wording of another value, in the order in which names show them.
 OPTIONS = {"no_skip": ("", "without {}"), "jump": ("0", "jump {}"), "start_level": ("0", "from level {}"),
            "order": ("morton30", "{}"), "grid": ("object", "grid over the {}"), "group_size": ("0", "groups of {}"), "items": ("0", "{} items"),
-           "leaves": ("mesh", "{} leaves"), "boxes": ("f32", "{} boxes")}
+           "leaves": ("mesh", "{} leaves"), "boxes": ("f32", "{} boxes"), "update": ("auto", "always {}"),
+           "trees": ("object", "one tree of the {}")}
+# What a collider chose itself where its options left it the choice: in place of them (Cell.used_options).
+USED = {"start": ("", "from {}")}
 # Options that change what is found. Figures show them elsewhere.
 ANSWERS = {"pairs_of": ("all", "{} objects"), "adjacent": ("keep", "adjacent {}ped"), "narrow": ("none", "contacts {}")}
+# Names that say more than the command line's.
+CALLED = {"grid": "hierarchical grid"}
+EXACT = ("none", "exact")  # values of `narrow` that give no wrong contacts
 USUAL = {key: usual for key, (usual, _) in {**ANSWERS, **OPTIONS}.items()}
 
 
@@ -47,20 +53,21 @@ def option(key: str, value: object) -> str:
 
 def variant(name: str, options: Mapping[str, object]) -> str:
     """Returns the name in figures: "bvtt (jump 2)"."""
-    words = said(options, OPTIONS)
-    return f"{name} ({', '.join(words)})" if words else name
+    words = said(options, {**OPTIONS, **USED})
+    return CALLED.get(name, name) + (f" ({', '.join(words)})" if words else "")
 
 
 def pipeline(collider: str, collider_options: Mapping[str, object], builder: str, options: Mapping[str, object]) -> str:
-    text = variant(collider, collider_options)
-    return text if builder == "none" else f"{text} over {variant(builder, options)}"
+    text = variant(collider, collider_options) + ("" if builder == "none" else f" over {variant(builder, options)}")
+    narrow = collider_options.get("narrow", "none")
+    return text if narrow in EXACT else f"{text}, contacts {narrow}"
 
 
 def in_full(choice: Mapping[str, Any]) -> str:
     """Returns the name of a result file's builder or collider on the console: "bvtt, between objects, jump 2"."""
     options = choice.get("options", {})
     shown = {key: value for key, value in options.items() if key != "leaves" or options.get("boxes", "f32") == "f32"}
-    return ", ".join([choice["name"], *said(shown, ANSWERS), *said(shown, OPTIONS)])
+    return ", ".join([CALLED.get(choice["name"], choice["name"]), *said(shown, ANSWERS), *said(shown, {**OPTIONS, **USED})])
 
 
 def scene(facts: Mapping[str, object]) -> str:

@@ -9,6 +9,8 @@ import results
 import style
 
 ROW = 0.2  # inches for each bar
+COUNTED = " †"  # marks a pipeline whose wrong contacts were counted
+WRONG = ("missed_count", "false_count", "contacts_count")
 
 # The hatch of each collider, for pipelines that share a builder's colour. A collider without a tree has its own colour.
 HATCHES = {"leaf": "", "group": "////", "block": "\\\\\\\\", "bvtt": "....", "front": "xxxx", "front-leaf": "++++", "embree-refit": "////", "fcl-refit": "////"}
@@ -25,8 +27,30 @@ class Pipeline:
         return self.cells[0]
 
     @property
+    def later(self) -> "Pipeline":
+        """Returns the pipeline over the frames after the first, in which caches, fronts and trees to refit are there; of one frame,
+        that frame."""
+        return Pipeline(self.scene, self.cells[1:] or self.cells)
+
+    @property
+    def first_ms(self) -> float | None:
+        """Returns the median time of the first frame of several, in milliseconds."""
+        return results.median(self.first.times_s()) * 1e3 if len(self.cells) > 1 else None
+
+    @property
     def label(self) -> str:
-        return self.first.called
+        return self.first.called + (COUNTED if self.is_counted else "")
+
+    @property
+    def is_counted(self) -> bool:
+        """True if the pipeline may find wrong contacts, which were counted."""
+        return any(cell.verdict == "counted" for cell in self.cells)
+
+    @property
+    def errors(self) -> str:
+        """Returns how many contacts of all frames were missed and how many are false: "3 missed, 0 false of 1,200"."""
+        missed, false, of = (sum(cell.counters.get(key, 0) for cell in self.cells) for key in WRONG)
+        return f"{missed:,.0f} missed, {false:,.0f} false of {of:,.0f} found"
 
     @property
     def colour(self) -> str:
@@ -90,10 +114,18 @@ def stands_in(cell: results.Cell) -> bool:
 
 
 def remarks(scenes: dict[str, list[Pipeline]]) -> tuple[str, ...]:
-    """Returns the explanation of the star if a scene is a stand-in."""
+    """Returns the explanation of the star if a scene is a stand-in, and the errors of pipelines that are not exact."""
     starred = any(stands_in(shown[0].first) for shown in scenes.values())
     star = "* was not there: the scene in brackets stands in, with its own numbers of triangles and frames."
-    return (star,) if starred else ()
+    counted = dict.fromkeys(f"{one.label.removesuffix(COUNTED)} on {scene}: {one.errors}"
+                            for scene, shown in scenes.items() for one in shown if one.is_counted)
+    return ((star,) if starred else ()) + ((f"† rounds, so contacts may be wrong. In all frames, {'; '.join(counted)}.",) if counted else ())
+
+
+def apart(scenes: dict[str, list[Pipeline]]) -> str:
+    """Returns which frames a mean is over."""
+    several = any(len(one.cells) > 1 for shown in scenes.values() for one in shown)
+    return "over frames after the first" if several else "over frames"
 
 
 def labels(shown: list[Pipeline]) -> list[str]:

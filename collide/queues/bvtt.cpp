@@ -41,6 +41,7 @@ public:
             1, *std::max_element(all.begin() + QUEUES_COUNT / 2, all.end()));
         if (counts.tasks)
             counts.tasks = all[QUEUES_COUNT / 2];  // pairs of roots in the first queue
+        counts.more = {{"used_start_level", starts_on()}, {"used_jump", jumps()}};
         return counts;
     }
 
@@ -66,6 +67,13 @@ private:
                                       : 0;
     }
 
+    /// Level that the traversal starts on, 0 for the root, and levels that each step descends; the leaves may be nearer.
+    uint starts_on() const
+    {
+        return skips(skip_start_level) ? chosen(options_.start_level, bvtt_start_level) : 0;
+    }
+    uint jumps() const { return std::max(1u, chosen(options_.jump, bvtt_jump)); }
+
     /// Levels that each step descends. A start level below the root is reached by a first jump.
     std::vector<uint> steps() const
     {
@@ -73,10 +81,9 @@ private:
         if (object_count() > 1)  // pairs of roots that are leaves need a step as well
             left = std::max(left, 1u);
         std::vector<uint> steps;
-        const uint start_level = chosen(options_.start_level, bvtt_start_level);
-        if (start_level > 0 && left > 0 && skips(skip_start_level))
-            steps.push_back(std::min(start_level, left));
-        const uint jump = std::max(1u, chosen(options_.jump, bvtt_jump));
+        if (starts_on() > 0 && left > 0)
+            steps.push_back(std::min(starts_on(), left));
+        const uint jump = jumps();
         for (left -= steps.empty() ? 0 : steps.front(); left > 0; left -= steps.back())
             steps.push_back(std::min(jump, left));
         return steps;

@@ -91,6 +91,16 @@ std::span<const ColliderEntry> collider_catalog();
 /// Returns the collider called `name`. Throws BadUsage with the known names if there is none.
 const ColliderEntry& find_collider(std::string_view name);
 
+/// How a builder's trees follow the points from frame to frame.
+enum class FrameUpdate {
+    automatic,  ///< rebuilt, unless a rule of collide/skips.h or the collider allows less
+    rebuild,    ///< rebuilt in every frame; a collider that carries state forgets it
+    refit,      ///< built in the first frame and refitted in all others
+};
+
+/// What one of a builder's trees is over.
+enum class TreeOver { object, scene };
+
 /// A collider and its options, as chosen on the command line or in an experiment. Owns its strings.
 struct ColliderChoice {
     std::string name;
@@ -101,6 +111,8 @@ struct ColliderChoice {
     unsigned start_level = 0;
     unsigned group_size = 0;
     unsigned rules_off = 0;  ///< disabled rules, bits of collide/skips.h
+    FrameUpdate update = FrameUpdate::automatic;
+    TreeOver trees = TreeOver::object;
     // Only tests and `stress` set these; result files do not store them.
     KernelForm form = KernelForm::of_device;
     std::size_t capacity = 0;

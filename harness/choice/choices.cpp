@@ -45,7 +45,8 @@ Json value_of(const CellChoice& choice)
 
 constexpr std::array<std::string_view, 2> grids = {"object", "scene"}, places = {"mesh", "sorted"},
                                           adjacents = {"drop", "keep"}, truths = {"false", "true"};
-constexpr std::array<std::string_view, 3> amongs = {"all", "between", "within"};
+constexpr std::array<std::string_view, 3> amongs = {"all", "between", "within"},
+                                          updates = {"auto", "rebuild", "refit"};
 
 /// Sets a boolean or an enumeration whose values are in the order of `words`.
 template <auto part, auto member, const auto& words>
@@ -122,6 +123,16 @@ constexpr Choice table[] = {
          return true;
      },
      [](const CellChoice& choice) { return Json(skip_rules_text(choice.collider.rules_off)); }},
+    {"update", Of::query, "auto, rebuild or refit",
+     "trees of later frames: auto, as rules and the collider allow; rebuild, in every frame and "
+     "any "
+     "front with them; or refit, all of them",
+     set_word<collider, &ColliderChoice::update, updates>,
+     word_of<collider, &ColliderChoice::update, updates>},
+    {"trees", Of::query, "object or scene",
+     "object or scene: a tree for each object, or one tree over all of them",
+     set_word<collider, &ColliderChoice::trees, grids>,
+     word_of<collider, &ColliderChoice::trees, grids>},
     {"jump", Of::collider, "a number of levels up to 32, 0 for the collider's choice",
      "levels a step of a traversal descends; 0: the collider's choice",
      set_number<collider, &ColliderChoice::jump, most_levels>,

@@ -23,7 +23,8 @@ std::string numbers(auto... values) { return (... + (' ' + std::to_string(values
 /// Returns a text that is equal for two colliders if they answer the same question.
 std::string question_of(const ColliderChoice& collider)
 {
-    return numbers(static_cast<int>(collider.among), collider.keep_adjacent, collider.rules_off);
+    return numbers(static_cast<int>(collider.among), collider.keep_adjacent, collider.rules_off,
+                   static_cast<int>(collider.update));
 }
 
 /// Returns a text that is equal for two cells if the stage does the same work in both.
@@ -31,7 +32,8 @@ std::string key_of(const std::string& stage, const Cell& cell)
 {
     const BuilderChoice& builder = cell.builder;
     const ColliderChoice& collider = cell.collider;
-    std::string key = stage + ' ' + builder.boxes + (builder.sorted_leaves ? " sorted" : " mesh");
+    std::string key = stage + ' ' + builder.boxes + (builder.sorted_leaves ? " sorted" : " mesh") +
+                      (collider.trees == TreeOver::scene ? " one tree" : "");
     if (is_of_query(stage))
         key += question_of(collider);
     if (stage == "narrow")
@@ -56,7 +58,8 @@ std::string key_of_kind(const Cell& cell)
     const BuilderChoice& builder = cell.builder;
     const std::string_view equal =
         builder.name == "none" ? builder.name : find_builder(builder.name).oracle;
-    return cell.collider.name + question_of(cell.collider) + " over " +
+    return cell.collider.name + question_of(cell.collider) +
+           (cell.collider.trees == TreeOver::scene ? " over one " : " over ") +
            (equal.empty() ? builder.name : std::string(equal));
 }
 

@@ -14,15 +14,41 @@ namespace {
 
 constexpr std::int64_t most_copying_ns = 200'000'000;  ///< after which a copy is not timed again
 
+/// Returns the rules that a choice of updates excludes.
+unsigned rules_without(FrameUpdate update)
+{
+    return update == FrameUpdate::rebuild ? skip_unchanged | skip_rigid
+           : update == FrameUpdate::refit ? skip_unchanged | skip_rigid | skip_near
+                                          : 0;
+}
+
+/// Throws BadUsage if trees cannot be made as chosen.
+void check_trees(const ColliderChoice& choice, const Collider& collider, const Builder* builder)
+{
+    const bool refits = choice.update == FrameUpdate::refit;
+    if (builder == nullptr &&
+        (choice.update != FrameUpdate::automatic || choice.trees != TreeOver::object))
+        throw BadUsage("'update' and 'trees' are about a builder's trees, and the collider " +
+                       choice.name + " queries none");
+    if (refits && collider.keeps_tree())
+        throw BadUsage("the collider " + choice.name +
+                       " refits its tree by itself: 'update' is auto or rebuild for it, not refit");
+    if (refits && !builder->can_refit())
+        throw BadUsage("the builder " + std::string(builder->card().name) +
+                       " cannot refit a tree: 'update' is auto or rebuild for it, not refit");
+}
+
 }  // namespace
 
 Pipeline::Pipeline(Session& session, const BuilderChoice& builder, const ColliderChoice& collider,
                    const Input& input)
     : session_(session)
     , choice_(builder)
-    , rules_off_(collider.rules_off)
-    , updates_(input.objects.size(), TreeUpdate::rebuild)
-    , collider_(make_collider(collider, session.programs()))
+    , rules_off_(collider.rules_off | rules_without(collider.update))
+    , update_(collider.update)
+    , one_tree_(one_tree_for(session, collider, input))
+    , updates_(one_tree_ ? 1 : input.objects.size(), TreeUpdate::rebuild)
+    , collider_(make_collider(one_tree_ ? one_tree_->question() : collider, session.programs()))
 {
     if (input.is_swept() && (collider.narrow != "none" || collider_->finds_contacts()))
         throw BadUsage(
@@ -32,6 +58,7 @@ Pipeline::Pipeline(Session& session, const BuilderChoice& builder, const Collide
             " looks at one moment");
     if (collider_->needs_tree())
         builder_ = make_builder(choice_, session.programs());
+    check_trees(collider, *collider_, builder_.get());
     reserve_for(input);
     if (collider.narrow != "none" && !collider_->finds_contacts()) {
         narrow_.emplace(session.programs(), NarrowOptions{.method = collider.narrow,
@@ -41,7 +68,7 @@ Pipeline::Pipeline(Session& session, const BuilderChoice& builder, const Collide
     }
     // With swept boxes the objects are vertices and the faces that they are corners of, so all triangles would be near.
     if (skips(skip_near) && collider.among == Among::between_objects && input.objects.size() > 1 &&
-        !input.is_swept() && builder_ != nullptr && !collider_->keeps_tree() &&
+        !input.is_swept() && builder_ != nullptr && !collider_->keeps_tree() && !one_tree_ &&
         NearTriangles::may_pay(session.device(), input.triangle_count())) {
         near_.emplace(session.programs(), NearOptions{});
         near_->reserve(input);
@@ -51,25 +78,33 @@ Pipeline::Pipeline(Session& session, const BuilderChoice& builder, const Collide
 void Pipeline::reserve_for(const Input& input)
 {
     if (builder_ != nullptr) {
-        builder_->reserve_objects(object_sizes(input));
-        session_.build_once(*builder_, input, Start::from_triangles, &tree_);
+        const Input& of_trees = one_tree_ ? one_tree_->built(input) : input;
+        builder_->reserve_objects(object_sizes(of_trees));
+        session_.build_once(*builder_, of_trees, Start::from_triangles, &tree_);
     }
-    collider_->reserve(tree_, input);
+    collider_->reserve(tree_, one_tree_ ? one_tree_->queried(input) : input);
 }
 
 void Pipeline::begin_frame(std::span<const Motion> motions)
 {
-    const TreeUpdate asked =
-        collider_->keeps_tree() ? collider_->next_frame() : TreeUpdate::rebuild;
+    // A collider that is not told of the next frame begins it as a first one.
+    const TreeUpdate asked = collider_->keeps_tree() && update_ != FrameUpdate::rebuild
+                                 ? collider_->next_frame()
+                             : update_ == FrameUpdate::refit && has_begun_ ? TreeUpdate::refit
+                                                                           : TreeUpdate::rebuild;
+    has_begun_ = true;
     if (builder_ == nullptr)
         return;
-    if (collider_->keeps_tree()) {
+    if (collider_->keeps_tree() || update_ == FrameUpdate::refit) {
         updates_ = builder_->plan_update(std::vector(updates_.size(), asked), session_.queue());
     } else if (entering_) {
         const bool keeps_all =
             skips(skip_unchanged) && queries() && !motions.empty() &&
             std::ranges::count(motions, Motion::unchanged) == std::ssize(motions);
         updates_.assign(updates_.size(), keeps_all ? TreeUpdate::keep : TreeUpdate::rebuild);
+    } else if (one_tree_ && !motions.empty()) {
+        const Motion whole = motion_of_all(motions);
+        updates_ = planned_updates({&whole, 1});
     } else {
         updates_ = planned_updates(motions);
     }
@@ -136,10 +171,11 @@ void Pipeline::enqueue(const Input& input)
 void Pipeline::enqueue_query(const Input& input)
 {
     Queue& queue = session_.queue();
+    const Input& of_trees = one_tree_ ? one_tree_->built(input) : input;
     if (builder_ != nullptr &&
         std::count(updates_.begin(), updates_.end(), TreeUpdate::keep) < std::ssize(updates_))
-        tree_ = entering_ ? &builder_->build(input, queue) : &builder_->update(input, queue);
-    collider_->query(tree_, input, queue);
+        tree_ = entering_ ? &builder_->build(of_trees, queue) : &builder_->update(of_trees, queue);
+    collider_->query(tree_, one_tree_ ? one_tree_->queried(input) : input, queue);
 }
 
 bool Pipeline::complete()
@@ -251,7 +287,7 @@ std::map<std::string, double> Pipeline::counters() const
         const bool has_some = objects > 0 && queries();
         return !entering_ ? objects : has_some ? entering_->input.objects.size() : 0;
     };
-    std::size_t memory = collider_->reserved().total();
+    std::size_t memory = collider_->reserved().total() + (one_tree_ ? one_tree_->bytes() : 0);
     put("query_bytes", memory);
     if (builder_ != nullptr) {
         const Footprint tree = builder_->reserved();

@@ -11,6 +11,7 @@
 #include "collide/narrow/narrow.h"
 #include "collide/near.h"
 #include "harness/choice/catalog.h"
+#include "harness/measure/one_tree.h"
 #include "harness/session/session.h"
 #include "scenes/motion.h"
 
@@ -79,10 +80,13 @@ private:
     Session& session_;
     BuilderChoice choice_;  ///< outlives builder_, which may refer to its strings
     unsigned rules_off_;
+    FrameUpdate update_;
+    bool has_begun_ = false;           ///< whether a frame has begun
+    std::optional<OneTree> one_tree_;  ///< if one tree is over several objects
     /// This pipeline's own builder, so that its tree persists between frames; null if the collider needs none.
     std::unique_ptr<Builder> builder_;
     const Tree* tree_ = nullptr;
-    std::vector<TreeUpdate> updates_;  ///< planned update of each object's tree
+    std::vector<TreeUpdate> updates_;  ///< planned update of each tree
     std::unique_ptr<Collider> collider_;
     std::optional<NarrowPhase> narrow_;
     std::optional<NearTriangles> near_;  ///< if the rule `near` may apply

@@ -16,6 +16,9 @@ namespace {
 
 constexpr std::string_view sort_stage = "sort";
 
+/// Returns the frame over which a collider is timed: the second or, in a scene of one frame, that frame once more.
+std::size_t timed_frame(const Scene& scene) { return scene.frames.size() > 1 ? 1 : 0; }
+
 Device tuned(Device device, const Tuning& tuning)
 {
     device.tuning = tuning;
@@ -78,16 +81,18 @@ private:
 
 class CollideTrial final : public OwnSession {
 public:
-    CollideTrial(Session& session, const Tuning& tuning, const TuneTask& task, const Input& input,
-                 const PairList& pairs, const std::optional<PairList>& contacts)
+    CollideTrial(Session& session, const Tuning& tuning, const TuneTask& task, const Scene& scene,
+                 Input& input, const PairList& pairs, const std::optional<PairList>& contacts)
         : OwnSession(session, tuning)
         , input_(input)
         , pairs_(pairs)
         , contacts_(contacts)
         , pipeline_(session_, task.builder, task.collider, input)
     {
-        // A collider that keeps its tree between frames is timed in its second frame.
-        for (int frame = 0; frame < (pipeline_.collider().keeps_tree() ? 2 : 1); ++frame) {
+        // Timed in the second frame, which a collider that keeps its tree starts from what the first left.
+        for (const std::size_t frame : {std::size_t{0}, timed_frame(scene)}) {
+            input.points = scene.frames[frame];
+            input.device_points.upload(session_.queue().cl(), input.points);
             pipeline_.begin_frame({});
             pipeline_.settle(input_);
         }
@@ -138,9 +143,10 @@ TuneTarget::TuneTarget(Session& session, TuneTask task) : session_(session), tas
         return;
     task_.collider.name = task_.target;
     const bool keep_adjacent = task_.collider.keep_adjacent;
-    pairs_ = touching_pairs(input_.points, input_.faces, keep_adjacent);
+    const std::vector<Point>& points = scene_.frames[timed_frame(scene_)];
+    pairs_ = touching_pairs(points, input_.faces, keep_adjacent);
     if (has_exact_reference && task_.collider.narrow != "none")
-        contacts_ = intersecting_pairs(input_.points, input_.faces, pairs_.pairs(), keep_adjacent);
+        contacts_ = intersecting_pairs(points, input_.faces, pairs_.pairs(), keep_adjacent);
 }
 
 std::unique_ptr<Trial> TuneTarget::trial(const Tuning& tuning)
@@ -148,7 +154,8 @@ std::unique_ptr<Trial> TuneTarget::trial(const Tuning& tuning)
     if (task_.collider.name.empty())
         return std::make_unique<BuildTrial>(session_, tuning, task_.builder, input_, oracle_,
                                             task_.target == sort_stage ? sort_stage : "");
-    return std::make_unique<CollideTrial>(session_, tuning, task_, input_, pairs_, contacts_);
+    return std::make_unique<CollideTrial>(session_, tuning, task_, scene_, input_, pairs_,
+                                          contacts_);
 }
 
 bool TuneTarget::wants(const Parameter& parameter) const

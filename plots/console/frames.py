@@ -9,7 +9,7 @@ from tables import Table, duration, fixed, whole
 
 
 def each(run: results.Run) -> str:
-    """Returns a table for each scene and pipeline: one line for each frame, and the mean over frames."""
+    """Returns a table for each scene and pipeline: one line for each frame, and the mean over those after the first."""
     groups = grouped(run.all_cells, lambda cell: (cell.scene, cell.pipeline))
     return "".join(f"{pipeline} on {scene}\n{of_pipeline(cells)}" for (scene, pipeline), cells in groups.items())
 
@@ -21,31 +21,35 @@ def of_pipeline(cells: list[Cell]) -> str:
         counts = [whole(cell.counters.get(key)) for key in ("pairs_count", "contacts_count")]
         table.row(str(cell.frame), *times, *counts, one_cell.verdict(cell))
     if len(cells) > 1 and all(cell.has_times for cell in cells):
-        counts = [whole(mean(cells, key, 1, 0.5)) for key in ("pairs_count", "contacts_count")]
-        table.row("mean", duration(sum(cell.median_ns() for cell in cells) / len(cells)), *[""] * 5, *counts)
+        later = cells[1:]
+        counts = [whole(mean(later, key, 1, 0.5)) for key in ("pairs_count", "contacts_count")]
+        table.row("mean of later", duration(sum(cell.median_ns() for cell in later) / len(later)), *[""] * 5, *counts)
     return table.text()
 
 
 def text(run: results.Run, printed: str = "") -> str:
     """Returns one line for the frames of a scene by a pipeline, followed by the rows of the paper's table `printed`. Empty if
-    there are no frames. The columns "up" and "back", in ms, are of copies to and from the device, which "ms" does not have."""
+    there are no frames. Of several frames the first is in the column "first", and all other columns have means over those after it.
+    The columns "up" and "back", in ms, are of copies to and from the device, which "ms" does not have."""
     groups = list(grouped((cell for cell in run.all_cells if cell.operation == "collide" and not cell.swept),
                           lambda cell: cell.key("scene", "builder", "collider", "experiment")).values())
-    table = Table("<scene", "<pipeline", "frames", "ms", "±", "broad", "up", "back", "MB", "pairs", "contacts", "peak BVTT", "<verdict")
+    table = Table("<scene", "<pipeline", "frames", "first", "ms", "±", "broad", "up", "back", "MB", "pairs", "contacts", "peak BVTT", "<verdict")
     rows = results.printed(printed)["rows"] if printed else []
     names = [cells[0].scene_facts["name"] for cells in groups]
     for cells, name, next_name in zip(groups, names, [*names[1:], None]):
         first = cells[0]
         stand_in = f" for {first.stand_in_for}" if first.stand_in_for else ""
-        counts = [whole(mean(cells, key, 1, 0.5)) for key in ("pairs_count", "contacts_count", "bvtt_peak_count")]
-        of_frames = times_of(cells)
-        copies = [fixed(mean(cells, key, 1e-6), 3) for key in ("upload_ns", "read_back_ns")]
-        table.row(name + stand_in, first.pipeline, str(len(cells)), *of_frames, *copies,
-                  fixed(mean(cells, "memory_bytes", 1e-6), 1), *counts, verdict(cells), among=name,
+        later = cells[1:] or cells
+        counts = [whole(mean(later, key, 1, 0.5)) for key in ("pairs_count", "contacts_count", "bvtt_peak_count")]
+        of_frames = times_of(later)
+        copies = [fixed(mean(later, key, 1e-6), 3) for key in ("upload_ns", "read_back_ns")]
+        of_first = times_of(cells[:1])[0] if len(cells) > 1 else ""
+        table.row(name + stand_in, first.pipeline, str(len(cells)), of_first, *of_frames, *copies,
+                  fixed(mean(later, "memory_bytes", 1e-6), 1), *counts, verdict(cells), among=name,
                   value=float(of_frames[0] or "nan"))
         for row in rows if name != next_name else ():
             if row["scene"] == (first.stand_in_for or name):
-                table.row("", f"paper: {row['method']}", str(row["frames"]), fixed(row["frame_ms"], 3),
+                table.row("", f"paper: {row['method']}", str(row["frames"]), "", fixed(row["frame_ms"], 3),
                           fixed(row.get("frame_stdev_ms", 0) or None, 3), "", "", "", fixed(row["memory_megabytes"], 1), "", "", "",
                           "printed")
     return table.text() if groups else ""
@@ -68,8 +72,8 @@ def mean(cells: list[Cell], counter: str, scale: float, more: float = 0) -> floa
 
 def times_of(cells: list[Cell]) -> list[str]:
     """Returns mean and standard deviation over frames of their medians, and the mean of the stage broad, in ms; blank unless
-    every frame agrees."""
-    if any(cell.verdict != "agrees" or not cell.samples for cell in cells):
+    every frame agrees, or has its errors counted."""
+    if any(not cell.checked or not cell.samples for cell in cells):
         return ["", "", ""]
     medians = [cell.median_ns() * 1e-6 for cell in cells]
     broad = sum(cell.median_ns("broad") for cell in cells) * 1e-6 / len(cells)
@@ -77,6 +81,13 @@ def times_of(cells: list[Cell]) -> list[str]:
 
 
 def verdict(cells: list[Cell]) -> str:
-    """Returns "agrees" if all agree, otherwise the first other verdict and its reason."""
-    bad = next((cell for cell in cells if cell.verdict != "agrees"), None)
-    return "agrees" if bad is None else bad.verdict + (f": {bad.reason}" if bad.reason else "")
+    """Returns "agrees" if all agree, the errors of all frames if they were counted, otherwise the first other verdict and its
+    reason."""
+    bad = next((cell for cell in cells if not cell.checked), None)
+    if bad is not None:
+        return bad.verdict + (f": {bad.reason}" if bad.reason else "")
+    if all(cell.verdict == "agrees" for cell in cells):
+        return "agrees"
+    missed, false = (sum(cell.counters.get(f"{key}_count", 0) + cell.counters.get(f"{key}_pairs_count", 0) for cell in cells)
+                     for key in ("missed", "false"))
+    return f"counted: {missed:,.0f} missed, {false:,.0f} false"

@@ -57,9 +57,13 @@ TEST(Choices, OfACellAreReadFromTheirKeysAndToldByThem)
                                              .sorted_leaves = true,
                                              .boxes = "u16"}));
     EXPECT_EQ(choices_json(choice, Choice::Of::builder), builder);
-    read_choices(
-        {{"pairs_of", "between"}, {"adjacent", "drop"}, {"narrow", "exact"}, {"no_skip", "near"}},
-        Choice::Of::query, choice);
+    read_choices({{"pairs_of", "between"},
+                  {"adjacent", "drop"},
+                  {"narrow", "exact"},
+                  {"no_skip", "near"},
+                  {"update", "refit"},
+                  {"trees", "scene"}},
+                 Choice::Of::query, choice);
     read_choices({{"jump", 3}, {"start_level", 4}, {"group_size", 128}}, Choice::Of::collider,
                  choice);
     EXPECT_EQ(choice.collider, (ColliderChoice{.name = {},
@@ -69,7 +73,9 @@ TEST(Choices, OfACellAreReadFromTheirKeysAndToldByThem)
                                                .jump = 3,
                                                .start_level = 4,
                                                .group_size = 128,
-                                               .rules_off = skip_near}));
+                                               .rules_off = skip_near,
+                                               .update = FrameUpdate::refit,
+                                               .trees = TreeOver::scene}));
     read_choices({{"frames", "2:5"}, {"between", 3}, {"objects", "components"}, {"swept", true}},
                  Choice::Of::scene, choice);
     EXPECT_EQ(choice.scene.frames, (FrameRange{2, 5}));
@@ -94,7 +100,8 @@ TEST(Choices, ThatAreWrongGetTheSameSentenceWhereverTheyStand)
         {"order", "up"},     {"grid", "mesh"},    {"group_size", "many"}, {"items", "16"},
         {"boxes", "u9"},     {"leaves", "green"}, {"pairs_of", "us"},     {"adjacent", "some"},
         {"narrow", "guess"}, {"no_skip", "far"},  {"jump", "99"},         {"jump", "-1"},
-        {"frames", "3:2"},   {"between", "1001"}, {"objects", "parts"}};
+        {"update", "keep"},  {"trees", "mesh"},   {"frames", "3:2"},      {"between", "1001"},
+        {"objects", "parts"}};
     for (const auto& [key, value] : wrong) {
         const std::vector<std::string> said = refusals(key, value);
         ASSERT_GE(said.size(), 2u) << key;

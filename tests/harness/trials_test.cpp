@@ -18,6 +18,7 @@ struct Tunable {
     const char* order = "morton30";
     bool sorted_leaves = false;
     const char* narrow = "none";
+    const char* scene = "torus:1500";
     bool only_in_groups = false;  ///< whether all its parameters are of the form for many lanes
 };
 
@@ -25,7 +26,7 @@ class Trials : public testing::TestWithParam<Tunable> {
 protected:
     TuneTask task() const
     {
-        TuneTask task{GetParam().target, "torus:1500", {}, {}};
+        TuneTask task{GetParam().target, GetParam().scene, {}, {}};
         task.builder.name = GetParam().builder;
         task.builder.order = GetParam().order;
         task.builder.sorted_leaves = GetParam().sorted_leaves;
@@ -66,20 +67,37 @@ TEST_P(Trials, AreRightWithEveryCandidateThatTheDeviceCanDo)
 
 INSTANTIATE_TEST_SUITE_P(
     Targets, Trials,
-    testing::Values(Tunable{"sort", "oibvh-multi", "morton63"},
-                    Tunable{"oibvh-multi", "oibvh-multi", "morton30", true},
-                    Tunable{"oibvh-multi", "oibvh-multi", "kd"}, Tunable{"group", "apetrei-fused"},
-                    Tunable{"lbvh-levels", "lbvh-levels"},
-                    Tunable{"bvtt", "oibvh-multi", "morton30", true, "exact"},
-                    Tunable{.target = "front", .only_in_groups = true},
-                    Tunable{.target = "front-leaf", .only_in_groups = true},
-                    Tunable{.target = "grid", .builder = "none", .only_in_groups = true}),
+    testing::Values(
+        Tunable{"sort", "oibvh-multi", "morton63"},
+        Tunable{"oibvh-multi", "oibvh-multi", "morton30", true},
+        Tunable{"oibvh-multi", "oibvh-multi", "kd"}, Tunable{"group", "apetrei-fused"},
+        Tunable{"lbvh-levels", "lbvh-levels"},
+        Tunable{"bvtt", "oibvh-multi", "morton30", true, "exact"},
+        Tunable{.target = "front", .only_in_groups = true},
+        Tunable{.target = "front-leaf", .scene = "cloth-ball:1500:3", .only_in_groups = true},
+        Tunable{.target = "leaf", .narrow = "exact", .scene = "cloth-ball:1500:3"},
+        Tunable{.target = "grid", .builder = "none", .only_in_groups = true}),
     [](const auto& tested) {
         std::string name = tested.param.target + std::string("_") + tested.param.builder + "_" +
                            tested.param.order;
         std::replace(name.begin(), name.end(), '-', '_');
         return name;
     });
+
+TEST(TuneTarget, MovesAFrontToTheSecondFrame)
+{
+    Session session(CommonOptions{});
+    TuneTarget target(session, {"front-leaf", "cloth-ball:1500:3", {.name = "apetrei-fused"}, {}});
+    for (int k = 0; k < 2; ++k) {
+        const auto trial = target.trial({});
+        EXPECT_EQ(trial->wrong(), "");
+        const std::vector<StageTime> stages = trial->once();
+        const auto has = [&](std::string_view stage) {
+            return std::ranges::count(stages, stage, &StageTime::stage) > 0;
+        };
+        EXPECT_TRUE(has("refit") && !has("sort"));
+    }
+}
 
 TEST(TuneTarget, LeavesWhatIsNotItsOwnAlone)
 {

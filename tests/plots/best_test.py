@@ -183,7 +183,7 @@ class ASentence(unittest.TestCase):
     def test_families_are_those_of_the_catalog(self) -> None:
         self.assertEqual([families.of_cell(Cell(frame(*words))) for words in (("front", [1], "karras"), ("group", [1], "karras"),
                                                                              ("grid", [1], "none"), ("leaf", [1], "oibvh-wide8"))],
-                         ["front tracking", "radix trees", "grid", "wide trees"])
+                         ["front tracking", "radix trees", "hierarchical grid", "wide trees"])
         for name in style.LOOKS:
             self.assertNotEqual(families.of_builder(name), name, f"plots/families.py has no family for {name}")
 

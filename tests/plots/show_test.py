@@ -122,14 +122,35 @@ class OfFrames(unittest.TestCase):
     def test_those_of_a_pipeline_are_a_line_with_the_mean_and_deviation_of_their_medians(self) -> None:
         absent = frame(1, ns=3000000, jump=0)  # a file may omit an option with its default value
         titles, line = frames.text(run_of(frame(0), absent)).splitlines()
-        self.assertEqual(titles.split(), "scene pipeline frames ms ± broad up back MB pairs contacts peak BVTT verdict".split())
-        self.assertEqual(line.split(), "bunny group over oibvh-multi 2 2.000 1.000 1.000 1,000 agrees".split())
+        self.assertEqual(titles.split(), "scene pipeline frames first ms ± broad up back MB pairs contacts peak BVTT verdict".split())
+        self.assertEqual(line.split(), "bunny group over oibvh-multi 2 1.000 3.000 0.000 1.500 1,000 agrees".split())
+        three = frames.text(run_of(frame(0), frame(1), absent | {"scene": {**absent["scene"], "frame": 2}})).splitlines()[1]
+        self.assertEqual(three.split()[4:9], ["3", "1.000", "2.000", "1.000", "1.000"])  # over the last two
         copied = frame(0)
         copied["counters"] |= {"upload_ns": 1234000, "read_back_ns": 5000}
         self.assertEqual(frames.text(run_of(copied)).splitlines()[1].split()[5:9], ["1.000", "0.000", "0.500", "1.234"])
         self.assertEqual(frames.text(run_of(cell())), "")
         blank = frames.text(run_of(frame(0), {**frame(1), "status": "failed", "reason": "no memory"})).splitlines()[1]
-        self.assertEqual(blank.split()[4:], ["2", "1,000", "failed:", "no", "memory"])
+        self.assertEqual(blank.split()[4:], ["2", "1.000", "1,000", "failed:", "no", "memory"])
+
+    def test_that_round_have_times_and_their_errors_of_all_frames(self) -> None:
+        counted = [{**frame(number), "check": {"verdict": "counted"}} for number in (0, 1)]
+        for one, missed, false in zip(counted, (1, 2), (30, 400)):
+            one["counters"] |= {"missed_count": missed, "false_count": false}
+        line = frames.text(run_of(*counted)).splitlines()[1]
+        self.assertIn("1.000", line)
+        self.assertTrue(line.endswith("counted: 3 missed, 430 false"), line)
+
+    def test_of_bvtt_say_where_it_started_whoever_chose_that(self) -> None:
+        def named(level: int, **options: object) -> str:
+            one = frame(0)
+            one["collider"] = {"name": "bvtt", "options": options}
+            one["counters"] |= {"used_start_level": level, "used_jump": 1}
+            return run_of(one).all_cells[0].called
+
+        self.assertEqual(named(8), "bvtt (jump 1, from level 8) over oibvh-multi")
+        self.assertEqual(named(4, start_level=4), "bvtt (jump 1, from level 4) over oibvh-multi")
+        self.assertEqual(named(0, no_skip="apart, start-level"), "bvtt (without apart, jump 1, from the root) over oibvh-multi")
 
     def test_of_collide_name_their_pipeline_once_and_end_with_a_mean(self) -> None:
         one, other = frame(0), frame(1, ns=3000000)
@@ -137,7 +158,7 @@ class OfFrames(unittest.TestCase):
         name, titles, *rows = frames.each(run_of(one, other)).splitlines()
         self.assertEqual((name, titles.split()[:2]), ("group over oibvh-multi on bunny", ["frame", "median"]))
         self.assertEqual([row.split()[0] for row in rows], ["0", "1", "mean"])
-        self.assertEqual(rows[-1].split(), "mean 2.00 ms 1,500".split())
+        self.assertEqual(rows[-1].split(), "mean of later 3.00 ms 2,000".split())
         self.assertNotIn("mean", frames.each(run_of(one)))
         self.assertNotIn("mean", frames.each(run_of(one, wrong(other))), "a mean over some of the frames")
         several = frames.each(run_of(one, frame(1), frame(0, jump=2), frame(1, jump=2)))

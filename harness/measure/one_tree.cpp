@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "harness/measure/one_tree.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "geometry/error.h"
+
+namespace bvhbench {
+namespace {
+
+/// Returns true if triangles of two objects have a vertex in common.
+bool share_vertices(const Input& input)
+{
+    constexpr std::size_t nobody = std::numeric_limits<std::size_t>::max();
+    std::vector<std::size_t> owners(input.points.size(), nobody);
+    for (std::size_t object = 0; object < input.objects.size(); ++object)
+        for (const Face& face :
+             input.faces.subspan(input.objects[object].first, input.objects[object].count))
+            for (const uint corner : {face.a, face.b, face.c}) {
+                if (owners[corner] != nobody && owners[corner] != object)
+                    return true;
+                owners[corner] = object;
+            }
+    return false;
+}
+
+std::vector<Face> owners_of(const Input& input)
+{
+    std::vector<Face> owners;
+    for (uint object = 0; object < input.objects.size(); ++object)
+        owners.resize(owners.size() + input.objects[object].count, {object, object, object});
+    return owners;
+}
+
+}  // namespace
+
+OneTree::OneTree(Session& session, const ColliderChoice& asked, const Input& input)
+    : question_(asked), built_(input)
+{
+    if (input.is_swept())
+        throw BadUsage("with swept boxes 'trees' is object: vertices and faces get a tree each");
+    if (asked.among == Among::within_objects)
+        throw BadUsage(
+            "one tree over the scene finds pairs of all objects: for pairs within "
+            "objects 'trees' is object");
+    built_.objects = {{0, input.triangle_count()}};
+    if (asked.among == Among::all)
+        return;
+    if (!asked.keep_adjacent && share_vertices(input))
+        throw BadUsage(
+            "objects of this scene share vertices, and one tree over the scene cannot "
+            "drop pairs of two objects that share one: 'trees' is object, or 'adjacent' "
+            "keep");
+    question_.among = Among::all;
+    question_.keep_adjacent = false;
+    owners_ = owners_of(input);
+    queried_ = upload_over(built_, session.device(), session.queue(), owners_);
+}
+
+std::optional<OneTree> one_tree_for(Session& session, const ColliderChoice& asked,
+                                    const Input& input)
+{
+    if (asked.trees == TreeOver::object)
+        return {};
+    if (input.objects.size() == 1)
+        throw BadUsage("the scene is one object, which has one tree: 'trees' is object");
+    return std::optional<OneTree>(std::in_place, session, asked, input);
+}
+
+Motion motion_of_all(std::span<const Motion> motions)
+{
+    const bool is_still = std::ranges::count(motions, Motion::unchanged) == std::ssize(motions);
+    return is_still ? Motion::unchanged : Motion::deforming;
+}
+
+}  // namespace bvhbench

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "harness/choice/catalog.h"
+#include "harness/session/session.h"
+#include "scenes/motion.h"
+
+namespace bvhbench {
+
+/// The frames of a scene of several objects as those of one object, for a pipeline with `trees: scene`.
+///
+/// One tree finds the pairs within objects too. If only those between objects are wanted, the collider is asked to drop pairs
+/// that share a vertex index, and gets faces whose three corners are the number of the triangle's object. Builder and narrow phase
+/// get the true faces.
+class OneTree {
+public:
+    /// Copies the faces of the query to the device. Throws BadUsage if the input is swept, if pairs within objects are wanted,
+    /// or if objects share a vertex and pairs that share one are to be dropped between objects.
+    OneTree(Session& session, const ColliderChoice& asked, const Input& input);
+
+    /// What the collider is asked for, in place of what the pipeline is.
+    const ColliderChoice& question() const { return question_; }
+
+    /// What the builder gets of a frame, and what the collider gets. Valid until the next call, while `frame` is.
+    const Input& built(const Input& frame) { return at(built_, frame); }
+    const Input& queried(const Input& frame)
+    {
+        return at(owners_.empty() ? built_ : queried_, frame);
+    }
+
+    /// Device memory that this object has taken.
+    std::size_t bytes() const { return owners_.size() * sizeof(Face); }
+
+private:
+    static const Input& at(Input& input, const Input& frame)
+    {
+        input.points = frame.points;
+        return input;
+    }
+
+    ColliderChoice question_;
+    std::vector<Face>
+        owners_;  ///< the number of each triangle's object, three times; empty if all pairs are wanted
+    Input built_, queried_;
+};
+
+/// Returns one tree if `asked` wants it, else none. Throws BadUsage as the constructor does, and for a scene of one object.
+std::optional<OneTree> one_tree_for(Session& session, const ColliderChoice& asked,
+                                    const Input& input);
+
+/// Returns the motion of all objects as one: rigid motions may differ, so it is deforming unless nothing has moved.
+Motion motion_of_all(std::span<const Motion> motions);
+
+}  // namespace bvhbench

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+//
+// Tests the options `update` and `trees`: what is done to the trees of each frame, and that the pairs are the oracle's.
+#include <gtest/gtest.h>
+
+#include "collide/oracles/box_pairs.h"
+#include "harness/measure/frames.h"
+#include "harness/measure/pipeline.h"
+#include "tests/collide/collider_testing.h"
+
+namespace bvhbench {
+namespace {
+
+using Counters = std::map<std::string, double>;
+
+/// Runs a pipeline over the frames of a scene, compares each frame's pairs with the oracle's, and returns each frame's counters.
+std::vector<Counters> run_frames(const Scene& scene, const BuilderChoice& builder,
+                                 const ColliderChoice& collider)
+{
+    SCOPED_TRACE(collider.name + " over " + builder.name);
+    Input input = upload_frame(session(), scene, 0);
+    Pipeline pipeline(session(), builder, collider, input);
+    std::vector<Counters> all;
+    for (std::size_t frame = 0; frame < scene.frames.size(); ++frame) {
+        input.points = scene.frames[frame];
+        input.device_points.upload(session().queue().cl(), input.points);
+        pipeline.begin_frame(frame == 0 ? std::vector<Motion>{}
+                                        : object_motions(scene, frame - 1, frame));
+        pipeline.settle(input);
+        all.push_back(pipeline.counters());
+        const PairList expected = touching_pairs(input.points, input.faces, collider.keep_adjacent,
+                                                 input.objects, collider.among);
+        EXPECT_GT(expected.size(), 0u);
+        for (int sample = 0; sample < 2; ++sample) {
+            pipeline.once(input);
+            EXPECT_EQ(PairList(pipeline.pairs()), expected) << "frame " << frame;
+            EXPECT_EQ(PairList(pipeline.pairs()).surplus(), 0u);
+        }
+        EXPECT_EQ(pipeline.counters().at("pairs_count"), all.back().at("pairs_count"));
+    }
+    return all;
+}
+
+void expect_updates(const Counters& counters, double rebuilt, double refitted, double kept)
+{
+    EXPECT_EQ(counters.at("rebuilt_objects_count"), rebuilt);
+    EXPECT_EQ(counters.at("refitted_objects_count"), refitted);
+    EXPECT_EQ(counters.at("kept_objects_count"), kept);
+    EXPECT_EQ(counters.at("sorts_count"), rebuilt > 0 ? 1 : 0);
+}
+
+/// Expects that making the pipeline is refused, in a sentence with these words.
+void expect_refusal(const Scene& scene, const BuilderChoice& builder,
+                    const ColliderChoice& collider, const std::string& words)
+{
+    const Input input = upload_frame(session(), scene, 0);
+    try {
+        Pipeline(session(), builder, collider, input);
+        ADD_FAILURE() << collider.name << " over " << builder.name << " is not refused";
+    } catch (const BadUsage& refusal) {
+        EXPECT_NE(std::string(refusal.what()).find(words), std::string::npos) << refusal.what();
+    }
+}
+
+TEST(Update, RebuildsEveryTreeInEveryFrame)
+{
+    const Scene scene = load_scene("cloth-ball:2000:4", {});  // the ball moves rigidly
+    for (const char* builder : {"oibvh-multi", "apetrei-fused"})
+        for (const char* name : {"group", "front", "front-leaf"}) {
+            const std::vector<Counters> frames = run_frames(
+                scene, {.name = builder}, {.name = name, .update = FrameUpdate::rebuild});
+            for (const Counters& counters : frames) {
+                expect_updates(counters, 2, 0, 0);
+                if (counters.contains("front_count")) {
+                    EXPECT_EQ(counters.at("restarts_count"), 0);
+                    EXPECT_EQ(counters.at("prunes_count"), 0);  // a front from the roots has none
+                    EXPECT_GT(counters.at("front_count"), 0);
+                }
+            }
+        }
+}
+
+TEST(Update, TracksAFrontIfLeftAlone)
+{
+    const Scene scene = load_scene("cloth-ball:2000:4", {});
+    for (const char* name : {"front", "front-leaf"}) {
+        const std::vector<Counters> frames =
+            run_frames(scene, {.name = "apetrei-fused"}, {.name = name});
+        expect_updates(frames.at(0), 2, 0, 0);
+        expect_updates(frames.at(1), 0, 2, 0);
+    }
+}
+
+TEST(Update, RefitsEveryTreeAfterTheFirstFrame)
+{
+    Scene scene = load_scene("cloth-ball:2000:4", {});
+    scene.frames[2] = scene.frames[1];  // the rule `unchanged` would keep both trees
+    for (const char* builder : {"oibvh-multi", "apetrei-fused"})
+        for (const char* name : {"group", "leaf", "bvtt"}) {
+            const std::vector<Counters> frames =
+                run_frames(scene, {.name = builder}, {.name = name, .update = FrameUpdate::refit});
+            expect_updates(frames.at(0), 2, 0, 0);
+            for (std::size_t frame = 1; frame < frames.size(); ++frame)
+                expect_updates(frames[frame], 0, 2, 0);
+        }
+}
+
+TEST(Update, LeavesOutTheRuleNearWhereItRefits)
+{
+    Scene scene = load_scene("n-body:6100:3", {});
+    scene.frames.pop_back();  // in which too many triangles are near others
+    for (const FrameUpdate update : {FrameUpdate::rebuild, FrameUpdate::refit}) {
+        const std::vector<Counters> frames =
+            run_frames(scene, {.name = "oibvh-multi"},
+                       {.name = "leaf", .among = Among::between_objects, .update = update});
+        EXPECT_EQ(frames.at(1).contains("entered_count"), update == FrameUpdate::rebuild);
+    }
+}
+
+TEST(Update, IsRefusedWhereItCannotBe)
+{
+    const Scene scene = load_scene("cloth-ball:2000:2", {});
+    const BuilderChoice multi{.name = "oibvh-multi"};
+    for (const char* name : {"front", "front-leaf"})
+        expect_refusal(scene, multi, {.name = name, .update = FrameUpdate::refit},
+                       "refits its tree by itself");
+    for (const char* name : {"grid", "brute"}) {
+        for (const FrameUpdate update : {FrameUpdate::rebuild, FrameUpdate::refit})
+            expect_refusal(scene, multi, {.name = name, .update = update}, "queries none");
+        expect_refusal(scene, multi, {.name = name, .trees = TreeOver::scene}, "queries none");
+    }
+}
+
+class OneTreeOverTheScene : public testing::TestWithParam<const char*> {};
+
+TEST_P(OneTreeOverTheScene, FindsThePairsOfItsObjects)
+{
+    const Scene scene = load_scene("n-body:1200:3", {});
+    ASSERT_GT(scene.objects.size(), 2u);
+    const bool needs_implicit = std::string_view(GetParam()) == "block";
+    for (const char* builder : {"oibvh-multi", "apetrei-fused"})
+        for (const Among among : {Among::all, Among::between_objects})
+            for (const bool keep_adjacent : {true, false}) {
+                if (needs_implicit && std::string_view(builder) != "oibvh-multi")
+                    continue;
+                for (const Counters& counters : run_frames(scene, {.name = builder},
+                                                           {.name = GetParam(),
+                                                           .among = among,
+                                                           .keep_adjacent = keep_adjacent,
+                                                           .trees = TreeOver::scene}))
+                    EXPECT_EQ(counters.at("rebuilt_objects_count") +
+                                  counters.at("refitted_objects_count"),
+                              1);
+            }
+}
+
+INSTANTIATE_TEST_SUITE_P(Colliders, OneTreeOverTheScene,
+                         testing::Values("leaf", "bvtt", "group", "block", "front", "front-leaf"),
+                         [](const auto& collider) {
+                             std::string name = collider.param;
+                             std::erase(name, '-');
+                             return name;
+                         });
+
+TEST(OneTree, GivesTheNarrowPhaseTheTrueFaces)
+{
+    const Scene scene = load_scene("two-spheres:2000:6", {});
+    const auto contacts_of = [&](TreeOver trees) {
+        const Input input = upload_frame(session(), scene, 5);
+        Pipeline pipeline(session(), {.name = "oibvh-multi"},
+                          {.name = "group",
+                           .among = Among::between_objects,
+                           .keep_adjacent = false,
+                           .narrow = "exact",
+                           .trees = trees},
+                          input);
+        pipeline.begin_frame({});
+        pipeline.settle(input);
+        return PairList(pipeline.contacts());
+    };
+    const PairList expected = contacts_of(TreeOver::object);
+    EXPECT_GT(expected.size(), 0u);
+    EXPECT_EQ(contacts_of(TreeOver::scene), expected);
+}
+
+TEST(OneTree, IsKeptIfNothingMoves)
+{
+    Scene scene = load_scene("n-body:1200:3", {});
+    scene.frames[1] = scene.frames[0];
+    const std::vector<Counters> frames =
+        run_frames(scene, {.name = "oibvh-multi"},
+                   {.name = "group", .among = Among::between_objects, .trees = TreeOver::scene});
+    expect_updates(frames.at(0), 1, 0, 0);
+    expect_updates(frames.at(1), 0, 0, 1);
+    expect_updates(frames.at(2), 1, 0, 0);  // objects move rigidly, but not together
+}
+
+TEST(OneTree, IsRefusedWhereItCannotBe)
+{
+    const BuilderChoice multi{.name = "oibvh-multi"};
+    const ColliderChoice between{.name = "leaf",
+                                 .among = Among::between_objects,
+                                 .keep_adjacent = false,
+                                 .trees = TreeOver::scene};
+    Scene scene = load_scene("cloth-ball:2000:2", {});
+    ColliderChoice within = between;
+    within.among = Among::within_objects;
+    expect_refusal(scene, multi, within, "pairs within objects");
+    expect_refusal(load_scene("torus:200", {}), multi, between, "the scene is one object");
+    scene.faces[scene.objects.back().first_face].a = scene.faces.front().a;
+    expect_refusal(scene, multi, between, "share vertices");
+    ColliderChoice keeps = between;
+    keeps.keep_adjacent = true;
+    run_frames(scene, multi, keeps);
+}
+
+}  // namespace
+}  // namespace bvhbench
