@@ -100,7 +100,8 @@ struct ColliderChoice {
     unsigned jump = 0;
     unsigned start_level = 0;
     unsigned group_size = 0;
-    unsigned rules_off = 0;  ///< disabled rules, bits of collide/skips.h
+    unsigned rules_off = 0;     ///< disabled rules, bits of collide/skips.h
+    unsigned rules_forced = 0;  ///< rules used although the device does without them by default
     // Only tests and `stress` set these; result files do not store them.
     KernelForm form = KernelForm::of_device;
     std::size_t capacity = 0;

@@ -23,7 +23,8 @@ std::string numbers(auto... values) { return (... + (' ' + std::to_string(values
 /// Returns a text that is equal for two colliders if they answer the same question.
 std::string question_of(const ColliderChoice& collider)
 {
-    return numbers(static_cast<int>(collider.among), collider.keep_adjacent, collider.rules_off);
+    return numbers(static_cast<int>(collider.among), collider.keep_adjacent, collider.rules_off,
+                   collider.rules_forced);
 }
 
 /// Returns a text that is equal for two cells if the stage does the same work in both.

@@ -18,12 +18,13 @@ constexpr std::int64_t most_copying_ns = 200'000'000;  ///< after which a copy i
 
 Pipeline::Pipeline(Session& session, const BuilderChoice& builder, const ColliderChoice& collider,
                    const Input& input)
-    : session_(session)
-    , choice_(builder)
-    , rules_off_(collider.rules_off)
-    , updates_(input.objects.size(), TreeUpdate::rebuild)
-    , collider_(make_collider(collider, session.programs()))
+    : session_(session), choice_(builder), updates_(input.objects.size(), TreeUpdate::rebuild)
 {
+    const bool on_cpu = session.device().is_cpu() || !find_collider(collider.name).needs_tree;
+    ColliderChoice used = collider;
+    rules_off_ = used.rules_off =
+        skip_rules_off(collider.rules_off, collider.rules_forced, on_cpu, input.triangle_count());
+    collider_ = make_collider(used, session.programs());
     if (input.is_swept() && (collider.narrow != "none" || collider_->finds_contacts()))
         throw BadUsage(
             std::string("swept boxes tell who may meet between two frames, not who does: ") +
@@ -41,8 +42,7 @@ Pipeline::Pipeline(Session& session, const BuilderChoice& builder, const Collide
     }
     // With swept boxes the objects are vertices and the faces that they are corners of, so all triangles would be near.
     if (skips(skip_near) && collider.among == Among::between_objects && input.objects.size() > 1 &&
-        !input.is_swept() && builder_ != nullptr && !collider_->keeps_tree() &&
-        NearTriangles::may_pay(session.device(), input.triangle_count())) {
+        !input.is_swept() && builder_ != nullptr && !collider_->keeps_tree()) {
         near_.emplace(session.programs(), NearOptions{});
         near_->reserve(input);
     }

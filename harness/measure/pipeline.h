@@ -77,8 +77,8 @@ private:
     void declare_found(std::vector<StageTime>& stages) const;
 
     Session& session_;
-    BuilderChoice choice_;  ///< outlives builder_, which may refer to its strings
-    unsigned rules_off_;
+    BuilderChoice choice_;    ///< outlives builder_, which may refer to its strings
+    unsigned rules_off_ = 0;  ///< rules of skips.h that are not used, by choice or on this device
     /// This pipeline's own builder, so that its tree persists between frames; null if the collider needs none.
     std::unique_ptr<Builder> builder_;
     const Tree* tree_ = nullptr;
