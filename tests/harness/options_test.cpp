@@ -58,7 +58,8 @@ TEST(Choices, OfACellAreReadFromTheirKeysAndToldByThem)
                                              .boxes = "u16"}));
     EXPECT_EQ(choices_json(choice, Choice::Of::builder), builder);
     read_choices(
-        {{"pairs_of", "between"}, {"adjacent", "drop"}, {"narrow", "exact"}, {"no_skip", "near"}},
+        {{"pairs_of", "between"}, {"adjacent", "drop"}, {"narrow", "exact"}, {"no_skip", "near"},
+         {"force_skip", "rigid"}},
         Choice::Of::query, choice);
     read_choices({{"jump", 3}, {"start_level", 4}, {"group_size", 128}}, Choice::Of::collider,
                  choice);
@@ -69,7 +70,13 @@ TEST(Choices, OfACellAreReadFromTheirKeysAndToldByThem)
                                                .jump = 3,
                                                .start_level = 4,
                                                .group_size = 128,
-                                               .rules_off = skip_near}));
+                                               .rules_off = skip_near,
+                                               .rules_forced = skip_rigid}));
+    choice.builder.name = "karras";
+    choice.collider.name = "leaf";
+    EXPECT_NO_THROW(check_choice(choice));
+    choice.collider.rules_forced |= skip_near;
+    EXPECT_THROW(check_choice(choice), BadUsage) << "near is left out and forced";
     read_choices({{"frames", "2:5"}, {"between", 3}, {"objects", "components"}, {"swept", true}},
                  Choice::Of::scene, choice);
     EXPECT_EQ(choice.scene.frames, (FrameRange{2, 5}));
@@ -93,7 +100,7 @@ TEST(Choices, ThatAreWrongGetTheSameSentenceWhereverTheyStand)
     const std::pair<const char*, const char*> wrong[] = {
         {"order", "up"},     {"grid", "mesh"},    {"group_size", "many"}, {"items", "16"},
         {"boxes", "u9"},     {"leaves", "green"}, {"pairs_of", "us"},     {"adjacent", "some"},
-        {"narrow", "guess"}, {"no_skip", "far"},  {"jump", "99"},         {"jump", "-1"},
+        {"narrow", "guess"}, {"no_skip", "far"},  {"force_skip", "far"}, {"jump", "99"},         {"jump", "-1"},
         {"frames", "3:2"},   {"between", "1001"}, {"objects", "parts"}};
     for (const auto& [key, value] : wrong) {
         const std::vector<std::string> said = refusals(key, value);
