@@ -71,6 +71,7 @@ def draw(run: results.Run) -> plt.Figure:
     grid[-1, 0].set_xlim(low, high)
     figure.round_ticks(grid[-1, 0].xaxis, low, high, 8)
     grid[-1, 0].set_xlabel("time of a frame without the rule over with it")
+    grid[-1, 1].set_xlim(min(0, *(100 * one.share(one.work) for one in found)) - 4, 104)
     grid[-1, 1].set_xlabel("avoided work in %")
     handles = [Line2D([], [], color=colour, marker=marker, markersize=4, linestyle="none", label=name)
                for name, (colour, marker) in looks.items()]

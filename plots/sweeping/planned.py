@@ -77,7 +77,7 @@ def say_all_options(one: Planned) -> None:
         options, said = dict(one.raw["collider"]["options"]), one.query
         one.query = {key: options.pop(key) for key, (whose, _) in OPTIONS.items() if whose == "query" and key in options}
         for key in ("no_skip", "force_skip"):  # the answer has a list of rules; experiments name one rule or all
-            if one.query.pop(key):
+            if one.query.pop(key, ""):
                 one.query[key] = said[key]
         one.collider = {"name": one.raw["collider"]["name"], **options}
 

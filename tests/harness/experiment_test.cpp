@@ -124,6 +124,23 @@ TEST(Experiment, OfWholeFramesPairsEachBuilderWithEachCollider)
                                               "karras bvtt", "karras group"}));
 }
 
+TEST(Experiment, OfSkipsHasEachPipelineWithoutEachRuleThatMayShortenIt)
+{
+    const std::vector<CollideTask> tasks = read(R"({
+        "experiment": "mine", "scenes": ["s"], "skips": true,
+        "pipelines": [{"builder": "perfect", "collider": ["leaf", "front"], "no_skip": "rigid"}, {"collider": ["grid", "embree"]}]})")
+                                               .collisions;
+    std::vector<std::string> seen;
+    for (const auto& [builder, choice] : tasks.at(0).pipelines)
+        seen.push_back(choice.name + " -" + skip_rules_text(choice.rules_off) + " +" +
+                       skip_rules_text(choice.rules_forced));
+    EXPECT_EQ(seen, (std::vector<std::string>{"leaf -rigid +", "leaf -unchanged, rigid +",
+                                              "leaf -rigid, near +", "leaf -rigid +near",
+                                              "leaf -rigid, apart +", "leaf -rigid, overlap +",
+                                              "front -rigid +", "front -rigid, empty-queue +",
+                                              "grid - +", "embree - +", "embree -near +"}));
+}
+
 TEST(Experiment, OfWholeFramesIsRefusedForWhatItDoesNotKnow)
 {
     const auto of = [](const std::string& pipelines) {

@@ -57,10 +57,12 @@ TEST(Choices, OfACellAreReadFromTheirKeysAndToldByThem)
                                              .sorted_leaves = true,
                                              .boxes = "u16"}));
     EXPECT_EQ(choices_json(choice, Choice::Of::builder), builder);
-    read_choices(
-        {{"pairs_of", "between"}, {"adjacent", "drop"}, {"narrow", "exact"}, {"no_skip", "near"},
-         {"force_skip", "rigid"}},
-        Choice::Of::query, choice);
+    read_choices({{"pairs_of", "between"},
+                  {"adjacent", "drop"},
+                  {"narrow", "exact"},
+                  {"no_skip", "near"},
+                  {"force_skip", "rigid"}},
+                 Choice::Of::query, choice);
     read_choices({{"jump", 3}, {"start_level", 4}, {"group_size", 128}}, Choice::Of::collider,
                  choice);
     EXPECT_EQ(choice.collider, (ColliderChoice{.name = {},
@@ -100,8 +102,8 @@ TEST(Choices, ThatAreWrongGetTheSameSentenceWhereverTheyStand)
     const std::pair<const char*, const char*> wrong[] = {
         {"order", "up"},     {"grid", "mesh"},    {"group_size", "many"}, {"items", "16"},
         {"boxes", "u9"},     {"leaves", "green"}, {"pairs_of", "us"},     {"adjacent", "some"},
-        {"narrow", "guess"}, {"no_skip", "far"},  {"force_skip", "far"}, {"jump", "99"},         {"jump", "-1"},
-        {"frames", "3:2"},   {"between", "1001"}, {"objects", "parts"}};
+        {"narrow", "guess"}, {"no_skip", "far"},  {"force_skip", "far"},  {"jump", "99"},
+        {"jump", "-1"},      {"frames", "3:2"},   {"between", "1001"},    {"objects", "parts"}};
     for (const auto& [key, value] : wrong) {
         const std::vector<std::string> said = refusals(key, value);
         ASSERT_GE(said.size(), 2u) << key;
