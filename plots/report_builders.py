@@ -26,7 +26,7 @@ def tables_of(run: results.Run) -> list[dict[str, Any]]:
 
 
 def values_of(row: Row) -> list[Any]:
-    values = [row.rate(), row.rate("hierarchy"), *(1e-6 * value for value in (row.counter("peak_bytes"), row.reserved,
+    values = [row.rate(), row.rate("hierarchy"), *(1e-6 * value for value in (row.counter("device_peak_bytes"), row.reserved,
               row.counter("tree_bytes"))), row.counter("sah_cost"), row.counter("epo"), 1e-6 * row.query_ns, 1e-6 * row.frame_ns]
     return [report_cells.scene_name(row.build), row.label, "host" if row.build.on_host else "device",
             *(None if math.isnan(value) else value for value in values), row.collider or None]

@@ -97,10 +97,10 @@ void settle(Session& session, const Experiment& experiment, const Frames& frames
     cell.counters["scratch_bytes"] = static_cast<double>(footprint.scratch_bytes);
     if (dynamic_cast<const DeviceTree*>(built.tree) != nullptr) {
         const std::size_t others = *device.taken - footprint.total();
-        cell.counters["peak_bytes"] =
+        cell.counters["device_peak_bytes"] =
             static_cast<double>(std::max(*device.most_taken, *device.taken) - others);
     } else {
-        cell.left_out["peak_bytes"] = "the builder takes no memory of the device";
+        cell.left_out["device_peak_bytes"] = "the builder takes no memory of the device";
     }
 }
 

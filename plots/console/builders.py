@@ -16,7 +16,7 @@ def text(run: results.Run) -> str:
     for scene, rows in builder_rows.of_run(run).items():
         for row in rows:
             table.row(scene, row.label, "host" if row.build.on_host else "device", number(row.rate()), number(row.rate("hierarchy")),
-                      *map(memory, (row.counter("peak_bytes"), row.reserved, row.counter("tree_bytes"))),
+                      *map(memory, (row.counter("device_peak_bytes"), row.reserved, row.counter("tree_bytes"))),
                       fixed(row.counter("sah_cost")), number(row.counter("epo"), 2), number(MILLI * row.query_ns, 3),
                       number(MILLI * row.frame_ns, 3), row.collider or "-", among=scene, value=-row.rate())
     return f"builders:\n{table.text()}" if table.rows else ""

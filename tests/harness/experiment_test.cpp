@@ -224,7 +224,7 @@ TEST(Experiment, NamesTheKeyThatItDoesNotKnowAndThoseItDoes)
          {R"({"experiment": "a", "meshes": ["soup:1"], "builders": ["perfect"]})",
           "x.json: 'meshes' is no key of an experiment; there are: experiment, question, paper, "
           "scenes, builders, operations, pipelines, stages, samples, warm_up, until, min_samples, "
-          "max_samples, time_budget_s, race, caches, quality, doubles, quick"},
+          "max_samples, time_budget_s, race, caches, quality, doubles, skips, quick"},
          {R"({"experiment": "a", "scenes": ["b"], "builders": [{"name": "perfect", "size": 3}]})",
           "x.json: 'size' is no key of a builder; there are: name, order, grid, group_size, items, "
           "boxes, leaves"},

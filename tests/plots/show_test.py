@@ -186,7 +186,7 @@ class OfFrames(unittest.TestCase):
     def test_each_builder_has_its_best_collider(self) -> None:
         group, leaf, host = frame(ns=3000000), frame(ns=2000000), cell("sah-binned")
         leaf["collider"]["name"] = "leaf"
-        build = cell(counters={"tree_bytes": 3000000, "scratch_bytes": 1000000, "peak_bytes": 5000000, "sah_cost": 20.5})
+        build = cell(counters={"tree_bytes": 3000000, "scratch_bytes": 1000000, "device_peak_bytes": 5000000, "sah_cost": 20.5})
         every = [{**raw, "experiment": "builders"} for raw in (build, host, group, leaf, wrong(frame(ns=1)))]
         _, titles, own, other = builders.text(run_of(*every)).splitlines()
         self.assertEqual(re.split("  +", own), ["bunny", "oibvh-multi", "device", "1440.5", "1440.5", "5.00 MB", "4.00 MB", "3.00 MB",
