@@ -31,13 +31,6 @@ public:
     /// Largest number of near triangles that is used; with more, the whole frame is used.
     static std::size_t most_of(std::size_t triangles) { return triangles / 2; }
 
-    /// True if the search may pay off for this many triangles. Below some four million, a GPU builds a tree over all of them
-    /// sooner than it finishes the search and the host reads its result; on a CPU, launches cost next to nothing.
-    static bool may_pay(const Device& device, std::size_t triangles)
-    {
-        return device.is_cpu() || triangles >= std::size_t{1} << 22;
-    }
-
     /// Reserves memory for frames like `input`: same faces and objects, any points. Never timed. Blocks.
     void reserve(const Input& input);
 

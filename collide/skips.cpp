@@ -1,29 +1,59 @@
 // SPDX-License-Identifier: MIT
 #include "collide/skips.h"
 
+#include <algorithm>
+#include <iterator>
+#include <sstream>
+
 #include "geometry/names.h"
 
 namespace bvhbench {
 namespace {
 
+constexpr std::string_view of_trees = "leaf group block bvtt";  // fronts keep their tree themselves
+
+// A rule that costs more than it saves on a kind of device is not used there: `never`, or the triangles of a scene from which it
+// saves time. docs/skips.md has the measurements. Colliders on the host go by the column of CPUs.
 constexpr SkipRuleEntry rules[] = {
     {skip_unchanged, "unchanged",
-     "an object of which no vertex has moved since the last frame keeps its tree"},
+     "an object of which no vertex has moved since the last frame keeps its tree", of_trees, always,
+     always},
     {skip_rigid, "rigid",
-     "an object that has moved rigidly keeps the order of its leaves, its boxes are refitted"},
+     "an object that has moved rigidly keeps the order of its leaves, its boxes are refitted",
+     of_trees, always, always},
     {skip_near, "near",
-     "only triangles near another object's box enter a frame of pairs between objects"},
-    {skip_apart, "apart", "objects whose boxes are apart are not held against each other"},
+     "only triangles near another object's box enter a frame of pairs between objects",
+     "leaf group block bvtt embree embree-refit fcl fcl-refit", always, 1u << 22},
+    {skip_apart, "apart", "objects whose boxes are apart are not held against each other", of_trees,
+     always, always},
     {skip_overlap, "overlap",
-     "of two objects, only leaves near the other's box are held against it"},
-    {skip_start_level, "start-level", "levels above the start level are not tested (bvtt)"},
+     "of two objects, only leaves near the other's box are held against it", "leaf group block",
+     always, always},
+    {skip_start_level, "start-level", "levels above the start level are not tested (bvtt)", "bvtt",
+     always, always},
     {skip_empty_queue, "empty-queue",
-     "steps that found their queue empty in the query before are not launched (bvtt)"},
+     "steps that found their queue empty in the query before are not launched (bvtt, front)",
+     "bvtt front", always, always},
 };
 
 }  // namespace
 
+bool SkipRuleEntry::applies_to(std::string_view collider) const
+{
+    std::istringstream words{std::string(colliders)};
+    return std::find(std::istream_iterator<std::string>(words), {}, collider) !=
+           std::istream_iterator<std::string>();
+}
+
 std::span<const SkipRuleEntry> skip_rules() { return rules; }
+
+unsigned skip_rules_off(unsigned off, unsigned forced, bool on_cpu, std::size_t triangles)
+{
+    for (const SkipRuleEntry& entry : rules)
+        if ((forced & entry.rule) == 0 && !entry.is_used(on_cpu, triangles))
+            off |= entry.rule;
+    return off;
+}
 
 unsigned skip_rules_called(std::string_view name)
 {

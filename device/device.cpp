@@ -78,6 +78,7 @@ MemoryShare Device::take_memory(std::size_t bytes) const
     if (is_cpu())
         require_host_memory("memory of " + name(), bytes);
     *taken += bytes;
+    *most_taken = std::max(*most_taken, *taken);
     return {new std::size_t(bytes), [account = taken](const std::size_t* share) {
                 *account -= *share;
                 delete share;

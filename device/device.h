@@ -49,6 +49,9 @@ struct Device {
     /// Bytes taken, shared by all copies of this Device.
     std::shared_ptr<std::size_t> taken = std::make_shared<std::size_t>(0);
 
+    /// Most bytes that were taken at once, as seen at each call of take_memory since this was last set to 0.
+    std::shared_ptr<std::size_t> most_taken = std::make_shared<std::size_t>(0);
+
     std::string name() const { return cl.getInfo<CL_DEVICE_NAME>(); }
     std::string platform() const;
 

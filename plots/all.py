@@ -28,6 +28,7 @@ import pareto_orders
 import results
 import roofline
 import scaling
+import skips
 import stress
 import style
 import sweeps
@@ -54,6 +55,7 @@ FRAME_FIGURES: dict[str, dict[str, figure.Draw]] = {
     "table2": {"table2": table2.draw, "fig9": fig9.draw, "fig10": fig10.draw},
     "table3": {"table3": table3.draw},
     "swept": {"swept": swept.draw},
+    skips.EXPERIMENT: {skips.EXPERIMENT: skips.draw},
     **{name: {name: draw} for name, draw in (frames.FIGURES | family_bars.FIGURES).items()},
 }
 

@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 
 import json_files
 import report_cells
+import savings
 from answer import number
 from cells import Cell, grouped
 from ranking import Row, ranked
@@ -14,7 +15,7 @@ from tables import counted, duration
 
 EXPERIMENTS = pathlib.Path(__file__).resolve().parent.parent / "harness" / "experiments"
 # Experiments and axes of accuracy that do not ask who is soonest; None: they ask only whether answers are right.
-OBJECTIVES = {"agreement": None, "equality": None, "smoke": None, "table4": "cost", "fig13": "cost", "sums": "error"}
+OBJECTIVES = {"agreement": None, "equality": None, "smoke": None, "skips": None, "table4": "cost", "fig13": "cost", "sums": "error"}
 # Words of an objective: "A {is soonest} on S: 1.00 ms; the next {takes} 1.20 times {as long}".
 WORDS = {"frame": ("is soonest", "takes", "as long"), "cost": ("has the lowest surface area cost", "costs", "as much"),
          "error": ("errs least", "errs by", "as much")}
@@ -134,7 +135,7 @@ def findings_of(cells: list[Cell]) -> list[dict[str, Any]]:
     for (experiment, axis), placed in named.items():
         objective, own = OBJECTIVES.get(axis or experiment, "frame"), [cell for _, cell in placed]
         cases = cases_of(own, objective) if objective else []
-        said = [sentence(cases, objective), verdicts(own)]
+        said = [sentence(cases, objective) or savings.sentence(own), verdicts(own)]
         if axis == "narrow" and said[0]:
             said = [said[1], "Of those that are right:", said[0]]
         found.append({"experiment": experiment + (f", {axis}" if axis else ""), "question": question(experiment, axis),

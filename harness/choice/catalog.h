@@ -110,7 +110,8 @@ struct ColliderChoice {
     unsigned jump = 0;
     unsigned start_level = 0;
     unsigned group_size = 0;
-    unsigned rules_off = 0;  ///< disabled rules, bits of collide/skips.h
+    unsigned rules_off = 0;     ///< disabled rules, bits of collide/skips.h
+    unsigned rules_forced = 0;  ///< rules used although the device does without them by default
     FrameUpdate update = FrameUpdate::automatic;
     TreeOver trees = TreeOver::object;
     // Only tests and `stress` set these; result files do not store them.

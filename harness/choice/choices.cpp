@@ -123,6 +123,14 @@ constexpr Choice table[] = {
          return true;
      },
      [](const CellChoice& choice) { return Json(skip_rules_text(choice.collider.rules_off)); }},
+    {"force_skip", Of::query, "none, all, or a name of `list skips`",
+     "a rule of `list skips` that is used even where this device does without it, or all",
+     [](CellChoice& choice, const std::string& word) {
+         choice.collider.rules_forced =
+             word == "none" ? 0 : choice.collider.rules_forced | skip_rules_called(word);
+         return true;
+     },
+     [](const CellChoice& choice) { return Json(skip_rules_text(choice.collider.rules_forced)); }},
     {"update", Of::query, "auto, rebuild or refit",
      "trees of later frames: auto, as rules and the collider allow; rebuild, in every frame and "
      "any "
@@ -247,7 +255,7 @@ void add_choices(CLI::App& command, CellChoice& choice,
                 ->type_name(usual.is_number() ? "UINT" : "TEXT")
                 ->default_str(usual.is_string() && option.key != "leaves" ? usual.get<std::string>()
                                                                           : "");
-        if (option.key != "no_skip")  // --no-skip may be repeated, once for each rule
+        if (!option.key.ends_with("_skip"))  // those may be repeated, once for each rule
             added->expected(1);
     }
 }
@@ -261,6 +269,9 @@ void check_choice(const CellChoice& choice)
         return;
     find_collider(choice.collider.name);
     check_narrow(choice.collider.narrow, choice.collider.keep_adjacent);
+    if (const unsigned both = choice.collider.rules_off & choice.collider.rules_forced; both != 0)
+        throw BadUsage("no rule is both left out and forced, as " + skip_rules_text(both) +
+                       " is: --no-skip or --force-skip");
 }
 
 }  // namespace bvhbench

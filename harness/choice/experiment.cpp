@@ -15,10 +15,10 @@ namespace {
 
 // To add an experiment, add its file to harness/experiments/ and its name here.
 constexpr std::string_view names[] = {
-    "table1",       "table4",    "fig8",    "fig13",    "peers",     "quality",
-    "orders",       "scaling",   "refit",   "equality", "smoke",     "table2",
-    "table3",       "pairs",     "rebuild", "families", "agreement", "native",
-    "native-pairs", "yardstick", "wide",    "roofline", "swept"};
+    "table1",   "table4",   "fig8",      "fig13",   "peers",        "quality",   "orders",
+    "scaling",  "refit",    "equality",  "smoke",   "table2",       "table3",    "pairs",
+    "rebuild",  "families", "agreement", "native",  "native-pairs", "yardstick", "wide",
+    "roofline", "swept",    "skips",     "builders"};
 
 /// Reads the keys that `quick` may replace.
 void read_size(const Json& json, Experiment& experiment)
@@ -88,12 +88,12 @@ std::vector<Operation> operations_of(const Json& json)
 
 Experiment experiment_of(const Json& json, bool quick)
 {
-    refuse_unknown_keys(
-        json,
-        {"experiment", "question", "paper", "scenes", "builders", "operations", "pipelines",
-         "stages", "samples", "warm_up", "until", "min_samples", "max_samples", "time_budget_s",
-         "race", "caches", "quality", "doubles", "quick"},
-        "an experiment");
+    refuse_unknown_keys(json,
+                        {"experiment", "question",    "paper",       "scenes",        "builders",
+                         "operations", "pipelines",   "stages",      "samples",       "warm_up",
+                         "until",      "min_samples", "max_samples", "time_budget_s", "race",
+                         "caches",     "quality",     "doubles",     "skips",         "quick"},
+                        "an experiment");
     const bool collides = json.contains("pipelines");
     for (const char* key : {"experiment", "scenes", collides ? "pipelines" : "builders"})
         if (!json.contains(key))

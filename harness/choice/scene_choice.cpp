@@ -3,10 +3,35 @@
 
 #include <re2/re2.h>
 
+#include <algorithm>
+
 #include "builders/orders.h"
 #include "geometry/error.h"
 
 namespace bvhbench {
+
+std::vector<PipelineChoice> with_each_rule_off(const std::vector<PipelineChoice>& pipelines)
+{
+    std::vector<PipelineChoice> all;
+    for (const PipelineChoice& pipeline : pipelines) {
+        all.push_back(pipeline);
+        const ColliderChoice& collider = pipeline.collider;
+        for (const SkipRuleEntry& entry : skip_rules()) {
+            if (!entry.applies_to(collider.name) || (collider.rules_off & entry.rule) != 0)
+                continue;
+            all.push_back(pipeline);
+            all.back().collider.rules_forced &= ~entry.rule;
+            all.back().collider.rules_off |= entry.rule;
+            const bool on_device = find_collider(collider.name).needs_tree;
+            if (on_device && std::max(entry.on_cpu_from, entry.on_gpu_from) != always &&
+                (collider.rules_forced & entry.rule) == 0) {
+                all.push_back(pipeline);
+                all.back().collider.rules_forced |= entry.rule;
+            }
+        }
+    }
+    return all;
+}
 
 FrameRange frame_range(const std::string& text)
 {

@@ -19,6 +19,10 @@ struct PipelineChoice {
     bool operator==(const PipelineChoice&) const = default;
 };
 
+/// Returns each pipeline and, behind it, one for each rule that may shorten its frames, without only that rule. If some device does
+/// without the rule by default (collide/skips.cpp), another one with the rule forced follows.
+std::vector<PipelineChoice> with_each_rule_off(const std::vector<PipelineChoice>& pipelines);
+
 /// Frames [first, end) of a scene, counted after the frames between were inserted.
 struct FrameRange {
     std::size_t first = 0;

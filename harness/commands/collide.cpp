@@ -32,7 +32,7 @@ public:
         });
         adjacent_ = app.get_option("--adjacent");
         app.add_flag("--skips", skips_,
-                     "measure each rule switched off as well, and what it saves");
+                     "measure each rule of `list skips` switched off as well, and what it saves");
         add_sampling(app, samples_, "timed builds and queries", sampling_);
         app.add_option("--json", json_, "write the result file");
         app.add_option("--pairs", pairs_,
@@ -104,14 +104,10 @@ private:
         CollideTask task;
         static_cast<SceneChoice&>(task) = choice_.scene;
         check_lists(task.frames);
-        for (const CellChoice& choice : choices) {
+        for (const CellChoice& choice : choices)
             task.pipelines.push_back({choice.builder, choice.collider});
-            for (const SkipRuleEntry& entry : skip_rules())
-                if (skips_ && (choice.collider.rules_off & entry.rule) == 0) {
-                    task.pipelines.push_back({choice.builder, choice.collider});
-                    task.pipelines.back().collider.rules_off |= entry.rule;
-                }
-        }
+        if (skips_)
+            task.pipelines = with_each_rule_off(task.pipelines);
         task.needs_scene = scenes_.size() == 1;
         task.samples = samples_;
         task.wants_lists = !pairs_.empty() || !contacts_.empty();

@@ -61,6 +61,23 @@ Table formats(const CommonOptions&)
     return lines(box_formats(), name, bytes, summary);
 }
 
+/// Says of each rule where it is used, if that is not everywhere.
+Table skips(const CommonOptions&)
+{
+    const auto use = [](const std::string& where, std::size_t from) {
+        return from == always  ? ""
+               : from == never ? "not on " + where
+                               : "on " + where + " from " + std::to_string(from) + " triangles";
+    };
+    const auto both = [&](const SkipRuleEntry& entry) {
+        const std::string cpu = use("CPUs", entry.on_cpu_from),
+                          gpu = use("GPUs", entry.on_gpu_from);
+        return cpu.empty() && gpu.empty() ? "on"
+                                          : cpu + (cpu.empty() || gpu.empty() ? "" : ", ") + gpu;
+    };
+    return lines(skip_rules(), name, both, summary);
+}
+
 Table experiments(const CommonOptions&)
 {
     std::vector<Experiment> all;
@@ -124,7 +141,7 @@ constexpr ListEntry lists[] = {
     {"narrow", [](const CommonOptions&) { return lines(narrow_methods(), name, summary); }},
     {"orders", orders},
     {"formats", formats},
-    {"skips", [](const CommonOptions&) { return lines(skip_rules(), name, summary); }},
+    {"skips", skips},
     {"tuning", tuning},
     {"scenes",
      [](const CommonOptions& common) {

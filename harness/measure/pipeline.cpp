@@ -44,12 +44,16 @@ Pipeline::Pipeline(Session& session, const BuilderChoice& builder, const Collide
                    const Input& input)
     : session_(session)
     , choice_(builder)
-    , rules_off_(collider.rules_off | rules_without(collider.update))
     , update_(collider.update)
     , one_tree_(one_tree_for(session, collider, input))
     , updates_(one_tree_ ? 1 : input.objects.size(), TreeUpdate::rebuild)
-    , collider_(make_collider(one_tree_ ? one_tree_->question() : collider, session.programs()))
 {
+    const bool on_cpu = session.device().is_cpu() || !find_collider(collider.name).needs_tree;
+    ColliderChoice used = one_tree_ ? one_tree_->question() : collider;
+    rules_off_ = used.rules_off =
+        skip_rules_off(collider.rules_off | rules_without(collider.update), collider.rules_forced,
+                       on_cpu, input.triangle_count());
+    collider_ = make_collider(used, session.programs());
     if (input.is_swept() && (collider.narrow != "none" || collider_->finds_contacts()))
         throw BadUsage(
             std::string("swept boxes tell who may meet between two frames, not who does: ") +
@@ -68,8 +72,7 @@ Pipeline::Pipeline(Session& session, const BuilderChoice& builder, const Collide
     }
     // With swept boxes the objects are vertices and the faces that they are corners of, so all triangles would be near.
     if (skips(skip_near) && collider.among == Among::between_objects && input.objects.size() > 1 &&
-        !input.is_swept() && builder_ != nullptr && !collider_->keeps_tree() && !one_tree_ &&
-        NearTriangles::may_pay(session.device(), input.triangle_count())) {
+        !input.is_swept() && builder_ != nullptr && !collider_->keeps_tree() && !one_tree_) {
         near_.emplace(session.programs(), NearOptions{});
         near_->reserve(input);
     }

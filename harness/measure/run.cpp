@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "builders/device_tree.h"
 #include "device/yardsticks.h"
 #include "geometry/error.h"
 #include "geometry/host_memory.h"
@@ -65,6 +66,8 @@ void settle(Session& session, const Experiment& experiment, const Frames& frames
         throw BadUsage(std::string(builder.card().name) + " cannot refit");
     if (builder.card().runs == BuilderCard::Runs::on_host)
         require_host_memory("the tree", builder.footprint(triangles).total());
+    const Device& device = session.device();
+    *device.most_taken = 0;
     builder.reserve(triangles);
     cell.first.run_ns = host_ns([&] {
         built.first = session.build_once(builder, first, Start::from_triangles, &built.tree);
@@ -92,6 +95,13 @@ void settle(Session& session, const Experiment& experiment, const Frames& frames
     cell.counters["nodes_count"] = static_cast<double>(built.tree->node_count());
     cell.counters["tree_bytes"] = static_cast<double>(footprint.tree_bytes);
     cell.counters["scratch_bytes"] = static_cast<double>(footprint.scratch_bytes);
+    if (dynamic_cast<const DeviceTree*>(built.tree) != nullptr) {
+        const std::size_t others = *device.taken - footprint.total();
+        cell.counters["device_peak_bytes"] =
+            static_cast<double>(std::max(*device.most_taken, *device.taken) - others);
+    } else {
+        cell.left_out["device_peak_bytes"] = "the builder takes no memory of the device";
+    }
 }
 
 }  // namespace

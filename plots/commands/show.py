@@ -3,7 +3,7 @@ import answer
 import command
 import given
 import results
-from console import accuracy, best, cell, cells, frames, skips, stress, swept, trees
+from console import accuracy, best, builders, cell, cells, frames, skips, stress, swept, trees
 from console import run as run_page
 
 
@@ -42,6 +42,8 @@ def pages(run: results.Run) -> str:
         return whole + swept.text(run) + skips.text(run)
     if len(run.all_cells) == 1:
         return cell.text(run.all_cells[0], run)
-    pages_of = (cells.text, frames.text, swept.text, trees.refits, trees.quality, trees.roofline, trees.yardstick,
+    if all(one.experiment == skips.EXPERIMENT for one in run.all_cells):
+        return cells.text(run) + skips.of_scenes(run)
+    pages_of = (cells.text, builders.text, frames.text, swept.text, trees.refits, trees.quality, trees.roofline, trees.yardstick, skips.of_scenes,
                 best.families_of)
     return "".join(page(run) for page in pages_of)

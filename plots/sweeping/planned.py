@@ -14,7 +14,7 @@ NO_BUILDER = "none"  # for colliders without a tree
 OPTIONS = {"grid": ("builder", "grid"), "builder.group_size": ("builder", "group_size"), "items": ("builder", "items"),
            "boxes": ("builder", "boxes"), "leaves": ("builder", "leaves"), "pairs_of": ("query", "pairs_of"),
            "adjacent": ("query", "adjacent"), "narrow": ("query", "narrow"), "no_skip": ("query", "no_skip"),
-           "update": ("query", "update"), "trees": ("query", "trees"),
+           "force_skip": ("query", "force_skip"), "update": ("query", "update"), "trees": ("query", "trees"),
            "jump": ("collider", "jump"), "start_level": ("collider", "start_level"),
            "collider.group_size": ("collider", "group_size"), "frames": ("scene", "frames"), "between": ("scene", "between"),
            "objects": ("scene", "objects"), "swept": ("scene", "swept")}
@@ -76,8 +76,9 @@ def say_all_options(one: Planned) -> None:
     if one.collider is not None:
         options, said = dict(one.raw["collider"]["options"]), one.query
         one.query = {key: options.pop(key) for key, (whose, _) in OPTIONS.items() if whose == "query" and key in options}
-        if one.query.pop("no_skip"):  # the answer has a list of rules; experiments name one rule or all
-            one.query["no_skip"] = said["no_skip"]
+        for key in ("no_skip", "force_skip"):  # the answer has a list of rules; experiments name one rule or all
+            if one.query.pop(key, ""):
+                one.query[key] = said[key]
         one.collider = {"name": one.raw["collider"]["name"], **options}
 
 

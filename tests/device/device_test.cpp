@@ -73,7 +73,10 @@ TEST(Device, CountsWhatIsTakenUntilItIsGivenBack)
                     {"out of device memory: 1 bytes", "beside 1000 taken", "gives 1000"});
     most.reset();
     EXPECT_EQ(*device.taken, 400u);
+    EXPECT_EQ(*device.most_taken, 1024u) << "the first one, which was given back at once";
+    *device.most_taken = 0;
     EXPECT_NO_THROW(device.take_memory(600));
+    EXPECT_EQ(*device.most_taken, 1000u);
     EXPECT_EQ(*device.taken, 400u) << "nobody kept that";
 }
 

@@ -124,6 +124,23 @@ TEST(Experiment, OfWholeFramesPairsEachBuilderWithEachCollider)
                                               "karras bvtt", "karras group"}));
 }
 
+TEST(Experiment, OfSkipsHasEachPipelineWithoutEachRuleThatMayShortenIt)
+{
+    const std::vector<CollideTask> tasks = read(R"({
+        "experiment": "mine", "scenes": ["s"], "skips": true,
+        "pipelines": [{"builder": "perfect", "collider": ["leaf", "front"], "no_skip": "rigid"}, {"collider": ["grid", "embree"]}]})")
+                                               .collisions;
+    std::vector<std::string> seen;
+    for (const auto& [builder, choice] : tasks.at(0).pipelines)
+        seen.push_back(choice.name + " -" + skip_rules_text(choice.rules_off) + " +" +
+                       skip_rules_text(choice.rules_forced));
+    EXPECT_EQ(seen, (std::vector<std::string>{"leaf -rigid +", "leaf -unchanged, rigid +",
+                                              "leaf -rigid, near +", "leaf -rigid +near",
+                                              "leaf -rigid, apart +", "leaf -rigid, overlap +",
+                                              "front -rigid +", "front -rigid, empty-queue +",
+                                              "grid - +", "embree - +", "embree -near +"}));
+}
+
 TEST(Experiment, OfWholeFramesIsRefusedForWhatItDoesNotKnow)
 {
     const auto of = [](const std::string& pipelines) {
@@ -207,7 +224,7 @@ TEST(Experiment, NamesTheKeyThatItDoesNotKnowAndThoseItDoes)
          {R"({"experiment": "a", "meshes": ["soup:1"], "builders": ["perfect"]})",
           "x.json: 'meshes' is no key of an experiment; there are: experiment, question, paper, "
           "scenes, builders, operations, pipelines, stages, samples, warm_up, until, min_samples, "
-          "max_samples, time_budget_s, race, caches, quality, doubles, quick"},
+          "max_samples, time_budget_s, race, caches, quality, doubles, skips, quick"},
          {R"({"experiment": "a", "scenes": ["b"], "builders": [{"name": "perfect", "size": 3}]})",
           "x.json: 'size' is no key of a builder; there are: name, order, grid, group_size, items, "
           "boxes, leaves"},

@@ -61,6 +61,7 @@ TEST(Choices, OfACellAreReadFromTheirKeysAndToldByThem)
                   {"adjacent", "drop"},
                   {"narrow", "exact"},
                   {"no_skip", "near"},
+                  {"force_skip", "rigid"},
                   {"update", "refit"},
                   {"trees", "scene"}},
                  Choice::Of::query, choice);
@@ -74,8 +75,14 @@ TEST(Choices, OfACellAreReadFromTheirKeysAndToldByThem)
                                                .start_level = 4,
                                                .group_size = 128,
                                                .rules_off = skip_near,
+                                               .rules_forced = skip_rigid,
                                                .update = FrameUpdate::refit,
                                                .trees = TreeOver::scene}));
+    choice.builder.name = "karras";
+    choice.collider.name = "leaf";
+    EXPECT_NO_THROW(check_choice(choice));
+    choice.collider.rules_forced |= skip_near;
+    EXPECT_THROW(check_choice(choice), BadUsage) << "near is left out and forced";
     read_choices({{"frames", "2:5"}, {"between", 3}, {"objects", "components"}, {"swept", true}},
                  Choice::Of::scene, choice);
     EXPECT_EQ(choice.scene.frames, (FrameRange{2, 5}));
@@ -99,9 +106,9 @@ TEST(Choices, ThatAreWrongGetTheSameSentenceWhereverTheyStand)
     const std::pair<const char*, const char*> wrong[] = {
         {"order", "up"},     {"grid", "mesh"},    {"group_size", "many"}, {"items", "16"},
         {"boxes", "u9"},     {"leaves", "green"}, {"pairs_of", "us"},     {"adjacent", "some"},
-        {"narrow", "guess"}, {"no_skip", "far"},  {"jump", "99"},         {"jump", "-1"},
-        {"update", "keep"},  {"trees", "mesh"},   {"frames", "3:2"},      {"between", "1001"},
-        {"objects", "parts"}};
+        {"narrow", "guess"}, {"no_skip", "far"},  {"force_skip", "far"},  {"jump", "99"},
+        {"jump", "-1"},      {"update", "keep"},  {"trees", "mesh"},      {"frames", "3:2"},
+        {"between", "1001"}, {"objects", "parts"}};
     for (const auto& [key, value] : wrong) {
         const std::vector<std::string> said = refusals(key, value);
         ASSERT_GE(said.size(), 2u) << key;

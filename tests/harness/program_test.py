@@ -112,7 +112,8 @@ def test_build_writes_a_valid_result_and_the_tree_as_it_was_asked_for():
                                           "leaves": "sorted", "boxes": "f32"}
     assert "gather" in [stage["stage"] for stage in cell["samples"][0]["stages"]]
     counters = cell["counters"]
-    assert set(counters) == {"nodes_count", "tree_bytes", "scratch_bytes", "sah_cost", "sah_inner",
+    assert counters["device_peak_bytes"] == counters["tree_bytes"] + counters["scratch_bytes"], counters
+    assert set(counters) == {"nodes_count", "tree_bytes", "scratch_bytes", "device_peak_bytes", "sah_cost", "sah_inner",
                              "sah_leaf", "sibling_overlap", "depth_max", "depth_mean"}
     assert cell["left_out"] == {"epo": "not asked for: --epo"}
     assert valid("b.json")["run"]["node_costs"] == {"inner": 2, "triangle": 0.5}

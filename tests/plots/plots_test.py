@@ -36,7 +36,7 @@ class Scripts(InFolder):
         self.assertIn("</svg>", svg.read_text(encoding="utf-8"), svg)
 
     def test_all_draws_what_each_draws_byte_for_byte(self) -> None:
-        alone = ("table1", "table2", "table3", "table4", "fig8", "fig13", "scaling", "roofline", "stress", "swept")
+        alone = ("table1", "table2", "table3", "table4", "fig8", "fig13", "scaling", "roofline", "stress", "swept", "skips")
         scripts = {name: (f"{name}.py", name) for name in alone}
         scripts |= {f"table2-{name}": (f"{name}.py", "table2") for name in ("fig9", "fig10")}
         scripts |= {name: ("frames.py", name) for name in ("rebuild", "pairs")}

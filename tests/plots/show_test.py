@@ -10,11 +10,12 @@ import tempfile
 import unittest
 from typing import Any
 
-from base import ROOT, Raw, cell, document, run_of, stage  # first: it adds plots to sys.path
+from base import GOLDEN, ROOT, Raw, cell, document, run_of, stage  # first: it adds plots to sys.path
 
 import results
+import savings
 from cells import Cell
-from console import cells, frames, skips, swept, trees
+from console import builders, cells, frames, skips, swept, trees
 from console import cell as one_cell
 from console import run as run_page
 
@@ -178,7 +179,7 @@ class OfFrames(unittest.TestCase):
         without["counters"] |= {"entered_count": 150046, "box_tests_count": 90000}
         text = skips.text(run_of(frame(), without))
         self.assertEqual(text.splitlines()[2].split(),
-                         "bunny 0 near 6,000 0 0 0 0 0 40,000 1.00 ms 3.00 ms 3.00 the same".split())
+                         "bunny 0 near 6,000 0 0 0 0 0 40,000 1.00 ms 3.00 ms 3.00 the same group over oibvh-multi".split())
         without["check"]["pairs_hash"] = "00000000000000bb"
         self.assertIn("NOT the same", skips.text(run_of(frame(), without)))
         saves_little = frame(ns=3000000, no_skip="near")
@@ -186,6 +187,33 @@ class OfFrames(unittest.TestCase):
             saves_little["counters"]["box_tests_count"] = tests
             self.assertEqual("nothing to skip" in skips.text(run_of(frame(), saves_little)), is_noise)
         self.assertEqual(skips.text(run_of(frame(1), without)), "")
+
+    def test_rules_of_the_experiment_have_a_row_a_pipeline_and_one_that_had_to_be_forced_says_so(self) -> None:
+        _, titles, *rows = skips.of_scenes(results.load(GOLDEN / "skips.json")).splitlines()
+        self.assertEqual(titles.split()[-1], "pipeline")
+        self.assertEqual([row.split()[2] for row in rows[:-1]], ["apart", "near,", "overlap"])
+        self.assertRegex(rows[0], r"apart .* 45,960 +1,500,000 .* 8\.0\d +the same +bvtt over oibvh-multi$")
+        self.assertRegex(rows[1], r"near, forced +49,000 .* 0\.77 +the same +group over oibvh-multi$")
+        self.assertEqual(rows[-1], "nothing to skip on n-body:61000:8: empty-queue")
+        self.assertEqual(skips.of_scenes(run_of(frame(), frame(no_skip="near"))), "", "of other experiments there is none")
+
+    def test_a_rule_counts_where_it_skips_something(self) -> None:
+        raws = [frame(number, ns=ns, no_skip=rule) for number, ns, rule in
+                ((0, 1000000, ""), (0, 1000000, "near"), (1, 1000000, ""), (1, 2000000, "near"))]
+        raws[3]["counters"]["entered_count"] = 150046
+        found = savings.of_scenes(map(Cell, raws))
+        self.assertEqual([(len(one.frames), savings.times(one)) for one in found], [(1, 2.0)])
+
+    def test_each_builder_has_its_best_collider(self) -> None:
+        group, leaf, host = frame(ns=3000000), frame(ns=2000000), cell("sah-binned")
+        leaf["collider"]["name"] = "leaf"
+        build = cell(counters={"tree_bytes": 3000000, "scratch_bytes": 1000000, "device_peak_bytes": 5000000, "sah_cost": 20.5})
+        every = [{**raw, "experiment": "builders"} for raw in (build, host, group, leaf, wrong(frame(ns=1)))]
+        _, titles, own, other = builders.text(run_of(*every)).splitlines()
+        self.assertEqual(re.split("  +", own), ["bunny", "oibvh-multi", "device", "1440.5", "1440.5", "5.00 MB", "4.00 MB", "3.00 MB",
+                                                "20.50", "-", "1.000", "2.000", "leaf"])
+        self.assertEqual(other.split()[-3:], ["-", "-", "-"])
+        self.assertEqual(builders.text(run_of(cell())), "")
 
     def test_queries_of_swept_boxes_are_added_up(self) -> None:
         pair = [frame(pairs_of=among) for among in ("between", "within")]

@@ -1,0 +1,33 @@
+"""What rules that skip work avoided and saved, as a table of a page (report_tables.py says what a table is)."""
+from collections.abc import Iterable
+from typing import Any
+
+import report_cells
+import savings
+from cells import Cell
+from savings import Saving
+
+COLUMNS = [("scene", "text"), ("rule", "text"), ("pipeline", "text"), ("skipped", "text"), ("with", "time"), ("without", "time"),
+           ("without over with", "number"), *((f"avoided {amount}", "count") for amount in savings.AMOUNTS), ("answers", "text")]
+
+
+def tables_of(cells: Iterable[Cell]) -> list[dict[str, Any]]:
+    """Returns one row for each scene, pipeline and rule that was switched off; nothing without such cells."""
+    found = savings.of_scenes(cells)
+    if not found:
+        return []
+    return [{"title": "Rules that skip work", "cells": None, "rows": [row_of(one) for one in found],
+             "note": "Frames of a scene together: times are means of medians, amounts are added up. Avoided: without the rule minus "
+                     "with it. Forced: the device does without the rule, and it was used all the same.",
+             "libraries": [row for row, one in enumerate(found) if report_cells.library_of(one.first)],
+             "columns": [{"label": label, "kind": kind, "facet": label in ("scene", "rule", "pipeline", "skipped"),
+                          **({"unit": "ms"} if kind == "time" else {})} for label, kind in COLUMNS]}]
+
+
+def row_of(one: Saving) -> list[Any]:
+    own, other = one.ns()
+    skipped = "nothing" if not one.skips_something else "something, forced" if one.is_forced else "something"
+    times = [own * 1e-6, other * 1e-6, savings.times(one)] if one.skips_something else [None] * 3  # their difference is noise
+    with_rule = one.first
+    return [report_cells.scene_name(with_rule), one.rule, with_rule.called, skipped, *times,
+            *(one.avoided(amount) for amount in savings.AMOUNTS), "the same" if one.is_same else "NOT the same"]
