@@ -164,21 +164,30 @@ class Cell:
 
     @property
     def pipeline(self) -> str:
-        """Returns the name on the console: what was measured, with all options that are not the defaults."""
+        """Returns the name on the console: what was measured, with all options that are not the defaults, and in place of what a
+        collider was left to choose what it chose."""
+        return self._in_full(names.CALLED.get(self.collider or "", self.collider), self.used_options)
+
+    @property
+    def asked(self) -> str:
+        """Returns what was asked for, with all options that are not the defaults: equal in every run, on every device."""
+        return self._in_full(self.collider, dict(self.collider_options))
+
+    def _in_full(self, name: str | None, collider_options: dict[str, str]) -> str:
         if self.operation == "accuracy":
             return f"{self.accuracy['axis']}, {self.accuracy['method']}"
         builder = names.in_full(self.raw["builder"])
         if self.operation == "collide":
             swept = f"{self.swept['pairs']} by " if self.swept else ""
-            collider = names.in_full({"name": self.collider, "options": self.used_options})
+            collider = names.in_full({"name": name, "options": collider_options})
             return f"{swept}{collider}{'' if self.builder == 'none' else f' over {builder}'}"
         return f"{builder}, refit" if self.operation == "refit" else builder
 
     @property
     def label(self) -> str:
-        """Returns scene and pipeline, for the console."""
+        """Returns scene and what was asked for, which identify a cell to a reader and in a baseline."""
         frame = f", frame {self.frame}" if self.operation == "collide" or self.frame > 0 else ""
-        return f"{self.scene}{frame}: {self.pipeline}{', from sorted leaves' if self.starts_from_leaves else ''}"
+        return f"{self.scene}{frame}: {self.asked}{', from sorted leaves' if self.starts_from_leaves else ''}"
 
     @property
     def identity(self) -> str:

@@ -67,7 +67,7 @@ def in_full(choice: Mapping[str, Any]) -> str:
     """Returns the name of a result file's builder or collider on the console: "bvtt, between objects, jump 2"."""
     options = choice.get("options", {})
     shown = {key: value for key, value in options.items() if key != "leaves" or options.get("boxes", "f32") == "f32"}
-    return ", ".join([CALLED.get(choice["name"], choice["name"]), *said(shown, ANSWERS), *said(shown, {**OPTIONS, **USED})])
+    return ", ".join([choice["name"], *said(shown, ANSWERS), *said(shown, {**OPTIONS, **USED})])
 
 
 def scene(facts: Mapping[str, object]) -> str:

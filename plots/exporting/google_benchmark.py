@@ -46,7 +46,7 @@ def benchmarks(runs: list[Run]) -> Iterator[Entry]:
     families: dict[tuple[str, str], int] = {}
     instances: dict[int, int] = {}
     for (_, cell), name in zip(cells, names_of(cells)):
-        family = families.setdefault((cell.experiment, cell.pipeline), len(families))
+        family = families.setdefault((cell.experiment, cell.asked), len(families))
         for series_name, entries in series_of(cell, name):
             place = instances[family] = instances.get(family, -1) + 1
             for number, entry in enumerate(entries):
