@@ -64,7 +64,7 @@ def order(rule: str) -> int:
 
 
 def span(values: list[float], digits: int) -> str:
-    ends = [f"{value:.{digits}f}" for value in (min(values), max(values))]
+    ends = [f"{round(value, digits) + 0.0:.{digits}f}" for value in (min(values), max(values))]
     return " to ".join(dict.fromkeys(ends))
 
 
