@@ -40,8 +40,8 @@ def file_data(path: pathlib.Path, document: dict[str, Any], all_cells: list[Cell
     findings = report_findings.findings_of(all_cells) + ([report_stress.finding_of(stress)] if stress else [])
     return {"name": text_of(json_files.name_of(path)), "path": text_of(path.name), "cells": cells,
             "bars": report_cells.bars_of(cells), "looks": report_looks.looks_of(cells),
-            "tables": report_tables.tables_of(cells) + report_skips.tables_of(all_cells)
-            + report_builders.tables_of(reader) + report_stress.tables_of(stress), "states": tallied(by_library),
+            "tables": report_skips.tables_of(all_cells) + report_builders.tables_of(reader) + report_tables.tables_of(cells)
+            + report_stress.tables_of(stress), "states": tallied(by_library),
             "findings": findings, "star": report_cells.STAR,
             "experiments": list(dict.fromkeys(cell["experiment"] for cell in cells)) or ["stress"],
             "device": run["device"]["name"], "driver": run["device"]["driver"], "machine": run["host"]["name"],

@@ -28,6 +28,5 @@ def row_of(one: Saving) -> list[Any]:
     own, other = one.ns()
     skipped = "nothing" if not one.skips_something else "something, forced" if one.is_forced else "something"
     times = [own * 1e-6, other * 1e-6, savings.times(one)] if one.skips_something else [None] * 3  # their difference is noise
-    with_rule = one.first
-    return [report_cells.scene_name(with_rule), one.rule, with_rule.called, skipped, *times,
+    return [report_cells.scene_name(one.first), one.rule, one.pipeline, skipped, *times,
             *(one.avoided(amount) for amount in savings.AMOUNTS), "the same" if one.is_same else "NOT the same"]

@@ -27,8 +27,7 @@ LOOKS = (("#0072B2", "o"), ("#56B4E9", "s"), ("#009E73", "D"), ("#D55E00", "^"),
 
 def rules_of(found: list[Saving]) -> list[str]:
     """Returns the rules in the order of `list skips`."""
-    there = dict.fromkeys(one.rule for one in found)
-    return sorted(there, key=lambda rule: list(savings.WORK).index(rule) if rule in savings.WORK else len(savings.WORK))
+    return sorted({one.rule for one in found}, key=lambda rule: [*savings.WORK, rule].index(rule))
 
 
 def draw_scene(panels: list[plt.Axes], scene: list[Saving], rules: list[str], looks: dict[str, tuple[str, str]]) -> None:

@@ -270,8 +270,8 @@ void check_choice(const CellChoice& choice)
     find_collider(choice.collider.name);
     check_narrow(choice.collider.narrow, choice.collider.keep_adjacent);
     if (const unsigned both = choice.collider.rules_off & choice.collider.rules_forced; both != 0)
-        throw BadUsage("no rule is both left out and forced, as " + skip_rules_text(both) +
-                       " is: --no-skip or --force-skip");
+        throw BadUsage("a rule is switched off by 'no_skip' or forced by 'force_skip', not both: " +
+                       skip_rules_text(both));
 }
 
 }  // namespace bvhbench

@@ -24,7 +24,7 @@ def of_scenes(run: results.Run) -> str:
     idle = [rules for rules in grouped(found, lambda one: (one.first.scene, one.rule)).values()
             if not any(one.skips_something for one in rules)]
     left_out = {id(one) for rules in idle for one in rules}
-    return table_of([one for one in found if id(one) not in left_out]) + nothing(idle)
+    return table_of([one for one in found if id(one) not in left_out]) + nothing(idle) + by_rule(found)
 
 
 def table_of(found: Iterable[Saving]) -> str:
@@ -45,6 +45,27 @@ def row_of(one: Saving) -> list[str]:
     else:
         row += ["", "", "nothing to skip"]  # its times would be noise
     return [*row, "the same" if one.is_same else "NOT the same", one.pipeline]
+
+
+def by_rule(found: list[Saving]) -> str:
+    """Returns a row for each rule and scene, with the range over the pipelines in which it skipped something."""
+    table = Table("<rule", "<scene", "pipelines", "<work", "avoided", "times")
+    shown = [one for one in found if one.skips_something]
+    for (rule, scene, work, is_forced), those in sorted(
+            grouped(shown, lambda one: (one.rule, one.first.scene, one.work, one.is_forced)).items(), key=lambda group: order(group[0][0])):
+        table.row(rule + (", forced" if is_forced else ""), scene, str(len(those)), work, span([100 * one.share(work) for one in those], 0) + " %",
+                  span([savings.times(one) for one in those], 2))
+    return f"by rule:\n{table.text()}" if table.rows else ""
+
+
+def order(rule: str) -> int:
+    """Returns the place of a rule in `list skips`."""
+    return [*savings.WORK, rule].index(rule)
+
+
+def span(values: list[float], digits: int) -> str:
+    ends = [f"{round(value, digits) + 0.0:.{digits}f}" for value in (min(values), max(values))]
+    return " to ".join(dict.fromkeys(ends))
 
 
 def nothing(idle: Iterable[list[Saving]]) -> str:

@@ -42,6 +42,26 @@ TEST(ExperimentsHere, SmokeHasEveryBuilderAndEveryCollider)
     EXPECT_EQ(smoke.collisions.size(), smoke.scenes.size());
 }
 
+TEST(ExperimentsHere, BuildersHasEveryBuilderThatIsNoReference)
+{
+    const Experiment all = find_experiment("builders", false);
+    for (const BuilderEntry& entry : builder_catalog())
+        EXPECT_EQ(std::ranges::count(all.builders, entry.name, &BuilderChoice::name),
+                  entry.name.ends_with("-reference") ? 0 : 1)
+            << entry.name;
+}
+
+TEST(ExperimentsHere, SkipsHasEachRuleSwitchedOffInEachScene)
+{
+    const Experiment skips = find_experiment("skips", false);
+    for (const CollideTask& task : skips.collisions)
+        for (const SkipRuleEntry& entry : skip_rules())
+            EXPECT_TRUE(std::ranges::any_of(
+                task.pipelines,
+                [&](const PipelineChoice& one) { return one.collider.rules_off == entry.rule; }))
+                << task.scene << entry.name;
+}
+
 TEST(ExperimentsHere, EqualityHasEverySizeWhereALayoutCanGoWrong)
 {
     const Experiment experiment = find_experiment("equality", false);
