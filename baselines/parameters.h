@@ -62,18 +62,7 @@ inline constexpr Parameter hploc_leaves{
     .is_group_size = true,
     .candidates = {32, 64, 128, 256}};
 
-inline constexpr Parameter hploc_registers{
-    .name = "hploc.registers",
-    .meaning = "most registers of a work-item of hploc on NVIDIA's GPUs; 0: the compiler's choice",
-    .stage = "hierarchy",
-    .on_cpu = 0,
-    .elsewhere = 0,
-    .least = 0,
-    .most = 255,
-    .candidates = {0, 40, 48, 56, 64}};
-
-inline constexpr const Parameter* baseline_parameters[] = {&radix_group_size, &radix_local,
-                                                           &levels_at_once,   &hploc_group_size,
-                                                           &hploc_leaves,     &hploc_registers};
+inline constexpr const Parameter* baseline_parameters[] = {
+    &radix_group_size, &radix_local, &levels_at_once, &hploc_group_size, &hploc_leaves};
 
 }  // namespace bvhbench

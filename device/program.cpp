@@ -70,10 +70,7 @@ cl::Kernel Programs::compiled(const std::string& text, std::string_view path, co
     if (can_round_division(device_.cl))
         options += " -cl-fp32-correctly-rounded-divide-sqrt";
     for (const Define& define : defines)
-        if (define.name == most_registers)
-            options += " -cl-nv-maxrregcount=" + std::to_string(define.value);
-        else
-            options += " -D " + std::string(define.name) + '=' + std::to_string(define.value) + 'u';
+        options += " -D " + std::string(define.name) + '=' + std::to_string(define.value) + 'u';
 
     const std::string key = options + '\n' + text;
     auto found = programs_.find(key);

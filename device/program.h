@@ -24,9 +24,6 @@ struct Define {
     unsigned value;
 };
 
-/// A define of this name limits the registers of a work-item, by an option of NVIDIA's compiler; other compilers refuse it.
-inline constexpr std::string_view most_registers = "MOST_REGISTERS";
-
 /// Where the compiler may optimise a kernel.
 enum class Optimise {
     freely,

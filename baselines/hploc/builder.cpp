@@ -34,15 +34,10 @@ public:
         const bool has_warps = programs.device().lets_groups_wait();
         group_size_ = has_warps ? std::max<std::size_t>(group_size_, team_size) : team_size;
         team_leaves_ = programs.device().tuned(hploc_leaves);
-        std::vector<Define> defines = {words,
-                                       sorted,
-                                       {"TEAMS", static_cast<uint>(group_size_) / team_size},
-                                       {"TEAM_LEAVES", team_leaves_}};
-        const uint registers = programs.device().tuned(hploc_registers);
-        if (has_warps && registers != 0)
-            defines.push_back({most_registers, registers});
-        build_ =
-            programs.kernel("baselines/hploc/build_groups.cl", "build", defines, Optimise::on_gpus);
+        const Define teams{"TEAMS", static_cast<uint>(group_size_) / team_size};
+        build_ = programs.kernel("baselines/hploc/build_groups.cl", "build",
+                                 {words, sorted, teams, {"TEAM_LEAVES", team_leaves_}},
+                                 Optimise::on_gpus);
     }
 
 private:

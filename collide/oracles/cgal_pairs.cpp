@@ -108,6 +108,85 @@ private:
     std::size_t count_ = 1;
 };
 
+/// Parts of a list of pairs: each has the pairs whose smaller ids are in one range of about equal length. The places of a bin stay
+/// in a processor's cache while it is sorted, and pairs are written to it several at a time, since places far apart in memory are
+/// slow to write one by one.
+class Bins {
+public:
+    /// The pairs of the smaller id k end at `ends[k]`.
+    Bins(std::span<Pair> all, std::span<const std::uint64_t> ends)
+        : all_(all), ends_(ends), ids_(std::max<std::size_t>((ends.size() + most - 1) / most, 1))
+    {
+        for (std::size_t id = 0; id < ends.size(); id += ids_)
+            next_.push_back(begin_of(id));
+    }
+
+    std::size_t count() const { return next_.size(); }
+
+    /// Writes pairs of one thread, all of them by the end of its life.
+    class Writer {
+    public:
+        explicit Writer(Bins& bins)
+            : bins_(bins), waiting_(bins.count() * line), counts_(bins.count())
+        {}
+        ~Writer()
+        {
+            for (std::size_t bin = 0; bin < counts_.size(); ++bin)
+                flush(bin);
+        }
+        Writer(const Writer&) = delete;
+        Writer& operator=(const Writer&) = delete;
+
+        void put(Pair pair)
+        {
+            const std::size_t bin = pair.a / bins_.ids_;
+            waiting_[bin * line + counts_[bin]] = pair;
+            if (++counts_[bin] == line)
+                flush(bin);
+        }
+
+    private:
+        static constexpr std::size_t line = 32;  ///< pairs written at once
+
+        void flush(std::size_t bin)
+        {
+            const std::uint64_t place = std::atomic_ref(bins_.next_[bin])
+                                            .fetch_add(counts_[bin], std::memory_order_relaxed);
+            std::copy_n(waiting_.data() + bin * line, counts_[bin], bins_.all_.data() + place);
+            counts_[bin] = 0;
+        }
+
+        Bins& bins_;
+        std::vector<Pair> waiting_;  ///< `line` of each bin
+        std::vector<std::size_t> counts_;
+    };
+
+    /// Sorts a bin that is full: into the pairs of each smaller id, and those by the larger one.
+    void sort(std::size_t bin)
+    {
+        const std::size_t first = bin * ids_, last = std::min(first + ids_, ends_.size());
+        const std::span<Pair> own = all_.subspan(begin_of(first), begin_of(last) - begin_of(first));
+        const std::vector<Pair> unsorted(own.begin(), own.end());
+        std::vector<std::uint64_t> next(last - first);
+        for (std::size_t id = first; id < last; ++id)
+            next[id - first] = begin_of(id);
+        for (const Pair pair : unsorted)
+            all_[next[pair.a - first]++] = pair;
+        for (std::size_t id = first; id < last; ++id)
+            std::sort(all_.data() + begin_of(id), all_.data() + begin_of(id + 1));
+    }
+
+private:
+    static constexpr std::size_t most = 1024;
+
+    std::uint64_t begin_of(std::size_t id) const { return id == 0 ? 0 : ends_[id - 1]; }
+
+    std::span<Pair> all_;
+    std::span<const std::uint64_t> ends_;
+    std::size_t ids_;                  ///< smaller ids of a bin
+    std::vector<std::uint64_t> next_;  ///< where the next pair of each bin is written
+};
+
 }  // namespace
 
 PairList pairs_of_cgal(std::span<const Aabb> boxes, const WantedPairs& wanted)
@@ -115,35 +194,28 @@ PairList pairs_of_cgal(std::span<const Aabb> boxes, const WantedPairs& wanted)
     require_host_memory("checking the pairs", boxes.size() * sizeof(PlacedBox));
     require_host_memory("checking the pairs", 2 * boxes.size() * sizeof(std::uint64_t));
     const Slabs slabs(boxes);
-    // Each pair is written among those of its smaller id, so that only these few have to be sorted.
-    const auto next_of = [](std::vector<std::uint64_t>& places, uint a) {
-        return std::atomic_ref(places[a]).fetch_add(1, std::memory_order_relaxed);
-    };
     std::vector<std::uint64_t> ends(boxes.size(),
                                     0);  // of the pairs of each smaller id; first counts
     on_all_cores(slabs.count(), [&](std::size_t slab) {
         slabs.for_pairs(slab, [&](uint a, uint b) {
             if (wanted(a, b))
-                next_of(ends, std::min(a, b));
+                std::atomic_ref(ends[std::min(a, b)]).fetch_add(1, std::memory_order_relaxed);
         });
     });
     const std::uint64_t count = std::reduce(ends.begin(), ends.end(), std::uint64_t{0});
     require_host_memory("checking the pairs, " + std::to_string(count) + " of them,",
                         count * sizeof(Pair));
-    std::exclusive_scan(ends.begin(), ends.end(), ends.begin(), std::uint64_t{0});
-    const std::vector<std::uint64_t> begins = ends;
+    std::inclusive_scan(ends.begin(), ends.end(), ends.begin());
     std::vector<Pair> all(count);
+    Bins bins(all, ends);
     on_all_cores(slabs.count(), [&](std::size_t slab) {
+        Bins::Writer writer(bins);
         slabs.for_pairs(slab, [&](uint a, uint b) {
             if (wanted(a, b))
-                all[next_of(ends, std::min(a, b))] = {std::min(a, b), std::max(a, b)};
+                writer.put({std::min(a, b), std::max(a, b)});
         });
     });
-    constexpr std::size_t part = 4096;
-    on_all_cores((boxes.size() + part - 1) / part, [&](std::size_t k) {
-        for (std::size_t id = k * part; id < std::min(boxes.size(), (k + 1) * part); ++id)
-            std::sort(all.data() + begins[id], all.data() + ends[id]);
-    });
+    on_all_cores(bins.count(), [&](std::size_t bin) { bins.sort(bin); });
     return PairList(std::move(all));
 }
 

@@ -4,13 +4,16 @@
 // What identifies a set of pairs in device memory, without copying the pairs to the host.
 #include "collide/set_hash.h"
 
-/// Writes the hash of each work-item's share of the pairs.
-kernel void hash_pairs(global const uint2* restrict pairs, const uint count,
+/// Writes the hash of each work-item's share of the pairs: `run` neighbours, or with a run of 0 those that are as far apart as
+/// there are work-items.
+kernel void hash_pairs(global const uint2* restrict pairs, const uint count, const uint run,
                        global ulong2* restrict hashes)
 {
-    const uint item = (uint)get_global_id(0);
+    const ulong item = get_global_id(0);
+    const ulong end = run == 0u ? count : min((ulong)count, (item + 1ul) * run);
+    const ulong step = run == 0u ? get_global_size(0) : 1ul;
     SetHash set = {0ul, 0ul};
-    for (ulong k = item; k < count; k += get_global_size(0))
+    for (ulong k = run == 0u ? item : item * run; k < end; k += step)
         set = with_pair(set, pairs[k].x, pairs[k].y);
     hashes[item] = (ulong2)(set.low, set.high);
 }

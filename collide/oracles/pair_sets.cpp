@@ -62,7 +62,9 @@ PairFacts facts_on_device(Programs& programs, const DevicePairs& pairs, std::uin
     Buffer<SetHash> hashes;
     take_memory(arena, programs.device(),
                 [&](Arena& memory) { hashes = memory.take<SetHash>(items, Use::scratch); });
-    set_arguments(kernel, pairs.pairs, static_cast<uint>(count), hashes);
+    // A processor reads neighbours fastest, a GPU's lanes what is side by side.
+    const std::uint64_t run = programs.device().is_cpu() ? (count + items - 1) / items : 0;
+    set_arguments(kernel, pairs.pairs, static_cast<uint>(count), static_cast<uint>(run), hashes);
     queue.cl().enqueueNDRangeKernel(kernel, cl::NullRange, items);
     const std::vector<SetHash> parts = hashes.download(queue.cl());
     const SetHash all = std::accumulate(parts.begin(), parts.end(), SetHash{0, 0}, both_sets);

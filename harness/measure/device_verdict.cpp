@@ -17,17 +17,20 @@ std::string text_of(const PairFacts& facts)
 
 }  // namespace
 
+PairFacts facts_on_device(Session& session, Pipeline& pipeline)
+{
+    return facts_on_device(session.programs(), pipeline.device_pairs(),
+                           static_cast<std::uint64_t>(pipeline.counters().at("pairs_count")),
+                           session.queue());
+}
+
 Check verdict_of_devices(Session& session, Pipeline& pipeline, const ColliderChoice& choice,
                          const Input& input)
 {
-    const auto count_of = [](const Pipeline& of) {
-        return static_cast<std::uint64_t>(of.counters().at("pairs_count"));
-    };
-    const std::uint64_t count = count_of(pipeline);
-    const DevicePairs pairs = pipeline.device_pairs();
-    const PairFacts facts = facts_on_device(session.programs(), pairs, count, session.queue());
+    const PairFacts facts = facts_on_device(session, pipeline);
     const TriangleSample sample(input.triangle_count(), sample_size);
-    const PairList of_sample = sample.of_device(session.programs(), pairs, count, session.queue());
+    const PairList of_sample =
+        sample.of_device(session.programs(), pipeline.device_pairs(), facts.count, session.queue());
 
     const bool is_grid = choice.name == "grid";
     const ColliderChoice other = {.name = is_grid ? "leaf" : "grid",
@@ -35,8 +38,7 @@ Check verdict_of_devices(Session& session, Pipeline& pipeline, const ColliderCho
                                   .keep_adjacent = choice.keep_adjacent};
     Pipeline second(session, {.name = is_grid ? "oibvh-multi" : "none"}, other, input);
     second.settle(input);
-    const PairFacts others = facts_on_device(session.programs(), second.device_pairs(),
-                                             count_of(second), session.queue());
+    const PairFacts others = facts_on_device(session, second);
 
     require_host_memory("checking the pairs of a sample", input.faces.size() * sizeof(Aabb));
     const PairList right = sample.by_brute_force(

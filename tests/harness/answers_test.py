@@ -98,6 +98,20 @@ def test_a_wrong_collider_differs_from_a_kept_answer():
     assert {path: text for path, (text, _) in answers("wrong").items()} == {path: text for path, (text, _) in kept.items()}
 
 
+def test_many_pairs_are_hashed_on_the_device_and_only_their_list_condemns():
+    plane = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
+    count = 5800
+    pathlib.Path("many.obj").write_text(plane * count + "".join(f"f {k} {k + 1} {k + 2}\n" for k in range(1, 3 * count, 3)))
+    words = ("collide", "--scene", "many.obj", "--samples", "1", "--collider", "leaf")
+    right = found_by("device", *words)
+    assert right["counters"]["pairs_count"] == count * (count - 1) / 2 > 2**24, right
+    hashes = "collide/oracles/pair_sets.cl"
+    wrong = copied_kernels("wrong-hash", hashes, r"hashes\[item\] = .*;", "hashes[item] = (ulong2)(1ul, 1ul);")
+    assert found_by("device", *words, "--kernels", wrong)["check"] == right["check"]
+    missing = copied_kernels("no-hash", hashes, "hash_pairs", "hash_nothing")
+    expect(4, *words, "--kernels", missing, says="CL_INVALID_KERNEL_NAME", XDG_CACHE_HOME=os.path.abspath("device"), **KERNELS)
+
+
 def test_two_processes_keep_one_answer():
     with contextlib.ExitStack() as stack:
         for process in [stack.enter_context(at_work(*LEAF, XDG_CACHE_HOME=os.path.abspath("both"), **KERNELS)) for _ in range(2)]:
