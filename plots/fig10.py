@@ -27,8 +27,8 @@ def draw(run: results.Run) -> plt.Figure:
             pipelines.bar(axes, row, peak, pipeline)
             pipelines.told(axes, row, peak, f"{peak:,.0f} for {pairs:,.0f} pairs")
         pipelines.dress(axes, shown)
-    panels[-1].set(xscale="log", xlim=(min(values) / 3, max(values) * 14), xlabel="node pairs waiting at once, at most")
-    figure.log_ticks(panels[-1].xaxis, min(values), 24 * max(values))  # the axis has room for text
+    panels[-1].set(xscale="log", xlim=(min(values) / 3, max(values) * 40), xlabel="node pairs waiting at once, at most")
+    figure.log_ticks(panels[-1].xaxis, min(values), 60 * max(values))  # the axis has room for text
     figure.footer(drawing, run, "table2", (f"Means {pipelines.apart(scenes)}. The paper prints its sizes as a picture without numbers.",
                                            *pipelines.remarks(scenes)))
     return drawing

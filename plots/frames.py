@@ -5,6 +5,7 @@
 """
 import functools
 import sys
+import textwrap
 
 import matplotlib.pyplot as plt
 from matplotlib.patches import Patch
@@ -27,6 +28,8 @@ BETWEEN = "#DDDDDD"
 MOST = 12  # longest bar drawn, in multiples of the scene's shortest bar
 SHORTENED = f"Bars with a white stroke are shortened to {MOST} times their scene's shortest; the stages keep their shares."
 ROOM = 1.45  # for the number at the end of the longest bar, relative to that bar
+HALF_TITLE = 34  # letters in a line of a title, in two columns
+WIDER = 1.4  # in two columns the same text takes a larger part of the axis
 IN_ONE_COLUMN = 3  # panels; more are drawn in two columns if all have the same pipelines
 
 
@@ -96,7 +99,9 @@ def draw(run: results.Run, experiment: str, remarks: tuple[str, ...] = ()) -> pl
     shown = list(scenes.values())
     for place, axes in enumerate(panels):
         if columns > 1:  # a title has half the width
-            axes.set_title(pipelines.scene_title(shown[place], "\n"), loc="left")
+            axes.set_title("", loc="right")
+            axes.set_xlim(0, WIDER * axes.get_xlim()[1])
+            axes.set_title(textwrap.fill(pipelines.scene_title(shown[place]), HALF_TITLE), loc="left")
         if place % columns:
             axes.set_yticklabels([])
         if place // columns == (len(panels) - 1) // columns:

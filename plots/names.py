@@ -16,7 +16,8 @@ ORDERS = ("morton30", "morton48", "morton63", "hilbert30", "hilbert48", "hilbert
           "morton63-axis", "hilbert30-axis", "hilbert48-axis", "hilbert63-axis", "hilbert30+kd1024", "kd")
 
 # The default of each option and the wording of another value, in the order in which names show them.
-OPTIONS = {"no_skip": ("", "without {}"), "force_skip": ("", "{} forced"), "jump": ("0", "jump {}"), "start_level": ("0", "from level {}"),
+OPTIONS = {"no_skip": ("", "without {}"), "force_skip": ("", "{} forced"),
+           "jump": ("0", "jump {}"), "start_level": ("0", "from level {}"),
            "order": ("morton30", "{}"), "grid": ("object", "grid over the {}"), "group_size": ("0", "groups of {}"), "items": ("0", "{} items"),
            "leaves": ("mesh", "{} leaves"), "boxes": ("f32", "{} boxes"), "update": ("auto", "always {}"),
            "trees": ("object", "one tree of the {}")}

@@ -9,6 +9,7 @@ import results
 import style
 
 ROW = 0.2  # inches for each bar
+LONGEST_TITLE = 64  # letters, above a panel and not above its labels
 COUNTED = " †"  # marks a pipeline whose wrong contacts were counted
 WRONG = ("missed_count", "false_count", "contacts_count")
 
@@ -117,9 +118,8 @@ def remarks(scenes: dict[str, list[Pipeline]]) -> tuple[str, ...]:
     """Returns the explanation of the star if a scene is a stand-in, and the errors of pipelines that are not exact."""
     starred = any(stands_in(shown[0].first) for shown in scenes.values())
     star = "* was not there: the scene in brackets stands in, with its own numbers of triangles and frames."
-    counted = dict.fromkeys(f"{one.label.removesuffix(COUNTED)} on {scene}: {one.errors}"
-                            for scene, shown in scenes.items() for one in shown if one.is_counted)
-    return ((star,) if starred else ()) + ((f"† rounds, so contacts may be wrong. In all frames, {'; '.join(counted)}.",) if counted else ())
+    counted = dict.fromkeys(f"{scene}: {one.errors}" for scene, shown in scenes.items() for one in shown if one.is_counted)
+    return ((star,) if starred else ()) + ((f"† rounds, so contacts may be wrong; errors in all frames of {'; '.join(counted)}.",) if counted else ())
 
 
 def apart(scenes: dict[str, list[Pipeline]]) -> str:
@@ -137,7 +137,8 @@ def labels(shown: list[Pipeline]) -> list[str]:
 def dress(axes: plt.Axes, shown: list[Pipeline], room: float = 0) -> None:
     """Sets up a panel of horizontal bars, one row for each pipeline, with some room below them."""
     dress_rows(axes, labels(shown), room)
-    axes.set_title(scene_title(shown), loc="left")
+    title = scene_title(shown)
+    axes.set_title(title, loc="left" if len(title) <= LONGEST_TITLE else "right")  # to the right it may begin above the labels
 
 
 def dress_rows(axes: plt.Axes, rows: list[str], room: float = 0) -> None:
