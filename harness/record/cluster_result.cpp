@@ -89,6 +89,54 @@ std::string verdict_line(const ClusterResult& result)
     return line;
 }
 
+/// Returns a row for each rank: what it has, sends and finds.
+Table counts_table(const ClusterResult& result)
+{
+    Table table({{"rank"},
+                 {"host", Table::Align::left},
+                 {"triangles"},
+                 {"halo sent"},
+                 {"received"},
+                 {"bytes sent"},
+                 {"own pairs"},
+                 {"halo pairs"}});
+    for (std::size_t k = 0; k < result.ranks.size(); ++k) {
+        const ClusterRank& rank = result.ranks[k];
+        const RankFrame& last = rank.frames.back();
+        table.row({std::to_string(k), rank.host, std::to_string(rank.triangles),
+                   std::to_string(last.halo_sent), std::to_string(last.halo_received),
+                   bytes_text(static_cast<double>(last.sent_bytes)), std::to_string(last.own_pairs),
+                   std::to_string(last.halo_pairs)});
+    }
+    return table;
+}
+
+/// Returns two rows for each rank: the times of its stages by the clocks of host and device.
+Table times_table(const ClusterResult& result)
+{
+    std::vector<Table::Column> columns = {{"rank"}, {"clock", Table::Align::left}};
+    for (const std::string_view stage : frame_stages)
+        columns.push_back({std::string(stage)});
+    columns.push_back({"whole"});
+    Table table(columns);
+    for (std::size_t k = 0; k < result.ranks.size(); ++k) {
+        const std::vector<RankFrame>& frames = result.ranks[k].frames;
+        const auto time = [&](const std::function<std::int64_t(const RankFrame&)>& value) {
+            return duration_text(static_cast<double>(median_over(frames, value)));
+        };
+        std::vector<std::string> host = {std::to_string(k), "host"}, device = {"", "device"};
+        for (std::size_t stage = 0; stage < frame_stage_count; ++stage) {
+            host.push_back(time([&](const RankFrame& frame) { return frame.host_ns[stage]; }));
+            const auto on_device = [&](const RankFrame& frame) { return frame.device_ns[stage]; };
+            device.push_back(median_over(frames, on_device) == 0 ? "" : time(on_device));
+        }
+        host.push_back(time(&RankFrame::whole_ns));
+        table.row(std::move(host));
+        table.row(std::move(device));
+    }
+    return table;
+}
+
 }  // namespace
 
 std::int64_t frame_ns(const ClusterResult& result)
@@ -137,37 +185,6 @@ Json cluster_json(const ClusterResult& result, Json run, const std::string& mpi)
 
 std::string cluster_table(const ClusterResult& result, std::size_t width)
 {
-    using Align = Table::Align;
-    std::vector<Table::Column> columns = {{"rank"},      {"host", Align::left}, {"triangles"},
-                                          {"halo sent"}, {"received"},          {"bytes sent"},
-                                          {"own pairs"}, {"halo pairs"}};
-    if (!result.shares_devices) {
-        for (const std::string_view stage : frame_stages)
-            columns.push_back({std::string(stage)});
-        columns.push_back({"whole"});
-    }
-    Table table(columns);
-    for (std::size_t k = 0; k < result.ranks.size(); ++k) {
-        const ClusterRank& rank = result.ranks[k];
-        const RankFrame& last = rank.frames.back();
-        std::vector<std::string> row = {std::to_string(k),
-                                        rank.host,
-                                        std::to_string(rank.triangles),
-                                        std::to_string(last.halo_sent),
-                                        std::to_string(last.halo_received),
-                                        bytes_text(static_cast<double>(last.sent_bytes)),
-                                        std::to_string(last.own_pairs),
-                                        std::to_string(last.halo_pairs)};
-        const auto add_time = [&](const std::function<std::int64_t(const RankFrame&)>& value) {
-            row.push_back(duration_text(static_cast<double>(median_over(rank.frames, value))));
-        };
-        if (!result.shares_devices) {
-            for (std::size_t stage = 0; stage < frame_stage_count; ++stage)
-                add_time([stage](const RankFrame& frame) { return frame.host_ns[stage]; });
-            add_time(&RankFrame::whole_ns);
-        }
-        table.row(std::move(row));
-    }
     std::set<std::string> devices;
     for (const ClusterRank& rank : result.ranks)
         devices.insert(rank.device);
@@ -178,7 +195,9 @@ std::string cluster_table(const ClusterResult& result, std::size_t width)
                        std::string(partition_names[static_cast<std::size_t>(result.partition)]);
     for (const std::string& device : devices)
         text += "\ndevice: " + device;
-    text += "\n" + table.text(width);
+    text += "\n" + counts_table(result).text(width);
+    if (!result.shares_devices)
+        text += times_table(result).text(width);
     text += "halo: " + fixed(100 * halo_share(result), 1) +
             " % of the triangles; imbalance: " + fixed(imbalance(result), 3) + " of the mean\n";
     text += result.shares_devices
