@@ -36,7 +36,7 @@ _bvhbench() {
         --boxes) names=$(_bvhbench_list "$program" formats) ;;
         --narrow) names=$(_bvhbench_list "$program" narrow) ;;
         --no-skip | --force-skip) names=$(_bvhbench_list "$program" skips) ;;
-        --scene | --scenes) names=$(_bvhbench_list "$program" scenes) ;;
+        --scene | --scenes | cluster) names=$(_bvhbench_list "$program" scenes) ;;
         run | reproduce) names=$(_bvhbench_list "$program" experiments) ;;
         list) names=$(_bvhbench_ask "list --help" "$program" list --help | sed -n '/WHAT WORD/,/^$/p' | grep -o '\b[a-z]\+' | grep -vx 'required\|or') ;;
         help) names=$commands ;;

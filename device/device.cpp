@@ -115,6 +115,14 @@ void Device::require_group(std::string_view what, std::size_t group_size,
                           " on " + name());
 }
 
+std::vector<std::size_t> matching_devices(std::string_view words)
+{
+    std::vector<NamedDevice> named;
+    for (Found& found : all_devices())
+        named.push_back(std::move(found.named));
+    return matching_devices(named, device_words(words));
+}
+
 std::vector<std::string> device_names()
 {
     std::vector<std::string> names;

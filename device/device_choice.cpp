@@ -27,28 +27,41 @@ bool has_all_words(const std::string& name, const std::string& words)
 
 }  // namespace
 
-std::size_t chosen_device(std::span<const NamedDevice> devices, std::string_view words)
+std::vector<std::size_t> matching_devices(std::span<const NamedDevice> devices,
+                                          std::string_view words)
 {
-    const auto first_that = [&](const auto& fits) -> std::size_t {
-        return static_cast<std::size_t>(std::ranges::find_if(devices, fits) - devices.begin());
+    const auto all_that = [&](const auto& fits) {
+        std::vector<std::size_t> all;
+        for (std::size_t k = 0; k < devices.size(); ++k)
+            if (fits(devices[k]))
+                all.push_back(k);
+        return all;
     };
-    const auto first_of = [&](cl_device_type type) {
-        return first_that([&](const NamedDevice& device) { return (device.type & type) != 0; });
+    const auto all_of = [&](cl_device_type type) {
+        return all_that([&](const NamedDevice& device) { return (device.type & type) != 0; });
     };
     const std::string wanted = lower(words);
     if (wanted.empty()) {
         for (const cl_device_type type : {CL_DEVICE_TYPE_GPU, CL_DEVICE_TYPE_CPU})
-            if (const std::size_t first = first_of(type); first < devices.size())
-                return first;
-        return 0;
+            if (std::vector<std::size_t> all = all_of(type); !all.empty())
+                return all;
+        return all_that([](const NamedDevice&) { return true; });
     }
     if (wanted == "gpu" || wanted == "cpu")
-        return first_of(wanted == "gpu" ? CL_DEVICE_TYPE_GPU : CL_DEVICE_TYPE_CPU);
+        return all_of(wanted == "gpu" ? CL_DEVICE_TYPE_GPU : CL_DEVICE_TYPE_CPU);
     if (wanted.size() < 4 &&
-        std::ranges::all_of(wanted, [](unsigned char c) { return std::isdigit(c) != 0; }))
-        return std::min<std::size_t>(std::stoul(wanted), devices.size());
-    return first_that(
+        std::ranges::all_of(wanted, [](unsigned char c) { return std::isdigit(c) != 0; })) {
+        const std::size_t index = std::stoul(wanted);
+        return index < devices.size() ? std::vector{index} : std::vector<std::size_t>{};
+    }
+    return all_that(
         [&](const NamedDevice& device) { return has_all_words(lower(device.name), wanted); });
+}
+
+std::size_t chosen_device(std::span<const NamedDevice> devices, std::string_view words)
+{
+    const std::vector<std::size_t> matching = matching_devices(devices, words);
+    return matching.empty() ? devices.size() : matching.front();
 }
 
 }  // namespace bvhbench

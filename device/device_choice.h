@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "device/cl.h"
 
@@ -15,9 +16,16 @@ struct NamedDevice {
     cl_device_type type = CL_DEVICE_TYPE_DEFAULT;
 };
 
-/// Returns the index of the device that `words` selects, or the number of devices if none matches. `words` is an index of up to
-/// three digits; "gpu" or "cpu" for the first device of that type; or words that the name must all contain, in any case. Without
-/// words the first GPU is selected, otherwise the first CPU, otherwise the first device.
+/// Returns the indices of the devices that `words` match, ascending. `words` is an index of up to three digits; "gpu" or "cpu" for
+/// devices of that type; or words that the name must all contain, in any case. Without words all GPUs match, otherwise all CPUs,
+/// otherwise all devices.
+std::vector<std::size_t> matching_devices(std::span<const NamedDevice> devices,
+                                          std::string_view words);
+
+/// Returns the first of matching_devices, or the number of devices if none matches.
 std::size_t chosen_device(std::span<const NamedDevice> devices, std::string_view words);
+
+/// Returns the indices among device_names() of the devices that device_words(words) match (device/device.h).
+std::vector<std::size_t> matching_devices(std::string_view words);
 
 }  // namespace bvhbench

@@ -15,7 +15,7 @@ PACKAGING = ROOT / "packaging"
 DEBIAN = {"cxx": "build-essential", "cmake": "cmake", "ninja": "ninja-build", "git": "git", "opencl": "ocl-icd-opencl-dev",
           "ocl-icd": "ocl-icd-opencl-dev", "opencl-clhpp": "opencl-clhpp-headers", "assimp": "libassimp-dev",
           "nlohmann-json": "nlohmann-json3-dev", "cli11": "libcli11-dev", "re2": "libre2-dev", "embree": "libembree-dev",
-          "fcl": "libfcl-dev", "cgal": "libcgal-dev", "python": "python3"}
+          "fcl": "libfcl-dev", "cgal": "libcgal-dev", "mpi": "libopenmpi-dev", "python": "python3"}
 
 
 def text(path: str) -> str:

@@ -3,9 +3,9 @@
 
 namespace bvhbench {
 
-extern const CommandEntry build_command, collide_command, run_command, accuracy_command,
-    tune_command, list_command, check_command, stress_command, facts_command, settle_command,
-    view_command;
+extern const CommandEntry build_command, collide_command, cluster_command, run_command,
+    accuracy_command, tune_command, list_command, check_command, stress_command, facts_command,
+    settle_command, view_command;
 
 std::span<const CommandEntry> commands()
 {
@@ -14,6 +14,7 @@ std::span<const CommandEntry> commands()
         list_command,
         build_command,
         collide_command,
+        cluster_command,
         run_command,
         {"sweep", measuring,
          "Measure a product of scenes, sizes, builders, orders, colliders and options, a "

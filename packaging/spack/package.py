@@ -29,6 +29,7 @@ class Bvhbench(CMakePackage):
         depends_on("embree@3")
         depends_on("fcl@0.7:")
         depends_on("cgal@5.5:5")
+        depends_on("mpi")
         depends_on("python@3.11:", type="run")
         depends_on("py-numpy", type="run")
         depends_on("py-scipy", type="run")

@@ -57,6 +57,14 @@ TEST(OpenDevice, TakesTheFirstGpuUnlessAnotherIsNamed)
     EXPECT_EQ(chosen_device(std::span(devices).first(1), "gpu"), 1u);
     EXPECT_EQ(chosen_device(std::span(devices).last(1), ""), 0u);
     EXPECT_EQ(chosen_device({}, ""), 0u);
+
+    const auto matching = [&](std::string_view words) { return matching_devices(devices, words); };
+    using Indices = std::vector<std::size_t>;
+    EXPECT_EQ(matching(""), (Indices{1, 2}));
+    EXPECT_EQ(matching("gpu"), (Indices{1, 2}));
+    EXPECT_EQ(matching("big"), (Indices{1, 2}));
+    EXPECT_EQ(matching("cpu"), Indices{0});
+    EXPECT_EQ(matching("4"), Indices{});
 }
 
 TEST(Device, CountsWhatIsTakenUntilItIsGivenBack)

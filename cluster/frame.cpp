@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT
+#include "cluster/frame.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "geometry/error.h"
+
+namespace bvhbench {
+namespace {
+
+std::int64_t now_ns()
+{
+    using namespace std::chrono;
+    return duration_cast<nanoseconds>(steady_clock::now().time_since_epoch()).count();
+}
+
+std::int64_t device_ns(Queue& queue)
+{
+    std::int64_t sum = 0;
+    for (const StageTime& stage : queue.finish())
+        sum += stage.elapsed_ns();
+    return sum;
+}
+
+}  // namespace
+
+/// Times the stages of a frame, one after the other.
+class DistributedFrame::Clock {
+public:
+    explicit Clock(RankFrame& frame) : frame_(frame) {}
+
+    /// Ends the next stage.
+    void end_stage()
+    {
+        const std::int64_t now = now_ns();
+        frame_.host_ns[stage_++] = now - last_;
+        last_ = now;
+        frame_.whole_ns = now - start_;
+    }
+
+    /// Ends the next stage, and waits for the work of the device before that.
+    void end_stage(Queue& queue)
+    {
+        frame_.device_ns[stage_] = device_ns(queue);
+        end_stage();
+    }
+
+private:
+    RankFrame& frame_;
+    std::size_t stage_ = 0;
+    const std::int64_t start_ = now_ns();
+    std::int64_t last_ = start_;
+};
+
+DistributedFrame::DistributedFrame(Ranks& ranks, Programs& programs, Queue& queue, Builder& builder,
+                                   Collider& collider, bool keep_adjacent)
+    : ranks_(ranks)
+    , programs_(programs)
+    , queue_(queue)
+    , builder_(builder)
+    , collider_(collider)
+    , keep_adjacent_(keep_adjacent)
+    , tops_(programs)
+    , leaving_(programs)
+    , halo_query_(programs, keep_adjacent)
+{
+    const std::string name(collider.card().name);
+    if (!collider.needs_tree())
+        throw BadUsage("collider " + name +
+                       " queries no tree, which triangles of other ranks are tested against");
+    if (collider.keeps_tree())
+        throw BadUsage("collider " + name + " follows frames, and ranks find pairs of one");
+}
+
+void DistributedFrame::take(Share share)
+{
+    share_ = std::move(share);
+    input_.reset();
+    halo_.clear();
+    if (!has_tree())
+        return;
+    input_ = upload(programs_.device(), queue_, share_.points, share_.faces);
+    builder_.reserve(share_.triangle_count());
+    const Tree& tree = builder_.build(*input_, queue_);
+    queue_.finish();
+    tree_ = dynamic_cast<const DeviceTree*>(&tree);
+    if (tree_ == nullptr)
+        throw BadUsage("builder " + std::string(builder_.card().name) +
+                       " leaves its tree in host memory, and ranks test triangles of others on "
+                       "their device");
+    collider_.reserve(tree_, *input_);
+    tops_.reserve(*tree_);
+    leaving_.reserve(nullptr, *input_);
+    if (!keep_adjacent_) {
+        std::vector<Face> faces;
+        for (std::size_t k = 0; k < share_.faces.size(); ++k)
+            faces.push_back(share_.scene_face(k));
+        halo_query_.own(std::move(faces));
+    }
+    halo_query_.reserve(tree_, *input_);
+}
+
+RankFrame DistributedFrame::run()
+{
+    RankFrame frame;
+    ranks_.wait_for_all();
+    Clock clock(frame);
+    const std::vector<Aabb> own = build();
+    clock.end_stage(queue_);
+
+    const std::vector<Aabb> tops = gathered<Aabb>(ranks_, own);
+    frame.sent_bytes = (ranks_.count() - 1) * own.size() * sizeof(Aabb);
+    clock.end_stage();
+
+    const std::vector<Pair> leaving = select(wanted_from(ranks_.rank(), tops));
+    clock.end_stage(queue_);
+
+    if (has_tree()) {
+        collider_.query(tree_, *input_, queue_);
+        queue_.cl().flush();
+    }
+    halo_ = exchange(leaving, frame);
+    clock.end_stage();
+
+    while (has_tree() && !collider_.complete(queue_))
+        collider_.query(tree_, *input_, queue_);
+    clock.end_stage(queue_);
+
+    query_halo();
+    clock.end_stage(queue_);
+
+    if (has_tree())
+        frame.own_pairs = collider_.counts(queue_).pairs;
+    frame.halo_pairs = !has_tree()     ? pairs_of_one_.size()
+                       : halo_.empty() ? 0
+                                       : halo_query_.counts(queue_).pairs;
+    return frame;
+}
+
+/// Returns the boxes that this rank tells the others.
+std::vector<Aabb> DistributedFrame::build()
+{
+    if (has_tree()) {
+        tree_ = dynamic_cast<const DeviceTree*>(&builder_.build(*input_, queue_));
+        return tops_.read(*tree_, queue_);
+    }
+    std::vector<Aabb> own(top_boxes, empty_box());
+    if (share_.triangle_count() == 1)
+        own[0] = face_box(share_.points, share_.faces[0]);
+    return own;
+}
+
+std::vector<Pair> DistributedFrame::select(const WantedBoxes& wanted)
+{
+    if (wanted.boxes.empty())
+        return {};
+    if (!has_tree())
+        return leaving(face_boxes(share_.points, share_.faces), wanted);
+    leaving_.want(wanted, queue_);
+    find_pairs(leaving_, nullptr, *input_, queue_);
+    return leaving_.pairs(queue_);
+}
+
+std::vector<HaloTriangle> DistributedFrame::exchange(const std::vector<Pair>& leaving,
+                                                     RankFrame& frame)
+{
+    std::vector<std::vector<HaloTriangle>> to(ranks_.count());
+    for (const auto& [triangle, rank] : leaving)
+        to[rank].push_back({face_box(share_.points, share_.faces[triangle]), share_.ids[triangle],
+                            share_.scene_face(triangle)});
+    frame.halo_sent = leaving.size();
+    frame.sent_bytes += leaving.size() * sizeof(HaloTriangle);
+    std::vector<HaloTriangle> halo;
+    for (const std::vector<HaloTriangle>& from : exchanged(ranks_, std::move(to)))
+        halo.insert(halo.end(), from.begin(), from.end());
+    frame.halo_received = halo.size();
+    return halo;
+}
+
+void DistributedFrame::query_halo()
+{
+    pairs_of_one_.clear();
+    if (halo_.empty())
+        return;
+    if (has_tree()) {
+        halo_query_.bring(halo_, queue_);
+        find_pairs(halo_query_, tree_, *input_, queue_);
+        return;
+    }
+    for (uint k = 0; k < halo_.size(); ++k)
+        if (overlap(face_box(share_.points, share_.faces[0]), halo_[k].box) &&
+            (keep_adjacent_ || !share_a_vertex(share_.scene_face(0), halo_[k].vertices)))
+            pairs_of_one_.push_back({0, 1 + k});
+}
+
+std::vector<Pair> DistributedFrame::pairs() const
+{
+    std::vector<Pair> all = pairs_of_one_;
+    if (has_tree()) {
+        all = collider_.pairs(queue_);
+        const std::vector<Pair> halo =
+            halo_.empty() ? std::vector<Pair>() : halo_query_.pairs(queue_);
+        all.insert(all.end(), halo.begin(), halo.end());
+    }
+    const uint own = share_.triangle_count();
+    const auto id = [&](uint k) { return k < own ? share_.ids[k] : halo_[k - own].id; };
+    for (Pair& pair : all)
+        pair = {std::min(id(pair.a), id(pair.b)), std::max(id(pair.a), id(pair.b))};
+    return all;
+}
+
+}  // namespace bvhbench

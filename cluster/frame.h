@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+//
+// A frame of a scene that is distributed over ranks: from each rank's triangles to all pairs of the scene, each found once.
+//
+//     build      the rank's tree, and the boxes that it tells the others
+//     boxes      all ranks tell their boxes
+//     select     triangles that meet another rank's boxes
+//     exchange   they are sent there; meanwhile the device tests the rank's own triangles
+//     self       the rest of that query
+//     halo       triangles that came are tested against the tree
+//
+// Pairs stay on the rank and device that found them.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "builders/builder.h"
+#include "cluster/halo_query.h"
+#include "cluster/leaving.h"
+#include "cluster/ranks.h"
+#include "cluster/share.h"
+#include "cluster/top_boxes.h"
+#include "collide/collider.h"
+
+namespace bvhbench {
+
+/// Stages of a frame, in order.
+inline constexpr std::string_view frame_stages[] = {"build",    "boxes", "select",
+                                                    "exchange", "self",  "halo"};
+inline constexpr std::size_t frame_stage_count = std::size(frame_stages);
+
+/// What a frame took on one rank, and what it sent.
+struct RankFrame {
+    std::int64_t whole_ns = 0;  ///< host clock
+    std::int64_t host_ns[frame_stage_count] = {};
+    std::int64_t device_ns[frame_stage_count] =
+        {};                           ///< launches of the stage; self: all of its query
+    std::uint64_t sent_bytes = 0;     ///< boxes and halo, to other ranks
+    std::uint64_t halo_sent = 0;      ///< triangles, once for each rank that they went to
+    std::uint64_t halo_received = 0;  ///< triangles
+    std::uint64_t own_pairs = 0;      ///< between triangles of the rank
+    std::uint64_t halo_pairs = 0;     ///< between its triangles and others
+};
+
+/// One rank's part of frames over a distributed scene.
+class DistributedFrame {
+public:
+    /// `builder` and `collider` serve this object alone. Throws BadUsage for a collider that queries no tree or keeps state between
+    /// frames. Without `keep_adjacent`, pairs that share a vertex are left out, as `collider` must have been told too.
+    DistributedFrame(Ranks& ranks, Programs& programs, Queue& queue, Builder& builder,
+                     Collider& collider, bool keep_adjacent);
+    DistributedFrame(const DistributedFrame&) = delete;
+    DistributedFrame& operator=(const DistributedFrame&) = delete;
+
+    /// Takes the rank's triangles, any number of them, and reserves memory for frames over them. Never timed. Throws Unavailable,
+    /// BadUsage for a builder whose trees are in host memory, and what builder and collider throw.
+    void take(Share share);
+
+    /// Runs a frame; all ranks must. Buffers that are too small grow, and their query is repeated.
+    RankFrame run();
+
+    /// Returns the pairs that this rank found in the last frame, by scene numbers: smaller first, in no order. Blocks.
+    std::vector<Pair> pairs() const;
+
+    const Share& share() const { return share_; }
+
+private:
+    class Clock;
+    bool has_tree() const { return share_.triangle_count() > 1; }
+    std::vector<Aabb> build();
+    std::vector<Pair> select(const WantedBoxes& wanted);
+    std::vector<HaloTriangle> exchange(const std::vector<Pair>& leaving, RankFrame& frame);
+    void query_halo();
+
+    Ranks& ranks_;
+    Programs& programs_;
+    Queue& queue_;
+    Builder& builder_;
+    Collider& collider_;
+    bool keep_adjacent_;
+    TopBoxes tops_;
+    Leaving leaving_;
+    HaloQuery halo_query_;
+    Share share_;
+    std::optional<Input> input_;
+    const DeviceTree* tree_ = nullptr;
+    std::vector<HaloTriangle> halo_;  ///< of the last frame
+    std::vector<Pair> pairs_of_one_;  ///< its pairs with the halo, if the rank has one triangle
+};
+
+}  // namespace bvhbench

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "cluster/mpi_ranks.h"
+
+#include <mpi.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <limits>
+
+namespace bvhbench {
+namespace {
+
+int as_count(std::size_t size)
+{
+    assert(size <= static_cast<std::size_t>(std::numeric_limits<int>::max()));
+    return static_cast<int>(size);
+}
+
+class MpiRanks final : public HostedRanks {
+public:
+    explicit MpiRanks(std::size_t most_at_once) : most_at_once_(most_at_once)
+    {
+        MPI_Init(nullptr, nullptr);
+        rank_ = rank_of(MPI_COMM_WORLD);
+        count_ = count_of(MPI_COMM_WORLD);
+        MPI_Comm of_host = MPI_COMM_NULL;
+        MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, as_count(rank_), MPI_INFO_NULL,
+                            &of_host);
+        local_rank_ = rank_of(of_host);
+        local_count_ = count_of(of_host);
+        MPI_Comm_free(&of_host);
+        std::array<char, MPI_MAX_PROCESSOR_NAME> name{};
+        int length = 0;
+        MPI_Get_processor_name(name.data(), &length);
+        host_.assign(name.data(), static_cast<std::size_t>(length));
+    }
+    ~MpiRanks() override { MPI_Finalize(); }
+    MpiRanks(const MpiRanks&) = delete;
+    MpiRanks& operator=(const MpiRanks&) = delete;
+
+    uint rank() const override { return rank_; }
+    uint count() const override { return count_; }
+    uint local_rank() const override { return local_rank_; }
+    uint local_count() const override { return local_count_; }
+    const std::string& host() const override { return host_; }
+
+    void end_all(int code) override
+    {
+        MPI_Abort(MPI_COMM_WORLD, code);
+        std::abort();
+    }
+
+    void wait_for_all() override { MPI_Barrier(MPI_COMM_WORLD); }
+
+    void sum(std::span<std::uint64_t> values) override
+    {
+        MPI_Allreduce(MPI_IN_PLACE, values.data(), as_count(values.size()), MPI_UINT64_T, MPI_SUM,
+                      MPI_COMM_WORLD);
+    }
+
+    void least(std::span<float> values) override
+    {
+        MPI_Allreduce(MPI_IN_PLACE, values.data(), as_count(values.size()), MPI_FLOAT, MPI_MIN,
+                      MPI_COMM_WORLD);
+    }
+
+    Bytes gathered(std::span<const std::byte> own) override
+    {
+        Bytes all(own.size() * count_);
+        MPI_Allgather(own.data(), as_count(own.size()), MPI_BYTE, all.data(), as_count(own.size()),
+                      MPI_BYTE, MPI_COMM_WORLD);
+        return all;
+    }
+
+    /// Sends to those ranks only that something goes to. The sizes go to all.
+    std::vector<Bytes> exchanged(std::vector<Bytes> to) override
+    {
+        assert(to.size() == count_);
+        std::vector<std::uint64_t> sizes(count_), sizes_here(count_);
+        std::ranges::transform(to, sizes.begin(), &Bytes::size);
+        MPI_Alltoall(sizes.data(), 1, MPI_UINT64_T, sizes_here.data(), 1, MPI_UINT64_T,
+                     MPI_COMM_WORLD);
+        std::vector<Bytes> from(count_);
+        std::vector<MPI_Request> requests;
+        const auto in_pieces = [&](Bytes& bytes, const auto& begin) {
+            for (std::size_t first = 0; first < bytes.size(); first += most_at_once_)
+                begin(bytes.data() + first, as_count(std::min(most_at_once_, bytes.size() - first)),
+                      &requests.emplace_back());
+        };
+        from[rank_] = std::move(to[rank_]);
+        for (uint k = 1; k < count_; ++k) {
+            const uint source = (rank_ + count_ - k) % count_;
+            from[source].resize(sizes_here[source]);
+            in_pieces(from[source], [&](std::byte* at, int size, MPI_Request* request) {
+                MPI_Irecv(at, size, MPI_BYTE, as_count(source), 0, MPI_COMM_WORLD, request);
+            });
+        }
+        for (uint k = 1; k < count_; ++k) {
+            const uint target = (rank_ + k) % count_;
+            in_pieces(to[target], [&](std::byte* at, int size, MPI_Request* request) {
+                MPI_Isend(at, size, MPI_BYTE, as_count(target), 0, MPI_COMM_WORLD, request);
+            });
+        }
+        MPI_Waitall(as_count(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+        return from;
+    }
+
+private:
+    static uint rank_of(MPI_Comm comm)
+    {
+        int rank = 0;
+        MPI_Comm_rank(comm, &rank);
+        return static_cast<uint>(rank);
+    }
+    static uint count_of(MPI_Comm comm)
+    {
+        int count = 0;
+        MPI_Comm_size(comm, &count);
+        return static_cast<uint>(count);
+    }
+
+    std::size_t most_at_once_;
+    uint rank_ = 0, count_ = 0, local_rank_ = 0, local_count_ = 0;
+    std::string host_;
+};
+
+}  // namespace
+
+std::string mpi_absent() { return {}; }
+
+std::string mpi_version()
+{
+    std::array<char, MPI_MAX_LIBRARY_VERSION_STRING> text{};
+    int length = 0;
+    MPI_Get_library_version(text.data(), &length);
+    const std::string all(text.data(), static_cast<std::size_t>(length));
+    return all.substr(0, all.find(','));
+}
+
+std::unique_ptr<HostedRanks> start_mpi(std::size_t most_at_once)
+{
+    return std::make_unique<MpiRanks>(most_at_once);
+}
+
+}  // namespace bvhbench

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+//
+// Ranks: processes that work on one scene, each with a device of its own, and what they tell each other. Code of this room talks
+// through this interface, so that tests can run ranks as threads, without MPI.
+#pragma once
+
+#include <cassert>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "geometry/dialect.h"
+
+namespace bvhbench {
+
+using Bytes = std::vector<std::byte>;
+
+/// This process as one of `count()` ranks. All ranks must call the same functions in the same order. All functions but the first
+/// two wait for the other ranks.
+class Ranks {
+public:
+    virtual ~Ranks() = default;
+
+    virtual uint rank() const = 0;   ///< of this process, from 0 on
+    virtual uint count() const = 0;  ///< at least 1
+
+    /// Waits until all ranks have called it.
+    virtual void wait_for_all() = 0;
+
+    /// Replaces each value by its sum over all ranks. All ranks pass equally many values.
+    virtual void sum(std::span<std::uint64_t> values) = 0;
+
+    /// Replaces each value by the least of all ranks.
+    virtual void least(std::span<float> values) = 0;
+
+    /// Returns the bytes of all ranks, one after the other. All ranks pass equally many.
+    virtual Bytes gathered(std::span<const std::byte> own) = 0;
+
+    /// Sends `to[r]` to rank r. Returns what each rank sent to this one, by rank. Any number of bytes, none included.
+    virtual std::vector<Bytes> exchanged(std::vector<Bytes> to) = 0;
+};
+
+/// Returns the values of all ranks, one rank after the other. All ranks pass equally many.
+template <class T>
+std::vector<T> gathered(Ranks& ranks, std::span<const T> own)
+{
+    static_assert(std::is_trivially_copyable_v<T>, "messages are plain bytes");
+    const Bytes bytes = ranks.gathered(std::as_bytes(own));
+    std::vector<T> all(bytes.size() / sizeof(T));
+    if (!all.empty())
+        std::memcpy(all.data(), bytes.data(), bytes.size());
+    return all;
+}
+
+/// Sends the values `to[r]` to rank r. Returns those that were sent to this rank, by rank.
+template <class T>
+std::vector<std::vector<T>> exchanged(Ranks& ranks, std::vector<std::vector<T>> to)
+{
+    static_assert(std::is_trivially_copyable_v<T>, "messages are plain bytes");
+    assert(to.size() == ranks.count());
+    std::vector<Bytes> bytes(to.size());
+    for (std::size_t rank = 0; rank < to.size(); ++rank) {
+        const auto values = std::as_bytes(std::span<const T>(to[rank]));
+        bytes[rank].assign(values.begin(), values.end());
+        to[rank] = {};
+    }
+    bytes = ranks.exchanged(std::move(bytes));
+    for (std::size_t rank = 0; rank < to.size(); ++rank) {
+        to[rank].resize(bytes[rank].size() / sizeof(T));
+        if (!to[rank].empty())
+            std::memcpy(to[rank].data(), bytes[rank].data(), bytes[rank].size());
+        bytes[rank] = {};
+    }
+    return to;
+}
+
+}  // namespace bvhbench

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "cluster/mpi_ranks.h"
+#include "collide/pairs.h"
+#include "harness/record/cluster_result.h"
+#include "harness/session/session.h"
+
+namespace bvhbench {
+
+struct ClusterTask {
+    std::string scene;
+    PartitionBy partition = PartitionBy::rcb;
+    PipelineChoice pipeline;
+    int samples = 5;
+    bool share_devices = false;  ///< whether ranks of a host may have one device
+};
+
+/// What rank 0 has at the end; the other ranks have empty ones.
+struct ClusterFound {
+    Scene scene;  ///< all triangles as one object
+    PairList pairs;
+    ClusterResult result;
+};
+
+/// Returns the words for the device of this rank: each rank of a host has another one of those that `words` match. Throws
+/// Unavailable if there are fewer than ranks, unless they may share.
+std::string device_of_rank(const std::string& words, const HostedRanks& ranks, bool share_devices);
+
+/// Runs this rank's part: rank 0 reads the scene, all ranks distribute it and find the pairs of its first frame, and rank 0 compares
+/// them with those that its device finds alone. Throws what reading the scene, builders and colliders throw; the other ranks then
+/// wait, so the caller ends them.
+ClusterFound run_cluster(HostedRanks& ranks, Session& session, const ClusterTask& task);
+
+}  // namespace bvhbench

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+//
+// What `bvhbench cluster` found and measured, as a table and as a file (results/schema/cluster-1.schema.json).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cluster/frame.h"
+#include "cluster/partition.h"
+#include "harness/base/json_keys.h"
+#include "harness/choice/scene_choice.h"
+#include "harness/record/record.h"
+
+namespace bvhbench {
+
+struct ClusterRank {
+    std::string host, device;
+    std::uint64_t triangles = 0;
+    std::vector<RankFrame> frames;  ///< timed ones; at least one
+};
+
+struct ClusterResult {
+    SceneFacts scene;
+    PartitionBy partition = PartitionBy::rcb;
+    PipelineChoice pipeline;
+    bool shares_devices =
+        false;  ///< several ranks had one device: times mean nothing and are left out
+    std::int64_t partition_ns = 0;  ///< host clock: cutting, and moving triangles to their ranks
+    std::vector<ClusterRank> ranks;
+    std::uint64_t pairs = 0;
+    Check check;
+};
+
+/// Returns the document, with `run`, the facts of the run, and the MPI library's name.
+Json cluster_json(const ClusterResult& result, Json run, const std::string& mpi);
+
+/// Returns a table with a row for each rank, medians over its frames, and lines that sum up. `width`: as Table::text.
+std::string cluster_table(const ClusterResult& result, std::size_t width);
+
+/// Returns the time of a frame in nanoseconds, by the median over frames: that of the last rank to finish.
+std::int64_t frame_ns(const ClusterResult& result);
+
+}  // namespace bvhbench

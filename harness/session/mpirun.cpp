@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "harness/session/mpirun.h"
+
+#include <re2/re2.h>
+#include <unistd.h>
+
+#include <array>
+#include <charconv>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <sstream>
+
+#include "cluster/mpi_ranks.h"
+#include "geometry/error.h"
+#include "harness/base/terminal.h"
+#include "scenes/worker/process.h"
+
+namespace bvhbench {
+namespace {
+
+constexpr std::string_view own_lines = "bvhbench: ";
+constexpr std::size_t no_terminal = 10000;  ///< columns: tables are not wrapped
+
+/// Returns true if a program of this name is in a folder of PATH.
+bool is_program(const std::string& name)
+{
+    const char* path = std::getenv("PATH");
+    std::istringstream folders(path == nullptr ? "" : path);
+    for (std::string folder; std::getline(folders, folder, ':');)
+        if (access((std::filesystem::path(folder) / name).c_str(), X_OK) == 0)
+            return true;
+    return false;
+}
+
+std::vector<std::string> lines_of(const std::string& text)
+{
+    std::vector<std::string> lines;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);)
+        lines.push_back(line);
+    return lines;
+}
+
+/// Returns the first error that a rank wrote, without the program's name; empty without one. That a rank was stopped is mpirun's
+/// doing.
+std::string own_sentence(const std::string& text)
+{
+    for (const std::string& line : lines_of(text))
+        if (line.starts_with(own_lines) && !line.starts_with("bvhbench: stopped"))
+            return line.substr(own_lines.size());
+    return {};
+}
+
+/// Returns "rank 1 on this host: ", of the rank that mpirun says ended first, if `sentence` names none.
+std::string rank_before(const std::string& sentence, const std::string& text)
+{
+    std::string rank;
+    if (sentence.starts_with("rank ") ||
+        !RE2::PartialMatch(text, "Process name: \\[\\[\\d+,\\d+\\],(\\d+)\\]", &rank))
+        return {};
+    std::array<char, 256> host{};
+    gethostname(host.data(), host.size() - 1);
+    return "rank " + rank + " on " + host.data() + ": ";
+}
+
+/// Returns which rank a signal ended, as a sentence; empty if none.
+std::string lost_rank(const std::string& text)
+{
+    std::string rank, host, signal, name;
+    if (!RE2::PartialMatch(text,
+                           "process rank (\\d+) with PID \\d+ on node (\\S+) exited on signal "
+                           "(\\d+) \\(([^)]*)\\)",
+                           &rank, &host, &signal, &name))
+        return {};
+    const std::string said = own_sentence(text);
+    return "rank " + rank + " on " + host + " was ended by signal " + signal + " (" + name +
+           "), and so were the others" + (said.empty() ? "" : "; it said: " + said);
+}
+
+}  // namespace
+
+std::optional<unsigned> ranks_started()
+{
+    for (const char* variable : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"})
+        if (const char* value = std::getenv(variable); value != nullptr) {
+            const std::string_view text = value;
+            unsigned count = 0;
+            std::from_chars(text.data(), text.data() + text.size(), count);
+            return count;
+        }
+    return std::nullopt;
+}
+
+int run_ranks(unsigned ranks, const std::vector<std::string>& words)
+{
+    if (const std::string why = mpi_absent(); !why.empty())
+        throw Unavailable(why);
+    if (!is_program("mpirun"))
+        throw Unavailable(
+            "mpirun, which starts the ranks, is in no folder of PATH (Debian: openmpi-bin)");
+    std::vector<std::string> command = {"setpriv",
+                                        "--pdeathsig",
+                                        "TERM",
+                                        "mpirun",
+                                        "-np",
+                                        std::to_string(ranks),
+                                        "--oversubscribe",
+                                        "--bind-to",
+                                        "none",
+                                        std::filesystem::read_symlink("/proc/self/exe").string()};
+    command.insert(command.end(), words.begin(), words.end());
+    // mpirun gives rank 0 a terminal of its own, of 80 columns.
+    const std::size_t width = terminal_width(STDOUT_FILENO);
+    const std::string columns = "COLUMNS=" + std::to_string(width == 0 ? no_terminal : width);
+    std::cout.flush();
+    Child child(
+        {.path = command.front(),
+         .words = command,
+         .environment = {columns, "OMPI_ALLOW_RUN_AS_ROOT=1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1",
+                         "OMPI_MCA_btl_vader_single_copy_mechanism=none"},
+         .output = Child::Stream::inherited,
+         .errors = Child::Stream::captured});
+    while (child.take()) {
+    }
+    const ProcessEnd end = child.wait();
+    const bool has_exited = end.how == ProcessEnd::How::exited;
+    if (has_exited && end.code == 0) {
+        std::cerr << end.output;
+        return 0;
+    }
+    if (const std::string lost = lost_rank(end.output); !lost.empty())
+        throw NothingMeasured(lost);
+    if (const std::string said = own_sentence(end.output); !said.empty() && has_exited) {
+        const bool is_of_rank = end.code != 2;  // which is wrong usage
+        std::cerr << own_lines << (is_of_rank ? rank_before(said, end.output) : "") << said << '\n';
+        return end.code;
+    }
+    if (has_exited && RE2::PartialMatch(end.output, "Exit code:\\s+" + std::to_string(end.code)))
+        return end.code;  // a rank said why in its table
+    std::string first;
+    RE2::PartialMatch(end.output, "(?m)^([^-\\s][^\\n]*)$", &first);
+    throw Unavailable("mpirun " + spelled(end, 0) + (first.empty() ? "" : ": " + first));
+}
+
+}  // namespace bvhbench

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+//
+// Frames over ranks that are processes: the pairs of all ranks together are those of the oracle, each found once.
+#include "cluster/frame.h"
+
+#include <numeric>
+
+#include "cluster/partition.h"
+#include "collide/oracles/sweep.h"
+#include "harness/choice/catalog.h"
+#include "harness/judge/hard_inputs.h"
+#include "scenes/catalog.h"
+#include "tests/cluster/rank_tests.h"
+
+namespace bvhbench {
+namespace {
+
+struct Pipeline {
+    BuilderChoice builder;
+    ColliderChoice collider;
+};
+
+/// One of each kind of tree and of walk. The last is of wide nodes, and leaves pairs out.
+std::vector<Pipeline> pipelines()
+{
+    std::vector<Pipeline> all(4);
+    const char* names[][2] = {{"oibvh-multi", "leaf"},
+                              {"karras", "group"},
+                              {"perfect", "block"},
+                              {"oibvh-wide8", "bvtt"}};
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        all[k].builder.name = names[k][0];
+        all[k].collider.name = names[k][1];
+        all[k].collider.keep_adjacent = k % 2 == 0;
+    }
+    return all;
+}
+
+class Frames : public testing::Test {
+protected:
+    static void SetUpTestSuite()
+    {
+        device = std::make_unique<Device>(open_device(""));
+        programs = std::make_unique<Programs>(*device);
+        queue = std::make_unique<Queue>(*device);
+    }
+    static void TearDownTestSuite()
+    {
+        queue.reset();
+        programs.reset();
+        device.reset();
+    }
+
+    /// Distributes the mesh, which every rank makes and the last one deals out, and holds a frame of each pipeline to the oracle.
+    static void hold_to_oracle(const Mesh& mesh, const std::string& name)
+    {
+        const uint dealer = ranks->count() - 1;
+        for (const PartitionBy by : {PartitionBy::rcb, PartitionBy::curve}) {
+            Share share = dealt(mesh.points, mesh.faces, dealer, *ranks);
+            const std::vector<Point> centres = box_centres(share);
+            share =
+                moved(share, partitioned({centres, share.ids}, by, ranks->count(), *ranks), *ranks);
+            for (const Pipeline& pipeline : pipelines())
+                hold_frame(mesh, share, pipeline,
+                           name + ", " + std::string(partition_names[static_cast<int>(by)]) + ", " +
+                               pipeline.builder.name);
+        }
+    }
+
+    static void hold_frame(const Mesh& mesh, const Share& share, const Pipeline& pipeline,
+                           const std::string& name)
+    {
+        const auto builder = make_builder(pipeline.builder, *programs);
+        const auto collider = make_collider(pipeline.collider, *programs);
+        const bool keep_adjacent = pipeline.collider.keep_adjacent;
+        DistributedFrame frame(*ranks, *programs, *queue, *builder, *collider, keep_adjacent);
+        frame.take(share);
+        frame.run();
+        const RankFrame facts = frame.run();
+        const std::vector<Pair> own = frame.pairs();
+        EXPECT_EQ(own.size(), facts.own_pairs + facts.halo_pairs) << name;
+        std::vector<std::vector<Pair>> to(ranks->count());
+        to[0] = own;
+        std::vector<Pair> all;
+        for (const std::vector<Pair>& from : exchanged(*ranks, to))
+            all.insert(all.end(), from.begin(), from.end());
+        if (ranks->rank() != 0)
+            return;
+        const PairList found(std::move(all));
+        EXPECT_EQ(found.surplus(), 0u) << name;
+        const WantedPairs wanted(mesh.faces, keep_adjacent, {}, Among::all);
+        EXPECT_TRUE(found == swept_pairs(face_boxes(mesh.points, mesh.faces), wanted)) << name;
+    }
+
+    static Mesh scene(const std::string& name)
+    {
+        const Scene loaded = load_scene(name, {});
+        return {loaded.frames.front(), loaded.faces};
+    }
+
+    static std::unique_ptr<Device> device;
+    static std::unique_ptr<Programs> programs;
+    static std::unique_ptr<Queue> queue;
+};
+
+std::unique_ptr<Device> Frames::device;
+std::unique_ptr<Programs> Frames::programs;
+std::unique_ptr<Queue> Frames::queue;
+
+TEST_F(Frames, OfScenesHaveThePairsOfTheOracle)
+{
+    for (const char* name : {"torus:4000", "soup:3000", "grid:512", "hairball:1000", "n-body:3050"})
+        hold_to_oracle(scene(name), name);
+}
+
+TEST_F(Frames, OfHardMeshesHaveThePairsOfTheOracle)
+{
+    for (const HardInput& input : hard_inputs())
+        hold_to_oracle(input.make(150), std::string(input.name));
+}
+
+TEST_F(Frames, OfFewTrianglesLeaveRanksEmpty)
+{
+    const HardInput& input = hard_inputs().front();
+    for (const std::size_t count : {1u, 2u, 3u, 4u, 5u, 9u})
+        hold_to_oracle(input.make(count), std::to_string(count) + " triangles");
+    const Mesh closed = scene("sphere:6");  // neighbours share vertices
+    for (uint count = 1; count <= closed.faces.size(); ++count)
+        hold_to_oracle({closed.points, {closed.faces.begin(), closed.faces.begin() + count}},
+                       std::to_string(count) + " neighbours");
+}
+
+TEST_F(Frames, OfTrianglesInOnePlaceHaveAllPairs)
+{
+    Mesh mesh{{{1, 1, 1}, {2, 1, 1}, {1, 3, 1}}, {}};
+    mesh.faces.assign(100, Face{0, 1, 2});
+    hold_to_oracle(mesh, "copies");
+}
+
+TEST_F(Frames, OfASphereInASphereHaveThePairsOfTheOracle)
+{
+    Mesh mesh = scene("sphere:1000");
+    const auto points = static_cast<uint>(mesh.points.size());
+    const std::size_t faces = mesh.faces.size();
+    for (uint k = 0; k < points; ++k)
+        mesh.points.push_back(
+            {0.98f * mesh.points[k].x, 0.98f * mesh.points[k].y, 0.98f * mesh.points[k].z});
+    for (std::size_t k = 0; k < faces; ++k)
+        mesh.faces.push_back(
+            {mesh.faces[k].a + points, mesh.faces[k].b + points, mesh.faces[k].c + points});
+    hold_to_oracle(mesh, "two spheres");
+    // One rank has the inner sphere, the domain of another is all around it.
+    Share share = dealt(mesh.points, mesh.faces, 0, *ranks);
+    std::vector<uint> to;
+    for (const uint id : share.ids)
+        to.push_back((id < faces ? 0u : 1u) % ranks->count());
+    share = moved(share, to, *ranks);
+    hold_frame(mesh, share, pipelines().front(), "a domain in another");
+}
+
+}  // namespace
+}  // namespace bvhbench
+
+int main(int argc, char** argv)
+{
+    return bvhbench::run_rank_tests(argc, argv, std::size_t{1} << 30);
+}

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+#include "cluster/halo.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "cluster/partition.h"
+#include "geometry/scene_bounds.h"
+#include "tests/cluster/thread_ranks.h"
+
+namespace bvhbench {
+namespace {
+
+std::vector<Aabb> random_boxes(uint count, float side, unsigned seed)
+{
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> at(-1, 1), length(0, side);
+    std::vector<Aabb> boxes;
+    for (uint k = 0; k < count; ++k) {
+        const float x = at(random), y = at(random), z = at(random);
+        boxes.push_back({x, y, z, x + length(random), y + length(random), z + length(random)});
+    }
+    return boxes;
+}
+
+/// Returns boxes around runs of `boxes`, as many as a rank tells; the others are empty.
+std::vector<Aabb> tops_of(std::span<const Aabb> boxes)
+{
+    std::vector<Aabb> tops(top_boxes, empty_box());
+    for (std::size_t k = 0; k < boxes.size(); ++k) {
+        Aabb& top = tops[k * top_boxes / boxes.size()];
+        top = merged(top, boxes[k]);
+    }
+    return tops;
+}
+
+std::vector<Pair> brute_pairs(std::span<const Aabb> boxes)
+{
+    std::vector<Pair> pairs;
+    for (uint a = 0; a < boxes.size(); ++a)
+        for (uint b = a + 1; b < boxes.size(); ++b)
+            if (overlap(boxes[a], boxes[b]))
+                pairs.push_back({a, b});
+    return pairs;
+}
+
+/// Returns the pairs that ranks find among `boxes`, rank after rank, if rank part[k] owns box k.
+std::vector<Pair> pairs_of_ranks(std::span<const Aabb> boxes, std::span<const uint> part,
+                                 uint ranks)
+{
+    std::vector<std::vector<uint>> ids(ranks);
+    std::vector<std::vector<Aabb>> own(ranks);
+    for (uint k = 0; k < boxes.size(); ++k) {
+        ids[part[k]].push_back(k);
+        own[part[k]].push_back(boxes[k]);
+    }
+    std::vector<Aabb> tops;
+    for (const std::vector<Aabb>& of_rank : own)
+        for (const Aabb& top : tops_of(of_rank))
+            tops.push_back(top);
+    std::vector<Pair> found;
+    for (uint rank = 0; rank < ranks; ++rank) {
+        for (const Pair pair : brute_pairs(own[rank]))
+            found.push_back({ids[rank][pair.a], ids[rank][pair.b]});
+        for (const Pair& one : leaving(own[rank], wanted_from(rank, tops)))
+            for (const uint other : ids[one.b])
+                if (overlap(own[rank][one.a], boxes[other]))
+                    found.push_back({ids[rank][one.a], other});
+    }
+    return found;
+}
+
+TEST(Halo, GoesFromOneOfTwoRanksToTheOther)
+{
+    for (uint a = 0; a < 9; ++a) {
+        EXPECT_FALSE(sends_to(a, a));
+        uint receives = 0;
+        for (uint b = 0; b < 9; ++b) {
+            EXPECT_EQ(sends_to(a, b) != sends_to(b, a), a != b) << a << ", " << b;
+            receives += sends_to(b, a) ? 1u : 0u;
+        }
+        EXPECT_EQ(receives, 4u) << "of 9 ranks, each tests those of as many";
+    }
+}
+
+TEST(Halo, OfAnyPartsGivesEveryPairOnce)
+{
+    for (const float side : {0.0f, 0.05f, 0.6f})
+        for (const uint ranks : {1u, 2u, 3u, 5u, 8u}) {
+            const std::vector<Aabb> boxes = random_boxes(400, side, ranks);
+            std::mt19937 random(ranks);
+            std::vector<uint> part;
+            for (std::size_t k = 0; k < boxes.size(); ++k)
+                part.push_back(static_cast<uint>(random()) % ranks);
+            const PairList found(pairs_of_ranks(boxes, part, ranks));
+            EXPECT_EQ(found.surplus(), 0u);
+            EXPECT_EQ(found, PairList(brute_pairs(boxes)));
+        }
+}
+
+TEST(Halo, OfBoxesThatOnlyTouchIsComplete)
+{
+    std::vector<Aabb> boxes;
+    std::vector<uint> part;
+    for (uint k = 0; k < 64; ++k) {
+        const float x = static_cast<float>(k % 4), y = static_cast<float>(k / 4 % 4),
+                    z = static_cast<float>(k / 16);
+        boxes.push_back({x, y, z, x + 1, y + 1, z + 1});
+        part.push_back(k % 3);
+    }
+    EXPECT_EQ(PairList(pairs_of_ranks(boxes, part, 3)), PairList(brute_pairs(boxes)));
+}
+
+TEST(Halo, OfARankInsideAnotherIsComplete)
+{
+    std::vector<Aabb> boxes = random_boxes(300, 0.3f, 7);
+    std::vector<uint> part;
+    for (Aabb& box :
+         boxes) {  // rank 1 has the middle of what rank 0 has around it, rank 2 has nothing
+        const Point centre = box_centre(box);
+        part.push_back(std::max({std::abs(centre.x), std::abs(centre.y), std::abs(centre.z)}) <
+                       0.6f);
+    }
+    EXPECT_EQ(PairList(pairs_of_ranks(boxes, part, 3)), PairList(brute_pairs(boxes)));
+}
+
+TEST(Halo, IsSmallIfPartsAreBoxes)
+{
+    const std::vector<Aabb> boxes = random_boxes(20000, 0.01f, 3);
+    std::vector<Point> centres;
+    std::vector<uint> ids;
+    for (uint k = 0; k < boxes.size(); ++k) {
+        centres.push_back(box_centre(boxes[k]));
+        ids.push_back(k);
+    }
+    std::vector<uint> part;
+    on_ranks(1, [&](Ranks& ranks) {
+        part = partitioned({centres, ids}, PartitionBy::rcb, 8, ranks);
+    });
+    std::vector<std::vector<Aabb>> own(8);
+    for (uint k = 0; k < boxes.size(); ++k)
+        own[part[k]].push_back(boxes[k]);
+    std::vector<Aabb> tops;
+    for (const std::vector<Aabb>& of_rank : own)
+        for (const Aabb& top : tops_of(of_rank))
+            tops.push_back(top);
+    std::size_t left = 0;
+    for (uint rank = 0; rank < 8; ++rank)
+        left += leaving(own[rank], wanted_from(rank, tops)).size();
+    EXPECT_GT(left, 0u);
+    EXPECT_LT(left, boxes.size() / 20);
+}
+
+}  // namespace
+}  // namespace bvhbench

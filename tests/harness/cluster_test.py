@@ -1,0 +1,151 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Tests `cluster`: its lists, its file, its messages, and what is left when a rank is lost.
+
+CLUSTER_KILLS says how often ranks are killed; 3 if not set.
+"""
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import time
+import uuid
+
+from program import PROGRAM, SCHEMA, copied_kernels, expect, jsonschema, main, run, wait_until
+
+SHARED = ("--share-devices", "--force")
+
+
+def result(path: str) -> dict:
+    """Returns a result file, after holding it to its schema."""
+    document = json.loads(pathlib.Path(path).read_text())
+    if jsonschema:
+        jsonschema.Draft202012Validator(json.loads((SCHEMA.parent / "cluster-1.schema.json").read_text())).validate(document)
+    return document
+
+
+def test_lists_are_those_of_collide():
+    scenes = ["torus:20000", "n-body:6100:2"]
+    if os.environ.get("BVHBENCH_DATA"):
+        scenes.append("bunny_69451")
+    for scene in scenes:
+        expect(0, "collide", "--collider", "leaf", "--scene", scene, "--objects", "one", "--pairs", "one.csv", "--force", "--samples", "1")
+        wanted = pathlib.Path("one.csv").read_text()
+        assert wanted.count("\n") > 1000
+        for ranks, partition, builder in (("2", "rcb", "oibvh-multi"), ("3", "curve", "karras")):
+            out = expect(0, "cluster", scene, "--ranks", ranks, "--partition", partition, "--builder", builder, *SHARED,
+                         "--samples", "1", "--pairs", "c.csv", "--json", "c.json", says="verdict: agrees with one device")
+            assert pathlib.Path("c.csv").read_text() == wanted, (scene, ranks)
+            assert out.count("\n") < 12 and "times mean nothing" in out, out
+            document = result("c.json")
+            assert document["pairs_count"] == wanted.count("\n") - 1
+            rows = document["ranks"]
+            assert len(rows) == int(ranks) and all(row["samples"] == [] for row in rows)
+            assert sum(row["triangles"] for row in rows) == document["scene"]["triangles"]
+            assert sum(row["own_pairs_count"] + row["halo_pairs_count"] for row in rows) == document["pairs_count"]
+            sent = sum(row["halo_sent_count"] for row in rows)
+            assert sent == sum(row["halo_received_count"] for row in rows) > 0
+            assert abs(document["halo_share"] - sent / document["scene"]["triangles"]) < 1e-9
+
+
+def test_a_rank_with_a_device_of_its_own_is_timed():
+    out = expect(0, "cluster", "sphere:2000", "--ranks", "1", "--samples", "3", "--adjacent", "drop", "--json", "t.json", says="frame: ")
+    document = result("t.json")
+    row, = document["ranks"]
+    assert len(row["samples"]) == 3 and document["frame_ns"] == sorted(sample["whole_ns"] for sample in row["samples"])[1]
+    for sample in row["samples"]:
+        assert sum(stage["host_ns"] for stage in sample["stages"]) == sample["whole_ns"], sample
+    assert "build" in out and "exchange" in out and document["imbalance"] == 1
+
+
+def test_a_wrong_answer_is_found():
+    kernels = copied_kernels("planted", "cluster/leaving.cl", r"triangle < triangles", "triangle + 1u < triangles && triangle % 7u != 0u")
+    out = run("cluster", "torus:20000", "--ranks", "2", *SHARED, "--samples", "1", "--kernels", kernels, "--json", "w.json")
+    assert out.returncode == 1 and "verdict: DIFFERS from one device: it finds " in out.stdout and out.stderr == "", out
+    assert result("w.json")["check"]["verdict"] == "differs"
+
+
+def test_what_is_wrong_is_said_once():
+    few = ("cluster", "torus:2000", "--ranks", "2")
+    expect(3, *few, says="2 ranks on ")
+    expect(3, *few, says="need a device each, and one matches")
+    expect(2, "cluster", "torus:2000", says="--ranks says how many")
+    expect(2, *few, "--partition", "rbc", says="no partition is called 'rbc'; there are: rcb, curve")
+    expect(2, *few, "--builder", "karass", says="karras")
+    expect(2, "cluster", "bunnny", "--ranks", "2", says="no scene is called 'bunnny'")
+    expect(2, *few, *SHARED, "--builder", "sah-binned", says="leaves its tree in host memory")
+    expect(2, *few, *SHARED, "--collider", "grid", says="queries no tree")
+    expect(2, *few, *SHARED, "--builder", "karras", "--collider", "block", says="block needs a binary implicit tree")
+    expect(3, "cluster", "/none/x.obj", "--ranks", "2", *SHARED, says="rank 0 on ")
+    pathlib.Path("there.json").write_text("{}")
+    expect(2, *few, "--share-devices", "--json", "there.json", says="is there already")
+    assert pathlib.Path("there.json").read_text() == "{}"
+    pathlib.Path("empty").mkdir()
+    expect(3, *few, PATH="empty", says="mpirun, which starts the ranks, is in no folder of PATH")
+
+
+def processes_of(mark: str) -> list[tuple[int, str]]:
+    """Returns the processes whose environment has the mark: their numbers and ranks."""
+    found = []
+    for entry in pathlib.Path("/proc").iterdir():
+        if not entry.name.isdigit():
+            continue
+        try:
+            words = (entry / "environ").read_bytes().split(b"\0")
+        except OSError:  # it has ended, or is another user's
+            continue
+        if mark.encode() in words:
+            rank = next((word.split(b"=")[1] for word in words if word.startswith(b"OMPI_COMM_WORLD_RANK=")), b"")
+            found.append((int(entry.name), rank.decode()))
+    return found
+
+
+def started(seconds: float, *words: str) -> tuple[subprocess.Popen, str]:
+    """Starts ranks over frames that take long; returns when rank 1 has run for a while."""
+    mark = f"CLUSTER_TEST={uuid.uuid4().hex}"
+    child = subprocess.Popen([PROGRAM, "cluster", "torus:100000", "--ranks", "2", "--share-devices", "--samples", "5000", *words],
+                             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                             env={**os.environ, **dict([mark.split("=")])})
+    wait_until(lambda: child.poll() is not None or any(rank == "1" for _, rank in processes_of(mark)))
+    time.sleep(seconds)
+    return child, mark
+
+
+def ended(child: subprocess.Popen, mark: str) -> str:
+    """Returns what the program said at its end, after which none of its processes may be left."""
+    _, errors = child.communicate(timeout=120)
+    wait_until(lambda: not processes_of(mark), 20)
+    return errors
+
+
+def test_a_killed_rank_ends_all():
+    kills = int(os.environ.get("CLUSTER_KILLS", "3"))
+    for kill in range(kills):
+        rank = str(kill % 2)
+        child, mark = started(3.0 * kill / kills)
+        os.kill(max(process for process, of in processes_of(mark) if of == rank), signal.SIGKILL)
+        errors = ended(child, mark)
+        assert child.returncode == 4, (child.returncode, errors)
+        assert errors.startswith(f"bvhbench: rank {rank} on {os.uname().nodename} was ended by signal 9 (Killed)"), errors
+        assert errors.count("\n") == 1, errors
+
+
+def test_a_rank_that_hangs_ends_within_the_time_limit():
+    child, mark = started(2, "--time-limit", "4")
+    os.kill(max(process for process, of in processes_of(mark) if of == "1"), signal.SIGSTOP)
+    errors = ended(child, mark)
+    assert child.returncode == 3 and "took longer than 4 s" in errors and errors.startswith("bvhbench: rank "), errors
+    assert errors.count("\n") == 1, errors
+
+
+def test_ranks_end_with_what_started_them():
+    for which, code in (signal.SIGTERM, 143), (signal.SIGKILL, -9):
+        child, mark = started(1)
+        child.send_signal(which)
+        ended(child, mark)
+        assert child.returncode == code, child.returncode
+
+
+sys.exit(main(globals()))
