@@ -86,7 +86,8 @@ private:
         task_.pipeline.collider.keep_adjacent = choice_.collider.keep_adjacent;
         check_choice({task_.pipeline.builder, task_.pipeline.collider});
         find_order(task_.pipeline.builder.order);
-        if (!pairs_.empty())
+        task_.wants_pairs = !pairs_.empty();
+        if (task_.wants_pairs)
             check_pairs_path(pairs_, {});
         triangles_said(task_.scene);  // throws for a name that no scene can have
         const std::optional<unsigned> started = ranks_started();

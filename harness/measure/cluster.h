@@ -13,13 +13,15 @@ struct ClusterTask {
     PartitionBy partition = PartitionBy::rcb;
     PipelineChoice pipeline;
     int samples = 5;
-    bool share_devices = false;  ///< whether ranks of a host may have one device
+    std::uint64_t most_gathered = 100'000'000;  ///< pairs that the first rank lists
+    bool wants_pairs = false;                   ///< it lists them however many there are
+    bool share_devices = false;                 ///< whether ranks of a host may have one device
 };
 
 /// What rank 0 has at the end; the other ranks have empty ones.
 struct ClusterFound {
-    Scene scene;  ///< all triangles as one object
-    PairList pairs;
+    Scene scene;     ///< all triangles as one object
+    PairList pairs;  ///< of all ranks; empty if they are too many to be gathered unasked
     ClusterResult result;
 };
 

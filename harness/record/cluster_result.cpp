@@ -75,6 +75,8 @@ double halo_share(const ClusterResult& result)
     return static_cast<double>(halo_sent(result)) / static_cast<double>(result.scene.triangles);
 }
 
+std::string set_hash(const PairFacts& pairs) { return hex(pairs.high) + hex(pairs.low); }
+
 std::string verdict_line(const ClusterResult& result)
 {
     const Check& check = result.check;
@@ -83,10 +85,8 @@ std::string verdict_line(const ClusterResult& result)
                        : check.verdict == Check::Verdict::differs
                            ? "verdict: DIFFERS from " + check.against + ": " + check.detail
                            : "verdict: not checked: " + check.detail;
-    line += ", pairs " + std::to_string(result.pairs);
-    if (check.pairs_hash)
-        line += ", hash " + hex(*check.pairs_hash);
-    return line;
+    return line + ", pairs " + std::to_string(result.pairs.count) + ", set hash " +
+           set_hash(result.pairs);
 }
 
 /// Returns a row for each rank: what it has, sends and finds.
@@ -171,7 +171,8 @@ Json cluster_json(const ClusterResult& result, Json run, const std::string& mpi)
     }
     json["halo_share"] = halo_share(result);
     json["imbalance"] = imbalance(result);
-    json["pairs_count"] = result.pairs;
+    json["pairs_count"] = result.pairs.count;
+    json["pairs_set_hash"] = set_hash(result.pairs);
     json["check"] = {{"verdict", verdict_name(result.check.verdict)},
                      {"against", result.check.against},
                      {"detail", result.check.detail}};

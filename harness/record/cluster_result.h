@@ -28,8 +28,8 @@ struct ClusterResult {
         false;  ///< several ranks had one device: times mean nothing and are left out
     std::int64_t partition_ns = 0;  ///< host clock: cutting, and moving triangles to their ranks
     std::vector<ClusterRank> ranks;
-    std::uint64_t pairs = 0;
-    Check check;
+    PairFacts pairs;  ///< of all ranks together
+    Check check;      ///< has no hash of the list if only facts were compared
 };
 
 /// Returns the document, with `run`, the facts of the run, and the MPI library's name.

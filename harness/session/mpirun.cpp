@@ -82,7 +82,10 @@ std::string lost_rank(const std::string& text)
 
 std::optional<unsigned> ranks_started()
 {
-    for (const char* variable : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"})
+    // Open MPI's mpirun, MPICH's and Slurm's PMI-2, and Slurm's PMIx, which has no variable of its own for the number.
+    const bool is_slurm = std::getenv("PMIX_RANK") != nullptr;
+    for (const char* variable :
+         {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", is_slurm ? "SLURM_NTASKS" : ""})
         if (const char* value = std::getenv(variable); value != nullptr) {
             const std::string_view text = value;
             unsigned count = 0;

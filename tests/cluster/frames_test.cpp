@@ -9,6 +9,7 @@
 #include "collide/oracles/sweep.h"
 #include "harness/choice/catalog.h"
 #include "harness/judge/hard_inputs.h"
+#include "harness/measure/cluster.h"
 #include "scenes/catalog.h"
 #include "tests/cluster/rank_tests.h"
 
@@ -156,6 +157,26 @@ TEST_F(Frames, OfASphereInASphereHaveThePairsOfTheOracle)
         to.push_back((id < faces ? 0u : 1u) % ranks->count());
     share = moved(share, to, *ranks);
     hold_frame(mesh, share, pipelines().front(), "a domain in another");
+}
+
+TEST_F(Frames, AreJudgedByListsOrByFactsAlone)
+{
+    Session session(CommonOptions{});
+    ClusterTask task;
+    task.scene = "torus:3000";
+    task.pipeline = {{.name = "oibvh-multi"}, {.name = "leaf"}};
+    task.samples = 1;
+    task.share_devices = true;
+    for (const bool gathers : {true, false}) {
+        task.most_gathered = gathers ? 100000 : 10;
+        const ClusterFound found = run_cluster(*ranks, session, task);
+        if (ranks->rank() != 0)
+            continue;
+        EXPECT_EQ(found.result.check.verdict, Check::Verdict::agrees) << found.result.check.detail;
+        EXPECT_EQ(found.result.check.pairs_hash.has_value(), gathers);
+        EXPECT_EQ(found.pairs.size(), gathers ? found.result.pairs.count : 0u);
+        EXPECT_GT(found.result.pairs.count, 10000u);
+    }
 }
 
 }  // namespace

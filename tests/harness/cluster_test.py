@@ -33,6 +33,7 @@ def test_lists_are_those_of_collide():
     for scene in scenes:
         expect(0, "collide", "--collider", "leaf", "--scene", scene, "--objects", "one", "--pairs", "one.csv", "--force", "--samples", "1")
         wanted = pathlib.Path("one.csv").read_text()
+        hashes = set()
         assert wanted.count("\n") > 1000
         for ranks, partition, builder in (("2", "rcb", "oibvh-multi"), ("3", "curve", "karras")):
             out = expect(0, "cluster", scene, "--ranks", ranks, "--partition", partition, "--builder", builder, *SHARED,
@@ -41,12 +42,14 @@ def test_lists_are_those_of_collide():
             assert out.count("\n") < 12 and "times mean nothing" in out, out
             document = result("c.json")
             assert document["pairs_count"] == wanted.count("\n") - 1
+            hashes.add(document["pairs_set_hash"])
             rows = document["ranks"]
             assert len(rows) == int(ranks) and all(row["samples"] == [] for row in rows)
             assert sum(row["triangles"] for row in rows) == document["scene"]["triangles"]
             assert sum(row["own_pairs_count"] + row["halo_pairs_count"] for row in rows) == document["pairs_count"]
             sent = sum(row["halo_sent_count"] for row in rows)
             assert sent == sum(row["halo_received_count"] for row in rows) > 0
+            assert len(hashes) == 1
             assert abs(document["halo_share"] - sent / document["scene"]["triangles"]) < 1e-9
 
 
