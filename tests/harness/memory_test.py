@@ -198,13 +198,13 @@ def test_files_of_numbers_that_are_short_meet_the_limit():
 def test_a_group_of_processes_limits_without_being_asked():
     limit, scene = (1536, "torus:6000000") if FULL else (800, "torus:3000000")
     for limit, words in ((limit, ("build", "--builder", "karras", "--scene", scene, "--samples", "1")),
-                         (600, ("collide", "--collider", "leaf", "--scene", copies(10000), "--samples", "1"))):
+                         (450, ("collide", "--collider", "leaf", "--scene", copies(10000), "--samples", "1"))):
         with group_of(limit * MIB) as group:
             # Address space exceeds memory, because drivers map much that they hardly use.
             done = measured(*words, group=group, ulimit=0 if group else (limit + 600) * MIB)
             refused(done, "out of host memory: ", "out of device memory: ")
-    with group_of(700 * MIB) as group:
-        around_one_too_large(group=group, ulimit=0 if group else 1300 * MIB)
+    with group_of(500 * MIB) as group:
+        around_one_too_large(group=group, ulimit=0 if group else 1100 * MIB)
         if not group:
             print("  no control group can be made here: RLIMIT_AS in its place")
 
