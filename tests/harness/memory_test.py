@@ -156,7 +156,7 @@ def test_a_run_goes_on_behind_a_scene_that_is_too_large():
     assert all("out of " in cell["reason"] and " memory: " in cell["reason"] for cell in result["cells"][2:4]), result["cells"]
     memory = result["run"]["host_memory"]
     assert 64 * MIB < memory["predicted_bytes"] <= LIMIT and memory["given_bytes"] == LIMIT, memory
-    # The process takes some 3 MiB more after it has written the file, with and without Open MPI; the cause is not found yet.
+    # On some kernels the process ends with 3 MiB more than VmHWM told when its destructors began, as it did before this bound was 4.
     assert -4 <= memory["peak_bytes"] // MIB - peaks[-1][1] <= 1, (memory, peaks[-1])
     assert f"memory: {memory['peak_bytes'] // MIB} MiB at most, " in expect(0, "show", "three-out.json")
 
