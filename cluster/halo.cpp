@@ -6,10 +6,20 @@
 namespace bvhbench {
 namespace {
 
-bool overlaps_any(const Aabb& box, std::span<const Aabb> boxes)
+/// Returns the part of `box` that triangles inside `boxes` can meet: its common part with the box around those that overlap it.
+/// Empty if none does.
+Aabb part_inside(const Aabb& box, std::span<const Aabb> boxes)
 {
-    return std::ranges::any_of(boxes, [&](const Aabb& other) { return overlap(box, other); });
+    Aabb around = empty_box();
+    for (const Aabb& other : boxes)
+        if (overlap(box, other))
+            around = merged(around, other);
+    return {std::max(box.min_x, around.min_x), std::max(box.min_y, around.min_y),
+            std::max(box.min_z, around.min_z), std::min(box.max_x, around.max_x),
+            std::min(box.max_y, around.max_y), std::min(box.max_z, around.max_z)};
 }
+
+bool is_empty(const Aabb& box) { return box.min_x > box.max_x; }
 
 }  // namespace
 
@@ -23,9 +33,10 @@ WantedBoxes wanted_from(uint own, std::span<const Aabb> tops)
     for (uint rank = 0; rank < tops.size() / top_boxes; ++rank)
         if (sends_to(own, rank))
             for (const Aabb& box : of_rank(rank))
-                if (overlaps_any(box, of_rank(own))) {
-                    wanted.boxes.push_back(box);
+                if (const Aabb part = part_inside(box, of_rank(own)); !is_empty(part)) {
+                    wanted.boxes.push_back(part);
                     wanted.ranks.push_back(rank);
+                    wanted.around = merged(wanted.around, part);
                 }
     return wanted;
 }

@@ -30,11 +30,12 @@ constexpr bool sends_to(uint from, uint to)
 /// The boxes of other ranks that a rank's triangles are tested against, by rank.
 struct WantedBoxes {
     std::vector<Aabb> boxes;
-    std::vector<uint> ranks;  ///< of each box, ascending
+    std::vector<uint> ranks;    ///< of each box, ascending
+    Aabb around = empty_box();  ///< of all boxes
 };
 
 /// Returns the boxes, among `tops`, `top_boxes` of each rank one after the other, of the ranks that `own` sends to. Leaves out
-/// those that overlap none of its own, and empty ones.
+/// those that overlap none of its own, and empty ones, and cuts the others to what its own triangles can meet.
 WantedBoxes wanted_from(uint own, std::span<const Aabb> tops);
 
 /// Returns the triangles that leave, with the rank that each goes to, by triangle; a triangle may leave to several ranks. The slow

@@ -7,7 +7,8 @@
 
 #include "geometry/box_words.clh"
 
-/// Writes (triangle, rank) once for each rank, of ranks[] ascending, that a triangle leaves to. Its boxes are wanted[].
+/// Writes (triangle, rank) once for each rank, of ranks[] ascending, that a triangle leaves to. Its boxes are wanted[], followed by
+/// the box around them all.
 __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void leaving(
     global const Point* points, global const Face* faces, const uint triangles,
     global const BoxWord* wanted, global const uint* ranks, const uint wanted_count,
@@ -20,7 +21,8 @@ __attribute__((reqd_work_group_size(GROUP_SIZE, 1, 1))) kernel void leaving(
         const Face face = faces[triangle];
         const Aabb box = triangle_box(points[face.a], points[face.b], points[face.c]);
         uint last = 0xffffffffu;  // the rank it was last found to leave to
-        for (uint k = 0u; k < wanted_count; ++k)
+        const uint count = overlap(box, load_box(wanted, wanted_count)) ? wanted_count : 0u;
+        for (uint k = 0u; k < count; ++k)
             if (ranks[k] != last && overlap(box, load_box(wanted, k))) {
                 last = ranks[k];
                 put(SINK, (uint2)(triangle, last));

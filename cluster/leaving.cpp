@@ -18,12 +18,14 @@ Leaving::Leaving(Programs& programs)
 
 void Leaving::want(const WantedBoxes& wanted, Queue& queue)
 {
-    if (boxes_.size() < wanted.boxes.size())
+    std::vector<Aabb> boxes = wanted.boxes;
+    boxes.push_back(wanted.around);
+    if (boxes_.size() < boxes.size())
         take_memory(wanted_arena_, device(), [&](Arena& arena) {
-            boxes_ = arena.take<Aabb>(wanted.boxes.size(), Use::scratch);
+            boxes_ = arena.take<Aabb>(boxes.size(), Use::scratch);
             ranks_ = arena.take<uint>(wanted.boxes.size(), Use::scratch);
         });
-    boxes_.upload(queue.cl(), wanted.boxes);
+    boxes_.upload(queue.cl(), boxes);
     ranks_.upload(queue.cl(), wanted.ranks);
     wanted_count_ = static_cast<uint>(wanted.boxes.size());
 }
