@@ -73,37 +73,37 @@ public:
         return all;
     }
 
-    /// Sends to those ranks only that something goes to. The sizes go to all.
-    std::vector<Bytes> exchanged(std::vector<Bytes> to) override
+    std::vector<std::uint64_t> exchanged(std::span<const std::uint64_t> to) override
     {
         assert(to.size() == count_);
-        std::vector<std::uint64_t> sizes(count_), sizes_here(count_);
-        std::ranges::transform(to, sizes.begin(), &Bytes::size);
-        MPI_Alltoall(sizes.data(), 1, MPI_UINT64_T, sizes_here.data(), 1, MPI_UINT64_T,
-                     MPI_COMM_WORLD);
-        std::vector<Bytes> from(count_);
+        std::vector<std::uint64_t> from(count_);
+        MPI_Alltoall(to.data(), 1, MPI_UINT64_T, from.data(), 1, MPI_UINT64_T, MPI_COMM_WORLD);
+        return from;
+    }
+
+    void exchange(std::span<const std::span<const std::byte>> to,
+                  std::span<const std::span<std::byte>> from) override
+    {
+        assert(to.size() == count_ && from.size() == count_);
         std::vector<MPI_Request> requests;
-        const auto in_pieces = [&](Bytes& bytes, const auto& begin) {
+        const auto in_pieces = [&](auto bytes, const auto& begin) {
             for (std::size_t first = 0; first < bytes.size(); first += most_at_once_)
                 begin(bytes.data() + first, as_count(std::min(most_at_once_, bytes.size() - first)),
                       &requests.emplace_back());
         };
-        from[rank_] = std::move(to[rank_]);
         for (uint k = 1; k < count_; ++k) {
             const uint source = (rank_ + count_ - k) % count_;
-            from[source].resize(sizes_here[source]);
             in_pieces(from[source], [&](std::byte* at, int size, MPI_Request* request) {
                 MPI_Irecv(at, size, MPI_BYTE, as_count(source), 0, MPI_COMM_WORLD, request);
             });
         }
         for (uint k = 1; k < count_; ++k) {
             const uint target = (rank_ + k) % count_;
-            in_pieces(to[target], [&](std::byte* at, int size, MPI_Request* request) {
+            in_pieces(to[target], [&](const std::byte* at, int size, MPI_Request* request) {
                 MPI_Isend(at, size, MPI_BYTE, as_count(target), 0, MPI_COMM_WORLD, request);
             });
         }
         MPI_Waitall(as_count(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
-        return from;
     }
 
 private:

@@ -7,6 +7,7 @@
 #include <cassert>
 #include <compare>
 
+#include "geometry/cores.h"
 #include "geometry/grid.h"
 #include "geometry/hilbert.h"
 
@@ -131,11 +132,15 @@ private:
     void key_by_curve()
     {
         const Bounds bounds = {empty_box(), group_boxes().front()};
-        for (std::size_t k = 0; k < keys_.size(); ++k) {
-            const Point at = placed_.centres[k];
-            const Aabb box = {at.x, at.y, at.z, at.x, at.y, at.z};
-            keys_[k] = {hilbert_63(cubic_cell(box, bounds, 0x1p21f)), placed_.ids[k]};
-        }
+        constexpr std::size_t block = 1 << 16;
+        on_all_cores((keys_.size() + block - 1) / block, [&](std::size_t part) {
+            for (std::size_t k = part * block; k < std::min(keys_.size(), (part + 1) * block);
+                 ++k) {
+                const Point at = placed_.centres[k];
+                const Aabb box = {at.x, at.y, at.z, at.x, at.y, at.z};
+                keys_[k] = {hilbert_63(cubic_cell(box, bounds, 0x1p21f)), placed_.ids[k]};
+            }
+        });
     }
 
     void weigh()
@@ -166,12 +171,17 @@ private:
         std::vector<std::uint64_t> room;
         for (const Group& group : groups_)
             room.push_back(wanted(group));
-        std::vector<bool> agrees(keys_.size(), true);  // with all bytes found so far
-        for (uint byte = by_ == PartitionBy::rcb ? 4 : 0; byte < Key::bytes; ++byte) {
+        std::vector<uint>
+            agree;  // triangles whose keys have all bytes found so far; before the first, all do
+        const uint first_byte = by_ == PartitionBy::rcb ? 4 : 0;
+        for (uint byte = first_byte; byte < Key::bytes; ++byte) {
             std::vector<std::uint64_t> sums(digits * groups_.size());
-            for (std::size_t k = 0; k < keys_.size(); ++k)
-                if (agrees[k])
-                    sums[digits * group_[k] + keys_[k].byte(byte)] += weight(k);
+            const bool is_first = byte == first_byte;
+            const std::size_t count = is_first ? keys_.size() : agree.size();
+            for (std::size_t i = 0; i < count; ++i) {
+                const std::size_t k = is_first ? i : agree[i];
+                sums[digits * group_[k] + keys_[k].byte(byte)] += weight(k);
+            }
             ranks_.sum(sums);
             for (std::size_t g = 0; g < groups_.size(); ++g) {
                 uint digit = 0;
@@ -179,8 +189,18 @@ private:
                     room[g] -= sums[digits * g + digit++];
                 found[g] = found[g].with(byte, digit);
             }
-            for (std::size_t k = 0; k < keys_.size(); ++k)
-                agrees[k] = agrees[k] && keys_[k].byte(byte) == found[group_[k]].byte(byte);
+            std::size_t kept = 0;
+            for (std::size_t i = 0; i < count; ++i) {
+                const std::size_t k = is_first ? i : agree[i];
+                if (keys_[k].byte(byte) != found[group_[k]].byte(byte))
+                    continue;
+                if (is_first)
+                    agree.push_back(static_cast<uint>(k));
+                else
+                    agree[kept++] = static_cast<uint>(k);
+            }
+            if (!is_first)
+                agree.resize(kept);
         }
         return found;
     }

@@ -40,8 +40,13 @@ public:
     /// Returns the bytes of all ranks, one after the other. All ranks pass equally many.
     virtual Bytes gathered(std::span<const std::byte> own) = 0;
 
-    /// Sends `to[r]` to rank r. Returns what each rank sent to this one, by rank. Any number of bytes, none included.
-    virtual std::vector<Bytes> exchanged(std::vector<Bytes> to) = 0;
+    /// Tells each rank r the number `to[r]`. Returns what each rank told this one, by rank.
+    virtual std::vector<std::uint64_t> exchanged(std::span<const std::uint64_t> to) = 0;
+
+    /// Sends `to[r]` to rank r and fills `from[r]` with what rank r sends to this one: as many bytes as that rank sends. Any number
+    /// of bytes, none included; none to itself.
+    virtual void exchange(std::span<const std::span<const std::byte>> to,
+                          std::span<const std::span<std::byte>> from) = 0;
 };
 
 /// Returns the values of all ranks, one rank after the other. All ranks pass equally many.
@@ -62,20 +67,24 @@ std::vector<std::vector<T>> exchanged(Ranks& ranks, std::vector<std::vector<T>> 
 {
     static_assert(std::is_trivially_copyable_v<T>, "messages are plain bytes");
     assert(to.size() == ranks.count());
-    std::vector<Bytes> bytes(to.size());
+    std::vector<std::vector<T>> from(to.size());
+    from[ranks.rank()] = std::move(to[ranks.rank()]);
+    to[ranks.rank()].clear();
+    std::vector<std::uint64_t> counts;
+    for (const std::vector<T>& values : to)
+        counts.push_back(values.size());
+    counts = ranks.exchanged(counts);
+    std::vector<std::span<const std::byte>> sent;
+    std::vector<std::span<std::byte>> received;
     for (std::size_t rank = 0; rank < to.size(); ++rank) {
-        const auto values = std::as_bytes(std::span<const T>(to[rank]));
-        bytes[rank].assign(values.begin(), values.end());
-        to[rank] = {};
+        if (rank != ranks.rank())
+            from[rank].resize(counts[rank]);
+        sent.push_back(std::as_bytes(std::span(to[rank])));
+        received.push_back(rank == ranks.rank() ? std::span<std::byte>()
+                                                : std::as_writable_bytes(std::span(from[rank])));
     }
-    bytes = ranks.exchanged(std::move(bytes));
-    for (std::size_t rank = 0; rank < to.size(); ++rank) {
-        to[rank].resize(bytes[rank].size() / sizeof(T));
-        if (!to[rank].empty())
-            std::memcpy(to[rank].data(), bytes[rank].data(), bytes[rank].size());
-        bytes[rank] = {};
-    }
-    return to;
+    ranks.exchange(sent, received);
+    return from;
 }
 
 }  // namespace bvhbench

@@ -36,14 +36,17 @@ struct Share {
     }
 };
 
-/// Returns the share of the triangles `carried`, in any order, each once.
-Share share_of(std::vector<CarriedTriangle> carried);
+/// Returns the share of the triangles of several lists, in any order, each once. Ascending ones take less time and memory.
+Share share_of(std::vector<std::vector<CarriedTriangle>> carried);
+
+/// Returns the share of a run of triangles, which are numbered from `first_id` on.
+Share share_of(MeshRun run, uint first_id);
 
 /// Distributes a mesh that rank `holder` has and no other needs, in runs of consecutive triangles of about equal sizes.
 Share dealt(std::span<const Point> points, std::span<const Face> faces, uint holder, Ranks& ranks);
 
 /// Moves each triangle k of this rank to rank to[k]. Returns the triangles that the rank has then.
-Share moved(const Share& share, std::span<const uint> to, Ranks& ranks);
+Share moved(Share share, std::span<const uint> to, Ranks& ranks);
 
 /// Returns the centres of the triangles' boxes.
 std::vector<Point> box_centres(const Share& share);

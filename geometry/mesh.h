@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,14 @@ struct FaceRange {
     uint count = 0;
 
     bool operator==(const FaceRange&) const = default;
+};
+
+/// Some consecutive triangles of a mesh, and the points that they use.
+struct MeshRun {
+    std::vector<Face> faces;  ///< corners as numbered in the mesh
+    std::vector<Point> points;
+    std::vector<uint> vertices;     ///< number of each point in the mesh, ascending
+    std::uint64_t mesh_points = 0;  ///< points of the whole mesh
 };
 
 /// Returns the box of triangle `face`.

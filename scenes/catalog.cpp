@@ -280,6 +280,24 @@ std::string scene_name(std::string_view text)
     return name;
 }
 
+std::optional<ScenePart> load_part(std::string_view text, uint part, uint parts)
+{
+    const Parts words(text);
+    const Generator* const generator = generator_called(words.head);
+    if (taken_apart(text) || manifest_entry(text) != nullptr || generator == nullptr ||
+        generator->run == nullptr)
+        return std::nullopt;
+    ScenePart made;
+    made.triangles = triangle_count(text, words.rest, generator->most);
+    const auto begin = [&](uint k) { return static_cast<uint>(made.triangles * k / parts); };
+    made.run = {begin(part), begin(part + 1) - begin(part)};
+    require_memory(text, std::uint64_t{generator->bytes_a_triangle} * made.run.count);
+    made.mesh = generator->run(static_cast<uint>(made.triangles), made.run);
+    for (Point& point : made.mesh.points)
+        point = {point.x + 0.0f, point.y + 0.0f, point.z + 0.0f};  // -0 + 0 is +0
+    return made;
+}
+
 bool is_sized_generator(std::string_view text) { return generator_called(text) != nullptr; }
 
 Scene load_scene(std::string_view text, const SceneLibrary& library)

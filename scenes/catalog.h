@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,6 +30,17 @@ struct SceneLibrary {
 /// Throws BadUsage, listing the known scenes, if no scene has this name. Throws Unavailable, with one sentence that gives the
 /// reason, if a file is missing, malformed, or holds something that is not a valid scene.
 Scene load_scene(std::string_view text, const SceneLibrary& library);
+
+/// Some consecutive triangles of a scene's first frame.
+struct ScenePart {
+    MeshRun mesh;
+    FaceRange run;                ///< among all triangles
+    std::uint64_t triangles = 0;  ///< of the scene
+};
+
+/// Makes part `part` of `parts` of the scene `text`, without making the others; parts have about equal sizes, in order. Nothing if
+/// the scene must be loaded whole. Throws as load_scene does.
+std::optional<ScenePart> load_part(std::string_view text, uint part, uint parts);
 
 /// Returns the name of the scene `text` with counts in digits, the same for every way to write them: "torus:100000" for
 /// "torus:100k". What is no count stays as it is.

@@ -16,17 +16,38 @@ namespace {
 
 constexpr uint first_rank = 0;  ///< reads the scene and gathers what is found
 
-/// Returns the triangles of this rank, of the scene that the first rank has.
-Share partitioned_share(const Scene& scene, PartitionBy by, Ranks& ranks, std::int64_t& took_ns)
+Scene whole_scene(const ClusterTask& task, Session& session)
 {
-    const bool is_first = ranks.rank() == first_rank;
-    const Share run = dealt(is_first ? scene.frames.front() : std::vector<Point>(), scene.faces,
-                            first_rank, ranks);
+    return with_objects(load_scene(task.scene, session.scenes()), ObjectsBy::one);
+}
+
+/// Returns a run of consecutive triangles of the scene for this rank, and the scene's name and sizes. The rank makes the run itself,
+/// or the first rank loads the scene and deals it out.
+Share first_share(const ClusterTask& task, Session& session, Ranks& ranks, SceneFacts& facts)
+{
+    facts.name = scene_name(task.scene);
+    if (std::optional<ScenePart> part = load_part(task.scene, ranks.rank(), ranks.count())) {
+        facts.triangles = static_cast<std::int64_t>(part->triangles);
+        facts.vertices = static_cast<std::int64_t>(part->mesh.mesh_points);
+        return share_of(std::move(part->mesh), part->run.first);
+    }
+    if (ranks.rank() != first_rank)
+        return dealt({}, {}, first_rank, ranks);
+    const Scene scene = whole_scene(task, session);
+    facts.triangles = scene.triangle_count();
+    facts.vertices = std::ssize(scene.frames.front());
+    return dealt(scene.frames.front(), scene.faces, first_rank, ranks);
+}
+
+/// Returns the triangles of this rank's part.
+Share partitioned_share(Share run, PartitionBy by, Ranks& ranks, std::int64_t& took_ns)
+{
     ranks.wait_for_all();
     const auto start = std::chrono::steady_clock::now();
-    const std::vector<Point> centres = box_centres(run);
+    std::vector<Point> centres = box_centres(run);
     const std::vector<uint> to = partitioned({centres, run.ids}, by, ranks.count(), ranks);
-    Share share = moved(run, to, ranks);
+    centres = {};
+    Share share = moved(std::move(run), to, ranks);
     ranks.wait_for_all();
     took_ns = std::chrono::nanoseconds(std::chrono::steady_clock::now() - start).count();
     return share;
@@ -132,8 +153,6 @@ ClusterFound run_cluster(HostedRanks& ranks, Session& session, const ClusterTask
 {
     ClusterFound found;
     ClusterResult& result = found.result;
-    if (ranks.rank() == first_rank)
-        found.scene = with_objects(load_scene(task.scene, session.scenes()), ObjectsBy::one);
     std::vector<RankFrame> frames;
     std::vector<Pair> own;
     std::uint64_t triangles = 0;
@@ -142,7 +161,8 @@ ClusterFound run_cluster(HostedRanks& ranks, Session& session, const ClusterTask
         const auto collider = make_collider(task.pipeline.collider, session.programs());
         DistributedFrame frame(ranks, session.programs(), session.queue(), *builder, *collider,
                                task.pipeline.collider.keep_adjacent);
-        Share share = partitioned_share(found.scene, task.partition, ranks, result.partition_ns);
+        Share share = partitioned_share(first_share(task, session, ranks, result.scene),
+                                        task.partition, ranks, result.partition_ns);
         triangles = share.triangle_count();
         const auto watched = [&](const auto& work) {
             const watchdog::Watch watch;
@@ -167,9 +187,7 @@ ClusterFound run_cluster(HostedRanks& ranks, Session& session, const ClusterTask
     }
     if (ranks.rank() != first_rank)
         return found;
-    result.scene.name = found.scene.name;
-    result.scene.triangles = found.scene.triangle_count();
-    result.scene.vertices = std::ssize(found.scene.frames.front());
+    found.scene = whole_scene(task, session);
     result.scene.content_hash = found.scene.content_hash;
     result.partition = task.partition;
     result.pipeline = task.pipeline;

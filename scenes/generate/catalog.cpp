@@ -19,9 +19,10 @@ Scene still(uint triangles, uint)
 }
 
 constexpr Generator standing(std::string_view name, Scene (*make)(uint, uint), uint most,
-                             uint bytes_a_triangle, std::string_view summary)
+                             uint bytes_a_triangle, std::string_view summary,
+                             MeshRun (*run)(uint, FaceRange) = nullptr)
 {
-    return {name, make, false, 1, most, bytes_a_triangle, 0, summary};
+    return {name, make, false, 1, most, bytes_a_triangle, 0, summary, run};
 }
 
 constexpr Generator moving(std::string_view name, Scene (*make)(uint, uint), uint objects,
@@ -36,15 +37,15 @@ constexpr uint unshared = 0xffffffffu / 3;
 // To add a generator, add its line here. There is no automatic registration.
 constexpr Generator catalog[] = {
     standing("torus", still<make_torus>, any, 18,
-             "a bumpy torus: an even closed surface, like a scanned model"),
+             "a bumpy torus: an even closed surface, like a scanned model", torus_run),
     standing("sphere", still<make_sphere>, any, 18,
              "a sphere, closed when N is even and at least 6"),
     standing("grid", still<make_grid>, any, 18,
-             "a flat sheet: boxes without volume that touch exactly"),
+             "a flat sheet: boxes without volume that touch exactly", grid_run),
     standing("hairball", still<make_hairball>, any, 19,
-             "long thin curling strands: boxes overlap, triangles do not"),
+             "long thin curling strands: boxes overlap, triangles do not", hairball_run),
     standing("soup", still<make_soup>, unshared, 48,
-             "small random triangles in the unit cube, no shared vertices"),
+             "small random triangles in the unit cube, no shared vertices", soup_run),
     moving("cloth-ball", make_cloth_ball, 2, "a cloth falls on a ball that turns; 2 objects"),
     moving("cloth-layers", make_cloth_layers, 4,
            "three cloths fall on a ball that turns; 4 objects"),

@@ -13,6 +13,13 @@
 
 namespace bvhbench {
 
+/// Functions called ..._run make some triangles of the mesh of `triangles` triangles that the function make_... makes, without
+/// making the others.
+MeshRun torus_run(uint triangles, FaceRange run);
+MeshRun grid_run(uint triangles, FaceRange run);
+MeshRun hairball_run(uint triangles, FaceRange run);
+MeshRun soup_run(uint triangles, FaceRange run);
+
 /// A bumpy torus, an evenly tessellated closed surface: the usual stand-in for a scanned model. Vertices at the two seams are
 /// not shared.
 Mesh make_torus(uint triangles);
@@ -72,6 +79,8 @@ struct Generator {
     uint bytes_a_triangle;  ///< approximate memory per triangle, and
     uint bytes_a_frame;     ///< memory per triangle and frame
     std::string_view summary;
+    /// Makes some triangles of a mesh; null if only the whole can be made.
+    MeshRun (*run)(uint triangles, FaceRange run) = nullptr;
 };
 
 /// Returns all generators, those of one frame first.

@@ -8,6 +8,7 @@
 //                 ...           a strand near the outer sphere is turned inwards
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "scenes/generate/generators.h"
 #include "scenes/generate/random.h"
@@ -75,19 +76,39 @@ void add_strand(Mesh& mesh, Random& random, uint segment_count)
 
 }  // namespace
 
+MeshRun hairball_run(uint triangles, FaceRange run)
+{
+    constexpr uint strand_faces = 6 * segments, strand_points = 3 * (segments + 1);
+    const uint strands = triangles / strand_faces, rest = triangles % strand_faces;
+    const uint rest_points = rest == 0 ? 0 : 3 * ((rest + 5) / 6 + 1);
+    MeshRun made;
+    made.mesh_points = std::size_t{strands} * strand_points + rest_points;
+    if (run.count == 0)
+        return made;
+    const uint first = run.first / strand_faces,
+               end = (run.first + run.count - 1) / strand_faces + 1;
+    Mesh mesh;
+    mesh.faces.reserve(std::size_t{end - first} * strand_faces);
+    mesh.points.reserve(std::size_t{end - first} * strand_points);
+    for (uint strand = first; strand < end; ++strand) {
+        Random random(strand);  // a strand does not depend on N
+        add_strand(mesh, random, strand < strands ? segments : (rest + 5) / 6);
+    }
+    const auto faces = mesh.faces.begin() + (run.first - first * strand_faces);
+    made.faces.assign(faces, faces + run.count);
+    const uint first_point = first * strand_points;
+    for (Face& face : made.faces)
+        face = {face.a + first_point, face.b + first_point, face.c + first_point};
+    made.points = std::move(mesh.points);
+    made.vertices.resize(made.points.size());
+    std::iota(made.vertices.begin(), made.vertices.end(), first_point);
+    return made;
+}
+
 Mesh make_hairball(uint triangles)
 {
-    Mesh mesh;
-    mesh.faces.reserve(std::size_t{triangles} + 6);
-    mesh.points.reserve(std::size_t{triangles} / 2 + triangles / (2 * segments) + 6);
-    for (uint strand = 0; mesh.faces.size() < triangles; ++strand) {
-        Random random(strand);  // a strand does not depend on N
-        const std::size_t missing = triangles - mesh.faces.size();
-        const std::size_t length = std::min<std::size_t>(segments, (missing + 5) / 6);
-        add_strand(mesh, random, static_cast<uint>(length));
-    }
-    mesh.faces.resize(triangles);
-    return mesh;
+    MeshRun made = hairball_run(triangles, {0, triangles});
+    return {std::move(made.points), std::move(made.faces)};
 }
 
 }  // namespace bvhbench

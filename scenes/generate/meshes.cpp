@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "scenes/generate/generators.h"
 #include "scenes/generate/random.h"
@@ -10,41 +11,55 @@
 namespace bvhbench {
 namespace {
 
-/// Returns the first `triangles` triangles of a sheet of quads, row by row, with `wide` quads and `stride` vertices per row.
+/// Returns triangles `run` of a sheet of quads, row by row, with `wide` quads and `stride` vertices per row.
 ///
 ///     C---D    A B D and A D C of each quad
 ///     | / |
 ///     A---B    the vertex after the last one of a row is the first of that row
-std::vector<Face> sheet_faces(uint triangles, std::size_t wide, std::size_t stride)
+std::vector<Face> sheet_faces(FaceRange run, std::size_t wide, std::size_t stride)
 {
     std::vector<Face> faces;
-    faces.reserve(triangles + std::size_t{1});
-    for (std::size_t quad = 0; faces.size() < triangles; ++quad) {
-        const std::size_t row = quad / wide * stride, i = quad % wide;
+    faces.reserve(run.count);
+    for (std::size_t k = run.first; k < std::size_t{run.first} + run.count; ++k) {
+        const std::size_t quad = k / 2, row = quad / wide * stride, i = quad % wide;
         const auto a = static_cast<uint>(row + i);
         const auto b = static_cast<uint>(row + (i + 1) % stride);
         const auto up = static_cast<uint>(stride);
-        faces.push_back({a, b, b + up});
-        faces.push_back({a, b + up, a + up});
+        faces.push_back(k % 2 == 0 ? Face{a, b, b + up} : Face{a, b + up, a + up});
     }
-    faces.resize(triangles);
     return faces;
 }
 
-/// Returns a sheet of w x h quads with vertex (i, j) of 0..w x 0..h at position(i, w, j, h).
+/// Returns triangles of a sheet of w x h quads with vertex (i, j) of 0..w x 0..h at position(i, w, j, h), which is called row by
+/// row. The points are those of whole rows.
 template <class Position>
-Mesh make_patch(uint triangles, Position position)
+MeshRun patch_run(uint triangles, FaceRange run, Position position)
 {
     const std::size_t quads = (std::size_t{triangles} + 1) / 2;
     const auto width = static_cast<std::size_t>(std::sqrt(static_cast<double>(quads))) + 1;
     const std::size_t height = (quads + width - 1) / width;
-    Mesh mesh;
-    mesh.points.reserve((width + 1) * (height + 1));
-    for (std::size_t j = 0; j <= height; ++j)
+    MeshRun made;
+    made.mesh_points = (width + 1) * (height + 1);
+    if (run.count == 0)
+        return made;
+    const std::size_t first_row = run.first / 2 / width;
+    const std::size_t last_row = (std::size_t{run.first} + run.count - 1) / 2 / width + 1;
+    made.points.reserve((width + 1) * (last_row - first_row + 1));
+    for (std::size_t j = first_row; j <= last_row; ++j)
         for (std::size_t i = 0; i <= width; ++i)
-            mesh.points.push_back(position(i, width, j, height));
-    mesh.faces = sheet_faces(triangles, width, width + 1);
-    return mesh;
+            made.points.push_back(position(i, width, j, height));
+    made.vertices.resize(made.points.size());
+    std::iota(made.vertices.begin(), made.vertices.end(),
+              static_cast<uint>(first_row * (width + 1)));
+    made.faces = sheet_faces(run, width, width + 1);
+    return made;
+}
+
+/// Returns the whole mesh that `run` makes runs of.
+Mesh whole(MeshRun (*run)(uint triangles, FaceRange run), uint triangles)
+{
+    MeshRun made = run(triangles, {0, triangles});
+    return {std::move(made.points), std::move(made.faces)};
 }
 
 /// Returns the point (i / w, j / h, 0).
@@ -72,14 +87,14 @@ void drop_unused(Mesh& mesh)
 }
 
 struct Step {
-    double angle, sine, cosine;
+    double angle, sine, cosine, wave;
 };
 
 Step step_of(std::size_t part, std::size_t whole)
 {
     const double angle =
         2.0 * std::numbers::pi * static_cast<double>(part) / static_cast<double>(whole);
-    return {angle, std::sin(angle), std::cos(angle)};
+    return {angle, std::sin(angle), std::cos(angle), std::sin(7.0 * angle)};
 }
 
 /// Returns the smallest k with k^3 >= count: a cube of side 1/k holds one triangle on average.
@@ -95,25 +110,28 @@ uint cells_per_side(uint count)
 
 // Computed in doubles, stored as floats: a = 2 pi i / w around the ring, b = 2 pi j / h around the tube,
 // r = 0.4 + 0.05 sin(7a) cos(5b), at ((1 + r cos b) cos a, (1 + r cos b) sin a, r sin b).
-Mesh make_torus(uint triangles)
+MeshRun torus_run(uint triangles, FaceRange run)
 {
     std::vector<Step> ring;  // the same for every row
     Step tube{};
     double wave = 0;
-    return make_patch(triangles, [&](std::size_t i, std::size_t w, std::size_t j, std::size_t h) {
-        if (ring.empty())
-            for (std::size_t k = 0; k <= w; ++k)
-                ring.push_back(step_of(k, w));
-        if (i == 0) {
-            tube = step_of(j, h);
-            wave = std::cos(5.0 * tube.angle);
-        }
-        const Step& a = ring[i];
-        const double r = 0.4 + 0.05 * std::sin(7.0 * a.angle) * wave;
-        const double reach = 1.0 + r * tube.cosine;
-        return rounded({reach * a.cosine, reach * a.sine, r * tube.sine});
-    });
+    return patch_run(triangles, run,
+                     [&](std::size_t i, std::size_t w, std::size_t j, std::size_t h) {
+                         if (ring.empty())
+                             for (std::size_t k = 0; k <= w; ++k)
+                                 ring.push_back(step_of(k, w));
+                         if (i == 0) {
+                             tube = step_of(j, h);
+                             wave = std::cos(5.0 * tube.angle);
+                         }
+                         const Step& a = ring[i];
+                         const double r = 0.4 + 0.05 * a.wave * wave;
+                         const double reach = 1.0 + r * tube.cosine;
+                         return rounded({reach * a.cosine, reach * a.sine, r * tube.sine});
+                     });
 }
+
+Mesh make_torus(uint triangles) { return whole(torus_run, triangles); }
 
 void append(Mesh& mesh, const Mesh& part)
 {
@@ -123,26 +141,40 @@ void append(Mesh& mesh, const Mesh& part)
         mesh.faces.push_back({face.a + base, face.b + base, face.c + base});
 }
 
-Mesh make_grid(uint triangles) { return make_patch(triangles, place_in_sheet); }
+MeshRun grid_run(uint triangles, FaceRange run)
+{
+    return patch_run(triangles, run, place_in_sheet);
+}
+
+Mesh make_grid(uint triangles) { return whole(grid_run, triangles); }
 
 // The size of triangles shrinks with the cube root of their number, so each overlaps about the same number of others for any N.
-Mesh make_soup(uint triangles)
+MeshRun soup_run(uint triangles, FaceRange run)
 {
     const float size = 0.5f / static_cast<float>(cells_per_side(triangles));
     const float room = 1.0f - 2.0f * size;  // keeps corners in the unit cube
     Random random(triangles);
-    Mesh mesh;
-    mesh.points.reserve(std::size_t{3} * triangles);
-    mesh.faces.reserve(triangles);
-    for (uint k = 0; k < triangles; ++k) {
+    MeshRun made;
+    made.mesh_points = std::size_t{3} * triangles;
+    made.points.reserve(std::size_t{3} * run.count);
+    made.faces.reserve(run.count);
+    for (uint k = 0; k < run.first + run.count; ++k) {  // those before it take random numbers too
         const Point centre = {size + room * random.unit(), size + room * random.unit(),
                               size + room * random.unit()};
-        for (int corner = 0; corner < 3; ++corner)
-            mesh.points.push_back(centre + size * random.in_ball());
-        mesh.faces.push_back({3 * k, 3 * k + 1, 3 * k + 2});
+        for (int corner = 0; corner < 3; ++corner) {
+            const Point at = centre + size * random.in_ball();
+            if (k >= run.first)
+                made.points.push_back(at);
+        }
+        if (k >= run.first)
+            made.faces.push_back({3 * k, 3 * k + 1, 3 * k + 2});
     }
-    return mesh;
+    made.vertices.resize(made.points.size());
+    std::iota(made.vertices.begin(), made.vertices.end(), 3 * run.first);
+    return made;
 }
+
+Mesh make_soup(uint triangles) { return whole(soup_run, triangles); }
 
 Mesh make_sheet(uint triangles, double aspect, bool closed)
 {
@@ -158,7 +190,7 @@ Mesh make_sheet(uint triangles, double aspect, bool closed)
     for (std::size_t j = 0; j <= high; ++j)
         for (std::size_t i = 0; i < stride; ++i)
             mesh.points.push_back(place_in_sheet(i, wide, j, high));
-    mesh.faces = sheet_faces(triangles, wide, stride);
+    mesh.faces = sheet_faces({0, triangles}, wide, stride);
     drop_unused(mesh);
     return mesh;
 }

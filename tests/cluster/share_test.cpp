@@ -70,11 +70,24 @@ TEST(Share, IsDealtAndMovedWhole)
 
 TEST(Share, HasOnlyTheVerticesOfItsTriangles)
 {
-    const Share share = share_of({{9, {70, 3, 12}, {{7, 0, 0}, {3, 0, 0}, {1, 2, 0}}},
-                                  {4, {3, 5, 70}, {{3, 0, 0}, {5, 0, 0}, {7, 0, 0}}}});
+    const Share share = share_of({{{9, {70, 3, 12}, {{7, 0, 0}, {3, 0, 0}, {1, 2, 0}}}},
+                                  {},
+                                  {{4, {3, 5, 70}, {{3, 0, 0}, {5, 0, 0}, {7, 0, 0}}}}});
     EXPECT_EQ(share.ids, (std::vector<uint>{4, 9}));
     EXPECT_EQ(share.vertices, (std::vector<uint>{3, 5, 12, 70}));
     EXPECT_EQ(share.points[3].x, 7);
+}
+
+TEST(Share, OfARunHasItsVerticesOnly)
+{
+    const Share share = share_of(MeshRun{{{70, 3, 12}, {3, 12, 200}},
+                                         {{3, 0, 0}, {1, 2, 0}, {7, 0, 0}, {8, 0, 0}},
+                                         {3, 12, 70, 200}},
+                                 5);
+    EXPECT_EQ(share.ids, (std::vector<uint>{5, 6}));
+    EXPECT_EQ(share.scene_face(1).c, 200u);
+    EXPECT_EQ(share.points[share.faces[0].a].x, 7);
+    EXPECT_EQ(share_of(MeshRun{}, 5).triangle_count(), 0u);
 }
 
 }  // namespace

@@ -44,12 +44,37 @@ public:
     Bytes gathered(std::span<const std::byte> own) override
     {
         Bytes all;
-        for (const Bytes& one : exchanged(std::vector(count(), Bytes(own.begin(), own.end()))))
+        for (const Bytes& one : posted(std::vector(count(), Bytes(own.begin(), own.end()))))
             all.insert(all.end(), one.begin(), one.end());
         return all;
     }
 
-    std::vector<Bytes> exchanged(std::vector<Bytes> to) override
+    std::vector<std::uint64_t> exchanged(std::span<const std::uint64_t> to) override
+    {
+        std::vector<Bytes> bytes;
+        for (const std::uint64_t& number : to)
+            bytes.push_back(bytes_of(std::as_bytes(std::span(&number, 1))));
+        std::vector<std::uint64_t> numbers;
+        for (const Bytes& one : posted(std::move(bytes)))
+            std::memcpy(&numbers.emplace_back(), one.data(), one.size());
+        return numbers;
+    }
+
+    void exchange(std::span<const std::span<const std::byte>> to,
+                  std::span<const std::span<std::byte>> from) override
+    {
+        std::vector<Bytes> bytes;
+        for (const std::span<const std::byte> one : to)
+            bytes.push_back(bytes_of(one));
+        const std::vector<Bytes> got = posted(std::move(bytes));
+        for (std::size_t rank = 0; rank < got.size(); ++rank)
+            std::ranges::copy(got.at(rank), from[rank].begin());
+    }
+
+private:
+    static Bytes bytes_of(std::span<const std::byte> bytes) { return {bytes.begin(), bytes.end()}; }
+
+    std::vector<Bytes> posted(std::vector<Bytes> to)
     {
         meeting_.post[rank_] = std::move(to);
         wait_for_all();
@@ -60,7 +85,6 @@ public:
         return got;
     }
 
-private:
     template <class T, class Join>
     void joined(std::span<T> values, const Join& join)
     {
