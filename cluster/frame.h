@@ -25,6 +25,7 @@
 #include "cluster/share.h"
 #include "cluster/top_boxes.h"
 #include "collide/collider.h"
+#include "collide/oracles/pair_sets.h"
 
 namespace bvhbench {
 
@@ -66,6 +67,17 @@ public:
     /// Returns the pairs that this rank found in the last frame, by scene numbers: smaller first, in no order. Blocks.
     std::vector<Pair> pairs() const;
 
+    /// Returns what identifies those pairs, without copying them to the host. Blocks.
+    PairFacts facts();
+
+    /// Returns those pairs that have a triangle of the sample, by scene numbers. Blocks.
+    std::vector<Pair> pairs_of(const TriangleSample& sample);
+
+    /// Returns the right pairs, by scene numbers, of the sample's triangles with triangles of this rank: the device holds the box of
+    /// every triangle of the sample, which all ranks tell each other, against all of the rank's. Of two triangles of the sample,
+    /// the greater one's rank has the pair. All ranks must. Blocks.
+    std::vector<Pair> right_pairs_of(const TriangleSample& sample);
+
     const Share& share() const { return share_; }
 
 private:
@@ -75,6 +87,10 @@ private:
     std::vector<Pair> select(const WantedBoxes& wanted);
     std::vector<HaloTriangle> exchange(const std::vector<Pair>& leaving, RankFrame& frame);
     void query_halo();
+    template <class OnDevice>
+    void on_named_pairs(const OnDevice& work);
+    uint scene_id(uint k) const;
+    Pair scene_pair(Pair pair) const;
 
     Ranks& ranks_;
     Programs& programs_;

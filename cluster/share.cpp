@@ -110,6 +110,14 @@ Share share_of(MeshRun run, uint first_id)
     return share;
 }
 
+Share first_of(const Share& share, std::size_t count)
+{
+    Carried first(1);
+    for (std::size_t k = 0; k < count; ++k)
+        first[0].push_back(carried(share, k));
+    return share_of(std::move(first));
+}
+
 Share dealt(std::span<const Point> points, std::span<const Face> faces, uint holder, Ranks& ranks)
 {
     Carried to(ranks.count());

@@ -42,6 +42,9 @@ Share share_of(std::vector<std::vector<CarriedTriangle>> carried);
 /// Returns the share of a run of triangles, which are numbered from `first_id` on.
 Share share_of(MeshRun run, uint first_id);
 
+/// Returns the first `count` triangles of a share, as a share.
+Share first_of(const Share& share, std::size_t count);
+
 /// Distributes a mesh that rank `holder` has and no other needs, in runs of consecutive triangles of about equal sizes.
 Share dealt(std::span<const Point> points, std::span<const Face> faces, uint holder, Ranks& ranks);
 

@@ -71,8 +71,7 @@ std::string Device::platform() const
 
 MemoryShare Device::take_memory(std::size_t bytes) const
 {
-    const std::size_t all =
-        std::min<std::size_t>(cl.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>(), memory_limit);
+    const std::size_t all = memory_bytes();
     if (bytes > all - std::min(all, *taken))
         refuse_memory(bytes, "", all);
     if (is_cpu())

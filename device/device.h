@@ -46,6 +46,12 @@ struct Device {
     /// Upper bound, in bytes, on all device memory together, if less than the device has.
     std::size_t memory_limit = std::numeric_limits<std::size_t>::max();
 
+    /// Returns the bytes of memory that may be taken together.
+    std::size_t memory_bytes() const
+    {
+        return std::min<std::size_t>(cl.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>(), memory_limit);
+    }
+
     /// Bytes taken, shared by all copies of this Device.
     std::shared_ptr<std::size_t> taken = std::make_shared<std::size_t>(0);
 

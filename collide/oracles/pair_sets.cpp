@@ -52,12 +52,18 @@ private:
     char hits_[most];
 };
 
+cl::Kernel pair_kernel(Programs& programs, const char* name, const Buffer<uint>* names)
+{
+    const Define defines[] = {{"NAMED", names != nullptr ? 1u : 0u}};
+    return programs.kernel(kernels, name, defines);
+}
+
 }  // namespace
 
 PairFacts facts_on_device(Programs& programs, const DevicePairs& pairs, std::uint64_t count,
-                          Queue& queue)
+                          Queue& queue, const Buffer<uint>* names)
 {
-    cl::Kernel kernel = programs.kernel(kernels, "hash_pairs", {});
+    cl::Kernel kernel = pair_kernel(programs, "hash_pairs", names);
     std::optional<Arena> arena;
     Buffer<SetHash> hashes;
     take_memory(arena, programs.device(),
@@ -65,6 +71,8 @@ PairFacts facts_on_device(Programs& programs, const DevicePairs& pairs, std::uin
     // A processor reads neighbours fastest, a GPU's lanes what is side by side.
     const std::uint64_t run = programs.device().is_cpu() ? (count + items - 1) / items : 0;
     set_arguments(kernel, pairs.pairs, static_cast<uint>(count), static_cast<uint>(run), hashes);
+    if (names != nullptr)
+        kernel.setArg(4, names->cl());
     queue.cl().enqueueNDRangeKernel(kernel, cl::NullRange, items);
     const std::vector<SetHash> parts = hashes.download(queue.cl());
     const SetHash all = std::accumulate(parts.begin(), parts.end(), SetHash{0, 0}, both_sets);
@@ -74,18 +82,25 @@ PairFacts facts_on_device(Programs& programs, const DevicePairs& pairs, std::uin
 TriangleSample::TriangleSample(std::size_t triangles, std::size_t size)
     : bits_((triangles + 31) / 32, 0)
 {
-    std::vector<uint> all(triangles);
-    std::iota(all.begin(), all.end(), 0u);
+    size = std::min(size, triangles);
     std::mt19937_64 random(triangles);
-    std::ranges::sample(all, std::back_inserter(ids_), static_cast<std::ptrdiff_t>(size), random);
-    for (const uint id : ids_)
+    while (ids_.size() < size) {
+        const auto id = static_cast<uint>(random() % triangles);
+        if (has(id))
+            continue;
+        ids_.push_back(id);
         bits_[id / 32] |= 1u << id % 32;
+    }
+    std::ranges::sort(ids_);
 }
 
-PairList TriangleSample::of_device(Programs& programs, const DevicePairs& pairs,
-                                   std::uint64_t count, Queue& queue) const
+std::vector<Pair> TriangleSample::of_device(Programs& programs, const DevicePairs& pairs,
+                                            std::uint64_t count, Queue& queue,
+                                            const Buffer<uint>* names) const
 {
-    cl::Kernel kernel = programs.kernel(kernels, "pairs_of_sample", {});
+    cl::Kernel kernel = pair_kernel(programs, "pairs_of_sample", names);
+    if (names != nullptr)
+        kernel.setArg(6, names->cl());
     std::size_t room = 0;
     for (;;) {  // once to count, once to list
         std::optional<Arena> arena;
@@ -103,7 +118,7 @@ PairList TriangleSample::of_device(Programs& programs, const DevicePairs& pairs,
         queue.cl().enqueueNDRangeKernel(kernel, cl::NullRange, items);
         const std::size_t there = found_count.download(queue.cl()).front();
         if (there <= room)
-            return PairList(first_entries(found, there, queue, "the pairs of a sample"));
+            return first_entries(found, there, queue, "the pairs of a sample");
         room = there;
     }
 }

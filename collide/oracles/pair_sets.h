@@ -11,9 +11,9 @@
 
 namespace bvhbench {
 
-/// Returns the facts of the `count` pairs in device memory. Blocks.
+/// Returns the facts of the `count` pairs in device memory. With `names`, triangle k is known as names[k]. Blocks.
 PairFacts facts_on_device(Programs& programs, const DevicePairs& pairs, std::uint64_t count,
-                          Queue& queue);
+                          Queue& queue, const Buffer<uint>* names = nullptr);
 
 /// A random sample of a frame's triangles, the same for the same number of triangles on every machine.
 class TriangleSample {
@@ -23,16 +23,16 @@ public:
 
     std::span<const uint> ids() const { return ids_; }
 
-    /// Returns the pairs in device memory that have a triangle of the sample. Blocks.
-    PairList of_device(Programs& programs, const DevicePairs& pairs, std::uint64_t count,
-                       Queue& queue) const;
+    /// Returns the pairs in device memory that have a triangle of the sample. With `names`, triangle k is known as names[k]. Blocks.
+    std::vector<Pair> of_device(Programs& programs, const DevicePairs& pairs, std::uint64_t count,
+                                Queue& queue, const Buffer<uint>* names = nullptr) const;
 
     /// Returns the right ones: holds the box of each triangle of the sample against every box, on all cores of the host.
     PairList by_brute_force(std::span<const Aabb> boxes, const WantedPairs& wanted) const;
 
-private:
     bool has(uint id) const { return (bits_[id / 32] >> id % 32 & 1u) != 0; }
 
+private:
     std::vector<uint> ids_;   ///< ascending
     std::vector<uint> bits_;  ///< one per triangle, set if it is in the sample
 };

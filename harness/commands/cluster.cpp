@@ -41,6 +41,7 @@ public:
         app.add_option("--collider", task_.pipeline.collider.name, "a name of `list colliders`")
             ->capture_default_str();
         add_choices(app, choice_, [](const Choice& option) { return option.key == "adjacent"; });
+        app.add_option("--check", check_, joined(cluster_check_names))->capture_default_str();
         app.add_option("--samples", task_.samples, "timed frames")
             ->check(CLI::Range(1, most_samples_of_frames))
             ->capture_default_str();
@@ -75,14 +76,22 @@ public:
     }
 
 private:
+    /// Returns the value of `Kind` with this name among `names`; throws BadUsage if there is none.
+    template <class Kind, std::size_t count>
+    static Kind named(const std::string& what, const std::string& name,
+                      const std::string_view (&names)[count])
+    {
+        const auto found = std::ranges::find(names, name);
+        if (found == std::end(names))
+            throw BadUsage("no " + what + " is called '" + name + '\'' + there_are(name, names));
+        return static_cast<Kind>(found - std::begin(names));
+    }
+
     /// Throws BadUsage for wrong options, before any process is started.
     void check()
     {
-        const auto named = std::ranges::find(partition_names, partition_);
-        if (named == std::end(partition_names))
-            throw BadUsage("no partition is called '" + partition_ + '\'' +
-                           there_are(partition_, partition_names));
-        task_.partition = static_cast<PartitionBy>(named - std::begin(partition_names));
+        task_.partition = named<PartitionBy>("partition", partition_, partition_names);
+        task_.check = named<ClusterCheck>("check", check_, cluster_check_names);
         task_.pipeline.collider.keep_adjacent = choice_.collider.keep_adjacent;
         check_choice({task_.pipeline.builder, task_.pipeline.collider});
         find_order(task_.pipeline.builder.order);
@@ -127,7 +136,7 @@ private:
     ClusterTask task_;
     CellChoice choice_;
     unsigned ranks_ = 0;
-    std::string partition_ = "rcb";
+    std::string partition_ = "rcb", check_ = "auto";
     std::string json_, pairs_;
 };
 

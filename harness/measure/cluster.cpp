@@ -8,11 +8,15 @@
 #include "cluster/share.h"
 #include "device/device_choice.h"
 #include "geometry/error.h"
+#include "geometry/host_memory.h"
+#include "harness/measure/cluster_verdict.h"
 #include "harness/session/watchdog.h"
 #include "scenes/face_order.h"
 
 namespace bvhbench {
 namespace {
+
+constexpr std::size_t sample_size = 10'000;  ///< triangles that are held against all others
 
 constexpr uint first_rank = 0;  ///< reads the scene and gathers what is found
 
@@ -64,72 +68,119 @@ std::vector<std::vector<T>> at_first(Ranks& ranks, std::vector<T> own)
 
 std::vector<char> characters(const std::string& text) { return {text.begin(), text.end()}; }
 
-std::vector<ClusterRank> ranks_at_first(HostedRanks& ranks, const Session& session,
-                                        std::uint64_t triangles, std::vector<RankFrame> frames)
+/// Adds what each rank has to the result, by rank; at the first rank only.
+void tell_first(HostedRanks& ranks, const std::string& device, ClusterRank own,
+                std::vector<ClusterRank>& all)
 {
+    const std::uint64_t numbers[] = {own.triangles, own.predicted_bytes, own.device_bytes,
+                                     host_memory_facts().peak};
     const auto hosts = at_first(ranks, characters(ranks.host()));
-    const auto devices = at_first(ranks, characters(session.device().name()));
-    const auto counts = at_first(ranks, std::vector{triangles});
-    std::vector<std::vector<RankFrame>> all = at_first(ranks, std::move(frames));
-    std::vector<ClusterRank> result;
-    for (uint rank = 0; ranks.rank() == first_rank && rank < ranks.count(); ++rank)
-        result.push_back({{hosts[rank].begin(), hosts[rank].end()},
-                          {devices[rank].begin(), devices[rank].end()},
-                          counts[rank].front(),
-                          std::move(all[rank])});
-    return result;
+    const auto devices = at_first(ranks, characters(device));
+    const auto of_ranks = at_first(ranks, std::vector(std::begin(numbers), std::end(numbers)));
+    std::vector<std::vector<RankFrame>> frames = at_first(ranks, std::move(own.frames));
+    for (uint rank = 0; ranks.rank() == first_rank && rank < ranks.count(); ++rank) {
+        const std::vector<std::uint64_t>& of = of_ranks[rank];
+        all.push_back({{hosts[rank].begin(), hosts[rank].end()},
+                       {devices[rank].begin(), devices[rank].end()},
+                       of[0],
+                       of[1],
+                       of[2],
+                       of[3],
+                       std::move(frames[rank])});
+    }
 }
 
-/// Returns the pairs that this rank's device finds in the whole scene.
-std::vector<Pair> pairs_of_one_device(Session& session, const PipelineChoice& choice,
-                                      const Scene& scene)
+/// Returns the pairs of all ranks at the first, and none elsewhere.
+std::vector<Pair> pairs_at_first(Ranks& ranks, std::vector<Pair> own)
 {
-    const Input input =
-        upload(session.device(), session.queue(), scene.frames.front(), scene.faces);
-    const auto builder = make_builder(choice.builder, session.programs());
-    const auto collider = make_collider(choice.collider, session.programs());
-    builder->reserve(input.triangle_count());
-    const Tree& tree = builder->build(input, session.queue());
-    collider->reserve(&tree, input);
-    find_pairs(*collider, &tree, input, session.queue());
-    session.queue().finish();
-    return collider->pairs(session.queue());
+    std::vector<Pair> all;
+    for (std::vector<Pair>& of_rank : at_first(ranks, std::move(own))) {
+        all.insert(all.end(), of_rank.begin(), of_rank.end());
+        of_rank = {};
+    }
+    return all;
 }
 
 /// Returns the facts of the pairs of all ranks together.
-PairFacts facts_of_all(std::span<const Pair> own, Ranks& ranks)
+PairFacts facts_of_all(const PairFacts& own, Ranks& ranks)
 {
-    const PairFacts facts = facts_of(own);
-    std::array<std::uint64_t, 3> sums{facts.count, facts.low, facts.high};
+    std::array<std::uint64_t, 3> sums{own.count, own.low, own.high};
     ranks.sum(sums);
     return {sums[0], sums[1], sums[2]};
 }
 
-/// Compares what all ranks found with what this one's device finds alone: `list`, or only the facts if there is none.
-Check verdict_on(const PairFacts& facts, const std::optional<PairList>& list, Session& session,
-                 const ClusterTask& task, const Scene& scene)
+/// Calls `work` under the limits of a rank.
+template <class Work>
+auto watched(const Work& work)
 {
-    Check check;
-    check.verdict = Check::Verdict::agrees;
-    check.against = "one device";
-    if (list) {
-        check.pairs_hash = list->hash();
-        if (list->surplus() > 0)
-            check.find_wrong(std::to_string(list->surplus()) + " pairs are found twice");
+    const watchdog::Watch watch;
+    return work();
+}
+
+/// A partition of the scene, and this rank's part of it on its device.
+class Part {
+public:
+    Part(HostedRanks& ranks, Session& session, const ClusterTask& task)
+        : session_(session)
+        , builder_(make_builder(task.pipeline.builder, session.programs()))
+        , collider_(make_collider(task.pipeline.collider, session.programs()))
+        , frame(ranks, session.programs(), session.queue(), *builder_, *collider_,
+                task.pipeline.collider.keep_adjacent)
+    {}
+
+    /// Takes the triangles, after a trial with the first of them that predicts the memory. Throws Unavailable if that exceeds the
+    /// device's.
+    void take(Share share)
+    {
+        own.triangles = share.triangle_count();
+        if (own.triangles > tried)
+            own.predicted_bytes = predicted(share);
+        watched([&] { frame.take(std::move(share)); });
     }
-    try {
-        std::vector<Pair> right = pairs_of_one_device(session, task.pipeline, scene);
-        const PairFacts wanted = facts_of(right);
-        if (facts != wanted || (list && !(*list == PairList(std::move(right)))))
-            check.find_wrong("it finds " + std::to_string(wanted.count) + " pairs, and not these");
-    } catch (const Unavailable& error) {  // the scene may be too large for one device
-        session.renew_queue();
-        if (check.verdict == Check::Verdict::agrees)
-            check.verdict = Check::Verdict::not_checked;
-        check.detail +=
-            (check.detail.empty() ? "" : "; ") + std::string("one device cannot: ") + error.what();
+
+    RankFrame run()
+    {
+        return watched([&] { return frame.run(); });
     }
-    return check;
+
+private:
+    static constexpr std::size_t tried = 1 << 20;  ///< triangles
+
+    std::uint64_t predicted(const Share& share)
+    {
+        const Device& device = session_.device();
+        const std::size_t before = *device.taken;
+        watched([&] { frame.take(first_of(share, tried)); });
+        const double each = static_cast<double>(*device.taken - before) / tried;
+        const auto all =
+            static_cast<std::uint64_t>(each * static_cast<double>(share.triangle_count()));
+        *device.most_taken = *device.taken;
+        if (all > device.memory_bytes())
+            throw Unavailable("its " + std::to_string(share.triangle_count()) +
+                              " triangles would take " + std::to_string(all) + " bytes of " +
+                              device.name() + ", which has " +
+                              std::to_string(device.memory_bytes()));
+        return all;
+    }
+
+    Session& session_;
+    std::unique_ptr<Builder> builder_;
+    std::unique_ptr<Collider> collider_;
+
+public:
+    DistributedFrame frame;
+    ClusterRank own;  ///< without names
+};
+
+/// Returns whether one device, by what the ranks' took, can hold the whole scene.
+bool fits_one_device(const Part& part, const PairFacts& pairs, std::uint64_t triangles,
+                     const Device& device, Ranks& ranks)
+{
+    std::uint64_t each[] = {part.own.triangles == 0 ? 0
+                                                    : part.own.device_bytes / part.own.triangles};
+    const std::vector<std::uint64_t> all = gathered<std::uint64_t>(ranks, each);
+    return pairs.count < std::uint64_t{1} << 32 &&
+           std::ranges::max(all) * triangles < device.memory_bytes();
 }
 
 }  // namespace
@@ -151,50 +202,59 @@ std::string device_of_rank(const std::string& words, const HostedRanks& ranks, b
 
 ClusterFound run_cluster(HostedRanks& ranks, Session& session, const ClusterTask& task)
 {
+    const bool is_first = ranks.rank() == first_rank;
     ClusterFound found;
     ClusterResult& result = found.result;
-    std::vector<RankFrame> frames;
-    std::vector<Pair> own;
-    std::uint64_t triangles = 0;
-    {  // frees the device for the verdict
-        const auto builder = make_builder(task.pipeline.builder, session.programs());
-        const auto collider = make_collider(task.pipeline.collider, session.programs());
-        DistributedFrame frame(ranks, session.programs(), session.queue(), *builder, *collider,
-                               task.pipeline.collider.keep_adjacent);
-        Share share = partitioned_share(first_share(task, session, ranks, result.scene),
-                                        task.partition, ranks, result.partition_ns);
-        triangles = share.triangle_count();
-        const auto watched = [&](const auto& work) {
-            const watchdog::Watch watch;
-            return work();
-        };
-        watched([&] { frame.take(std::move(share)); });
-        watched([&] { frame.run(); });  // buffers grow
-        for (int k = 0; k < task.samples; ++k)
-            frames.push_back(watched([&] { return frame.run(); }));
-        own = frame.pairs();
-    }
-    result.ranks = ranks_at_first(ranks, session, triangles, std::move(frames));
-    result.pairs = facts_of_all(own, ranks);
-    std::optional<PairList> list;
-    if (task.wants_pairs || result.pairs.count <= task.most_gathered) {
-        std::vector<Pair> all;
-        for (std::vector<Pair>& of_rank : at_first(ranks, std::move(own))) {
-            all.insert(all.end(), of_rank.begin(), of_rank.end());
-            of_rank = {};
-        }
-        list.emplace(std::move(all));
-    }
-    if (ranks.rank() != first_rank)
-        return found;
-    found.scene = whole_scene(task, session);
-    result.scene.content_hash = found.scene.content_hash;
     result.partition = task.partition;
     result.pipeline = task.pipeline;
     result.shares_devices = task.share_devices;
-    result.check = verdict_on(result.pairs, list, session, task, found.scene);
-    if (list)
-        found.pairs = *std::move(list);
+    ClusterEvidence evidence;
+    bool by_one_device = task.check == ClusterCheck::one_device;
+    {  // frees the device for the verdict
+        Part part(ranks, session, task);
+        part.take(partitioned_share(first_share(task, session, ranks, result.scene), task.partition,
+                                    ranks, result.partition_ns));
+        part.run();  // buffers grow
+        for (int k = 0; k < task.samples; ++k)
+            part.own.frames.push_back(part.run());
+        part.own.device_bytes = *session.device().most_taken;
+        result.pairs = evidence.facts = facts_of_all(part.frame.facts(), ranks);
+        if (task.wants_pairs || result.pairs.count <= task.most_gathered)
+            evidence.list.emplace(pairs_at_first(ranks, part.frame.pairs()));
+        std::array<std::uint64_t, 1> triangles{part.own.triangles};
+        ranks.sum(triangles);
+        if (task.check == ClusterCheck::automatic)
+            by_one_device =
+                fits_one_device(part, result.pairs, triangles[0], session.device(), ranks);
+        if (!by_one_device) {
+            const TriangleSample sample(triangles[0], sample_size);
+            evidence.of_sample = pairs_at_first(ranks, part.frame.pairs_of(sample));
+            evidence.right_of_sample = pairs_at_first(ranks, part.frame.right_pairs_of(sample));
+        }
+        tell_first(ranks, session.device().name(), std::move(part.own), result.ranks);
+    }
+    if (!by_one_device) {
+        const auto other =
+            task.partition == PartitionBy::rcb ? PartitionBy::curve : PartitionBy::rcb;
+        Part part(ranks, session, task);
+        std::int64_t took_ns = 0;
+        SceneFacts facts;
+        part.take(
+            partitioned_share(first_share(task, session, ranks, facts), other, ranks, took_ns));
+        part.run();
+        evidence.other_partition = facts_of_all(part.frame.facts(), ranks);
+    }
+    if (!is_first)
+        return found;
+    if (by_one_device || task.wants_pairs) {
+        found.scene = whole_scene(task, session);
+        result.scene.content_hash = found.scene.content_hash;
+    }
+    result.check = by_one_device
+                       ? verdict_of_one_device(evidence, found.scene, session, task.pipeline)
+                       : verdict_of_partitions(evidence);
+    if (evidence.list)
+        found.pairs = *std::move(evidence.list);
     return found;
 }
 

@@ -8,10 +8,17 @@
 
 namespace bvhbench {
 
+/// What the pairs are compared with: those that one device finds in the whole scene, or those of the other partition and of
+/// brute force over a sample. Automatic: the first if a device can hold the scene.
+enum class ClusterCheck { automatic, one_device, partitions };
+
+inline constexpr std::string_view cluster_check_names[] = {"auto", "one-device", "partitions"};
+
 struct ClusterTask {
     std::string scene;
     PartitionBy partition = PartitionBy::rcb;
     PipelineChoice pipeline;
+    ClusterCheck check = ClusterCheck::automatic;
     int samples = 5;
     std::uint64_t most_gathered = 100'000'000;  ///< pairs that the first rank lists
     bool wants_pairs = false;                   ///< it lists them however many there are

@@ -29,8 +29,8 @@ Check verdict_of_devices(Session& session, Pipeline& pipeline, const ColliderCho
 {
     const PairFacts facts = facts_on_device(session, pipeline);
     const TriangleSample sample(input.triangle_count(), sample_size);
-    const PairList of_sample =
-        sample.of_device(session.programs(), pipeline.device_pairs(), facts.count, session.queue());
+    const PairList of_sample(sample.of_device(session.programs(), pipeline.device_pairs(),
+                                              facts.count, session.queue()));
 
     const bool is_grid = choice.name == "grid";
     const ColliderChoice other = {.name = is_grid ? "leaf" : "grid",

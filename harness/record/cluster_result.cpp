@@ -42,11 +42,15 @@ Json rank_json(const ClusterRank& rank, bool with_times)
     Json json = {{"host", rank.host},
                  {"device", rank.device},
                  {"triangles", rank.triangles},
+                 {"device_peak_bytes", rank.device_bytes},
+                 {"host_peak_bytes", rank.host_bytes},
                  {"halo_sent_count", last.halo_sent},
                  {"halo_received_count", last.halo_received},
                  {"sent_bytes", last.sent_bytes},
                  {"own_pairs_count", last.own_pairs},
                  {"halo_pairs_count", last.halo_pairs}};
+    if (rank.predicted_bytes != 0)
+        json["predicted_device_bytes"] = rank.predicted_bytes;
     json["samples"] = Json::array();
     if (with_times)
         for (const RankFrame& frame : rank.frames)
@@ -157,14 +161,15 @@ Json cluster_json(const ClusterResult& result, Json run, const std::string& mpi)
                  {"scene",
                   {{"name", result.scene.name},
                    {"triangles", result.scene.triangles},
-                   {"vertices", result.scene.vertices},
-                   {"content_hash", hex(result.scene.content_hash)}}},
+                   {"vertices", result.scene.vertices}}},
                  {"partition", partition_names[static_cast<std::size_t>(result.partition)]},
                  {"builder", {{"name", choice.builder.name}, {"order", choice.builder.order}}},
                  {"collider",
                   {{"name", choice.collider.name},
                    {"adjacent", choice.collider.keep_adjacent ? "keep" : "drop"}}},
                  {"shares_devices", result.shares_devices}};
+    if (result.scene.content_hash != 0)
+        json["scene"]["content_hash"] = hex(result.scene.content_hash);
     if (!result.shares_devices) {
         json["partition_ns"] = result.partition_ns;
         json["frame_ns"] = frame_ns(result);

@@ -17,7 +17,11 @@ namespace bvhbench {
 struct ClusterRank {
     std::string host, device;
     std::uint64_t triangles = 0;
-    std::vector<RankFrame> frames;  ///< timed ones; at least one
+    std::uint64_t predicted_bytes =
+        0;  ///< of the device, by a trial with some of the triangles; 0: no trial
+    std::uint64_t device_bytes = 0;  ///< most that were taken at a time
+    std::uint64_t host_bytes = 0;    ///< most that the process had
+    std::vector<RankFrame> frames;   ///< timed ones; at least one
 };
 
 struct ClusterResult {

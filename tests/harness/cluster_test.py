@@ -70,12 +70,25 @@ def test_a_wrong_answer_is_found():
     assert result("w.json")["check"]["verdict"] == "differs"
 
 
+def test_what_no_device_holds_is_held_to_another_partition_and_to_brute_force():
+    words = ("cluster", "torus:20000", "--ranks", "2", *SHARED, "--samples", "1", "--check", "partitions", "--json", "p.json")
+    expect(0, *words, says="verdict: agrees with the other partition, brute over a sample")
+    document = result("p.json")
+    assert document["check"]["verdict"] == "agrees" and "content_hash" not in document["scene"]
+    expect(0, *words[:-4], "--pairs", "all.csv", says="agrees with one device")
+    assert document["pairs_count"] == pathlib.Path("all.csv").read_text().count("\n") - 1
+    kernels = copied_kernels("planted", "cluster/halo_pairs.cl", r"k < halo_count", "k + 1u < halo_count")
+    out = run(*words, "--kernels", kernels)
+    assert out.returncode == 1 and "DIFFERS from the other partition, brute over a sample: " in out.stdout, out
+
+
 def test_what_is_wrong_is_said_once():
     few = ("cluster", "torus:2000", "--ranks", "2")
     expect(3, *few, says="2 ranks on ")
     expect(3, *few, says="need a device each, and one matches")
     expect(2, "cluster", "torus:2000", says="--ranks says how many")
     expect(2, *few, "--partition", "rbc", says="no partition is called 'rbc'; there are: rcb, curve")
+    expect(2, *few, "--check", "nothing", says="no check is called 'nothing'; there are: auto, one-device, partitions")
     expect(2, *few, "--builder", "karass", says="karras")
     expect(2, "cluster", "bunnny", "--ranks", "2", says="no scene is called 'bunnny'")
     expect(2, *few, *SHARED, "--builder", "sah-binned", says="leaves its tree in host memory")

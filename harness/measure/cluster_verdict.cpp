@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "harness/measure/cluster_verdict.h"
+
+#include "collide/oracles/pair_sets.h"
+#include "geometry/error.h"
+#include "geometry/hash.h"
+#include "harness/choice/catalog.h"
+
+namespace bvhbench {
+namespace {
+
+std::string text_of(const PairFacts& facts)
+{
+    return std::to_string(facts.count) + " pairs of the hash " + hex(facts.high) + hex(facts.low);
+}
+
+/// Returns a verdict that agrees, unless a pair is found twice.
+Check begun(const ClusterEvidence& evidence, const std::string& against)
+{
+    Check check;
+    check.verdict = Check::Verdict::agrees;
+    check.against = against;
+    if (evidence.list) {
+        check.pairs_hash = evidence.list->hash();
+        if (evidence.list->surplus() > 0)
+            check.find_wrong(std::to_string(evidence.list->surplus()) + " pairs are found twice");
+    }
+    return check;
+}
+
+}  // namespace
+
+Check verdict_of_one_device(const ClusterEvidence& evidence, const Scene& scene, Session& session,
+                            const PipelineChoice& pipeline)
+{
+    Check check = begun(evidence, "one device");
+    try {
+        Queue& queue = session.queue();
+        const Input input = upload(session.device(), queue, scene.frames.front(), scene.faces);
+        const auto builder = make_builder(pipeline.builder, session.programs());
+        const auto collider = make_collider(pipeline.collider, session.programs());
+        builder->reserve(input.triangle_count());
+        const Tree& tree = builder->build(input, queue);
+        collider->reserve(&tree, input);
+        find_pairs(*collider, &tree, input, queue);
+        queue.finish();
+        const PairFacts right = facts_on_device(session.programs(), collider->device_pairs(queue),
+                                                collider->counts(queue).pairs, queue);
+        if (evidence.facts != right ||
+            (evidence.list && *evidence.list != PairList(collider->pairs(queue))))
+            check.find_wrong("it finds " + text_of(right) + ", not " + text_of(evidence.facts));
+    } catch (const Unavailable& error) {  // the scene may be too large for one device
+        session.renew_queue();
+        if (check.verdict == Check::Verdict::agrees)
+            check.verdict = Check::Verdict::not_checked;
+        check.detail +=
+            (check.detail.empty() ? "" : "; ") + std::string("one device cannot: ") + error.what();
+    }
+    return check;
+}
+
+Check verdict_of_partitions(const ClusterEvidence& evidence)
+{
+    Check check = begun(evidence, "the other partition, brute over a sample");
+    if (evidence.other_partition != evidence.facts)
+        check.find_wrong("the other partition has " + text_of(evidence.other_partition) + ", not " +
+                         text_of(evidence.facts));
+    const PairList found(evidence.of_sample), right(evidence.right_of_sample);
+    if (found != right || found.surplus() > 0 || right.surplus() > 0)
+        check.find_wrong("brute force finds " + std::to_string(right.size()) +
+                         " pairs with a triangle of the sample, not " +
+                         std::to_string(evidence.of_sample.size()));
+    return check;
+}
+
+}  // namespace bvhbench
