@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "collide/device_lists.h"
+#include "collide/oracles/host_collider.h"
 #include "geometry/error.h"
 
 namespace bvhbench {
@@ -55,7 +56,7 @@ private:
 };
 
 DistributedFrame::DistributedFrame(Ranks& ranks, Programs& programs, Queue& queue, Builder& builder,
-                                   Collider& collider, bool keep_adjacent)
+                                   Collider& collider, bool keep_adjacent, std::string_view narrow)
     : ranks_(ranks)
     , programs_(programs)
     , queue_(queue)
@@ -72,6 +73,9 @@ DistributedFrame::DistributedFrame(Ranks& ranks, Programs& programs, Queue& queu
                        " queries no tree, which triangles of other ranks are tested against");
     if (collider.keeps_tree())
         throw BadUsage("collider " + name + " follows frames, and ranks find pairs of one");
+    if (narrow != "none")
+        contacts_.emplace(programs,
+                          NarrowOptions{.method = narrow, .keep_adjacent = keep_adjacent});
 }
 
 void DistributedFrame::take(Share share)
@@ -79,6 +83,8 @@ void DistributedFrame::take(Share share)
     share_ = std::move(share);
     input_.reset();
     halo_.clear();
+    if (contacts_)
+        contacts_->take(share_, queue_);
     if (!has_tree())
         return;
     input_ = upload(programs_.device(), queue_, share_.points, share_.faces);
@@ -131,6 +137,11 @@ RankFrame DistributedFrame::run()
     query_halo();
     clock.end_stage(queue_);
 
+    if (contacts_) {
+        find_contacts();
+        clock.end_stage(queue_);
+        frame.contacts = contacts_->count(queue_);
+    }
     if (has_tree())
         frame.own_pairs = collider_.counts(queue_).pairs;
     frame.halo_pairs = !has_tree()     ? pairs_of_one_.size()
@@ -176,6 +187,18 @@ std::vector<HaloTriangle> DistributedFrame::exchange(const std::vector<Pair>& le
     for (const std::vector<HaloTriangle>& from : exchanged(ranks_, std::move(to)))
         halo.insert(halo.end(), from.begin(), from.end());
     frame.halo_received = halo.size();
+    if (contacts_) {
+        std::vector<std::vector<HaloCorners>> corners(ranks_.count());
+        for (const auto& [triangle, rank] : leaving) {
+            const Face face = share_.faces[triangle];
+            corners[rank].push_back(
+                {{share_.points[face.a], share_.points[face.b], share_.points[face.c]}});
+        }
+        frame.sent_bytes += leaving.size() * sizeof(HaloCorners);
+        halo_corners_.clear();
+        for (const auto& from : exchanged(ranks_, std::move(corners)))
+            halo_corners_.insert(halo_corners_.end(), from.begin(), from.end());
+    }
     return halo;
 }
 
@@ -193,6 +216,31 @@ void DistributedFrame::query_halo()
         if (overlap(face_box(share_.points, share_.faces[0]), halo_[k].box) &&
             (keep_adjacent_ || !share_a_vertex(share_.scene_face(0), halo_[k].vertices)))
             pairs_of_one_.push_back({0, 1 + k});
+}
+
+void DistributedFrame::find_contacts()
+{
+    contacts_->bring(share_, halo_, halo_corners_, queue_);
+    std::optional<DevicePairs> own, with_halo;
+    if (has_tree()) {
+        own = collider_.device_pairs(queue_);
+        if (!halo_.empty())
+            with_halo = halo_query_.device_pairs(queue_);
+    } else if (!pairs_of_one_.empty()) {
+        with_halo = room_for_pairs(programs_.device(), pairs_of_one_.size());
+        copy_pairs(pairs_of_one_, *with_halo, queue_);
+    }
+    contacts_->find(own ? &*own : nullptr, with_halo ? &*with_halo : nullptr, queue_);
+}
+
+std::vector<Pair> DistributedFrame::contacts() const
+{
+    if (!contacts_)
+        return pairs();
+    std::vector<Pair> all = contacts_->contacts(queue_);
+    for (Pair& pair : all)
+        pair = scene_pair(pair);
+    return all;
 }
 
 std::vector<Pair> DistributedFrame::pairs() const

@@ -8,6 +8,7 @@
 //     exchange   they are sent there; meanwhile the device tests the rank's own triangles
 //     self       the rest of that query
 //     halo       triangles that came are tested against the tree
+//     narrow     if asked for: which of the pairs intersect
 //
 // Pairs stay on the rank and device that found them.
 #pragma once
@@ -19,6 +20,7 @@
 #include <vector>
 
 #include "builders/builder.h"
+#include "cluster/contacts.h"
 #include "cluster/halo_query.h"
 #include "cluster/leaving.h"
 #include "cluster/ranks.h"
@@ -30,8 +32,8 @@
 namespace bvhbench {
 
 /// Stages of a frame, in order.
-inline constexpr std::string_view frame_stages[] = {"build",    "boxes", "select",
-                                                    "exchange", "self",  "halo"};
+inline constexpr std::string_view frame_stages[] = {"build", "boxes", "select", "exchange",
+                                                    "self",  "halo",  "narrow"};
 inline constexpr std::size_t frame_stage_count = std::size(frame_stages);
 
 /// What a frame took on one rank, and what it sent.
@@ -45,15 +47,17 @@ struct RankFrame {
     std::uint64_t halo_received = 0;  ///< triangles
     std::uint64_t own_pairs = 0;      ///< between triangles of the rank
     std::uint64_t halo_pairs = 0;     ///< between its triangles and others
+    std::uint64_t contacts = 0;       ///< pairs that intersect; 0 without a narrow phase
 };
 
 /// One rank's part of frames over a distributed scene.
 class DistributedFrame {
 public:
     /// `builder` and `collider` serve this object alone. Throws BadUsage for a collider that queries no tree or keeps state between
-    /// frames. Without `keep_adjacent`, pairs that share a vertex are left out, as `collider` must have been told too.
+    /// frames. Without `keep_adjacent`, pairs that share a vertex are left out, as `collider` must have been told too. `narrow`: a
+    /// name of collide/narrow/narrow_methods.h, or "none".
     DistributedFrame(Ranks& ranks, Programs& programs, Queue& queue, Builder& builder,
-                     Collider& collider, bool keep_adjacent);
+                     Collider& collider, bool keep_adjacent, std::string_view narrow = "none");
     DistributedFrame(const DistributedFrame&) = delete;
     DistributedFrame& operator=(const DistributedFrame&) = delete;
 
@@ -66,6 +70,9 @@ public:
 
     /// Returns the pairs that this rank found in the last frame, by scene numbers: smaller first, in no order. Blocks.
     std::vector<Pair> pairs() const;
+
+    /// Returns those of them that intersect, all if there is no narrow phase. Blocks.
+    std::vector<Pair> contacts() const;
 
     /// Returns what identifies those pairs, without copying them to the host. Blocks.
     PairFacts facts();
@@ -87,6 +94,7 @@ private:
     std::vector<Pair> select(const WantedBoxes& wanted);
     std::vector<HaloTriangle> exchange(const std::vector<Pair>& leaving, RankFrame& frame);
     void query_halo();
+    void find_contacts();
     template <class OnDevice>
     void on_named_pairs(const OnDevice& work);
     uint scene_id(uint k) const;
@@ -101,10 +109,12 @@ private:
     TopBoxes tops_;
     Leaving leaving_;
     HaloQuery halo_query_;
+    std::optional<RankContacts> contacts_;
     Share share_;
     std::optional<Input> input_;
     const DeviceTree* tree_ = nullptr;
     std::vector<HaloTriangle> halo_;  ///< of the last frame
+    std::vector<HaloCorners> halo_corners_;
     std::vector<Pair> pairs_of_one_;  ///< its pairs with the halo, if the rank has one triangle
 };
 

@@ -53,6 +53,16 @@ class Schema(unittest.TestCase):
                         self.fail(f"{path}: {error.json_path}: {error.message}")
         self.assertGreaterEqual(count, 2)
 
+    def test_every_file_of_a_cluster_obeys(self) -> None:
+        validator = jsonschema.Draft202012Validator(read(ROOT / "results" / "schema" / "cluster-1.schema.json"))
+        paths = sorted((ROOT / "results").rglob("cluster-*.json.xz"))
+        self.assertGreater(len(paths), 2)
+        for path in paths:
+            document = read(path)
+            for error in validator.iter_errors(document):
+                self.fail(f"{path}: {error.json_path}: {error.message}")
+            self.assertEqual(document["check"]["verdict"], "agrees", path)
+
     def test_refuses_a_time_without_a_verdict(self) -> None:
         del self.measured["check"]
         self.assert_refused("'check' is a required property")

@@ -40,7 +40,9 @@ public:
             ->capture_default_str();
         app.add_option("--collider", task_.pipeline.collider.name, "a name of `list colliders`")
             ->capture_default_str();
-        add_choices(app, choice_, [](const Choice& option) { return option.key == "adjacent"; });
+        add_choices(app, choice_, [](const Choice& option) {
+            return option.key == "adjacent" || option.key == "narrow";
+        });
         app.add_option("--check", check_, joined(cluster_check_names))->capture_default_str();
         app.add_option("--samples", task_.samples, "timed frames")
             ->check(CLI::Range(1, most_samples_of_frames))
@@ -49,6 +51,7 @@ public:
                      "let ranks of a host share a device; for tests, gives no times");
         app.add_option("--json", json_, "write the result file");
         app.add_option("--pairs", pairs_, "write the pairs: .csv, or .bin of 32-bit ids");
+        app.add_option("--contacts", contacts_, "the same of the pairs that intersect");
     }
 
     int run(const Invocation& invocation) override
@@ -93,11 +96,17 @@ private:
         task_.partition = named<PartitionBy>("partition", partition_, partition_names);
         task_.check = named<ClusterCheck>("check", check_, cluster_check_names);
         task_.pipeline.collider.keep_adjacent = choice_.collider.keep_adjacent;
+        task_.pipeline.collider.narrow = choice_.collider.narrow;
         check_choice({task_.pipeline.builder, task_.pipeline.collider});
         find_order(task_.pipeline.builder.order);
         task_.wants_pairs = !pairs_.empty();
         if (task_.wants_pairs)
             check_pairs_path(pairs_, {});
+        task_.wants_contacts = !contacts_.empty();
+        if (task_.wants_contacts)
+            check_pairs_path(contacts_, {});
+        if (task_.wants_contacts && task_.pipeline.collider.narrow == "none")
+            throw BadUsage("--contacts takes a narrow phase: --narrow exact");
         triangles_said(task_.scene);  // throws for a name that no scene can have
         const std::optional<unsigned> started = ranks_started();
         if (!started && ranks_ == 0)
@@ -116,13 +125,16 @@ private:
         const OutputRules rules{common.force, scene_files(task_.scene, session.scenes())};
         const Output json = is_first ? Output(json_, "--json", rules) : Output();
         const Output pairs = is_first ? Output(pairs_, "--pairs", rules) : Output();
-        PairsFile pairs_file(pairs, false);
+        const Output contacts = is_first ? Output(contacts_, "--contacts", rules) : Output();
+        PairsFile pairs_file(pairs, false), contacts_file(contacts, false);
         const ClusterFound found = run_cluster(ranks, session, task_);
         if (!is_first)
             return 0;
         const ClusterResult& result = found.result;
         pairs_file.add(found.pairs, 0, found.scene);
         pairs_file.finish();
+        contacts_file.add(found.contacts, 0, found.scene);
+        contacts_file.finish();
         if (!json.is_nowhere())
             json.replace(
                 cluster_json(result, run_facts(session.device(), invocation.words), mpi_version())
@@ -137,7 +149,7 @@ private:
     CellChoice choice_;
     unsigned ranks_ = 0;
     std::string partition_ = "rcb", check_ = "auto";
-    std::string json_, pairs_;
+    std::string json_, pairs_, contacts_;
 };
 
 }  // namespace

@@ -125,7 +125,7 @@ public:
         , builder_(make_builder(task.pipeline.builder, session.programs()))
         , collider_(make_collider(task.pipeline.collider, session.programs()))
         , frame(ranks, session.programs(), session.queue(), *builder_, *collider_,
-                task.pipeline.collider.keep_adjacent)
+                task.pipeline.collider.keep_adjacent, task.pipeline.collider.narrow)
     {}
 
     /// Takes the triangles, after a trial with the first of them that predicts the memory. Throws Unavailable if that exceeds the
@@ -171,6 +171,13 @@ public:
     DistributedFrame frame;
     ClusterRank own;  ///< without names
 };
+
+bool has_narrow(const ClusterTask& task) { return task.pipeline.collider.narrow != "none"; }
+
+PairFacts contacts_of_all(const Part& part, Ranks& ranks)
+{
+    return facts_of_all(facts_of(part.frame.contacts()), ranks);
+}
 
 /// Returns whether one device, by what the ranks' took, can hold the whole scene.
 bool fits_one_device(const Part& part, const PairFacts& pairs, std::uint64_t triangles,
@@ -221,6 +228,11 @@ ClusterFound run_cluster(HostedRanks& ranks, Session& session, const ClusterTask
         result.pairs = evidence.facts = facts_of_all(part.frame.facts(), ranks);
         if (task.wants_pairs || result.pairs.count <= task.most_gathered)
             evidence.list.emplace(pairs_at_first(ranks, part.frame.pairs()));
+        if (has_narrow(task))
+            result.contacts = evidence.contacts = contacts_of_all(part, ranks);
+        if (has_narrow(task) &&
+            (task.wants_contacts || evidence.contacts->count <= task.most_gathered))
+            evidence.contact_list.emplace(pairs_at_first(ranks, part.frame.contacts()));
         std::array<std::uint64_t, 1> triangles{part.own.triangles};
         ranks.sum(triangles);
         if (task.check == ClusterCheck::automatic)
@@ -243,10 +255,12 @@ ClusterFound run_cluster(HostedRanks& ranks, Session& session, const ClusterTask
             partitioned_share(first_share(task, session, ranks, facts), other, ranks, took_ns));
         part.run();
         evidence.other_partition = facts_of_all(part.frame.facts(), ranks);
+        if (has_narrow(task))
+            evidence.other_contacts = contacts_of_all(part, ranks);
     }
     if (!is_first)
         return found;
-    if (by_one_device || task.wants_pairs) {
+    if (by_one_device || task.wants_pairs || task.wants_contacts) {
         found.scene = whole_scene(task, session);
         result.scene.content_hash = found.scene.content_hash;
     }
@@ -255,6 +269,8 @@ ClusterFound run_cluster(HostedRanks& ranks, Session& session, const ClusterTask
                        : verdict_of_partitions(evidence);
     if (evidence.list)
         found.pairs = *std::move(evidence.list);
+    if (evidence.contact_list)
+        found.contacts = *std::move(evidence.contact_list);
     return found;
 }
 

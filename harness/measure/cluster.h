@@ -22,13 +22,15 @@ struct ClusterTask {
     int samples = 5;
     std::uint64_t most_gathered = 100'000'000;  ///< pairs that the first rank lists
     bool wants_pairs = false;                   ///< it lists them however many there are
+    bool wants_contacts = false;                ///< the same of contacts
     bool share_devices = false;                 ///< whether ranks of a host may have one device
 };
 
 /// What rank 0 has at the end; the other ranks have empty ones.
 struct ClusterFound {
-    Scene scene;     ///< all triangles as one object
-    PairList pairs;  ///< of all ranks; empty if they are too many to be gathered unasked
+    Scene scene;        ///< all triangles as one object
+    PairList contacts;  ///< as `pairs`
+    PairList pairs;     ///< of all ranks; empty if they are too many to be gathered unasked
     ClusterResult result;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "harness/measure/cluster_verdict.h"
 
+#include "collide/narrow/narrow.h"
 #include "collide/oracles/pair_sets.h"
 #include "geometry/error.h"
 #include "geometry/hash.h"
@@ -20,11 +21,12 @@ Check begun(const ClusterEvidence& evidence, const std::string& against)
     Check check;
     check.verdict = Check::Verdict::agrees;
     check.against = against;
-    if (evidence.list) {
+    if (evidence.list)
         check.pairs_hash = evidence.list->hash();
-        if (evidence.list->surplus() > 0)
-            check.find_wrong(std::to_string(evidence.list->surplus()) + " pairs are found twice");
-    }
+    if (evidence.contact_list)
+        check.contacts_hash = evidence.contact_list->hash();
+    if (evidence.list && evidence.list->surplus() > 0)
+        check.find_wrong(std::to_string(evidence.list->surplus()) + " pairs are found twice");
     return check;
 }
 
@@ -49,6 +51,19 @@ Check verdict_of_one_device(const ClusterEvidence& evidence, const Scene& scene,
         if (evidence.facts != right ||
             (evidence.list && *evidence.list != PairList(collider->pairs(queue))))
             check.find_wrong("it finds " + text_of(right) + ", not " + text_of(evidence.facts));
+        if (!evidence.contacts)
+            return check;
+        NarrowPhase narrow(session.programs(), {.method = pipeline.collider.narrow,
+                                                .keep_adjacent = pipeline.collider.keep_adjacent});
+        narrow.reserve(input.triangle_count());
+        const DevicePairs pairs = collider->device_pairs(queue);
+        find_contacts(narrow, input, pairs.pairs, pairs.counters, queue);
+        std::vector<Pair> contacts = narrow.contacts(queue);
+        const PairFacts facts = facts_of(contacts);
+        if (*evidence.contacts != facts ||
+            (evidence.contact_list && *evidence.contact_list != PairList(std::move(contacts))))
+            check.find_wrong("of contacts, it finds " + text_of(facts) + ", not " +
+                             text_of(*evidence.contacts));
     } catch (const Unavailable& error) {  // the scene may be too large for one device
         session.renew_queue();
         if (check.verdict == Check::Verdict::agrees)
@@ -65,6 +80,10 @@ Check verdict_of_partitions(const ClusterEvidence& evidence)
     if (evidence.other_partition != evidence.facts)
         check.find_wrong("the other partition has " + text_of(evidence.other_partition) + ", not " +
                          text_of(evidence.facts));
+    if (evidence.other_contacts != evidence.contacts)
+        check.find_wrong("of contacts, the other partition has " +
+                         text_of(*evidence.other_contacts) + ", not " +
+                         text_of(*evidence.contacts));
     const PairList found(evidence.of_sample), right(evidence.right_of_sample);
     if (found != right || found.surplus() > 0 || right.surplus() > 0)
         check.find_wrong("brute force finds " + std::to_string(right.size()) +

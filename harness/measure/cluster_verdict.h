@@ -17,10 +17,13 @@ namespace bvhbench {
 /// What is known of the pairs of all ranks, by scene numbers.
 struct ClusterEvidence {
     PairFacts facts;
-    std::optional<PairList> list;  ///< empty if there are too many to gather
+    std::optional<PairList> list;       ///< empty if there are too many to gather
+    std::optional<PairFacts> contacts;  ///< empty without a narrow phase
+    std::optional<PairList> contact_list;
 
     // Only where no device can find them alone:
     PairFacts other_partition;
+    std::optional<PairFacts> other_contacts;
     std::vector<Pair> of_sample;        ///< those of them that have a triangle of the sample
     std::vector<Pair> right_of_sample;  ///< by brute force
 };

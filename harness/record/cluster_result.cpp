@@ -48,7 +48,8 @@ Json rank_json(const ClusterRank& rank, bool with_times)
                  {"halo_received_count", last.halo_received},
                  {"sent_bytes", last.sent_bytes},
                  {"own_pairs_count", last.own_pairs},
-                 {"halo_pairs_count", last.halo_pairs}};
+                 {"halo_pairs_count", last.halo_pairs},
+                 {"contacts_count", last.contacts}};
     if (rank.predicted_bytes != 0)
         json["predicted_device_bytes"] = rank.predicted_bytes;
     json["samples"] = Json::array();
@@ -89,8 +90,12 @@ std::string verdict_line(const ClusterResult& result)
                        : check.verdict == Check::Verdict::differs
                            ? "verdict: DIFFERS from " + check.against + ": " + check.detail
                            : "verdict: not checked: " + check.detail;
-    return line + ", pairs " + std::to_string(result.pairs.count) + ", set hash " +
-           set_hash(result.pairs);
+    line +=
+        ", pairs " + std::to_string(result.pairs.count) + ", set hash " + set_hash(result.pairs);
+    if (result.contacts)
+        line += ", contacts " + std::to_string(result.contacts->count) + ", set hash " +
+                set_hash(*result.contacts);
+    return line;
 }
 
 /// Returns a row for each rank: what it has, sends and finds.
@@ -166,7 +171,8 @@ Json cluster_json(const ClusterResult& result, Json run, const std::string& mpi)
                  {"builder", {{"name", choice.builder.name}, {"order", choice.builder.order}}},
                  {"collider",
                   {{"name", choice.collider.name},
-                   {"adjacent", choice.collider.keep_adjacent ? "keep" : "drop"}}},
+                   {"adjacent", choice.collider.keep_adjacent ? "keep" : "drop"},
+                   {"narrow", choice.collider.narrow}}},
                  {"shares_devices", result.shares_devices}};
     if (result.scene.content_hash != 0)
         json["scene"]["content_hash"] = hex(result.scene.content_hash);
@@ -178,11 +184,17 @@ Json cluster_json(const ClusterResult& result, Json run, const std::string& mpi)
     json["imbalance"] = imbalance(result);
     json["pairs_count"] = result.pairs.count;
     json["pairs_set_hash"] = set_hash(result.pairs);
+    if (result.contacts) {
+        json["contacts_count"] = result.contacts->count;
+        json["contacts_set_hash"] = set_hash(*result.contacts);
+    }
     json["check"] = {{"verdict", verdict_name(result.check.verdict)},
                      {"against", result.check.against},
                      {"detail", result.check.detail}};
     if (result.check.pairs_hash)
         json["check"]["pairs_hash"] = hex(*result.check.pairs_hash);
+    if (result.check.contacts_hash)
+        json["check"]["contacts_hash"] = hex(*result.check.contacts_hash);
     json["ranks"] = Json::array();
     for (const ClusterRank& rank : result.ranks)
         json["ranks"].push_back(rank_json(rank, !result.shares_devices));

@@ -3,6 +3,7 @@
 // What `bvhbench cluster` found and measured, as a table and as a file (results/schema/cluster-1.schema.json).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,8 +33,9 @@ struct ClusterResult {
         false;  ///< several ranks had one device: times mean nothing and are left out
     std::int64_t partition_ns = 0;  ///< host clock: cutting, and moving triangles to their ranks
     std::vector<ClusterRank> ranks;
-    PairFacts pairs;  ///< of all ranks together
-    Check check;      ///< has no hash of the list if only facts were compared
+    PairFacts pairs;                    ///< of all ranks together
+    std::optional<PairFacts> contacts;  ///< the pairs that intersect; empty without a narrow phase
+    Check check;                        ///< has no hash of the list if only facts were compared
 };
 
 /// Returns the document, with `run`, the facts of the run, and the MPI library's name.

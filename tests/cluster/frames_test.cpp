@@ -3,9 +3,11 @@
 // Frames over ranks that are processes: the pairs of all ranks together are those of the oracle, each found once.
 #include "cluster/frame.h"
 
+#include <cstdlib>
 #include <numeric>
 
 #include "cluster/partition.h"
+#include "collide/oracles/host_collider.h"
 #include "collide/oracles/sweep.h"
 #include "harness/choice/catalog.h"
 #include "harness/judge/hard_inputs.h"
@@ -52,9 +54,32 @@ protected:
         device.reset();
     }
 
+    /// What the frames of a mesh are held to: pairs by the oracle, contacts by one device; at rank 0 only.
+    struct Right {
+        PairList pairs, contacts;
+    };
+
+    static Right right(const Mesh& mesh, bool keep_adjacent)
+    {
+        if (ranks->rank() != 0)
+            return {};
+        const WantedPairs wanted(mesh.faces, keep_adjacent, {}, Among::all);
+        Right all{swept_pairs(face_boxes(mesh.points, mesh.faces), wanted), {}};
+        const Input input = upload(*device, *queue, mesh.points, mesh.faces);
+        DevicePairs pairs = room_for_pairs(*device, std::max<std::size_t>(1, all.pairs.size()));
+        copy_pairs(all.pairs.pairs(), pairs, *queue);
+        NarrowPhase narrow(*programs, {.keep_adjacent = keep_adjacent});
+        narrow.reserve(mesh.faces.size());
+        find_contacts(narrow, input, pairs.pairs, pairs.counters, *queue);
+        all.contacts = PairList(narrow.contacts(*queue));
+        queue->finish();
+        return all;
+    }
+
     /// Distributes the mesh, which every rank makes and the last one deals out, and holds a frame of each pipeline to the oracle.
     static void hold_to_oracle(const Mesh& mesh, const std::string& name)
     {
+        const Right wanted[] = {right(mesh, false), right(mesh, true)};
         const uint dealer = ranks->count() - 1;
         for (const PartitionBy by : {PartitionBy::rcb, PartitionBy::curve}) {
             Share share = dealt(mesh.points, mesh.faces, dealer, *ranks);
@@ -62,35 +87,42 @@ protected:
             share =
                 moved(share, partitioned({centres, share.ids}, by, ranks->count(), *ranks), *ranks);
             for (const Pipeline& pipeline : pipelines())
-                hold_frame(mesh, share, pipeline,
+                hold_frame(wanted[pipeline.collider.keep_adjacent ? 1 : 0], share, pipeline,
                            name + ", " + std::string(partition_names[static_cast<int>(by)]) + ", " +
                                pipeline.builder.name);
         }
     }
 
-    static void hold_frame(const Mesh& mesh, const Share& share, const Pipeline& pipeline,
+    static PairList at_first(std::vector<Pair> own)
+    {
+        std::vector<std::vector<Pair>> to(ranks->count());
+        to[0] = std::move(own);
+        std::vector<Pair> all;
+        for (const std::vector<Pair>& from : exchanged(*ranks, to))
+            all.insert(all.end(), from.begin(), from.end());
+        return PairList(std::move(all));
+    }
+
+    static void hold_frame(const Right& right, const Share& share, const Pipeline& pipeline,
                            const std::string& name)
     {
         const auto builder = make_builder(pipeline.builder, *programs);
         const auto collider = make_collider(pipeline.collider, *programs);
-        const bool keep_adjacent = pipeline.collider.keep_adjacent;
-        DistributedFrame frame(*ranks, *programs, *queue, *builder, *collider, keep_adjacent);
+        DistributedFrame frame(*ranks, *programs, *queue, *builder, *collider,
+                               pipeline.collider.keep_adjacent, "exact");
         frame.take(share);
         frame.run();
         const RankFrame facts = frame.run();
-        const std::vector<Pair> own = frame.pairs();
+        const std::vector<Pair> own = frame.pairs(), meeting = frame.contacts();
         EXPECT_EQ(own.size(), facts.own_pairs + facts.halo_pairs) << name;
-        std::vector<std::vector<Pair>> to(ranks->count());
-        to[0] = own;
-        std::vector<Pair> all;
-        for (const std::vector<Pair>& from : exchanged(*ranks, to))
-            all.insert(all.end(), from.begin(), from.end());
+        EXPECT_EQ(meeting.size(), facts.contacts) << name;
+        EXPECT_EQ(frame.facts(), facts_of(own)) << name;
+        const PairList pairs = at_first(own), contacts = at_first(meeting);
         if (ranks->rank() != 0)
             return;
-        const PairList found(std::move(all));
-        EXPECT_EQ(found.surplus(), 0u) << name;
-        const WantedPairs wanted(mesh.faces, keep_adjacent, {}, Among::all);
-        EXPECT_TRUE(found == swept_pairs(face_boxes(mesh.points, mesh.faces), wanted)) << name;
+        EXPECT_EQ(pairs.surplus() + contacts.surplus(), 0u) << name;
+        EXPECT_TRUE(pairs == right.pairs) << name;
+        EXPECT_TRUE(contacts == right.contacts) << name;
     }
 
     static Mesh scene(const std::string& name)
@@ -112,6 +144,17 @@ TEST_F(Frames, OfScenesHaveThePairsOfTheOracle)
 {
     for (const char* name : {"torus:4000", "soup:3000", "grid:512", "hairball:1000", "n-body:3050"})
         hold_to_oracle(scene(name), name);
+}
+
+TEST_F(Frames, OfRealMeshesHaveThePairsOfTheOracle)
+{
+    const char* data = std::getenv("BVHBENCH_DATA");
+    if (data == nullptr)
+        GTEST_SKIP() << "BVHBENCH_DATA names no folder";
+    for (const char* name : {"bunny_69451", "unc_cloth_ball", "unc_nbody"}) {
+        const Scene loaded = load_scene(name, {.data = data});
+        hold_to_oracle({loaded.frames.back(), loaded.faces}, name);
+    }
 }
 
 TEST_F(Frames, OfHardMeshesHaveThePairsOfTheOracle)
@@ -156,7 +199,9 @@ TEST_F(Frames, OfASphereInASphereHaveThePairsOfTheOracle)
     for (const uint id : share.ids)
         to.push_back((id < faces ? 0u : 1u) % ranks->count());
     share = moved(share, to, *ranks);
-    hold_frame(mesh, share, pipelines().front(), "a domain in another");
+    const Pipeline pipeline = pipelines().front();
+    hold_frame(right(mesh, pipeline.collider.keep_adjacent), share, pipeline,
+               "a domain in another");
 }
 
 TEST_F(Frames, AreJudgedByListsOrByFactsAlone)

@@ -53,6 +53,17 @@ def test_lists_are_those_of_collide():
             assert abs(document["halo_share"] - sent / document["scene"]["triangles"]) < 1e-9
 
 
+def test_contacts_are_those_of_collide():
+    narrow = ("--narrow", "exact", "--adjacent", "drop", "--samples", "1", "--force")
+    expect(0, "collide", "--collider", "leaf", "--scene", "soup:5000", *narrow, "--contacts", "one.csv")
+    expect(0, "cluster", "soup:5000", "--ranks", "3", "--share-devices", *narrow, "--contacts", "c.csv", "--json", "c.json",
+           says="agrees with one device")
+    assert pathlib.Path("c.csv").read_text() == pathlib.Path("one.csv").read_text()
+    document = result("c.json")
+    assert document["contacts_count"] == sum(row["contacts_count"] for row in document["ranks"]) > 1000
+    assert document["check"]["contacts_hash"]
+
+
 def test_a_rank_with_a_device_of_its_own_is_timed():
     out = expect(0, "cluster", "sphere:2000", "--ranks", "1", "--samples", "3", "--adjacent", "drop", "--json", "t.json", says="frame: ")
     document = result("t.json")
@@ -88,6 +99,7 @@ def test_what_is_wrong_is_said_once():
     expect(3, *few, says="need a device each, and one matches")
     expect(2, "cluster", "torus:2000", says="--ranks says how many")
     expect(2, *few, "--partition", "rbc", says="no partition is called 'rbc'; there are: rcb, curve")
+    expect(2, *few, "--contacts", "c.csv", says="--contacts takes a narrow phase: --narrow exact")
     expect(2, *few, "--check", "nothing", says="no check is called 'nothing'; there are: auto, one-device, partitions")
     expect(2, *few, "--builder", "karass", says="karras")
     expect(2, "cluster", "bunnny", "--ranks", "2", says="no scene is called 'bunnny'")
