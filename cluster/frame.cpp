@@ -56,14 +56,16 @@ private:
 };
 
 DistributedFrame::DistributedFrame(Ranks& ranks, Programs& programs, Queue& queue, Builder& builder,
-                                   Collider& collider, bool keep_adjacent, std::string_view narrow)
+                                   Collider& collider, bool keep_adjacent, std::string_view narrow,
+                                   uint boxes)
     : ranks_(ranks)
     , programs_(programs)
     , queue_(queue)
     , builder_(builder)
     , collider_(collider)
     , keep_adjacent_(keep_adjacent)
-    , tops_(programs)
+    , box_count_(boxes)
+    , tops_(programs, boxes)
     , leaving_(programs)
     , halo_query_(programs, keep_adjacent)
 {
@@ -120,7 +122,7 @@ RankFrame DistributedFrame::run()
     frame.sent_bytes = (ranks_.count() - 1) * own.size() * sizeof(Aabb);
     clock.end_stage();
 
-    const std::vector<Pair> leaving = select(wanted_from(ranks_.rank(), tops));
+    const std::vector<Pair> leaving = select(wanted_from(ranks_.rank(), tops, ranks_.count()));
     clock.end_stage(queue_);
 
     if (has_tree()) {
@@ -157,7 +159,7 @@ std::vector<Aabb> DistributedFrame::build()
         tree_ = dynamic_cast<const DeviceTree*>(&builder_.build(*input_, queue_));
         return tops_.read(*tree_, queue_);
     }
-    std::vector<Aabb> own(top_boxes, empty_box());
+    std::vector<Aabb> own(box_count_, empty_box());
     if (share_.triangle_count() == 1)
         own[0] = face_box(share_.points, share_.faces[0]);
     return own;

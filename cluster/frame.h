@@ -55,9 +55,10 @@ class DistributedFrame {
 public:
     /// `builder` and `collider` serve this object alone. Throws BadUsage for a collider that queries no tree or keeps state between
     /// frames. Without `keep_adjacent`, pairs that share a vertex are left out, as `collider` must have been told too. `narrow`: a
-    /// name of collide/narrow/narrow_methods.h, or "none".
+    /// name of collide/narrow/narrow_methods.h, or "none". `boxes`: how many the rank tells the others, as TopBoxes takes them.
     DistributedFrame(Ranks& ranks, Programs& programs, Queue& queue, Builder& builder,
-                     Collider& collider, bool keep_adjacent, std::string_view narrow = "none");
+                     Collider& collider, bool keep_adjacent, std::string_view narrow = "none",
+                     uint boxes = usual_top_boxes);
     DistributedFrame(const DistributedFrame&) = delete;
     DistributedFrame& operator=(const DistributedFrame&) = delete;
 
@@ -106,6 +107,7 @@ private:
     Builder& builder_;
     Collider& collider_;
     bool keep_adjacent_;
+    uint box_count_;
     TopBoxes tops_;
     Leaving leaving_;
     HaloQuery halo_query_;

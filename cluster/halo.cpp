@@ -19,37 +19,50 @@ Aabb part_inside(const Aabb& box, std::span<const Aabb> boxes)
             std::min(box.max_y, around.max_y), std::min(box.max_z, around.max_z)};
 }
 
+Aabb around(std::span<const Aabb> boxes)
+{
+    Aabb all = empty_box();
+    for (const Aabb& box : boxes)
+        all = merged(all, box);
+    return all;
+}
+
 bool is_empty(const Aabb& box) { return box.min_x > box.max_x; }
 
 }  // namespace
 
-WantedBoxes wanted_from(uint own, std::span<const Aabb> tops)
+WantedBoxes wanted_from(uint own, std::span<const Aabb> tops, uint ranks)
 {
-    assert(tops.size() % top_boxes == 0);
-    const auto of_rank = [&](uint rank) {
-        return tops.subspan(std::size_t{top_boxes} * rank, top_boxes);
-    };
+    assert(tops.size() % ranks == 0);
+    const std::size_t each = tops.size() / ranks;
+    const auto of_rank = [&](uint rank) { return tops.subspan(each * rank, each); };
+    const Aabb around_own = around(of_rank(own));
     WantedBoxes wanted;
-    for (uint rank = 0; rank < tops.size() / top_boxes; ++rank)
-        if (sends_to(own, rank))
-            for (const Aabb& box : of_rank(rank))
-                if (const Aabb part = part_inside(box, of_rank(own)); !is_empty(part)) {
-                    wanted.boxes.push_back(part);
-                    wanted.ranks.push_back(rank);
-                    wanted.around = merged(wanted.around, part);
-                }
+    for (uint rank = 0; rank < ranks; ++rank) {
+        if (!sends_to(own, rank) || !overlap(around(of_rank(rank)), around_own))
+            continue;
+        for (const Aabb& box : of_rank(rank))
+            if (const Aabb part = part_inside(box, of_rank(own)); !is_empty(part)) {
+                wanted.boxes.push_back(part);
+                wanted.ranks.push_back(rank);
+                wanted.around = merged(wanted.around, part);
+            }
+    }
     return wanted;
 }
 
 std::vector<Pair> leaving(std::span<const Aabb> boxes, const WantedBoxes& wanted)
 {
     std::vector<Pair> all;
-    for (uint triangle = 0; triangle < boxes.size(); ++triangle)
+    for (uint triangle = 0; triangle < boxes.size(); ++triangle) {
+        if (!overlap(boxes[triangle], wanted.around))
+            continue;
         for (std::size_t k = 0; k < wanted.boxes.size(); ++k) {
             const Pair one = {triangle, wanted.ranks[k]};
             if (overlap(boxes[triangle], wanted.boxes[k]) && (all.empty() || all.back() != one))
                 all.push_back(one);
         }
+    }
     return all;
 }
 

@@ -47,15 +47,15 @@ Carried sorted(Carried carried)
     return result;
 }
 
-CarriedTriangle carried(const Share& share, std::size_t k)
+}  // namespace
+
+CarriedTriangle carried_triangle(const Share& share, std::size_t k)
 {
     const Face face = share.faces[k];
     return {share.ids[k],
             share.scene_face(k),
             {share.points[face.a], share.points[face.b], share.points[face.c]}};
 }
-
-}  // namespace
 
 Share share_of(Carried carried)
 {
@@ -114,7 +114,7 @@ Share first_of(const Share& share, std::size_t count)
 {
     Carried first(1);
     for (std::size_t k = 0; k < count; ++k)
-        first[0].push_back(carried(share, k));
+        first[0].push_back(carried_triangle(share, k));
     return share_of(std::move(first));
 }
 
@@ -140,7 +140,7 @@ Share moved(Share share, std::span<const uint> to, Ranks& ranks)
     for (std::size_t rank = 0; rank < counts.size(); ++rank)
         leaving[rank].reserve(counts[rank]);
     for (std::size_t k = 0; k < to.size(); ++k)
-        leaving[to[k]].push_back(carried(share, k));
+        leaving[to[k]].push_back(carried_triangle(share, k));
     share = {};
     return share_of(exchanged(ranks, std::move(leaving)));
 }

@@ -36,6 +36,9 @@ struct Share {
     }
 };
 
+/// Returns triangle k of a share as it is sent.
+CarriedTriangle carried_triangle(const Share& share, std::size_t k);
+
 /// Returns the share of the triangles of several lists, in any order, each once. Ascending ones take less time and memory.
 Share share_of(std::vector<std::vector<CarriedTriangle>> carried);
 

@@ -15,17 +15,20 @@ namespace bvhbench {
 /// Reads the boxes that a rank tells the others from its tree.
 class TopBoxes {
 public:
-    explicit TopBoxes(Programs& programs) : programs_(programs) {}
+    /// `count`: how many boxes; a power of two.
+    TopBoxes(Programs& programs, uint count) : programs_(programs), count_(count) {}
 
-    /// Compiles for trees like `tree`, which has at least two leaves, and reserves memory. Never timed. Throws Unavailable.
+    /// Compiles for trees like `tree`, which has at least two leaves, and reserves memory. Never timed. Throws Unavailable,
+    /// and BadUsage if no level of these trees has as many nodes.
     void reserve(const DeviceTree& tree);
 
-    /// Returns `top_boxes` boxes of the tree that the last build in `queue` made, in the stage `top`; empty ones if it has fewer
+    /// Returns the boxes of the tree that the last build in `queue` made, in the stage `top`; empty ones if it has fewer
     /// nodes on that level. They are exact if the tree's are. Waits.
     std::vector<Aabb> read(const DeviceTree& tree, Queue& queue);
 
 private:
     Programs& programs_;
+    uint count_;
     cl::Kernel kernel_;
     std::optional<Arena> arena_;
     Buffer<Aabb> boxes_;

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <bit>
 #include <iostream>
 
 #include "geometry/error.h"
@@ -21,7 +22,7 @@
 namespace bvhbench {
 namespace {
 
-constexpr unsigned most_ranks = 4096;
+constexpr unsigned most_ranks = 4096, most_boxes = 4096;
 constexpr int most_samples_of_frames = 10000;
 
 class Cluster final : public Command {
@@ -43,6 +44,13 @@ public:
         add_choices(app, choice_, [](const Choice& option) {
             return option.key == "adjacent" || option.key == "narrow";
         });
+        app.add_option("--boxes", task_.boxes,
+                       "that a rank tells the others, of a level of its tree: a power of two")
+            ->check(CLI::Range(1u, most_boxes))
+            ->capture_default_str();
+        app.add_option("--simulate", simulated_,
+                       "count what so many ranks would send, without running them")
+            ->check(CLI::Range(1u, most_ranks));
         app.add_option("--check", check_, joined(cluster_check_names))->capture_default_str();
         app.add_option("--samples", task_.samples, "timed frames")
             ->check(CLI::Range(1, most_samples_of_frames))
@@ -57,6 +65,8 @@ public:
     int run(const Invocation& invocation) override
     {
         check();
+        if (simulated_ != 0)
+            return simulate(invocation);
         if (!ranks_started())
             return run_ranks(ranks_, {invocation.words.begin() + 1, invocation.words.end()});
         const std::unique_ptr<HostedRanks> ranks = start_mpi();
@@ -109,11 +119,33 @@ private:
             throw BadUsage("--contacts takes a narrow phase: --narrow exact");
         triangles_said(task_.scene);  // throws for a name that no scene can have
         const std::optional<unsigned> started = ranks_started();
-        if (!started && ranks_ == 0)
+        if (!std::has_single_bit(task_.boxes))
+            throw BadUsage("--boxes is a power of two, not " + std::to_string(task_.boxes));
+        if (simulated_ != 0 &&
+            (ranks_ != 0 || started || task_.wants_pairs || task_.wants_contacts))
+            throw BadUsage(
+                "--simulate runs no ranks and finds no pairs: without --ranks, --pairs and "
+                "--contacts");
+        if (!started && ranks_ == 0 && simulated_ == 0)
             throw BadUsage("--ranks says how many processes to start, unless mpirun starts them");
         if (started && ranks_ != 0 && ranks_ != *started)
             throw BadUsage("--ranks asks for " + std::to_string(ranks_) + " ranks, and there are " +
                            std::to_string(*started));
+    }
+
+    int simulate(const Invocation& invocation)
+    {
+        Session session(invocation.common);
+        const Output json(json_, "--json",
+                          {invocation.common.force, scene_files(task_.scene, session.scenes())});
+        const Simulation simulation = simulate_cluster(session, task_, simulated_);
+        if (!json.is_nowhere())
+            json.replace(
+                simulation_json(simulation, run_facts(session.device(), invocation.words)).dump(1) +
+                "\n");
+        if (!invocation.common.quiet)
+            std::cout << simulation_text(simulation);
+        return 0;
     }
 
     int run_rank(HostedRanks& ranks, const Invocation& invocation)
@@ -147,7 +179,7 @@ private:
 
     ClusterTask task_;
     CellChoice choice_;
-    unsigned ranks_ = 0;
+    unsigned ranks_ = 0, simulated_ = 0;
     std::string partition_ = "rcb", check_ = "auto";
     std::string json_, pairs_, contacts_;
 };

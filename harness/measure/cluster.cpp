@@ -5,6 +5,7 @@
 #include <chrono>
 #include <optional>
 
+#include "cluster/lone_rank.h"
 #include "cluster/share.h"
 #include "device/device_choice.h"
 #include "geometry/error.h"
@@ -125,7 +126,7 @@ public:
         , builder_(make_builder(task.pipeline.builder, session.programs()))
         , collider_(make_collider(task.pipeline.collider, session.programs()))
         , frame(ranks, session.programs(), session.queue(), *builder_, *collider_,
-                task.pipeline.collider.keep_adjacent, task.pipeline.collider.narrow)
+                task.pipeline.collider.keep_adjacent, task.pipeline.collider.narrow, task.boxes)
     {}
 
     /// Takes the triangles, after a trial with the first of them that predicts the memory. Throws Unavailable if that exceeds the
@@ -214,6 +215,7 @@ ClusterFound run_cluster(HostedRanks& ranks, Session& session, const ClusterTask
     ClusterResult& result = found.result;
     result.partition = task.partition;
     result.pipeline = task.pipeline;
+    result.boxes = task.boxes;
     result.shares_devices = task.share_devices;
     ClusterEvidence evidence;
     bool by_one_device = task.check == ClusterCheck::one_device;
@@ -272,6 +274,20 @@ ClusterFound run_cluster(HostedRanks& ranks, Session& session, const ClusterTask
     if (evidence.contact_list)
         found.contacts = *std::move(evidence.contact_list);
     return found;
+}
+
+Simulation simulate_cluster(Session& session, const ClusterTask& task, uint ranks)
+{
+    Simulation simulation;
+    simulation.partition = task.partition;
+    simulation.builder = task.pipeline.builder;
+    simulation.boxes = task.boxes;
+    LoneRank lone;
+    const Share whole = first_share(task, session, lone, simulation.scene);
+    const auto builder = make_builder(task.pipeline.builder, session.programs());
+    simulation.ranks = simulated(whole, task.partition, ranks, task.boxes, session.programs(),
+                                 session.queue(), *builder);
+    return simulation;
 }
 
 }  // namespace bvhbench

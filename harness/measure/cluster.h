@@ -4,6 +4,7 @@
 #include "cluster/mpi_ranks.h"
 #include "collide/pairs.h"
 #include "harness/record/cluster_result.h"
+#include "harness/record/simulation.h"
 #include "harness/session/session.h"
 
 namespace bvhbench {
@@ -19,6 +20,7 @@ struct ClusterTask {
     PartitionBy partition = PartitionBy::rcb;
     PipelineChoice pipeline;
     ClusterCheck check = ClusterCheck::automatic;
+    uint boxes = usual_top_boxes;  ///< that a rank tells the others
     int samples = 5;
     std::uint64_t most_gathered = 100'000'000;  ///< pairs that the first rank lists
     bool wants_pairs = false;                   ///< it lists them however many there are
@@ -42,5 +44,8 @@ std::string device_of_rank(const std::string& words, const HostedRanks& ranks, b
 /// them with those that its device finds alone. Throws what reading the scene, builders and colliders throw; the other ranks then
 /// wait, so the caller ends them.
 ClusterFound run_cluster(HostedRanks& ranks, Session& session, const ClusterTask& task);
+
+/// Counts what each of `ranks` ranks would send and receive, without running them.
+Simulation simulate_cluster(Session& session, const ClusterTask& task, uint ranks);
 
 }  // namespace bvhbench

@@ -173,6 +173,7 @@ Json cluster_json(const ClusterResult& result, Json run, const std::string& mpi)
                   {{"name", choice.collider.name},
                    {"adjacent", choice.collider.keep_adjacent ? "keep" : "drop"},
                    {"narrow", choice.collider.narrow}}},
+                 {"boxes_count", result.boxes},
                  {"shares_devices", result.shares_devices}};
     if (result.scene.content_hash != 0)
         json["scene"]["content_hash"] = hex(result.scene.content_hash);

@@ -29,6 +29,7 @@ struct ClusterResult {
     SceneFacts scene;
     PartitionBy partition = PartitionBy::rcb;
     PipelineChoice pipeline;
+    unsigned boxes = 0;  ///< that each rank told all others
     bool shares_devices =
         false;  ///< several ranks had one device: times mean nothing and are left out
     std::int64_t partition_ns = 0;  ///< host clock: cutting, and moving triangles to their ranks

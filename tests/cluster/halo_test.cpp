@@ -27,9 +27,9 @@ std::vector<Aabb> random_boxes(uint count, float side, unsigned seed)
 /// Returns boxes around runs of `boxes`, as many as a rank tells; the others are empty.
 std::vector<Aabb> tops_of(std::span<const Aabb> boxes)
 {
-    std::vector<Aabb> tops(top_boxes, empty_box());
+    std::vector<Aabb> tops(usual_top_boxes, empty_box());
     for (std::size_t k = 0; k < boxes.size(); ++k) {
-        Aabb& top = tops[k * top_boxes / boxes.size()];
+        Aabb& top = tops[k * usual_top_boxes / boxes.size()];
         top = merged(top, boxes[k]);
     }
     return tops;
@@ -63,7 +63,8 @@ std::vector<Pair> pairs_of_ranks(std::span<const Aabb> boxes, std::span<const ui
     for (uint rank = 0; rank < ranks; ++rank) {
         for (const Pair pair : brute_pairs(own[rank]))
             found.push_back({ids[rank][pair.a], ids[rank][pair.b]});
-        for (const Pair& one : leaving(own[rank], wanted_from(rank, tops)))
+        for (const Pair& one :
+             leaving(own[rank], wanted_from(rank, tops, static_cast<uint>(own.size()))))
             for (const uint other : ids[one.b])
                 if (overlap(own[rank][one.a], boxes[other]))
                     found.push_back({ids[rank][one.a], other});
@@ -147,7 +148,7 @@ TEST(Halo, IsSmallIfPartsAreBoxes)
             tops.push_back(top);
     std::size_t left = 0;
     for (uint rank = 0; rank < 8; ++rank)
-        left += leaving(own[rank], wanted_from(rank, tops)).size();
+        left += leaving(own[rank], wanted_from(rank, tops, static_cast<uint>(own.size()))).size();
     EXPECT_GT(left, 0u);
     EXPECT_LT(left, boxes.size() / 20);
 }

@@ -33,7 +33,7 @@ protected:
 
     std::vector<Aabb> tops()
     {
-        TopBoxes tops(session().programs());
+        TopBoxes tops(session().programs(), usual_top_boxes);
         tops.reserve(*tree_);
         return tops.read(*tree_, queue());
     }
@@ -69,9 +69,9 @@ TEST_P(Halves, LeavingTrianglesAreThoseOfTheHost)
     std::vector<Aabb> tops = this->tops();
     for (const uint rank :
          {1u, 2u, 3u})  // boxes of other ranks: single triangles of the other half
-        for (uint k = 0; k < top_boxes; ++k)
+        for (uint k = 0; k < usual_top_boxes; ++k)
             tops.push_back(k < 20 ? face_box(mesh_.points, others_[20 * rank + k]) : empty_box());
-    const WantedBoxes wanted = wanted_from(0, tops);
+    const WantedBoxes wanted = wanted_from(0, tops, 4);
     Leaving leaving(session().programs());
     leaving.reserve(nullptr, input_);
     leaving.want(wanted, queue());

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "harness/record/simulation.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "cluster/halo_query.h"
+#include "harness/base/table.h"
+
+namespace bvhbench {
+namespace {
+
+using Member = std::uint64_t SimulatedRank::*;
+
+std::uint64_t most(const Simulation& simulation, Member member)
+{
+    return std::ranges::max(simulation.ranks, {}, member).*member;
+}
+
+double mean(const Simulation& simulation, Member member)
+{
+    double sum = 0;
+    for (const SimulatedRank& rank : simulation.ranks)
+        sum += static_cast<double>(rank.*member);
+    return sum / static_cast<double>(simulation.ranks.size());
+}
+
+double halo_share(const Simulation& simulation)
+{
+    return mean(simulation, &SimulatedRank::halo_sent) /
+           mean(simulation, &SimulatedRank::triangles);
+}
+
+double imbalance(const Simulation& simulation)
+{
+    return static_cast<double>(most(simulation, &SimulatedRank::triangles)) /
+           mean(simulation, &SimulatedRank::triangles);
+}
+
+std::uint64_t box_bytes(const Simulation& simulation)
+{
+    return (simulation.ranks.size() - 1) * simulation.boxes * sizeof(Aabb);
+}
+
+}  // namespace
+
+Json simulation_json(const Simulation& simulation, Json run)
+{
+    Json json = {
+        {"format", "cluster-simulation-1.0"},
+        {"run", std::move(run)},
+        {"scene", {{"name", simulation.scene.name}, {"triangles", simulation.scene.triangles}}},
+        {"partition", partition_names[static_cast<std::size_t>(simulation.partition)]},
+        {"builder", {{"name", simulation.builder.name}, {"order", simulation.builder.order}}},
+        {"boxes_count", simulation.boxes},
+        {"halo_share", halo_share(simulation)},
+        {"imbalance", imbalance(simulation)},
+        {"box_bytes", box_bytes(simulation)},
+        {"ranks", Json::array()}};
+    for (const SimulatedRank& rank : simulation.ranks)
+        json["ranks"].push_back({{"triangles", rank.triangles},
+                                 {"halo_sent_count", rank.halo_sent},
+                                 {"halo_received_count", rank.halo_received},
+                                 {"targets_count", rank.targets},
+                                 {"sources_count", rank.sources}});
+    return json;
+}
+
+std::string simulation_text(const Simulation& simulation)
+{
+    const auto line = [](const char* format, auto... values) {
+        char text[256];
+        std::snprintf(text, sizeof text, format, values...);
+        return std::string(text);
+    };
+    const auto halo_bytes = [](double triangles) {
+        return bytes_text(triangles * sizeof(HaloTriangle));
+    };
+    const double sent = mean(simulation, &SimulatedRank::halo_sent);
+    const auto most_sent = static_cast<double>(most(simulation, &SimulatedRank::halo_sent));
+    const auto most_received = static_cast<double>(most(simulation, &SimulatedRank::halo_received));
+    return simulation.scene.name + " (" + std::to_string(simulation.scene.triangles) +
+           " triangles) on " + std::to_string(simulation.ranks.size()) + " ranks, simulated: " +
+           std::string(partition_names[static_cast<std::size_t>(simulation.partition)]) + ", " +
+           simulation.builder.name + ", " + std::to_string(simulation.boxes) + " boxes a rank\n" +
+           line("halo: %.1f %% of the triangles; imbalance: %.3f of the mean\n",
+                100 * halo_share(simulation), imbalance(simulation)) +
+           "a frame of a rank sends " + halo_bytes(sent) + " of triangles in the mean, " +
+           halo_bytes(most_sent) + " at most, and receives " + halo_bytes(most_received) +
+           " at most\n" +
+           line("messages: %.1f in the mean, %llu at most to others, %llu at most from others\n",
+                mean(simulation, &SimulatedRank::targets),
+                static_cast<unsigned long long>(most(simulation, &SimulatedRank::targets)),
+                static_cast<unsigned long long>(most(simulation, &SimulatedRank::sources))) +
+           "boxes of all other ranks, received by each: " +
+           bytes_text(static_cast<double>(box_bytes(simulation))) + "\n";
+}
+
+}  // namespace bvhbench
