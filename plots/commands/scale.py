@@ -94,6 +94,8 @@ def measured(cell: Cell, samples: int, common: list[str]) -> dict[str, Any]:
         code, _ = child.run([*cell.words(samples), "--json", str(file), *common])
         if code - 128 in command.ENDING:
             raise command.Ended(code - 128)
+        if code == 2:  # wrong usage, which other cells share
+            raise SystemExit(code)
         if not file.exists():
             return entry | {"status": "failed", "reason": f"bvhbench cluster ended with exit code {code}, and said why"}
         result = parsed(file)
