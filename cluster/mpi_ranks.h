@@ -29,7 +29,9 @@ std::string mpi_absent();
 std::string mpi_version();
 
 /// Starts MPI, which the destructor ends. At most once in a process. `most_at_once`: bytes that one message carries; longer ones
-/// are sent in pieces, because MPI counts by int. Throws Unavailable with mpi_absent().
-std::unique_ptr<HostedRanks> start_mpi(std::size_t most_at_once = std::size_t{1} << 30);
+/// are sent in pieces, because MPI counts by int. `most_dense`: with more ranks, sizes of messages go only to ranks that get one. Throws
+/// Unavailable with mpi_absent().
+std::unique_ptr<HostedRanks> start_mpi(std::size_t most_at_once = std::size_t{1} << 30,
+                                       uint most_dense = 64);
 
 }  // namespace bvhbench

@@ -8,6 +8,6 @@ std::string mpi_absent() { return "built without MPI (libopenmpi-dev), which ran
 
 std::string mpi_version() { return {}; }
 
-std::unique_ptr<HostedRanks> start_mpi(std::size_t) { throw Unavailable(mpi_absent()); }
+std::unique_ptr<HostedRanks> start_mpi(std::size_t, uint) { throw Unavailable(mpi_absent()); }
 
 }  // namespace bvhbench

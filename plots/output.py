@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterable
 from typing import TextIO
 
 import terminal
-from results import Refused
+from json_files import Refused
 
 OF_200_DPI = b"\x00\x00\x00\tpHYs\x00\x00\x1e\xc2\x00\x00\x1e\xc2\x01"  # in a PNG: 7,874 dots a metre
 HEAD_BYTES = 4096

@@ -19,6 +19,9 @@ std::span<const CommandEntry> commands()
         {"sweep", measuring,
          "Measure a product of scenes, sizes, builders, orders, colliders and options, a "
          "process a cell; go on where it was interrupted"},
+        {"scale", measuring,
+         "Run one scene on more and more devices: strong and weak scaling, and the share of the "
+         "halo"},
         {"best", measuring,
          "Say which builder and collider is the fastest for scenes of yours, and by how much"},
         {"reproduce", measuring, "Measure, print and draw what the paper shows"},

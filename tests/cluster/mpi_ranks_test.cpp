@@ -49,6 +49,21 @@ TEST(MpiRanks, ExchangeInPieces)
     }
 }
 
+TEST(MpiRanks, ExchangeNumbersManyTimesOver)
+{
+    for (std::uint64_t round = 0; round < 200; ++round) {
+        std::vector<std::uint64_t> to(ranks->count());
+        const auto number = [&](uint from, uint rank) {
+            return (from + rank + round) % 3 == 0 ? 0 : (round << 32) + from * 1000 + rank;
+        };
+        for (uint rank = 0; rank < ranks->count(); ++rank)
+            to[rank] = number(ranks->rank(), rank);
+        const std::vector<std::uint64_t> from = ranks->exchanged(to);
+        for (uint rank = 0; rank < ranks->count(); ++rank)
+            EXPECT_EQ(from[rank], number(rank, ranks->rank())) << round;
+    }
+}
+
 TEST(MpiRanks, ExchangeNothing)
 {
     for (const std::vector<uint>& from :
@@ -61,5 +76,7 @@ TEST(MpiRanks, ExchangeNothing)
 
 int main(int argc, char** argv)
 {
-    return bvhbench::run_rank_tests(argc, argv, 1000);  // messages of several pieces
+    // Messages of several pieces. The argument "sparse" has sizes exchanged as among many ranks.
+    const bool is_sparse = argc > 1 && std::string_view(argv[1]) == "sparse";
+    return bvhbench::run_rank_tests(argc, argv, 1000, is_sparse ? 0 : 64);
 }

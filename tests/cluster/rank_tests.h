@@ -11,11 +11,11 @@ namespace bvhbench {
 
 inline HostedRanks* ranks = nullptr;  ///< of this process; MPI starts once
 
-/// Runs the tests of the program. `most_at_once` as in start_mpi. Returns the exit code.
-inline int run_rank_tests(int argc, char** argv, std::size_t most_at_once)
+/// Runs the tests of the program. `most_at_once` and `most_dense` as in start_mpi. Returns the exit code.
+inline int run_rank_tests(int argc, char** argv, std::size_t most_at_once, uint most_dense = 64)
 {
     testing::InitGoogleTest(&argc, argv);
-    const auto started = start_mpi(most_at_once);
+    const auto started = start_mpi(most_at_once, most_dense);
     ranks = started.get();
     std::uint64_t failed[] = {RUN_ALL_TESTS() == 0 ? 0u : 1u};
     started->sum(failed);

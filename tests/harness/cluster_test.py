@@ -114,6 +114,20 @@ def test_what_is_wrong_is_said_once():
     expect(3, *few, PATH="empty", says="mpirun, which starts the ranks, is in no folder of PATH")
 
 
+def test_experiments_write_one_file():
+    expect(0, "scale", "strong", "--scene", "torus:2000", "--ranks", "1,2", "--samples", "2", "--out", "strong.json")
+    runs = json.loads(pathlib.Path("strong.json").read_text())["runs"]  # of two ranks, one has no device
+    assert [(one["ranks"], one["status"]) for one in runs] == [(1, "measured"), (2, "failed")], runs
+    assert runs[0]["result"]["frame_ns"] > 0 and runs[0]["result"]["scene"]["triangles"] >= 2000
+    expect(0, "scale", "halo", "--quick", "--ranks", "2", "--builder", "karras", "--out", "halo.json")
+    runs = json.loads(pathlib.Path("halo.json").read_text())["runs"]
+    assert [one["partition"] for one in runs] == ["rcb", "curve"] and all(one["result"]["halo_share"] > 0 for one in runs)
+    expect(2, "scale", "weak", "--scene", "torus:2000", "--out", "w.json", says="weak needs a generator's name")
+    expect(2, "scale", "weak", "--scene", "nothing", "--out", "w.json", says="no scene is called 'nothing:33554432'")
+    expect(2, "scale", "halo", "--quick", "--out", "halo.json", says="is there already")
+    expect(2, "scale", "halo", "--ranks", "2,x", "--out", "w.json", says="--ranks is a list of rank counts")
+
+
 def processes_of(mark: str) -> list[tuple[int, str]]:
     """Returns the processes whose environment has the mark: their numbers and ranks."""
     found = []

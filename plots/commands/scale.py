@@ -1,0 +1,131 @@
+"""bvhbench scale: runs one scene on more and more ranks, a start of `bvhbench cluster` for each cell.
+
+Needs the standard library alone, because machines with many devices often have no more.
+"""
+import argparse
+import json
+import pathlib
+import re
+import tempfile
+from dataclasses import dataclass
+from typing import Any
+
+import child
+import command
+import output
+import reserved
+from json_files import Refused, parsed
+
+FORMAT = "cluster-runs-1.0"
+RANKS = (1, 2, 4, 8)
+HALO_RANKS = (2, 8, 64)
+STRONG, WEAK, HALO = 67_108_864, 33_554_432, 1_152_000  # triangles: in all, a rank, in all
+QUICK = 64  # with --quick, sizes are divided by this
+
+
+@dataclass(frozen=True)
+class Cell:
+    scene: str
+    ranks: int
+    partition: str = "rcb"
+    builder: str = ""
+    shares: bool = False  # counts alone: ranks share devices, and nothing is timed
+
+    def words(self, samples: int) -> list[str]:
+        words = ["cluster", self.scene, "--ranks", str(self.ranks), "--partition", self.partition, "--samples", str(samples)]
+        words += ["--builder", self.builder] if self.builder else []
+        return words + ["--share-devices"] * self.shares
+
+    @property
+    def label(self) -> str:
+        return ", ".join(filter(None, (self.scene, f"{self.ranks} rank{'s' * (self.ranks > 1)}", self.partition, self.builder)))
+
+
+def parser() -> command.Parser:
+    words = command.Parser(
+        "scale", "Run one scene on more and more devices: strong and weak scaling, and the share of the halo",
+        "Each cell is a start of `bvhbench cluster` with ranks on this host. The file is written anew after each cell. More ranks "
+        "than there are devices are noted as failed. halo counts triangles, so its ranks share devices.",
+        [("bvhbench scale strong --out strong.json", "torus:67108864 on 1, 2, 4 and 8 devices"),
+         ("bvhbench scale weak --out weak.json", "33,554,432 triangles a rank"),
+         ("bvhbench scale halo --out halo.json --quick", "what ranks send, of a small scene")], "docs/cluster.md")
+    add = words.add_argument
+    add("experiment", metavar="EXPERIMENT", choices=("strong", "weak", "halo"), help="strong, weak or halo")
+    add("--out", required=True, help="the result file")
+    add("--scene", default="torus",
+        help="a generator's name, which takes each experiment's size; or, but for weak, a scene with its size, or a file")
+    add("--ranks", help="rank counts, as 1,2,4")
+    add("--builder", help="a name of `list builders`")
+    add("--partition", choices=("rcb", "curve"), help="rcb or curve; default: rcb, and both for halo")
+    add("--samples", type=int, default=20, help="timed frames a cell")
+    add("--quick", action="store_true", help=f"scenes of one {QUICK}th of the size")
+    return words
+
+
+def ranks_of(arguments: argparse.Namespace) -> list[int]:
+    if not arguments.ranks:
+        return list(HALO_RANKS if arguments.experiment == "halo" else RANKS)
+    if not re.fullmatch(r"[1-9]\d{0,3}(,[1-9]\d{0,3})*", arguments.ranks):
+        raise output.WrongUsage(f"--ranks is a list of rank counts, as 1,2,4, not '{arguments.ranks}'")
+    return sorted({int(one) for one in arguments.ranks.split(",")})
+
+
+def cells_of(arguments: argparse.Namespace) -> list[Cell]:
+    kind, is_bare = arguments.experiment, re.fullmatch(r"[a-z-]+", arguments.scene)
+    if kind == "weak" and not is_bare:
+        raise output.WrongUsage(f"weak needs a generator's name, whose size grows with the ranks, not '{arguments.scene}'")
+
+    def scene(triangles: int) -> str:
+        return f"{arguments.scene}:{triangles // (QUICK if arguments.quick else 1)}" if is_bare else arguments.scene
+
+    ranks, builder = ranks_of(arguments), arguments.builder or ""
+    if kind == "halo":
+        return [Cell(scene(HALO), count, partition, one, True) for count in ranks
+                for partition in ([arguments.partition] if arguments.partition else ["rcb", "curve"])
+                for one in ([builder] if builder else ["oibvh-multi", "karras"])]
+    return [Cell(scene(WEAK * count if kind == "weak" else STRONG), count, arguments.partition or "rcb", builder) for count in ranks]
+
+
+def measured(cell: Cell, samples: int, common: list[str]) -> dict[str, Any]:
+    """Runs a cell. Returns its entry of the file."""
+    entry: dict[str, Any] = {"scene": cell.scene, "ranks": cell.ranks, "partition": cell.partition}
+    with tempfile.TemporaryDirectory(prefix="bvhbench-") as folder:
+        file = pathlib.Path(folder) / "cell.json"
+        code, _ = child.run([*cell.words(samples), "--json", str(file), *common])
+        if code - 128 in command.ENDING:
+            raise command.Ended(code - 128)
+        if code == 2:  # wrong usage, which other cells share
+            raise SystemExit(code)
+        if not file.exists():
+            return entry | {"status": "failed", "reason": f"bvhbench cluster ended with exit code {code}, and said why"}
+        result = parsed(file)
+        is_wrong = result["check"]["verdict"] == "differs"
+        return entry | ({"status": "failed", "reason": f"a wrong answer: {result['check']['detail']}"} if is_wrong else
+                        {"status": "measured"}) | {"result": result}
+
+
+def main(words: list[str]) -> int:
+    arguments = parser().parse_args(words)
+    if not 1 <= arguments.samples <= 10000:
+        raise output.WrongUsage(f"--samples: {arguments.samples} is not from 1 to 10000")
+    cells, runs = cells_of(arguments), []
+    document = {"format": FORMAT, "experiment": arguments.experiment, "command": ["bvhbench", "scale", *words], "runs": runs}
+    common = command.common_words(arguments, "--force")
+    with reserved.reserved(arguments.out, "--out", arguments.force):
+        for number, cell in enumerate(cells, 1):
+            entry = measured(cell, 1 if cell.shares else arguments.samples, common)
+            runs.append(entry)
+            output.write(arguments.out, (json.dumps(document, indent=1) + "\n").encode())
+            print(f"[{number}/{len(cells)}] {cell.label}: {found(entry)}", flush=True)
+    if all(entry["status"] == "failed" for entry in runs):
+        raise Refused(f"no cell was measured; the first: {runs[0]['reason']}")
+    return 1 if any("wrong" in entry.get("reason", "") for entry in runs) else 0
+
+
+def found(entry: dict[str, Any]) -> str:
+    """Returns what a cell found, for its line."""
+    if entry["status"] != "measured":
+        return entry["reason"]
+    result = entry["result"]
+    frame = f"{result['frame_ns'] / 1e6:.3f} ms, " if "frame_ns" in result else ""
+    return f"{frame}halo {100 * result['halo_share']:.1f} %, {result['check']['verdict'].replace('_', ' ')}"
