@@ -18,8 +18,9 @@ from json_files import Refused, parsed
 
 FORMAT = "cluster-runs-1.0"
 RANKS = (1, 2, 4, 8)
-HALO_RANKS = (2, 8, 64)
+HALO_RANKS, HALO_BOXES = (2, 8, 64), (1, 64)
 STRONG, WEAK, HALO = 67_108_864, 33_554_432, 1_152_000  # triangles: in all, a rank, in all
+PIPELINE = ("builder", "order", "collider")
 QUICK = 64  # with --quick, sizes are divided by this
 
 
@@ -28,24 +29,23 @@ class Cell:
     scene: str
     ranks: int
     partition: str = "rcb"
-    builder: str = ""
-    shares: bool = False  # counts alone: ranks share devices, and nothing is timed
+    boxes: int = 0  # that a rank tells the others; 0: ranks run, else what they would send is counted
 
-    def words(self, samples: int) -> list[str]:
-        words = ["cluster", self.scene, "--ranks", str(self.ranks), "--partition", self.partition, "--samples", str(samples)]
-        words += ["--builder", self.builder] if self.builder else []
-        return words + ["--share-devices"] * self.shares
+    def words(self) -> list[str]:
+        return ["cluster", self.scene, "--partition", self.partition, "--simulate" if self.boxes else "--ranks", str(self.ranks),
+                *(["--boxes", str(self.boxes)] if self.boxes else [])]
 
     @property
     def label(self) -> str:
-        return ", ".join(filter(None, (self.scene, f"{self.ranks} rank{'s' * (self.ranks > 1)}", self.partition, self.builder)))
+        boxes = f", {self.boxes} box{'es' * (self.boxes > 1)} a rank" if self.boxes else ""
+        return f"{self.scene}, {self.ranks} rank{'s' * (self.ranks > 1)}, {self.partition}{boxes}"
 
 
 def parser() -> command.Parser:
     words = command.Parser(
         "scale", "Run one scene on more and more devices: strong and weak scaling, and the share of the halo",
         "Each cell is a start of `bvhbench cluster` with ranks on this host. The file is written anew after each cell. More ranks "
-        "than there are devices are noted as failed. halo counts triangles, so its ranks share devices.",
+        "than there are devices are noted as failed. halo counts what ranks would send, and runs none.",
         [("bvhbench scale strong --out strong.json", "torus:67108864 on 1, 2, 4 and 8 devices"),
          ("bvhbench scale weak --out weak.json", "33,554,432 triangles a rank"),
          ("bvhbench scale halo --out halo.json --quick", "what ranks send, of a small scene")], "docs/cluster.md")
@@ -55,7 +55,8 @@ def parser() -> command.Parser:
     add("--scene", default="torus",
         help="a generator's name, which takes each experiment's size; or, but for weak, a scene with its size, or a file")
     add("--ranks", help="rank counts, as 1,2,4")
-    add("--builder", help="a name of `list builders`")
+    for name in PIPELINE:
+        add(f"--{name}", help=f"a name of `list {name}s`")
     add("--partition", choices=("rcb", "curve"), help="rcb or curve; default: rcb, and both for halo")
     add("--samples", type=int, default=20, help="timed frames a cell")
     add("--quick", action="store_true", help=f"scenes of one {QUICK}th of the size")
@@ -78,20 +79,19 @@ def cells_of(arguments: argparse.Namespace) -> list[Cell]:
     def scene(triangles: int) -> str:
         return f"{arguments.scene}:{triangles // (QUICK if arguments.quick else 1)}" if is_bare else arguments.scene
 
-    ranks, builder = ranks_of(arguments), arguments.builder or ""
+    ranks = ranks_of(arguments)
     if kind == "halo":
-        return [Cell(scene(HALO), count, partition, one, True) for count in ranks
-                for partition in ([arguments.partition] if arguments.partition else ["rcb", "curve"])
-                for one in ([builder] if builder else ["oibvh-multi", "karras"])]
-    return [Cell(scene(WEAK * count if kind == "weak" else STRONG), count, arguments.partition or "rcb", builder) for count in ranks]
+        return [Cell(scene(HALO), count, partition, boxes) for count in ranks
+                for partition in ([arguments.partition] if arguments.partition else ["rcb", "curve"]) for boxes in HALO_BOXES]
+    return [Cell(scene(WEAK * count if kind == "weak" else STRONG), count, arguments.partition or "rcb") for count in ranks]
 
 
-def measured(cell: Cell, samples: int, common: list[str]) -> dict[str, Any]:
+def measured(cell: Cell, options: list[str]) -> dict[str, Any]:
     """Runs a cell. Returns its entry of the file."""
     entry: dict[str, Any] = {"scene": cell.scene, "ranks": cell.ranks, "partition": cell.partition}
     with tempfile.TemporaryDirectory(prefix="bvhbench-") as folder:
         file = pathlib.Path(folder) / "cell.json"
-        code, _ = child.run([*cell.words(samples), "--json", str(file), *common])
+        code, _ = child.run([*cell.words(), "--json", str(file), *options])
         if code - 128 in command.ENDING:
             raise command.Ended(code - 128)
         if code == 2:  # wrong usage, which other cells share
@@ -99,7 +99,7 @@ def measured(cell: Cell, samples: int, common: list[str]) -> dict[str, Any]:
         if not file.exists():
             return entry | {"status": "failed", "reason": f"bvhbench cluster ended with exit code {code}, and said why"}
         result = parsed(file)
-        is_wrong = result["check"]["verdict"] == "differs"
+        is_wrong = result.get("check", {}).get("verdict") == "differs"
         return entry | ({"status": "failed", "reason": f"a wrong answer: {result['check']['detail']}"} if is_wrong else
                         {"status": "measured"}) | {"result": result}
 
@@ -110,10 +110,12 @@ def main(words: list[str]) -> int:
         raise output.WrongUsage(f"--samples: {arguments.samples} is not from 1 to 10000")
     cells, runs = cells_of(arguments), []
     document = {"format": FORMAT, "experiment": arguments.experiment, "command": ["bvhbench", "scale", *words], "runs": runs}
-    common = command.common_words(arguments, "--force")
+    options = command.common_words(arguments, "--force") + ["--samples", str(arguments.samples)]
+    for name in PIPELINE:
+        options += [f"--{name}", getattr(arguments, name)] if getattr(arguments, name) else []
     with reserved.reserved(arguments.out, "--out", arguments.force):
         for number, cell in enumerate(cells, 1):
-            entry = measured(cell, 1 if cell.shares else arguments.samples, common)
+            entry = measured(cell, options)
             runs.append(entry)
             output.write(arguments.out, (json.dumps(document, indent=1) + "\n").encode())
             print(f"[{number}/{len(cells)}] {cell.label}: {found(entry)}", flush=True)
@@ -128,4 +130,5 @@ def found(entry: dict[str, Any]) -> str:
         return entry["reason"]
     result = entry["result"]
     frame = f"{result['frame_ns'] / 1e6:.3f} ms, " if "frame_ns" in result else ""
-    return f"{frame}halo {100 * result['halo_share']:.1f} %, {result['check']['verdict'].replace('_', ' ')}"
+    verdict = f", {result['check']['verdict'].replace('_', ' ')}" if "check" in result else ""
+    return f"{frame}halo {100 * result['halo_share']:.1f} %{verdict}"

@@ -6,6 +6,13 @@
 namespace bvhbench {
 namespace {
 
+template <MeshRun (*run)(uint triangles, FaceRange run)>
+Mesh whole(uint triangles)
+{
+    MeshRun made = run(triangles, {0, triangles});
+    return {std::move(made.points), std::move(made.faces)};
+}
+
 /// Returns a scene of one frame.
 template <Mesh (*make)(uint triangles)>
 Scene still(uint triangles, uint)
@@ -46,6 +53,10 @@ constexpr Generator catalog[] = {
              "long thin curling strands: boxes overlap, triangles do not", hairball_run),
     standing("soup", still<make_soup>, unshared, 48,
              "small random triangles in the unit cube, no shared vertices", soup_run),
+    standing("filled-cube", still<whole<filled_cube_run>>, unshared, 48,
+             "boxes of side 2 spread evenly in a cube, as in ArborX's benchmark", filled_cube_run),
+    standing("hollow-cube", still<whole<hollow_cube_run>>, unshared, 48,
+             "boxes of side 2 spread evenly on the surface of a cube, as there", hollow_cube_run),
     moving("cloth-ball", make_cloth_ball, 2, "a cloth falls on a ball that turns; 2 objects"),
     moving("cloth-layers", make_cloth_layers, 4,
            "three cloths fall on a ball that turns; 4 objects"),

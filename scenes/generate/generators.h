@@ -20,6 +20,10 @@ MeshRun grid_run(uint triangles, FaceRange run);
 MeshRun hairball_run(uint triangles, FaceRange run);
 MeshRun soup_run(uint triangles, FaceRange run);
 
+/// Triangles whose boxes have side 2 and lie evenly in a cube, or around its surface.
+MeshRun filled_cube_run(uint triangles, FaceRange run);
+MeshRun hollow_cube_run(uint triangles, FaceRange run);
+
 /// A bumpy torus, an evenly tessellated closed surface: the usual stand-in for a scanned model. Vertices at the two seams are
 /// not shared.
 Mesh make_torus(uint triangles);

@@ -192,7 +192,7 @@ TEST(Generators, MakePartsOfTheWhole)
             }
         }
     }
-    EXPECT_EQ(made_in_parts, 4u);
+    EXPECT_EQ(made_in_parts, 6u);
     EXPECT_FALSE(load_part("sphere:100", 0, 2));
     EXPECT_THROW(load_part("torus:0", 0, 2), BadUsage);
 }
