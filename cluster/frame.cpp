@@ -6,6 +6,7 @@
 
 #include "collide/device_lists.h"
 #include "collide/oracles/host_collider.h"
+#include "geometry/cores.h"
 #include "geometry/error.h"
 
 namespace bvhbench {
@@ -179,10 +180,27 @@ std::vector<Pair> DistributedFrame::select(const WantedBoxes& wanted)
 std::vector<HaloTriangle> DistributedFrame::exchange(const std::vector<Pair>& leaving,
                                                      RankFrame& frame)
 {
+    // The triangles lie far apart in memory, which cores wait for: several of them at once.
+    constexpr std::size_t block = 2048, most_threads = 16;
+    packed_.resize(leaving.size());
+    on_all_cores((leaving.size() + block - 1) / block,
+                 [&](std::size_t part) {
+                     for (std::size_t k = part * block;
+                          k < std::min(leaving.size(), (part + 1) * block); ++k) {
+                         const uint triangle = leaving[k].a;
+                         packed_[k] = {face_box(share_.points, share_.faces[triangle]),
+                                       share_.ids[triangle], share_.scene_face(triangle)};
+                     }
+                 },
+                 most_threads);
+    std::vector<std::size_t> counts(ranks_.count());
+    for (const Pair& one : leaving)
+        ++counts[one.b];
     std::vector<std::vector<HaloTriangle>> to(ranks_.count());
-    for (const auto& [triangle, rank] : leaving)
-        to[rank].push_back({face_box(share_.points, share_.faces[triangle]), share_.ids[triangle],
-                            share_.scene_face(triangle)});
+    for (std::size_t rank = 0; rank < counts.size(); ++rank)
+        to[rank].reserve(counts[rank]);
+    for (std::size_t k = 0; k < leaving.size(); ++k)
+        to[leaving[k].b].push_back(packed_[k]);
     frame.halo_sent = leaving.size();
     frame.sent_bytes += leaving.size() * sizeof(HaloTriangle);
     std::vector<HaloTriangle> halo;

@@ -115,7 +115,8 @@ private:
     Share share_;
     std::optional<Input> input_;
     const DeviceTree* tree_ = nullptr;
-    std::vector<HaloTriangle> halo_;  ///< of the last frame
+    std::vector<HaloTriangle> packed_;  ///< triangles that leave, as they are sent
+    std::vector<HaloTriangle> halo_;    ///< of the last frame
     std::vector<HaloCorners> halo_corners_;
     std::vector<Pair> pairs_of_one_;  ///< its pairs with the halo, if the rank has one triangle
 };

@@ -22,6 +22,8 @@ void HaloQuery::bring(std::span<const HaloTriangle> halo, Queue& queue)
     const bool keeps_adjacent = options_.keep_adjacent;
     std::vector<Aabb> boxes;
     std::vector<Face> faces;
+    boxes.reserve(halo.size());
+    faces.reserve(keeps_adjacent ? 0 : halo.size());
     for (const HaloTriangle& one : halo) {
         boxes.push_back(one.box);
         if (!keeps_adjacent)
