@@ -96,6 +96,13 @@ void DeviceCollider::reserve(const Tree* tree, const Input& input)
     take_all();
 }
 
+std::size_t DeviceCollider::first_room(std::size_t guess, std::size_t entry_bytes) const
+{
+    return options_.capacity != 0
+               ? options_.capacity
+               : device().room_for(std::min<std::size_t>(guess, most_entries), entry_bytes);
+}
+
 void DeviceCollider::take_all()
 {
     const cl::CommandQueue queue(device().context, device().cl);

@@ -95,11 +95,9 @@ protected:
     Programs& programs() const { return programs_; }
     const Device& device() const { return programs_.device(); }
 
-    /// Initial capacity of a list: the option `capacity` if set, else `guess`, limited by the largest allocation.
-    std::size_t first_room(std::size_t guess, std::size_t entry_bytes = sizeof(Pair)) const
-    {
-        return options_.capacity != 0 ? options_.capacity : device().room_for(guess, entry_bytes);
-    }
+    /// Initial capacity of a list: the option `capacity` if set, else `guess`, limited by the largest allocation and by indices of
+    /// 32 bits.
+    std::size_t first_room(std::size_t guess, std::size_t entry_bytes = sizeof(Pair)) const;
 
     ColliderOptions options_;
     uint group_size_;

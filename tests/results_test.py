@@ -59,9 +59,12 @@ class Schema(unittest.TestCase):
         self.assertGreater(len(paths), 2)
         for path in paths:
             document = read(path)
-            for error in validator.iter_errors(document):
-                self.fail(f"{path}: {error.json_path}: {error.message}")
-            self.assertEqual(document["check"]["verdict"], "agrees", path)
+            for one in [run["result"] for run in document["runs"]] if "runs" in document else [document]:
+                if one["format"].startswith("cluster-simulation"):
+                    continue
+                for error in validator.iter_errors(one):
+                    self.fail(f"{path}: {error.json_path}: {error.message}")
+                self.assertEqual(one["check"]["verdict"], "agrees", path)
 
     def test_refuses_a_time_without_a_verdict(self) -> None:
         del self.measured["check"]

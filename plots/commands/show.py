@@ -2,7 +2,9 @@
 import answer
 import command
 import given
+import json_files
 import results
+import scaled
 from console import accuracy, best, builders, cell, cells, frames, skips, stress, swept, trees
 from console import run as run_page
 
@@ -24,6 +26,8 @@ def main(words: list[str]) -> int:
 
 
 def text(file: str) -> str:
+    if scaled.is_scaled(file):
+        return scaled.text(json_files.parsed(file))
     run = results.everything(file)
     try:
         return answer.of_cells(run.all_cells) + run_page.text(run) + run_page.merged(run) + pages(run)

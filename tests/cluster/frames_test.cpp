@@ -149,7 +149,7 @@ TEST_F(Frames, OfScenesHaveThePairsOfTheOracle)
 TEST_F(Frames, OfRealMeshesHaveThePairsOfTheOracle)
 {
     const char* data = std::getenv("BVHBENCH_DATA");
-    if (data == nullptr)
+    if (data == nullptr || *data == '\0')
         GTEST_SKIP() << "BVHBENCH_DATA names no folder";
     for (const char* name : {"bunny_69451", "unc_cloth_ball", "unc_nbody"}) {
         const Scene loaded = load_scene(name, {.data = data});
