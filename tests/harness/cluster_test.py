@@ -64,6 +64,23 @@ def test_contacts_are_those_of_collide():
     assert document["check"]["contacts_hash"]
 
 
+def test_frames_keep_their_parts_until_work_is_uneven():
+    words = ("cluster", "cloth-ball:3000:6", "--ranks", "2", *SHARED, "--narrow", "exact", "--adjacent", "drop", "--json", "f.json")
+    expect(0, *words, "--frames", "0:", "--rebalance", "1000", says="agrees with one device")
+    kept = result("f.json")
+    expect(0, *words, "--frames", "0:6", "--rebalance", "1", says="agrees with one device")
+    cut = result("f.json")
+    assert [frame["frame"] for frame in kept["frames"]] == list(range(6))
+    assert all(frame["moved_count"] == 0 for frame in kept["frames"])
+    assert sum(frame["moved_count"] > 0 for frame in cut["frames"]) > 2 and cut["frames"][-1]["moved_count"] == 0
+    for one, other in zip(kept["frames"], cut["frames"]):
+        assert one["pairs_set_hash"] == other["pairs_set_hash"] and one["contacts_count"] == other["contacts_count"]
+    worst = {name: max(frame["work_imbalance"] for frame in of["frames"][1:]) for name, of in (("kept", kept), ("cut", cut))}
+    assert worst["cut"] < worst["kept"], worst
+    expect(2, *words[:-2], "--frames", "0:9", says="--frames asks for 0:9, and cloth-ball:3000:6 has 6 frames")
+    expect(2, *words[:-2], "--frames", "0:2", "--pairs", "p.csv", says="--pairs and --contacts write those of the first frame")
+
+
 def test_a_rank_with_a_device_of_its_own_is_timed():
     out = expect(0, "cluster", "sphere:2000", "--ranks", "1", "--samples", "3", "--adjacent", "drop", "--json", "t.json", says="frame: ")
     document = result("t.json")
