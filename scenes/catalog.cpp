@@ -9,6 +9,7 @@
 #include "geometry/host_memory.h"
 #include "geometry/names.h"
 #include "scenes/counts.h"
+#include "scenes/formats/ply_parts.h"
 #include "scenes/formats/text.h"
 #include "scenes/generate/derived.h"
 #include "scenes/generate/generators.h"
@@ -182,6 +183,18 @@ bool looks_like_path(std::string_view text)
            text.find('.') != text.npos;
 }
 
+/// Returns the file of a path of which parts can be read: a mesh, or a folder of frames; nothing if it must be read whole.
+std::optional<PlyParts> file_in_parts(const std::filesystem::path& path)
+{
+    std::error_code error;
+    const std::filesystem::path mesh = path / "mesh.ply", frames = path / "frames.f32";
+    if (is_regular_file(mesh, error) && is_regular_file(frames, error))
+        return PlyParts::opened(mesh, frames);
+    if (path.extension() == ".ply" && is_regular_file(path, error))
+        return PlyParts::opened(path);
+    return std::nullopt;
+}
+
 Scene unfinished(std::string_view text, const SceneLibrary& library)
 {
     if (const auto derived = taken_apart(text)) {
@@ -282,17 +295,29 @@ std::string scene_name(std::string_view text)
 
 std::optional<ScenePart> load_part(std::string_view text, uint part, uint parts)
 {
-    const Parts words(text);
-    const Generator* const generator = generator_called(words.head);
-    if (taken_apart(text) || manifest_entry(text) != nullptr || generator == nullptr ||
-        generator->run == nullptr)
+    if (taken_apart(text) || manifest_entry(text) != nullptr)
         return std::nullopt;
+    const Parts words(text);
     ScenePart made;
-    made.triangles = triangle_count(text, words.rest, generator->most);
-    const auto begin = [&](uint k) { return static_cast<uint>(made.triangles * k / parts); };
-    made.run = {begin(part), begin(part + 1) - begin(part)};
-    require_memory(text, std::uint64_t{generator->bytes_a_triangle} * made.run.count);
-    made.mesh = generator->run(static_cast<uint>(made.triangles), made.run);
+    const auto cut = [&] {
+        const auto begin = [&](uint k) { return static_cast<uint>(made.triangles * k / parts); };
+        made.run = {begin(part), begin(part + 1) - begin(part)};
+    };
+    if (const Generator* const generator = generator_called(words.head)) {
+        if (generator->run == nullptr)
+            return std::nullopt;
+        made.triangles = triangle_count(text, words.rest, generator->most);
+        cut();
+        require_memory(text, std::uint64_t{generator->bytes_a_triangle} * made.run.count);
+        made.mesh = generator->run(static_cast<uint>(made.triangles), made.run);
+    } else {
+        const std::optional<PlyParts> file = file_in_parts(text);
+        if (!file)
+            return std::nullopt;
+        made.triangles = file->triangles();
+        cut();
+        made.mesh = file->read(made.run);
+    }
     for (Point& point : made.mesh.points)
         point = {point.x + 0.0f, point.y + 0.0f, point.z + 0.0f};  // -0 + 0 is +0
     return made;

@@ -38,8 +38,9 @@ struct ScenePart {
     std::uint64_t triangles = 0;  ///< of the scene
 };
 
-/// Makes part `part` of `parts` of the scene `text`, without making the others; parts have about equal sizes, in order. Nothing if
-/// the scene must be loaded whole. Throws as load_scene does.
+/// Makes or reads part `part` of `parts` of the scene `text`, without the others; parts have about equal sizes, in order. Nothing if
+/// the scene must be loaded whole: other files than binary PLY (scenes/formats/ply_parts.h), data sets by name, scenes derived from
+/// others, and generators that make no runs. Of a file, only what the part uses is checked. Throws as load_scene does.
 std::optional<ScenePart> load_part(std::string_view text, uint part, uint parts);
 
 /// Returns the name of the scene `text` with counts in digits, the same for every way to write them: "torus:100000" for

@@ -25,11 +25,15 @@ Scene whole_scene(const ClusterTask& task, Session& session)
 Share first_share(const ClusterTask& task, Session& session, Ranks& ranks, SceneFacts& facts)
 {
     facts.name = scene_name(task.scene);
-    if (std::optional<ScenePart> part = load_part(task.scene, ranks.rank(), ranks.count())) {
+    std::optional<ScenePart> part = load_part(task.scene, ranks.rank(), ranks.count());
+    std::array<std::uint64_t, 1> ranks_with_parts{part ? 1u : 0u};
+    ranks.sum(ranks_with_parts);
+    if (ranks_with_parts[0] == ranks.count()) {
         facts.triangles = static_cast<std::int64_t>(part->triangles);
         facts.vertices = static_cast<std::int64_t>(part->mesh.mesh_points);
         return share_of(std::move(part->mesh), part->run.first);
     }
+    part.reset();
     if (ranks.rank() != first_rank)
         return dealt({}, {}, first_rank, ranks);
     const Scene scene = whole_scene(task, session);

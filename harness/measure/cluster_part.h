@@ -28,8 +28,8 @@ std::vector<std::vector<T>> at_first(Ranks& ranks, std::vector<T> own)
 /// Returns the scene, all triangles as one object.
 Scene whole_scene(const ClusterTask& task, Session& session);
 
-/// Returns a run of consecutive triangles of the scene for this rank, and the scene's name and sizes. The rank makes the run itself,
-/// or the first rank loads the scene and deals it out.
+/// Returns a run of consecutive triangles of the scene for this rank, and the scene's name and sizes. The rank makes or reads the
+/// run itself if all ranks can, as they cannot if a host lacks the file; else the first rank loads the scene and deals it out.
 Share first_share(const ClusterTask& task, Session& session, Ranks& ranks, SceneFacts& facts);
 
 /// Returns the triangles of this rank's part.
