@@ -2,6 +2,7 @@
 #include "cluster/frame.h"
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 
 #include "collide/device_lists.h"
@@ -109,6 +110,18 @@ void DistributedFrame::take(Share share)
         halo_query_.own(std::move(faces));
     }
     halo_query_.reserve(tree_, *input_);
+}
+
+void DistributedFrame::move(std::vector<Point> points)
+{
+    assert(points.size() == share_.points.size());
+    share_.points = std::move(points);
+    if (contacts_)
+        contacts_->take(share_, queue_);
+    if (!has_tree())
+        return;
+    input_->device_points.upload(queue_.cl(), share_.points);
+    input_->points = share_.points;
 }
 
 RankFrame DistributedFrame::run()

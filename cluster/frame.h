@@ -66,6 +66,9 @@ public:
     /// BadUsage for a builder whose trees are in host memory, and what builder and collider throw.
     void take(Share share);
 
+    /// Moves the share's points, which stay as many. Never timed. Blocks.
+    void move(std::vector<Point> points);
+
     /// Runs a frame; all ranks must. Buffers that are too small grow, and their query is repeated.
     RankFrame run();
 

@@ -51,6 +51,12 @@ public:
         app.add_option("--simulate", simulated_,
                        "count what so many ranks would send, without running them")
             ->check(CLI::Range(1u, most_ranks));
+        app.add_option("--frames", frames_,
+                       "a:b, from frame a to before b, of a scene that moves; each is a sample");
+        app.add_option("--rebalance", task_.rebalance,
+                       "work of a rank, divided by the mean, above which rcb cuts the scene anew")
+            ->check(CLI::Range(1.0, 1e6))
+            ->capture_default_str();
         app.add_option("--check", check_, joined(cluster_check_names))->capture_default_str();
         app.add_option("--samples", task_.samples, "timed frames")
             ->check(CLI::Range(1, most_samples_of_frames))
@@ -119,6 +125,11 @@ private:
             throw BadUsage("--contacts takes a narrow phase: --narrow exact");
         triangles_said(task_.scene);  // throws for a name that no scene can have
         const std::optional<unsigned> started = ranks_started();
+        if (!frames_.empty())
+            task_.frames = frame_range(frames_);
+        if (task_.frames != FrameRange{} && (task_.wants_pairs || task_.wants_contacts))
+            throw BadUsage(
+                "--pairs and --contacts write those of the first frame, without --frames");
         if (!std::has_single_bit(task_.boxes))
             throw BadUsage("--boxes is a power of two, not " + std::to_string(task_.boxes));
         if (simulated_ != 0 &&
@@ -181,7 +192,7 @@ private:
     CellChoice choice_;
     unsigned ranks_ = 0, simulated_ = 0;
     std::string partition_ = "rcb", check_ = "auto";
-    std::string json_, pairs_, contacts_;
+    std::string json_, pairs_, contacts_, frames_;
 };
 
 }  // namespace

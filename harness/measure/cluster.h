@@ -21,6 +21,8 @@ struct ClusterTask {
     PipelineChoice pipeline;
     ClusterCheck check = ClusterCheck::automatic;
     uint boxes = usual_top_boxes;  ///< that a rank tells the others
+    FrameRange frames;             ///< of the scene; of several, each is a sample
+    double rebalance = 1.1;  ///< work of a rank, divided by the mean, above which rcb cuts anew
     int samples = 5;
     std::uint64_t most_gathered = 100'000'000;  ///< pairs that the first rank lists
     bool wants_pairs = false;                   ///< it lists them however many there are

@@ -32,13 +32,14 @@ Check begun(const ClusterEvidence& evidence, const std::string& against)
 
 }  // namespace
 
-Check verdict_of_one_device(const ClusterEvidence& evidence, const Scene& scene, Session& session,
+Check verdict_of_one_device(const ClusterEvidence& evidence, std::span<const Point> points,
+                            std::span<const Face> faces, Session& session,
                             const PipelineChoice& pipeline)
 {
     Check check = begun(evidence, "one device");
     try {
         Queue& queue = session.queue();
-        const Input input = upload(session.device(), queue, scene.frames.front(), scene.faces);
+        const Input input = upload(session.device(), queue, points, faces);
         const auto builder = make_builder(pipeline.builder, session.programs());
         const auto collider = make_collider(pipeline.collider, session.programs());
         builder->reserve(input.triangle_count());

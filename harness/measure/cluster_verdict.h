@@ -30,7 +30,8 @@ struct ClusterEvidence {
 
 /// Compares with what this process' device finds in the whole scene, with the same pipeline: list for list, or only the facts if
 /// there is no list.
-Check verdict_of_one_device(const ClusterEvidence& evidence, const Scene& scene, Session& session,
+Check verdict_of_one_device(const ClusterEvidence& evidence, std::span<const Point> points,
+                            std::span<const Face> faces, Session& session,
                             const PipelineChoice& pipeline);
 
 /// Compares the facts with those of another partition, and the pairs of the sample's triangles list for list.

@@ -2,9 +2,12 @@
 #include "harness/record/cluster_result.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <functional>
 #include <set>
 
+#include "cluster/share.h"
 #include "geometry/hash.h"
 #include "harness/base/table.h"
 #include "harness/choice/choices.h"
@@ -96,6 +99,26 @@ std::string verdict_line(const ClusterResult& result)
         line += ", contacts " + std::to_string(result.contacts->count) + ", set hash " +
                 set_hash(*result.contacts);
     return line;
+}
+
+/// Returns a line on the frames of a scene that moves; empty for another one.
+std::string frames_lines(const ClusterResult& result)
+{
+    if (result.frames.empty())
+        return {};
+    std::uint64_t moved = 0, times = 0;
+    double most = 1;
+    for (const ClusterFrame& frame : result.frames) {
+        moved += frame.moved_triangles;
+        times += frame.moved_triangles > 0 ? 1 : 0;
+        most = std::max(most, frame.imbalance);
+    }
+    std::array<char, 32> ratio{};
+    std::snprintf(ratio.data(), ratio.size(), "%.3f", most);
+    return std::to_string(result.frames.size()) + " frames; work of a rank at most " +
+           ratio.data() + " of the mean; rebalanced " + std::to_string(times) + " times, " +
+           std::to_string(moved) + " triangles moved, " +
+           bytes_text(static_cast<double>(moved * sizeof(CarriedTriangle))) + "\n";
 }
 
 /// Returns a row for each rank: what it has, sends and finds.
@@ -196,6 +219,19 @@ Json cluster_json(const ClusterResult& result, Json run, const std::string& mpi)
         json["check"]["pairs_hash"] = hex(*result.check.pairs_hash);
     if (result.check.contacts_hash)
         json["check"]["contacts_hash"] = hex(*result.check.contacts_hash);
+    for (const ClusterFrame& frame : result.frames) {
+        Json one = {{"frame", frame.frame},
+                    {"pairs_count", frame.pairs.count},
+                    {"pairs_set_hash", set_hash(frame.pairs)},
+                    {"work_imbalance", frame.imbalance},
+                    {"moved_count", frame.moved_triangles},
+                    {"moved_bytes", frame.moved_triangles * sizeof(CarriedTriangle)}};
+        if (frame.contacts)
+            one["contacts_count"] = frame.contacts->count;
+        if (!result.shares_devices)
+            one["rebalance_ns"] = frame.rebalance_ns;
+        json["frames"].push_back(std::move(one));
+    }
     json["ranks"] = Json::array();
     for (const ClusterRank& rank : result.ranks)
         json["ranks"].push_back(rank_json(rank, !result.shares_devices));
@@ -215,6 +251,7 @@ std::string cluster_table(const ClusterResult& result, std::size_t width)
     for (const std::string& device : devices)
         text += "\ndevice: " + device;
     text += "\n" + counts_table(result).text(width);
+    text += frames_lines(result);
     if (!result.shares_devices)
         text += times_table(result).text(width);
     text += "halo: " + fixed(100 * halo_share(result), 1) +

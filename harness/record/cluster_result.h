@@ -25,6 +25,17 @@ struct ClusterRank {
     std::vector<RankFrame> frames;   ///< timed ones; at least one
 };
 
+/// A frame of a scene that moves.
+struct ClusterFrame {
+    std::size_t frame = 0;
+    PairFacts pairs;
+    std::optional<PairFacts> contacts;
+    double imbalance =
+        1;  ///< of work, triangles and pairs: the most of a rank, divided by the mean
+    std::uint64_t moved_triangles = 0;  ///< to other ranks, after the frame
+    std::int64_t rebalance_ns = 0;  ///< host clock: cutting and moving; 0 if the partition was kept
+};
+
 struct ClusterResult {
     SceneFacts scene;
     PartitionBy partition = PartitionBy::rcb;
@@ -36,6 +47,7 @@ struct ClusterResult {
     std::vector<ClusterRank> ranks;
     PairFacts pairs;                    ///< of all ranks together
     std::optional<PairFacts> contacts;  ///< the pairs that intersect; empty without a narrow phase
+    std::vector<ClusterFrame> frames;   ///< of a scene that moves; the samples of ranks are theirs
     Check check;                        ///< has no hash of the list if only facts were compared
 };
 

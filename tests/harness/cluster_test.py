@@ -64,6 +64,23 @@ def test_contacts_are_those_of_collide():
     assert document["check"]["contacts_hash"]
 
 
+def test_frames_keep_their_parts_until_work_is_uneven():
+    words = ("cluster", "cloth-ball:3000:6", "--ranks", "2", *SHARED, "--narrow", "exact", "--adjacent", "drop", "--json", "f.json")
+    expect(0, *words, "--frames", "0:", "--rebalance", "1000", says="agrees with one device")
+    kept = result("f.json")
+    expect(0, *words, "--frames", "0:6", "--rebalance", "1", says="agrees with one device")
+    cut = result("f.json")
+    assert [frame["frame"] for frame in kept["frames"]] == list(range(6))
+    assert all(frame["moved_count"] == 0 for frame in kept["frames"])
+    assert sum(frame["moved_count"] > 0 for frame in cut["frames"]) > 2 and cut["frames"][-1]["moved_count"] == 0
+    for one, other in zip(kept["frames"], cut["frames"]):
+        assert one["pairs_set_hash"] == other["pairs_set_hash"] and one["contacts_count"] == other["contacts_count"]
+    worst = {name: max(frame["work_imbalance"] for frame in of["frames"][1:]) for name, of in (("kept", kept), ("cut", cut))}
+    assert worst["cut"] < worst["kept"], worst
+    expect(2, *words[:-2], "--frames", "0:9", says="--frames asks for 0:9, and cloth-ball:3000:6 has 6 frames")
+    expect(2, *words[:-2], "--frames", "0:2", "--pairs", "p.csv", says="--pairs and --contacts write those of the first frame")
+
+
 def test_a_rank_with_a_device_of_its_own_is_timed():
     out = expect(0, "cluster", "sphere:2000", "--ranks", "1", "--samples", "3", "--adjacent", "drop", "--json", "t.json", says="frame: ")
     document = result("t.json")
@@ -121,11 +138,29 @@ def test_experiments_write_one_file():
     assert runs[0]["result"]["frame_ns"] > 0 and runs[0]["result"]["scene"]["triangles"] >= 2000
     expect(0, "scale", "halo", "--quick", "--ranks", "2", "--builder", "karras", "--out", "halo.json")
     runs = json.loads(pathlib.Path("halo.json").read_text())["runs"]
-    assert [one["partition"] for one in runs] == ["rcb", "curve"] and all(one["result"]["halo_share"] > 0 for one in runs)
+    shares = {(one["partition"], one["result"]["boxes_count"]): one["result"]["halo_share"] for one in runs}
+    assert set(shares) == {("rcb", 1), ("rcb", 64), ("curve", 1), ("curve", 64)} and min(shares.values()) > 0, shares
+    assert "times one rank" in expect(0, "show", "strong.json") and "curve" in expect(0, "show", "halo.json")
+    expect(0, "plot", "strong.json", "halo.json", "--out", "figures")
+    assert all(pathlib.Path("figures", f"{name}.png").stat().st_size > 10000 for name in ("strong", "halo"))
     expect(2, "scale", "weak", "--scene", "torus:2000", "--out", "w.json", says="weak needs a generator's name")
     expect(2, "scale", "weak", "--scene", "nothing", "--out", "w.json", says="no scene is called 'nothing:33554432'")
     expect(2, "scale", "halo", "--quick", "--out", "halo.json", says="is there already")
     expect(2, "scale", "halo", "--ranks", "2,x", "--out", "w.json", says="--ranks is a list of rank counts")
+
+
+def test_what_is_simulated_is_what_ranks_send():
+    for partition in "rcb", "curve":
+        expect(0, "cluster", "torus:20000", "--simulate", "3", "--partition", partition, "--json", "s.json", "--force", says="simulated: ")
+        expect(0, "cluster", "torus:20000", "--ranks", "3", "--partition", partition, *SHARED, "--samples", "1", "--json", "r.json")
+        simulated, ran = json.loads(pathlib.Path("s.json").read_text()), result("r.json")
+        for key in "triangles", "halo_sent_count", "halo_received_count":
+            assert [rank[key] for rank in simulated["ranks"]] == [rank[key] for rank in ran["ranks"]], key
+        assert abs(simulated["halo_share"] - ran["halo_share"]) < 1e-9 and ran["halo_share"] > 0
+    expect(2, "cluster", "torus:2000", "--simulate", "2", "--ranks", "2", says="--simulate runs no ranks")
+    expect(2, "cluster", "torus:2000", "--ranks", "2", "--boxes", "63", says="--boxes is a power of two")
+    expect(2, "cluster", "torus:2000", "--ranks", "2", *SHARED, "--boxes", "32", "--builder", "oibvh-wide8", "--collider", "group",
+           says="no level of trees with 8 children a node has 32 nodes")
 
 
 def processes_of(mark: str) -> list[tuple[int, str]]:

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "harness/measure/cluster_part.h"
+
+#include <array>
+#include <chrono>
+#include <optional>
+
+#include "cluster/share.h"
+#include "geometry/host_memory.h"
+#include "scenes/catalog.h"
+#include "scenes/face_order.h"
+
+namespace bvhbench {
+namespace {
+
+std::vector<char> characters(const std::string& text) { return {text.begin(), text.end()}; }
+
+}  // namespace
+
+Scene whole_scene(const ClusterTask& task, Session& session)
+{
+    return with_objects(load_scene(task.scene, session.scenes()), ObjectsBy::one);
+}
+
+Share first_share(const ClusterTask& task, Session& session, Ranks& ranks, SceneFacts& facts)
+{
+    facts.name = scene_name(task.scene);
+    std::optional<ScenePart> part = load_part(task.scene, ranks.rank(), ranks.count());
+    std::array<std::uint64_t, 1> ranks_with_parts{part ? 1u : 0u};
+    ranks.sum(ranks_with_parts);
+    if (ranks_with_parts[0] == ranks.count()) {
+        facts.triangles = static_cast<std::int64_t>(part->triangles);
+        facts.vertices = static_cast<std::int64_t>(part->mesh.mesh_points);
+        return share_of(std::move(part->mesh), part->run.first);
+    }
+    part.reset();
+    if (ranks.rank() != first_rank)
+        return dealt({}, {}, first_rank, ranks);
+    const Scene scene = whole_scene(task, session);
+    facts.triangles = scene.triangle_count();
+    facts.vertices = std::ssize(scene.frames.front());
+    return dealt(scene.frames.front(), scene.faces, first_rank, ranks);
+}
+
+Share partitioned_share(Share run, PartitionBy by, Ranks& ranks, std::int64_t& took_ns)
+{
+    ranks.wait_for_all();
+    const auto start = std::chrono::steady_clock::now();
+    std::vector<Point> centres = box_centres(run);
+    const std::vector<uint> to = partitioned({centres, run.ids}, by, ranks.count(), ranks);
+    centres = {};
+    Share share = moved(std::move(run), to, ranks);
+    ranks.wait_for_all();
+    took_ns = std::chrono::nanoseconds(std::chrono::steady_clock::now() - start).count();
+    return share;
+}
+
+void tell_first(HostedRanks& ranks, const std::string& device, ClusterRank own,
+                std::vector<ClusterRank>& all)
+{
+    const std::uint64_t numbers[] = {own.triangles, own.predicted_bytes, own.device_bytes,
+                                     host_memory_facts().peak};
+    const auto hosts = at_first(ranks, characters(ranks.host()));
+    const auto devices = at_first(ranks, characters(device));
+    const auto of_ranks = at_first(ranks, std::vector(std::begin(numbers), std::end(numbers)));
+    std::vector<std::vector<RankFrame>> frames = at_first(ranks, std::move(own.frames));
+    for (uint rank = 0; ranks.rank() == first_rank && rank < ranks.count(); ++rank) {
+        const std::vector<std::uint64_t>& of = of_ranks[rank];
+        all.push_back({{hosts[rank].begin(), hosts[rank].end()},
+                       {devices[rank].begin(), devices[rank].end()},
+                       of[0],
+                       of[1],
+                       of[2],
+                       of[3],
+                       std::move(frames[rank])});
+    }
+}
+
+std::vector<Pair> pairs_at_first(Ranks& ranks, std::vector<Pair> own)
+{
+    std::vector<Pair> all;
+    for (std::vector<Pair>& of_rank : at_first(ranks, std::move(own))) {
+        all.insert(all.end(), of_rank.begin(), of_rank.end());
+        of_rank = {};
+    }
+    return all;
+}
+
+PairFacts facts_of_all(const PairFacts& own, Ranks& ranks)
+{
+    std::array<std::uint64_t, 3> sums{own.count, own.low, own.high};
+    ranks.sum(sums);
+    return {sums[0], sums[1], sums[2]};
+}
+
+}  // namespace bvhbench

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+//
+// What runs of ranks have in common: how a rank gets its triangles, its part on its device, and what the first rank is told.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "cluster/frame.h"
+#include "cluster/mpi_ranks.h"
+#include "harness/choice/catalog.h"
+#include "harness/measure/cluster.h"
+#include "harness/session/watchdog.h"
+
+namespace bvhbench {
+
+constexpr uint first_rank = 0;  ///< reads the scene and gathers what is found
+
+/// Sends values of every rank to the first, which gets them by rank; the others get none.
+template <class T>
+std::vector<std::vector<T>> at_first(Ranks& ranks, std::vector<T> own)
+{
+    std::vector<std::vector<T>> to(ranks.count());
+    to[first_rank] = std::move(own);
+    return exchanged(ranks, std::move(to));
+}
+
+/// Returns the scene, all triangles as one object.
+Scene whole_scene(const ClusterTask& task, Session& session);
+
+/// Returns a run of consecutive triangles of the scene for this rank, and the scene's name and sizes. The rank makes or reads the
+/// run itself if all ranks can, as they cannot if a host lacks the file; else the first rank loads the scene and deals it out.
+Share first_share(const ClusterTask& task, Session& session, Ranks& ranks, SceneFacts& facts);
+
+/// Returns the triangles of this rank's part.
+Share partitioned_share(Share run, PartitionBy by, Ranks& ranks, std::int64_t& took_ns);
+
+/// Adds what each rank has to the result, by rank; at the first rank only.
+void tell_first(HostedRanks& ranks, const std::string& device, ClusterRank own,
+                std::vector<ClusterRank>& all);
+
+/// Returns the pairs of all ranks at the first, and none elsewhere.
+std::vector<Pair> pairs_at_first(Ranks& ranks, std::vector<Pair> own);
+
+/// Returns the facts of the pairs of all ranks together.
+PairFacts facts_of_all(const PairFacts& own, Ranks& ranks);
+
+inline bool has_narrow(const ClusterTask& task) { return task.pipeline.collider.narrow != "none"; }
+
+/// Calls `work` under the limits of a rank.
+template <class Work>
+auto watched(const Work& work)
+{
+    const watchdog::Watch watch;
+    return work();
+}
+
+/// A partition of the scene, and this rank's part of it on its device.
+class ClusterPart {
+public:
+    ClusterPart(HostedRanks& ranks, Session& session, const ClusterTask& task)
+        : session_(session)
+        , builder_(make_builder(task.pipeline.builder, session.programs()))
+        , collider_(make_collider(task.pipeline.collider, session.programs()))
+        , frame(ranks, session.programs(), session.queue(), *builder_, *collider_,
+                task.pipeline.collider.keep_adjacent, task.pipeline.collider.narrow, task.boxes)
+    {}
+
+    /// Takes the triangles, after a trial with the first of them that predicts the memory. Throws Unavailable if that exceeds the
+    /// device's.
+    void take(Share share)
+    {
+        own.triangles = share.triangle_count();
+        if (own.triangles > tried)
+            own.predicted_bytes = predicted(share);
+        watched([&] { frame.take(std::move(share)); });
+    }
+
+    RankFrame run()
+    {
+        return watched([&] { return frame.run(); });
+    }
+
+private:
+    static constexpr std::size_t tried = 1 << 20;  ///< triangles
+
+    std::uint64_t predicted(const Share& share)
+    {
+        const Device& device = session_.device();
+        const std::size_t before = *device.taken;
+        watched([&] { frame.take(first_of(share, tried)); });
+        const double each = static_cast<double>(*device.taken - before) / tried;
+        const auto all =
+            static_cast<std::uint64_t>(each * static_cast<double>(share.triangle_count()));
+        *device.most_taken = *device.taken;
+        if (all > device.memory_bytes())
+            throw Unavailable("its " + std::to_string(share.triangle_count()) +
+                              " triangles would take " + std::to_string(all) + " bytes of " +
+                              device.name() + ", which has " +
+                              std::to_string(device.memory_bytes()));
+        return all;
+    }
+
+    Session& session_;
+    std::unique_ptr<Builder> builder_;
+    std::unique_ptr<Collider> collider_;
+
+public:
+    DistributedFrame frame;
+    ClusterRank own;  ///< without names
+};
+
+}  // namespace bvhbench
