@@ -143,10 +143,10 @@ def test_experiments_write_one_file():
     assert "times one rank" in expect(0, "show", "strong.json") and "curve" in expect(0, "show", "halo.json")
     expect(0, "plot", "strong.json", "halo.json", "--out", "figures")
     assert all(pathlib.Path("figures", f"{name}.png").stat().st_size > 10000 for name in ("strong", "halo"))
-    expect(2, "scale", "weak", "--scene", "torus:2000", "--out", "w.json", says="weak needs a generator's name")
-    expect(2, "scale", "weak", "--scene", "nothing", "--out", "w.json", says="no scene is called 'nothing:33554432'")
+    expect(2, "scale", "weak", "--scene", "torus:2000", "--out", "never.json", says="weak needs a generator's name")
+    expect(2, "scale", "weak", "--scene", "nothing", "--out", "never.json", says="no scene is called 'nothing:33554432'")
     expect(2, "scale", "halo", "--quick", "--out", "halo.json", says="is there already")
-    expect(2, "scale", "halo", "--ranks", "2,x", "--out", "w.json", says="--ranks is a list of rank counts")
+    expect(2, "scale", "halo", "--ranks", "2,x", "--out", "never.json", says="--ranks is a list of rank counts")
 
 
 def test_what_is_simulated_is_what_ranks_send():
