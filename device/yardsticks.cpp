@@ -32,12 +32,12 @@ std::size_t compute_units(const Device& device)
     return device.cl.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
 }
 
-/// Returns the number of vectors that fill twice the device's reported cache size, but at least 64 MiB, since some devices
+/// Returns the number of vectors that fill `times` the device's reported cache size, but at least 64 MiB, since some devices
 /// report too little and most last-level caches are smaller, and at most `most` bytes.
-std::size_t vectors_past_caches(const Device& device, std::size_t most)
+std::size_t vectors_past_caches(const Device& device, std::size_t times, std::size_t most)
 {
     const std::size_t cache = device.cl.getInfo<CL_DEVICE_GLOBAL_MEM_CACHE_SIZE>();
-    return std::min(std::max(2 * cache, std::size_t{64} << 20), most) / sizeof(cl_uint4);
+    return std::min(std::max(times * cache, std::size_t{64} << 20), most) / sizeof(cl_uint4);
 }
 
 Arena scratch_of(const Device& device, std::size_t bytes)
@@ -50,10 +50,13 @@ Arena scratch_of(const Device& device, std::size_t bytes)
 CopyRate measure_copy_rate(Programs& programs, Queue& queue)
 {
     const Device& device = programs.device();
-    constexpr int samples = 9;
-    // 1 GiB on a GPU. At most 512 MiB on a CPU, since even a run of one small build waits for this measurement.
-    const std::size_t count = device.is_cpu() ? vectors_past_caches(device, std::size_t{512} << 20)
-                                              : (std::size_t{1} << 30) / sizeof(cl_uint4);
+    constexpr std::size_t most_samples = 9, fewest_samples = 3;
+    constexpr std::int64_t enough_ns = 100'000'000;
+    // 1 GiB on a GPU. On a CPU as large as the cache, so that both buffers are twice as large, and at most 512 MiB, since even a
+    // run of one small build waits for this measurement.
+    const std::size_t count = device.is_cpu()
+                                  ? vectors_past_caches(device, 1, std::size_t{512} << 20)
+                                  : (std::size_t{1} << 30) / sizeof(cl_uint4);
     const std::size_t bytes = count * sizeof(cl_uint4);
     const std::size_t global = device.is_cpu() ? 4 * compute_units(device) : count;
     const std::size_t local = device.is_cpu() ? 1 : 256;
@@ -64,18 +67,21 @@ CopyRate measure_copy_rate(Programs& programs, Queue& queue)
     cl::Kernel copy = programs.kernel(kernels, device.is_cpu() ? "copy_runs" : "copy_strided");
     set_arguments(copy, from, to, static_cast<cl_uint>(count));
 
-    std::vector<std::int64_t> times;
-    queue.begin("clear");
-    queue.clear(from.cl(), from.bytes());  // memory never written may not be backed by pages yet
-    for (int i = 0; i <= samples; ++i) {
+    const auto copied_ns = [&] {
         queue.begin("copy");
         queue.launch(copy, global, local, static_cast<std::int64_t>(2 * bytes));
-        const StageTime time = queue.finish().back();
-        if (i > 0)  // the first is a warm-up and the first to touch `to`
-            times.push_back(time.busy_ns);
-    }
+        return queue.finish().back().busy_ns;
+    };
+    queue.begin("clear");
+    queue.clear(from.cl(), from.bytes());  // memory never written may not be backed by pages yet
+    copied_ns();                           // a warm-up, and the first to touch `to`
+    std::vector<std::int64_t> times;
+    for (std::int64_t all = 0;
+         times.size() < fewest_samples || (times.size() < most_samples && all < enough_ns);)
+        all += times.emplace_back(copied_ns());
     const auto ns = static_cast<double>(median(times));
-    return {ns > 0 ? static_cast<double>(2 * bytes) / (ns * 1e-9) : 0, bytes, samples};
+    return {ns > 0 ? static_cast<double>(2 * bytes) / (ns * 1e-9) : 0, bytes,
+            static_cast<int>(times.size())};
 }
 
 LaunchCost measure_launch_cost(Programs& programs, Queue& queue)
@@ -140,7 +146,7 @@ FillingKernel::FillingKernel(Programs& programs, const Queue& queue, const char*
 
 CacheFlush::CacheFlush(Programs& programs, const Queue& queue)
     : walk_(programs, queue, "walk",
-            vectors_past_caches(programs.device(),
+            vectors_past_caches(programs.device(), 2,
                                 std::min(std::size_t{1} << 30, programs.device().most_at_once())))
 {
     set_arguments(walk_.kernel, walk_.memory, static_cast<cl_uint>(walk_.memory.size()));

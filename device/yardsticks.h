@@ -13,7 +13,7 @@ namespace bvhbench {
 struct CopyRate {
     /// Bytes read plus bytes written per second of median device time; 0 if the device clock gave a time of 0.
     double bytes_per_s = 0;
-    std::size_t buffer_bytes = 0;  ///< size of the source, larger than the caches
+    std::size_t buffer_bytes = 0;  ///< size of the source; with the target larger than the caches
     int samples = 0;
 };
 
