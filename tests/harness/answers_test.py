@@ -12,7 +12,7 @@ COLLIDE = ("collide", "--scene", "hairball:60000", "--adjacent", "drop", "--samp
 LEAF = (*COLLIDE, "--collider", "leaf", "--builder", "oibvh-multi")
 AGREES = "verdict: agrees with "
 KERNELS = {"POCL_CACHE_DIR": os.environ.get("POCL_CACHE_DIR") or os.path.abspath("kernels")}
-pathlib.Path("kernels").mkdir()
+pathlib.Path("kernels").mkdir(exist_ok=True)  # of an earlier run
 
 
 def found_by(folder: str, *words: str, code: int = 0, says: str = AGREES) -> dict:
