@@ -5,7 +5,6 @@
 #include <fcl/narrowphase/collision.h>
 
 #include <limits>
-#include <type_traits>
 
 #include "baselines/fcl/model.h"
 #include "baselines/plain_libraries.h"
@@ -26,12 +25,7 @@ std::vector<Pair> find(std::span<const Point> points, std::span<const Face> face
     const fcl::Transform3<Number> in_place = fcl::Transform3<Number>::Identity();
     const fcl::CollisionRequest<Number> request(std::numeric_limits<std::size_t>::max(), false);
     fcl::CollisionResult<Number> result;
-    // The library has fcl::collide of doubles compiled. Of floats, its table of all pairs of shapes would be compiled here, which
-    // takes 40 s: this is the entry of that table for two models.
-    if constexpr (std::is_same_v<Number, double>)
-        fcl::collide(a.get(), in_place, b.get(), in_place, request, result);
-    else
-        fcl::detail::BVHCollide<Volume>(a.get(), in_place, b.get(), in_place, request, result);
+    fcl::collide(a.get(), in_place, b.get(), in_place, request, result);
     std::vector<Pair> found;
     for (std::size_t k = 0; k < result.numContacts(); ++k) {
         const auto& contact = result.getContact(k);

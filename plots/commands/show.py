@@ -1,4 +1,6 @@
 """bvhbench show: prints a result file as tables."""
+import pathlib
+
 import answer
 import command
 import given
@@ -27,7 +29,7 @@ def main(words: list[str]) -> int:
 
 def text(file: str) -> str:
     if scaled.is_scaled(file):
-        return scaled.text(json_files.parsed(file))
+        return scaled.text(json_files.parsed(pathlib.Path(file)))
     run = results.everything(file)
     try:
         return answer.of_cells(run.all_cells) + run_page.text(run) + run_page.merged(run) + pages(run)
