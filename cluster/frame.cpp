@@ -32,7 +32,12 @@ std::int64_t device_ns(Queue& queue)
 /// Times the stages of a frame, one after the other.
 class DistributedFrame::Clock {
 public:
-    explicit Clock(RankFrame& frame) : frame_(frame) {}
+    /// Times the first `count` stages, and calls `begins` with the name of each when it begins.
+    Clock(RankFrame& frame, std::size_t count, const std::function<void(std::string_view)>& begins)
+        : frame_(frame), count_(count), begins_(begins)
+    {
+        begins_(frame_stages[0]);
+    }
 
     /// Ends the next stage.
     void end_stage()
@@ -41,6 +46,8 @@ public:
         frame_.host_ns[stage_++] = now - last_;
         last_ = now;
         frame_.whole_ns = now - start_;
+        if (stage_ < count_)
+            begins_(frame_stages[stage_]);
     }
 
     /// Ends the next stage, and waits for the work of the device before that.
@@ -52,6 +59,8 @@ public:
 
 private:
     RankFrame& frame_;
+    std::size_t count_;
+    const std::function<void(std::string_view)>& begins_;
     std::size_t stage_ = 0;
     const std::int64_t start_ = now_ns();
     std::int64_t last_ = start_;
@@ -128,7 +137,8 @@ RankFrame DistributedFrame::run()
 {
     RankFrame frame;
     ranks_.wait_for_all();
-    Clock clock(frame);
+    const std::size_t stages = contacts_ ? frame_stage_count : frame_stage_count - 1;
+    Clock clock(frame, stages, begins_);
     const std::vector<Aabb> own = build();
     clock.end_stage(queue_);
 

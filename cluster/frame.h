@@ -14,6 +14,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -69,6 +70,9 @@ public:
     /// Moves the share's points, which stay as many. Never timed. Blocks.
     void move(std::vector<Point> points);
 
+    /// Calls `begins` with the name of each stage when it begins.
+    void tell_stages(std::function<void(std::string_view)> begins) { begins_ = std::move(begins); }
+
     /// Runs a frame; all ranks must. Buffers that are too small grow, and their query is repeated.
     RankFrame run();
 
@@ -111,6 +115,7 @@ private:
     Collider& collider_;
     bool keep_adjacent_;
     uint box_count_;
+    std::function<void(std::string_view)> begins_ = [](std::string_view) {};
     TopBoxes tops_;
     Leaving leaving_;
     HaloQuery halo_query_;

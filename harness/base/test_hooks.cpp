@@ -4,6 +4,7 @@
 #include <re2/re2.h>
 
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <sstream>
 
@@ -13,6 +14,7 @@ namespace bvhbench {
 namespace {
 
 constexpr const char* variable = "BVHBENCH_SLOW";
+constexpr const char* stop_variable = "BVHBENCH_STOP";
 
 double factor_of(std::string_view name)
 {
@@ -30,15 +32,31 @@ double factor_of(std::string_view name)
     return product;
 }
 
+/// Returns true if BVHBENCH_STOP names this stage and rank.
+bool stops_at(std::string_view stage, unsigned rank)
+{
+    const char* stop = std::getenv(stop_variable);
+    if (stop == nullptr || *stop == '\0')
+        return false;
+    std::string name;
+    unsigned number = 0;
+    if (!RE2::FullMatch(stop, "([a-z]+):(\\d+)", &name, &number))
+        throw BadUsage(std::string(stop_variable) +
+                       " must be a stage and a rank, as exchange:1, not '" + stop + "'");
+    return name == stage && number == rank;
+}
+
 }  // namespace
 
 std::map<std::string, std::string> test_hooks()
 {
     factor_of({});  // throws BadUsage for text that cannot be parsed
-    const char* slow = std::getenv(variable);
-    if (slow == nullptr || *slow == '\0')
-        return {};
-    return {{variable, slow}};
+    stops_at({}, 0);
+    std::map<std::string, std::string> set;
+    for (const char* name : {variable, stop_variable})
+        if (const char* value = std::getenv(name); value != nullptr && *value != '\0')
+            set[name] = value;
+    return set;
 }
 
 void slow_down(std::span<StageTime> stages, std::string_view name)
@@ -47,6 +65,12 @@ void slow_down(std::span<StageTime> stages, std::string_view name)
     for (StageTime& stage : stages)
         for (std::int64_t* ns : {&stage.busy_ns, &stage.span_ns, &stage.wall_ns, &stage.start_ns})
             *ns = std::llround(static_cast<double>(*ns) * factor);
+}
+
+void stop_at(std::string_view stage, unsigned rank)
+{
+    if (stops_at(stage, rank))
+        std::raise(SIGSTOP);
 }
 
 }  // namespace bvhbench

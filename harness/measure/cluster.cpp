@@ -9,6 +9,7 @@
 #include "cluster/share.h"
 #include "device/device_choice.h"
 #include "geometry/error.h"
+#include "harness/base/test_hooks.h"
 #include "harness/measure/cluster_frames.h"
 #include "harness/measure/cluster_part.h"
 #include "harness/measure/cluster_verdict.h"
@@ -109,6 +110,7 @@ ClusterFound run_cluster(HostedRanks& ranks, Session& session, const ClusterTask
     }
     if (!is_first)
         return found;
+    stop_at("verdict", first_rank);
     if (by_one_device || task.wants_pairs || task.wants_contacts) {
         found.scene = whole_scene(task, session);
         result.scene.content_hash = found.scene.content_hash;

@@ -7,6 +7,7 @@
 
 #include "cluster/share.h"
 #include "geometry/host_memory.h"
+#include "harness/base/test_hooks.h"
 #include "scenes/catalog.h"
 #include "scenes/face_order.h"
 
@@ -45,6 +46,7 @@ Share first_share(const ClusterTask& task, Session& session, Ranks& ranks, Scene
 Share partitioned_share(Share run, PartitionBy by, Ranks& ranks, std::int64_t& took_ns)
 {
     ranks.wait_for_all();
+    stop_at("partition", ranks.rank());
     const auto start = std::chrono::steady_clock::now();
     std::vector<Point> centres = box_centres(run);
     const std::vector<uint> to = partitioned({centres, run.ids}, by, ranks.count(), ranks);
@@ -78,6 +80,7 @@ void tell_first(HostedRanks& ranks, const std::string& device, ClusterRank own,
 
 std::vector<Pair> pairs_at_first(Ranks& ranks, std::vector<Pair> own)
 {
+    stop_at("gathering", ranks.rank());
     std::vector<Pair> all;
     for (std::vector<Pair>& of_rank : at_first(ranks, std::move(own))) {
         all.insert(all.end(), of_rank.begin(), of_rank.end());

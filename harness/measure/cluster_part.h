@@ -8,6 +8,7 @@
 
 #include "cluster/frame.h"
 #include "cluster/mpi_ranks.h"
+#include "harness/base/test_hooks.h"
 #include "harness/choice/catalog.h"
 #include "harness/measure/cluster.h"
 #include "harness/session/watchdog.h"
@@ -64,7 +65,9 @@ public:
         , collider_(make_collider(task.pipeline.collider, session.programs()))
         , frame(ranks, session.programs(), session.queue(), *builder_, *collider_,
                 task.pipeline.collider.keep_adjacent, task.pipeline.collider.narrow, task.boxes)
-    {}
+    {
+        frame.tell_stages([rank = ranks.rank()](std::string_view name) { stop_at(name, rank); });
+    }
 
     /// Takes the triangles, after a trial with the first of them that predicts the memory. Throws Unavailable if that exceeds the
     /// device's.

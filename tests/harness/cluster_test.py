@@ -16,6 +16,7 @@ import uuid
 from program import PROGRAM, SCHEMA, copied_kernels, expect, jsonschema, main, run, wait_until
 
 SHARED = ("--share-devices", "--force")
+STAGES = ("partition", "build", "boxes", "select", "exchange", "self", "halo", "narrow", "gathering", "verdict")
 
 
 def result(path: str) -> dict:
@@ -179,12 +180,16 @@ def processes_of(mark: str) -> list[tuple[int, str]]:
     return found
 
 
+def begun(environment: dict[str, str], *words: str) -> tuple[subprocess.Popen, str]:
+    """Starts two ranks, whose processes have the returned mark in their environment."""
+    mark = f"CLUSTER_TEST={uuid.uuid4().hex}"
+    return subprocess.Popen([PROGRAM, "cluster", *words, "--ranks", "2", "--share-devices"], stdout=subprocess.PIPE,
+                            stderr=subprocess.PIPE, text=True, env={**os.environ, **environment, **dict([mark.split("=")])}), mark
+
+
 def started(seconds: float, *words: str) -> tuple[subprocess.Popen, str]:
     """Starts ranks over frames that take long; returns when rank 1 has run for a while."""
-    mark = f"CLUSTER_TEST={uuid.uuid4().hex}"
-    child = subprocess.Popen([PROGRAM, "cluster", "torus:100000", "--ranks", "2", "--share-devices", "--samples", "5000", *words],
-                             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                             env={**os.environ, **dict([mark.split("=")])})
+    child, mark = begun({}, "torus:100000", "--samples", "5000", *words)
     wait_until(lambda: child.poll() is not None or any(rank == "1" for _, rank in processes_of(mark)))
     time.sleep(seconds)
     return child, mark
@@ -207,6 +212,41 @@ def test_a_killed_rank_ends_all():
         assert child.returncode == 4, (child.returncode, errors)
         assert errors.startswith(f"bvhbench: rank {rank} on {os.uname().nodename} was ended by signal 9 (Killed)"), errors
         assert errors.count("\n") == 1, errors
+
+
+def stopped_rank(mark: str, rank: str) -> int | None:
+    """Returns the process of this rank that a signal has stopped."""
+    for process, of in processes_of(mark):
+        try:
+            state = pathlib.Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0]
+        except OSError:
+            continue
+        if of == rank and state == "T":
+            return process
+    return None
+
+
+def test_a_rank_killed_in_any_stage_ends_all():
+    begins = []
+    for k, stage in enumerate(STAGES):  # all at once: most of the time is mpirun's, in which it waits
+        rank = str(k % 2 if stage != "verdict" else 0)  # which rank 0 gives
+        begins.append((stage, rank, *begun({"BVHBENCH_STOP": f"{stage}:{rank}"}, "torus:2000", "--narrow", "exact", "--samples", "1",
+                                           "--json", f"{stage}.json", "--pairs", f"{stage}.csv", "--contacts", f"{stage}.bin")))
+    for stage, rank, child, mark in begins:
+        wait_until(lambda: child.poll() is not None or stopped_rank(mark, rank))
+        assert child.poll() is None, (stage, child.communicate())
+        os.kill(stopped_rank(mark, rank), signal.SIGKILL)
+        errors = ended(child, mark)
+        assert child.returncode == 4, (stage, child.returncode, errors)
+        assert errors.startswith(f"bvhbench: rank {rank} on {os.uname().nodename} was ended by signal 9 (Killed)"), (stage, errors)
+        assert errors.count("\n") == 1, (stage, errors)
+        assert not any(pathlib.Path(stage + end).exists() for end in (".json", ".csv", ".bin")), stage
+
+
+def test_a_rank_without_memory_ends_all():
+    out = run("cluster", "torus:2000000", "--ranks", "2", *SHARED, "--samples", "1", "--memory-limit", "400M", "--json", "m.json")
+    assert out.returncode == 3 and out.stderr.startswith("bvhbench: rank ") and ": out of host memory: " in out.stderr, out
+    assert out.stderr.count("\n") == 1 and not pathlib.Path("m.json").exists(), out
 
 
 def test_a_rank_that_hangs_ends_within_the_time_limit():
