@@ -6,7 +6,9 @@
 
 #include <array>
 #include <charconv>
+#include <csignal>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <iostream>
 #include <sstream>
@@ -140,7 +142,15 @@ int run_ranks(unsigned ranks, const std::vector<std::string>& words)
         return end.code;
     }
     if (has_exited && RE2::PartialMatch(end.output, "Exit code:\\s+" + std::to_string(end.code)))
-        return end.code;  // a rank said why in its table
+        return end.code;            // a rank said why in its table
+    constexpr int by_signal = 128;  // and more, by the signal
+    if (has_exited && end.code > by_signal && end.code < by_signal + NSIG) {
+        // A rank that was lost while it started: mpirun then sometimes says no more.
+        const int signal = end.code - by_signal;
+        throw NothingMeasured("a rank was ended by signal " + std::to_string(signal) + " (" +
+                              strsignal(signal) +
+                              "), and so were the others; mpirun does not say which");
+    }
     std::string first;
     RE2::PartialMatch(end.output, "(?m)^([^-\\s][^\\n]*)$", &first);
     throw Unavailable("mpirun " + spelled(end, 0) + (first.empty() ? "" : ": " + first));
