@@ -247,16 +247,20 @@ def test_a_rank_killed_in_any_stage_ends_all():
         begins.append((stage, rank, *begun({"BVHBENCH_STOP": f"{stage}:{rank}"}, "torus:2000", "--narrow", "exact", "--samples", "1",
                                            "--json", f"killed/{stage}.json", "--pairs", f"killed/{stage}.csv",
                                            "--contacts", f"killed/{stage}.bin")))
-    for stage, rank, child, mark in begins:
-        wait_until(lambda: child.poll() is not None or stopped_rank(mark, rank))
-        assert child.poll() is None, (stage, child.communicate())
-        os.kill(stopped_rank(mark, rank), signal.SIGKILL)
-    for stage, rank, child, mark in begins:
-        errors = ended(child, mark)
-        assert child.returncode == 4, (stage, child.returncode, errors)
-        assert errors.startswith(f"bvhbench: rank {rank} on {os.uname().nodename} was ended by signal 9 (Killed)"), (stage, errors)
-        assert errors.count("\n") == 1, (stage, errors)
-        assert not any(pathlib.Path("killed", stage + end).exists() for end in (".json", ".csv", ".bin")), stage
+    try:
+        for stage, rank, child, mark in begins:
+            wait_until(lambda: child.poll() is not None or stopped_rank(mark, rank))
+            assert child.poll() is None, (stage, child.communicate())
+            os.kill(stopped_rank(mark, rank), signal.SIGKILL)
+        for stage, rank, child, mark in begins:
+            errors = ended(child, mark)
+            assert child.returncode == 4, (stage, child.returncode, errors)
+            assert errors.startswith(f"bvhbench: rank {rank} on {os.uname().nodename} was ended by signal 9 (Killed)"), (stage, errors)
+            assert errors.count("\n") == 1, (stage, errors)
+            assert not any(pathlib.Path("killed", stage + end).exists() for end in (".json", ".csv", ".bin")), stage
+    finally:
+        for _, _, child, _ in begins:
+            child.kill()
 
 
 def test_a_rank_without_memory_ends_all():
