@@ -92,7 +92,7 @@ void DeviceCollider::reserve(const Tree* tree, const Input& input)
             ropes_kernel_ = kernel("collide/walks/ropes.cl", "ropes");
     }
     compile(input);
-    pair_room_ = first_room(std::max<std::size_t>(1024, 8 * std::size_t{triangles_}));
+    pair_room_ = first_room(std::max<std::size_t>(1024, first_pairs_each * triangles_));
     take_all();
 }
 

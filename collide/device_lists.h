@@ -22,6 +22,9 @@ namespace bvhbench {
 /// Largest number of entries of a list: kernels index entries by 32 bits.
 inline constexpr std::uint64_t most_entries = std::numeric_limits<uint>::max();
 
+/// Pairs a triangle that the first list of pairs has room for, up to `most_entries` in all.
+inline constexpr std::size_t first_pairs_each = 8;
+
 /// Measures what `plan` allocates, frees the old arena, and allocates a new one of that size.
 template <class Plan>
 void take_memory(std::optional<Arena>& arena, const Device& device, const Plan& plan)

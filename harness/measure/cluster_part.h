@@ -3,11 +3,13 @@
 // What runs of ranks have in common: how a rank gets its triangles, its part on its device, and what the first rank is told.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
 #include "cluster/frame.h"
 #include "cluster/mpi_ranks.h"
+#include "collide/device_lists.h"
 #include "harness/base/test_hooks.h"
 #include "harness/choice/catalog.h"
 #include "harness/measure/cluster.h"
@@ -93,13 +95,14 @@ private:
         const std::size_t before = *device.taken;
         watched([&] { frame.take(first_of(share, tried)); });
         const double each = static_cast<double>(*device.taken - before) / tried;
-        const auto all =
-            static_cast<std::uint64_t>(each * static_cast<double>(share.triangle_count()));
+        const std::size_t triangles = share.triangle_count();
+        const std::uint64_t pairs = first_pairs_each * triangles;
+        const auto all = static_cast<std::uint64_t>(each * static_cast<double>(triangles)) -
+                         (pairs - std::min(pairs, most_entries)) * sizeof(Pair);
         *device.most_taken = *device.taken;
         if (all > device.memory_bytes())
-            throw Unavailable("its " + std::to_string(share.triangle_count()) +
-                              " triangles would take " + std::to_string(all) + " bytes of " +
-                              device.name() + ", which has " +
+            throw Unavailable("its " + std::to_string(triangles) + " triangles would take " +
+                              std::to_string(all) + " bytes of " + device.name() + ", which has " +
                               std::to_string(device.memory_bytes()));
         return all;
     }
