@@ -74,7 +74,8 @@ public:
         if (simulated_ != 0)
             return simulate(invocation);
         if (!ranks_started())
-            return run_ranks(ranks_, {invocation.words.begin() + 1, invocation.words.end()});
+            return run_ranks(ranks_, {invocation.words.begin() + 1, invocation.words.end()},
+                             invocation.common.time_limit_s);
         const std::unique_ptr<HostedRanks> ranks = start_mpi();
         int code = 0;
         std::string sentence;

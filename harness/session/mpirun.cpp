@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "harness/session/mpirun.h"
 
+#include <poll.h>
 #include <re2/re2.h>
 #include <unistd.h>
 
@@ -15,13 +16,16 @@
 
 #include "cluster/mpi_ranks.h"
 #include "geometry/error.h"
+#include "harness/base/interrupt.h"
 #include "harness/base/terminal.h"
+#include "harness/session/mpirun_watch.h"
 #include "scenes/worker/process.h"
 
 namespace bvhbench {
 namespace {
 
 constexpr std::string_view own_lines = "bvhbench: ";
+constexpr std::chrono::seconds grace(5);    ///< in which mpirun ends the ranks after a signal
 constexpr std::size_t no_terminal = 10000;  ///< columns: tables are not wrapped
 
 /// Returns true if a program of this name is in a folder of PATH.
@@ -66,6 +70,34 @@ std::string rank_before(const std::string& sentence, const std::string& text)
     return "rank " + rank + " on " + host.data() + ": ";
 }
 
+/// Reads what mpirun and the ranks write until all have ended, or until mpirun hangs.
+MpirunWatch::State read_all(Child& child, MpirunWatch& watch)
+{
+    for (;;) {
+        pollfd waiting{child.reader(), POLLIN, 0};
+        if (poll(&waiting, 1, static_cast<int>(watch.pause().count())) > 0 && !child.take())
+            return MpirunWatch::State::ranks_run;
+        if (const auto state = watch.state(); state != MpirunWatch::State::ranks_run)
+            return state;
+    }
+}
+
+/// Throws what is to be said of an mpirun that hung, and that has been ended.
+[[noreturn]] void say_hung(MpirunWatch::State state, const MpirunWatch& watch, unsigned ranks,
+                           const std::string& text)
+{
+    std::ostringstream limit;
+    limit << watch.limit_s() << " s";
+    if (state == MpirunWatch::State::starts_too_few)
+        throw Unavailable("mpirun started " + std::to_string(watch.started_ranks()) + " of " +
+                          std::to_string(ranks) + " ranks within " + limit.str() +
+                          ", and all were ended");
+    const std::string said = own_sentence(text);
+    throw NothingMeasured("mpirun or a rank ended, the others did not within " + limit.str() +
+                          ", and all were ended" +
+                          (said.empty() ? "" : "; it said: " + rank_before(said, text) + said));
+}
+
 /// Returns which rank a signal ended, as a sentence; empty if none.
 std::string lost_rank(const std::string& text)
 {
@@ -97,7 +129,7 @@ std::optional<unsigned> ranks_started()
     return std::nullopt;
 }
 
-int run_ranks(unsigned ranks, const std::vector<std::string>& words)
+int run_ranks(unsigned ranks, const std::vector<std::string>& words, double time_limit_s)
 {
     if (const std::string why = mpi_absent(); !why.empty())
         throw Unavailable(why);
@@ -119,6 +151,7 @@ int run_ranks(unsigned ranks, const std::vector<std::string>& words)
     const std::size_t width = terminal_width(STDOUT_FILENO);
     const std::string columns = "COLUMNS=" + std::to_string(width == 0 ? no_terminal : width);
     std::cout.flush();
+    adopt_descendants();
     Child child(
         {.path = command.front(),
          .words = command,
@@ -126,9 +159,21 @@ int run_ranks(unsigned ranks, const std::vector<std::string>& words)
                          "OMPI_MCA_btl_vader_single_copy_mechanism=none"},
          .output = Child::Stream::inherited,
          .errors = Child::Stream::captured});
-    while (child.take()) {
+    MpirunWatch watch(child.process(), ranks, time_limit_s);
+    auto state = MpirunWatch::State::ranks_run;
+    ProcessEnd end;
+    {
+        const AtSignal stop([&child] {
+            child.send(SIGTERM);
+            end_descendants(grace);
+        });
+        state = read_all(child, watch);
+        if (state != MpirunWatch::State::ranks_run)
+            end_descendants({});
+        end = child.wait();
     }
-    const ProcessEnd end = child.wait();
+    if (state != MpirunWatch::State::ranks_run)
+        say_hung(state, watch, ranks, end.output);
     const bool has_exited = end.how == ProcessEnd::How::exited;
     if (has_exited && end.code == 0) {
         std::cerr << end.output;

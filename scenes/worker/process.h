@@ -41,6 +41,8 @@ public:
     Child(const Child&) = delete;
     Child& operator=(const Child&) = delete;
 
+    pid_t process() const { return process_; }
+
     /// Returns a file descriptor for poll that becomes readable when take() can read more.
     int reader() const { return reader_; }
 

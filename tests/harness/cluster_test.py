@@ -218,13 +218,37 @@ def test_a_killed_rank_ends_all():
         assert errors.count("\n") == 1, errors
 
 
-def test_a_rank_that_mpirun_does_not_name_is_said_to_be_lost():
-    pathlib.Path("fake").mkdir()
-    mpirun = pathlib.Path("fake", "mpirun")
-    mpirun.write_text("#!/bin/sh\necho 'Primary job  terminated normally, but 1 process returned' >&2\nexit 137\n")
+def with_mpirun(name: str, *lines: str) -> dict[str, str]:
+    """Returns an environment in which mpirun is a script of these lines."""
+    pathlib.Path(name).mkdir()
+    mpirun = pathlib.Path(name, "mpirun")
+    mpirun.write_text("".join(line + "\n" for line in ("#!/bin/sh", *lines)))
     mpirun.chmod(0o755)
-    out = run("cluster", "torus:2000", "--ranks", "2", PATH=f"{mpirun.parent.resolve()}:{os.environ['PATH']}")
+    return {"PATH": f"{mpirun.parent.resolve()}:{os.environ['PATH']}"}
+
+
+def test_a_rank_that_mpirun_does_not_name_is_said_to_be_lost():
+    environment = with_mpirun("fake", "echo 'Primary job  terminated normally, but 1 process returned' >&2", "exit 137")
+    out = run("cluster", "torus:2000", "--ranks", "2", **environment)
     assert out.returncode == 4 and out.stderr == f"bvhbench: a rank was ended by signal 9 (Killed){UNNAMED}", out
+
+
+def test_an_mpirun_that_hangs_is_ended():
+    rank = f"{PROGRAM} collide --scene torus:20000 --collider leaf --samples 1 >/dev/null 2>&1 &"
+    deaf = "trap '' TERM"
+    hung = {"starts none": (3, "mpirun started 0 of 2 ranks within 10.1 s", with_mpirun("none", deaf, "sleep 1000")),
+            "ends none": (4, "mpirun or a rank ended, the others did not within 10.1 s", with_mpirun("both", deaf, rank, rank, "sleep 1000")),
+            "says why": (4, "others did not within 10.1 s", with_mpirun("why", deaf, "echo bvhbench: rank 1 said why >&2", rank, rank, "sleep 1000"))}
+    begins = {name: begun(environment, "torus:2000", "--time-limit", "0.1") for name, (_, _, environment) in hung.items()}
+    stopped, mark = begun(with_mpirun("deaf", deaf, "sleep 1000", "sleep 1000"), "torus:2000")
+    wait_until(lambda: any(pathlib.Path(f"/proc/{process}/comm").read_text() == "sleep\n" for process, _ in processes_of(mark)))
+    stopped.send_signal(signal.SIGTERM)
+    assert ended(stopped, mark) == "bvhbench: stopped\n" and stopped.returncode == 143, stopped.returncode
+    for name, (child, mark) in begins.items():
+        code, says, _ = hung[name]
+        errors = ended(child, mark)
+        assert child.returncode == code and says in errors and errors.count("\n") == 1, (name, child.returncode, errors)
+        assert ("rank 1 said why" in errors) == (name == "says why"), errors
 
 
 def stopped_rank(mark: str, rank: str) -> int | None:
