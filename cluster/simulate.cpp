@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "cluster/simulate.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "cluster/halo.h"
 #include "cluster/halo_query.h"
 #include "cluster/lone_rank.h"
@@ -10,19 +13,7 @@
 namespace bvhbench {
 namespace {
 
-std::vector<Share> shares_of(const Share& whole, PartitionBy by, uint parts)
-{
-    LoneRank lone;
-    const std::vector<Point> centres = box_centres(whole);
-    const std::vector<uint> to = partitioned({centres, whole.ids}, by, parts, lone);
-    std::vector<std::vector<CarriedTriangle>> carried(parts);
-    for (std::size_t k = 0; k < to.size(); ++k)
-        carried[to[k]].push_back(carried_triangle(whole, k));
-    std::vector<Share> shares;
-    for (std::vector<CarriedTriangle>& of_part : carried)
-        shares.push_back(share_of({std::exchange(of_part, {})}));
-    return shares;
-}
+constexpr double waits_a_frame = 5, ns_a_wait = 20'000, bytes_a_ns = 5;  // of the model
 
 /// Returns the boxes that a rank with this share tells the others.
 std::vector<Aabb> tops_of(const Share& share, uint boxes, Programs& programs, Queue& queue,
@@ -49,10 +40,24 @@ std::vector<Aabb> tops_of(const Share& share, uint boxes, Programs& programs, Qu
 
 }  // namespace
 
-std::vector<SimulatedRank> simulated(const Share& whole, PartitionBy by, uint parts, uint boxes,
-                                     Programs& programs, Queue& queue, Builder& builder)
+std::vector<Share> shares_of(const Share& whole, PartitionBy by, uint parts)
 {
-    const std::vector<Share> shares = shares_of(whole, by, parts);
+    LoneRank lone;
+    const std::vector<Point> centres = box_centres(whole);
+    const std::vector<uint> to = partitioned({centres, whole.ids}, by, parts, lone);
+    std::vector<std::vector<CarriedTriangle>> carried(parts);
+    for (std::size_t k = 0; k < to.size(); ++k)
+        carried[to[k]].push_back(carried_triangle(whole, k));
+    std::vector<Share> shares;
+    for (std::vector<CarriedTriangle>& of_part : carried)
+        shares.push_back(share_of({std::exchange(of_part, {})}));
+    return shares;
+}
+
+std::vector<SimulatedRank> simulated(std::span<const Share> shares, uint boxes, Programs& programs,
+                                     Queue& queue, Builder& builder)
+{
+    const auto parts = static_cast<uint>(shares.size());
     std::vector<Aabb> tops;
     for (const Share& share : shares)
         for (const Aabb& top : tops_of(share, boxes, programs, queue, builder))
@@ -73,6 +78,16 @@ std::vector<SimulatedRank> simulated(const Share& whole, PartitionBy by, uint pa
         }
     }
     return ranks;
+}
+
+std::int64_t exchange_ns(std::span<const SimulatedRank> ranks, uint boxes)
+{
+    if (ranks.size() < 2)
+        return 0;
+    const std::uint64_t halo = std::ranges::max(ranks, {}, &SimulatedRank::halo_sent).halo_sent;
+    const std::uint64_t bytes =
+        halo * sizeof(HaloTriangle) + (ranks.size() - 1) * boxes * sizeof(Aabb);
+    return std::llround(waits_a_frame * ns_a_wait + static_cast<double>(bytes) / bytes_a_ns);
 }
 
 }  // namespace bvhbench

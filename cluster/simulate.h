@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "builders/builder.h"
@@ -18,9 +20,16 @@ struct SimulatedRank {
     std::uint64_t sources = 0;        ///< ranks that send triangles to it
 };
 
-/// Returns what each of `parts` ranks would do, counted exactly and without running them: this process cuts `whole` into the parts
-/// and builds the tree of one part after the other. `boxes`: as in DistributedFrame. Throws what that throws.
-std::vector<SimulatedRank> simulated(const Share& whole, PartitionBy by, uint parts, uint boxes,
-                                     Programs& programs, Queue& queue, Builder& builder);
+/// Cuts a scene into the triangles of each rank, in this process.
+std::vector<Share> shares_of(const Share& whole, PartitionBy by, uint parts);
+
+/// Returns what ranks with these shares would do, counted exactly and without running them: builds the tree of one share after the
+/// other. `boxes`: as in DistributedFrame. Throws what that throws.
+std::vector<SimulatedRank> simulated(std::span<const Share> shares, uint boxes, Programs& programs,
+                                     Queue& queue, Builder& builder);
+
+/// Returns the time that the model of docs/cluster.md gives to what ranks tell each other in a frame: waits of the host, the boxes
+/// of all others, and the halo of the rank that sends the most. plots/ranks.py draws the same model.
+std::int64_t exchange_ns(std::span<const SimulatedRank> ranks, uint boxes);
 
 }  // namespace bvhbench

@@ -4,7 +4,7 @@ import json
 import os
 import subprocess
 from collections.abc import Callable, Iterator
-from typing import Any
+from typing import IO, Any
 
 import command
 from json_files import Refused
@@ -15,7 +15,7 @@ def environment() -> dict[str, str]:
     return {**os.environ, "BVHBENCH_PARENT": str(os.getpid())}
 
 
-def started(words: list[str], program: str | None = None, **streams: int) -> subprocess.Popen[bytes]:
+def started(words: list[str], program: str | None = None, **streams: int | IO[bytes] | None) -> subprocess.Popen[bytes]:
     """Starts the program, from the file `program` if given. Raises Refused if it cannot be started.
 
     The child has its own process group, so a terminal's Ctrl-C reaches it only once, forwarded by this process. A second signal
@@ -26,12 +26,13 @@ def started(words: list[str], program: str | None = None, **streams: int) -> sub
         raise Refused(f"the program {command.PROGRAM} cannot be run: {error.strerror}") from error
 
 
-def run(words: list[str], is_kept: bool = False, given: bytes | None = None) -> tuple[int, bytes]:
+def run(words: list[str], is_kept: bool = False, given: bytes | None = None, errors: IO[bytes] | None = None) -> tuple[int, bytes]:
     """Runs the program. Returns its exit code (128 + signal number if a signal ended it) and, with `is_kept`, its standard
-    output. `given` is its standard input. Signals that end this process are forwarded, so the child saves what it has."""
+    output. `given` is its standard input, and `errors` takes its standard error. Signals that end this process are forwarded, so
+    the child saves what it has."""
     with handed_on() as add:
         child = started(words, stdin=subprocess.DEVNULL if given is None else subprocess.PIPE,
-                        stdout=subprocess.PIPE if is_kept else subprocess.DEVNULL)
+                        stdout=subprocess.PIPE if is_kept else subprocess.DEVNULL, stderr=errors)
         add(child)
         printed, _ = child.communicate(given)
     return (child.returncode if child.returncode >= 0 else 128 - child.returncode), printed or b""

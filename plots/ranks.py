@@ -19,19 +19,20 @@ import style
 from json_files import Refused, parsed
 from scaled import measured
 
-HALO_BYTES, MESSAGES_S, WAITS, WAIT_S = 40, 5e9, 5, 20e-6  # of the model: docs/cluster.md
+HALO_BYTES, BOX_BYTES, MESSAGES_S, WAITS, WAIT_S = 40, 24, 5e9, 5, 20e-6  # of the model: docs/cluster.md, cluster/simulate.cpp
 COLOURS = {"build": "#0072B2", "boxes": "#999999", "select": "#E69F00", "exchange": "#CC79A7", "self": "#56B4E9",
            "halo": "#009E73", "narrow": "#8C510A"}
 
 
 def model_s(one: dict[str, Any], largest: dict[str, Any], ranks: float, is_weak: bool) -> float:
-    """Returns the frame's time by the model: the work of one rank, waits, and the halo's way. The halo of a rank grows with the
-    square root of its triangles; its size is that of the largest number of ranks measured."""
+    """Returns the frame's time by the model: the work of one rank, waits, and the way of the halo and of all boxes. The halo of a
+    rank grows with the square root of its triangles; its size is that of the largest number of ranks measured."""
     share = one["scene"]["triangles"] * (1 if is_weak else 1 / ranks)
     measured_share = largest["scene"]["triangles"] / largest["count"]
     sent = max(rank["halo_sent_count"] for rank in largest["ranks"]) * (share / measured_share) ** 0.5
     alone = one["frame_ns"] / 1e9 * share / one["scene"]["triangles"]
-    return alone + (ranks > 1) * (WAITS * WAIT_S + sent * HALO_BYTES / MESSAGES_S)
+    boxes = (ranks - 1) * largest.get("boxes_count", 64)
+    return alone + (ranks > 1) * (WAITS * WAIT_S + (sent * HALO_BYTES + boxes * BOX_BYTES) / MESSAGES_S)
 
 
 def stages_s(run: dict[str, Any]) -> dict[str, list[float]]:

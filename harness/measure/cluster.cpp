@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "harness/measure/cluster.h"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <optional>
@@ -33,6 +34,20 @@ bool fits_one_device(const ClusterPart& part, const PairFacts& pairs, std::uint6
     const std::vector<std::uint64_t> all = gathered<std::uint64_t>(ranks, each);
     return pairs.count < std::uint64_t{1} << 32 &&
            std::ranges::max(all) * triangles < device.memory_bytes();
+}
+
+/// Returns the median time of a frame of a part alone.
+std::int64_t part_ns(Share share, const ClusterTask& task, Session& session)
+{
+    LoneRank lone;
+    ClusterPart part(lone, session, task);
+    part.take(std::move(share));
+    part.run();  // buffers grow
+    std::vector<std::int64_t> samples;
+    for (int k = 0; k < task.samples; ++k)
+        samples.push_back(part.run().whole_ns);
+    std::ranges::sort(samples);
+    return samples[samples.size() / 2];
 }
 
 }  // namespace
@@ -132,10 +147,12 @@ Simulation simulate_cluster(Session& session, const ClusterTask& task, uint rank
     simulation.builder = task.pipeline.builder;
     simulation.boxes = task.boxes;
     LoneRank lone;
-    const Share whole = first_share(task, session, lone, simulation.scene);
-    const auto builder = make_builder(task.pipeline.builder, session.programs());
-    simulation.ranks = simulated(whole, task.partition, ranks, task.boxes, session.programs(),
-                                 session.queue(), *builder);
+    std::vector<Share> shares =
+        shares_of(first_share(task, session, lone, simulation.scene), task.partition, ranks);
+    simulation.ranks = simulated(shares, task.boxes, session.programs(), session.queue(),
+                                 *make_builder(task.pipeline.builder, session.programs()));
+    const auto largest = std::ranges::max_element(shares, {}, &Share::triangle_count);
+    simulation.part_ns = part_ns(std::move(*largest), task, session);
     return simulation;
 }
 

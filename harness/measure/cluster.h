@@ -47,7 +47,7 @@ std::string device_of_rank(const std::string& words, const HostedRanks& ranks, b
 /// wait, so the caller ends them.
 ClusterFound run_cluster(HostedRanks& ranks, Session& session, const ClusterTask& task);
 
-/// Counts what each of `ranks` ranks would send and receive, without running them.
+/// Counts what each of `ranks` ranks would send and receive, without running them, and times the largest part on this device.
 Simulation simulate_cluster(Session& session, const ClusterTask& task, uint ranks);
 
 }  // namespace bvhbench

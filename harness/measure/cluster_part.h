@@ -61,7 +61,7 @@ auto watched(const Work& work)
 /// A partition of the scene, and this rank's part of it on its device.
 class ClusterPart {
 public:
-    ClusterPart(HostedRanks& ranks, Session& session, const ClusterTask& task)
+    ClusterPart(Ranks& ranks, Session& session, const ClusterTask& task)
         : session_(session)
         , builder_(make_builder(task.pipeline.builder, session.programs()))
         , collider_(make_collider(task.pipeline.collider, session.programs()))

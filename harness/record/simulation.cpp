@@ -37,6 +37,12 @@ double imbalance(const Simulation& simulation)
            mean(simulation, &SimulatedRank::triangles);
 }
 
+/// Returns the time of a frame by the model: that of the largest part, and what ranks tell each other.
+std::int64_t model_ns(const Simulation& simulation)
+{
+    return simulation.part_ns + exchange_ns(simulation.ranks, simulation.boxes);
+}
+
 std::uint64_t box_bytes(const Simulation& simulation)
 {
     return (simulation.ranks.size() - 1) * simulation.boxes * sizeof(Aabb);
@@ -47,7 +53,7 @@ std::uint64_t box_bytes(const Simulation& simulation)
 Json simulation_json(const Simulation& simulation, Json run)
 {
     Json json = {
-        {"format", "cluster-simulation-1.0"},
+        {"format", "cluster-simulation-1.1"},
         {"run", std::move(run)},
         {"scene", {{"name", simulation.scene.name}, {"triangles", simulation.scene.triangles}}},
         {"partition", partition_names[static_cast<std::size_t>(simulation.partition)]},
@@ -56,6 +62,8 @@ Json simulation_json(const Simulation& simulation, Json run)
         {"halo_share", halo_share(simulation)},
         {"imbalance", imbalance(simulation)},
         {"box_bytes", box_bytes(simulation)},
+        {"part_ns", simulation.part_ns},
+        {"model_ns", model_ns(simulation)},
         {"ranks", Json::array()}};
     for (const SimulatedRank& rank : simulation.ranks)
         json["ranks"].push_back({{"triangles", rank.triangles},
@@ -80,7 +88,8 @@ std::string simulation_text(const Simulation& simulation)
     const auto most_sent = static_cast<double>(most(simulation, &SimulatedRank::halo_sent));
     const auto most_received = static_cast<double>(most(simulation, &SimulatedRank::halo_received));
     return simulation.scene.name + " (" + std::to_string(simulation.scene.triangles) +
-           " triangles) on " + std::to_string(simulation.ranks.size()) + " ranks, simulated: " +
+           " triangles) on " + std::to_string(simulation.ranks.size()) +
+           (simulation.ranks.size() == 1 ? " rank" : " ranks") + ", simulated: " +
            std::string(partition_names[static_cast<std::size_t>(simulation.partition)]) + ", " +
            simulation.builder.name + ", " + std::to_string(simulation.boxes) + " boxes a rank\n" +
            line("halo: %.1f %% of the triangles; imbalance: %.3f of the mean\n",
@@ -93,7 +102,10 @@ std::string simulation_text(const Simulation& simulation)
                 static_cast<unsigned long long>(most(simulation, &SimulatedRank::targets)),
                 static_cast<unsigned long long>(most(simulation, &SimulatedRank::sources))) +
            "boxes of all other ranks, received by each: " +
-           bytes_text(static_cast<double>(box_bytes(simulation))) + "\n";
+           bytes_text(static_cast<double>(box_bytes(simulation))) +
+           "\na frame by the model: " + duration_text(static_cast<double>(model_ns(simulation))) +
+           ", of which the largest part takes " +
+           duration_text(static_cast<double>(simulation.part_ns)) + " on this device\n";
 }
 
 }  // namespace bvhbench

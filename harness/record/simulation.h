@@ -17,7 +17,8 @@ struct Simulation {
     SceneFacts scene;
     PartitionBy partition = PartitionBy::rcb;
     BuilderChoice builder;
-    unsigned boxes = 0;  ///< that each rank tells all others
+    unsigned boxes = 0;        ///< that each rank tells all others
+    std::int64_t part_ns = 0;  ///< host clock: a frame of the largest part alone, on this device
     std::vector<SimulatedRank> ranks;
 };
 

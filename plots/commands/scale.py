@@ -6,6 +6,7 @@ import argparse
 import json
 import pathlib
 import re
+import sys
 import tempfile
 from dataclasses import dataclass
 from typing import Any
@@ -58,7 +59,7 @@ def parser() -> command.Parser:
     for name in PIPELINE:
         add(f"--{name}", help=f"a name of `list {name}s`")
     add("--partition", choices=("rcb", "curve"), help="rcb or curve; default: rcb, and both for halo")
-    add("--samples", type=int, default=20, help="timed frames a cell")
+    add("--samples", type=int, help="timed frames a cell; default: 20, and for halo 3, of its largest part")
     add("--quick", action="store_true", help=f"scenes of one {QUICK}th of the size")
     return words
 
@@ -90,14 +91,18 @@ def measured(cell: Cell, options: list[str]) -> dict[str, Any]:
     """Runs a cell. Returns its entry of the file."""
     entry: dict[str, Any] = {"scene": cell.scene, "ranks": cell.ranks, "partition": cell.partition}
     with tempfile.TemporaryDirectory(prefix="bvhbench-") as folder:
-        file = pathlib.Path(folder) / "cell.json"
-        code, _ = child.run([*cell.words(), "--json", str(file), *options])
+        file, errors = pathlib.Path(folder, "cell.json"), pathlib.Path(folder, "errors")
+        with errors.open("wb") as taken:
+            code, _ = child.run([*cell.words(), "--json", str(file), *options], errors=taken)
+        said = errors.read_text(errors="replace")
+        print(said, end="", file=sys.stderr, flush=True)
         if code - 128 in command.ENDING:
             raise command.Ended(code - 128)
         if code == 2:  # wrong usage, which other cells share
             raise SystemExit(code)
         if not file.exists():
-            return entry | {"status": "failed", "reason": f"bvhbench cluster ended with exit code {code}, and said why"}
+            sentence = re.search(r"^bvhbench: (.+)", said, re.MULTILINE)
+            return entry | {"status": "failed", "reason": sentence[1] if sentence else f"bvhbench cluster ended with exit code {code}"}
         result = parsed(file)
         is_wrong = result.get("check", {}).get("verdict") == "differs"
         return entry | ({"status": "failed", "reason": f"a wrong answer: {result['check']['detail']}"} if is_wrong else
@@ -106,11 +111,12 @@ def measured(cell: Cell, options: list[str]) -> dict[str, Any]:
 
 def main(words: list[str]) -> int:
     arguments = parser().parse_args(words)
-    if not 1 <= arguments.samples <= 10000:
-        raise output.WrongUsage(f"--samples: {arguments.samples} is not from 1 to 10000")
+    samples = arguments.samples if arguments.samples is not None else 3 if arguments.experiment == "halo" else 20
+    if not 1 <= samples <= 10000:
+        raise output.WrongUsage(f"--samples: {samples} is not from 1 to 10000")
     cells, runs = cells_of(arguments), []
     document = {"format": FORMAT, "experiment": arguments.experiment, "command": ["bvhbench", "scale", *words], "runs": runs}
-    options = command.common_words(arguments, "--force") + ["--samples", str(arguments.samples)]
+    options = command.common_words(arguments, "--force") + ["--samples", str(samples)]
     for name in PIPELINE:
         options += [f"--{name}", getattr(arguments, name)] if getattr(arguments, name) else []
     with reserved.reserved(arguments.out, "--out", arguments.force):

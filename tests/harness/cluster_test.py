@@ -21,10 +21,11 @@ STAGES = ("partition", "build", "boxes", "select", "exchange", "self", "halo", "
 
 
 def result(path: str) -> dict:
-    """Returns a result file, after holding it to its schema."""
+    """Returns a result file, after holding it, and all that it holds, to the schemas of their formats."""
     document = json.loads(pathlib.Path(path).read_text())
-    if jsonschema:
-        jsonschema.Draft202012Validator(json.loads((SCHEMA.parent / "cluster-1.schema.json").read_text())).validate(document)
+    for one in [document, *(run["result"] for run in document.get("runs", []) if "result" in run)] if jsonschema else []:
+        schema = SCHEMA.parent / f"{one['format'].split('.')[0]}.schema.json"
+        jsonschema.Draft202012Validator(json.loads(schema.read_text())).validate(one)
     return document
 
 
@@ -135,14 +136,15 @@ def test_what_is_wrong_is_said_once():
 
 def test_experiments_write_one_file():
     expect(0, "scale", "strong", "--scene", "torus:2000", "--ranks", "1,2", "--samples", "2", "--out", "strong.json")
-    runs = json.loads(pathlib.Path("strong.json").read_text())["runs"]  # of two ranks, one has no device
+    runs = result("strong.json")["runs"]  # of two ranks, one has no device
     assert [(one["ranks"], one["status"]) for one in runs] == [(1, "measured"), (2, "failed")], runs
+    assert "2 ranks on " in runs[1]["reason"] and "need a device each, and one matches" in runs[1]["reason"], runs[1]
     assert runs[0]["result"]["frame_ns"] > 0 and runs[0]["result"]["scene"]["triangles"] >= 2000
     expect(0, "scale", "halo", "--quick", "--ranks", "2", "--builder", "karras", "--out", "halo.json")
-    runs = json.loads(pathlib.Path("halo.json").read_text())["runs"]
+    runs = result("halo.json")["runs"]
     shares = {(one["partition"], one["result"]["boxes_count"]): one["result"]["halo_share"] for one in runs}
     assert set(shares) == {("rcb", 1), ("rcb", 64), ("curve", 1), ("curve", 64)} and min(shares.values()) > 0, shares
-    assert "times one rank" in expect(0, "show", "strong.json") and "curve" in expect(0, "show", "halo.json")
+    assert "need a device each" in expect(0, "show", "strong.json", says="times one rank") and "curve" in expect(0, "show", "halo.json")
     expect(0, "plot", "strong.json", "halo.json", "--out", "figures")
     assert all(pathlib.Path("figures", f"{name}.png").stat().st_size > 10000 for name in ("strong", "halo"))
     expect(2, "scale", "weak", "--scene", "torus:2000", "--out", "never.json", says="weak needs a generator's name")
@@ -152,13 +154,21 @@ def test_experiments_write_one_file():
 
 
 def test_what_is_simulated_is_what_ranks_send():
-    for partition in "rcb", "curve":
-        expect(0, "cluster", "torus:20000", "--simulate", "3", "--partition", partition, "--json", "s.json", "--force", says="simulated: ")
-        expect(0, "cluster", "torus:20000", "--ranks", "3", "--partition", partition, *SHARED, "--samples", "1", "--json", "r.json")
-        simulated, ran = json.loads(pathlib.Path("s.json").read_text()), result("r.json")
+    for count, partition, builder in ((3, "rcb", "oibvh-multi"), (3, "curve", "oibvh-multi"), (2, "curve", "karras"), (8, "rcb", "karras"),
+                                      (8, "curve", "oibvh-multi")):
+        words = ("--partition", partition, "--builder", builder, "--samples", "1", "--force")
+        expect(0, "cluster", "torus:20000", "--simulate", str(count), *words, "--json", "s.json", says="simulated: ")
+        expect(0, "cluster", "torus:20000", "--ranks", str(count), *words, "--share-devices", "--json", "r.json")
+        simulated, ran = result("s.json"), result("r.json")
+        halo_bytes = 40 * max(rank["halo_sent_count"] for rank in simulated["ranks"])
+        modelled = simulated["part_ns"] + 5 * 20_000 + (halo_bytes + 24 * 64 * (count - 1)) / 5
+        assert abs(simulated["model_ns"] - modelled) < 1 and simulated["part_ns"] > 0, simulated
         for key in "triangles", "halo_sent_count", "halo_received_count":
             assert [rank[key] for rank in simulated["ranks"]] == [rank[key] for rank in ran["ranks"]], key
         assert abs(simulated["halo_share"] - ran["halo_share"]) < 1e-9 and ran["halo_share"] > 0
+    expect(0, "cluster", "torus:20000", "--simulate", "1", "--json", "one.json", says="torus:20000 (20000 triangles) on 1 rank, simulated")
+    alone = result("one.json")
+    assert alone["model_ns"] == alone["part_ns"] > 0 == alone["halo_share"], alone
     expect(2, "cluster", "torus:2000", "--simulate", "2", "--ranks", "2", says="--simulate runs no ranks")
     expect(2, "cluster", "torus:2000", "--ranks", "2", "--boxes", "63", says="--boxes is a power of two")
     expect(2, "cluster", "torus:2000", "--ranks", "2", *SHARED, "--boxes", "32", "--builder", "oibvh-wide8", "--collider", "group",

@@ -26,18 +26,18 @@ def file(kind: str, *cells: dict) -> dict:
 
 
 class Model(unittest.TestCase):
-    def test_strong_is_a_share_of_the_work_and_waits_and_the_halo(self) -> None:
+    def test_strong_is_a_share_of_the_work_and_waits_and_messages(self) -> None:
         one, two = scaled.measured(file("strong", cell(2, 8_000_000, 6_000_000, 25_000), cell(1, 8_000_000, 10_000_000, 0)))
         self.assertEqual((one["count"], two["count"]), (1, 2))  # whatever their order in the file
         self.assertAlmostEqual(ranks.model_s(one, two, 1, False), 10e-3)
-        self.assertAlmostEqual(ranks.model_s(one, two, 2, False), 5e-3 + 100e-6 + 25_000 * 40 / 5e9)
+        self.assertAlmostEqual(ranks.model_s(one, two, 2, False), 5e-3 + 100e-6 + (25_000 * 40 + 64 * 24) / 5e9, 9)
         # A quarter of the triangles a rank has half the surface.
-        self.assertAlmostEqual(ranks.model_s(one, two, 8, False), 1.25e-3 + 100e-6 + 12_500 * 40 / 5e9)
+        self.assertAlmostEqual(ranks.model_s(one, two, 8, False), 1.25e-3 + 100e-6 + (12_500 * 40 + 7 * 64 * 24) / 5e9, 9)
 
     def test_weak_has_the_same_share_on_all(self) -> None:
         one, two = scaled.measured(file("weak", cell(1, 4_000_000, 10_000_000, 0), cell(2, 8_000_000, 11_000_000, 25_000)))
         for count in (2, 8, 64):
-            self.assertAlmostEqual(ranks.model_s(one, two, count, True), 10e-3 + 100e-6 + 25_000 * 40 / 5e9)
+            self.assertAlmostEqual(ranks.model_s(one, two, count, True), 10e-3 + 100e-6 + (25_000 * 40 + (count - 1) * 64 * 24) / 5e9, 9)
 
     def test_what_the_document_says_of_the_model(self) -> None:
         runs = scaled.measured(parsed(ROOT / "results" / "h200" / "cluster-strong.json.xz"))
