@@ -14,6 +14,7 @@ import pathlib
 import sys
 
 import accuracy
+import clusters
 import family_bars
 import fig10
 import fig13
@@ -22,14 +23,12 @@ import fig9
 import figure
 import frames
 import given
-import json_files
 import output
 import overview
 import pareto_orders
 import ranks
 import results
 import roofline
-import scaled
 import scaling
 import skips
 import stress
@@ -84,8 +83,8 @@ def held(run: results.Run) -> str:
 
 def drawn(path: pathlib.Path, folder: pathlib.Path, is_of_folder: bool, inputs: list[pathlib.Path], force: bool) -> None:
     """Draws and prints the figures of one file. Raises results.Refused or output.WrongUsage."""
-    if scaled.is_scaled(path):
-        for picture in style.save(ranks.draw(json_files.parsed(path)), folder, path.name.split(".")[0], [path, *inputs], force):
+    if clusters.kind_of(path):
+        for picture in style.save(ranks.draw(clusters.read(path)), folder, path.name.split(".")[0], [path, *inputs], force):
             print(picture)
         return
     run = results.load(path)

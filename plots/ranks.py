@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Figures of `bvhbench scale`: speed-up, efficiency and stages over the number of ranks; the share of the halo.
+"""Figures of `bvhbench scale` and `cluster`: speed-up, efficiency and stages over the number of ranks; the share of the halo.
 
     plots/ranks.py FILE... --out DIR
 
@@ -14,10 +14,11 @@ from typing import Any
 import matplotlib.pyplot as plt
 import numpy
 
+import clusters
 import figure
 import style
-from json_files import Refused, parsed
-from scaled import measured
+from clusters import measured, stage_times
+from json_files import Refused
 
 HALO_BYTES, BOX_BYTES, MESSAGES_S, WAITS, WAIT_S = 40, 24, 5e9, 5, 20e-6  # of the model: docs/cluster.md, cluster/simulate.cpp
 COLOURS = {"build": "#0072B2", "boxes": "#999999", "select": "#E69F00", "exchange": "#CC79A7", "self": "#56B4E9",
@@ -37,12 +38,7 @@ def model_s(one: dict[str, Any], largest: dict[str, Any], ranks: float, is_weak:
 
 def stages_s(run: dict[str, Any]) -> dict[str, list[float]]:
     """Returns the median time of each stage on each rank, by the host's clock."""
-    times: dict[str, list[float]] = {}
-    for rank in run["ranks"]:
-        for k, stage in enumerate(rank["samples"][0]["stages"]):
-            times.setdefault(stage["stage"], []).append(
-                statistics.median(sample["stages"][k]["host_ns"] for sample in rank["samples"]) / 1e9)
-    return {stage: values for stage, values in times.items() if max(values) > 0}
+    return {stage: [value / 1e9 for value in values] for stage, values in stage_times(run).items() if max(values) > 0}
 
 
 def draw_curve(axes: plt.Axes, runs: list[dict[str, Any]], is_weak: bool) -> None:
@@ -109,7 +105,21 @@ def draw_halo(document: dict[str, Any]) -> plt.Figure:
     return drawing
 
 
+def draw_one(document: dict[str, Any]) -> plt.Figure:
+    """Draws the stages of a file of `cluster`."""
+    if not stage_times(document):
+        raise Refused("its ranks shared a device, so there are no times")
+    drawing, axes = plt.subplots(figsize=(style.PAGE_WIDTH * 0.6, 2.8), layout="constrained")
+    draw_stages(axes, [document | {"count": len(document["ranks"])}])
+    drawing.suptitle(f"{document['scene']['name']}, {document['ranks'][0]['device']}", x=0.01, ha="left", fontsize=8)
+    return drawing
+
+
 def draw(document: dict[str, Any]) -> plt.Figure:
+    if clusters.format_of(document) == clusters.ONE:
+        return draw_one(document)
+    if clusters.format_of(document) == clusters.SIMULATED:
+        raise Refused("of simulated ranks, only files of `bvhbench scale halo` have a figure")
     runs, kind = measured(document), document["experiment"]
     if not runs:
         raise Refused("no cell was measured")
@@ -130,7 +140,7 @@ def main(words: list[str]) -> None:
     folder = pathlib.Path(words[words.index("--out") + 1])
     for name in words[:words.index("--out")]:
         path = pathlib.Path(name)
-        style.save(draw(parsed(path)), folder, path.name.split(".")[0], [path], True)
+        style.save(draw(clusters.read(path)), folder, path.name.split(".")[0], [path], True)
 
 
 if __name__ == "__main__":

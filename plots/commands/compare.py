@@ -1,11 +1,12 @@
 """bvhbench compare: compares a result file with an earlier one."""
 import pathlib
 
+import clusters
 import command
 import documents
 import output
 from cells import Cell
-from comparing import axes, comparison, report
+from comparing import axes, cluster, comparison, report
 from comparing.refusals import Rules, require_comparable
 
 
@@ -47,6 +48,13 @@ def main(words: list[str]) -> int:
     names = arguments.first, arguments.second or arguments.first
     rules = Rules(threshold=arguments.threshold, allow_missing=arguments.allow_missing, allow_dirty=arguments.allow_dirty,
                   other_devices=arguments.other_devices, allow_test_hooks=arguments.test_hooks, builders=arguments.builders)
+    if any(map(clusters.kind_of, names)):
+        for name in names:
+            if not clusters.kind_of(name):
+                raise output.WrongUsage(f"{name} is no file of `bvhbench cluster` or `scale`, and the other is")
+        text, regressions = cluster.compare(*((name, clusters.read(name)) for name in names), rules, arguments.all)
+        print(text, end="")
+        return 1 if regressions else 0
     first, second = (documents.read(str(name)) for name in names)
     require_comparable((names[0], first), (names[1], second), rules)
     if rules.builders:

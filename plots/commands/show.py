@@ -1,13 +1,10 @@
 """bvhbench show: prints a result file as tables."""
-import pathlib
-
 import answer
+import clusters
 import command
 import given
-import json_files
 import results
-import scaled
-from console import accuracy, best, builders, cell, cells, frames, skips, stress, swept, trees
+from console import accuracy, best, builders, cell, cells, cluster, frames, skips, stress, swept, trees
 from console import run as run_page
 
 
@@ -28,8 +25,8 @@ def main(words: list[str]) -> int:
 
 
 def text(file: str) -> str:
-    if scaled.is_scaled(file):
-        return scaled.text(json_files.parsed(pathlib.Path(file)))
+    if clusters.kind_of(file):
+        return cluster.text(clusters.read(file))
     run = results.everything(file)
     try:
         return answer.of_cells(run.all_cells) + run_page.text(run) + run_page.merged(run) + pages(run)

@@ -6,7 +6,7 @@ from typing import Any
 import results
 from output import WrongUsage
 
-Named = tuple[pathlib.Path, dict[str, Any]]  # a file's path and its document
+Named = tuple[pathlib.Path, dict[str, Any]]  # a file's path, and its document or its run
 
 
 @dataclass(frozen=True)
@@ -34,15 +34,24 @@ def require_comparable(first: Named, second: Named, rules: Rules) -> None:
         raise WrongUsage(f"{name} counts {costs[0]} and {other_name} {costs[1]}, so their sah_cost are not of one kind")
     if rules.other_devices and rules.builders:
         raise WrongUsage("--builders compares times of one device, and --other-devices ratios of two")
-    if not rules.other_devices and machine(one["run"]) != machine(other["run"]):
-        raise WrongUsage(f"{name} was measured on {device_text(one['run'])} and {other_name} on {device_text(other['run'])}; "
-                         "--other-devices compares only ratios between the cells of a scene")
+    if not rules.other_devices:
+        require_same_machine((name, one["run"]), (other_name, other["run"]), "compares only ratios between the cells of a scene")
+
+
+def require_same_machine(first: Named, second: Named, otherwise: str) -> None:
+    """Raises WrongUsage if two runs were measured on different machines; `otherwise` is what --other-devices does."""
+    (name, one), (other_name, other) = first, second
+    if machine(one) != machine(other):
+        raise WrongUsage(f"{name} was measured on {device_text(one)} and {other_name} on {device_text(other)}; --other-devices {otherwise}")
 
 
 def require_file(name: pathlib.Path, document: dict[str, Any], rules: Rules) -> None:
-    run = document["run"]
     if not document["cells"]:
         raise WrongUsage(f"{name} has no cells to compare")
+    require_run(name, document["run"], rules)
+
+
+def require_run(name: pathlib.Path, run: dict[str, Any], rules: Rules) -> None:
     if run["program"]["dirty"] and not rules.allow_dirty:
         raise WrongUsage(f"{name} was made by a program with changes that no commit has, so nobody can say what was compared; "
                          "--allow-dirty compares it all the same")

@@ -13,7 +13,7 @@ import sys
 import time
 import uuid
 
-from program import PROGRAM, SCHEMA, copied_kernels, expect, jsonschema, main, run, wait_until
+from program import PROGRAM, SCHEMA, SOURCE, copied_kernels, expect, jsonschema, main, run, wait_until
 
 SHARED = ("--share-devices", "--force")
 UNNAMED = ", and so were the others; mpirun does not say which\n"  # of a rank that is lost while it starts
@@ -145,8 +145,16 @@ def test_experiments_write_one_file():
     shares = {(one["partition"], one["result"]["boxes_count"]): one["result"]["halo_share"] for one in runs}
     assert set(shares) == {("rcb", 1), ("rcb", 64), ("curve", 1), ("curve", 64)} and min(shares.values()) > 0, shares
     assert "need a device each" in expect(0, "show", "strong.json", says="times one rank") and "curve" in expect(0, "show", "halo.json")
-    expect(0, "plot", "strong.json", "halo.json", "--out", "figures")
-    assert all(pathlib.Path("figures", f"{name}.png").stat().st_size > 10000 for name in ("strong", "halo"))
+    expect(0, "cluster", "torus:2000", "--ranks", "1", "--samples", "10", "--json", "plain.json", "--force")
+    assert "host memory" in expect(0, "show", "plain.json", says="agrees with one device")
+    expect(0, "cluster", "torus:2000", "--ranks", "2", *SHARED, "--samples", "1", "--partition", "curve", "--json", "two.json")
+    difference = expect(0, "compare", "plain.json", "two.json", "--allow-dirty", says="changed ranks 2, was 1")  # the pairs are the same
+    assert "no regression\n" in difference and "changed partition curve, was rcb\n" in difference, difference
+    expect(2, "compare", "plain.json", "halo.json", "--allow-dirty", says="plain.json has format cluster-1.0 and halo.json cluster-runs-1.0")
+    expect(2, "compare", "plain.json", str(SOURCE / "results" / "h200" / "table1.json.xz"), says="is no file of `bvhbench cluster` or `scale`")
+    expect(0, "plot", "strong.json", "halo.json", "plain.json", "--out", "figures")
+    assert all(pathlib.Path("figures", f"{name}.png").stat().st_size > 10000 for name in ("strong", "halo", "plain"))
+    expect(3, "plot", "two.json", "--out", "figures", says="its ranks shared a device, so there are no times")
     expect(2, "scale", "weak", "--scene", "torus:2000", "--out", "never.json", says="weak needs a generator's name")
     expect(2, "scale", "weak", "--scene", "nothing", "--out", "never.json", says="no scene is called 'nothing:33554432'")
     expect(2, "scale", "halo", "--quick", "--out", "halo.json", says="is there already")

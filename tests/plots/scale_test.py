@@ -1,15 +1,26 @@
 #!/usr/bin/env python3
-"""Tests the model, the stages and the table of `scale`: on numbers done by hand, and on the files that docs/cluster.md quotes."""
+"""Tests the model, the stages and the table of `scale`, and how files of it and of `cluster` are shown and compared: on numbers done by hand, and on the files that docs/cluster.md quotes."""
+import copy
+import json
 import pathlib
 import sys
+import tempfile
 import unittest
+from typing import Any
 
 ROOT = pathlib.Path(sys.argv.pop())
 sys.path.insert(0, str(ROOT / "plots"))
 
+import clusters
 import ranks
-import scaled
-from json_files import Refused, parsed
+from comparing import cluster as comparing
+from comparing.refusals import Rules
+from console import cluster as console
+from json_files import Refused
+from output import WrongUsage
+
+
+BILLION, HALO = ROOT / "results" / "h200" / "cluster-billion.json.xz", ROOT / "results" / "pocl-2-cores" / "cluster-halo.json.xz"
 
 
 def cell(count: int, triangles: int, frame_ns: int, sent: int) -> dict:
@@ -27,7 +38,7 @@ def file(kind: str, *cells: dict) -> dict:
 
 class Model(unittest.TestCase):
     def test_strong_is_a_share_of_the_work_and_waits_and_messages(self) -> None:
-        one, two = scaled.measured(file("strong", cell(2, 8_000_000, 6_000_000, 25_000), cell(1, 8_000_000, 10_000_000, 0)))
+        one, two = clusters.measured(file("strong", cell(2, 8_000_000, 6_000_000, 25_000), cell(1, 8_000_000, 10_000_000, 0)))
         self.assertEqual((one["count"], two["count"]), (1, 2))  # whatever their order in the file
         self.assertAlmostEqual(ranks.model_s(one, two, 1, False), 10e-3)
         self.assertAlmostEqual(ranks.model_s(one, two, 2, False), 5e-3 + 100e-6 + (25_000 * 40 + 64 * 24) / 5e9, 9)
@@ -35,18 +46,18 @@ class Model(unittest.TestCase):
         self.assertAlmostEqual(ranks.model_s(one, two, 8, False), 1.25e-3 + 100e-6 + (12_500 * 40 + 7 * 64 * 24) / 5e9, 9)
 
     def test_weak_has_the_same_share_on_all(self) -> None:
-        one, two = scaled.measured(file("weak", cell(1, 4_000_000, 10_000_000, 0), cell(2, 8_000_000, 11_000_000, 25_000)))
+        one, two = clusters.measured(file("weak", cell(1, 4_000_000, 10_000_000, 0), cell(2, 8_000_000, 11_000_000, 25_000)))
         for count in (2, 8, 64):
             self.assertAlmostEqual(ranks.model_s(one, two, count, True), 10e-3 + 100e-6 + (25_000 * 40 + (count - 1) * 64 * 24) / 5e9, 9)
 
     def test_what_the_document_says_of_the_model(self) -> None:
-        runs = scaled.measured(parsed(ROOT / "results" / "h200" / "cluster-strong.json.xz"))
+        runs = clusters.measured(clusters.read(ROOT / "results" / "h200" / "cluster-strong.json.xz"))
         one, last = runs[0], runs[-1]
         self.assertAlmostEqual(one["frame_ns"] / 1e9 / ranks.model_s(one, last, 2, False), 1.93, delta=0.005)
         self.assertAlmostEqual(one["frame_ns"] / 1e9 / ranks.model_s(one, last, 8, False), 7.3, delta=0.05)
 
     def test_stages_are_medians_of_each_rank(self) -> None:
-        run, = scaled.measured(file("strong", cell(3, 1000, 1, 1)))
+        run, = clusters.measured(file("strong", cell(3, 1000, 1, 1)))
         self.assertEqual(ranks.stages_s(run), {"build": [0.001, 0.002, 0.003]})
 
     def test_refuses_to_draw_what_is_not_there(self) -> None:
@@ -58,17 +69,120 @@ class Model(unittest.TestCase):
 
 class Table(unittest.TestCase):
     def test_weak_counts_how_much_larger_its_scene_is(self) -> None:
-        words = [line.split() for line in scaled.text(file("weak", cell(1, 4000, 10_000_000, 0), cell(2, 8000, 12_500_000, 40)))
+        words = [line.split() for line in console.text(file("weak", cell(1, 4000, 10_000_000, 0), cell(2, 8000, 12_500_000, 40)))
                  .splitlines()]
         self.assertTrue(any("1.60" in row and "agrees" in row and "8000" in row[0] for row in words), words)
 
     def test_a_cell_that_failed_is_named_with_its_reason(self) -> None:
         failed = {"scene": "torus:4000", "ranks": 4, "partition": "rcb", "status": "failed", "reason": "two devices match"}
-        self.assertIn("torus:4000 on 4 ranks: two devices match\n", scaled.text(file("strong", cell(1, 4000, 10, 0), failed)))
+        self.assertIn("torus:4000 on 4 ranks: two devices match\n", console.text(file("strong", cell(1, 4000, 10, 0), failed)))
+
+    def test_a_file_of_cluster_has_its_ranks_stages_and_verdict(self) -> None:
+        text = console.text(clusters.read(BILLION))
+        for words in ("torus:1000000000: 1,000,000,000 triangles, block over oibvh-multi along hilbert48, adjacent keep, narrow none, 2 ranks, rcb\n",
+                      "agrees with the other partition, brute over a sample, 6,366,301,999 pairs, set hash ", "with changes"):
+            self.assertIn(words, text)
+        rows = [line.split() for line in text.splitlines()]
+        self.assertEqual([row[0] for row in rows if "vm" in row[1:2]], ["0", "1"])
+        build = next(row for row in rows if row[:2] == ["rank", "clock"]).index("build")
+        self.assertEqual(sum(row[1:2] == ["host"] and row[0] in "01" and float(row[build]) > 0 for row in rows), 2)
+
+    def test_a_file_without_times_says_so(self) -> None:
+        document = clusters.read(BILLION)
+        del document["frame_ns"], document["partition_ns"]
+        for rank in document["ranks"]:
+            rank["samples"] = []
+        self.assertIn("ranks shared a device: there are no times\n", console.text(document))
+        with self.assertRaisesRegex(Refused, "no times"):
+            ranks.draw(document)
+
+    def test_simulated_ranks_are_summed_up(self) -> None:
+        one = clusters.read(HALO)["runs"][-1]["result"]
+        text = console.text(one)
+        most = max(rank["halo_received_count"] for rank in one["ranks"])
+        self.assertIn(f"receives {most:,} triangles at most", text)
+        self.assertNotIn("model", text)  # files of 1.0 have no time
+        self.assertIn("a frame by the model: 3.00 ms, of which the largest part takes 2.00 ms\n",
+                      console.text(one | {"part_ns": 2_000_000, "model_ns": 3_000_000}))
+
+    def test_refuses_a_file_that_breaks_its_schema(self) -> None:
+        document = clusters.read(HALO)
+        document["runs"][0]["result"]["ranks"][0]["halo_sent_count"] = -1
+        with tempfile.NamedTemporaryFile("w", suffix=".json") as broken:
+            json.dump(document, broken)
+            broken.flush()
+            with self.assertRaisesRegex(Refused, r"not a file of `bvhbench cluster`: ranks\[0\].halo_sent_count is less than 0"):
+                clusters.read(broken.name)
 
     def test_what_the_document_says_was_measured(self) -> None:
         for name, factor in (("strong", "1.86"), ("weak", "1.89")):
-            self.assertIn(factor, scaled.text(parsed(ROOT / "results" / "h200" / f"cluster-{name}.json.xz")), name)
+            self.assertIn(factor, console.text(clusters.read(ROOT / "results" / "h200" / f"cluster-{name}.json.xz")), name)
+
+
+class Compared(unittest.TestCase):
+    def setUp(self) -> None:
+        self.first = clusters.read(ROOT / "results" / "h200" / "cluster-strong.json.xz")["runs"][1]["result"]
+        self.first["run"]["program"]["dirty"] = False
+        self.second = copy.deepcopy(self.first)
+
+    def compared(self, show_all: bool = False, **rules: Any) -> tuple[str, int]:
+        return comparing.compare((pathlib.Path("a"), self.first), (pathlib.Path("b"), self.second), Rules(**rules), show_all)
+
+    def test_a_file_is_itself(self) -> None:
+        text, regressions = self.compared(True)
+        self.assertEqual((regressions, text.splitlines()[-1]), (0, "no regression"))
+        frame, *stages = [line.split() for line in text.splitlines()[1:-1]]
+        self.assertEqual((frame[0], frame[-1]), ("frame", "SAME"))
+        self.assertEqual([row[0] for row in stages], ["build", "boxes", "select", "exchange", "self", "halo"])
+
+    def test_another_answer_is_a_regression_whatever_the_ranks(self) -> None:
+        self.second["ranks"].pop()
+        text, regressions = self.compared()
+        self.assertEqual(regressions, 0, text)
+        self.assertIn("changed ranks 1, was 2\n", text)
+        self.second["pairs_count"] += 1
+        text, regressions = self.compared()
+        self.assertEqual(regressions, 1)
+        self.assertIn(f"REGRESSION other pairs: {self.second['pairs_count']} of set hash ", text)
+        self.second["collider"]["adjacent"] = "drop"  # another question has another answer
+        self.assertEqual(self.compared()[1], 0)
+
+    def test_a_slower_frame_and_a_worse_verdict_are_regressions(self) -> None:
+        for sample in self.second["ranks"][0]["samples"]:
+            sample["whole_ns"] *= 2
+        self.second["check"] |= {"verdict": "differs", "detail": "it finds 3 pairs"}
+        text, regressions = self.compared()
+        self.assertEqual(regressions, 2)
+        self.assertIn("REGRESSION differs (it finds 3 pairs), was agrees\n", text)
+        self.assertRegex(text, r"frame .* SLOWER\n(.*\n)*REGRESSION the frame takes [12]\.\d+ times as long")
+        self.second["partition"] = "curve"  # asked for, so slower is no regression
+        self.assertEqual(self.compared()[1], 1)
+
+    def test_refuses_what_cannot_be_compared(self) -> None:
+        self.second["scene"]["name"] = "grid:4"
+        with self.assertRaisesRegex(WrongUsage, "a is of torus:67108864 and b of grid:4"):
+            self.compared()
+        self.second = copy.deepcopy(self.first)
+        self.second["run"]["device"]["name"] = "another"
+        with self.assertRaisesRegex(WrongUsage, "another.*--other-devices compares only verdicts"):
+            self.compared()
+        self.assertNotIn("frame", self.compared(other_devices=True)[0])
+        with self.assertRaisesRegex(WrongUsage, "one builder a file"):
+            self.compared(builders=("karras", "apetrei"))
+        self.first["run"]["program"]["dirty"] = True
+        with self.assertRaisesRegex(WrongUsage, "changes that no commit has"):
+            self.compared()
+
+    def test_files_of_scale_are_compared_cell_by_cell(self) -> None:
+        self.first, self.second = clusters.read(HALO), clusters.read(HALO)
+        self.assertEqual(self.compared(allow_dirty=True), ("no regression\n", 0))
+        self.second["runs"][0]["result"]["ranks"][0]["halo_sent_count"] += 1
+        del self.second["runs"][1]
+        text, regressions = self.compared(allow_dirty=True)
+        self.assertEqual(regressions, 1)
+        self.assertIn("REGRESSION torus:1152000, ranks 2, rcb, boxes 64: not in B\n", text)
+        self.assertIn("changed torus:1152000, ranks 2, rcb, boxes 1: halo_sent_count of the rank with the most ", text)
+        self.assertEqual(self.compared(allow_dirty=True, allow_missing=True)[1], 0)
 
 
 if __name__ == "__main__":
