@@ -15,6 +15,10 @@ namespace {
 /// Largest work-group size: local memory per group grows with it, and this many work-items fit into 48 KB.
 constexpr std::size_t most_group_size = 256;
 
+/// Most leaves of a tree that is queried. Of one leaf more, the last would have the largest label of 32 bits, after which walks go
+/// on with 0; in a radix tree it would be TREE_NONE.
+constexpr uint most_leaves = (1u << 31) - 1;
+
 uint chosen_group_size(const Device& device, KernelForm form, unsigned asked,
                        const Parameter& usual)
 {
@@ -62,6 +66,10 @@ std::string DeviceCollider::refusal(const Tree& tree) const
     const auto* on_device = dynamic_cast<const DeviceTree*>(&tree);
     if (on_device == nullptr)
         return std::string(card_.name) + " needs a tree in device memory";
+    if (on_device->leaf_count() > most_leaves)
+        return std::string(card_.name) + " numbers nodes by 32 bits, for up to " +
+               std::to_string(most_leaves) + " leaves, not " +
+               std::to_string(on_device->leaf_count());
     if (std::string why = objection(*on_device); !why.empty())
         return why;
     if (has_ropes(*on_device) && device().ends_loops)

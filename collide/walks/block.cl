@@ -145,16 +145,17 @@ static inline uint open_walk(TREE_PARAMETERS, local Team *team, const uint lane,
     return depth;
 }
 
-/// Finds the pairs of a task's leaves. Returns the number of box tests.
-static inline uint walk_block(FOREST_PARAMETERS, local Team *team, SINK_PARAMETERS,
-                              const QueryTask task, const Aabb common)
+/// Finds the pairs of a task's leaves. Returns the number of box tests, which exceeds 32 bits if the block's box overlaps some 10^8
+/// leaves.
+static inline ulong walk_block(FOREST_PARAMETERS, local Team *team, SINK_PARAMETERS,
+                               const QueryTask task, const Aabb common)
 {
     const bool is_own = task.own == task.other;
     const bool is_loose = load_block(FOREST, team, lane, task, common);
     PICK_TREE(task.other)
     const uint leaf_level = ceil_log2(leaves);
     const uint own_leaf = is_own ? tree_leaf(TREE, task.first) : 0u;
-    uint tests = 0u, kept_count = 0u, seen = 0u;
+    uint tests = 0u, met = 0u, kept_count = 0u, seen = 0u;
     if (is_own) {
         kept_count = meet_within(team, SINK, kept_count, task.count);
         tests = task.count * (task.count - 1u) / 2u;
@@ -196,12 +197,12 @@ static inline uint walk_block(FOREST_PARAMETERS, local Team *team, SINK_PARAMETE
         while (seen >= BLOCK || (waiting == 0u && seen > 0u)) {
             const uint many = min(seen, BLOCK);
             seen -= many;
-            tests += many * task.count;
+            met += many;
             kept_count = meet_seen(team, SINK, TREE, kept_count, task.count, seen, many);
         }
     }
     close_sink(SINK, kept_count);
-    return tests;
+    return tests + (ulong)met * task.count;
 }
 
 static inline Aabb block_box(FOREST_PARAMETERS, const QueryTask task)
@@ -216,13 +217,13 @@ __attribute__((reqd_work_group_size(TEAMS * LANES, 1, 1))) kernel void block_pai
     const uint capacity, volatile global uint *counters, TASKS_PARAMETERS)
 {
     local Team teams[TEAMS];
-    local uint tests[TEAMS];
+    local ulong tests[TEAMS];
     (void)ropes;
     const uint lane = (uint)get_local_id(0) % LANES, own = (uint)get_local_id(0) / LANES;
     local Team *team = teams + own;
     local uint2 *kept = team->kept;
     const QueryTask task = task_of(TASKS, counters, (uint)get_group_id(0) * TEAMS + own);
-    uint tested = 0u;
+    ulong tested = 0ul;
     if (task.count > 0u)
         tested = walk_block(FOREST, team, SINK, task, block_box(FOREST, task));
     if (lane == 0u)

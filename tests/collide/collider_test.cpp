@@ -4,7 +4,7 @@
 // tested as soon as they are in the catalogs.
 #include <span>
 
-#include "builders/device_tree.h"
+#include "builders/implicit/tree.h"
 #include "collide/parameters.h"
 #include "tests/collide/many_objects.h"
 
@@ -309,6 +309,30 @@ TEST(Colliders, ThatWantATreeOnTheDeviceRefuseOthers)
     const auto leaf = made("leaf");
     EXPECT_NE(leaf->refusal(*standing.tree), "");
     EXPECT_THROW(leaf->reserve(standing.tree, standing.input), BadUsage);
+}
+
+TEST(Block, CountsWhatAHandCounts)
+{
+    // 40 triangles in a row, each overlapping the next two: blocks of 32 and of 8 leaves.
+    const Standing standing(collinear_mesh(40), "oibvh-multi");
+    const auto block = made("block", {.form = KernelForm::groups});
+    expect_oracles_pairs(*block, standing);
+    const QueryCounts counts = block->counts(session().queue());
+    EXPECT_EQ(counts.pairs, 39u + 38u);
+    const uint within = 32 * 31 / 2 + 8 * 7 / 2, of_nodes = 1 + 8;  // the second block, its leaves
+    EXPECT_EQ(counts.box_tests, within + of_nodes + 2 * 32);  // two of them meet the first block
+}
+
+TEST(Colliders, RefuseTreesWhoseLastLeafHasNoSuccessor)
+{
+    ImplicitTree tree;
+    tree.leaves = tree.most_leaves = 1u << 31;
+    for (const char* name : {"leaf", "group", "block", "bvtt"})
+        EXPECT_EQ(made(name)->refusal(tree), std::string(name) +
+                                                 " numbers nodes by 32 bits, for up to 2147483647 "
+                                                 "leaves, not 2147483648");
+    tree.leaves = tree.most_leaves = (1u << 31) - 1;
+    EXPECT_EQ(made("block")->refusal(tree), "");
 }
 
 }  // namespace
