@@ -5,14 +5,10 @@
 #include <numeric>
 
 #include "geometry/error.h"
-#include "geometry/host_memory.h"
 #include "harness/judge/pair_counts.h"
-#include "harness/measure/engine.h"
 
 namespace bvhbench {
 namespace {
-
-constexpr std::int64_t most_copying_ns = 200'000'000;  ///< after which a copy is not timed again
 
 /// Returns the rules that a choice of updates excludes.
 unsigned rules_without(FrameUpdate update)
@@ -235,90 +231,6 @@ std::vector<Pair> Pipeline::pairs() const
 std::vector<Pair> Pipeline::contacts() const
 {
     return narrow_ && queries() ? narrow_->contacts(session_.queue()) : pairs();
-}
-
-std::map<std::string, double> Pipeline::transfers(const Input& input) const
-{
-    if (collider_->is_on_host() && !narrow_)
-        return {};
-    const auto median_ns = [](const std::function<void()>& copy) {
-        copy();  // the first one may touch new memory
-        std::vector<std::int64_t> times;
-        std::int64_t all = 0;
-        for (int k = 0; k < 5 && all < most_copying_ns; ++k)
-            all += times.emplace_back(host_ns(copy));
-        std::ranges::sort(times);
-        return static_cast<double>(times[times.size() / 2]);
-    };
-    const cl::CommandQueue& queue = session_.queue().cl();
-    Buffer<Point> points = input.device_points, end_points = input.device_end_points;
-    std::map<std::string, double> times = {{"upload_ns", median_ns([&] {
-                                                points.upload(queue, input.points);
-                                                end_points.upload(queue, input.end_points);
-                                            })}};
-    const auto answer = counters().at(has_contacts() ? "contacts_count" : "pairs_count");
-    if (answer * sizeof(Pair) < static_cast<double>(host_memory_left()))
-        times["read_back_ns"] = median_ns([&] { has_contacts() ? contacts() : pairs(); });
-    return times;
-}
-
-std::map<std::string, double> Pipeline::counters() const
-{
-    std::map<std::string, double> counters;
-    const auto put = [&](const char* name, auto value) {
-        counters[name] = static_cast<double>(value);
-    };
-    const Queue& queue = session_.queue();
-    QueryCounts counts;
-    if (queries())
-        counts = collider_->counts(queue);
-    else
-        counts.box_tests = counts.tasks = 0;
-    if (entering_ && updates_.front() != TreeUpdate::keep)
-        *counts.box_tests += near_->box_tests(queue);
-    put(collider_->finds_contacts() ? "contacts_count" : "pairs_count", counts.pairs);
-    if (counts.box_tests)
-        put("box_tests_count", *counts.box_tests);
-    if (counts.bvtt_peak)
-        put("bvtt_peak_count", *counts.bvtt_peak);
-    if (counts.tasks)
-        put("tasks_count", *counts.tasks);
-    for (const auto& [name, value] : counts.more)
-        put(std::string(name).c_str(), value);
-    const auto updated = [&](TreeUpdate how) {
-        const auto objects = static_cast<std::size_t>(std::ranges::count(updates_, how));
-        const bool has_some = objects > 0 && queries();
-        return !entering_ ? objects : has_some ? entering_->input.objects.size() : 0;
-    };
-    std::size_t memory = collider_->reserved().total() + (one_tree_ ? one_tree_->bytes() : 0);
-    put("query_bytes", memory);
-    if (builder_ != nullptr) {
-        const Footprint tree = builder_->reserved();
-        put("tree_bytes", tree.tree_bytes);
-        put("scratch_bytes", tree.scratch_bytes);
-        put("rebuilt_objects_count", updated(TreeUpdate::rebuild));
-        put("refitted_objects_count", updated(TreeUpdate::refit));
-        put("kept_objects_count", updated(TreeUpdate::keep));
-        put("sorts_count", updated(TreeUpdate::rebuild) > 0 ? 1 : 0);
-        memory += tree.total();
-    }
-    if (entering_)
-        put("entered_count", entering_->input.triangle_count());
-    if (near_) {
-        put("near_bytes", near_->reserved().total());
-        memory += near_->reserved().total();
-    }
-    if (narrow_) {
-        const NarrowCounts narrow = queries() ? narrow_->counts(queue) : NarrowCounts{};
-        put("contacts_count", narrow.contacts);
-        put("narrow_float_count", narrow.by_floats);
-        put("narrow_double_count", narrow.by_doubles);
-        put("narrow_exact_count", narrow.exactly);
-        put("narrow_bytes", narrow_->reserved().total());
-        memory += narrow_->reserved().total();
-    }
-    put("memory_bytes", memory);
-    return counters;
 }
 
 }  // namespace bvhbench
