@@ -162,7 +162,7 @@ def test_experiments_write_one_file():
 
 
 def test_what_is_simulated_is_what_ranks_send():
-    for count, partition, builder in ((3, "rcb", "oibvh-multi"), (3, "curve", "oibvh-multi"), (2, "curve", "karras"), (8, "rcb", "karras"),
+    for count, partition, builder in ((3, "rcb", "oibvh-multi"), (2, "curve", "karras"), (8, "rcb", "karras"),
                                       (8, "curve", "oibvh-multi")):
         words = ("--partition", partition, "--builder", builder, "--samples", "1", "--force")
         expect(0, "cluster", "torus:20000", "--simulate", str(count), *words, "--json", "s.json", says="simulated: ")
