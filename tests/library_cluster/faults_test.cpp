@@ -11,7 +11,7 @@
 namespace bvhbench {
 namespace {
 
-constexpr std::size_t share_of_paths = 60;
+constexpr std::size_t share_of_paths = 150;
 
 /// A caller's work, which makes every kind of call.
 class Work {
