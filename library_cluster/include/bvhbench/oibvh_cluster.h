@@ -37,7 +37,8 @@ struct ClusterOptions {
 };
 
 /// The part of a scene that a rank has before it is distributed; any number of triangles, none included. Each triangle and each vertex
-/// has a number in the scene. Pairs name triangles by it; a vertex that several triangles share has one number on all ranks.
+/// has a number in the scene. Pairs name triangles by it; a vertex that several triangles share has one number on all ranks. Numbers of
+/// vertices need not be consecutive, but take 1.5 bits of host memory each from the least to the greatest.
 struct RankTriangles {
     std::span<const Point> points;
     std::span<const Face> faces;  ///< indices into `points`
