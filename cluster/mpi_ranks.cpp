@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cluster/mpi_ranks.h"
-
-#include <mpi.h>
+#include "cluster/comm_ranks.h"
 
 #include <algorithm>
 #include <array>
@@ -17,17 +15,17 @@ int as_count(std::size_t size)
     return static_cast<int>(size);
 }
 
-class MpiRanks final : public HostedRanks {
+class MpiRanks : public HostedRanks {
 public:
-    MpiRanks(std::size_t most_at_once, uint most_dense)
+    MpiRanks(MPI_Comm comm, std::size_t most_at_once, uint most_dense)
         : most_at_once_(most_at_once), most_dense_(most_dense)
     {
-        MPI_Init(nullptr, nullptr);
-        rank_ = rank_of(MPI_COMM_WORLD);
-        count_ = count_of(MPI_COMM_WORLD);
+        MPI_Comm_dup(comm, &comm_);
+        MPI_Comm_set_errhandler(comm_, MPI_ERRORS_ARE_FATAL);
+        rank_ = rank_of(comm_);
+        count_ = count_of(comm_);
         MPI_Comm of_host = MPI_COMM_NULL;
-        MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, as_count(rank_), MPI_INFO_NULL,
-                            &of_host);
+        MPI_Comm_split_type(comm_, MPI_COMM_TYPE_SHARED, as_count(rank_), MPI_INFO_NULL, &of_host);
         local_rank_ = rank_of(of_host);
         local_count_ = count_of(of_host);
         MPI_Comm_free(&of_host);
@@ -36,7 +34,13 @@ public:
         MPI_Get_processor_name(name.data(), &length);
         host_.assign(name.data(), static_cast<std::size_t>(length));
     }
-    ~MpiRanks() override { MPI_Finalize(); }
+    ~MpiRanks() override
+    {
+        int has_ended = 0;
+        MPI_Finalized(&has_ended);
+        if (has_ended == 0)
+            MPI_Comm_free(&comm_);
+    }
     MpiRanks(const MpiRanks&) = delete;
     MpiRanks& operator=(const MpiRanks&) = delete;
 
@@ -48,29 +52,29 @@ public:
 
     void end_all(int code) override
     {
-        MPI_Abort(MPI_COMM_WORLD, code);
+        MPI_Abort(comm_, code);
         std::abort();
     }
 
-    void wait_for_all() override { MPI_Barrier(MPI_COMM_WORLD); }
+    void wait_for_all() override { MPI_Barrier(comm_); }
 
     void sum(std::span<std::uint64_t> values) override
     {
         MPI_Allreduce(MPI_IN_PLACE, values.data(), as_count(values.size()), MPI_UINT64_T, MPI_SUM,
-                      MPI_COMM_WORLD);
+                      comm_);
     }
 
     void least(std::span<float> values) override
     {
         MPI_Allreduce(MPI_IN_PLACE, values.data(), as_count(values.size()), MPI_FLOAT, MPI_MIN,
-                      MPI_COMM_WORLD);
+                      comm_);
     }
 
     Bytes gathered(std::span<const std::byte> own) override
     {
         Bytes all(own.size() * count_);
         MPI_Allgather(own.data(), as_count(own.size()), MPI_BYTE, all.data(), as_count(own.size()),
-                      MPI_BYTE, MPI_COMM_WORLD);
+                      MPI_BYTE, comm_);
         return all;
     }
 
@@ -80,7 +84,7 @@ public:
         if (count_ > most_dense_)
             return exchanged_sparsely(to);
         std::vector<std::uint64_t> from(count_);
-        MPI_Alltoall(to.data(), 1, MPI_UINT64_T, from.data(), 1, MPI_UINT64_T, MPI_COMM_WORLD);
+        MPI_Alltoall(to.data(), 1, MPI_UINT64_T, from.data(), 1, MPI_UINT64_T, comm_);
         return from;
     }
 
@@ -97,13 +101,13 @@ public:
         for (uint k = 1; k < count_; ++k) {
             const uint source = (rank_ + count_ - k) % count_;
             in_pieces(from[source], [&](std::byte* at, int size, MPI_Request* request) {
-                MPI_Irecv(at, size, MPI_BYTE, as_count(source), 0, MPI_COMM_WORLD, request);
+                MPI_Irecv(at, size, MPI_BYTE, as_count(source), 0, comm_, request);
             });
         }
         for (uint k = 1; k < count_; ++k) {
             const uint target = (rank_ + k) % count_;
             in_pieces(to[target], [&](const std::byte* at, int size, MPI_Request* request) {
-                MPI_Isend(at, size, MPI_BYTE, as_count(target), 0, MPI_COMM_WORLD, request);
+                MPI_Isend(at, size, MPI_BYTE, as_count(target), 0, comm_, request);
             });
         }
         MPI_Waitall(as_count(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
@@ -123,23 +127,23 @@ private:
         std::vector<MPI_Request> sends;
         for (uint rank = 0; rank < count_; ++rank)
             if (rank != rank_ && to[rank] != 0)
-                MPI_Issend(&to[rank], 1, MPI_UINT64_T, as_count(rank), tag, MPI_COMM_WORLD,
+                MPI_Issend(&to[rank], 1, MPI_UINT64_T, as_count(rank), tag, comm_,
                            &sends.emplace_back());
         MPI_Request barrier = MPI_REQUEST_NULL;
         for (int has_entered = 0, is_over = 0; is_over == 0;) {
             int is_there = 0;
             MPI_Status status;
-            MPI_Iprobe(MPI_ANY_SOURCE, tag, MPI_COMM_WORLD, &is_there, &status);
+            MPI_Iprobe(MPI_ANY_SOURCE, tag, comm_, &is_there, &status);
             if (is_there != 0)
                 MPI_Recv(&from[static_cast<uint>(status.MPI_SOURCE)], 1, MPI_UINT64_T,
-                         status.MPI_SOURCE, tag, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+                         status.MPI_SOURCE, tag, comm_, MPI_STATUS_IGNORE);
             if (has_entered != 0) {
                 MPI_Test(&barrier, &is_over, MPI_STATUS_IGNORE);
                 continue;
             }
             MPI_Testall(as_count(sends.size()), sends.data(), &has_entered, MPI_STATUSES_IGNORE);
             if (has_entered != 0)
-                MPI_Ibarrier(MPI_COMM_WORLD, &barrier);
+                MPI_Ibarrier(comm_, &barrier);
         }
         return from;
     }
@@ -157,6 +161,7 @@ private:
         return static_cast<uint>(count);
     }
 
+    MPI_Comm comm_ = MPI_COMM_NULL;
     std::size_t most_at_once_;
     uint most_dense_;
     uint sparse_exchanges_ = 0;
@@ -164,7 +169,28 @@ private:
     std::string host_;
 };
 
+/// MPI from its start to its end.
+struct MpiRun {
+    MpiRun() { MPI_Init(nullptr, nullptr); }
+    ~MpiRun() { MPI_Finalize(); }
+    MpiRun(const MpiRun&) = delete;
+    MpiRun& operator=(const MpiRun&) = delete;
+};
+
+/// All processes of an MPI that this object starts and ends.
+class AllRanks final : MpiRun, public MpiRanks {
+public:
+    AllRanks(std::size_t most_at_once, uint most_dense)
+        : MpiRanks(MPI_COMM_WORLD, most_at_once, most_dense)
+    {}
+};
+
 }  // namespace
+
+std::unique_ptr<HostedRanks> ranks_of(MPI_Comm comm)
+{
+    return std::make_unique<MpiRanks>(comm, usual_most_at_once, usual_most_dense);
+}
 
 std::string mpi_absent() { return {}; }
 
@@ -179,7 +205,7 @@ std::string mpi_version()
 
 std::unique_ptr<HostedRanks> start_mpi(std::size_t most_at_once, uint most_dense)
 {
-    return std::make_unique<MpiRanks>(most_at_once, most_dense);
+    return std::make_unique<AllRanks>(most_at_once, most_dense);
 }
 
 }  // namespace bvhbench

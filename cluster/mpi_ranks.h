@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Ranks that are processes of MPI. mpi_ranks.cpp is the only file that includes its header; without the library, no_mpi.cpp takes
-// its place.
+// Ranks that are processes of MPI. This header does not include MPI's; without the library, no_mpi.cpp takes the place of
+// mpi_ranks.cpp.
 #pragma once
 
 #include <memory>
@@ -28,10 +28,13 @@ std::string mpi_absent();
 /// Name and version of the library that ranks talk through; empty without one.
 std::string mpi_version();
 
+inline constexpr std::size_t usual_most_at_once = std::size_t{1} << 30;
+inline constexpr uint usual_most_dense = 64;
+
 /// Starts MPI, which the destructor ends. At most once in a process. `most_at_once`: bytes that one message carries; longer ones
 /// are sent in pieces, because MPI counts by int. `most_dense`: with more ranks, sizes of messages go only to ranks that get one. Throws
 /// Unavailable with mpi_absent().
-std::unique_ptr<HostedRanks> start_mpi(std::size_t most_at_once = std::size_t{1} << 30,
-                                       uint most_dense = 64);
+std::unique_ptr<HostedRanks> start_mpi(std::size_t most_at_once = usual_most_at_once,
+                                       uint most_dense = usual_most_dense);
 
 }  // namespace bvhbench

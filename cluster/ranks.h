@@ -87,4 +87,27 @@ std::vector<std::vector<T>> exchanged(Ranks& ranks, std::vector<std::vector<T>> 
     return from;
 }
 
+constexpr uint first_rank = 0;  ///< gathers what all ranks have found
+
+/// Sends values of every rank to the first, which gets them by rank; the others get none.
+template <class T>
+std::vector<std::vector<T>> at_first(Ranks& ranks, std::vector<T> own)
+{
+    std::vector<std::vector<T>> to(ranks.count());
+    to[first_rank] = std::move(own);
+    return exchanged(ranks, std::move(to));
+}
+
+/// Returns the values of all ranks at the first, one rank after the other, and none elsewhere.
+template <class T>
+std::vector<T> all_at_first(Ranks& ranks, std::vector<T> own)
+{
+    std::vector<T> all;
+    for (std::vector<T>& of_rank : at_first(ranks, std::move(own))) {
+        all.insert(all.end(), of_rank.begin(), of_rank.end());
+        of_rank = {};
+    }
+    return all;
+}
+
 }  // namespace bvhbench

@@ -16,15 +16,25 @@ std::vector<uint> work_of(const Share& share, std::span<const Pair> pairs)
     return work;
 }
 
-Rebalanced rebalanced(const Share& share, std::span<const uint> work, Ranks& ranks)
+double imbalance_of(std::uint64_t own, Ranks& ranks)
 {
-    const std::vector<Point> centres = box_centres(share);
-    const std::vector<uint> to =
-        partitioned({centres, share.ids, work}, PartitionBy::rcb, ranks.count(), ranks);
-    Rebalanced result;
+    const std::vector<std::uint64_t> all =
+        gathered<std::uint64_t>(ranks, std::span<const std::uint64_t>(&own, 1));
+    double sum = 0;
+    for (const std::uint64_t work : all)
+        sum += static_cast<double>(work);
+    return static_cast<double>(std::ranges::max(all)) * static_cast<double>(all.size()) / sum;
+}
+
+Cut cut(Share share, PartitionBy by, std::span<const uint> work, Ranks& ranks)
+{
+    std::vector<Point> centres = box_centres(share);
+    const std::vector<uint> to = partitioned({centres, share.ids, work}, by, ranks.count(), ranks);
+    centres = {};  // frees memory before more is taken
+    Cut result;
     result.left = static_cast<std::uint64_t>(
         std::ranges::count_if(to, [&](uint rank) { return rank != ranks.rank(); }));
-    result.share = moved(share, to, ranks);
+    result.share = moved(std::move(share), to, ranks);
     return result;
 }
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+//
+// Cuts a scene into parts and moves its triangles to their ranks: at first, and again when work is uneven.
 #pragma once
 
 #include <span>
@@ -13,13 +15,17 @@ namespace bvhbench {
 /// Returns the work that each triangle of a share stands for: 1, and 1 for each of the rank's pairs, by scene numbers, that it is in.
 std::vector<uint> work_of(const Share& share, std::span<const Pair> pairs);
 
+/// Returns the most work of a rank, divided by the mean. `own`: the work of this rank. All ranks must call.
+double imbalance_of(std::uint64_t own, Ranks& ranks);
+
 /// A share after triangles moved between ranks.
-struct Rebalanced {
+struct Cut {
     Share share;
     std::uint64_t left = 0;  ///< triangles that this rank sent to others
 };
 
-/// Cuts the scene anew with `rcb`, so that all ranks have about as much work, and moves triangles to their ranks.
-Rebalanced rebalanced(const Share& share, std::span<const uint> work, Ranks& ranks);
+/// Cuts the scene, of which each rank passes some triangles, and moves them to their ranks. `work` of each triangle: as the weights
+/// of Placed.
+Cut cut(Share share, PartitionBy by, std::span<const uint> work, Ranks& ranks);
 
 }  // namespace bvhbench

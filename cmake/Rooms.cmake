@@ -49,18 +49,26 @@ function(close_rooms)
     target_link_libraries(kernels PRIVATE device project_flags)
 endfunction()
 
-# embed_rooms(<target> <room>...): compiles these rooms, and only their kernels, into <target>: a library that needs no other
-# library of the project.
+# embed_rooms(<target> <room>... [KERNELS_OF <room>...]): compiles these rooms, and only their kernels and those of the last, into
+# <target>: a library that needs no other library of the project.
 function(embed_rooms target)
+    cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "KERNELS_OF")
+    embed_objects(${target} ${arg_UNPARSED_ARGUMENTS})
     set(kernels "")
+    foreach(room IN LISTS arg_UNPARSED_ARGUMENTS arg_KERNELS_OF)
+        get_property(of_room TARGET ${room} PROPERTY BVHBENCH_KERNELS)
+        list(APPEND kernels ${of_room})
+    endforeach()
+    embed_text(${target} TABLE embedded_kernel HEADER device/sources.h FILES ${kernels})
+    target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}")
+endfunction()
+
+# embed_objects(<target> <room>...): compiles these rooms into <target>, without their kernels.
+function(embed_objects target)
     foreach(room IN LISTS ARGN)
         get_target_property(type ${room} TYPE)
         if(NOT type STREQUAL "INTERFACE_LIBRARY")
             target_sources(${target} PRIVATE $<TARGET_OBJECTS:${room}>)
         endif()
-        get_target_property(of_room ${room} BVHBENCH_KERNELS)
-        list(APPEND kernels ${of_room})
     endforeach()
-    embed_text(${target} TABLE embedded_kernel HEADER device/sources.h FILES ${kernels})
-    target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}")
 endfunction()

@@ -15,16 +15,6 @@ namespace {
 /// CL_QUEUE_ON_DEVICE of OpenCL 2.0: a queue that kernels enqueue into. OpenCL 1.2 does not define it.
 constexpr cl_command_queue_properties on_device = cl_command_queue_properties{1} << 2;
 
-cl::CommandQueue checked(cl_command_queue queue)
-{
-    if (queue == nullptr)
-        throw BadUsage("a Device wants a cl_command_queue, and it is null");
-    cl::CommandQueue callers(queue, true);
-    if ((callers.getInfo<CL_QUEUE_PROPERTIES>() & on_device) != 0)
-        throw BadUsage("a Device wants a queue of the host, and this one is on the device");
-    return callers;
-}
-
 void require_compiler(const bvhbench::Device& device)
 {
     int major = 0, minor = 0;
@@ -80,6 +70,16 @@ bvhbench::Device device_of(const cl::CommandQueue& queue, const DeviceOptions& o
 }
 
 }  // namespace
+
+cl::CommandQueue checked(cl_command_queue queue)
+{
+    if (queue == nullptr)
+        throw BadUsage("a Device wants a cl_command_queue, and it is null");
+    cl::CommandQueue callers(queue, true);
+    if ((callers.getInfo<CL_QUEUE_PROPERTIES>() & on_device) != 0)
+        throw BadUsage("a Device wants a queue of the host, and this one is on the device");
+    return callers;
+}
 
 void rethrow_as_error()
 {

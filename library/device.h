@@ -28,6 +28,9 @@ struct Device::Impl {
     Queue queue;
 };
 
+/// Returns the queue, retained. Throws BadUsage for a null queue or one on the device.
+cl::CommandQueue checked(cl_command_queue queue);
+
 /// Returns the context of a queue or a buffer, not retained. Calls OpenCL's C function `ask`, because the C++ bindings'
 /// getInfo releases the context even if retaining it failed. Throws cl::Error with `call` as its text.
 template <class Handle, class Info>

@@ -20,6 +20,13 @@ static_assert(sizeof(OwnPoint) == sizeof(oibvh::Point) && sizeof(OwnFace) == siz
 
 constexpr std::size_t most_leaves = std::size_t{1} << 31;
 
+bool may_be_read(const cl::Buffer& buffer)
+{
+    return (buffer.getInfo<CL_MEM_FLAGS>() & (CL_MEM_HOST_WRITE_ONLY | CL_MEM_HOST_NO_ACCESS)) == 0;
+}
+
+}  // namespace
+
 void require_count(std::size_t count, const char* what)
 {
     if (count == 0)
@@ -35,17 +42,10 @@ std::string text_of(OwnPoint point)
            std::to_string(point.z) + ')';
 }
 
-bool may_be_read(const cl::Buffer& buffer)
-{
-    return (buffer.getInfo<CL_MEM_FLAGS>() & (CL_MEM_HOST_WRITE_ONLY | CL_MEM_HOST_NO_ACCESS)) == 0;
-}
-
 bool is_finite(OwnPoint point)
 {
     return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z);
 }
-
-}  // namespace
 
 InputTaker::InputTaker(Device::Impl& device, bool check) : device_(device), checks_(check)
 {

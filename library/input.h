@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "builders/input.h"
@@ -12,6 +13,12 @@
 #include "library/device.h"
 
 namespace bvhbench::oibvh {
+
+/// Throws BadUsage unless a tree can have `count` leaves.
+void require_count(std::size_t count, const char* what);
+
+bool is_finite(bvhbench::Point point);
+std::string text_of(bvhbench::Point point);
 
 /// Turns the caller's input into triangles in device memory. A box becomes a degenerate triangle over its minimum and maximum
 /// corners; the bounding box of that triangle is the box itself. So a buffer of boxes serves as one of points, two a box.

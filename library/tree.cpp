@@ -18,14 +18,6 @@ std::string_view builder_for(const bvhbench::Device& device)
     return device.lets_groups_meet() && !device.is_cpu() ? "oibvh-single" : "oibvh-multi";
 }
 
-std::unique_ptr<Builder> make_builder(Device::Impl& device, const Options& options)
-{
-    const std::string_view name =
-        options.builder.empty() ? builder_for(device.device) : options.builder;
-    return find_called(builders, name, "builder of the library")
-        .make(device.programs, {.order = options.order, .sorted_leaves = options.sorted_leaves});
-}
-
 TreeUpdate internal(Update update)
 {
     switch (update) {
@@ -50,6 +42,14 @@ std::vector<T> downloaded(const cl::CommandQueue& queue, const Buffer<U>& buffer
 }
 
 }  // namespace
+
+std::unique_ptr<Builder> make_builder(Device::Impl& device, const Options& options)
+{
+    const std::string_view name =
+        options.builder.empty() ? builder_for(device.device) : options.builder;
+    return find_called(builders, name, "builder of the library")
+        .make(device.programs, {.order = options.order, .sorted_leaves = options.sorted_leaves});
+}
 
 Tree::Impl::Impl(const std::shared_ptr<Device::Impl>& on, Options asked)
     : device(on)

@@ -27,6 +27,9 @@ struct Named {
     Make make;
 };
 
+/// Makes the builder that `options` ask for, or the default for the device. Throws BadUsage for an unknown builder or order.
+std::unique_ptr<Builder> make_builder(Device::Impl& device, const Options& options);
+
 /// Returns the collider called `asked`, or the default for the device if `asked` is empty. Throws BadUsage for another name.
 const Named<MakeCollider>& collider_for(const bvhbench::Device& device, std::string_view asked);
 

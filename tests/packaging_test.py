@@ -55,6 +55,7 @@ class Packaging(unittest.TestCase):
 
     def test_cmake_options_exist(self) -> None:
         known = set(re.findall(r"(?:option|set)\((BVHBENCH_\w+)", text("CMakeLists.txt"))) | {"BUILD_SHARED_LIBS", "BUILD_TESTING"}
+        known |= {f"BVHBENCH_WITH_{name}" for name in re.findall(r"optional_library\((\w+) ", text("CMakeLists.txt"))}
         used = {call.args[0].value for name in ("define", "define_from_variant") for call in self.calls(name)}
         used |= set(re.findall(r"-D((?:BVHBENCH|BUILD)_\w+)", text("packaging/conda/meta.yaml")))
         self.assertGreater(len(used), 3)

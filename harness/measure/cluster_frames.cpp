@@ -3,7 +3,9 @@
 
 #include <array>
 #include <chrono>
+#include <numeric>
 
+#include "cluster/point_routes.h"
 #include "cluster/rebalance.h"
 #include "geometry/error.h"
 #include "harness/measure/cluster_part.h"
@@ -12,56 +14,19 @@
 namespace bvhbench {
 namespace {
 
-/// Tells each rank where its points are, from the scene that the first rank has.
-class Positions {
-public:
-    Positions(const Scene& scene, Ranks& ranks) : scene_(scene), ranks_(ranks) {}
-
-    /// Called after each partition.
-    void take(const Share& share) { wanted_ = at_first(ranks_, share.vertices); }
-
-    /// Returns the points of this rank's share in a frame.
-    std::vector<Point> in(std::size_t frame)
-    {
-        std::vector<std::vector<Point>> to(ranks_.count());
-        if (ranks_.rank() == first_rank)
-            for (std::size_t rank = 0; rank < to.size(); ++rank)
-                for (const uint vertex : wanted_[rank])
-                    to[rank].push_back(scene_.frames[frame][vertex]);
-        return std::move(exchanged(ranks_, std::move(to))[first_rank]);
-    }
-
-private:
-    const Scene& scene_;
-    Ranks& ranks_;
-    std::vector<std::vector<uint>> wanted_;  ///< vertices of each rank; at the first
-};
-
-/// Returns the most work of a rank, divided by the mean.
-double imbalance_of(const RankFrame& frame, std::uint64_t triangles, Ranks& ranks)
-{
-    const std::uint64_t own[] = {triangles + frame.own_pairs + frame.halo_pairs};
-    const std::vector<std::uint64_t> all = gathered<std::uint64_t>(ranks, own);
-    double sum = 0;
-    for (const std::uint64_t work : all)
-        sum += static_cast<double>(work);
-    return static_cast<double>(std::ranges::max(all)) * static_cast<double>(all.size()) / sum;
-}
-
 /// Cuts the scene anew by the pairs of the last frame.
-void rebalance(ClusterPart& part, Positions& positions, ClusterFrame& result, Ranks& ranks)
+void rebalance(ClusterPart& part, ClusterFrame& result, Ranks& ranks)
 {
     const std::vector<uint> work = work_of(part.frame.share(), part.frame.pairs());
     ranks.wait_for_all();
     const auto start = std::chrono::steady_clock::now();
-    Rebalanced next = rebalanced(part.frame.share(), work, ranks);
+    Cut next = cut(part.frame.share(), PartitionBy::rcb, work, ranks);
     ranks.wait_for_all();
     result.rebalance_ns =
         std::chrono::nanoseconds(std::chrono::steady_clock::now() - start).count();
     std::array<std::uint64_t, 1> moved{next.left};
     ranks.sum(moved);
     result.moved_triangles = moved[0];
-    positions.take(next.share);
     part.take(std::move(next.share));
 }
 
@@ -102,23 +67,29 @@ void run_cluster_frames(HostedRanks& ranks, Session& session, const ClusterTask&
     std::vector<ClusterEvidence> evidence;
     {  // frees the device for the verdict
         ClusterPart part(ranks, session, task);
-        Positions positions(found.scene, ranks);
-        const std::vector<Point> none;
-        Share share =
-            partitioned_share(dealt(is_first ? found.scene.frames[task.frames.first] : none,
-                                    found.scene.faces, first_rank, ranks),
-                              task.partition, ranks, result.partition_ns);
-        positions.take(share);
-        part.take(std::move(share));
+        std::vector<uint> vertices;  // the first rank has the points of all
+        if (is_first) {
+            vertices.resize(found.scene.frames.front().size());
+            std::iota(vertices.begin(), vertices.end(), 0u);
+        }
+        const auto points_in = [&](std::size_t frame) {
+            return is_first ? std::span<const Point>(found.scene.frames[frame])
+                            : std::span<const Point>();
+        };
+        part.take(partitioned_share(
+            dealt(points_in(task.frames.first), found.scene.faces, first_rank, ranks),
+            task.partition, ranks, result.partition_ns));
+        PointRoutes routes(vertices, part.frame.share(), ranks);
         part.run();  // buffers grow
         std::vector<RankFrame> frames;
         for (std::size_t k = task.frames.first; k < end; ++k) {
             if (k > task.frames.first)
-                watched([&] { part.frame.move(positions.in(k)); });
+                watched([&] { part.frame.move(routes.sent(points_in(k), ranks)); });
             frames.push_back(part.run());
             ClusterFrame one;
             one.frame = k;
-            one.imbalance = imbalance_of(frames.back(), part.own.triangles, ranks);
+            one.imbalance = imbalance_of(
+                part.own.triangles + frames.back().own_pairs + frames.back().halo_pairs, ranks);
             ClusterEvidence& of_frame = evidence.emplace_back();
             one.pairs = of_frame.facts = facts_of_all(part.frame.facts(), ranks);
             of_frame.list.emplace(pairs_at_first(ranks, part.frame.pairs()));
@@ -127,8 +98,11 @@ void run_cluster_frames(HostedRanks& ranks, Session& session, const ClusterTask&
                 one.contacts = of_frame.contacts = facts_of_all(facts_of(contacts), ranks);
                 of_frame.contact_list.emplace(pairs_at_first(ranks, contacts));
             }
-            if (k + 1 < end && task.partition == PartitionBy::rcb && one.imbalance > task.rebalance)
-                rebalance(part, positions, one, ranks);
+            if (k + 1 < end && task.partition == PartitionBy::rcb &&
+                one.imbalance > task.rebalance) {
+                rebalance(part, one, ranks);
+                routes = PointRoutes(vertices, part.frame.share(), ranks);
+            }
             result.frames.push_back(one);
         }
         part.own.frames = std::move(frames);

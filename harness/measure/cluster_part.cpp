@@ -5,7 +5,7 @@
 #include <chrono>
 #include <optional>
 
-#include "cluster/share.h"
+#include "cluster/rebalance.h"
 #include "geometry/host_memory.h"
 #include "harness/base/test_hooks.h"
 #include "scenes/catalog.h"
@@ -48,10 +48,7 @@ Share partitioned_share(Share run, PartitionBy by, Ranks& ranks, std::int64_t& t
     ranks.wait_for_all();
     stop_at("partition", ranks.rank());
     const auto start = std::chrono::steady_clock::now();
-    std::vector<Point> centres = box_centres(run);
-    const std::vector<uint> to = partitioned({centres, run.ids}, by, ranks.count(), ranks);
-    centres = {};
-    Share share = moved(std::move(run), to, ranks);
+    Share share = cut(std::move(run), by, {}, ranks).share;
     ranks.wait_for_all();
     took_ns = std::chrono::nanoseconds(std::chrono::steady_clock::now() - start).count();
     return share;
@@ -81,12 +78,7 @@ void tell_first(HostedRanks& ranks, const std::string& device, ClusterRank own,
 std::vector<Pair> pairs_at_first(Ranks& ranks, std::vector<Pair> own)
 {
     stop_at("gathering", ranks.rank());
-    std::vector<Pair> all;
-    for (std::vector<Pair>& of_rank : at_first(ranks, std::move(own))) {
-        all.insert(all.end(), of_rank.begin(), of_rank.end());
-        of_rank = {};
-    }
-    return all;
+    return all_at_first(ranks, std::move(own));
 }
 
 PairFacts facts_of_all(const PairFacts& own, Ranks& ranks)

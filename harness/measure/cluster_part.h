@@ -17,17 +17,6 @@
 
 namespace bvhbench {
 
-constexpr uint first_rank = 0;  ///< reads the scene and gathers what is found
-
-/// Sends values of every rank to the first, which gets them by rank; the others get none.
-template <class T>
-std::vector<std::vector<T>> at_first(Ranks& ranks, std::vector<T> own)
-{
-    std::vector<std::vector<T>> to(ranks.count());
-    to[first_rank] = std::move(own);
-    return exchanged(ranks, std::move(to));
-}
-
 /// Returns the scene, all triangles as one object.
 Scene whole_scene(const ClusterTask& task, Session& session);
 

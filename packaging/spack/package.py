@@ -14,12 +14,14 @@ class Bvhbench(CMakePackage):
 
     variant("harness", default=True, description="The program besides the library")
     variant("shared", default=False, description="A shared library")
+    variant("mpi", default=True, description="One scene on several devices: the command cluster, and the library's component")
 
     depends_on("cxx", type="build")
     depends_on("cmake@3.24:", type="build")
     depends_on("ninja", type="build")
     depends_on("opencl")
     depends_on("opencl-clhpp")
+    depends_on("mpi", when="+mpi")
     with when("+harness"):
         depends_on("git", type="build")
         depends_on("assimp")
@@ -29,7 +31,6 @@ class Bvhbench(CMakePackage):
         depends_on("embree@3")
         depends_on("fcl@0.7:")
         depends_on("cgal@5.5:5")
-        depends_on("mpi")
         depends_on("python@3.11:", type="run")
         depends_on("py-numpy", type="run")
         depends_on("py-scipy", type="run")
@@ -43,6 +44,7 @@ class Bvhbench(CMakePackage):
         return [
             self.define_from_variant("BVHBENCH_BUILD_HARNESS", "harness"),
             self.define_from_variant("BUILD_SHARED_LIBS", "shared"),
+            self.define_from_variant("BVHBENCH_WITH_MPI", "mpi"),
             self.define("BVHBENCH_INSTALL", True),
             self.define("BVHBENCH_ARCH", ""),
             self.define("BUILD_TESTING", False),

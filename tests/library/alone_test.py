@@ -15,7 +15,7 @@ import sys
 import tempfile
 
 CMAKE, NINJA, BUILD, ROOT, COMPILER = sys.argv[1:6]
-OTHERS = ("assimp", "benchmark", "nlohmann_json", "CLI11", "embree", "fcl", "CGAL", "GTest", "Boost", "TBB", "Eigen3")
+OTHERS = ("assimp", "benchmark", "nlohmann_json", "CLI11", "embree", "fcl", "CGAL", "GTest", "Boost", "TBB", "Eigen3", "MPI")
 ROOMS = ("geometry", "device", "builders", "oibvh", "collide", "library")
 # Headers directly in /usr/include can be included even if their package was not requested.
 SYSTEM = re.compile(r"^/usr/(?:include/(?:c\+\+/|x86_64-linux-gnu/|\w+-linux-gnu/|CL/|linux/|asm-generic/|[\w-]+\.h$|"
@@ -57,6 +57,7 @@ def main() -> int:
         done = subprocess.run(
             [CMAKE, "-S", ROOT, "-B", alone, "-G", "Ninja", f"-DCMAKE_MAKE_PROGRAM={NINJA}",
              f"-DCMAKE_CXX_COMPILER={COMPILER}", "-DCMAKE_BUILD_TYPE=Release", "-DBVHBENCH_BUILD_HARNESS=OFF",
+             "-DBVHBENCH_WITH_MPI=OFF",
              *(f"-DCMAKE_DISABLE_FIND_PACKAGE_{package}=ON" for package in OTHERS)],
             capture_output=True, text=True, check=False)
         assert done.returncode == 0, done.stderr
