@@ -8,6 +8,7 @@
 #include <functional>
 #include <numeric>
 
+#include "device/device.h"  // first: it sets what OpenCL declares
 #include "library_cluster/include/bvhbench/oibvh_cluster.h"
 #include "tests/cluster/rank_tests.h"
 #include "tests/library/testing.h"
