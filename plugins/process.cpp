@@ -104,7 +104,7 @@ Process::~Process()
 {
     constexpr std::string_view quit = "{\"call\":\"quit\"}\n";
     if (child_ != nullptr && send(to_, quit.data(), quit.size(), MSG_NOSIGNAL) > 0)
-        has_ended(child_->id());  // else it is killed
+        has_ended(child_->process());  // else it is killed
     child_.reset();
     for (const int file : {to_, errors_})
         if (file >= 0)
@@ -123,7 +123,7 @@ void Process::fail(const std::string& what)
 /// Says how the process ended.
 void Process::fail_at_end()
 {
-    if (!has_ended(child_->id()))
+    if (!has_ended(child_->process()))
         fail("it closed its standard output");
     keep_errors();
     const ProcessEnd end = child_->wait();
@@ -140,7 +140,7 @@ void Process::keep_errors()
 
 void Process::check_resident()
 {
-    if (const std::uint64_t taken = resident_bytes(child_->id());
+    if (const std::uint64_t taken = resident_bytes(child_->process());
         limits_.host_bytes > 0 && taken > limits_.host_bytes)
         fail("out of host memory: it takes " + std::to_string(taken) + " bytes, and " +
              std::to_string(limits_.host_bytes) + " are allowed");

@@ -53,8 +53,6 @@ public:
 
     void send(int signal) const;
 
-    pid_t id() const { return process_; }
-
     /// Waits until the process has ended.
     ProcessEnd wait();
 
