@@ -228,10 +228,11 @@ def test_what_a_method_cannot_do_is_skipped():
 
 
 def test_it_ends_with_the_program_that_started_it():
-    for seconds in (0, 0.5, 2):  # while it starts, and while it hangs
-        with subprocess.Popen([PROGRAM, *BUILD, "--time-limit", "100"], env={**os.environ, "PLUGIN_FAULT": "hang"},
+    program = ("collide", "--program", PLAIN, "--collider", "plain", *QUICK)
+    for words, seconds in ((BUILD, 0), (BUILD, 2), (program, 0), (program, 2)):  # while it starts, and while it hangs
+        with subprocess.Popen([PROGRAM, *words, "--time-limit", "100"], env={**os.environ, "PLUGIN_FAULT": "hang"},
                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
-            wait_until(lambda: any("--outside" in line for line in ours()))
+            wait_until(lambda: any("--outside" in line or "program.py" in line for line in ours()))
             time.sleep(seconds)
             process.kill()
         wait_until(lambda: not ours(), 10)
