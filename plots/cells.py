@@ -94,7 +94,7 @@ class Cell:
         self.accuracy: dict[str, Any] = raw.get("accuracy", {})  # axis, method and seed; empty for other operations
         self.outside: dict[str, str] = raw.get("outside", {})  # what a builder or collider from outside says of itself; else empty
         if self.outside:
-            names.OUTSIDE[self.collider or self.builder] = None
+            names.OUTSIDE[self.outside["name"]] = None
         self.swept: dict[str, Any] = raw.get("swept", {})  # kind of pairs and target frame; empty if boxes are of one frame
 
     @property

@@ -215,12 +215,12 @@ void add_broken_outside(const std::string& why)
     broken += (broken.empty() ? "" : "; ") + why;
 }
 
-const outside::Library* outside_library(std::string_view builder, std::string_view collider)
+const outside::Library* outside_library(std::string_view name)
 {
     const Outside& all = outside_entries();
-    if (const auto* entry = find_name(all.colliders, collider); entry && entry->outside)
+    if (const auto* entry = find_name(all.colliders, name); entry && entry->outside)
         return &entry->outside->library;
-    if (const auto* entry = find_name(all.builders, builder); entry && entry->outside)
+    if (const auto* entry = find_name(all.builders, name); entry && entry->outside)
         return &entry->outside->library;
     return nullptr;
 }

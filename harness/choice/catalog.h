@@ -157,7 +157,7 @@ void add_outside(outside::Library library, const outside::Limits& limits);
 /// Notes that a plug-in does not start, and why. Names that no other plug-in has may be its.
 void add_broken_outside(const std::string& why);
 
-/// Returns the library of a builder or collider from outside; nullptr if neither of the two names is one.
-const outside::Library* outside_library(std::string_view builder, std::string_view collider);
+/// Returns the library of the builder or collider `name` from outside; nullptr if it is none.
+const outside::Library* outside_library(std::string_view name);
 
 }  // namespace bvhbench

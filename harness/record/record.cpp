@@ -96,13 +96,15 @@ std::string cell_text(const Cell& cell)
         options.update(choices_json({.collider = cell.collider}, Choice::Of::collider));
         json["collider"] = {{"name", cell.collider.name}, {"options", std::move(options)}};
     }
-    if (const auto* library = outside_library(cell.builder.name, cell.collider.name))
-        json["outside"] = {{"library", library->name},
-                           {"version", library->version},
-                           {"licence", library->licence},
-                           {"device", library->device},
-                           {"file", std::filesystem::path(library->file).filename().string()},
-                           {"as", library->is_program ? "program" : "plugin"}};
+    for (const std::string& name : {cell.builder.name, cell.collider.name})
+        if (const outside::Library* library = outside_library(name))
+            json["outside"] = {{"name", name},
+                               {"library", library->name},
+                               {"version", library->version},
+                               {"licence", library->licence},
+                               {"device", library->device},
+                               {"file", std::filesystem::path(library->file).filename().string()},
+                               {"as", library->is_program ? "program" : "plugin"}};
     if (!cell.swept.pairs.empty())
         json["swept"] = cell.swept;
     if (!cell.accuracy.axis.empty())

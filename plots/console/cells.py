@@ -32,7 +32,7 @@ def text(run: results.Run, wanted: Callable[[Cell], bool] | None = None) -> str:
 
 def outside(cells: list[Cell]) -> str:
     """Returns a line for each builder or collider from outside: whose it is."""
-    whose = {cell.collider or cell.builder: cell.provenance for cell in cells if cell.outside}
+    whose = {cell.outside["name"]: cell.provenance for cell in cells if cell.outside}
     return "".join(f"{name}, from outside: {provenance}\n" for name, provenance in whose.items())
 
 

@@ -25,10 +25,10 @@ for source in scenes/formats/{formats,obj,off,ply,ply_header,stl,text}.cpp scene
     [[ $object -nt $source ]] || clang++-14 "${flags[@]}" -fsanitize=fuzzer-no-link -c "$source" -o "$object"
 done
 libraries=()
-for room in harness plugins scenes baselines collide oibvh builders device geometry; do
+for room in harness plugins cluster scenes baselines collide oibvh builders device geometry; do
     libraries+=("$from/$room/lib$room.a")
 done
-libraries+=("$from"/CMakeFiles/kernels.dir/*.o -lOpenCL -llzma -lre2 -lassimp -lembree3 -lfcl -lgmp -lmpfr -lpthread -ldl)
+libraries+=("$from"/CMakeFiles/kernels.dir/*.o -lOpenCL -llzma -lre2 -lassimp -lembree3 -lfcl -lccd -lgmp -lmpfr -ltbb -lmpi -lpthread -ldl)
 found=0
 for reader in "$@"; do
     clang++-14 "${flags[@]}" -fsanitize=fuzzer -DREADER="$reader" tests/fuzz/reader.cpp "${objects[@]}" "${libraries[@]}" \

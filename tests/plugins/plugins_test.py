@@ -40,7 +40,7 @@ def test_a_builder_is_judged_measured_and_marked():
     found = cells(*BUILD, "--epo")
     halves = found["halves"]
     assert halves["check"]["verdict"] == "agrees" and halves["check"]["against"] == "contract"
-    assert halves["outside"] == {"library": "Halves", "version": "1.0", "licence": "MIT", "device": "host",
+    assert halves["outside"] == {"name": "halves", "library": "Halves", "version": "1.0", "licence": "MIT", "device": "host",
                                  "file": pathlib.Path(GOOD).name, "as": "plugin"}
     assert "outside" not in found["median-split"]
     assert halves["counters"]["sah_cost"] > 0 and halves["counters"]["epo"] >= 0 and halves["counters"]["tree_bytes"] == 200 * 88
@@ -218,6 +218,8 @@ def test_a_wrong_program_fails_and_the_others_are_measured():
 
 
 def test_what_a_method_cannot_do_is_skipped():
+    done = run("collide", "--plugin", GOOD, "--builder", "halves,perfect", "--collider", "leaf", *QUICK)
+    assert "leaf needs a tree in device memory" in done.stdout and "\nhalves, from outside: " in done.stdout, done
     cases = ((("--adjacent", "drop"), "takes neither 'pairs_of' nor 'adjacent'"), (("--swept",), "knows no swept boxes"))
     for words, sentence in cases:
         done = run("collide", "--plugin", GOOD, "--collider", "halves,brute", "--scene", "cloth-ball:200:2", "--samples", "1", *words,
