@@ -33,10 +33,10 @@ def installed(prefix: pathlib.Path) -> list[str]:
 
 
 def check_files(prefix: pathlib.Path) -> None:
-    """Asserts that the header, one library, the package files and the licence are installed, free of local paths and -march."""
+    """Asserts that the header, that of plug-ins, one library, the package files and the licence are installed, free of local paths and -march."""
     names = [pathlib.PurePath(name).name for name in installed(prefix)]
     headers = [name for name in installed(prefix) if name.endswith((".h", ".hpp", ".clh", ".cl"))]
-    assert set(headers) - {CLUSTER_HEADER} == {"include/bvhbench/oibvh.h"}, headers
+    assert set(headers) - {CLUSTER_HEADER} == {"include/bvhbench/oibvh.h", "include/bvhbench/plugin.h"}, headers
     assert names.count(pathlib.Path(LIBRARY).name) == 1, names
     package = {"bvhbench-oibvh.pc", "bvhbenchConfig.cmake", "bvhbenchConfigVersion.cmake", "bvhbenchTargets.cmake", "LICENSE"}
     assert package <= set(names), names
