@@ -7,6 +7,7 @@
 #include "host_method.h"
 #include "tree_writer.h"
 
+#include <cmath>
 #include <memory>
 
 namespace {
@@ -26,6 +27,10 @@ public:
     void load(const float* points) override
     {
         HostMethod::load(points);
+        for (const float side : this->points())
+            if (!(std::abs(side) < BVH_FAR))
+                throw std::runtime_error("a coordinate is " + std::to_string(side) +
+                                         "; tinybvh takes magnitudes below 1e30");
         for (std::size_t v = 0; v < this->points().size() / 3; ++v)
             vertices_[v] = {points[3 * v], points[3 * v + 1], points[3 * v + 2], 0};
     }
