@@ -222,9 +222,6 @@ protected:
 
     uint32_t triangles() const { return triangles_; }
     PairRoom room() const { return {pairs_.data(), count_.data(), pairs_.size()}; }
-    const float* points() const { return points_.data(); }
-    uint64_t point_count() const { return points_.size() / 3; }
-    const uint32_t* faces() const { return faces_.data(); }
 
     template <class LibraryBox>
     LibraryBox* boxes() const
