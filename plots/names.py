@@ -4,10 +4,10 @@ from typing import Any
 
 # Stages in the order in which they run, by the part of a frame that they belong to (docs/measuring.md). A part is named after its
 # stages, so that a figure and a table use one word for one thing.
-PARTS = (("near", "bounds"), ("codes",), ("sort", "order"), ("gather", "hierarchy", "refit", "ropes"), ("copy", "broad"),
+PARTS = (("near", "bounds"), ("codes",), ("sort", "order"), ("gather", "hierarchy", "build", "refit", "ropes"), ("copy", "broad"),
          ("narrow",))
 STAGES = tuple(stage for stages in PARTS for stage in stages)
-OF_BUILDS = ("bounds", "codes", "sort", "order", "gather", "hierarchy", "refit")
+OF_BUILDS = ("bounds", "codes", "sort", "order", "gather", "hierarchy", "build", "refit")
 OF_QUERIES = ("ropes", "broad", "narrow")
 BETWEEN = "between stages"
 
