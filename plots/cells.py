@@ -93,6 +93,8 @@ class Cell:
         self.leaves_by_depth: list[int] = raw.get("leaves_by_depth", [])  # by level, from the root; empty before format 1.3
         self.accuracy: dict[str, Any] = raw.get("accuracy", {})  # axis, method and seed; empty for other operations
         self.outside: dict[str, str] = raw.get("outside", {})  # what a builder or collider from outside says of itself; else empty
+        if self.outside:
+            names.OUTSIDE[self.collider or self.builder] = None
         self.swept: dict[str, Any] = raw.get("swept", {})  # kind of pairs and target frame; empty if boxes are of one frame
 
     @property

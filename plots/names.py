@@ -10,6 +10,8 @@ STAGES = tuple(stage for stages in PARTS for stage in stages)
 OF_BUILDS = ("bounds", "codes", "sort", "order", "gather", "hierarchy", "build", "refit")
 OF_QUERIES = ("ropes", "broad", "narrow")
 BETWEEN = "between stages"
+# Builders and colliders from outside, in the order in which their cells were read (cells.py).
+OUTSIDE: dict[str, None] = {}
 
 # Orders of leaves as in `list orders`. A figure shows an order by its place here, so that its number is the same in all figures.
 ORDERS = ("morton30", "morton48", "morton63", "hilbert30", "hilbert48", "hilbert63", "morton30-axis", "morton48-axis",

@@ -29,6 +29,9 @@ struct BuilderEntry {
     const outside::Offer* outside = nullptr;  ///< of a method from outside, which has no `make`
     bool is_broken =
         false;  ///< its plug-in, as far as can be told, does not start: `absent` says why
+
+    /// True if it can be made.
+    bool is_there() const { return make != nullptr || outside != nullptr; }
 };
 
 /// Returns every builder, in the order of printed tables. Those from outside are last.
@@ -91,6 +94,9 @@ struct ColliderEntry {
     const outside::Offer* outside = nullptr;  ///< of a method from outside, which has no `make`
     bool refits = false;     ///< of a method from outside: refits its tree in each frame
     bool is_broken = false;  ///< as that of a builder
+
+    /// True if it can be made.
+    bool is_there() const { return make != nullptr || outside != nullptr; }
 };
 
 /// Returns every collider, in the order of printed tables. Those from outside are last.

@@ -253,7 +253,6 @@ static void destroy(void *state)
     free(s);
 }
 
-#ifndef PLUGIN_WITHOUT_SYMBOL
 const bvhbench_plugin *bvhbench_plugin_entry(uint32_t host_abi)
 {
     static bvhbench_method methods[] = {
@@ -280,4 +279,3 @@ const bvhbench_plugin *bvhbench_plugin_entry(uint32_t host_abi)
         methods[1].load = NULL;
     return &plugin;
 }
-#endif
