@@ -11,7 +11,10 @@
  * Inputs are in host memory. Uploads belong into prepare and load, which are not timed, as bvhbench's own uploads are not.
  *
  * A function that returns int returns 0, or anything else if it failed; `error` then says why in one sentence. Arrays that the
- * plug-in gives are the plug-in's and stay valid until the next call.
+ * plug-in gives are the plug-in's and stay valid until the next call; faces stay valid until `destroy`, points until the next `load`.
+ *
+ * Every method has create, prepare, load, error and destroy, and what it can be judged by: `build` with `tree`, or `query` with
+ * `pairs`, or both.
  */
 #ifndef BVHBENCH_PLUGIN_H
 #define BVHBENCH_PLUGIN_H
@@ -32,10 +35,11 @@ typedef struct bvhbench_mesh {
     const uint32_t *faces; /* three vertices a triangle */
 } bvhbench_mesh;
 
-/* A part of a timed call. */
+/* A part of a timed call: bounds, codes, sort, order, gather, hierarchy, refit, broad or narrow, or `build` for all up to a tree.
+ * Stages are in order and do not overlap; all together they last no longer than the call. */
 typedef struct bvhbench_stage {
-    const char *name;   /* bounds, codes, sort, order, gather, hierarchy, refit, broad or narrow; `build` for all up to a tree */
-    uint64_t begin_ns;  /* since a moment that is the same for all stages of a call */
+    const char *name;
+    uint64_t begin_ns; /* since a moment that is the same for all stages of a call */
     uint64_t end_ns;
     uint32_t on_device; /* 1: by the device's events; 0: by the host's clock */
 } bvhbench_stage;
