@@ -26,7 +26,11 @@ std::string refusal(const Work& work)
     }
 }
 
-Json stages(std::vector<Json> list) { return {{"ok", true}, {"stages", list}}; }
+/// Returns a reply as it is after parsing.
+Json stages(const std::vector<Json>& list)
+{
+    return parsed_reply(Json{{"ok", true}, {"stages", list}}.dump());
+}
 
 Json stage(const char* name, int begin, int end, bool device)
 {
